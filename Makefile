@@ -1,0 +1,37 @@
+# Everything that a newcomer needs: `make duel` and `make test`.
+PYTHON ?= python3.11
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.installed
+
+.PHONY: setup duel test bench clean constraints
+
+setup: $(STAMP)
+
+$(STAMP): pyproject.toml constraints.txt
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check \
+		--constraint constraints.txt --editable ".[dev]"
+	touch $(STAMP)
+
+duel: setup
+	$(BIN)/stepaside duel
+
+test: setup
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/pytest --numprocesses auto
+
+bench: setup
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check \
+		--constraint constraints.txt --editable ".[bench]"
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/run.py
+
+constraints:
+	uv pip compile --universal --python-version 3.11 --all-extras \
+		--no-emit-index-url --no-header --output-file constraints.txt \
+		pyproject.toml
+
+clean:
+	rm -rf $(VENV) runs

@@ -1,0 +1,57 @@
+"""Planar poses (x [m], y [m], theta [rad]) and angles."""
+
+from math import cos, pi, remainder, sin, tau
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+
+def wrap_angle(angle: float) -> float:
+    """Wrap an angle to [-pi, pi], in [rad]."""
+    return remainder(angle, tau)
+
+
+def wrap_angles(angles: ArrayLike) -> Array:
+    """Wrap angles to [-pi, pi), elementwise, in [rad]."""
+    wrapped: Array = (np.asarray(angles, dtype=np.float64) + pi) % tau - pi
+    return wrapped
+
+
+class Pose(NamedTuple):
+    """Pose of a frame in the plane, as seen in a parent frame.
+
+    Attributes:
+        x: Coordinate along the parent's sagittal axis, in [m].
+        y: Coordinate along the parent's coronal axis (left), in [m].
+        theta: Heading, counter-clockwise, in [rad].
+    """
+
+    x: float
+    y: float
+    theta: float
+
+    def compose(self, child: "Pose") -> "Pose":
+        """Express in the parent frame a pose given in this frame."""
+        c, s = cos(self.theta), sin(self.theta)
+        return Pose(
+            self.x + c * child.x - s * child.y,
+            self.y + s * child.x + c * child.y,
+            self.theta + child.theta,
+        )
+
+    def inverse(self) -> "Pose":
+        """Pose of the parent frame, as seen in this frame."""
+        c, s = cos(self.theta), sin(self.theta)
+        return Pose(
+            -c * self.x - s * self.y, s * self.x - c * self.y, -self.theta
+        )
+
+    def transform_points(self, points: ArrayLike) -> Array:
+        """Express in the parent frame points of this frame. Shape (n, 2)."""
+        c, s = cos(self.theta), sin(self.theta)
+        turned: Array = np.asarray(points) @ np.array([[c, s], [-s, c]])
+        turned += (self.x, self.y)
+        return turned

@@ -1,0 +1,1 @@
+"""Descriptions and kinematics of robots."""
