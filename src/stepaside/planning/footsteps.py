@@ -1,0 +1,83 @@
+"""Footsteps around a Cartesian trajectory (paper, Sec. III-C)."""
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from ..errors import check_positive
+from ..poses import Array
+from .path import UnicycleTrajectory
+
+
+class Foot(Enum):
+    """Side of the robot; the value is the sign of its coronal offset."""
+
+    LEFT = 1
+    RIGHT = -1
+
+    @property
+    def other(self) -> "Foot":
+        """The foot on the opposite side."""
+        return Foot.RIGHT if self is Foot.LEFT else Foot.LEFT
+
+
+@dataclass(frozen=True, slots=True)
+class Footstep:
+    """Placement of one foot frame in the plan frame.
+
+    Attributes:
+        foot: Foot that lands.
+        x: Sagittal coordinate, in [m], positive forward.
+        y: Coronal coordinate, in [m], positive leftward.
+        theta: Heading, in [rad].
+    """
+
+    foot: Foot
+    x: float
+    y: float
+    theta: float
+
+
+def place_footsteps(
+    trajectory: UnicycleTrajectory,
+    *,
+    count: int,
+    stride: float,
+    foot_spacing: float,
+    first_foot: Foot,
+) -> Array:
+    r"""Land alternate feet beside a trajectory, at a constant stride.
+
+    The plan frame is the frame of the support foot, the one that does not
+    land first. The trajectory starts half a spacing beside it, midway to
+    where the other foot stands abreast; sample :math:`i = 1, \dots, n` of
+    (9)-(14) is taken at :math:`t_i = i \Delta / \bar{v}` and moved sideways
+    by half a spacing.
+
+    Args:
+        trajectory: Trajectory to walk along.
+        count: Number :math:`n` of footsteps.
+        stride: Step size :math:`\Delta` along the trajectory, in [m].
+        foot_spacing: Coronal distance between the foot frames, in [m].
+        first_foot: Foot that lands first.
+
+    Returns:
+        Rows (x [m], y [m], theta [rad]) in the plan frame, in landing order;
+        odd rows are of the other foot. Shape (n, 3).
+
+    Raises:
+        PlanError: If an argument is not finite and positive.
+    """
+    check_positive(count, "count", "steps")
+    check_positive(stride, "stride", "m")
+    check_positive(foot_spacing, "foot_spacing", "m")
+    times = np.arange(1, count + 1) * (stride / trajectory.speed)
+    steps = trajectory.poses(times)
+    half = 0.5 * foot_spacing * first_foot.value
+    left = np.full(count, half)
+    left[1::2] = -half  # signed offset of each foot, in [m]
+    theta = steps[:, 2]
+    steps[:, 0] -= left * np.sin(theta)
+    steps[:, 1] += left * np.cos(theta) + half
+    return steps

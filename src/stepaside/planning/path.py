@@ -1,0 +1,77 @@
+"""Cartesian trajectory of the template unicycle (paper, Sec. III-B)."""
+
+from dataclasses import dataclass
+from enum import Enum
+from math import copysign
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import check_finite, check_positive
+from ..poses import Array
+
+
+class Direction(Enum):
+    """Sign of the driving velocity in eq. (7)."""
+
+    FORWARD = 1  # pursuer
+    BACKWARD = -1  # evader
+
+
+@dataclass(frozen=True, slots=True)
+class UnicycleTrajectory:
+    r"""Arc of circle, then straight line, from the origin of its frame.
+
+    Eqs. (9)-(14) with :math:`\omega` frozen at :math:`k \theta^*` until
+    :math:`t_s = 1 / k`, less the factor sign(theta*) that the text prints
+    in (10) and (11): integrating (8) yields none, and only without it does
+    the arc join the line at :math:`t_s`.
+
+    Attributes:
+        bearing: Desired heading :math:`\theta^*` in the frame, in [rad].
+        speed: Magnitude :math:`\bar{v}` of the driving velocity, in [m/s].
+        gain: Steering gain :math:`k`, in [1/s].
+        direction: Whether the robot walks forward or backward.
+        saturated: Whether the turning rate is k sign(theta*), eq. (6),
+            until theta* is reached, rather than k theta*, eq. (8).
+    """
+
+    bearing: float
+    speed: float
+    gain: float
+    direction: Direction
+    saturated: bool = False
+
+    def __post_init__(self) -> None:
+        """Check the parameters."""
+        check_finite(self.bearing, "bearing", "rad")
+        check_positive(self.speed, "speed", "m/s")
+        check_positive(self.gain, "gain", "1/s")
+
+    def poses(self, times: ArrayLike) -> Array:
+        r"""Evaluate the trajectory.
+
+        Args:
+            times: Times since planning, in [s]. Shape (n,).
+
+        Returns:
+            Poses (x [m], y [m], theta [rad]), columns. Shape (n, 3).
+        """
+        t = np.asarray(times, dtype=np.float64)
+        rate = self.gain * self.bearing
+        arc = 1.0 / self.gain  # time spent on it, in [s]
+        if self.saturated:
+            rate = copysign(self.gain, self.bearing)
+            arc *= abs(self.bearing)
+        turning = np.minimum(t, arc)
+        poses = np.empty((*t.shape, 3))
+        theta = np.multiply(turning, rate, out=poses[..., 2])
+        velocity = self.direction.value * self.speed
+        # A chord of an arc has length sinc(theta / 2) of the arc's and points
+        # along theta / 2; this form has no singularity at theta = 0.
+        half = 0.5 * theta
+        chord = (velocity * turning) * np.sinc(half / np.pi)
+        straight = velocity * (t - turning)
+        poses[..., 0] = chord * np.cos(half) + straight * np.cos(theta)
+        poses[..., 1] = chord * np.sin(half) + straight * np.sin(theta)
+        return poses

@@ -1,0 +1,193 @@
+"""Phases of a maneuver, and the constant maps that come with their timing.
+
+For fixed durations everything that is planned is linear in the same few
+points: the anchors (where the ZMP stands in each foot), the size of the
+correction at the start, and the CoM at the start. So the closed form is
+solved once, for unit inputs, and a plan is a few small products.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..poses import Array
+from .com import BoundedCom
+from .settings import GaitSettings
+from .swing import swing_height, swing_progress
+from .zmp import PiecewisePolynomial
+
+DEGREE = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Sampler:
+    """Linear maps from the inputs of a plan to its samples at fixed times.
+
+    Attributes:
+        times: Times since the plan began, in [s]. Shape (m,).
+        pendulum: Map to ZMP, DCM and CoM, one under the other.
+            Shape (3 m, inputs).
+        feet: Map from placements to the first support foot and then to the
+            foot that swings first. Shape (2 m, placements).
+        support_height: Height of the first support foot, in [m]. Shape (m,).
+        swing_height: Height of the foot that swings first. Shape (m,).
+    """
+
+    times: Array
+    pendulum: Array
+    feet: Array
+    support_height: Array
+    swing_height: Array
+
+
+class Schedule:
+    r"""Timing of ``count`` footsteps, and its constant maps.
+
+    The pieces are: when starting from standing, a double support that takes
+    the ZMP from under the CoM to the first support foot; then, for each
+    footstep, a single support with the ZMP at rest and a double support
+    that takes it to the foot that landed; the last one takes it midway
+    between the last two feet, where the robot can stand.
+
+    The *inputs* of the maps are, in this order: the ``count + 1`` anchors of
+    the support foot and the footsteps, the ZMP at the start (equal to the
+    first anchor when walking), the amplitude of the correction, the CoM at
+    the start.
+
+    The *correction* is a ZMP shift :math:`\frac{27}{4} a\, s (1 - s)^2` over
+    the first piece (s: fraction of it), which is zero at both ends, so that
+    position, velocity and acceleration of the CoM stay continuous from one
+    plan to the next.
+
+    Attributes:
+        settings: Gait.
+        count: Number of footsteps.
+        standing: Whether the maneuver starts from standing.
+    """
+
+    def __init__(
+        self, settings: GaitSettings, count: int, *, standing: bool
+    ) -> None:
+        """Solve the closed form once for unit inputs."""
+        self.settings = settings
+        self.count = count
+        self.standing = standing
+        self.durations = self._durations()
+        self.starts = np.concatenate([[0.0], np.cumsum(self.durations)])
+        self.inputs = count + 4
+
+    @property
+    def duration(self) -> float:
+        """Time from the start to the end of the last piece, in [s]."""
+        return float(self.starts[-1])
+
+    @property
+    def first_step_duration(self) -> float:
+        """Time from the start to the end of the first step, in [s]."""
+        return float(self.starts[3 if self.standing else 2])
+
+    def _durations(self) -> Array:
+        s = self.settings
+        walk = [s.single_support, s.double_support] * self.count
+        return np.array([s.start_support, *walk] if self.standing else walk)
+
+    @cached_property
+    def zmp_map(self) -> PiecewisePolynomial:
+        """ZMP of unit inputs: coefficients (4, pieces, inputs)."""
+        n, pieces = self.count, self.durations.size
+        w = np.zeros((DEGREE + 1, pieces, self.inputs))
+        first = 1 if self.standing else 0
+        if self.standing:
+            self._join(w, 0, {n + 1: 1.0}, {0: 1.0})
+        for i in range(n):
+            single = first + 2 * i
+            w[0, single, i] = 1.0
+            target = {i + 1: 1.0} if i < n - 1 else {i: 0.5, i + 1: 0.5}
+            self._join(w, single + 1, {i: 1.0}, target)
+        bump = 6.75 * np.array([0.0, 1.0, -2.0, 1.0])
+        w[:, 0, n + 2] = bump / self.durations[0] ** np.arange(DEGREE + 1)
+        return PiecewisePolynomial(self.durations, w)
+
+    def _join(
+        self, w: Array, piece: int, a: dict[int, float], b: dict[int, float]
+    ) -> None:
+        """Let a piece run from the point ``a`` to the point ``b``."""
+        start, change = np.zeros(self.inputs), np.zeros(self.inputs)
+        for index, weight in a.items():
+            start[index] += weight
+            change[index] -= weight
+        for index, weight in b.items():
+            change[index] += weight
+        duration = self.durations[piece]
+        w[0, piece] = start
+        if self.settings.zmp_profile == "linear":
+            w[1, piece] = change / duration
+        else:
+            w[2, piece] = 3.0 * change / duration**2
+            w[3, piece] = -2.0 * change / duration**3
+
+    @cached_property
+    def pendulum_map(self) -> BoundedCom:
+        """Closed form for unit inputs."""
+        com_start = np.zeros(self.inputs)
+        com_start[-1] = 1.0
+        return BoundedCom.solve(self.zmp_map, self.settings.eta, com_start)
+
+    @cached_property
+    def dcm_start_map(self) -> Array:
+        """Row that maps the inputs to the DCM at the start, eq. (16)."""
+        _, dcm, _ = self.pendulum_map.sample([0.0])
+        row: Array = dcm[0]
+        return row
+
+    @cached_property
+    def first_step_sampler(self) -> "Sampler":
+        """Sampler of the instant at which the first step ends."""
+        return self.sampler([self.first_step_duration])
+
+    def swing_phases(self, times: Array) -> tuple[np.ndarray, Array]:
+        """Step that each time belongs to, and how far its swing has come.
+
+        Args:
+            times: Times since the start, in [s]. Shape (m,).
+
+        Returns:
+            Indices of the steps from 0, and phases of single support: below
+            0 before it, above 1 after it. Shapes (m,), (m,).
+        """
+        s = self.settings
+        walked = times - (s.start_support if self.standing else 0.0)
+        step = np.floor(walked / s.step_duration).astype(int)
+        step = np.clip(step, 0, self.count - 1)
+        return step, (walked - step * s.step_duration) / s.single_support
+
+    def sampler(self, times: ArrayLike) -> Sampler:
+        """Build the maps to samples at given times.
+
+        Args:
+            times: Times since the plan began, in [s]. Shape (m,).
+        """
+        t = np.asarray(times, dtype=np.float64)
+        pendulum = np.concatenate(self.pendulum_map.sample(t))
+        step, phase = self.swing_phases(t)
+        progress = swing_progress(phase)
+        lift = swing_height(phase, self.settings.step_height)
+        m = t.size
+        # Row j of the placements: swing foot at the start, support foot, then
+        # the footsteps. Step i takes a foot from row i to row i + 2.
+        feet = np.zeros((2, m, self.count + 2))
+        rows = np.arange(m)
+        even = step % 2 == 0
+        moving = np.where(even, 1, 0)  # 1: the foot that swings first
+        feet[moving, rows, step] = 1.0 - progress
+        feet[moving, rows, step + 2] = progress
+        feet[1 - moving, rows, step + 1] = 1.0
+        return Sampler(
+            t,
+            pendulum,
+            feet.reshape(2 * m, -1),
+            np.where(even, 0.0, lift),
+            np.where(even, lift, 0.0),
+        )

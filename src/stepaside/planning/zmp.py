@@ -1,0 +1,80 @@
+"""ZMP reference as a piecewise polynomial (paper, Sec. III-D)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import PlanError
+from ..poses import Array
+
+
+@dataclass(frozen=True, slots=True)
+class PiecewisePolynomial:
+    r"""Polynomials in local time, one after the other, then a constant.
+
+    After the last piece the value stays where that piece ends.
+
+    Attributes:
+        durations: Duration of each piece, in [s]. Shape (n,).
+        coefficients: Coefficient of :math:`s^j` of each piece, in
+            [m/s^j]. Shape (degree + 1, n, ...); the last axes are free
+            (sagittal and coronal, say).
+    """
+
+    durations: Array
+    coefficients: Array
+
+    def __post_init__(self) -> None:
+        """Check shapes and durations."""
+        if (
+            self.coefficients.ndim < 2
+            or self.coefficients.shape[1] != self.durations.size
+        ):
+            raise PlanError(
+                "coefficients must have shape (degree + 1, "
+                f"{self.durations.size}, ...), got {self.coefficients.shape}"
+            )
+        if not np.all(self.durations > 0.0):
+            raise PlanError(
+                f"durations must be > 0 [s], got {self.durations.min()}"
+            )
+
+    @property
+    def end(self) -> Array:
+        """Value at the end of the last piece. Shape (...)."""
+        value: Array = evaluate(self.coefficients, self.durations)[-1]
+        return value
+
+    def locate(self, times: ArrayLike) -> tuple[np.ndarray, Array]:
+        """Find the piece of each time, and the time since it began.
+
+        Args:
+            times: Times since the first piece began, in [s]. Shape (m,).
+
+        Returns:
+            Indices of the pieces, and local times in [s], which exceed the
+            duration only after the end. Shapes (m,), (m,).
+        """
+        t = np.asarray(times, dtype=np.float64)
+        starts = np.concatenate([[0.0], np.cumsum(self.durations)[:-1]])
+        index = np.searchsorted(starts, t, side="right") - 1
+        index = np.clip(index, 0, self.durations.size - 1)
+        return index, t - starts[index]
+
+
+def evaluate(coefficients: Array, local_times: Array) -> Array:
+    """Evaluate polynomials, each at its own local time.
+
+    Args:
+        coefficients: Shape (degree + 1, m, ...).
+        local_times: In [s]. Shape (m,).
+
+    Returns:
+        Values. Shape (m, ...).
+    """
+    s = local_times.reshape(-1, *[1] * (coefficients.ndim - 2))
+    value = np.zeros(coefficients.shape[1:])
+    for coefficient in coefficients[::-1]:
+        value = value * s + coefficient
+    return value
