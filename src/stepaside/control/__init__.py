@@ -1,0 +1,16 @@
+"""Control of one robot (paper, Fig. 4): perceive, plan, move."""
+
+from .body import Body, Measurement, Sighting
+from .roles import Evasion, Pursuit, Role
+from .scheme import ControlScheme, Phase
+
+__all__ = [
+    "Body",
+    "ControlScheme",
+    "Evasion",
+    "Measurement",
+    "Phase",
+    "Pursuit",
+    "Role",
+    "Sighting",
+]

@@ -1,0 +1,115 @@
+"""What a plan asks of the body at the ticks of the control clock."""
+
+from math import ceil, cos, sin
+
+import numpy as np
+
+from ..planning import Foot, GaitSettings, ManeuverPlan
+from ..planning.schedule import Sampler, Schedule
+from ..poses import Pose
+from ..robots.kinematics import BodyReference
+
+CACHED = 4096  # samplers kept; rational durations need a handful
+Row = tuple[BodyReference, tuple[float, float]]
+
+
+def standing_reference(
+    left_foot: Pose, right_foot: Pose, settings: GaitSettings
+) -> BodyReference:
+    """CoM midway between the anchors of two feet that stand."""
+    x, y = _anchor(left_foot, settings)
+    u, v = _anchor(right_foot, settings)
+    com = (0.5 * (x + u), 0.5 * (y + v), settings.com_height)
+    left = (left_foot.x, left_foot.y, 0.0, left_foot.theta)
+    right = (right_foot.x, right_foot.y, 0.0, right_foot.theta)
+    return BodyReference(com, left, right)
+
+
+def _anchor(foot: Pose, settings: GaitSettings) -> tuple[float, float]:
+    ahead = foot.compose(Pose(settings.zmp_forward, 0.0, 0.0))
+    return ahead.x, ahead.y
+
+
+class ReferenceTable:
+    """Body references at every tick of the plan being walked.
+
+    Plans begin when a step ends, which need not be on a tick: the table
+    samples the plan where the ticks are, so that gait time stays exact.
+    """
+
+    def __init__(self, tick: float) -> None:
+        """Begin empty, for a clock with a given tick, in [s]."""
+        self._tick = tick
+        self._first = 0
+        self._rows: list[Row] = []
+        self._samplers: dict[tuple[Schedule, int, int], Sampler] = {}
+
+    def load(
+        self,
+        plan: ManeuverPlan,
+        plan_frame: Pose,
+        started: float,
+        duration: float,
+    ) -> None:
+        """Sample a plan at the ticks of its first part.
+
+        Args:
+            plan: Plan to walk.
+            plan_frame: Pose of its frame in odometry.
+            started: When it began, in [s].
+            duration: How long it is to be walked, in [s].
+        """
+        tick = self._tick
+        self._first = ceil((started - 1e-9) / tick)
+        offset = self._first * tick - started
+        count = max(1, ceil((duration - offset) / tick - 1e-6))
+        samples = plan.sample(self._sampler(plan.schedule, offset, count))
+        height = plan.schedule.settings.com_height
+        c, s = cos(plan_frame.theta), sin(plan_frame.theta)
+        turn = np.array([[c, s], [-s, c]])
+        points = np.concatenate(
+            [
+                samples.com,
+                samples.left_foot[:, :2],
+                samples.right_foot[:, :2],
+                samples.zmp,
+            ]
+        )
+        points = points @ turn
+        points += plan_frame[:2]
+        com, left, right, zmp = points.reshape(4, count, 2).tolist()
+        theta = plan_frame.theta
+        left_yaw = (samples.left_foot[:, 2] + theta).tolist()
+        right_yaw = (samples.right_foot[:, 2] + theta).tolist()
+        left_height = samples.left_height.tolist()
+        right_height = samples.right_height.tolist()
+        self._rows = [
+            (
+                BodyReference(
+                    (com[i][0], com[i][1], height),
+                    (left[i][0], left[i][1], left_height[i], left_yaw[i]),
+                    (right[i][0], right[i][1], right_height[i], right_yaw[i]),
+                ),
+                (zmp[i][0], zmp[i][1]),
+            )
+            for i in range(count)
+        ]
+
+    def at(self, now: float) -> Row:
+        """Body reference and ZMP reference at a tick, the last one after."""
+        index = round(now / self._tick) - self._first
+        return self._rows[min(index, len(self._rows) - 1)]
+
+    def _sampler(
+        self, schedule: Schedule, offset: float, count: int
+    ) -> Sampler:
+        key = (schedule, round(offset * 1e9), count)
+        sampler = self._samplers.get(key)
+        if sampler is None:
+            times = offset + self._tick * np.arange(count)
+            sampler = schedule.sampler(times)
+            if len(self._samplers) < CACHED:
+                self._samplers[key] = sampler
+        return sampler
+
+

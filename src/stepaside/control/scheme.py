@@ -1,0 +1,253 @@
+"""The control scheme of one robot (paper, Fig. 4)."""
+
+from collections import deque
+from enum import Enum
+from time import process_time
+
+from ..planning import (
+    CenterState,
+    Foot,
+    GaitSettings,
+    ManeuverPlan,
+    ManeuverPlanner,
+)
+from ..poses import Array, Pose, wrap_angle
+from ..robots.kinematics import LegKinematics
+from .body import Measurement, Sighting
+from .reference import ReferenceTable, standing_reference
+from .roles import Role
+
+MEMORY = 2.0  # how long past torso headings are kept, in [s]
+SETTLING = 1.0  # how long a halted robot takes to come to rest, in [s]
+
+
+class Phase(Enum):
+    """What a robot is doing."""
+
+    STANDING = "standing"
+    WALKING = "walking"
+    HALTING = "halting"
+
+
+class ControlScheme:
+    """Perceives the other, plans at the end of each double support, moves.
+
+    Everything is kept in the robot's own odometry: the frame that lay
+    midway between its feet when it began.
+
+    Attributes:
+        role: Pursuit or evasion.
+        phase: What the robot is doing.
+        plan: Maneuver being walked; None while standing.
+        plan_frame: Pose of its frame in odometry.
+        plan_started: When it began, in [s].
+        reference: What the body is asked for at this tick, in odometry.
+        zmp_reference: ZMP reference at this tick in odometry, in [m].
+        left_foot: Pose of the left foot when it last stood, in odometry.
+        right_foot: Pose of the right foot, likewise.
+        landings: Footsteps so far: (time of landing [s], foot, pose).
+        replans: Number of maneuvers planned.
+        planning_times: Processor time that each took, in [s].
+        velocity_jumps: Jump of the CoM velocity reference at each plan, in
+            [m/s].
+    """
+
+    def __init__(
+        self,
+        role: Role,
+        settings: GaitSettings,
+        kinematics: LegKinematics,
+        *,
+        tick: float,
+        first_foot: Foot = Foot.LEFT,
+    ) -> None:
+        """Take the standing posture.
+
+        Args:
+            role: Pursuit or evasion.
+            settings: Gait.
+            kinematics: The robot's joint motion generation.
+            tick: Control period, in [s].
+            first_foot: Foot that makes the first step.
+
+        Raises:
+            ReachError: If the robot cannot stand as the gait asks.
+        """
+        self.role = role
+        self.settings = settings
+        self.planner = ManeuverPlanner(settings)
+        self.kinematics = kinematics
+        self.phase = Phase.STANDING
+        self.plan: ManeuverPlan | None = None
+        self.plan_frame = Pose(0.0, 0.0, 0.0)
+        self.plan_started = 0.0
+        half = 0.5 * settings.foot_spacing
+        self.left_foot = Pose(0.0, half, 0.0)
+        self.right_foot = Pose(0.0, -half, 0.0)
+        self.landings: list[tuple[float, Foot, Pose]] = []
+        self.replans = 0
+        self.planning_times: list[float] = []
+        self.velocity_jumps: list[float] = []
+        self._first_foot = first_foot
+        self._sighting: Sighting | None = None
+        self._headings: deque[tuple[float, float]] = deque(
+            maxlen=max(1, round(MEMORY / tick))
+        )
+        self._table = ReferenceTable(tick)
+        self._plan_ends = 0.0
+        self._stand()
+        self.joint_targets: Array = kinematics.stand(self.reference)
+
+    def update(self, measurement: Measurement) -> Array:
+        """Run one control tick.
+
+        Args:
+            measurement: What the sensors give.
+
+        Returns:
+            Joint targets, in [rad]. Shape (joints,).
+
+        Raises:
+            ReachError: If the legs lose the reference.
+        """
+        now = measurement.time
+        self._headings.append((now, self.kinematics.torso_heading))
+        if measurement.sighting is not None:
+            self._sighting = measurement.sighting
+        if self.plan is None:
+            self._wait(now)
+        elif now >= self._plan_ends - 1e-9:
+            self._finish(self.plan)
+        if self.plan is not None:
+            self.reference, self.zmp_reference = self._table.at(now)
+        self.joint_targets = self.kinematics.track(self.reference)
+        return self.joint_targets
+
+    def _stand(self) -> None:
+        """Rest midway between the feet."""
+        self.phase, self.plan = Phase.STANDING, None
+        self.reference = standing_reference(
+            self.left_foot, self.right_foot, self.settings
+        )
+        self.zmp_reference: tuple[float, float] = self.reference.com[:2]
+
+    def _wait(self, now: float) -> None:
+        """Stand until the other is a reason to move."""
+        seen = self._sighting
+        if seen is None or not self.role.is_triggered(seen.distance):
+            return
+        support = self._support(self._first_foot)
+        x, y, _ = self.reference.com
+        rest = support.inverse().compose(Pose(x, y, 0.0))
+        state = CenterState(rest[:2], (0.0, 0.0))
+        self._replan(now, support, state, seen, standing=True)
+
+    def _finish(self, plan: ManeuverPlan) -> None:
+        """End a step: the foot that landed supports, and a plan follows."""
+        if self.phase is Phase.HALTING:
+            self._stand()
+            return
+        step = Pose(*plan.placements[2].tolist())
+        landed = self.plan_frame.compose(step)
+        if plan.first_foot is Foot.LEFT:
+            self.left_foot = landed
+        else:
+            self.right_foot = landed
+        self._first_foot = plan.first_foot.other
+        state = _state_in(step, plan)
+        ended = self.plan_started + plan.schedule.first_step_duration
+        seen = self._sighting
+        if seen is not None and self.role.is_triggered(seen.distance):
+            self._replan(ended, landed, state, seen, standing=False)
+        else:
+            self._halt(ended, landed, state)
+
+    def _replan(
+        self,
+        started: float,
+        support: Pose,
+        state: CenterState,
+        seen: Sighting,
+        *,
+        standing: bool,
+    ) -> None:
+        """Plan from what was seen last (Sec. III-E)."""
+        clock = process_time()
+        heading = self._heading_at(seen.time) + seen.bearing - support.theta
+        foot = self._first_foot
+        plan = self.planner.plan(
+            self.role.desired_heading(wrap_angle(heading)),
+            self.role.direction,
+            first_foot=foot,
+            state=state,
+            swing_start=support.inverse().compose(self._support(foot.other)),
+            standing=standing,
+            saturated=self.role.saturated,
+        )
+        self.planning_times.append(process_time() - clock)
+        self.replans += 1
+        self.phase = Phase.WALKING
+        duration = plan.schedule.first_step_duration
+        self._walk(plan, support, started, duration, state)
+
+    def _halt(
+        self, started: float, support: Pose, state: CenterState
+    ) -> None:
+        """Bring the feet abreast and come to rest."""
+        foot = self._first_foot
+        plan = self.planner.plan_halt(
+            first_foot=foot,
+            state=state,
+            swing_start=support.inverse().compose(self._support(foot.other)),
+        )
+        self.phase = Phase.HALTING
+        duration = plan.schedule.duration + SETTLING
+        self._walk(plan, support, started, duration, state)
+        landed = support.compose(Pose(*plan.placements[2].tolist()))
+        if foot is Foot.LEFT:
+            self.left_foot = landed
+        else:
+            self.right_foot = landed
+
+    def _walk(
+        self,
+        plan: ManeuverPlan,
+        frame: Pose,
+        started: float,
+        duration: float,
+        state: CenterState,
+    ) -> None:
+        """Replace the plan that is walked."""
+        self.plan, self.plan_frame, self.plan_started = plan, frame, started
+        self._plan_ends = started + duration
+        self._table.load(plan, frame, started, duration)
+        landing = plan.schedule.first_step_duration
+        landing += started - self.settings.double_support
+        landed = frame.compose(Pose(*plan.placements[2].tolist()))
+        self.landings.append((landing, plan.first_foot, landed))
+        vx, vy = plan.start_velocity.tolist()
+        jump = max(abs(vx - state.velocity[0]), abs(vy - state.velocity[1]))
+        self.velocity_jumps.append(jump)
+
+    def _support(self, swing: Foot) -> Pose:
+        """Foot that stands while another swings, in odometry."""
+        return self.right_foot if swing is Foot.LEFT else self.left_foot
+
+    def _heading_at(self, time: float) -> float:
+        """Heading of the torso in odometry at a past time, in [rad]."""
+        heading = self._headings[0][1]
+        for past, candidate in reversed(self._headings):
+            if past <= time + 1e-9:
+                return candidate
+        return heading
+
+
+def _state_in(frame: Pose, plan: ManeuverPlan) -> CenterState:
+    """CoM at the end of the first step, in a frame given in the plan's."""
+    samples = plan.sample(plan.schedule.first_step_sampler)
+    back = frame.inverse()
+    x, y = samples.com[0].tolist()
+    vx, vy = samples.com_velocity[0].tolist()
+    position = back.compose(Pose(x, y, 0.0))
+    velocity = Pose(0.0, 0.0, back.theta).compose(Pose(vx, vy, 0.0))
+    return CenterState(position[:2], velocity[:2])

@@ -1,0 +1,228 @@
+"""Joint motion generation by damped pseudo-inverse (paper, Sec. III-A).
+
+Unknowns are the pose of the torso and the leg joints, where joints that
+share a motor are one unknown; rows are the poses of both feet, the CoM, and
+roll and pitch of the torso.
+"""
+
+from math import atan2, cos, sin
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+from ..errors import ReachError
+from ..poses import Array
+from .description import RobotDescription
+
+DAMPING = 1e-4  # squared, of the pseudo-inverse; rows in [m] and [rad]
+TOLERANCE = 1e-4  # residual at which a posture counts as reached
+LOST = 0.05  # residual in one tick beyond which a request is refused
+ROWS = (
+    *(f"left foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
+    *(f"right foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
+    *(f"CoM {c}" for c in ("x", "y", "z")),
+    *(f"torso {c}" for c in ("roll", "pitch")),
+)
+
+
+class BodyReference(NamedTuple):
+    """What the body is asked to do at one instant, in one level frame.
+
+    Attributes:
+        com: CoM (x, y, z), in [m].
+        left_foot: Left foot (x, y, z, yaw), in [m] and [rad].
+        right_foot: Right foot, likewise.
+    """
+
+    com: tuple[float, float, float]
+    left_foot: tuple[float, float, float, float]
+    right_foot: tuple[float, float, float, float]
+
+
+class LegKinematics:
+    """Floating-base inverse kinematics of one robot.
+
+    Attributes:
+        description: The robot.
+        joint_names: Actuated joints, in the order of the joint targets.
+    """
+
+    def __init__(self, description: RobotDescription) -> None:
+        """Compile the robot's model, alone and without physics."""
+        self.description = description
+        self._model = model = description.compile()
+        self._data = data = mujoco.MjData(model)
+        self.joint_names = tuple(
+            model.joint(model.actuator_trnid[i, 0]).name
+            for i in range(model.nu)
+        )
+        joints = [model.joint(name) for name in self.joint_names]
+        self._targets = np.array([j.qposadr[0] for j in joints])
+        followers = description.coupled_joints(model)
+        legs = [n for n in description.legs if n not in followers]
+        self._legs = np.array([model.joint(n).qposadr[0] for n in legs])
+        self._low, self._high = np.array(
+            [model.joint(n).range for n in legs]
+        ).T
+        self._followers = [
+            (model.joint(f).qposadr[0], model.joint(leader).qposadr[0])
+            for f, leader in followers.items()
+        ]
+        # Unknowns: 6 of the base, one for each free leg joint.
+        self._spread = np.zeros((model.nv, 6 + len(legs)))
+        self._spread[:6, :6] = np.eye(6)
+        for column, name in enumerate(legs, start=6):
+            self._spread[model.joint(name).dofadr[0], column] = 1.0
+        for follower, leader in followers.items():
+            self._spread[model.joint(follower).dofadr[0]] = self._spread[
+                model.joint(leader).dofadr[0]
+            ]
+        self._left = model.site(description.left_foot).id
+        self._right = model.site(description.right_foot).id
+        self._torso = model.body(description.torso).id
+        self._qpos = data.qpos
+        self._points = data.site_xpos
+        self._frames = data.site_xmat
+        self._torso_frame = data.xmat[self._torso]
+        self._com = data.subtree_com[self._torso]
+        self._jacobian = np.zeros((15, model.nv))
+        self._rotation = np.zeros((6, model.nv))
+        self._rows = np.zeros((17, model.nv))
+        self._error = np.zeros(17)
+        self._damping = DAMPING**2 * np.eye(17)
+        for name, angle in description.standing.items():
+            data.qpos[model.joint(name).qposadr[0]] = angle
+
+    @property
+    def joint_targets(self) -> Array:
+        """Angles of the actuated joints, in [rad]. Shape (joints,)."""
+        targets: Array = self._qpos[self._targets]
+        return targets
+
+    @property
+    def posture(self) -> Array:
+        """Position and quaternion of the torso, then all joints."""
+        return self._qpos.copy()
+
+    @property
+    def torso_heading(self) -> float:
+        """Heading of the torso in the frame of the reference, in [rad]."""
+        frame = self._torso_frame
+        return atan2(frame[3], frame[0])
+
+    def stand(self, reference: BodyReference) -> Array:
+        """Take a posture from scratch.
+
+        Args:
+            reference: What to reach.
+
+        Returns:
+            Joint targets, in [rad]. Shape (joints,).
+
+        Raises:
+            ReachError: If the legs cannot reach it; names what is missed.
+        """
+        if not self._try_stand(reference):
+            worst = int(np.argmax(np.abs(self._error)))
+            raise ReachError(
+                f"{self.description.name} cannot reach {ROWS[worst]} with a "
+                f"CoM height of {reference.com[2]:g} m; it reaches at most "
+                f"{self.highest_com(reference):.3f} m in this stance"
+            )
+        return self.joint_targets
+
+    def highest_com(self, reference: BodyReference) -> float:
+        """Greatest CoM height with the feet of ``reference``, in [m]."""
+        low, high = 0.0, reference.com[2]
+        x, y, _ = reference.com
+        while high - low > 5e-4:
+            middle = 0.5 * (low + high)
+            if self._try_stand(reference._replace(com=(x, y, middle))):
+                low = middle
+            else:
+                high = middle
+        return low
+
+    def _try_stand(self, reference: BodyReference) -> bool:
+        x, y, z = reference.com
+        q = self._qpos
+        q[:3] = x, y, z
+        heading = 0.5 * (reference.left_foot[3] + reference.right_foot[3])
+        q[3:7] = cos(0.5 * heading), 0.0, 0.0, sin(0.5 * heading)
+        for name, angle in self.description.standing.items():
+            q[self._model.joint(name).qposadr[0]] = angle
+        for _ in range(60):
+            self._step(reference)
+            if float(np.abs(self._error).max()) < TOLERANCE:
+                return True
+        return False
+
+    def track(self, reference: BodyReference) -> Array:
+        """Follow a reference by one damped step from the last posture.
+
+        Args:
+            reference: What to reach at this tick.
+
+        Returns:
+            Joint targets, in [rad]. Shape (joints,).
+
+        Raises:
+            ReachError: If the posture is farther off than a tick explains.
+        """
+        self._step(reference)
+        error = self._error
+        if error.max() > LOST or error.min() < -LOST:
+            worst = int(np.argmax(np.abs(error)))
+            raise ReachError(
+                f"{self.description.name} lost {ROWS[worst]}: off by "
+                f"{error[worst]:.3f} where a tick allows {LOST:g}"
+            )
+        return self._qpos[self._targets]
+
+    def _step(self, reference: BodyReference) -> None:
+        """One damped Newton step; leaves the error before it."""
+        model, data, q = self._model, self._data, self._qpos
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        jacobian, rotation = self._jacobian, self._rotation
+        left, right = self._left, self._right
+        mujoco.mj_jacSite(model, data, jacobian[0:3], jacobian[3:6], left)
+        mujoco.mj_jacSite(model, data, jacobian[6:9], jacobian[9:12], right)
+        mujoco.mj_jacSubtreeCom(model, data, jacobian[12:15], self._torso)
+        rows = self._rows
+        rows[:15] = jacobian
+        frame = self._torso_frame.reshape(3, 3)
+        rows[15:17, 3:6] = frame[:2]
+        error = self._error
+        error[0:3] = reference.left_foot[:3] - self._points[left]
+        error[3:6] = _turn(self._frames[left], reference.left_foot[3])
+        error[6:9] = reference.right_foot[:3] - self._points[right]
+        error[9:12] = _turn(self._frames[right], reference.right_foot[3])
+        error[12:15] = reference.com - self._com
+        error[15] = frame[1, 2]
+        error[16] = -frame[0, 2]
+        j = rows @ self._spread
+        # J' (J J' + damping)^-1 e
+        step = j.T @ np.linalg.solve(j @ j.T + self._damping, error)
+        mujoco.mj_integratePos(model, q, self._spread @ step, 1.0)
+        legs = q[self._legs]
+        np.minimum(legs, self._high, out=legs)
+        np.maximum(legs, self._low, out=legs)
+        q[self._legs] = legs
+        for follower, leader in self._followers:
+            q[follower] = q[leader]
+
+
+def _turn(frame: Array, yaw: float) -> tuple[float, float, float]:
+    """Small rotation, in [rad], that levels a frame and turns it to a yaw.
+
+    Half the sum of the cross products of the axes with where they should be.
+    """
+    m00, m01, m02, m10, m11, m12, m20, m21, _ = frame.tolist()
+    c, s = cos(yaw), sin(yaw)
+    return (
+        0.5 * (m12 - m20 * s - m21 * c),
+        0.5 * (m20 * c - m21 * s - m02),
+        0.5 * ((m00 + m11) * s + (m01 - m10) * c),
+    )

@@ -1,0 +1,251 @@
+"""The game of pursuit and evasion, played in physics (paper, Sec. IV)."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from enum import Enum
+from math import ceil, pi, radians
+from time import perf_counter
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+from ..control import ControlScheme, Evasion, Phase, Pursuit, Role
+from ..poses import Array, Pose
+from ..robots.description import load_robot
+from ..robots.kinematics import LegKinematics
+from .randomness import named_generator
+from .record import Recorder
+from .robot import SimulatedRobot
+from .settings import DuelSettings, StartSettings
+from .sight import IdealLineOfSight
+from .world import World
+
+NAMES = ("pursuer", "evader")
+CHECK_NEAR = 0.8  # torsos farther apart than two arm spans cannot touch, [m]
+
+
+class Outcome(Enum):
+    """How a duel ended."""
+
+    COMPLETED = "completed"
+    FALL = "fall"
+    CONTACT = "contact"
+    INTERRUPTED = "interrupted"
+
+
+class Progress(NamedTuple):
+    """How far a duel has come.
+
+    Attributes:
+        time: Simulated time, in [s].
+        distance: Between the torsos, in [m].
+        real_time_factor: Simulated time over time passed.
+    """
+
+    time: float
+    distance: float
+    real_time_factor: float
+
+
+@dataclass(frozen=True, slots=True)
+class DuelResult:
+    """A duel as it went.
+
+    Attributes:
+        settings: What decided it, with the start that was drawn.
+        outcome: How it ended.
+        message: What ended it, in words.
+        duration: Simulated time, in [s].
+        arrays: The record, by name; see :class:`Recorder`.
+        min_distance: Least distance between the torsos, in [m].
+        triggered_at: When the evader began to evade, in [s]; None if never.
+        replans: Maneuvers planned by both.
+        planning_times: Processor time of each, in [s].
+        velocity_jump: Greatest jump of a CoM velocity reference, in [m/s].
+        wall_time: Time that it took, in [s].
+    """
+
+    settings: DuelSettings
+    outcome: Outcome
+    message: str
+    duration: float
+    arrays: dict[str, Array]
+    min_distance: float
+    triggered_at: float | None
+    replans: int
+    planning_times: Array
+    velocity_jump: float
+    wall_time: float
+
+
+def draw_start(settings: DuelSettings) -> StartSettings:
+    """Fill in what a start leaves out, from the seed."""
+    generator = named_generator(settings.seed, "start")
+    distance = generator.uniform(0.6, 1.5)
+    pursuer = generator.uniform(-pi / 2, pi / 2)
+    evader = generator.uniform(-radians(30.0), radians(30.0))
+    start = settings.start
+    return StartSettings(
+        distance if start.distance is None else start.distance,
+        pursuer if start.pursuer_offset is None else start.pursuer_offset,
+        evader if start.evader_offset is None else start.evader_offset,
+    )
+
+
+class Duel:
+    """Two robots in a world, ready to play.
+
+    Attributes:
+        settings: What decides the duel, with the start that was drawn.
+        world: The physics.
+        robots: Pursuer and evader.
+        schemes: What drives them.
+    """
+
+    def __init__(self, settings: DuelSettings) -> None:
+        """Build the world and stand the robots in it.
+
+        Raises:
+            StepAsideError: If the settings ask for what cannot be.
+        """
+        start = draw_start(settings)
+        self.settings = settings = replace(settings, start=start)
+        assert start.distance is not None
+        assert start.pursuer_offset is not None
+        assert start.evader_offset is not None
+        description = load_robot(settings.robot)
+        self.world = World(dict.fromkeys(NAMES, description), settings.physics)
+        frames = (
+            Pose(0.0, 0.0, start.pursuer_offset),
+            Pose(start.distance, 0.0, pi + start.evader_offset),
+        )
+        strategy = settings.strategy
+        roles: tuple[Role, Role] = (
+            Pursuit(),
+            Evasion(
+                strategy.angle,
+                strategy.safety_radius,
+                strategy.release_distance,
+                strategy.saturated,
+                strategy.side_hysteresis,
+            ),
+        )
+        self.schemes = []
+        self.robots = []
+        for name, role, frame in zip(NAMES, roles, frames, strict=True):
+            kinematics = LegKinematics(description)
+            self.schemes.append(
+                ControlScheme(
+                    role,
+                    settings.gait,
+                    kinematics,
+                    tick=settings.physics.tick,
+                )
+            )
+            self.robots.append(
+                SimulatedRobot(self.world, name, description, kinematics, frame)
+            )
+        mujoco.mj_forward(self.world.model, self.world.data)
+        for own, other in (self.robots, self.robots[::-1]):
+            own.sight = IdealLineOfSight(
+                own.truth,
+                other.truth,
+                settings.sight,
+                named_generator(settings.seed, f"sight/{own.name}"),
+            )
+        self.recorder = Recorder(self.robots, self.schemes, frames)
+        self.min_distance = self.distance
+        self.triggered_at: float | None = None
+
+    @property
+    def distance(self) -> float:
+        """True distance between the torsos, in [m]."""
+        return self.robots[0].truth.distance_to(self.robots[1].truth)
+
+    def tick(self) -> Outcome | None:
+        """Play one control tick; an outcome if it ends the duel."""
+        if self.world.ticks % self.recorder.every == 0:
+            self.recorder.sample()
+        for robot, scheme in zip(self.robots, self.schemes, strict=True):
+            robot.write(scheme.update(robot.read()))
+            robot.step()
+        if self.triggered_at is None:
+            if self.schemes[1].phase is not Phase.STANDING:
+                self.triggered_at = self.world.time
+        distance = self.distance
+        if distance < self.min_distance:
+            self.min_distance = distance
+        if any(robot.truth.has_fallen for robot in self.robots):
+            return Outcome.FALL
+        if distance < CHECK_NEAR and self.world.robots_touch():
+            return Outcome.CONTACT
+        return None
+
+
+def run_duel(
+    settings: DuelSettings,
+    report: Callable[[Progress], None] | None = None,
+) -> DuelResult:
+    """Play a duel to its end.
+
+    Args:
+        settings: What decides it.
+        report: Called about five times a second with the progress. A
+            KeyboardInterrupt while playing ends the duel and keeps it.
+
+    Returns:
+        The duel; the same settings give the same one, but for times.
+
+    Raises:
+        StepAsideError: If the settings ask for what cannot be.
+    """
+    duel = Duel(settings)
+    ticks = ceil(settings.duration / settings.physics.tick - 1e-9)
+    outcome = Outcome.COMPLETED
+    began = told = perf_counter()
+    try:
+        while duel.world.ticks < ticks:
+            ended = duel.tick()
+            if ended is not None:
+                outcome = ended
+                break
+            if report is not None and duel.world.ticks % 25 == 0:
+                now = perf_counter()
+                if now - told > 0.2:
+                    told = now
+                    time = duel.world.time
+                    report(Progress(time, duel.distance, time / (now - began)))
+    except KeyboardInterrupt:
+        outcome = Outcome.INTERRUPTED
+    wall = perf_counter() - began
+    duel.recorder.sample()
+    schemes = duel.schemes
+    return DuelResult(
+        settings=duel.settings,
+        outcome=outcome,
+        message=_message(duel, outcome),
+        duration=duel.world.time,
+        arrays=duel.recorder.arrays(),
+        min_distance=duel.min_distance,
+        triggered_at=duel.triggered_at,
+        replans=sum(s.replans for s in schemes),
+        planning_times=np.concatenate(
+            [np.array(s.planning_times) for s in schemes]
+        ),
+        velocity_jump=max(
+            (jump for s in schemes for jump in s.velocity_jumps), default=0.0
+        ),
+        wall_time=wall,
+    )
+
+
+def _message(duel: Duel, outcome: Outcome) -> str:
+    if outcome is Outcome.FALL:
+        fallen = [r.name for r in duel.robots if r.truth.has_fallen]
+        return f"{' and '.join(fallen)} fell at {duel.world.time:.2f} s"
+    if outcome is Outcome.CONTACT:
+        return f"the robots touched at {duel.world.time:.2f} s"
+    if outcome is Outcome.INTERRUPTED:
+        return f"interrupted at {duel.world.time:.2f} s"
+    return f"played {duel.world.time:.2f} s"

@@ -1,0 +1,173 @@
+"""Settings of a duel: one value that repeats it."""
+
+from dataclasses import dataclass, field
+from math import inf, isinf, pi, radians
+
+from ..errors import (
+    ConfigurationError,
+    check_not_negative,
+    check_positive,
+    check_within,
+)
+from ..planning import GaitSettings
+
+ERROR = ConfigurationError
+
+
+@dataclass(frozen=True, slots=True)
+class StartSettings:
+    """Where the robots stand at first; what is left out, the seed draws.
+
+    Attributes:
+        distance: Distance between the torsos, in [m]; drawn from
+            0.6 m to 1.5 m.
+        pursuer_offset: Heading of the pursuer from the direction of the
+            evader, in [rad]; drawn from -90 deg to 90 deg.
+        evader_offset: Heading of the evader from the direction of the
+            pursuer, in [rad]; drawn from -30 deg to 30 deg.
+    """
+
+    distance: float | None = None
+    pursuer_offset: float | None = None
+    evader_offset: float | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse starts that overlap or are not finite."""
+        if self.distance is not None:
+            check_within(self.distance, 0.4, 100.0, "distance", "m", ERROR)
+        for name in ("pursuer_offset", "evader_offset"):
+            value = getattr(self, name)
+            if value is not None:
+                check_within(value, -pi, pi, name, "rad", ERROR)
+
+
+@dataclass(frozen=True, slots=True)
+class StrategySettings:
+    """How the evader evades.
+
+    Attributes:
+        angle: Between the line of sight and where it walks, in [rad]: pi/2
+            moves aside, 0 moves back.
+        saturated: Whether it turns by (6) instead of (4).
+        safety_radius: Distance at which it begins, in [m].
+        release_distance: Distance at which it ends, in [m].
+        side_hysteresis: How far the bearing of the pursuer must change sign
+            for the side of evasion to change, in [rad].
+    """
+
+    angle: float = pi / 2
+    saturated: bool = False
+    safety_radius: float = 0.8
+    release_distance: float = inf
+    side_hysteresis: float = radians(20.0)
+
+    def __post_init__(self) -> None:
+        """Refuse what no evader can do."""
+        check_within(self.angle, 0.0, pi, "angle", "rad", ERROR)
+        check_positive(self.safety_radius, "safety_radius", "m", ERROR)
+        check_within(
+            self.side_hysteresis, 0.0, pi, "side_hysteresis", "rad", ERROR
+        )
+        if not self.release_distance > self.safety_radius:
+            raise ConfigurationError(
+                "release_distance must exceed safety_radius, "
+                f"{self.safety_radius:g} [m], or evasion stops and starts, "
+                f"got {self.release_distance}"
+            )
+
+
+@dataclass(frozen=True, slots=True)
+class SightSettings:
+    """The ideal line of sight: the truth, spoilt as much as asked.
+
+    Attributes:
+        bearing_noise: Standard deviation of the bearing, in [rad].
+        distance_noise: Standard deviation of the distance, in [m].
+        delay: Time from seeing to knowing, in [s].
+        rate: Sightings per second, in [1/s]; inf for one every tick.
+    """
+
+    bearing_noise: float = 0.0
+    distance_noise: float = 0.0
+    delay: float = 0.0
+    rate: float = inf
+
+    def __post_init__(self) -> None:
+        """Refuse negative noise, delays longer than the memory, no rate."""
+        check_not_negative(
+            self.bearing_noise, "bearing_noise", "rad", ERROR
+        )
+        check_not_negative(
+            self.distance_noise, "distance_noise", "m", ERROR
+        )
+        check_within(self.delay, 0.0, 2.0, "delay", "s", ERROR)
+        if not isinf(self.rate) or self.rate < 0.0:
+            check_positive(self.rate, "rate", "1/s", ERROR)
+
+
+@dataclass(frozen=True, slots=True)
+class PhysicsSettings:
+    """Physics and its clock.
+
+    Attributes:
+        time_step: Step of the physics, in [s].
+        tick: Control period, a whole multiple of the time step, in [s].
+        friction: Sliding friction of the soles on the floor.
+    """
+
+    time_step: float = 0.002
+    tick: float = 0.004
+    friction: float = 0.8
+
+    def __post_init__(self) -> None:
+        """Refuse clocks that do not mesh."""
+        check_within(self.time_step, 1e-5, 0.01, "time_step", "s", ERROR)
+        check_within(self.tick, 1e-5, 0.1, "tick", "s", ERROR)
+        check_positive(self.friction, "friction", "1", ERROR)
+        ratio = self.tick / self.time_step
+        if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
+            raise ConfigurationError(
+                "tick must be a whole multiple of time_step, "
+                f"{self.time_step:g} [s], got {self.tick:g}"
+            )
+
+    @property
+    def steps_per_tick(self) -> int:
+        """Physics steps in one control tick."""
+        return round(self.tick / self.time_step)
+
+
+@dataclass(frozen=True, slots=True)
+class DuelSettings:
+    """Everything that decides a duel.
+
+    Attributes:
+        seed: Seed of every random draw.
+        duration: Simulated time, in [s].
+        robot: Name of a robot or folder of its description.
+        start: Where the robots stand at first.
+        strategy: How the evader evades.
+        gait: How both walk.
+        sight: What they see.
+        physics: Physics and clock.
+    """
+
+    seed: int = 1
+    duration: float = 120.0
+    robot: str = "nao"
+    start: StartSettings = field(default_factory=StartSettings)
+    strategy: StrategySettings = field(default_factory=StrategySettings)
+    gait: GaitSettings = field(default_factory=GaitSettings)
+    sight: SightSettings = field(default_factory=SightSettings)
+    physics: PhysicsSettings = field(default_factory=PhysicsSettings)
+
+    def __post_init__(self) -> None:
+        """Refuse a negative seed and a duration that is none."""
+        if not isinstance(self.seed, int) or self.seed < 0:
+            raise ConfigurationError(
+                f"seed must be an integer >= 0 [1], got {self.seed}"
+            )
+        check_within(self.duration, 0.0, 86400.0, "duration", "s", ERROR)
+        check_positive(self.duration, "duration", "s", ERROR)
+
+
