@@ -1,7 +1,7 @@
 """Maneuver planning: path, footsteps, ZMP and CoM (paper, Sec. III-B to E)."""
 
 from dataclasses import dataclass
-from math import cos, sin
+from math import cos, inf, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +13,8 @@ from .footsteps import Foot, Footstep, place_footsteps
 from .path import Direction, UnicycleTrajectory
 from .schedule import Sampler, Schedule
 from .settings import GaitSettings
+from .support import convex_hull, margin_inside, sole_corners
+from .zmp import evaluate
 
 
 class CenterState(NamedTuple):
@@ -100,6 +102,51 @@ class ManeuverPlan:
             steps.append(Footstep(foot, x, y, theta))
             foot = foot.other
         return tuple(steps)
+
+    @property
+    def zmp_coefficients(self) -> Array:
+        """ZMP of each phase by power of local time. Shape (4, phases, 2)."""
+        coefficients: Array = (
+            self.schedule.zmp_map.coefficients @ self.inputs
+        )
+        return coefficients
+
+    def margin(self, duration: float | None = None) -> float:
+        """Least distance of the ZMP from the edge of the support polygon.
+
+        Args:
+            duration: Part of the plan to look at from its start, in [s];
+                all of it by default.
+
+        Returns:
+            Margin, in [m], negative if the ZMP leaves the polygon.
+        """
+        schedule, sole = self.schedule, self.schedule.settings.sole
+        coefficients = self.zmp_coefficients
+        first = 1 if schedule.standing else 0
+        least = inf
+        for phase, (start, lasts) in enumerate(
+            zip(schedule.starts.tolist(), schedule.durations, strict=False)
+        ):
+            if duration is not None and start >= duration - 1e-9:
+                break
+            zmp = evaluate(
+                np.repeat(coefficients[:, phase, None], 21, axis=1),
+                np.linspace(0.0, lasts, 21),
+            )
+            step, double = divmod(phase - first, 2)
+            rows = (step + 1, step + 2) if double else (step + 1,)
+            corners = [
+                sole_corners(self.placements[row], self._foot(row), sole)
+                for row in (rows if step >= 0 else (0, 1))
+            ]
+            polygon = convex_hull(np.concatenate(corners))
+            least = min(least, float(margin_inside(zmp, polygon).min()))
+        return least
+
+    def _foot(self, row: int) -> Foot:
+        """Side of a row of the placements."""
+        return self.first_foot if row % 2 == 0 else self.first_foot.other
 
     def sample(self, times: ArrayLike | Sampler) -> PlanSamples:
         """Evaluate the plan.

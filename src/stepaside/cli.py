@@ -1,0 +1,54 @@
+"""The command line: words in, tables and files out."""
+
+import sys
+from importlib import import_module
+
+import click
+
+from . import __version__
+from .errors import StepAsideError
+
+COMMANDS = {
+    "duel": "Let two humanoids chase each other in physics.",
+    "plan": "Plan one maneuver: footsteps, ZMP and CoM.",
+    "robot": "Show a robot, or write its model.",
+}
+
+
+class LazyGroup(click.Group):
+    """A group that imports a command when it is called."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """List the commands."""
+        return list(COMMANDS)
+
+    def get_command(
+        self, ctx: click.Context, cmd_name: str
+    ) -> click.Command | None:
+        """Import a command."""
+        if cmd_name not in COMMANDS:
+            return None
+        module = import_module(f"stepaside.commands.{cmd_name}")
+        command: click.Command = getattr(module, cmd_name)
+        return command
+
+    def format_commands(
+        self, ctx: click.Context, formatter: click.HelpFormatter
+    ) -> None:
+        """Write the list of commands without importing any."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+    def invoke(self, ctx: click.Context) -> object:
+        """Turn the package's errors into one line and exit status 2."""
+        try:
+            return super().invoke(ctx)
+        except StepAsideError as error:
+            click.echo(f"stepaside: {error}", err=True)
+            sys.exit(2)
+
+
+@click.group(cls=LazyGroup)
+@click.version_option(__version__)
+def main() -> None:
+    """Real-time pursuit and evasion for humanoid robots."""

@@ -1,0 +1,95 @@
+"""Types and habits that all commands share."""
+
+import json
+from collections.abc import Callable
+from math import isfinite, radians
+from typing import Any, TypeVar
+
+import click
+
+F = TypeVar("F", bound=Callable[..., Any])
+UNITS = {"rad": 1.0, "deg": radians(1.0)}
+
+
+class AngleType(click.ParamType):
+    """An angle: ``1.2``, ``1.2rad`` or ``70deg``; a float in [rad]."""
+
+    name = "angle"
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> float:
+        """Parse an angle."""
+        text, scale = str(value).strip(), 1.0
+        for unit, factor in UNITS.items():
+            if text.endswith(unit):
+                text, scale = text[: -len(unit)].strip(), factor
+                break
+        try:
+            angle = float(text) * scale
+        except ValueError:
+            angle = float("nan")
+        if not isfinite(angle):
+            self.fail(
+                "must be a finite angle like 1.2, 1.2rad or 70deg, "
+                f"got {value!r}",
+                param,
+                ctx,
+            )
+        return angle
+
+
+class NumberType(click.ParamType):
+    """A finite number above a bound, or at it."""
+
+    name = "number"
+
+    def __init__(self, unit: str, *, allow_zero: bool = False) -> None:
+        """Name the unit for messages."""
+        self.unit, self.allow_zero = unit, allow_zero
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> float:
+        """Parse a number."""
+        try:
+            number = float(value)
+        except ValueError:
+            number = float("nan")
+        low_enough = number >= 0.0 if self.allow_zero else number > 0.0
+        if not (isfinite(number) and low_enough):
+            rule = ">= 0" if self.allow_zero else "> 0"
+            self.fail(
+                f"must be finite and {rule} [{self.unit}], got {value!r}",
+                param,
+                ctx,
+            )
+        return number
+
+
+ANGLE = AngleType()
+METERS = NumberType("m")
+SECONDS = NumberType("s")
+POSITIVE = NumberType("1")
+
+json_option = click.option(
+    "--json", "as_json", is_flag=True, help="Print one JSON object."
+)
+
+
+def print_json(value: Any) -> None:
+    """Print a value as one JSON object."""
+    click.echo(json.dumps(value, allow_nan=False))
+
+
+def print_table(rows: list[tuple[str, str]]) -> None:
+    """Print names and values in two columns."""
+    width = max(len(name) for name, _ in rows)
+    for name, value in rows:
+        click.echo(f"  {name:<{width}}  {value}")

@@ -1,0 +1,50 @@
+"""``stepaside robot``: show a robot, or write its model."""
+
+import click
+
+from .options import json_option, print_json, print_table
+
+
+@click.command("robot")
+@click.argument("name", default="nao")
+@click.option(
+    "--mjcf", is_flag=True, help="Write the MuJoCo model and nothing else."
+)
+@click.option(
+    "--output",
+    type=click.Path(dir_okay=False, writable=True),
+    help="File for the model; standard output by default.",
+)
+@json_option
+def robot(name: str, mjcf: bool, output: str | None, as_json: bool) -> None:
+    """Show the robot NAME, or write its model for MuJoCo's own viewer.
+
+    NAME is a robot that comes with the package (nao), or a folder with a
+    robot.toml and a model.
+    """
+    from ..robots.description import load_robot
+
+    description = load_robot(name)
+    if mjcf or output is not None:
+        text = description.mjcf()
+        if output is None:
+            click.echo(text)
+        else:
+            with open(output, "w", encoding="utf-8") as file:
+                file.write(text)
+            click.echo(f"wrote {output}", err=True)
+        return
+    model = description.compile()
+    facts = {
+        "name": description.name,
+        "mass_kg": round(float(model.body_subtreemass[0]), 6),
+        "links": int(model.nbody - 1),
+        "hinges": int(model.njnt - 1),
+        "motors": int(model.nu),
+        "coupled": description.coupled_joints(model),
+        "folder": str(description.folder),
+    }
+    if as_json:
+        print_json(facts)
+    else:
+        print_table([(key, str(value)) for key, value in facts.items()])
