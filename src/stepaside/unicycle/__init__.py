@@ -1,0 +1,1 @@
+"""Pursuit and evasion with unicycles (paper, Sec. II)."""
