@@ -11,7 +11,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 UNITS = {"rad": 1.0, "deg": radians(1.0)}
 
 
-class AngleType(click.ParamType):
+class AngleType(click.ParamType[float]):
     """An angle: ``1.2``, ``1.2rad`` or ``70deg``; a float in [rad]."""
 
     name = "angle"
@@ -42,7 +42,7 @@ class AngleType(click.ParamType):
         return angle
 
 
-class NumberType(click.ParamType):
+class NumberType(click.ParamType[float]):
     """A finite number above a bound, or at it."""
 
     name = "number"

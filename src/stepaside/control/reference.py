@@ -4,7 +4,7 @@ from math import ceil, cos, sin
 
 import numpy as np
 
-from ..planning import Foot, GaitSettings, ManeuverPlan
+from ..planning import GaitSettings, ManeuverPlan
 from ..planning.schedule import Sampler, Schedule
 from ..poses import Pose
 from ..robots.kinematics import BodyReference
@@ -111,5 +111,3 @@ class ReferenceTable:
             if len(self._samplers) < CACHED:
                 self._samplers[key] = sampler
         return sampler
-
-

@@ -48,6 +48,7 @@ class ControlScheme:
         landings: Footsteps so far: (time of landing [s], foot, pose).
         replans: Number of maneuvers planned.
         planning_times: Processor time that each took, in [s].
+        walked: Plans walked so far, for their margins afterwards.
         velocity_jumps: Jump of the CoM velocity reference at each plan, in
             [m/s].
     """
@@ -88,6 +89,7 @@ class ControlScheme:
         self.replans = 0
         self.planning_times: list[float] = []
         self.velocity_jumps: list[float] = []
+        self.walked: list[ManeuverPlan] = []
         self._first_foot = first_foot
         self._sighting: Sighting | None = None
         self._headings: deque[tuple[float, float]] = deque(
@@ -123,13 +125,21 @@ class ControlScheme:
         self.joint_targets = self.kinematics.track(self.reference)
         return self.joint_targets
 
+    @property
+    def margins(self) -> list[float]:
+        """ZMP margin of each plan in the part that was walked, in [m]."""
+        return [
+            plan.margin(plan.schedule.first_step_duration)
+            for plan in self.walked
+        ]
+
     def _stand(self) -> None:
         """Rest midway between the feet."""
         self.phase, self.plan = Phase.STANDING, None
         self.reference = standing_reference(
             self.left_foot, self.right_foot, self.settings
         )
-        self.zmp_reference: tuple[float, float] = self.reference.com[:2]
+        self.zmp_reference = self.reference.com[:2]
 
     def _wait(self, now: float) -> None:
         """Stand until the other is a reason to move."""
@@ -190,9 +200,7 @@ class ControlScheme:
         duration = plan.schedule.first_step_duration
         self._walk(plan, support, started, duration, state)
 
-    def _halt(
-        self, started: float, support: Pose, state: CenterState
-    ) -> None:
+    def _halt(self, started: float, support: Pose, state: CenterState) -> None:
         """Bring the feet abreast and come to rest."""
         foot = self._first_foot
         plan = self.planner.plan_halt(
@@ -228,6 +236,7 @@ class ControlScheme:
         vx, vy = plan.start_velocity.tolist()
         jump = max(abs(vx - state.velocity[0]), abs(vy - state.velocity[1]))
         self.velocity_jumps.append(jump)
+        self.walked.append(plan)
 
     def _support(self, swing: Foot) -> Pose:
         """Foot that stands while another swings, in odometry."""

@@ -106,9 +106,7 @@ class ManeuverPlan:
     @property
     def zmp_coefficients(self) -> Array:
         """ZMP of each phase by power of local time. Shape (4, phases, 2)."""
-        coefficients: Array = (
-            self.schedule.zmp_map.coefficients @ self.inputs
-        )
+        coefficients: Array = self.schedule.zmp_map.coefficients @ self.inputs
         return coefficients
 
     def margin(self, duration: float | None = None) -> float:

@@ -87,7 +87,6 @@ class LegKinematics:
         self._torso_frame = data.xmat[self._torso]
         self._com = data.subtree_com[self._torso]
         self._jacobian = np.zeros((15, model.nv))
-        self._rotation = np.zeros((6, model.nv))
         self._rows = np.zeros((17, model.nv))
         self._error = np.zeros(17)
         self._damping = DAMPING**2 * np.eye(17)
@@ -103,7 +102,8 @@ class LegKinematics:
     @property
     def posture(self) -> Array:
         """Position and quaternion of the torso, then all joints."""
-        return self._qpos.copy()
+        posture: Array = self._qpos.copy()
+        return posture
 
     @property
     def torso_heading(self) -> float:
@@ -178,14 +178,14 @@ class LegKinematics:
                 f"{self.description.name} lost {ROWS[worst]}: off by "
                 f"{error[worst]:.3f} where a tick allows {LOST:g}"
             )
-        return self._qpos[self._targets]
+        return self.joint_targets
 
     def _step(self, reference: BodyReference) -> None:
         """One damped Newton step; leaves the error before it."""
         model, data, q = self._model, self._data, self._qpos
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
-        jacobian, rotation = self._jacobian, self._rotation
+        jacobian = self._jacobian
         left, right = self._left, self._right
         mujoco.mj_jacSite(model, data, jacobian[0:3], jacobian[3:6], left)
         mujoco.mj_jacSite(model, data, jacobian[6:9], jacobian[9:12], right)

@@ -63,6 +63,8 @@ class DuelResult:
         replans: Maneuvers planned by both.
         planning_times: Processor time of each, in [s].
         velocity_jump: Greatest jump of a CoM velocity reference, in [m/s].
+        zmp_margin: Least distance of a ZMP reference from the edge of its
+            support polygon, in [m]; None if nobody walked.
         wall_time: Time that it took, in [s].
     """
 
@@ -76,6 +78,7 @@ class DuelResult:
     replans: int
     planning_times: Array
     velocity_jump: float
+    zmp_margin: float | None
     wall_time: float
 
 
@@ -144,7 +147,9 @@ class Duel:
                 )
             )
             self.robots.append(
-                SimulatedRobot(self.world, name, description, kinematics, frame)
+                SimulatedRobot(
+                    self.world, name, description, kinematics, frame
+                )
             )
         mujoco.mj_forward(self.world.model, self.world.data)
         for own, other in (self.robots, self.robots[::-1]):
@@ -236,6 +241,7 @@ def run_duel(
         velocity_jump=max(
             (jump for s in schemes for jump in s.velocity_jumps), default=0.0
         ),
+        zmp_margin=min((m for s in schemes for m in s.margins), default=None),
         wall_time=wall,
     )
 

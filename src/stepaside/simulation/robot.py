@@ -65,8 +65,9 @@ class SimulatedRobot:
         self._reach = np.array(limits) * self.tick
         self._gyro = self._sensor("gyro")
         self._accelerometer = self._sensor("accelerometer")
-        first, last = self._sensor(FOOT_FORCES[0]), self._sensor(
-            FOOT_FORCES[-1]
+        first, last = (
+            self._sensor(FOOT_FORCES[0]),
+            self._sensor(FOOT_FORCES[-1]),
         )
         self._forces = slice(first.start, last.stop)
         sites = [model.site(f"{name}/{f}").id for f in FOOT_FORCES]

@@ -94,12 +94,8 @@ class SightSettings:
 
     def __post_init__(self) -> None:
         """Refuse negative noise, delays longer than the memory, no rate."""
-        check_not_negative(
-            self.bearing_noise, "bearing_noise", "rad", ERROR
-        )
-        check_not_negative(
-            self.distance_noise, "distance_noise", "m", ERROR
-        )
+        check_not_negative(self.bearing_noise, "bearing_noise", "rad", ERROR)
+        check_not_negative(self.distance_noise, "distance_noise", "m", ERROR)
         check_within(self.delay, 0.0, 2.0, "delay", "s", ERROR)
         if not isinf(self.rate) or self.rate < 0.0:
             check_positive(self.rate, "rate", "1/s", ERROR)
@@ -169,5 +165,3 @@ class DuelSettings:
             )
         check_within(self.duration, 0.0, 86400.0, "duration", "s", ERROR)
         check_positive(self.duration, "duration", "s", ERROR)
-
-

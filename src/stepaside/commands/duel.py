@@ -1,0 +1,208 @@
+"""``stepaside duel``: two humanoids chase each other in physics."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from .options import (
+    ANGLE,
+    METERS,
+    SECONDS,
+    NumberType,
+    json_option,
+    print_json,
+    print_table,
+)
+
+if TYPE_CHECKING:
+    from ..simulation.duel import DuelResult
+    from ..simulation.settings import DuelSettings
+
+
+@click.command("duel")
+@click.option("--seed", type=click.IntRange(0), help="Of every random draw.")
+@click.option("--duration", type=SECONDS, help="Simulated time [s].")
+@click.option(
+    "--distance", type=METERS, help="Start distance [m]; drawn by default."
+)
+@click.option(
+    "--pursuer-offset",
+    type=ANGLE,
+    help="Heading of the pursuer from the evader; drawn by default.",
+)
+@click.option(
+    "--evader-offset",
+    type=ANGLE,
+    help="Heading of the evader from the pursuer; drawn by default.",
+)
+@click.option(
+    "--angle",
+    type=ANGLE,
+    help="Strategy: 90deg moves aside (default), 0 moves back.",
+)
+@click.option(
+    "--saturated", is_flag=True, help="The evader turns by (6), not (4)."
+)
+@click.option(
+    "--release-distance", type=METERS, help="Evasion ends at it; never."
+)
+@click.option(
+    "--preset",
+    type=click.Choice(["nao", "as-printed"]),
+    help="Gait: the NAO that walks (default), or durations as printed.",
+)
+@click.option("--bearing-noise", type=ANGLE, help="Standard deviation.")
+@click.option(
+    "--distance-noise",
+    type=NumberType("m", allow_zero=True),
+    help="Standard deviation [m].",
+)
+@click.option(
+    "--delay", type=NumberType("s", allow_zero=True), help="Of sight [s]."
+)
+@click.option("--rate", type=NumberType("1/s"), help="Of sight [1/s].")
+@click.option("--robot", help="Robot, or the folder of its description.")
+@click.option(
+    "--config",
+    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="Configuration file; options given beside it win.",
+)
+@click.option(
+    "--output",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Run folder; a new one in runs/ by default, none with --json.",
+)
+@json_option
+def duel(
+    config: Path | None, output: Path | None, as_json: bool, **options: Any
+) -> None:
+    """Let two humanoids chase each other until they walk the circle.
+
+    Prints the figures of the last third of the duel beside theory's, and
+    writes a run folder with the configuration that repeats it, the
+    trajectories and a figure.
+    """
+    settings = _settings(config, options)
+    from ..report.run_folder import check_output, free_folder
+    from ..simulation.duel import Outcome
+    from ..simulation.summary import summarise
+
+    if output is None and not as_json:
+        output = free_folder(Path("runs"), f"duel-seed{settings.seed}")
+    if output is not None:
+        check_output(output)
+    result = _play(settings)
+    summary = summarise(result)
+    figure = None
+    if output is not None:
+        from ..report.run_folder import write_run
+
+        figure = write_run(output, result, summary)
+        summary["run_folder"] = str(output)
+    if as_json:
+        print_json(summary)
+    else:
+        _print(summary)
+        click.echo(f"\nfigure:     {figure}\nrun folder: {output}")
+    if result.outcome is Outcome.INTERRUPTED:
+        raise SystemExit(130)
+
+
+def _settings(config: Path | None, options: dict[str, Any]) -> "DuelSettings":
+    """Settings of the file, overridden by what was given beside it."""
+    from dataclasses import replace
+
+    from ..planning import PRESETS
+    from ..simulation.configuration import load_configuration
+    from ..simulation.settings import DuelSettings
+
+    settings = DuelSettings() if config is None else load_configuration(config)
+    given = {key: v for key, v in options.items() if v not in (None, False)}
+    if "preset" in given:
+        settings = replace(settings, gait=PRESETS[given.pop("preset")])
+    sections = {
+        "start": ("distance", "pursuer_offset", "evader_offset"),
+        "strategy": ("angle", "saturated", "release_distance"),
+        "sight": ("bearing_noise", "distance_noise", "delay", "rate"),
+    }
+    for section, keys in sections.items():
+        changes = {key: given.pop(key) for key in keys if key in given}
+        if changes:
+            changed = replace(getattr(settings, section), **changes)
+            settings = replace(settings, **{section: changed})
+    return replace(settings, **given)
+
+
+def _play(settings: "DuelSettings") -> "DuelResult":
+    """Play with a progress bar on standard error."""
+    from tqdm import tqdm
+
+    from ..simulation.duel import Progress, run_duel
+
+    with tqdm(
+        total=settings.duration,
+        unit="s",
+        desc="duel",
+        disable=None,
+        bar_format="{desc} {bar} {n:.0f}/{total:.0f} s simulated{postfix}",
+    ) as bar:
+
+        def report(progress: Progress) -> None:
+            bar.n = progress.time
+            bar.set_postfix_str(
+                f"distance {progress.distance:.2f} m, "
+                f"{progress.real_time_factor:.1f}x real time"
+            )
+
+        result = run_duel(settings, report)
+        bar.n = min(result.duration, settings.duration)
+        bar.refresh()
+    return result
+
+
+def _print(summary: dict[str, Any]) -> None:
+    theory = summary["theory"]
+
+    def beside(value: float | None, wanted: float | None, unit: str) -> str:
+        text = "-" if value is None else f"{value:.3f} {unit}"
+        return text if wanted is None else f"{text:<12} theory {wanted:.3f}"
+
+    converged = summary["converged_at_s"]
+    plans = summary["plan_time_us"]
+    start = summary["start"]
+    rows = [
+        ("outcome", f"{summary['outcome']}: {summary['message']}"),
+        ("start distance", f"{start['distance_m']:.3f} m"),
+        (
+            "pursuer radius",
+            beside(summary["pursuer"]["radius_m"], theory["radius_m"], "m"),
+        ),
+        (
+            "evader radius",
+            beside(summary["evader"]["radius_m"], theory["radius_m"], "m"),
+        ),
+        ("distance", beside(summary["distance_m"], theory["distance_m"], "m")),
+        (
+            "between headings",
+            beside(
+                summary["relative_orientation_deg"],
+                theory["relative_orientation_deg"],
+                "deg",
+            ),
+        ),
+        ("closest approach", f"{summary['min_distance_m']:.3f} m"),
+        (
+            "on the circle",
+            "not reached" if converged is None else f"since {converged:.1f} s",
+        ),
+        ("maneuvers planned", str(summary["replans"])),
+        (
+            "planning time",
+            "-"
+            if plans["median"] is None
+            else f"{plans['median']:.0f} us median, {plans['p99']:.0f} us p99",
+        ),
+        ("speed", f"{summary['real_time_factor']:.1f} x real time"),
+    ]
+    print_table(rows)

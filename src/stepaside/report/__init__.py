@@ -1,0 +1,1 @@
+"""Figures and files that runs are looked at with."""

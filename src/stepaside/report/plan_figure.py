@@ -1,0 +1,71 @@
+"""Figure of one maneuver: footsteps from above, ZMP and CoM over time."""
+
+from pathlib import Path
+
+import numpy as np
+
+from ..planning import ManeuverPlan
+from .soles import draw_soles
+from .style import COLOURS, THEORY, plt
+
+
+def draw_plan(plan: ManeuverPlan, role: str, path: Path) -> None:
+    """Write the figure of a maneuver.
+
+    Args:
+        plan: What was planned.
+        role: Pursuer or evader, for the colour.
+        path: File, of a format that its suffix tells.
+    """
+    colour = COLOURS[role]
+    gait = plan.schedule.settings
+    samples = plan.sample(np.arange(0.0, plan.schedule.duration, 0.01))
+    figure = plt.figure(figsize=(9.5, 4.8))
+    grid = figure.add_gridspec(2, 2, width_ratios=[1.25, 1.0])
+    above = figure.add_subplot(grid[:, 0])
+    side = plan.first_foot.value
+    rows = [
+        (0.0, side if i % 2 == 0 else -side, *pose)
+        for i, pose in enumerate(plan.placements.tolist())
+    ]
+    draw_soles(above, np.array(rows[:2]), gait.sole, THEORY, ls=":")
+    draw_soles(above, np.array(rows[2:]), gait.sole, colour, alpha=0.7)
+    above.plot(*samples.zmp.T, color=THEORY, lw=0.8, label="ZMP")
+    above.plot(*samples.com.T, color=colour, lw=2.0, label="CoM")
+    above.set(
+        xlabel="x in the support foot frame [m]",
+        ylabel="y [m]",
+        aspect="equal",
+        title=f"{role}: desired heading {np.degrees(plan.bearing):.1f}°",
+    )
+    above.legend(loc="best")
+    for index, name in enumerate(("x", "y")):
+        axes = figure.add_subplot(grid[index, 1])
+        axes.plot(
+            samples.times,
+            samples.zmp[:, index],
+            color=THEORY,
+            lw=0.9,
+            label="ZMP",
+        )
+        axes.plot(
+            samples.times,
+            samples.dcm[:, index],
+            color="#8a5fbf",
+            lw=0.9,
+            ls="--",
+            label="DCM",
+        )
+        axes.plot(
+            samples.times,
+            samples.com[:, index],
+            color=colour,
+            lw=1.8,
+            label="CoM",
+        )
+        axes.set_ylabel(f"{name} [m]")
+        axes.set_xlabel("time [s]" if index else "")
+        if index == 0:
+            axes.legend(ncols=3, loc="best")
+    figure.savefig(path)
+    plt.close(figure)

@@ -1,0 +1,73 @@
+"""Configurations as files: TOML in, TOML out."""
+
+import tomllib
+from dataclasses import asdict
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+import dacite
+import tomli_w
+
+from ..errors import ConfigurationError
+from .settings import DuelSettings
+
+
+def load_configuration(path: Path) -> DuelSettings:
+    """Read the configuration of a duel.
+
+    Args:
+        path: TOML file; what it leaves out keeps its default.
+
+    Raises:
+        ConfigurationError: If it is not TOML, or an entry is unknown, of
+            the wrong type or out of its range.
+    """
+    try:
+        entries = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise ConfigurationError(f"{path}: {error}") from error
+    return parse_configuration(entries, str(path))
+
+
+def parse_configuration(entries: dict[str, Any], source: str) -> DuelSettings:
+    """Turn nested entries into settings.
+
+    Args:
+        entries: Sections and values.
+        source: Where they come from, for messages.
+
+    Raises:
+        ConfigurationError: As :func:`load_configuration`.
+    """
+    config = dacite.Config(strict=True, type_hooks={float: _as_float})
+    try:
+        return dacite.from_dict(DuelSettings, entries, config)
+    except dacite.UnexpectedDataError as error:
+        unknown = ", ".join(sorted(error.keys))
+        raise ConfigurationError(
+            f"{source}: unknown entry {unknown}"
+        ) from error
+    except dacite.WrongTypeError as error:
+        raise ConfigurationError(
+            f"{source}: {error.field_path} must be a "
+            f"{getattr(error.field_type, '__name__', error.field_type)}, "
+            f"got {error.value!r}"
+        ) from error
+
+
+def dump_configuration(settings: DuelSettings) -> str:
+    """Text of the configuration that repeats a duel, as TOML."""
+    return tomli_w.dumps(_plain(asdict(settings)))
+
+
+def _as_float(value: Any) -> Any:
+    whole = isinstance(value, int) and not isinstance(value, bool)
+    return float(value) if whole else value
+
+
+def _plain(value: Any) -> Any:
+    """Leave out what is None, which TOML does not know."""
+    if isinstance(value, dict):
+        return {k: _plain(v) for k, v in value.items() if v is not None}
+    return value.value if isinstance(value, Enum) else value
