@@ -16,8 +16,9 @@ from ..poses import Array
 from .description import RobotDescription
 
 DAMPING = 1e-4  # squared, of the pseudo-inverse; rows in [m] and [rad]
+LEAP = 0.3  # of a joint in one step while a stance is searched, in [rad]
 TOLERANCE = 1e-4  # residual at which a posture counts as reached
-LOST = 0.05  # residual in one tick beyond which a request is refused
+LOST = 0.5  # residual, in [m] or [rad], beyond which a request is refused
 ROWS = (
     *(f"left foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
     *(f"right foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
@@ -48,8 +49,15 @@ class LegKinematics:
         joint_names: Actuated joints, in the order of the joint targets.
     """
 
-    def __init__(self, description: RobotDescription) -> None:
-        """Compile the robot's model, alone and without physics."""
+    def __init__(
+        self, description: RobotDescription, *, tick: float
+    ) -> None:
+        """Compile the robot's model, alone and without physics.
+
+        Args:
+            description: The robot.
+            tick: Time from one tracked reference to the next, in [s].
+        """
         self.description = description
         self._model = model = description.compile()
         self._data = data = mujoco.MjData(model)
@@ -65,6 +73,8 @@ class LegKinematics:
         self._low, self._high = np.array(
             [model.joint(n).range for n in legs]
         ).T
+        speeds = [description.speed_limits[n] for n in legs]
+        self._reach = np.array(speeds) * tick
         self._followers = [
             (model.joint(f).qposadr[0], model.joint(leader).qposadr[0])
             for f, leader in followers.items()
@@ -134,9 +144,13 @@ class LegKinematics:
 
     def highest_com(self, reference: BodyReference) -> float:
         """Greatest CoM height with the feet of ``reference``, in [m]."""
-        low, high = 0.0, reference.com[2]
-        x, y, _ = reference.com
-        while high - low > 5e-4:
+        x, y, high = reference.com
+        low = high
+        while not self._try_stand(reference._replace(com=(x, y, low))):
+            high, low = low, 0.95 * low
+            if low < 0.1 * reference.com[2]:
+                return 0.0
+        while high - low > 2e-4:
             middle = 0.5 * (low + high)
             if self._try_stand(reference._replace(com=(x, y, middle))):
                 low = middle
@@ -153,13 +167,16 @@ class LegKinematics:
         for name, angle in self.description.standing.items():
             q[self._model.joint(name).qposadr[0]] = angle
         for _ in range(60):
-            self._step(reference)
+            self._step(reference, LEAP)
             if float(np.abs(self._error).max()) < TOLERANCE:
                 return True
         return False
 
     def track(self, reference: BodyReference) -> Array:
         """Follow a reference by one damped step from the last posture.
+
+        A joint at a limit of its range or speed stays there and the others
+        do what they can.
 
         Args:
             reference: What to reach at this tick.
@@ -168,20 +185,24 @@ class LegKinematics:
             Joint targets, in [rad]. Shape (joints,).
 
         Raises:
-            ReachError: If the posture is farther off than a tick explains.
+            ReachError: If the legs are hopelessly short of it; names what is.
         """
-        self._step(reference)
+        self._step(reference, self._reach)
         error = self._error
         if error.max() > LOST or error.min() < -LOST:
             worst = int(np.argmax(np.abs(error)))
             raise ReachError(
-                f"{self.description.name} lost {ROWS[worst]}: off by "
-                f"{error[worst]:.3f} where a tick allows {LOST:g}"
+                f"{self.description.name} cannot follow: {ROWS[worst]} is "
+                f"off by {error[worst]:.3f}, more than {LOST:g} [m, rad]"
             )
         return self.joint_targets
 
-    def _step(self, reference: BodyReference) -> None:
-        """One damped Newton step; leaves the error before it."""
+    def _step(self, reference: BodyReference, reach: Array | float) -> None:
+        """One damped Newton step; leaves the error before it.
+
+        No joint moves by more than ``reach``, in [rad]: near a straight knee
+        an unlimited step would land on the other branch of the leg.
+        """
         model, data, q = self._model, self._data, self._qpos
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
@@ -205,6 +226,9 @@ class LegKinematics:
         j = rows @ self._spread
         # J' (J J' + damping)^-1 e
         step = j.T @ np.linalg.solve(j @ j.T + self._damping, error)
+        joints = step[6:]
+        np.minimum(joints, reach, out=joints)
+        np.maximum(joints, -reach, out=joints)
         mujoco.mj_integratePos(model, q, self._spread @ step, 1.0)
         legs = q[self._legs]
         np.minimum(legs, self._high, out=legs)

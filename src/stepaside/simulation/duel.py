@@ -137,7 +137,9 @@ class Duel:
         self.schemes = []
         self.robots = []
         for name, role, frame in zip(NAMES, roles, frames, strict=True):
-            kinematics = LegKinematics(description)
+            kinematics = LegKinematics(
+                description, tick=settings.physics.tick
+            )
             self.schemes.append(
                 ControlScheme(
                     role,

@@ -1,0 +1,203 @@
+"""Test the command line: JSON, run folders, refusals."""
+
+import json
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+
+from stepaside.cli import COMMANDS, main
+
+
+def run(*arguments: str) -> Result:
+    return CliRunner().invoke(main, arguments)
+
+
+def run_json(*arguments: str) -> Any:
+    result = run(*arguments, "--json")
+    assert result.exit_code == 0, result.stderr
+    return json.loads(result.stdout)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_explains_itself(command: str) -> None:
+    result = run(command, "--help")
+    assert result.exit_code == 0
+    assert "Usage" in result.stdout
+
+
+def test_plan_prints_footsteps_and_a_10_ms_grid() -> None:
+    plan = run_json(
+        "plan", "--role", "pursuer", "--bearing", "40deg", "--steps", "20"
+    )
+    assert len(plan["footsteps"]) == 20
+    assert set(plan["footsteps"][0]) == {"foot", "x", "y", "theta"}
+    times = np.array(plan["times_s"])
+    np.testing.assert_allclose(np.diff(times), 0.01)
+    for name in ("zmp", "com", "com_velocity", "dcm"):
+        assert np.shape(plan[name]) == (len(times), 2)
+
+
+def test_plan_dcm_is_the_quadrature_of_its_zmp_pieces() -> None:
+    """Eq. (16), from what the command prints alone."""
+    plan = run_json("plan", "--role", "evader", "--bearing", "-2.2")
+    eta = plan["eta_per_s"]
+    durations = np.array(plan["zmp_pieces"]["durations_s"])
+    coefficients = np.array(plan["zmp_pieces"]["coefficients"])
+    starts = np.concatenate([[0.0], np.cumsum(durations)])
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    for index in (0, 77, 300, 1000):
+        now = plan["times_s"][index]
+        total = np.zeros(2)
+        for piece, (start, lasts) in enumerate(
+            zip(starts[:-1], durations, strict=True)
+        ):
+            low, high = max(now, start), start + lasts
+            if high <= now:
+                continue
+            t = 0.5 * (high - low) * nodes + 0.5 * (high + low)
+            w = 0.5 * (high - low) * weights * eta * np.exp(-eta * (t - now))
+            powers = (t - start) ** np.arange(4)[:, None]
+            total += (powers.T @ coefficients[:, piece] * w[:, None]).sum(0)
+        rest = durations[-1] ** np.arange(4) @ coefficients[:, -1]
+        total += rest * np.exp(-eta * (starts[-1] - now))
+        np.testing.assert_allclose(plan["dcm"][index], total, atol=1e-9)
+
+
+def test_plan_writes_its_figure(tmp_path: Path) -> None:
+    file = tmp_path / "plan.png"
+    result = run(
+        *("plan", "--role", "evader", "--bearing", "1", "--steps", "6"),
+        *("--figure", str(file)),
+    )
+    assert result.exit_code == 0
+    assert file.read_bytes()[:4] == b"\x89PNG"
+
+
+def test_duel_writes_a_run_folder_that_repeats_it(tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    options = ("--duration", "4", "--seed", "9", "--output", str(folder))
+    first = run_json("duel", *options)
+    assert first["outcome"] == "completed"
+    assert first["seed"] == 9
+    assert {file.name for file in folder.iterdir()} == {
+        "configuration.toml",
+        "summary.json",
+        "trajectories.npz",
+        "duel.png",
+    }
+    configuration = folder / "configuration.toml"
+    assert tomllib.loads(configuration.read_text())["seed"] == 9
+    again = run_json("duel", "--config", str(configuration))
+    for name in ("plan_time_us", "real_time_factor", "run_folder"):
+        first.pop(name)
+        again.pop(name, None)
+    assert first == again
+    arrays = np.load(folder / "trajectories.npz")
+    assert arrays["pursuer_com"].shape == (len(arrays["times_s"]), 3)
+
+
+def test_duel_ends_with_a_table_and_two_paths(tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    result = run("duel", "--duration", "1", "--output", str(folder))
+    assert result.exit_code == 0
+    assert "theory 0.637" in result.stdout
+    assert str(folder / "duel.png") in result.stdout
+
+
+BAD = [
+    ("duel --duration nan", "duration.*> 0.*nan"),
+    ("duel --duration -3", "duration.*> 0.*-3"),
+    ("duel --seed -1", "seed.*-1"),
+    ("duel --distance 0.1", "distance must lie in.*m.*0.1"),
+    ("duel --angle 200deg", "angle must lie in.*rad.*3.49"),
+    ("duel --angle up", "angle.*'up'"),
+    ("duel --pursuer-offset inf", "pursuer-offset.*inf"),
+    ("duel --delay 3", "delay must lie in.*3"),
+    ("duel --release-distance 0.5", "release_distance must exceed.*0.5"),
+    ("duel --robot talos", "robot must be one of nao.*talos"),
+    ("duel --preset fast", "preset.*fast"),
+    ("plan --role pursuer --bearing nan", "bearing.*nan"),
+    ("plan --role pursuer --bearing 4", "bearing must lie in.*4"),
+    ("plan --role pursuer --bearing 1 --steps 0", "steps.*0"),
+    ("robot pepper", "robot must be one of nao.*pepper"),
+]
+
+
+@pytest.mark.parametrize(("line", "message"), BAD)
+def test_bad_input_is_refused_in_one_line(
+    line: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    result = run(*line.split())
+    assert result.exit_code == 2
+    last = result.stderr.strip().splitlines()[-1]
+    assert __import__("re").search(message, last), last
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("speed = 3", "unknown entry speed"),
+        ("[gait]\nspeeed = 0.1", "unknown entry speeed"),
+        ("[gait]\nspeed = -0.1", "speed must be finite and > 0 .*-0.1"),
+        ("[gait]\nspeed = 'fast'", "gait.speed must be a float, got 'fast'"),
+        ("[gait]\nspeed = nan", "speed must be finite.*nan"),
+        ("[gait]\ncom_height = 0.28", "0.28 m; it reaches at most 0.2"),
+        ("[physics]\ntick = 0.005", "whole multiple.*0.005"),
+        ("seed = ", "Invalid value"),
+    ],
+)
+def test_bad_configuration_is_refused(
+    text: str, message: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "duel.toml"
+    file.write_text(text)
+    output = tmp_path / "run"
+    result = run("duel", "--config", str(file), "--output", str(output))
+    assert result.exit_code == 2
+    assert __import__("re").search(message, result.stderr), result.stderr
+    assert not output.exists()
+
+
+def test_output_that_holds_something_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "mine.txt").write_text("keep me")
+    result = run("duel", "--duration", "1", "--output", str(tmp_path))
+    assert result.exit_code == 2
+    assert "new or an empty folder" in result.stderr
+    assert (tmp_path / "mine.txt").read_text() == "keep me"
+
+
+def test_robot_writes_a_model_that_mujoco_opens(tmp_path: Path) -> None:
+    import mujoco
+
+    file = tmp_path / "nao.xml"
+    assert run("robot", "nao", "--output", str(file)).exit_code == 0
+    model = mujoco.MjModel.from_xml_path(str(file))
+    assert model.nbody == 26
+    assert run("robot", "nao", "--mjcf").stdout.strip().endswith("</mujoco>")
+    assert run_json("robot", "nao")["hinges"] == 24
+
+
+def test_interrupted_duel_reports_what_was_done(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    from stepaside.simulation.duel import Duel
+
+    tick = Duel.tick
+
+    def impatient(self: Duel) -> Any:
+        if self.world.ticks >= 300:
+            raise KeyboardInterrupt
+        return tick(self)
+
+    monkeypatch.setattr(Duel, "tick", impatient)
+    folder = tmp_path / "run"
+    result = run("duel", "--seed", "2", "--output", str(folder))
+    assert result.exit_code == 130
+    assert "interrupted at 1.20 s" in result.stdout
+    assert (folder / "trajectories.npz").exists()

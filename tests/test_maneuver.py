@@ -1,0 +1,256 @@
+"""Test whole maneuvers: pendulum, continuity, symmetry, swing, support."""
+
+import subprocess
+import sys
+from dataclasses import replace
+from typing import Any, Literal
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stepaside.errors import PlanError
+from stepaside.planning import (
+    PRESETS,
+    CenterState,
+    Direction,
+    Foot,
+    GaitSettings,
+    ManeuverPlan,
+    ManeuverPlanner,
+)
+from stepaside.poses import Pose
+
+PLANNER = ManeuverPlanner(GaitSettings())
+BEARINGS = st.floats(-3.14, 3.14)
+
+
+def start(
+    bearing: float,
+    foot: Foot = Foot.LEFT,
+    direction: Direction = Direction.BACKWARD,
+    planner: ManeuverPlanner = PLANNER,
+    count: int = 20,
+) -> ManeuverPlan:
+    return planner.plan(
+        bearing, direction, first_foot=foot, standing=True, count=count
+    )
+
+
+def follow(plan: ManeuverPlan, bearing: float) -> ManeuverPlan:
+    """Replan at the end of the first step, in the new support foot frame."""
+    end = plan.sample([plan.schedule.first_step_duration])
+    step = Pose(*plan.placements[2])
+    back = step.inverse()
+    x, y, _ = back.compose(Pose(*end.com[0], 0.0))
+    vx, vy, _ = Pose(0.0, 0.0, back.theta).compose(
+        Pose(*end.com_velocity[0], 0.0)
+    )
+    return PLANNER.plan(
+        bearing,
+        plan.direction,
+        first_foot=plan.first_foot.other,
+        state=CenterState((x, y), (vx, vy)),
+        swing_start=back.compose(Pose(*plan.placements[1])),
+    )
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    BEARINGS,
+    st.sampled_from(Foot),
+    st.sampled_from(Direction),
+    st.sampled_from(["linear", "cubic"]),
+)
+def test_plan_solves_the_pendulum_on_the_grid(
+    bearing: float,
+    foot: Foot,
+    direction: Direction,
+    profile: Literal["linear", "cubic"],
+) -> None:
+    """Velocity and acceleration by differences inside the phases."""
+    gait = replace(GaitSettings(), zmp_profile=profile)
+    plan = start(bearing, foot, direction, ManeuverPlanner(gait), 6)
+    h = 1e-4
+    times = np.arange(0.05, 3.5, 0.01)
+    gaps = np.abs(times[:, None] - plan.schedule.starts).min(axis=1)
+    times = times[gaps > 2 * h]
+    ahead, here, behind = (plan.sample(times + d) for d in (h, 0.0, -h))
+    speed = (ahead.com - behind.com) / (2 * h)
+    force = (ahead.com_velocity - behind.com_velocity) / (2 * h)
+    np.testing.assert_allclose(speed, here.com_velocity, atol=1e-6)
+    lever = gait.eta**2 * (here.com - here.zmp)
+    np.testing.assert_allclose(force, lever, atol=1e-5)
+    dcm = here.com + here.com_velocity / gait.eta
+    np.testing.assert_allclose(here.dcm, dcm, atol=1e-12)
+
+
+@settings(max_examples=25, deadline=None)
+@given(BEARINGS, st.sampled_from(Foot), st.sampled_from(Direction))
+def test_mirrored_bearing_mirrors_everything(
+    bearing: float, foot: Foot, direction: Direction
+) -> None:
+    times = np.arange(0.0, 4.0, 0.03)
+    one = start(bearing, foot, direction).sample(times)
+    other = start(-bearing, foot.other, direction).sample(times)
+    for name in ("zmp", "dcm", "com", "com_velocity"):
+        mirrored = getattr(other, name) * [1, -1]
+        np.testing.assert_allclose(mirrored, getattr(one, name), atol=1e-12)
+    np.testing.assert_allclose(
+        other.left_foot * [1, -1, -1], one.right_foot, atol=1e-12
+    )
+    np.testing.assert_allclose(other.left_height, one.right_height)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(BEARINGS, min_size=2, max_size=8), st.sampled_from(Direction))
+def test_com_is_continuous_through_any_replans(
+    bearings: list[float], direction: Direction
+) -> None:
+    """Position, velocity and acceleration, however the bearing jumps."""
+    plan = start(bearings[0], direction=direction, count=5)
+    for bearing in bearings[1:]:
+        end = plan.sample([plan.schedule.first_step_duration])
+        new = follow(plan, bearing)
+        begin = new.sample([0.0])
+        frame = Pose(*plan.placements[2])
+        spin = Pose(0.0, 0.0, frame.theta)
+        for name, to_old in (
+            ("com", frame),
+            ("com_velocity", spin),
+            ("zmp", frame),
+        ):
+            back = to_old.transform_points(getattr(begin, name))
+            np.testing.assert_allclose(back, getattr(end, name), atol=1e-9)
+        assert new.margin(new.schedule.first_step_duration) > 0.02
+        plan = new
+
+
+def test_correction_of_a_reversal_is_small() -> None:
+    """A reversal of the line of sight needs 2 mm of ZMP at most."""
+    plan = start(0.8, count=5)
+    for _ in range(4):
+        plan = follow(plan, 0.8)
+    reversed_plan = follow(plan, -0.8)
+    assert 1e-5 < np.abs(reversed_plan.correction).max() < 2e-3
+
+
+@given(st.floats(-1e-6, 1e-6))
+def test_small_bearing_is_smooth(bearing: float) -> None:
+    times = np.arange(0.0, 11.0, 0.1)
+    straight = start(0.0).sample(times)
+    bent = start(bearing).sample(times)
+    np.testing.assert_allclose(bent.com, straight.com, atol=2e-6)
+
+
+def test_swing_foot_lifts_off_and_touches_down_at_rest() -> None:
+    plan = start(0.9, count=4)
+    gait = PLANNER.settings
+    lift = gait.start_support
+    touch = lift + gait.single_support
+    h = 1e-4
+    for time in (lift, touch):
+        near = plan.sample([time - h, time, time + h])
+        rate = np.diff(near.left_foot, axis=0) / h
+        assert np.abs(rate).max() < 1e-4
+        assert np.abs(near.left_height).max() < 1e-6
+    middle = plan.sample([0.5 * (lift + touch)])
+    assert middle.left_height[0] == pytest.approx(gait.step_height)
+    end = plan.sample([plan.schedule.duration])
+    np.testing.assert_allclose(end.left_foot[0], plan.placements[4])
+    np.testing.assert_allclose(end.right_foot[0], plan.placements[5])
+
+
+def test_heights_and_feet_never_slide_on_the_floor() -> None:
+    plan = start(1.3, count=6)
+    samples = plan.sample(np.arange(0.0, plan.schedule.duration, 0.002))
+    for foot, height in (
+        (samples.left_foot, samples.left_height),
+        (samples.right_foot, samples.right_height),
+    ):
+        moving = np.abs(np.diff(foot, axis=0)).max(axis=1) > 1e-12
+        assert (height[1:][moving] + height[:-1][moving] > 0.0).all()
+
+
+def test_zmp_stays_inside_the_soles() -> None:
+    for bearing in (-3.0, -0.5, 0.0, 1.0, 3.0):
+        plan = start(bearing)
+        assert 0.03 < plan.margin() <= 0.035 + 1e-9
+
+
+def test_horizon_of_five_steps_decides_the_next_one() -> None:
+    """Truncation: the DCM at the start of a short and of a long plan."""
+    state = CenterState((0.01, 0.03), (0.05, -0.1))
+    plans = [
+        PLANNER.plan(
+            0.6,
+            Direction.FORWARD,
+            first_foot=Foot.LEFT,
+            state=state,
+            count=count,
+        )
+        for count in (5, 20)
+    ]
+    shifts = [plan.correction for plan in plans]
+    np.testing.assert_allclose(shifts[0], shifts[1], atol=1e-7)
+
+
+def test_halt_ends_at_rest_with_the_feet_abreast() -> None:
+    state = CenterState((0.02, 0.04), (0.05, -0.1))
+    plan = PLANNER.plan_halt(
+        first_foot=Foot.LEFT, state=state, swing_start=Pose(-0.04, 0.1, 0.0)
+    )
+    rest = plan.sample([plan.schedule.duration + 3.0])
+    np.testing.assert_allclose(rest.left_foot[0], [0.0, 0.1, 0.0])
+    np.testing.assert_allclose(rest.com[0], [0.02, 0.05], atol=1e-6)
+    np.testing.assert_allclose(rest.com_velocity[0], 0.0, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("speed", 0.0),
+        ("single_support", -0.1),
+        ("com_height", float("nan")),
+        ("stride", float("inf")),
+        ("foot_spacing", 0.05),
+        ("zmp_profile", "quintic"),
+        ("horizon", 0),
+        ("step_height", -0.01),
+        ("zmp_forward", 0.2),
+    ],
+)
+def test_impossible_gait_is_refused_by_name(name: str, value: Any) -> None:
+    with pytest.raises(PlanError, match=f"{name} must .*got '?{value}"):
+        replace(GaitSettings(), **{name: value})
+
+
+def test_missing_state_is_refused() -> None:
+    with pytest.raises(PlanError, match="state must be given"):
+        PLANNER.plan(0.1, Direction.FORWARD, first_foot=Foot.LEFT)
+
+
+def test_presets_are_the_two_readings_of_the_text() -> None:
+    walks, printed = PRESETS["nao"], PRESETS["as-printed"]
+    assert (walks.single_support, walks.double_support) == (0.425, 0.122)
+    assert (printed.single_support, printed.double_support) == (0.122, 0.425)
+    assert walks.step_duration == pytest.approx(0.547)
+    assert walks.path_interval == pytest.approx(0.4)
+
+
+def test_planning_imports_numpy_and_nothing_else() -> None:
+    """It must run on the robot, where there is no simulator."""
+    code = (
+        "import sys; import numpy; before = set(sys.modules);"
+        "import stepaside.planning;"
+        "new = {m.split('.')[0] for m in set(sys.modules) - before};"
+        "print(sorted(new - set(sys.stdlib_module_names)))"
+    )
+    out = subprocess.run(
+        [sys.executable, "-c", code],
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    assert out.stdout.strip() == "['numpy', 'stepaside']"

@@ -1,0 +1,39 @@
+"""Test planar poses as the group that they are."""
+
+from math import pi, tau
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from stepaside.poses import Pose, wrap_angle, wrap_angles
+
+NUMBERS = st.floats(-10.0, 10.0)
+POSES = st.builds(Pose, NUMBERS, NUMBERS, NUMBERS)
+
+
+@given(POSES, POSES, POSES)
+def test_composition_is_associative(a: Pose, b: Pose, c: Pose) -> None:
+    left = a.compose(b).compose(c)
+    right = a.compose(b.compose(c))
+    np.testing.assert_allclose(left, right, atol=1e-12)
+
+
+@given(POSES)
+def test_inverse_undoes_a_pose(a: Pose) -> None:
+    for both in (a.compose(a.inverse()), a.inverse().compose(a)):
+        np.testing.assert_allclose(both, (0.0, 0.0, 0.0), atol=1e-12)
+
+
+@given(POSES, NUMBERS, NUMBERS)
+def test_points_move_as_poses_do(a: Pose, x: float, y: float) -> None:
+    moved = a.transform_points([[x, y]])[0]
+    np.testing.assert_allclose(moved, a.compose(Pose(x, y, 0.0))[:2])
+
+
+@given(st.floats(-100.0, 100.0))
+def test_wrapped_angles_differ_by_whole_turns(angle: float) -> None:
+    for wrapped in (wrap_angle(angle), float(wrap_angles(angle))):
+        assert -pi <= wrapped <= pi
+        turns = (angle - wrapped) / tau
+        assert abs(turns - round(turns)) < 1e-9

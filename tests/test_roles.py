@@ -1,0 +1,72 @@
+"""Test the rules from line of sight to desired direction (Sec. II)."""
+
+from math import cos, pi, radians, sin
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from stepaside.control import Evasion, Pursuit
+from stepaside.errors import ConfigurationError
+from stepaside.planning import Direction
+
+
+def test_pursuer_heads_for_the_other() -> None:
+    assert Pursuit().desired_heading(0.4) == 0.4
+    assert Pursuit().direction is Direction.FORWARD
+
+
+@given(st.floats(-pi, pi))
+def test_moving_aside_is_across_the_line_of_sight_and_behind(
+    bearing: float,
+) -> None:
+    """Sec. II-B: of the two normals take the one behind the robot."""
+    heading = Evasion().desired_heading(bearing)
+    motion = (-cos(heading), -sin(heading))
+    along = motion[0] * cos(bearing) + motion[1] * sin(bearing)
+    assert along == pytest.approx(0.0, abs=1e-12)
+    assert motion[0] <= 1e-12
+
+
+@given(st.floats(-pi, pi))
+def test_moving_back_leads_away_from_the_other(bearing: float) -> None:
+    """Alpha = 0 taken literally in (5) would walk into the pursuer."""
+    heading = Evasion(angle=0.0).desired_heading(bearing)
+    away = -cos(heading) * cos(bearing) - sin(heading) * sin(bearing)
+    assert away == pytest.approx(-1.0)
+
+
+@given(st.floats(0.01, 3.1))
+def test_rule_is_the_same_on_both_sides(bearing: float) -> None:
+    left = Evasion(angle=1.0).desired_heading(bearing)
+    right = Evasion(angle=1.0).desired_heading(-bearing)
+    assert left == pytest.approx(-right)
+
+
+def test_noise_about_straight_ahead_does_not_flip_the_side() -> None:
+    role = Evasion()
+    first = role.desired_heading(0.02)
+    assert role.desired_heading(-0.02) == pytest.approx(first, abs=0.05)
+    flipped = role.desired_heading(radians(-40.0))
+    assert flipped == pytest.approx(radians(50.0))
+
+
+def test_evasion_latches_until_the_release_distance() -> None:
+    role = Evasion(safety_radius=0.8, release_distance=1.2)
+    distances = (1.0, 0.79, 1.0, 1.19, 1.21, 1.0, 0.7)
+    expected = (False, True, True, True, False, False, True)
+    assert tuple(map(role.is_triggered, distances)) == expected
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        {"angle": -0.1},
+        {"angle": float("nan")},
+        {"safety_radius": 0.0},
+        {"release_distance": 0.5},
+    ],
+)
+def test_impossible_evasion_is_refused(bad: dict[str, float]) -> None:
+    with pytest.raises(ConfigurationError, match=next(iter(bad))):
+        Evasion(**bad)  # type: ignore[arg-type]
