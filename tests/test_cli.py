@@ -1,6 +1,7 @@
 """Test the command line: JSON, run folders, refusals."""
 
 import json
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -135,7 +136,7 @@ def test_bad_input_is_refused_in_one_line(
     result = run(*line.split())
     assert result.exit_code == 2
     last = result.stderr.strip().splitlines()[-1]
-    assert __import__("re").search(message, last), last
+    assert re.search(message, last), last
     assert not list(tmp_path.iterdir())
 
 
@@ -160,7 +161,7 @@ def test_bad_configuration_is_refused(
     output = tmp_path / "run"
     result = run("duel", "--config", str(file), "--output", str(output))
     assert result.exit_code == 2
-    assert __import__("re").search(message, result.stderr), result.stderr
+    assert re.search(message, result.stderr), result.stderr
     assert not output.exists()
 
 

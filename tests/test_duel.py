@@ -58,9 +58,9 @@ def test_evader_stands_until_its_safety_area_is_entered() -> None:
 
 
 def test_released_evader_comes_to_rest() -> None:
-    """Moving back at once from a pursuer that heads elsewhere."""
+    """The pursuer heads elsewhere at first, and the distance grows."""
     settings = DuelSettings(
-        duration=16.0,
+        duration=14.0,
         start=StartSettings(0.7, 3.1, 0.0),
         strategy=StrategySettings(angle=0.0, release_distance=1.0),
     )

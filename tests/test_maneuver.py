@@ -43,9 +43,9 @@ def follow(plan: ManeuverPlan, bearing: float) -> ManeuverPlan:
     end = plan.sample([plan.schedule.first_step_duration])
     step = Pose(*plan.placements[2])
     back = step.inverse()
-    x, y, _ = back.compose(Pose(*end.com[0], 0.0))
+    x, y, _ = back.compose(Pose(*end.com[0].tolist(), 0.0))
     vx, vy, _ = Pose(0.0, 0.0, back.theta).compose(
-        Pose(*end.com_velocity[0], 0.0)
+        Pose(*end.com_velocity[0].tolist(), 0.0)
     )
     return PLANNER.plan(
         bearing,

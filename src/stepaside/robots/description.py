@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -31,6 +31,8 @@ class RobotDescription:
         legs: Leg joints.
         standing: Angles of a natural stance, by joint, in [rad].
         speed_limits: Greatest speed of each actuated joint, in [rad/s].
+        working_limits: Narrower ranges that joint motion keeps to, in
+            [rad], by joint; knees stay bent by them. Optional.
     """
 
     folder: Path
@@ -43,6 +45,9 @@ class RobotDescription:
     legs: tuple[str, ...]
     standing: dict[str, float]
     speed_limits: dict[str, float]
+    working_limits: dict[str, tuple[float, float]] = field(
+        default_factory=dict
+    )
 
     def mjcf(self) -> str:
         """Text of the MuJoCo model."""
@@ -103,6 +108,7 @@ class RobotDescription:
         self._require("foot", feet, "site", sites)
         self._require("legs", self.legs, "joint", joints)
         self._require("standing", self.standing, "joint", joints)
+        self._require("working_limits", self.working_limits, "joint", joints)
         self._require("speed_limits", self.speed_limits, "actuator", motors)
         self._require("actuator", motors, "speed limit", self.speed_limits)
 
@@ -155,7 +161,7 @@ def load_robot(robot: str | Path) -> RobotDescription:
                 f"{', '.join(names)}"
             )
     for key in names:
-        if key not in entries:
+        if key not in entries and key != "working_limits":
             raise ModelError(f"{folder / FILE}: entry {key!r} is missing")
     entries["legs"] = tuple(entries["legs"])
     return RobotDescription(folder=folder, **entries)

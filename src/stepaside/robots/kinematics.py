@@ -49,9 +49,7 @@ class LegKinematics:
         joint_names: Actuated joints, in the order of the joint targets.
     """
 
-    def __init__(
-        self, description: RobotDescription, *, tick: float
-    ) -> None:
+    def __init__(self, description: RobotDescription, *, tick: float) -> None:
         """Compile the robot's model, alone and without physics.
 
         Args:
@@ -71,7 +69,10 @@ class LegKinematics:
         legs = [n for n in description.legs if n not in followers]
         self._legs = np.array([model.joint(n).qposadr[0] for n in legs])
         self._low, self._high = np.array(
-            [model.joint(n).range for n in legs]
+            [
+                description.working_limits.get(n, model.joint(n).range)
+                for n in legs
+            ]
         ).T
         speeds = [description.speed_limits[n] for n in legs]
         self._reach = np.array(speeds) * tick
