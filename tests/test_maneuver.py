@@ -43,9 +43,10 @@ def follow(plan: ManeuverPlan, bearing: float) -> ManeuverPlan:
     end = plan.sample([plan.schedule.first_step_duration])
     step = Pose(*plan.placements[2])
     back = step.inverse()
-    x, y, _ = back.compose(Pose(*end.com[0].tolist(), 0.0))
+    com, velocity = end.com[0].tolist(), end.com_velocity[0].tolist()
+    x, y, _ = back.compose(Pose(com[0], com[1], 0.0))
     vx, vy, _ = Pose(0.0, 0.0, back.theta).compose(
-        Pose(*end.com_velocity[0].tolist(), 0.0)
+        Pose(velocity[0], velocity[1], 0.0)
     )
     return PLANNER.plan(
         bearing,

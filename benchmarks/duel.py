@@ -1,0 +1,59 @@
+"""Time a whole duel, beside bare physics of the same motion."""
+
+from time import process_time
+
+import mujoco
+import numpy as np
+
+from stepaside.simulation.duel import Duel
+from stepaside.simulation.settings import DuelSettings
+
+
+def measure_duel(duration: float = 60.0) -> dict[str, float]:
+    """Real-time factor, ratio to mj_step, and control tick.
+
+    The bare run repeats the commands of the duel, tick by tick, from the
+    same start: the same model, the same motion, the same contacts.
+    """
+    settings = DuelSettings(seed=1, duration=duration)
+    duel = Duel(settings)
+    data, model = duel.world.data, duel.world.model
+    bare = mujoco.MjData(model)
+    mujoco.mj_copyData(bare, model, data)
+    ticks = round(duration / settings.physics.tick)
+    commands = np.empty((ticks, model.nu))
+    start = process_time()
+    for tick in range(ticks):
+        if duel.tick() is not None:
+            raise SystemExit("the duel ended early")
+        commands[tick] = data.ctrl
+    whole = process_time() - start
+    start = process_time()
+    for command in commands:
+        bare.ctrl[:] = command
+        mujoco.mj_step(model, bare, nstep=settings.physics.steps_per_tick)
+    physics = process_time() - start
+    if not np.array_equal(bare.qpos, data.qpos):
+        raise SystemExit("the bare run went another way")
+    return {
+        "duel_s": duration,
+        "real_time_factor": duration / whole,
+        "bare_physics_real_time_factor": duration / physics,
+        "duel_over_bare_physics": whole / physics,
+        "control_tick_us": 1e6 * _control_tick(settings),
+    }
+
+
+def _control_tick(settings: DuelSettings) -> float:
+    """Time to read, plan, move and write for one robot, in [s]."""
+    duel = Duel(settings)
+    spent, count = 0.0, 0
+    for _ in range(5000):
+        start = process_time()
+        for robot, scheme in zip(duel.robots, duel.schemes, strict=True):
+            robot.write(scheme.update(robot.read()))
+        spent += process_time() - start
+        count += 2
+        for robot in duel.robots:
+            robot.step()
+    return spent / count

@@ -1,0 +1,94 @@
+"""Time the maneuver planner, beside Drake's ZMP planner on the same ZMP."""
+
+import numpy as np
+from timing import time_call
+
+from stepaside.planning import (
+    CenterState,
+    Direction,
+    Foot,
+    GaitSettings,
+    ManeuverPlan,
+    ManeuverPlanner,
+)
+from stepaside.poses import Pose
+
+BEARING = 0.7  # [rad]
+
+
+def measure_planner() -> dict[str, float]:
+    """Times of a replan, and of a long plan with its samples, in [us]."""
+    planner = ManeuverPlanner(GaitSettings())
+    state = CenterState((0.0, 0.03), (0.05, -0.1))
+    swing = Pose(0.04, 0.1, 0.05)
+
+    def replan() -> ManeuverPlan:
+        return planner.plan(
+            BEARING,
+            Direction.BACKWARD,
+            first_foot=Foot.LEFT,
+            state=state,
+            swing_start=swing,
+        )
+
+    def long_plan() -> ManeuverPlan:
+        return planner.plan(
+            BEARING,
+            Direction.BACKWARD,
+            first_foot=Foot.LEFT,
+            standing=True,
+            count=20,
+        )
+
+    plan = long_plan()
+    times = np.arange(0.0, plan.schedule.duration, 0.01)
+    sampler = plan.schedule.sampler(times)
+    with_samples = time_call(lambda: long_plan().sample(sampler))
+    return {
+        "replan_5_steps_us": 1e6 * time_call(replan),
+        "plan_20_steps_us": 1e6 * time_call(long_plan),
+        "plan_20_steps_with_samples_us": 1e6 * with_samples,
+        "samples": float(times.size),
+        **_measure_drake(plan, 1e6 * with_samples),
+    }
+
+
+def _measure_drake(plan: ManeuverPlan, ours_us: float) -> dict[str, float]:
+    """Drake's closed form given this plan's ZMP; empty without Drake."""
+    try:
+        from pydrake.planning import ZmpPlanner
+        from pydrake.polynomial import Polynomial
+        from pydrake.trajectories import PiecewisePolynomial
+    except ImportError:
+        return {}
+    schedule = plan.schedule
+    coefficients = plan.zmp_coefficients
+    pieces = [
+        np.array([[Polynomial(coefficients[:, i, axis])] for axis in range(2)])
+        for i in range(schedule.durations.size)
+    ]
+    # It wants an end at rest: say that the ZMP stays where it ends.
+    end = plan.sample([schedule.duration]).zmp[0]
+    pieces.append(np.array([[Polynomial(value)] for value in end]))
+    knots = [*schedule.starts.tolist(), schedule.duration + 0.1]
+    zmp = PiecewisePolynomial(pieces, knots)
+    start = plan.sample([0.0])
+    state = np.concatenate([start.com[0], start.com_velocity[0]])
+    gait = schedule.settings
+    weight = 1e-9 * np.eye(2)  # of the CoM acceleration: track the ZMP alone
+    drake = ZmpPlanner()
+
+    def solve() -> None:
+        drake.Plan(
+            zmp, state, gait.com_height, gait.gravity, np.eye(2), weight
+        )
+
+    drake_us = 1e6 * time_call(solve, calls=20)
+    times = np.arange(0.0, schedule.duration, 0.01)
+    theirs = np.array([drake.get_nominal_com(t).ravel() for t in times])
+    ours = plan.sample(times).com
+    return {
+        "drake_zmp_planner_us": drake_us,
+        "drake_over_ours": drake_us / ours_us,
+        "com_difference_to_drake_m": float(np.abs(theirs - ours).max()),
+    }
