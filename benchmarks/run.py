@@ -17,10 +17,20 @@ ROWS = {
         "<= 100",
     ),
     "drake_zmp_planner_us": ("Drake's ZmpPlanner on the same ZMP", "us", ""),
-    "drake_over_ours": (
-        "Drake over the row with samples",
+    "drake_with_samples_us": (
+        "the same, with CoM and its velocity every 10 ms",
+        "us",
+        "",
+    ),
+    "drake_over_plan": (
+        "Drake's plan over our plan of 20 steps",
         "times",
         ">= 10",
+    ),
+    "drake_over_plan_with_samples": (
+        "Drake's plan with samples over ours with samples",
+        "times",
+        "",
     ),
     "com_difference_to_drake_m": (
         "greatest difference of the two CoM trajectories",
@@ -45,6 +55,11 @@ ROWS = {
 def main() -> None:
     """Measure, print and write."""
     figures = measure_planner() | measure_duel()
+    for suffix in ("", "_with_samples"):
+        drake = "drake_zmp_planner_us" if not suffix else f"drake{suffix}_us"
+        if drake in figures:
+            ours = figures[f"plan_20_steps{suffix}_us"]
+            figures[f"drake_over_plan{suffix}"] = figures[drake] / ours
     lines = [
         "# Benchmark",
         "",

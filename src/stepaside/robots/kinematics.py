@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import mujoco
 import numpy as np
+from scipy.linalg.lapack import dposv
 
 from ..errors import ReachError
 from ..poses import Array
@@ -226,7 +227,9 @@ class LegKinematics:
         error[16] = -frame[0, 2]
         j = rows @ self._spread
         # J' (J J' + damping)^-1 e
-        step = j.T @ np.linalg.solve(j @ j.T + self._damping, error)
+        # The matrix is positive definite; LAPACK called without ceremony.
+        _, weights, _ = dposv(j @ j.T + self._damping, error)
+        step = j.T @ weights
         joints = step[6:]
         np.minimum(joints, reach, out=joints)
         np.maximum(joints, -reach, out=joints)
