@@ -63,6 +63,15 @@ def _add_floor(spec: mujoco.MjSpec, friction: float) -> None:
         width=256,
         height=256,
     )
+    spec.add_texture(
+        name="sky",
+        type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT,
+        rgb1=[0.93, 0.95, 0.97],
+        rgb2=[0.62, 0.72, 0.82],
+        width=64,
+        height=384,
+    )
     floor = spec.add_material(
         name="floor", texrepeat=[2, 2], texuniform=True, reflectance=0.05
     )
