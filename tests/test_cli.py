@@ -135,8 +135,9 @@ def test_bad_input_is_refused_in_one_line(
     monkeypatch.chdir(tmp_path)
     result = run(*line.split())
     assert result.exit_code == 2
-    last = result.stderr.strip().splitlines()[-1]
-    assert re.search(message, last), last
+    lines = result.stderr.strip().splitlines()
+    assert len(lines) == 1
+    assert re.search(message, lines[0]), lines[0]
     assert not list(tmp_path.iterdir())
 
 

@@ -2,6 +2,7 @@
 
 import sys
 from importlib import import_module
+from typing import Any, NoReturn
 
 import click
 
@@ -39,13 +40,24 @@ class LazyGroup(click.Group):
         with formatter.section("Commands"):
             formatter.write_dl(list(COMMANDS.items()))
 
-    def invoke(self, ctx: click.Context) -> object:
-        """Turn the package's errors into one line and exit status 2."""
+    def main(self, *args: Any, **extra: Any) -> NoReturn:
+        """Turn every refusal into one line and exit status 2."""
+        extra["standalone_mode"] = False
         try:
-            return super().invoke(ctx)
+            status = super().main(*args, **extra)
+        except click.ClickException as error:
+            _refuse(error.format_message())
         except StepAsideError as error:
-            click.echo(f"stepaside: {error}", err=True)
-            sys.exit(2)
+            _refuse(str(error))
+        except (click.Abort, KeyboardInterrupt):
+            click.echo("stepaside: interrupted", err=True)
+            sys.exit(130)
+        sys.exit(status if isinstance(status, int) else 0)
+
+
+def _refuse(message: str) -> NoReturn:
+    click.echo(f"stepaside: {' '.join(message.split())}", err=True)
+    sys.exit(2)
 
 
 @click.group(cls=LazyGroup)

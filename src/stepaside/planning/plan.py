@@ -1,0 +1,162 @@
+"""A maneuver that was planned, as a value (paper, Sec. III)."""
+
+from dataclasses import dataclass
+from math import inf
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..poses import Array
+from .footsteps import Foot, Footstep
+from .path import Direction
+from .schedule import Sampler, Schedule
+from .support import convex_hull, margin_inside, sole_corners
+from .zmp import evaluate
+
+
+class PlanSamples(NamedTuple):
+    """A plan at given times, in the plan frame.
+
+    Attributes:
+        times: Times since the plan began, in [s]. Shape (m,).
+        zmp: Zero moment point, in [m]. Shape (m, 2).
+        dcm: Divergent component of motion, in [m]. Shape (m, 2).
+        com: Center of mass, in [m]. Shape (m, 2).
+        com_velocity: Its velocity, in [m/s]. Shape (m, 2).
+        left_foot: Left foot (x [m], y [m], theta [rad]). Shape (m, 3).
+        left_height: Height of the left foot, in [m]. Shape (m,).
+        right_foot: Right foot, likewise. Shape (m, 3).
+        right_height: Height of the right foot, in [m]. Shape (m,).
+    """
+
+    times: Array
+    zmp: Array
+    dcm: Array
+    com: Array
+    com_velocity: Array
+    left_foot: Array
+    left_height: Array
+    right_foot: Array
+    right_height: Array
+
+
+@dataclass(frozen=True, slots=True)
+class ManeuverPlan:
+    """One maneuver: a value that is replaced, never edited.
+
+    The plan frame is the frame of the support foot of the first step.
+
+    Attributes:
+        schedule: Timing, with its constant maps.
+        bearing: Desired heading that was planned for, in [rad].
+        direction: Whether the robot walks forward or backward.
+        first_foot: Foot that lands first.
+        placements: Rows (x [m], y [m], theta [rad]): the first swing foot
+            and the support foot at the start, then the footsteps.
+            Shape (count + 2, 3).
+        inputs: Anchors, ZMP at the start, correction, CoM at the start, in
+            [m]; see :class:`~stepaside.planning.schedule.Schedule`.
+            Shape (count + 4, 2).
+    """
+
+    schedule: Schedule
+    bearing: float
+    direction: Direction
+    first_foot: Foot
+    placements: Array
+    inputs: Array
+
+    @property
+    def correction(self) -> Array:
+        """Greatest ZMP shift that keeps the CoM continuous. Shape (2,)."""
+        shift: Array = self.inputs[-2]
+        return shift
+
+    @property
+    def start_velocity(self) -> Array:
+        """CoM velocity at the start, in [m/s]. Shape (2,)."""
+        dcm = self.schedule.dcm_start_map @ self.inputs
+        velocity: Array = self.schedule.settings.eta * (dcm - self.inputs[-1])
+        return velocity
+
+    @property
+    def footsteps(self) -> tuple[Footstep, ...]:
+        """Footsteps in landing order."""
+        foot, steps = self.first_foot, []
+        for x, y, theta in self.placements[2:].tolist():
+            steps.append(Footstep(foot, x, y, theta))
+            foot = foot.other
+        return tuple(steps)
+
+    @property
+    def zmp_coefficients(self) -> Array:
+        """ZMP of each phase by power of local time. Shape (4, phases, 2)."""
+        coefficients: Array = self.schedule.zmp_map.coefficients @ self.inputs
+        return coefficients
+
+    def margin(self, duration: float | None = None) -> float:
+        """Least distance of the ZMP from the edge of the support polygon.
+
+        Args:
+            duration: Part of the plan to look at from its start, in [s];
+                all of it by default.
+
+        Returns:
+            Margin, in [m], negative if the ZMP leaves the polygon.
+        """
+        schedule, sole = self.schedule, self.schedule.settings.sole
+        coefficients = self.zmp_coefficients
+        first = 1 if schedule.standing else 0
+        least = inf
+        for phase, (start, lasts) in enumerate(
+            zip(schedule.starts.tolist(), schedule.durations, strict=False)
+        ):
+            if duration is not None and start >= duration - 1e-9:
+                break
+            zmp = evaluate(
+                np.repeat(coefficients[:, phase, None], 21, axis=1),
+                np.linspace(0.0, lasts, 21),
+            )
+            step, double = divmod(phase - first, 2)
+            rows = (step + 1, step + 2) if double else (step + 1,)
+            corners = [
+                sole_corners(self.placements[row], self._foot(row), sole)
+                for row in (rows if step >= 0 else (0, 1))
+            ]
+            polygon = convex_hull(np.concatenate(corners))
+            least = min(least, float(margin_inside(zmp, polygon).min()))
+        return least
+
+    def _foot(self, row: int) -> Foot:
+        """Side of a row of the placements."""
+        return self.first_foot if row % 2 == 0 else self.first_foot.other
+
+    def sample(self, times: ArrayLike | Sampler) -> PlanSamples:
+        """Evaluate the plan.
+
+        Args:
+            times: Times since the plan began, in [s], shape (m,); or a
+                sampler of this plan's schedule, which is faster.
+        """
+        sampler = (
+            times
+            if isinstance(times, Sampler)
+            else self.schedule.sampler(times)
+        )
+        m = sampler.times.size
+        pendulum = (sampler.pendulum @ self.inputs).reshape(3, m, 2)
+        feet = (sampler.feet @ self.placements).reshape(2, m, 3)
+        zmp, dcm, com = pendulum
+        velocity = dcm - com
+        velocity *= self.schedule.settings.eta
+        support = (feet[0], sampler.support_height)
+        swing = (feet[1], sampler.swing_height)
+        left, right = (
+            (swing, support)
+            if self.first_foot is Foot.LEFT
+            else (support, swing)
+        )
+        return PlanSamples(
+            sampler.times, zmp, dcm, com, velocity, *left, *right
+        )

@@ -1,0 +1,69 @@
+"""Test that the house stands: imports point down, doors open."""
+
+import ast
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+import stepaside
+
+ROOT = Path(stepaside.__file__).parent
+# From the ground up; a room imports from rooms below it and from itself.
+FLOORS = {
+    "errors": 0,
+    "poses": 1,
+    "unicycle": 2,
+    "robots": 2,
+    "planning": 3,
+    "control": 4,
+    "simulation": 5,
+    "report": 6,
+    "commands": 7,
+    "cli": 8,
+}
+MODULES = sorted(ROOT.rglob("*.py"))
+
+
+def room_of(parts: tuple[str, ...]) -> str:
+    return parts[0] if parts else ""
+
+
+def imported_rooms(file: Path) -> set[str]:
+    """Rooms that a module imports from, wherever in it."""
+    here = file.relative_to(ROOT).with_suffix("").parts
+    rooms = set()
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if not isinstance(node, ast.ImportFrom) or not node.level:
+            continue
+        base = here[: len(here) - node.level]
+        names = (node.module or "").split(".") if node.module else []
+        if base or names:
+            rooms.add(room_of((*base, *names)))
+        else:
+            rooms.update(alias.name for alias in node.names)
+    return rooms
+
+
+@pytest.mark.parametrize("file", MODULES, ids=lambda f: f.stem)
+def test_imports_point_down(file: Path) -> None:
+    room = room_of(file.relative_to(ROOT).with_suffix("").parts)
+    if room == "__init__":
+        return
+    for other in imported_rooms(file) - {room, "__version__"}:
+        assert FLOORS[other] < FLOORS[room], f"{file} imports {other}"
+
+
+@pytest.mark.parametrize("file", MODULES, ids=lambda f: f.stem)
+def test_no_file_is_longer_than_300_lines(file: Path) -> None:
+    assert len(file.read_text(encoding="utf-8").splitlines()) <= 300
+
+
+@pytest.mark.parametrize("room", ["planning", "control", "simulation"])
+def test_every_name_at_the_door_exists(room: str) -> None:
+    module = import_module(f"stepaside.{room}")
+    assert list(module.__all__) == sorted(
+        module.__all__, key=lambda name: (not name.isupper(), name)
+    )
+    for name in module.__all__:
+        assert getattr(module, name) is not None
