@@ -49,9 +49,7 @@ class LegKinematics:
         joint_names: Actuated joints, in the order of the joint targets.
     """
 
-    def __init__(
-        self, description: RobotDescription, *, tick: float
-    ) -> None:
+    def __init__(self, description: RobotDescription, *, tick: float) -> None:
         """Compile the robot's model, alone and without physics.
 
         Args:

@@ -137,9 +137,7 @@ class Duel:
         self.schemes = []
         self.robots = []
         for name, role, frame in zip(NAMES, roles, frames, strict=True):
-            kinematics = LegKinematics(
-                description, tick=settings.physics.tick
-            )
+            kinematics = LegKinematics(description, tick=settings.physics.tick)
             self.schemes.append(
                 ControlScheme(
                     role,
