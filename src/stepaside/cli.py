@@ -12,6 +12,9 @@ from .errors import StepAsideError
 COMMANDS = {
     "duel": "Let two humanoids chase each other in physics.",
     "plan": "Plan one maneuver: footsteps, ZMP and CoM.",
+    "unicycles": "Play one game of two unicycles (Sec. II).",
+    "circle": "Find the circle of a game in closed form.",
+    "map": "Map games over their starts: closest approach, worst start.",
     "robot": "Show a robot, or write its model.",
 }
 

@@ -1,6 +1,7 @@
 """Linearisation of the game about a circle."""
 
 from math import inf
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,7 +73,7 @@ def jacobian(
     return closed
 
 
-def sorted_eigenvalues(matrix: Array) -> tuple[complex, ...]:
+def sorted_eigenvalues(matrix: NDArray[Any]) -> tuple[complex, ...]:
     """Eigenvalues, the slowest (largest real part) first."""
     values = [complex(value) for value in np.linalg.eigvals(matrix)]
     return tuple(sorted(values, key=lambda s: (-s.real, -s.imag)))

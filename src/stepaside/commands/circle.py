@@ -1,0 +1,150 @@
+"""``stepaside circle``: the circle of a game, from its equations."""
+
+from typing import Any
+
+import click
+
+from ..unicycle.laws import Game
+from .game_options import (
+    check_figure_folder,
+    describe_game,
+    finite,
+    game_options,
+)
+from .options import NumberType, json_option, print_json, print_table
+
+TIME = NumberType("s", allow_zero=True)
+
+
+@click.command("circle")
+@game_options
+@click.option(
+    "--sample-time",
+    type=TIME,
+    default=0.0,
+    show_default=True,
+    help="Time for which turning rates are held, in [s].",
+)
+@click.option(
+    "--delay",
+    type=TIME,
+    default=0.0,
+    show_default=True,
+    help="Age of a perception when it takes effect, in [s].",
+)
+@click.option(
+    "--sweep",
+    type=click.Path(dir_okay=False),
+    help="Write a figure over angle and ratios of gains and speeds.",
+)
+@json_option
+def circle(
+    game: Game,
+    sample_time: float,
+    delay: float,
+    sweep: str | None,
+    as_json: bool,
+) -> None:
+    """Find the circle that a game ends on, and how firmly it holds."""
+    check_figure_folder(sweep)
+    result = describe_circle(game, sample_time, delay)
+    if sweep is not None:
+        from ..report.unicycle_sweep import draw_sweep
+
+        draw_sweep(game, sweep)
+        result["figure"] = sweep
+    if as_json:
+        print_json(result)
+        return
+    if not result["exists"]:
+        click.echo("There is no circle for these speeds, gains and angle.")
+        return
+    print_table(
+        [
+            (name, _text(value))
+            for name, value in result.items()
+            if name != "game"
+        ]
+    )
+
+
+def describe_circle(
+    game: Game, sample_time: float = 0.0, delay: float = 0.0
+) -> dict[str, Any]:
+    """Give the circle of a game as plain values, None where undefined."""
+    from ..unicycle.circling import circle_of
+
+    found = circle_of(game)
+    names = (
+        "radius_pursuer_m",
+        "radius_evader_m",
+        "distance_m",
+        "turning_rate_rad_s",
+        "headings_apart_rad",
+        "motions_apart_rad",
+        "pursuer_error_rad",
+        "evader_error_rad",
+        "time_constant_s",
+    )
+    result: dict[str, Any] = {"exists": found.exists}
+    result["radius_m"] = finite(found.radius_pursuer_m)
+    result |= {name: finite(getattr(found, name)) for name in names}
+    result["eigenvalues_per_s"] = _pairs(found.eigenvalues)
+    result["stable"] = found.stable if found.exists else None
+    result["sliding"] = found.sliding
+    result["sample_time_s"], result["delay_s"] = sample_time, delay
+    if found.exists:
+        result |= _describe_sampling(game, found.sliding, sample_time, delay)
+    result["game"] = describe_game(game)
+    return result
+
+
+def _describe_sampling(
+    game: Game, sliding: bool, sample_time: float, delay: float
+) -> dict[str, Any]:
+    """Stability under sampling and delay; empty where it is not defined.
+
+    The eigenvalues named per second then stay those without sampling.
+    """
+    from ..unicycle import sampled_stability as sampled
+
+    if sliding:  # it chatters about the circle: no linearisation
+        asked = sample_time > 0.0 or delay > 0.0
+        return {"stable": None, "time_constant_s": None} if asked else {}
+    result: dict[str, Any] = {
+        "largest_stable_sample_time_s": finite(
+            sampled.largest_stable_sample_time(game, delay)
+        ),
+        "largest_stable_delay_s": finite(
+            sampled.largest_stable_delay(game, sample_time)
+        ),
+    }
+    if sample_time > 0.0:
+        from math import log
+
+        values = sampled.step_eigenvalues(game, sample_time, delay)
+        size = abs(values[0])
+        result["step_eigenvalues"] = _pairs(values)
+        result["stable"] = size < 1.0
+        settle = -sample_time / log(size) if 0.0 < size < 1.0 else None
+        result["time_constant_s"] = settle
+    elif delay > 0.0:
+        values = sampled.delayed_eigenvalues(game, delay)
+        rate = values[0].real
+        result["delayed_eigenvalues_per_s"] = _pairs(values)
+        result["stable"] = rate < 0.0
+        result["time_constant_s"] = -1.0 / rate if rate < 0.0 else None
+    return result
+
+
+def _pairs(values: tuple[complex, ...]) -> list[list[float]]:
+    return [[value.real, value.imag] for value in values]
+
+
+def _text(value: Any) -> str:
+    """A value as a cell of the table."""
+    if isinstance(value, list):
+        return ", ".join(f"{re:.6g}{im:+.6g}i" for re, im in value)
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    return "-" if value is None else str(value)

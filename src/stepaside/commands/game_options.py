@@ -1,0 +1,153 @@
+"""Options that say which game of unicycles is played."""
+
+from collections.abc import Callable
+from functools import wraps
+from math import pi
+from typing import Any
+
+import click
+
+from ..unicycle.laws import Game, SideRule, TurningLaw, make_game
+from .options import ANGLE, NumberType
+
+SPEED = NumberType("m/s")
+GAIN = NumberType("1/s")
+STRATEGIES = {"move-aside": pi / 2, "move-back": 0.0}
+
+_OPTIONS = [
+    click.option(
+        "--speed",
+        type=SPEED,
+        default=1.0,
+        show_default=True,
+        help="Speed of both, in [m/s].",
+    ),
+    click.option(
+        "--gain",
+        type=GAIN,
+        default=0.5,
+        show_default=True,
+        help="Steering gain of both, in [1/s].",
+    ),
+    click.option("--pursuer-speed", type=SPEED, help="Instead of --speed."),
+    click.option("--evader-speed", type=SPEED, help="Instead of --speed."),
+    click.option("--pursuer-gain", type=GAIN, help="Instead of --gain."),
+    click.option("--evader-gain", type=GAIN, help="Instead of --gain."),
+    click.option(
+        "--angle",
+        type=ANGLE,
+        help="Evasion angle, like 1.2, 1.2rad or 70deg. [default: 90deg]",
+    ),
+    click.option(
+        "--strategy",
+        type=click.Choice(list(STRATEGIES)),
+        help="Evasion angle by name: 90deg or 0.",
+    ),
+    click.option(
+        "--law",
+        type=click.Choice([law.value for law in TurningLaw]),
+        default="proportional",
+        show_default=True,
+        help="Turning law of the evader: eq. (4) or eq. (6).",
+    ),
+    click.option(
+        "--side-rule",
+        type=click.Choice([rule.value for rule in SideRule]),
+        default="behind",
+        show_default=True,
+        help="Side behind the evader at every instant, or kept.",
+    ),
+    click.option(
+        "--hysteresis",
+        type=ANGLE,
+        default=0.0,
+        show_default=True,
+        help="Angle beyond its axis at which the evader changes side.",
+    ),
+]
+
+
+def game_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options to a command; it gets the game as ``game``."""
+
+    @wraps(function)
+    def command(**values: Any) -> Any:
+        game = _take_game(values)
+        return function(game=game, **values)
+
+    for option in reversed(_OPTIONS):
+        command = option(command)
+    return command
+
+
+def _take_game(values: dict[str, Any]) -> Game:
+    """Take the game's options out of a command's values."""
+    speed, gain = values.pop("speed"), values.pop("gain")
+    angle, strategy = values.pop("angle"), values.pop("strategy")
+    if angle is not None and strategy is not None:
+        raise click.UsageError("give --angle or --strategy, not both")
+    if angle is None:
+        angle = STRATEGIES[strategy or "move-aside"]
+    if not 0.0 <= angle <= pi:
+        raise click.BadParameter(
+            f"must lie in [0, pi] [rad], got {angle}", param_hint="--angle"
+        )
+    hysteresis = values.pop("hysteresis")
+    largest = min(angle, pi - angle)
+    if not 0.0 <= hysteresis <= largest:
+        raise click.BadParameter(
+            f"must lie in [0, {largest:g}] [rad], got {hysteresis}",
+            param_hint="--hysteresis",
+        )
+    return make_game(
+        _first(values.pop("pursuer_speed"), speed),
+        _first(values.pop("evader_speed"), speed),
+        _first(values.pop("pursuer_gain"), gain),
+        _first(values.pop("evader_gain"), gain),
+        angle,
+        values.pop("law"),
+        side_rule=values.pop("side_rule"),
+        hysteresis=hysteresis,
+    )
+
+
+def _first(value: float | None, otherwise: float) -> float:
+    return otherwise if value is None else value
+
+
+def describe_game(game: Game) -> dict[str, float | str]:
+    """Parameters of a game, for JSON."""
+    return {
+        "pursuer_speed_m_s": game.pursuer.speed,
+        "evader_speed_m_s": game.evader.speed,
+        "pursuer_gain_per_s": game.pursuer.gain,
+        "evader_gain_per_s": game.evader.gain,
+        "angle_rad": game.angle,
+        "law": game.law.value,
+        "side_rule": game.side_rule.value,
+        "hysteresis_rad": game.hysteresis,
+    }
+
+
+def finite(value: float) -> float | None:
+    """A number for JSON: None where there is none."""
+    return value if abs(value) < float("inf") else None
+
+
+def check_figure_folder(path: str | None) -> None:
+    """Refuse, before any work, a figure that could not be written."""
+    from pathlib import Path
+
+    if path is None:
+        return
+    formats = (".png", ".svg", ".pdf")
+    if Path(path).suffix not in formats:
+        raise click.BadParameter(
+            f"must end in {', '.join(formats)}, got {path!r}",
+            param_hint="--figure",
+        )
+    if not Path(path).parent.is_dir():
+        raise click.BadParameter(
+            f"must be in a folder that exists, got {path!r}",
+            param_hint="--figure",
+        )

@@ -1,0 +1,174 @@
+"""``stepaside map``: closest approach, settling and capture over starts."""
+
+from math import pi
+from typing import Any
+
+import click
+
+from ..unicycle.laws import Game
+from .game_options import (
+    check_figure_folder,
+    describe_game,
+    finite,
+    game_options,
+)
+from .options import (
+    ANGLE,
+    METERS,
+    NumberType,
+    json_option,
+    print_json,
+    print_table,
+)
+
+TIME = NumberType("s")
+
+
+@click.command("map")
+@game_options
+@click.option(
+    "--nearest", type=METERS, help="Least distance [m]. [default: 1.6 v/k]"
+)
+@click.option(
+    "--farthest", type=METERS, help="Largest distance [m]. [default: 4 v/k]"
+)
+@click.option(
+    "--aim",
+    type=ANGLE,
+    default=pi,
+    help="Largest bearing of the evader seen by the pursuer. [default: pi]",
+)
+@click.option(
+    "--facing",
+    type=ANGLE,
+    default=pi,
+    help="Largest bearing of the pursuer seen by the evader. [default: pi]",
+)
+@click.option(
+    "--body",
+    type=METERS,
+    help="Distance that counts as capture [m]. [default: 0.1 v/k]",
+)
+@click.option(
+    "--grid",
+    type=click.IntRange(2, 400),
+    default=25,
+    show_default=True,
+    help="Points along each bearing.",
+)
+@click.option(
+    "--distances",
+    type=click.IntRange(1, 400),
+    default=6,
+    show_default=True,
+    help="Points along the distance.",
+)
+@click.option(
+    "--duration", type=TIME, help="Of each game, in [s]. [default: 30/k]"
+)
+@click.option(
+    "--step", type=TIME, help="Of the integration, in [s]. [default: .01/k]"
+)
+@click.option(
+    "--figure", type=click.Path(dir_okay=False), help="Write a figure."
+)
+@json_option
+def map(  # noqa: A001 (the command's name)
+    game: Game,
+    nearest: float | None,
+    farthest: float | None,
+    aim: float,
+    facing: float,
+    body: float | None,
+    grid: int,
+    distances: int,
+    duration: float | None,
+    step: float | None,
+    figure: str | None,
+    as_json: bool,
+) -> None:
+    """Play games from everywhere and find the worst start."""
+    import numpy as np
+    from tqdm import tqdm
+
+    from ..unicycle.maps import StartBox, find_worst_start, map_starts
+
+    check_figure_folder(figure)
+    for name, value in (("--aim", aim), ("--facing", facing)):
+        if not 0.0 <= value <= pi:
+            raise click.BadParameter(
+                f"must lie in [0, pi] [rad], got {value}", param_hint=name
+            )
+    unit = game.evader.speed / game.evader.gain
+    box = StartBox(
+        1.6 * unit if nearest is None else nearest,
+        4.0 * unit if farthest is None else farthest,
+        aim,
+        facing,
+    )
+    body = 0.1 * unit if body is None else body
+    gain = min(game.pursuer.gain, game.evader.gain)
+    duration = 30.0 / gain if duration is None else duration
+    step = 0.01 / gain if step is None else step
+    shape = (distances, grid, grid)
+    total = distances * grid * grid
+    with tqdm(total=total, unit="game", disable=as_json, leave=False) as bar:
+        found = map_starts(
+            game,
+            box,
+            duration,
+            shape=shape,
+            step=step,
+            capture_distance=body,
+            progress=bar.update,
+        )
+    worst = find_worst_start(
+        game, found, box, duration, step=step, capture_distance=body
+    )
+    out = found.outcomes
+    settled = out.settled_time[np.isfinite(out.settled_time)]
+    result: dict[str, Any] = {
+        "games": total,
+        "games_to_refine": worst.games - total,
+        "min_distance_m": worst.closest_distance,
+        "worst_start": {
+            "distance_m": worst.start.distance,
+            "pursuer_error_rad": worst.start.pursuer_error,
+            "bearing_rad": worst.start.bearing,
+            "captured": worst.captured,
+        },
+        "mean_closest_distance_m": float(out.closest_distance.mean()),
+        "captured_share": float(out.captured.mean()),
+        "settled_share": len(settled) / total,
+        "settled_time_median_s": finite(
+            float(np.median(settled)) if len(settled) else float("inf")
+        ),
+        "settled_time_largest_s": finite(
+            float(settled.max()) if len(settled) else float("inf")
+        ),
+        "body_m": body,
+        "duration_s": duration,
+        "step_s": step,
+        "box": {
+            "nearest_m": box.nearest,
+            "farthest_m": box.farthest,
+            "aim_rad": box.aim,
+            "facing_rad": box.facing,
+        },
+        "game": describe_game(game),
+    }
+    if figure is not None:
+        from ..report.unicycle_map import draw_map
+
+        draw_map(found, figure, body=body)
+        result["figure"] = figure
+    if as_json:
+        print_json(result)
+        return
+    rows = [
+        (name, f"{value:.6g}" if isinstance(value, float) else str(value))
+        for name, value in result.items()
+        if not isinstance(value, dict)
+    ]
+    start = result["worst_start"]
+    print_table([*rows, *((f"worst {k}", str(v)) for k, v in start.items())])

@@ -1,0 +1,213 @@
+"""``stepaside unicycles``: one game, as a table, a figure and JSON."""
+
+from dataclasses import asdict
+from typing import Any
+
+import click
+
+from ..unicycle.laws import Game
+from .circle import describe_circle
+from .game_options import (
+    check_figure_folder,
+    describe_game,
+    finite,
+    game_options,
+)
+from .options import (
+    ANGLE,
+    METERS,
+    NumberType,
+    json_option,
+    print_json,
+    print_table,
+)
+
+TIME = NumberType("s")
+
+
+@click.command("unicycles")
+@game_options
+@click.option(
+    "--distance", type=METERS, help="At the start, in [m]. [default: 2.5 v/k]"
+)
+@click.option(
+    "--aim",
+    type=ANGLE,
+    default=0.2,
+    show_default=True,
+    help="Bearing of the evader seen by the pursuer at the start.",
+)
+@click.option(
+    "--bearing",
+    type=ANGLE,
+    default=-0.1,
+    show_default=True,
+    help="Bearing of the pursuer seen by the evader at the start.",
+)
+@click.option(
+    "--duration",
+    type=TIME,
+    help="Length of the game, in [s]. [default: until it has settled]",
+)
+@click.option(
+    "--sample-time",
+    type=NumberType("s", allow_zero=True),
+    default=0.0,
+    help="Hold the turning rates for this long, in [s].",
+)
+@click.option(
+    "--delay",
+    type=NumberType("s", allow_zero=True),
+    default=0.0,
+    help="Age of a perception when it takes effect, in [s].",
+)
+@click.option(
+    "--capture-distance",
+    type=METERS,
+    default=1e-6,
+    show_default=True,
+    help="Distance at which the game ends, in [m].",
+)
+@click.option(
+    "--figure", type=click.Path(dir_okay=False), help="Write a figure."
+)
+@json_option
+def unicycles(
+    game: Game,
+    distance: float | None,
+    aim: float,
+    bearing: float,
+    duration: float | None,
+    sample_time: float,
+    delay: float,
+    capture_distance: float,
+    figure: str | None,
+    as_json: bool,
+) -> None:
+    """Play one game of two unicycles until it has settled."""
+    from ..unicycle.measure import settling_time
+    from ..unicycle.relative import Start
+
+    check_figure_folder(figure)
+    if distance is None:
+        distance = 2.5 * game.evader.speed / game.evader.gain
+    if duration is None:
+        duration = settling_time(game)
+    if delay > 0.0 and sample_time == 0.0:
+        raise click.UsageError("--delay needs --sample-time > 0 [s] here")
+    start = Start(distance, aim, bearing)
+    result: dict[str, Any] = {
+        "start": asdict(start),
+        "capture_distance_m": capture_distance,
+        "sample_time_s": sample_time,
+        "delay_s": delay,
+        "game": describe_game(game),
+    }
+    if sample_time > 0.0:
+        if figure is not None:
+            raise click.UsageError("--figure draws games without sampling")
+        times = (duration, sample_time, delay)
+        result |= _play_sampled(game, start, times, capture_distance)
+    else:
+        result |= _play(game, start, duration, capture_distance, figure)
+    theory = describe_circle(game)
+    result["theory"] = {
+        name: theory[name] for name in ("exists", *_NAMES, "time_constant_s")
+    }
+    if as_json:
+        print_json(result)
+    else:
+        _print(result)
+
+
+_NAMES = (
+    "radius_m",
+    "radius_pursuer_m",
+    "radius_evader_m",
+    "distance_m",
+    "turning_rate_rad_s",
+    "headings_apart_rad",
+    "motions_apart_rad",
+)
+
+
+def _play(
+    game: Game, start: Any, duration: float, capture: float, figure: str | None
+) -> dict[str, Any]:
+    """Play by the adaptive integrator and measure the paths."""
+    from ..unicycle.measure import measure
+    from ..unicycle.simulate import simulate
+
+    run = simulate(game, start, duration, capture_distance=capture)
+    result: dict[str, Any] = {
+        "captured": run.captured,
+        "end_time_s": run.end_time,
+        "closest_distance_m": run.closest_distance,
+        "closest_time_s": run.closest_time,
+        "switch_times_s": list(run.switches),
+    }
+    if not run.captured:
+        found = {k: finite(v) for k, v in asdict(measure(run)).items()}
+        result |= {"radius_m": found["radius_pursuer_m"]} | found
+        result["turning_rate_rad_s"] = abs(found["turning_rate_rad_s"] or 0.0)
+    if figure is not None:
+        from ..report.unicycle_figures import draw_game
+
+        draw_game(run, figure)
+        result["figure"] = figure
+    return result
+
+
+def _play_sampled(
+    game: Game, start: Any, times: tuple[float, float, float], capture: float
+) -> dict[str, Any]:
+    """Play with held turning rates; the circle from the last rates."""
+    from math import pi
+
+    from ..poses import wrap_angle
+    from ..unicycle.sampled import simulate_sampled
+
+    duration, period, delay = times
+    run = simulate_sampled(
+        game,
+        start,
+        duration,
+        period,
+        delay=delay,
+        capture_distance=capture,
+    )
+    result: dict[str, Any] = {
+        "captured": run.captured,
+        "end_time_s": float(run.times[-1]),
+        "closest_distance_m": run.closest_distance,
+    }
+    if run.captured or not len(run.turning_rates):
+        return result
+    turn_p, turn_e = abs(run.turning_rates[-1]).tolist()
+    heading = float(run.pursuer[-1, 2] - run.evader[-1, 2])
+    return result | {
+        "radius_m": finite(game.pursuer.speed / max(turn_p, 1e-300)),
+        "radius_pursuer_m": finite(game.pursuer.speed / max(turn_p, 1e-300)),
+        "radius_evader_m": finite(game.evader.speed / max(turn_e, 1e-300)),
+        "distance_m": float(run.states[-1, 0]),
+        "turning_rate_rad_s": turn_p,
+        "headings_apart_rad": abs(wrap_angle(heading)),
+        "motions_apart_rad": abs(wrap_angle(heading + pi)),
+    }
+
+
+def _print(result: dict[str, Any]) -> None:
+    """Print measured values beside the closed form."""
+    theory = result["theory"]
+    rows = [("", "simulated    closed form")]
+    for name in _NAMES[1:]:
+        cells = [result.get(name), theory[name]]
+        texts = ["-" if c is None else f"{c:.6g}" for c in cells]
+        rows.append((name, f"{texts[0]:<12} {texts[1]}"))
+    rows.append(("captured", "yes" if result["captured"] else "no"))
+    rows.append(("end_time_s", f"{result['end_time_s']:.6g}"))
+    closest = result["closest_distance_m"]
+    rows.append(("closest_distance_m", f"{closest:.6g}"))
+    if "figure" in result:
+        rows.append(("figure", result["figure"]))
+    print_table(rows)

@@ -1,0 +1,79 @@
+"""Figure of a game of unicycles in the manner of the paper's Fig. 2."""
+
+from typing import Any
+
+import numpy as np
+
+from ..poses import Array
+from ..unicycle.circling import circle_of
+from ..unicycle.simulate import Run
+from .style import EVADER, PURSUER, plt
+
+TICK = 0.5  # [m], as in Fig. 2
+_FRACTIONS = (0.0, 0.12, 0.4, 1.0)  # of the time shown
+
+
+def draw_game(run: Run, path: str, *, shown: float | None = None) -> None:
+    """Write four snapshots of a game, ticks 0.5 m apart.
+
+    Args:
+        run: The game.
+        path: File, of a format that its suffix tells.
+        shown: Time of the last snapshot, in [s]; by default five time
+            constants of the circle and one turn, at most the whole game.
+    """
+    if shown is None:
+        circle = circle_of(run.game)
+        shown = run.end_time
+        if circle.exists and circle.stable:
+            turn = 2.0 * np.pi / circle.turning_rate_rad_s
+            shown = min(shown, 5.0 * circle.time_constant_s + turn)
+    times = np.linspace(0.0, shown, 1200)
+    pursuer, evader = run.poses(times)
+    both = np.vstack([pursuer[:, :2], evader[:, :2]])
+    middle = 0.5 * (both.min(axis=0) + both.max(axis=0))
+    half = 0.55 * float(np.ptp(both, axis=0).max()) + TICK
+    figure, axes = plt.subplots(2, 2, figsize=(7.4, 7.6), sharex=True)
+    for ax, fraction in zip(axes.flat, _FRACTIONS, strict=True):
+        end = max(1, round(fraction * len(times)))
+        _draw_paths(ax, pursuer[:end], evader[:end], 0.06 * half)
+        ax.set_title(f"t = {times[end - 1]:.1f} s")
+        ax.set_aspect("equal")
+        ax.set_xlim(middle[0] - half, middle[0] + half)
+        ax.set_ylim(middle[1] - half, middle[1] + half)
+        if half < 40.0 * TICK:  # beyond, ticks would be a grey bar
+            ax.set_xticks(_ticks(middle[0], half), minor=True)
+            ax.set_yticks(_ticks(middle[1], half), minor=True)
+            ax.grid(which="minor", alpha=0.15)
+    for ax in axes[-1]:
+        ax.set_xlabel("x [m]")
+    for ax in axes[:, 0]:
+        ax.set_ylabel("y [m]")
+    handles, labels = axes[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=2)
+    figure.suptitle("Pursuer and evader; ticks are 0.5 m apart", fontsize=10)
+    figure.savefig(path)
+    plt.close(figure)
+
+
+def _ticks(middle: float, half: float) -> Array:
+    low, high = np.ceil((middle - half) / TICK), (middle + half) / TICK
+    ticks: Array = TICK * np.arange(low, high)
+    return ticks
+
+
+def _draw_paths(ax: Any, pursuer: Array, evader: Array, size: float) -> None:
+    """Draw both paths, and both players where they are."""
+    players = (
+        ("pursuer", pursuer, PURSUER, "-"),
+        ("evader", evader, EVADER, "--"),
+    )
+    for name, poses, colour, line in players:
+        ax.plot(poses[:, 0], poses[:, 1], line, color=colour, lw=1.2)
+        x, y, theta = poses[-1]
+        body = np.array([[1.4, 0], [-0.8, 0.8], [-0.8, -0.8]]) * size
+        c, s = np.cos(theta), np.sin(theta)
+        corners = body @ np.array([[c, s], [-s, c]]) + (x, y)
+        ax.fill(corners[:, 0], corners[:, 1], color=colour, label=name)
+    sight = np.vstack([pursuer[-1, :2], evader[-1, :2]])
+    ax.plot(sight[:, 0], sight[:, 1], ":", color="0.5", lw=0.8)

@@ -1,0 +1,107 @@
+"""Test many games at once against the adaptive integrator and NumPy."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from stepaside.errors import PlanError
+from stepaside.unicycle.blocks import sine_cosine
+from stepaside.unicycle.compiled import AVAILABLE
+from stepaside.unicycle.kernel import play_games
+from stepaside.unicycle.laws import Game, make_game
+from stepaside.unicycle.relative import Start
+from stepaside.unicycle.simulate import simulate
+
+GAMES = [
+    make_game(1.0, 1.0, 0.5, 0.5),
+    make_game(1.0, 1.1, 0.5, 0.7, np.pi / 2, "saturated"),
+    make_game(1.0, 1.0, 0.5, 0.5, 0.3, "saturated"),
+    make_game(1.1, 1.0, 0.5, 0.4, 1.0, side_rule="latched"),
+    make_game(1.0, 1.0, 0.5, 0.5, 1.2, hysteresis=0.2),
+    make_game(1.0, 1.0, 0.5, 0.5, 0.0),
+]
+
+
+def random_starts(count: int, seed: int = 1) -> np.ndarray:
+    rng = np.random.default_rng(seed)
+    angles = rng.uniform(-np.pi, np.pi, (count, 2))
+    return np.column_stack([rng.uniform(0.3, 6.0, count), angles])
+
+
+@pytest.mark.parametrize("game", GAMES)
+def test_every_game_agrees_with_the_adaptive_integrator(game: Game) -> None:
+    starts = random_starts(40)
+    many = play_games(game, starts, 60.0, capture_distance=0.05)
+    for i, start in enumerate(starts):
+        one = simulate(game, Start(*start), 60.0, capture_distance=0.05)
+        assert one.captured == many.captured[i]
+        assert many.closest_distance[i] == pytest.approx(
+            one.closest_distance, abs=1e-6
+        )
+        if one.captured:
+            assert many.capture_time[i] == pytest.approx(one.end_time)
+        last = one.states([one.end_time])[0, :2]
+        np.testing.assert_allclose(many.states[i, :2], last, atol=1e-6)
+
+
+@pytest.mark.skipif(not AVAILABLE, reason="Numba is not installed")
+@pytest.mark.parametrize("game", GAMES)
+def test_numpy_gives_the_same_answers(game: Game) -> None:
+    starts = random_starts(300, seed=2)
+    fast = play_games(game, starts, 8.0, backend="numba")
+    slow = play_games(game, starts, 8.0, backend="numpy")
+    for name in ("closest_distance", "closest_time", "settled_time"):
+        np.testing.assert_allclose(
+            getattr(fast, name), getattr(slow, name), atol=1e-9
+        )
+    np.testing.assert_allclose(fast.states, slow.states, atol=1e-8)
+
+
+def test_all_works_where_numba_is_missing() -> None:
+    code = (
+        "import sys; sys.modules['numba'] = None\n"
+        "import numpy as np\n"
+        "from stepaside.unicycle.kernel import play_games\n"
+        "from stepaside.unicycle.laws import make_game\n"
+        "starts = [[2.0, 0.5, 2.0], [1.0, -2.0, -3.0]]\n"
+        "game = make_game(1.0, 1.0, 0.5, 0.5)\n"
+        "out = play_games(game, starts, 5.0)\n"
+        "print(*out.closest_distance)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    starts = [[2.0, 0.5, 2.0], [1.0, -2.0, -3.0]]
+    here = play_games(GAMES[0], starts, 5.0).closest_distance
+    there = [float(word) for word in done.stdout.split()]
+    np.testing.assert_allclose(there, here, atol=1e-9)
+
+
+def test_branchless_sine_and_cosine_are_exact() -> None:
+    x = np.linspace(-12.0, 12.0, 2001)
+    ours = np.array([sine_cosine(float(v)) for v in x])
+    np.testing.assert_allclose(ours[:, 0], np.sin(x), atol=5e-16)
+    np.testing.assert_allclose(ours[:, 1], np.cos(x), atol=5e-16)
+
+
+def test_settled_time_is_when_the_circle_is_reached_for_good() -> None:
+    out = play_games(GAMES[0], [[5.0, 0.2, 0.4], [3.6, 0.0, 0.0]], 60.0)
+    run = simulate(GAMES[0], Start(5.0, 0.2, 0.4), 60.0)
+    before, after = run.states(out.settled_time[0] + [-0.05, 0.05])
+    target = np.array([3.6012652646, -np.pi / 4, np.pi / 4])
+    scale = np.array([3.6012652646, 1.0, 1.0])
+    assert np.abs((before[:3] - target) / scale).max() > 0.02
+    assert np.abs((after[:3] - target) / scale).max() < 0.02
+
+
+@pytest.mark.parametrize(
+    "start", [[0.0, 0, 0], [np.nan, 0, 0], [1, np.inf, 0]]
+)
+def test_bad_starts_are_refused(start: list[float]) -> None:
+    with pytest.raises(PlanError, match="starts must be finite"):
+        play_games(GAMES[0], [start], 1.0)

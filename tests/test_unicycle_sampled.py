@@ -1,0 +1,132 @@
+"""Test games with held turning rates and the stability of their circle."""
+
+from math import pi
+
+import numpy as np
+import pytest
+
+from stepaside.errors import PlanError
+from stepaside.unicycle.circling import circle_of
+from stepaside.unicycle.laws import Game, make_game
+from stepaside.unicycle.relative import Start
+from stepaside.unicycle.sampled import choose_turning, simulate_sampled
+from stepaside.unicycle.sampled_stability import (
+    delayed_eigenvalues,
+    largest_stable_delay,
+    largest_stable_sample_time,
+    step_eigenvalues,
+    step_map,
+)
+from stepaside.unicycle.simulate import simulate
+
+NAO = make_game(0.1, 0.1, 0.2, 0.2)
+UNEVEN = make_game(0.9, 1.0, 0.4, 0.7, 1.1)
+
+
+def on_circle(game: Game = NAO) -> np.ndarray:
+    circle = circle_of(game)
+    bearing = circle.evader_error_rad - game.angle
+    return np.array([circle.distance_m, circle.pursuer_error_rad, bearing])
+
+
+@pytest.mark.parametrize("game", [NAO, UNEVEN])
+@pytest.mark.parametrize("delay", [0.0, 0.3, 1.7])
+def test_sampling_and_delay_leave_the_circle_as_it_is(
+    game: Game, delay: float
+) -> None:
+    run = simulate_sampled(game, Start(*on_circle(game)), 0.4, 0.4)
+    np.testing.assert_allclose(run.states[-1], on_circle(game), atol=1e-12)
+    far = Start(1.3 * on_circle(game)[0], -0.5, 0.6)
+    run = simulate_sampled(game, far, 200.0, 0.4, delay=delay)
+    np.testing.assert_allclose(
+        np.abs(run.states[-1]), np.abs(on_circle(game)), atol=1e-5
+    )
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.25, 1.0, 1.3])
+def test_step_map_is_the_derivative_of_the_game(delay: float) -> None:
+    """Finite differences of played periods give the same decay."""
+    rest, h, period = on_circle(UNEVEN), 1e-6, 0.5
+    values = step_eigenvalues(UNEVEN, period, delay)
+    matrix = step_map(UNEVEN, period, delay)
+    assert max(abs(v) for v in values) == pytest.approx(
+        max(abs(np.linalg.eigvals(matrix)))
+    )
+    if delay == 0.0:
+        columns = []
+        for i in range(3):
+            ends = []
+            for sign in (1, -1):
+                start = Start(*(rest + sign * h * np.eye(3)[i]))
+                run = simulate_sampled(UNEVEN, start, period, period)
+                ends.append(run.states[-1])
+            columns.append((ends[0] - ends[1]) / (2 * h))
+        np.testing.assert_allclose(
+            np.array(columns).T, matrix[:3, :3], atol=1e-8
+        )
+
+
+def test_short_periods_tend_to_the_continuous_law() -> None:
+    period = 1e-3
+    slow = max(v.real for v in circle_of(NAO).eigenvalues)
+    step = abs(step_eigenvalues(NAO, period)[0])
+    assert np.log(step) / period == pytest.approx(slow, rel=1e-3)
+    slow = delayed_eigenvalues(NAO, 1.0)[0].real
+    step = abs(step_eigenvalues(NAO, 0.01, 0.995)[0])
+    assert np.log(step) / 0.01 == pytest.approx(slow, rel=2e-3)
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.6])
+def test_largest_sample_time_parts_decay_from_growth(delay: float) -> None:
+    limit = largest_stable_sample_time(UNEVEN, delay)
+    start = Start(*(on_circle(UNEVEN) + [0.0, 1e-4, 0.0]))
+    spreads = []
+    for factor in (0.93, 1.07):
+        run = simulate_sampled(
+            UNEVEN, start, 200 * limit, factor * limit, delay=delay
+        )
+        spreads.append(np.abs(run.states[-1] - on_circle(UNEVEN)).max())
+    assert spreads[0] < 1e-4 < spreads[1]
+
+
+def test_largest_delay_has_an_eigenvalue_on_the_axis() -> None:
+    limit = largest_stable_delay(NAO)
+    value = delayed_eigenvalues(NAO, limit)[0]
+    assert abs(value.real) < 1e-9
+    fine = largest_stable_delay(NAO, 0.25)
+    assert fine == pytest.approx(limit - 0.125, abs=0.02)
+    assert limit == pytest.approx(5.0 * largest_stable_delay_unit(), rel=1e-9)
+
+
+def largest_stable_delay_unit() -> float:
+    return largest_stable_delay(make_game(1.0, 1.0, 1.0, 1.0))
+
+
+def test_sampled_game_tends_to_the_continuous_one() -> None:
+    start = Start(2.0, 0.4, -0.3)
+    exact = simulate(UNEVEN, start, 10.0)
+    state = exact.states([10.0])[0, :3]
+    errors = []
+    for period in (0.02, 0.01):
+        run = simulate_sampled(UNEVEN, start, 10.0, period)
+        errors.append(np.abs(run.states[-1] - state).max())
+    assert errors[1] < 0.02
+    assert errors[0] / errors[1] == pytest.approx(2.0, abs=0.2)
+
+
+def test_side_follows_the_rule_with_its_hysteresis() -> None:
+    game = make_game(1, 1, 1, 1, hysteresis=0.2)
+    assert choose_turning(game, Start(1.0, 0.0, 0.1), 1)[2] == 1
+    assert choose_turning(game, Start(1.0, 0.0, 0.3), 1)[2] == -1
+    assert choose_turning(game, Start(1.0, 0.0, -0.3), -1)[2] == 1
+    assert choose_turning(game, Start(1.0, 0.0, 0.1), 0)[2] == -1
+    kept = make_game(1, 1, 1, 1, side_rule="latched")
+    assert choose_turning(kept, Start(1.0, 0.0, 2.0), 1)[2] == 1
+
+
+def test_no_linearisation_where_the_evader_slides_or_nothing_circles() -> None:
+    with pytest.raises(PlanError, match="slides"):
+        step_map(make_game(1, 1, 1, 1, 0.3, "saturated"), 0.1)
+    with pytest.raises(PlanError, match="no circle"):
+        step_map(make_game(1, 1, 1, 1, 0.0), 0.1)
+    assert pi > largest_stable_sample_time(NAO) * 0.2 > 0.5

@@ -1,0 +1,163 @@
+"""Test one game against the circle, symmetry and a plain integration."""
+
+from math import atan2, hypot, pi, remainder, tau
+
+import numpy as np
+import pytest
+
+from stepaside.errors import PlanError
+from stepaside.poses import Pose
+from stepaside.unicycle.circling import circle_of
+from stepaside.unicycle.laws import Game, make_game
+from stepaside.unicycle.relative import Start
+from stepaside.unicycle.simulate import Run, simulate
+
+GAMES = [
+    make_game(1.0, 1.0, 0.5, 0.5),
+    make_game(1.0, 1.0, 0.5, 0.5, pi / 2, "saturated"),
+    make_game(1.0, 1.0, 0.5, 0.5, 0.3, "saturated"),
+    make_game(1.0, 1.0, 0.5, 0.5, 0.1),
+    make_game(1.2, 1.0, 0.5, 0.7, 1.2),
+    make_game(1.1, 1.0, 0.4, 0.7, 0.8, "saturated"),
+]
+
+
+def last_state(run: Run) -> np.ndarray:
+    state: np.ndarray = run.states([run.end_time])[0]
+    return state
+
+
+@pytest.mark.parametrize("game", GAMES)
+def test_game_ends_on_the_circle_in_closed_form(game: Game) -> None:
+    circle = circle_of(game)
+    duration = 60.0 + 14.0 * circle.time_constant_s
+    run = simulate(game, Start(5.0, 0.2, -0.4), duration)
+    r, a, psi, *_ = last_state(run)
+    assert r == pytest.approx(circle.distance_m, abs=2e-5)
+    assert a == pytest.approx(circle.pursuer_error_rad, abs=2e-5)
+    assert psi == pytest.approx(circle.evader_error_rad - game.angle, abs=2e-5)
+
+
+@pytest.mark.parametrize("game", GAMES)
+def test_mirrored_start_mirrors_the_game(game: Game) -> None:
+    times = np.linspace(0.0, 20.0, 30)
+    left = simulate(game, Start(3.0, 0.5, 1.1), 20.0).states(times)
+    right = simulate(game, Start(3.0, -0.5, -1.1), 20.0).states(times)
+    np.testing.assert_allclose(right * [1, -1, -1, -1, 1, -1], left, atol=1e-7)
+
+
+def plain_world_game(
+    game: Game, pursuer: Pose, evader: Pose, duration: float, count: int
+) -> tuple[Pose, Pose]:
+    """Integrate eqs. (1)-(6) on the floor by Euler's rule, as they stand."""
+    h = duration / count
+    (x, y, theta), (u, v, phi) = pursuer, evader
+    vp, ve = game.pursuer.speed, game.evader.speed
+    for _ in range(count):
+        aim = atan2(v - y, u - x)
+        bearing = remainder(aim + pi - phi, tau)
+        side = -1.0 if bearing > 0.0 else 1.0
+        error = remainder(aim + side * game.angle - phi - pi + pi + pi, tau)
+        turn = game.evader.gain * (np.sign(error) if game.saturated else error)
+        x, y = x + h * vp * np.cos(theta), y + h * vp * np.sin(theta)
+        u, v = u - h * ve * np.cos(phi), v - h * ve * np.sin(phi)
+        theta += h * game.pursuer.gain * remainder(aim - theta, tau)
+        phi += h * turn
+    return Pose(x, y, theta), Pose(u, v, phi)
+
+
+@pytest.mark.parametrize("game", GAMES)
+def test_game_agrees_with_the_printed_equations_on_the_floor(
+    game: Game,
+) -> None:
+    """Also where the saturated law slides: Euler chatters to the same."""
+    pursuer, evader = Pose(0.3, -0.2, 0.4), Pose(2.5, 1.0, 3.3)
+    start = Start.from_world(pursuer, evader)
+    run = simulate(game, start, 6.0, pursuer=pursuer)
+    p, e = plain_world_game(game, pursuer, evader, 6.0, 12000)
+    ours_p, ours_e = run.poses([6.0])
+    assert hypot(*(ours_p[0, :2] - p[:2])) < 4e-3
+    assert hypot(*(ours_e[0, :2] - e[:2])) < 4e-3
+
+
+def test_start_and_poses_are_inverse() -> None:
+    pursuer, evader = Pose(0.3, -0.2, 0.4), Pose(2.5, 1.0, -2.3)
+    start = Start.from_world(pursuer, evader)
+    np.testing.assert_allclose(start.evader_pose(pursuer)[:2], evader[:2])
+    run = simulate(GAMES[0], start, 1.0, pursuer=pursuer)
+    first_p, first_e = run.poses([0.0])
+    np.testing.assert_allclose(first_p[0], pursuer)
+    assert remainder(first_e[0, 2] - evader.theta, tau) == pytest.approx(0)
+
+
+def test_sliding_evader_keeps_the_angle_exactly() -> None:
+    game = GAMES[2]
+    run = simulate(game, Start(5.0, 0.2, 0.4), 40.0)
+    assert len(run.switches) == 1  # onto the line, and no chatter
+    times = np.linspace(run.switches[0] + 1e-9, 40.0, 50)
+    np.testing.assert_allclose(run.states(times)[:, 2], 0.3, atol=1e-12)
+
+
+def test_sliding_ends_where_the_line_of_sight_outruns_the_evader() -> None:
+    game = make_game(1.0, 1.0, 5.0, 0.3, 0.5, "saturated")
+    run = simulate(game, Start(6.0, 0.0, -0.5), 40.0)
+    times = np.linspace(0.0, run.end_time, 4000)
+    states = run.states(times)
+    sliding = np.abs(states[:, 2] + 0.5) < 1e-12
+    assert sliding[0] and not sliding[-1]
+    rate = (np.sin(states[:, 1]) - np.sin(states[:, 2])) / states[:, 0]
+    assert np.abs(rate[sliding]).max() <= 0.3 + 1e-9
+
+
+def test_capture_is_an_event_at_the_asked_distance() -> None:
+    game = make_game(1.0, 1.0, 0.5, 0.5, pi)
+    run = simulate(game, Start(3.0, 0.0, pi), 10.0, capture_distance=0.4)
+    assert run.captured
+    assert run.end_time == pytest.approx(1.3, abs=1e-9)  # they walk head on
+    assert last_state(run)[0] == pytest.approx(0.4)
+
+
+def test_start_within_the_capture_distance_is_captured_at_once() -> None:
+    run = simulate(GAMES[0], Start(0.3), 5.0, capture_distance=0.4)
+    assert run.captured and run.end_time == 0.0
+    assert run.states([0.0])[0, 0] == 0.3
+
+
+def test_closest_approach_is_the_minimum_of_the_dense_output() -> None:
+    run = simulate(GAMES[0], Start(2.0, 0.3, 2.2), 30.0)
+    fine = run.states(np.linspace(0.0, run.end_time, 30001))[:, 0]
+    assert run.closest_distance <= fine.min() + 1e-12
+    assert run.closest_distance == pytest.approx(fine.min(), abs=1e-6)
+
+
+def test_fixed_side_has_a_reversed_circle_that_the_side_rule_removes() -> None:
+    """Errors wrap, so a kept side can circle the wrong way round."""
+    error = pi / 4 - pi
+    start = Start(1.0, error + 0.05, error - pi / 2 + 0.03)
+    fixed = make_game(1, 1, 0.5, 0.5, side_rule="latched")
+    run = simulate(fixed, start, 80.0, side=1)
+    r, a, psi, *_ = last_state(run)
+    assert a == pytest.approx(error, abs=1e-6)
+    omega = (np.sin(a) - np.sin(psi)) / r
+    assert abs(1.0 / omega) == pytest.approx(1 / (0.5 * 0.75 * pi))
+    free = simulate(make_game(1, 1, 0.5, 0.5), start, 120.0, side=1)
+    assert last_state(free)[0] == pytest.approx(3.6012652646, abs=1e-6)
+
+
+def test_hysteresis_delays_the_change_of_side() -> None:
+    start = Start(1.5, 1.4, 0.01)
+    for width in (0.0, 0.2):
+        game = make_game(1.0, 0.3, 0.2, 0.2, hysteresis=width)
+        run = simulate(game, start, 20.0, side=-1)
+        if run.switches:
+            psi = run.states([run.switches[0] - 1e-9])[0, 2]
+            inside = min(abs(psi + width), abs(psi - pi - width))
+            assert inside < 1e-6
+
+
+@pytest.mark.parametrize("value", [0.0, -1.0, float("nan")])
+def test_bad_values_are_refused(value: float) -> None:
+    with pytest.raises(PlanError, match="duration must"):
+        simulate(GAMES[0], Start(1.0), value)
+    with pytest.raises(PlanError, match="distance must"):
+        Start(value)
