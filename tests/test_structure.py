@@ -19,6 +19,7 @@ FLOORS = {
     "control": 4,
     "simulation": 5,
     "report": 6,
+    "studies": 6,
     "commands": 7,
     "cli": 8,
 }

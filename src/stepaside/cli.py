@@ -15,6 +15,7 @@ COMMANDS = {
     "unicycles": "Play one game of two unicycles (Sec. II).",
     "circle": "Find the circle of a game in closed form.",
     "map": "Map games over their starts: closest approach, worst start.",
+    "reproduce": "Measure every claim of the paper and write a page.",
     "robot": "Show a robot, or write its model.",
 }
 
