@@ -1,1 +1,26 @@
 """Pursuit and evasion with unicycles (paper, Sec. II)."""
+
+from .circling import Circle, circle_of, find_circle
+from .kernel import Outcomes, play_games
+from .laws import MOVE_ASIDE, MOVE_BACK, Game, SideRule, TurningLaw, make_game
+from .relative import Start
+from .sampled import simulate_sampled
+from .simulate import Run, simulate
+
+__all__ = [
+    "MOVE_ASIDE",
+    "MOVE_BACK",
+    "Circle",
+    "Game",
+    "Outcomes",
+    "Run",
+    "SideRule",
+    "Start",
+    "TurningLaw",
+    "circle_of",
+    "find_circle",
+    "make_game",
+    "play_games",
+    "simulate",
+    "simulate_sampled",
+]

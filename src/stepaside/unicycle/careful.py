@@ -6,6 +6,7 @@ the capture, or that is long against the distance is cut there.
 """
 
 from math import cos, pi, sin
+from typing import Any
 
 from . import modes
 from .compiled import compiled
@@ -16,6 +17,28 @@ _SLACK = 1e-12
 piece = compiled(modes.piece)
 leave = compiled(modes.leave)
 enter = compiled(modes.enter)
+
+
+@compiled
+def enter_all(
+    state: Any,
+    side: Any,
+    branch: Any,
+    vp: float,
+    ve: float,
+    first: int,
+    angle: float,
+    keeps_side: bool,
+    saturated: bool,
+    gain: float,
+) -> None:
+    """Find the piece that each game starts in; ``state`` may turn round."""
+    for j in range(len(state)):
+        r, a, psi = state[j, 0], state[j, 1], state[j, 2]
+        sight = (vp * sin(a) - ve * sin(psi)) / r
+        state[j, 2], side[j], branch[j] = enter(
+            psi, sight, first, angle, keeps_side, saturated, gain
+        )
 
 
 @compiled

@@ -86,16 +86,25 @@ def play_games(
     state = np.array(starts, dtype=np.float64).reshape(-1, 3)
     if not (np.isfinite(state).all() and (state[:, 0] > 0.0).all()):
         raise PlanError("starts must be finite with distance > 0 [m]")
-    state[:, 1:] = wrap_angles(state[:, 1:])
+    angles = state[:, 1:]
+    far = np.abs(angles) > np.pi  # wrapping would turn pi into -pi
+    angles[far] = wrap_angles(angles[far])
     vp, ve = game.pursuer.speed, game.evader.speed
     kp, ke = game.pursuer.gain, game.evader.gain
-    sight = (vp * np.sin(state[:, 1]) - ve * np.sin(state[:, 2])) / state[:, 0]
     sides = np.empty(len(state), dtype=np.int64)
     branches = np.empty(len(state), dtype=np.int64)
-    for j, (psi, rate) in enumerate(zip(state[:, 2], sight, strict=True)):
-        state[j, 2], sides[j], branches[j] = careful.enter(
-            psi, rate, side, game.angle, game.keeps_side, game.saturated, ke
-        )
+    careful.enter_all(
+        state,
+        sides,
+        branches,
+        vp,
+        ve,
+        side,
+        game.angle,
+        game.keeps_side,
+        game.saturated,
+        ke,
+    )
     out = np.empty((len(state), 4))  # closest, its time, capture, settled
     out[:, 0], out[:, 1:] = state[:, 0], (0.0, -1.0, 0.0)
     out[state[:, 0] <= capture_distance, 2] = 0.0

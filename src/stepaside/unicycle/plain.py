@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import LOOSE
+from .blocks import LOOSE, SIXTH
 from .careful import careful_step, piece
 
 Array = NDArray[np.float64]
@@ -45,7 +45,7 @@ def play_arrays(
     r, a, p = (column.copy() for column in state.T)
     d1, w1 = rates(r, a, p, vp, ve)
     h = np.where(r > capture, step, 0.0)
-    radius, error, bearing = circle
+    shrink, error, bearing = 1.0 / circle[0], circle[1], circle[2]
     with np.errstate(all="ignore"):
         for n in range(count):
             f1, g1 = w1 - kp * a, free * w1 - c1 * p - c0
@@ -59,7 +59,7 @@ def play_arrays(
             x, y, z = r + h * d3, a + h * f3, p + h * g3
             d4, w4 = rates(x, y, z, vp, ve)
             f4, g4 = w4 - kp * y, free * w4 - c1 * z - c0
-            h6 = h / 6.0
+            h6 = h * SIXTH
             x = r + h6 * (d1 + 2.0 * (d2 + d3) + d4)
             y = a + h6 * (f1 + 2.0 * (f2 + f3) + f4)
             z = p + h6 * (g1 + 2.0 * (g2 + g3) + g4)
@@ -69,7 +69,7 @@ def play_arrays(
             flag |= (z < low) | (z > high) | ((1.0 - free) * np.abs(s) > ke)
             flag |= (vp + ve) * h > LOOSE * r
             flag &= h > 0.0
-            off = np.abs(x - radius) / radius
+            off = np.abs(x * shrink - 1.0)
             off = np.maximum(off, np.abs(np.abs(y) - error))
             off = np.maximum(off, np.abs(np.abs(z) - bearing))
             out[(off > near) & (h > 0.0), 3] = (n + 1) * step
