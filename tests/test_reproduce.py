@@ -116,3 +116,5 @@ def test_command_prints_rows_and_writes_the_page(
             assert key in row
     html = (tmp_path / "claims.html").read_text()
     assert html.count("<tr>") == len(rows) + 1
+    assert html.count("<td") == 8 * len(rows)  # bars in texts split no cell
+    assert "|theta*|" in html

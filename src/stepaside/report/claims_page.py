@@ -39,10 +39,10 @@ def markdown_page(
     ]
     for row in rows:
         lines.append(
-            f"| {row['section']} | {row['claim']} | {row['level']} "
+            f"| {row['section']} | {_text(row['claim'])} | {row['level']} "
             f"| {_expected(row)} | {_number(row['measured'])} "
             f"| {row['unit']} | **{row['verdict']}** "
-            f"| {row['as_printed'] or ''} |"
+            f"| {_text(row['as_printed'] or '')} |"
         )
     for caption, file in figures:
         lines += ["", f"![{caption}]({file})", "", f"*{caption}*"]
@@ -68,6 +68,11 @@ def write_page(
         encoding="utf-8",
     )
     return html
+
+
+def _text(text: str) -> str:
+    """Keep the table and the stars of a text that Markdown would take."""
+    return text.replace("|", "\\|").replace("*", "\\*")
 
 
 def _expected(row: dict[str, Any]) -> str:
