@@ -27,6 +27,7 @@ bench: setup
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check \
 		--constraint constraints.txt --editable ".[bench]"
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/run.py
+	NUMBA_NUM_THREADS=1 $(BIN)/python benchmarks/kernel.py
 
 constraints:
 	uv pip compile --universal --python-version 3.11 --all-extras \

@@ -203,3 +203,12 @@ def test_interrupted_duel_reports_what_was_done(
     assert result.exit_code == 130
     assert "interrupted at 1.20 s" in result.stdout
     assert (folder / "trajectories.npz").exists()
+
+
+def test_zero_is_a_value_and_not_an_absence() -> None:
+    """Seed 0 and strategy angle 0 are asked for, not left out."""
+    found = run_json(
+        "duel", "--seed", "0", "--angle", "0", "--duration", "0.2"
+    )
+    assert found["seed"] == 0
+    assert found["theory"]["exists"] is False

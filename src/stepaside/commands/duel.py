@@ -118,7 +118,11 @@ def _settings(config: Path | None, options: dict[str, Any]) -> "DuelSettings":
     from ..simulation.settings import DuelSettings
 
     settings = DuelSettings() if config is None else load_configuration(config)
-    given = {key: v for key, v in options.items() if v not in (None, False)}
+    given = {
+        key: value
+        for key, value in options.items()
+        if value is not None and value is not False
+    }
     if "preset" in given:
         settings = replace(settings, gait=PRESETS[given.pop("preset")])
     sections = {
