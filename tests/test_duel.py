@@ -9,7 +9,7 @@ import pytest
 from stepaside.planning import PRESETS
 from stepaside.simulation import DuelResult, DuelSettings, Outcome, run_duel
 from stepaside.simulation.settings import StartSettings, StrategySettings
-from stepaside.simulation.summary import fit_circle, summarise, theory_of
+from stepaside.simulation.summary import summarise, theory_of
 
 
 @cache
@@ -103,9 +103,3 @@ def test_theory_follows_the_settings() -> None:
     saturated = replace(settings.strategy, saturated=True)
     circle = theory_of(replace(settings, strategy=saturated))
     assert circle.radius_evader_m == pytest.approx(0.5)
-
-
-def test_circle_fit_finds_a_circle() -> None:
-    turn = np.linspace(0.3, 2.0, 50)
-    points = np.column_stack([3 + 2 * np.cos(turn), -1 + 2 * np.sin(turn)])
-    np.testing.assert_allclose(fit_circle(points), (3.0, -1.0, 2.0))

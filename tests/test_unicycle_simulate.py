@@ -161,3 +161,12 @@ def test_bad_values_are_refused(value: float) -> None:
         simulate(GAMES[0], Start(1.0), value)
     with pytest.raises(PlanError, match="distance must"):
         Start(value)
+
+
+def test_circle_fit_finds_a_circle() -> None:
+    from stepaside.unicycle.measure import fit_circle
+
+    turn = np.linspace(0.3, 2.0, 50)
+    points = np.column_stack([3 + 2 * np.cos(turn), -1 + 2 * np.sin(turn)])
+    center, radius = fit_circle(points)
+    np.testing.assert_allclose([*center, radius], (3.0, -1.0, 2.0))

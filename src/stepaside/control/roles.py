@@ -10,7 +10,6 @@ from typing import Protocol
 
 from ..errors import (
     ConfigurationError,
-    check_not_negative,
     check_positive,
     check_within,
 )
@@ -94,8 +93,8 @@ class Evasion:
         error = ConfigurationError
         check_within(self.angle, 0.0, pi, "angle", "rad", error)
         check_positive(self.safety_radius, "safety_radius", "m", error)
-        check_not_negative(
-            self.side_hysteresis, "side_hysteresis", "rad", error
+        check_within(
+            self.side_hysteresis, 0.0, pi, "side_hysteresis", "rad", error
         )
         if not self.release_distance > self.safety_radius:
             raise ConfigurationError(

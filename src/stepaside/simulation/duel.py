@@ -10,7 +10,7 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from ..control import ControlScheme, Evasion, Phase, Pursuit, Role
+from ..control import ControlScheme, Phase, Pursuit, Role
 from ..poses import Array, Pose
 from ..robots.description import load_robot
 from ..robots.kinematics import LegKinematics
@@ -123,17 +123,7 @@ class Duel:
             Pose(0.0, 0.0, start.pursuer_offset),
             Pose(start.distance, 0.0, pi + start.evader_offset),
         )
-        strategy = settings.strategy
-        roles: tuple[Role, Role] = (
-            Pursuit(),
-            Evasion(
-                strategy.angle,
-                strategy.safety_radius,
-                strategy.release_distance,
-                strategy.saturated,
-                strategy.side_hysteresis,
-            ),
-        )
+        roles: tuple[Role, Role] = (Pursuit(), settings.strategy.role())
         self.schemes = []
         self.robots = []
         for name, role, frame in zip(NAMES, roles, frames, strict=True):

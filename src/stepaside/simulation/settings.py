@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from math import inf, isinf, pi, radians
 
+from ..control import Evasion
 from ..errors import (
     ConfigurationError,
     check_not_negative,
@@ -63,17 +64,17 @@ class StrategySettings:
 
     def __post_init__(self) -> None:
         """Refuse what no evader can do."""
-        check_within(self.angle, 0.0, pi, "angle", "rad", ERROR)
-        check_positive(self.safety_radius, "safety_radius", "m", ERROR)
-        check_within(
-            self.side_hysteresis, 0.0, pi, "side_hysteresis", "rad", ERROR
+        self.role()
+
+    def role(self) -> Evasion:
+        """Role of an evader that has not seen anybody yet."""
+        return Evasion(
+            self.angle,
+            self.safety_radius,
+            self.release_distance,
+            self.saturated,
+            self.side_hysteresis,
         )
-        if not self.release_distance > self.safety_radius:
-            raise ConfigurationError(
-                "release_distance must exceed safety_radius, "
-                f"{self.safety_radius:g} [m], or evasion stops and starts, "
-                f"got {self.release_distance}"
-            )
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..poses import Array
 from ..unicycle.circling import Circle, find_circle
+from ..unicycle.measure import fit_circle
 from .duel import DuelResult
 from .settings import DuelSettings
 
@@ -26,23 +27,6 @@ def theory_of(settings: DuelSettings) -> Circle:
         strategy.angle,
         "saturated" if strategy.saturated else "proportional",
     )
-
-
-def fit_circle(points: Array) -> tuple[float, float, float]:
-    """Fit a circle by linear least squares (Kasa).
-
-    Args:
-        points: In [m]. Shape (n, 2).
-
-    Returns:
-        Centre x, y and radius, in [m].
-    """
-    centre = points.mean(axis=0)
-    local = points - centre
-    rows = np.column_stack([2.0 * local, np.ones(len(local))])
-    (x, y, c), *_ = np.linalg.lstsq(rows, (local**2).sum(axis=1), rcond=None)
-    radius = float(np.sqrt(max(c + x * x + y * y, 0.0)))
-    return float(centre[0] + x), float(centre[1] + y), radius
 
 
 def distance_over_time(arrays: Mapping[str, Array]) -> Array:
@@ -160,7 +144,7 @@ def summarise(result: DuelResult) -> dict[str, Any]:
         "real_time_factor": result.duration / max(result.wall_time, 1e-9),
     }
     for name in ("pursuer", "evader"):
-        radius = fit_circle(last[f"{name}_com"][:, :2])[2]
+        radius = fit_circle(last[f"{name}_com"][:, :2])[1]
         summary[name] = {"radius_m": _number(radius)}
     return summary
 
