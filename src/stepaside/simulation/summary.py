@@ -69,7 +69,7 @@ def converged_at(
 
     On the circle means: over a gait cycle the mean distance is within 5 %
     and the mean angle between the headings within 5 degrees of theory's,
-    from then to the end, and for at least one time constant of the circle.
+    from then to the end, and for at least the last 5 s.
     """
     times = arrays["times_s"]
     if not theory.exists or len(times) < 3:
