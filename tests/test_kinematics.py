@@ -65,7 +65,7 @@ def test_walk_is_tracked_within_a_tenth_of_a_millimeter() -> None:
     fastest = 0.0
     before = kinematics.joint_targets
     for tick in range(round(duration / 0.004)):
-        reference, _ = table.at(tick * 0.004)
+        reference = table.at(tick * 0.004).body
         targets = kinematics.track(reference)
         fastest = max(fastest, float(np.abs(targets - before).max()) / 0.004)
         before = targets

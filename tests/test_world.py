@@ -120,12 +120,12 @@ def test_servo_obeys_the_speed_limits_of_the_joints() -> None:
     duel = standing()
     robot = duel.robots[0]
     robot.read()
-    before = robot._target.copy()
+    before = robot.servos._target.copy()
     robot.write(before + 1.0)
     limits = load_robot("nao").speed_limits
     names = duel.schemes[0].kinematics.joint_names
     expected = [limits[name] * 0.004 for name in names]
-    np.testing.assert_allclose(robot._target - before, expected)
+    np.testing.assert_allclose(robot.servos._target - before, expected)
 
 
 def test_robots_that_touch_end_the_duel() -> None:

@@ -1,6 +1,7 @@
 """What a plan asks of the body at the ticks of the control clock."""
 
 from math import ceil, cos, sin
+from typing import NamedTuple
 
 import numpy as np
 
@@ -10,7 +11,20 @@ from ..poses import Pose
 from ..robots.kinematics import BodyReference
 
 CACHED = 4096  # samplers kept; rational durations need a handful
-Row = tuple[BodyReference, tuple[float, float]]
+
+
+class Row(NamedTuple):
+    """What a plan asks for at one tick, in odometry.
+
+    Attributes:
+        body: CoM and feet.
+        zmp: ZMP reference, in [m].
+        dcm: DCM reference, in [m].
+    """
+
+    body: BodyReference
+    zmp: tuple[float, float]
+    dcm: tuple[float, float]
 
 
 def standing_reference(
@@ -73,30 +87,32 @@ class ReferenceTable:
                 samples.left_foot[:, :2],
                 samples.right_foot[:, :2],
                 samples.zmp,
+                samples.dcm,
             ]
         )
         points = points @ turn
         points += plan_frame[:2]
-        com, left, right, zmp = points.reshape(4, count, 2).tolist()
+        com, left, right, zmp, dcm = points.reshape(5, count, 2).tolist()
         theta = plan_frame.theta
         left_yaw = (samples.left_foot[:, 2] + theta).tolist()
         right_yaw = (samples.right_foot[:, 2] + theta).tolist()
         left_height = samples.left_height.tolist()
         right_height = samples.right_height.tolist()
         self._rows = [
-            (
+            Row(
                 BodyReference(
                     (com[i][0], com[i][1], height),
                     (left[i][0], left[i][1], left_height[i], left_yaw[i]),
                     (right[i][0], right[i][1], right_height[i], right_yaw[i]),
                 ),
                 (zmp[i][0], zmp[i][1]),
+                (dcm[i][0], dcm[i][1]),
             )
             for i in range(count)
         ]
 
     def at(self, now: float) -> Row:
-        """Body reference and ZMP reference at a tick, the last one after."""
+        """What is asked for at a tick; after the last one, the last."""
         index = round(now / self._tick) - self._first
         return self._rows[min(index, len(self._rows) - 1)]
 
@@ -111,3 +127,16 @@ class ReferenceTable:
             if len(self._samplers) < CACHED:
                 self._samplers[key] = sampler
         return sampler
+
+
+def landing_center(
+    frame: Pose, plan: ManeuverPlan
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """CoM at the end of the first step, in a frame given in the plan's."""
+    samples = plan.sample(plan.schedule.first_step_sampler)
+    back = frame.inverse()
+    x, y = samples.com[0].tolist()
+    vx, vy = samples.com_velocity[0].tolist()
+    position = back.compose(Pose(x, y, 0.0))
+    velocity = Pose(0.0, 0.0, back.theta).compose(Pose(vx, vy, 0.0))
+    return position[:2], velocity[:2]

@@ -123,3 +123,26 @@ class Evasion:
         if self.side is None or -self.side * bearing > self.side_hysteresis:
             self.side = copysign(1.0, bearing)
         return wrap_angle(bearing - self.side * self.angle)
+
+
+@dataclass(frozen=True, slots=True)
+class Walk:
+    """Walk with a bearing that does not depend on anybody.
+
+    Attributes:
+        bearing: Desired heading in the frame of each support foot, [rad].
+        direction: Whether the robot walks forward or backward.
+        saturated: Whether it turns by (6) instead of (8).
+    """
+
+    bearing: float = 0.0
+    direction: Direction = Direction.FORWARD
+    saturated: bool = False
+
+    def is_triggered(self, distance: float) -> bool:
+        """Return true: it always walks."""
+        return True
+
+    def desired_heading(self, bearing: float) -> float:
+        """Bearing that was asked for, in [rad]."""
+        return self.bearing

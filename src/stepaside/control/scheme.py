@@ -1,7 +1,5 @@
 """The control scheme of one robot (paper, Fig. 4)."""
 
-from collections import deque
-from enum import Enum
 from time import process_time
 
 from ..planning import (
@@ -14,19 +12,20 @@ from ..planning import (
 from ..poses import Array, Pose, wrap_angle
 from ..robots.kinematics import LegKinematics
 from .body import Measurement, Sighting
-from .reference import ReferenceTable, standing_reference
+from .headings import HeadingMemory
+from .phase import Phase
+from .reference import (
+    ReferenceTable,
+    Row,
+    landing_center,
+    standing_reference,
+)
 from .roles import Role
+from .stabiliser import Stabiliser
+from .step import Step, resting_step, step_of
 
-MEMORY = 2.0  # how long past torso headings are kept, in [s]
+FALLEN = 0.7  # tilt of the torso at which a robot knows that it falls, [rad]
 SETTLING = 1.0  # how long a halted robot takes to come to rest, in [s]
-
-
-class Phase(Enum):
-    """What a robot is doing."""
-
-    STANDING = "standing"
-    WALKING = "walking"
-    HALTING = "halting"
 
 
 class ControlScheme:
@@ -61,6 +60,8 @@ class ControlScheme:
         *,
         tick: float,
         first_foot: Foot = Foot.LEFT,
+        sighting: Sighting | None = None,
+        stabiliser: Stabiliser | None = None,
     ) -> None:
         """Take the standing posture.
 
@@ -70,6 +71,8 @@ class ControlScheme:
             kinematics: The robot's joint motion generation.
             tick: Control period, in [s].
             first_foot: Foot that makes the first step.
+            sighting: What is known of the other before anything is seen.
+            stabiliser: Feedback on top of the plan; none by default.
 
         Raises:
             ReachError: If the robot cannot stand as the gait asks.
@@ -91,10 +94,9 @@ class ControlScheme:
         self.velocity_jumps: list[float] = []
         self.walked: list[ManeuverPlan] = []
         self._first_foot = first_foot
-        self._sighting: Sighting | None = None
-        self._headings: deque[tuple[float, float]] = deque(
-            maxlen=max(1, round(MEMORY / tick))
-        )
+        self._sighting = sighting
+        self.stabiliser = stabiliser
+        self._headings = HeadingMemory(tick)
         self._table = ReferenceTable(tick)
         self._plan_ends = 0.0
         self._stand()
@@ -112,18 +114,49 @@ class ControlScheme:
         Raises:
             ReachError: If the legs lose the reference.
         """
+        if self.phase is Phase.FALLEN:
+            return self.joint_targets
         now = measurement.time
-        self._headings.append((now, self.kinematics.torso_heading))
+        self._headings.note(now, self._torso_heading())
         if measurement.sighting is not None:
             self._sighting = measurement.sighting
         if self.plan is None:
             self._wait(now)
         elif now >= self._plan_ends - 1e-9:
             self._finish(self.plan)
+        row: Row | None = None
         if self.plan is not None:
-            self.reference, self.zmp_reference = self._table.at(now)
-        self.joint_targets = self.kinematics.track(self.reference)
-        return self.joint_targets
+            row = self._table.at(now)
+            self.reference, self.zmp_reference, _ = row
+        if self.stabiliser is not None:
+            row = self._resting if row is None else row
+            self.reference = self.stabiliser.update(
+                measurement, row, self.step(now)
+            )
+            if self._falls():
+                return self.joint_targets
+        targets = self.kinematics.track(self.reference)
+        if self.stabiliser is not None:
+            targets = self.stabiliser.joints.update(
+                measurement.joint_positions, targets
+            )
+        self.joint_targets = targets
+        return targets
+
+    def _torso_heading(self) -> float:
+        """Heading of the torso in odometry: measured, or else commanded."""
+        if self.stabiliser is None:
+            return self.kinematics.torso_heading
+        return self.stabiliser.estimator.heading
+
+    def _falls(self) -> bool:
+        """Notice a fall, and stop moving."""
+        assert self.stabiliser is not None
+        state = self.stabiliser.state
+        if state is None or max(map(abs, state.tilt)) < FALLEN:
+            return False
+        self.phase, self.plan = Phase.FALLEN, None
+        return True
 
     @property
     def margins(self) -> list[float]:
@@ -140,10 +173,14 @@ class ControlScheme:
             self.left_foot, self.right_foot, self.settings
         )
         self.zmp_reference = self.reference.com[:2]
+        rest = self.zmp_reference
+        self._resting = Row(self.reference, rest, rest)
 
     def _wait(self, now: float) -> None:
         """Stand until the other is a reason to move."""
         seen = self._sighting
+        if self.stabiliser is not None and not self.stabiliser.ready:
+            return
         if seen is None or not self.role.is_triggered(seen.distance):
             return
         support = self._support(self._first_foot)
@@ -154,17 +191,22 @@ class ControlScheme:
 
     def _finish(self, plan: ManeuverPlan) -> None:
         """End a step: the foot that landed supports, and a plan follows."""
-        if self.phase is Phase.HALTING:
-            self._stand()
-            return
         step = Pose(*plan.placements[2].tolist())
         landed = self.plan_frame.compose(step)
+        position, velocity = landing_center(step, plan)
+        if self.stabiliser is not None:
+            landed, position, velocity = self.stabiliser.land(
+                landed, position, velocity, self.step(self._plan_ends)
+            )
+        state = CenterState(position, velocity)
         if plan.first_foot is Foot.LEFT:
             self.left_foot = landed
         else:
             self.right_foot = landed
+        if self.phase is Phase.HALTING:
+            self._stand()
+            return
         self._first_foot = plan.first_foot.other
-        state = _state_in(step, plan)
         ended = self.plan_started + plan.schedule.first_step_duration
         seen = self._sighting
         if seen is not None and self.role.is_triggered(seen.distance):
@@ -183,10 +225,31 @@ class ControlScheme:
     ) -> None:
         """Plan from what was seen last (Sec. III-E)."""
         clock = process_time()
-        heading = self._heading_at(seen.time) + seen.bearing - support.theta
+        heading = self._headings.at(seen.time) + seen.bearing
+        if self.stabiliser is not None:
+            heading = self.stabiliser.lead.ahead(seen.time, heading)
+        heading -= support.theta
+        aim = self.role.desired_heading(wrap_angle(heading))
+
+        def plan_from(state: CenterState) -> ManeuverPlan:
+            return self._plan(aim, support, state, standing)
+
+        if self.stabiliser is None or standing:
+            plan = plan_from(state)
+        else:
+            plan, state = self.stabiliser.fit(plan_from, state, support)
+        self.planning_times.append(process_time() - clock)
+        self.replans += 1
+        self.phase = Phase.WALKING
+        duration = plan.schedule.first_step_duration
+        self._walk(plan, support, started, duration, state)
+
+    def _plan(
+        self, aim: float, support: Pose, state: CenterState, standing: bool
+    ) -> ManeuverPlan:
         foot = self._first_foot
-        plan = self.planner.plan(
-            self.role.desired_heading(wrap_angle(heading)),
+        return self.planner.plan(
+            aim,
             self.role.direction,
             first_foot=foot,
             state=state,
@@ -194,11 +257,6 @@ class ControlScheme:
             standing=standing,
             saturated=self.role.saturated,
         )
-        self.planning_times.append(process_time() - clock)
-        self.replans += 1
-        self.phase = Phase.WALKING
-        duration = plan.schedule.first_step_duration
-        self._walk(plan, support, started, duration, state)
 
     def _halt(self, started: float, support: Pose, state: CenterState) -> None:
         """Bring the feet abreast and come to rest."""
@@ -211,11 +269,6 @@ class ControlScheme:
         self.phase = Phase.HALTING
         duration = plan.schedule.duration + SETTLING
         self._walk(plan, support, started, duration, state)
-        landed = support.compose(Pose(*plan.placements[2].tolist()))
-        if foot is Foot.LEFT:
-            self.left_foot = landed
-        else:
-            self.right_foot = landed
 
     def _walk(
         self,
@@ -238,25 +291,14 @@ class ControlScheme:
         self.velocity_jumps.append(jump)
         self.walked.append(plan)
 
+    def step(self, now: float) -> Step:
+        """Step being made at a time, in [s]."""
+        if self.plan is None:
+            foot = self._first_foot
+            return resting_step(self._support(foot), foot)
+        passed = now - self.plan_started
+        return step_of(self.plan, self.plan_frame, passed)
+
     def _support(self, swing: Foot) -> Pose:
         """Foot that stands while another swings, in odometry."""
         return self.right_foot if swing is Foot.LEFT else self.left_foot
-
-    def _heading_at(self, time: float) -> float:
-        """Heading of the torso in odometry at a past time, in [rad]."""
-        heading = self._headings[0][1]
-        for past, candidate in reversed(self._headings):
-            if past <= time + 1e-9:
-                return candidate
-        return heading
-
-
-def _state_in(frame: Pose, plan: ManeuverPlan) -> CenterState:
-    """CoM at the end of the first step, in a frame given in the plan's."""
-    samples = plan.sample(plan.schedule.first_step_sampler)
-    back = frame.inverse()
-    x, y = samples.com[0].tolist()
-    vx, vy = samples.com_velocity[0].tolist()
-    position = back.compose(Pose(x, y, 0.0))
-    velocity = Pose(0.0, 0.0, back.theta).compose(Pose(vx, vy, 0.0))
-    return CenterState(position[:2], velocity[:2])

@@ -20,6 +20,7 @@ DAMPING = 1e-4  # squared, of the pseudo-inverse; rows in [m] and [rad]
 LEAP = 0.3  # of a joint in one step while a stance is searched, in [rad]
 TOLERANCE = 1e-4  # residual at which a posture counts as reached
 LOST = 0.5  # residual, in [m] or [rad], beyond which a request is refused
+LEVEL = (0.0, 0.0)
 ROWS = (
     *(f"left foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
     *(f"right foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
@@ -35,11 +36,16 @@ class BodyReference(NamedTuple):
         com: CoM (x, y, z), in [m].
         left_foot: Left foot (x, y, z, yaw), in [m] and [rad].
         right_foot: Right foot, likewise.
+        left_tilt: Roll and pitch of the left foot about its own heading, in
+            [rad], small.
+        right_tilt: Those of the right foot.
     """
 
     com: tuple[float, float, float]
     left_foot: tuple[float, float, float, float]
     right_foot: tuple[float, float, float, float]
+    left_tilt: tuple[float, float] = (0.0, 0.0)
+    right_tilt: tuple[float, float] = (0.0, 0.0)
 
 
 class LegKinematics:
@@ -222,6 +228,11 @@ class LegKinematics:
         error[3:6] = _turn(self._frames[left], reference.left_foot[3])
         error[6:9] = reference.right_foot[:3] - self._points[right]
         error[9:12] = _turn(self._frames[right], reference.right_foot[3])
+        if reference.left_tilt != LEVEL or reference.right_tilt != LEVEL:
+            yaw = reference.left_foot[3]
+            error[3:5] += _lean(reference.left_tilt, yaw)
+            yaw = reference.right_foot[3]
+            error[9:11] += _lean(reference.right_tilt, yaw)
         error[12:15] = reference.com - self._com
         error[15] = frame[1, 2]
         error[16] = -frame[0, 2]
@@ -240,6 +251,12 @@ class LegKinematics:
         q[self._legs] = legs
         for follower, leader in self._followers:
             q[follower] = q[leader]
+
+
+def _lean(tilt: tuple[float, float], yaw: float) -> tuple[float, float]:
+    """Roll and pitch about a heading as a small rotation, in [rad]."""
+    c, s = cos(yaw), sin(yaw)
+    return c * tilt[0] - s * tilt[1], s * tilt[0] + c * tilt[1]
 
 
 def _turn(frame: Array, yaw: float) -> tuple[float, float, float]:

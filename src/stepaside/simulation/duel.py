@@ -10,13 +10,12 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from ..control import ControlScheme, Phase, Pursuit, Role
+from ..control import Phase, Pursuit, Role
 from ..poses import Array, Pose
 from ..robots.description import load_robot
-from ..robots.kinematics import LegKinematics
+from .assembly import assemble, with_cycle
 from .randomness import named_generator
 from .record import Recorder
-from .robot import SimulatedRobot
 from .settings import DuelSettings, StartSettings
 from .sight import IdealLineOfSight
 from .world import World
@@ -118,7 +117,12 @@ class Duel:
         assert start.pursuer_offset is not None
         assert start.evader_offset is not None
         description = load_robot(settings.robot)
-        self.world = World(dict.fromkeys(NAMES, description), settings.physics)
+        self.world = World(
+            dict.fromkeys(NAMES, description),
+            with_cycle(settings.physics, settings.body),
+            settings.body,
+            settings.seed,
+        )
         frames = (
             Pose(0.0, 0.0, start.pursuer_offset),
             Pose(start.distance, 0.0, pi + start.evader_offset),
@@ -127,20 +131,19 @@ class Duel:
         self.schemes = []
         self.robots = []
         for name, role, frame in zip(NAMES, roles, frames, strict=True):
-            kinematics = LegKinematics(description, tick=settings.physics.tick)
-            self.schemes.append(
-                ControlScheme(
-                    role,
-                    settings.gait,
-                    kinematics,
-                    tick=settings.physics.tick,
-                )
+            robot, scheme = assemble(
+                self.world,
+                name,
+                description,
+                frame,
+                role,
+                gait=settings.gait,
+                control=settings.control,
+                body=settings.body,
+                seed=settings.seed,
             )
-            self.robots.append(
-                SimulatedRobot(
-                    self.world, name, description, kinematics, frame
-                )
-            )
+            self.robots.append(robot)
+            self.schemes.append(scheme)
         mujoco.mj_forward(self.world.model, self.world.data)
         for own, other in (self.robots, self.robots[::-1]):
             own.sight = IdealLineOfSight(
@@ -196,7 +199,7 @@ def run_duel(
         StepAsideError: If the settings ask for what cannot be.
     """
     duel = Duel(settings)
-    ticks = ceil(settings.duration / settings.physics.tick - 1e-9)
+    ticks = ceil(settings.duration / duel.world.physics.tick - 1e-9)
     outcome = Outcome.COMPLETED
     began = told = perf_counter()
     try:

@@ -7,23 +7,19 @@ import numpy as np
 from ..control.body import Measurement
 from ..poses import Array, Pose
 from ..robots.description import RobotDescription
+from ..robots.forward import FOOT_FORCES
 from ..robots.kinematics import LegKinematics
+from .body_settings import BodySettings
+from .push import Push, Pusher
+from .servos import HonestServos, IdealServos
 from .sight import IdealLineOfSight
+from .spoilt import AveragedImu, SpoiltSensors
 from .truth import TrueState
 from .world import World, place_free_body
-
-FOOT_FORCES = tuple(
-    f"{side}_fsr_{place}"
-    for side in "lr"
-    for place in ("front_left", "front_right", "rear_left", "rear_right")
-)
 
 
 class SimulatedRobot:
     """One robot of a world, through its own sensors and servos.
-
-    The servos follow targets no faster than the joints' speed limits, and
-    feed the targets' own speed forward.
 
     Attributes:
         name: Its name in the world.
@@ -39,6 +35,8 @@ class SimulatedRobot:
         description: RobotDescription,
         kinematics: LegKinematics,
         pose: Pose,
+        body: BodySettings | None = None,
+        generator: np.random.Generator | None = None,
     ) -> None:
         """Stand a robot in the posture of its kinematics.
 
@@ -48,7 +46,10 @@ class SimulatedRobot:
             description: Its description.
             kinematics: Kinematics in standing posture.
             pose: Pose of the robot's odometry in the world.
+            body: How far it is from an ideal one; not at all by default.
+            generator: Of its errors and noise.
         """
+        body = body or BodySettings()
         self.world = world
         self.name = name
         self.tick = world.physics.tick
@@ -58,11 +59,21 @@ class SimulatedRobot:
         joints = [model.joint(f"{name}/{n}") for n in names]
         self._qpos = np.array([j.qposadr[0] for j in joints])
         ids = np.array([model.actuator(f"{name}/{n}").id for n in names])
-        self._ctrl = slice(int(ids[0]), int(ids[-1]) + 1)
-        gains = model.actuator_gainprm[ids, 0]
-        self._lead = -model.actuator_biasprm[ids, 2] / gains / self.tick
-        limits = [description.speed_limits[n] for n in names]
-        self._reach = np.array(limits) * self.tick
+        speeds = np.array([description.speed_limits[n] for n in names])
+        self.servos: IdealServos
+        if body.has_ideal_servos:
+            self.servos = IdealServos(model, data, ids, speeds, self.tick)
+        else:
+            legs = np.array([n in description.legs for n in names])
+            servos = HonestServos(
+                model, data, ids, speeds, self.tick, body, body.play * legs
+            )
+            world.before_step.append(servos.before_step)
+            self.servos = servos
+        self._imu: AveragedImu | None = None
+        self._spoilt: SpoiltSensors | None = None
+        if generator is not None and body.spoils_sensors:
+            self._spoilt = SpoiltSensors(body, generator)
         self._gyro = self._sensor("gyro")
         self._accelerometer = self._sensor("accelerometer")
         first, last = (
@@ -74,8 +85,9 @@ class SimulatedRobot:
         self._corners = np.array(sites)
         root = model.body(f"{name}/{description.torso}")
         self._place(kinematics, pose, int(model.jnt_qposadr[root.jntadr[0]]))
-        self._target = kinematics.joint_targets
-        data.ctrl[self._ctrl] = self._target
+        self.servos.reset(kinematics.joint_targets)
+        self._torso = root.id
+        self.pusher: Pusher | None = None
         self.truth = TrueState(model, data, f"{name}/{description.torso}")
 
     def _sensor(self, sensor: str) -> slice:
@@ -95,24 +107,38 @@ class SimulatedRobot:
         sensors = data.sensordata
         now = self.world.time
         sighting = None if self.sight is None else self.sight.read(now)
-        return Measurement(
-            now,
-            data.qpos[self._qpos],
-            sensors[self._gyro].copy(),
-            sensors[self._accelerometer].copy(),
-            sensors[self._forces].copy(),
-            sighting,
-        )
+        angles = data.qpos[self._qpos]
+        if self._imu is None:
+            gyro = sensors[self._gyro].copy()
+            force = sensors[self._accelerometer].copy()
+        else:
+            gyro, force = self._imu.read()
+        forces = sensors[self._forces].copy()
+        if self._spoilt is not None:
+            angles = self._spoilt.encoders(angles)
+            gyro, force = self._spoilt.imu(gyro, force)
+            forces = self._spoilt.foot_forces(forces)
+        return Measurement(now, angles, gyro, force, forces, sighting)
 
     def write(self, joint_targets: Array) -> None:
         """Send joint targets, in [rad], to the servos. Shape (joints,)."""
-        change = joint_targets - self._target
-        np.minimum(change, self._reach, out=change)
-        np.maximum(change, -self._reach, out=change)
-        self._target = self._target + change
-        change *= self._lead
-        change += self._target
-        self.world.data.ctrl[self._ctrl] = change
+        self.servos.write(joint_targets)
+
+    def average_imu(self) -> None:
+        """Let the IMU average between readings, as real ones do."""
+        self._imu = AveragedImu(
+            self.world.data, self._gyro, self._accelerometer
+        )
+        self.world.before_step.append(self._imu.before_step)
+
+    def push(self, *pushes: Push) -> None:
+        """Let somebody push the torso, now or later."""
+        if self.pusher is None:
+            world = self.world
+            self.pusher = Pusher(world.model, world.data, self._torso)
+            world.before_step.append(self.pusher.before_step)
+        for push in pushes:
+            self.pusher.add(push)
 
     def step(self) -> None:
         """Let time pass until the next control tick."""

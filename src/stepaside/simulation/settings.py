@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from math import inf, isinf, pi, radians
 
 from ..control import Evasion
+from ..control.settings import ControlSettings
 from ..errors import (
     ConfigurationError,
     check_not_negative,
@@ -11,6 +12,7 @@ from ..errors import (
     check_within,
 )
 from ..planning import GaitSettings
+from .body_settings import BodySettings
 
 ERROR = ConfigurationError
 
@@ -110,17 +112,29 @@ class PhysicsSettings:
         time_step: Step of the physics, in [s].
         tick: Control period, a whole multiple of the time step, in [s].
         friction: Sliding friction of the soles on the floor.
+        unevenness: Height of the floor from its lowest to its highest
+            place, in [m].
+        slope: Slope of the floor, in [rad].
+        slope_direction: Where the slope descends to, in [rad].
     """
 
     time_step: float = 0.002
     tick: float = 0.004
     friction: float = 0.8
+    unevenness: float = 0.0
+    slope: float = 0.0
+    slope_direction: float = 0.0
 
     def __post_init__(self) -> None:
         """Refuse clocks that do not mesh."""
         check_within(self.time_step, 1e-5, 0.01, "time_step", "s", ERROR)
         check_within(self.tick, 1e-5, 0.1, "tick", "s", ERROR)
         check_positive(self.friction, "friction", "1", ERROR)
+        check_within(self.unevenness, 0.0, 0.1, "unevenness", "m", ERROR)
+        check_within(self.slope, 0.0, 0.5, "slope", "rad", ERROR)
+        check_within(
+            self.slope_direction, -pi, pi, "slope_direction", "rad", ERROR
+        )
         ratio = self.tick / self.time_step
         if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
             raise ConfigurationError(
@@ -146,7 +160,9 @@ class DuelSettings:
         strategy: How the evader evades.
         gait: How both walk.
         sight: What they see.
-        physics: Physics and clock.
+        physics: Physics, floor and clock.
+        body: How far the bodies are from ideal ones.
+        control: How both control their walk.
     """
 
     seed: int = 1
@@ -157,6 +173,8 @@ class DuelSettings:
     gait: GaitSettings = field(default_factory=GaitSettings)
     sight: SightSettings = field(default_factory=SightSettings)
     physics: PhysicsSettings = field(default_factory=PhysicsSettings)
+    body: BodySettings = field(default_factory=BodySettings)
+    control: ControlSettings = field(default_factory=ControlSettings)
 
     def __post_init__(self) -> None:
         """Refuse a negative seed and a duration that is none."""

@@ -1,6 +1,6 @@
 """A floor with robots on it, in MuJoCo."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from math import cos, sin
 
 import mujoco
@@ -8,7 +8,11 @@ import numpy as np
 
 from ..poses import Pose
 from ..robots.description import RobotDescription
+from .body_settings import BodySettings
+from .floor import add_floor, tilt_gravity
+from .randomness import named_generator
 from .settings import PhysicsSettings
+from .spoilt import misbuild
 
 FLOOR_BIT = 1
 COLOURS = {
@@ -18,14 +22,20 @@ COLOURS = {
 
 
 def build_model(
-    robots: Mapping[str, RobotDescription], physics: PhysicsSettings
+    robots: Mapping[str, RobotDescription],
+    physics: PhysicsSettings,
+    body: BodySettings | None = None,
+    seed: int = 0,
 ) -> mujoco.MjModel:
     """Compile a floor and robots that collide with it and each other.
 
     Args:
         robots: Robots by name; the names become prefixes, as in
             ``pursuer/torso``.
-        physics: Time step and friction.
+        physics: Time step and floor.
+        body: How far the robots are from their descriptions; not at all by
+            default.
+        seed: Seed of the floor and of the robots' errors.
     """
     spec = mujoco.MjSpec()
     spec.option.timestep = physics.time_step
@@ -35,7 +45,8 @@ def build_model(
     spec.visual.global_.offwidth = 1920
     spec.visual.global_.offheight = 1080
     spec.stat.extent = 1.0
-    _add_floor(spec, physics.friction)
+    tilt_gravity(spec, physics)
+    add_floor(spec, physics, named_generator(seed, "floor"), FLOOR_BIT)
     for index, (name, description) in enumerate(robots.items(), start=1):
         part = description.spec()
         own = FLOOR_BIT << index
@@ -45,52 +56,15 @@ def build_model(
                 # Floor and the robots after this one, not itself.
                 geom.conaffinity = FLOOR_BIT | (~(own | (own - 1)) & 0xFF)
                 geom.friction[0] = physics.friction
+        if body is not None and body.mass_error + body.com_error > 0.0:
+            generator = named_generator(seed, f"masses/{name}")
+            misbuild(part.bodies, body, description.torso, generator)
         accent = part.material(description.accent)
         if accent is not None and name in COLOURS:
             accent.rgba = COLOURS[name]
         frame = spec.worldbody.add_frame()
         spec.attach(part, prefix=f"{name}/", frame=frame)
     return spec.compile()
-
-
-def _add_floor(spec: mujoco.MjSpec, friction: float) -> None:
-    spec.add_texture(
-        name="floor",
-        type=mujoco.mjtTexture.mjTEXTURE_2D,
-        builtin=mujoco.mjtBuiltin.mjBUILTIN_CHECKER,
-        rgb1=[0.86, 0.86, 0.84],
-        rgb2=[0.80, 0.80, 0.78],
-        width=256,
-        height=256,
-    )
-    spec.add_texture(
-        name="sky",
-        type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
-        builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT,
-        rgb1=[0.93, 0.95, 0.97],
-        rgb2=[0.62, 0.72, 0.82],
-        width=64,
-        height=384,
-    )
-    floor = spec.add_material(
-        name="floor", texrepeat=[2, 2], texuniform=True, reflectance=0.05
-    )
-    floor.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "floor"
-    spec.worldbody.add_geom(
-        name="floor",
-        type=mujoco.mjtGeom.mjGEOM_PLANE,
-        size=[20, 20, 0.1],
-        material="floor",
-        friction=[friction, 0.005, 0.0001],
-        contype=FLOOR_BIT,
-        conaffinity=0,
-    )
-    spec.worldbody.add_light(
-        pos=[0, 0, 4],
-        dir=[0.2, 0.3, -1],
-        type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
-        castshadow=True,
-    )
 
 
 class World:
@@ -104,17 +78,24 @@ class World:
         data: Its state.
         physics: Time step and control period.
         ticks: Control ticks that have passed.
+        before_step: Called with the time, in [s], before each physics step.
     """
 
     def __init__(
         self,
         robots: Mapping[str, RobotDescription],
         physics: PhysicsSettings,
+        body: BodySettings | None = None,
+        seed: int = 0,
     ) -> None:
-        """Compile a world in which every robot still has to be placed."""
+        """Compile a world in which every robot still has to be placed.
+
+        Args are those of :func:`build_model`.
+        """
         self.physics = physics
-        self.model = build_model(robots, physics)
+        self.model = build_model(robots, physics, body, seed)
         self.data = mujoco.MjData(self.model)
+        self.before_step: list[Callable[[float], None]] = []
         self.ticks = 0
         self._waiting = self._robots = len(robots)
         roots = [
@@ -137,11 +118,20 @@ class World:
         """Note that one robot is done; step when all of them are."""
         self._waiting -= 1
         if self._waiting == 0:
-            mujoco.mj_step(
-                self.model, self.data, nstep=self.physics.steps_per_tick
-            )
+            steps = self.physics.steps_per_tick
+            if self.before_step:
+                self._step_singly(steps)
+            else:
+                mujoco.mj_step(self.model, self.data, nstep=steps)
             self.ticks += 1
             self._waiting = self._robots
+
+    def _step_singly(self, steps: int) -> None:
+        now, time_step = self.time, self.physics.time_step
+        for step in range(steps):
+            for call in self.before_step:
+                call(now + step * time_step)
+            mujoco.mj_step(self.model, self.data)
 
     def robots_touch(self) -> bool:
         """Whether two robots are in contact."""

@@ -1,0 +1,93 @@
+"""Putting a robot together: body, kinematics, estimator and control."""
+
+from dataclasses import replace
+
+from ..control import ControlScheme, Role, Sighting
+from ..control.estimation import StateEstimator
+from ..control.settings import ControlSettings
+from ..control.stabiliser import Stabiliser
+from ..planning import GaitSettings
+from ..poses import Pose
+from ..robots.description import RobotDescription
+from ..robots.forward import ForwardKinematics
+from ..robots.kinematics import LegKinematics
+from .body_settings import BodySettings
+from .randomness import named_generator
+from .robot import SimulatedRobot
+from .settings import PhysicsSettings
+from .world import World
+
+
+def with_cycle(
+    physics: PhysicsSettings, body: BodySettings
+) -> PhysicsSettings:
+    """Physics with the control period that a body asks for.
+
+    Raises:
+        ConfigurationError: If the period is no multiple of the time step.
+    """
+    return replace(physics, tick=body.cycle) if body.cycle > 0.0 else physics
+
+
+def assemble(
+    world: World,
+    name: str,
+    description: RobotDescription,
+    frame: Pose,
+    role: Role,
+    *,
+    gait: GaitSettings,
+    control: ControlSettings,
+    body: BodySettings,
+    seed: int,
+    sighting: Sighting | None = None,
+) -> tuple[SimulatedRobot, ControlScheme]:
+    """Stand one robot in a world, and give it a mind.
+
+    Args:
+        world: World that has the robot.
+        name: Its name there.
+        description: Its description.
+        frame: Pose of its odometry in the world.
+        role: What it wants.
+        gait: How it walks.
+        control: How it controls its walk.
+        body: How far its body is from an ideal one.
+        seed: Seed of its errors.
+        sighting: What it knows of the other before it has seen anything.
+    """
+    tick = world.physics.tick
+    kinematics = LegKinematics(description, tick=tick)
+    stabiliser = None
+    if control.feedback:
+        forward = ForwardKinematics(description)
+        estimator = StateEstimator(
+            forward, forward.force_sensors(), gait.eta, tick
+        )
+        stabiliser = Stabiliser(
+            control,
+            estimator,
+            gait,
+            tick=tick,
+            delay=body.delay_cycles * tick,
+        )
+    scheme = ControlScheme(
+        role,
+        gait,
+        kinematics,
+        tick=tick,
+        sighting=sighting,
+        stabiliser=stabiliser,
+    )
+    robot = SimulatedRobot(
+        world,
+        name,
+        description,
+        kinematics,
+        frame,
+        body,
+        named_generator(seed, f"sensors/{name}"),
+    )
+    if control.feedback:
+        robot.average_imu()
+    return robot, scheme
