@@ -5,6 +5,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from .body_options import (
+    body_options,
+    body_settings,
+    floor_options,
+    floor_settings,
+)
 from .options import (
     ANGLE,
     METERS,
@@ -62,6 +68,8 @@ if TYPE_CHECKING:
     "--delay", type=NumberType("s", allow_zero=True), help="Of sight [s]."
 )
 @click.option("--rate", type=NumberType("1/s"), help="Of sight [1/s].")
+@body_options
+@floor_options
 @click.option("--robot", help="Robot, or the folder of its description.")
 @click.option(
     "--config",
@@ -118,6 +126,14 @@ def _settings(config: Path | None, options: dict[str, Any]) -> "DuelSettings":
     from ..simulation.settings import DuelSettings
 
     settings = DuelSettings() if config is None else load_configuration(config)
+    body, control = body_settings(
+        options.pop("body"),
+        options.pop("method"),
+        options.pop("feedback"),
+        (settings.body, settings.control),
+    )
+    physics = floor_settings(options, settings.physics)
+    settings = replace(settings, body=body, control=control, physics=physics)
     given = {
         key: value
         for key, value in options.items()

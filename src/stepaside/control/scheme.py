@@ -129,10 +129,9 @@ class ControlScheme:
             row = self._table.at(now)
             self.reference, self.zmp_reference, _ = row
         if self.stabiliser is not None:
-            row = self._resting if row is None else row
-            self.reference = self.stabiliser.update(
-                measurement, row, self.step(now)
-            )
+            asked = self._resting if row is None else row
+            step = self.step(now)
+            self.reference = self.stabiliser.update(measurement, asked, step)
             if self._falls():
                 return self.joint_targets
         targets = self.kinematics.track(self.reference)
@@ -231,8 +230,19 @@ class ControlScheme:
         heading -= support.theta
         aim = self.role.desired_heading(wrap_angle(heading))
 
+        foot = self._first_foot
+        swing_start = support.inverse().compose(self._support(foot.other))
+
         def plan_from(state: CenterState) -> ManeuverPlan:
-            return self._plan(aim, support, state, standing)
+            return self.planner.plan(
+                aim,
+                self.role.direction,
+                first_foot=foot,
+                state=state,
+                swing_start=swing_start,
+                standing=standing,
+                saturated=self.role.saturated,
+            )
 
         if self.stabiliser is None or standing:
             plan = plan_from(state)
@@ -243,20 +253,6 @@ class ControlScheme:
         self.phase = Phase.WALKING
         duration = plan.schedule.first_step_duration
         self._walk(plan, support, started, duration, state)
-
-    def _plan(
-        self, aim: float, support: Pose, state: CenterState, standing: bool
-    ) -> ManeuverPlan:
-        foot = self._first_foot
-        return self.planner.plan(
-            aim,
-            self.role.direction,
-            first_foot=foot,
-            state=state,
-            swing_start=support.inverse().compose(self._support(foot.other)),
-            standing=standing,
-            saturated=self.role.saturated,
-        )
 
     def _halt(self, started: float, support: Pose, state: CenterState) -> None:
         """Bring the feet abreast and come to rest."""

@@ -31,6 +31,7 @@ from .settings import ControlSettings
 from .step import (
     Step,
     adapted_landing,
+    beyond,
     clip_to,
     shifted_swing,
     zmp_box,
@@ -180,10 +181,10 @@ class Stabiliser:
         )
         self.state = state
         dead = self.settings.stabiliser.dead_zone
-        self.error = _beyond(
+        self.error = beyond(
             state.dcm[0] - asked.dcm[0], state.dcm[1] - asked.dcm[1], dead
         )
-        self.com_error = _beyond(
+        self.com_error = beyond(
             state.com[0] - asked.body.com[0],
             state.com[1] - asked.body.com[1],
             0.5 * dead,
@@ -292,12 +293,3 @@ class Stabiliser:
             turned = Pose(0.0, 0.0, support.theta).compose(excess)
             self.dcm_shift = turned[:2]
         return plan, state
-
-
-def _beyond(x: float, y: float, radius: float) -> Vector:
-    """Part of a vector beyond a radius."""
-    length = hypot(x, y)
-    if length <= radius:
-        return ZERO
-    share = 1.0 - radius / length
-    return share * x, share * y

@@ -1,6 +1,6 @@
 """The step that is being made, and what it allows."""
 
-from math import exp
+from math import exp, hypot
 from typing import NamedTuple
 
 from ..planning import Foot, GaitSettings, ManeuverPlan
@@ -95,6 +95,15 @@ def clip_to(value: tuple[float, float], box: Box) -> tuple[float, float]:
         min(max(value[0], low[0]), high[0]),
         min(max(value[1], low[1]), high[1]),
     )
+
+
+def beyond(x: float, y: float, radius: float) -> tuple[float, float]:
+    """Part of a vector beyond a radius."""
+    length = hypot(x, y)
+    if length <= radius:
+        return 0.0, 0.0
+    share = 1.0 - radius / length
+    return share * x, share * y
 
 
 def adapted_landing(
