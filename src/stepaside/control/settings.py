@@ -51,9 +51,9 @@ class StabiliserSettings:
     ankle_rate: float = 0.03
     ankle_bandwidth: float = 50.0
     edge: float = 0.002
-    reach_forward: float = 0.12
-    reach_backward: float = 0.12
-    reach_outward: float = 0.12
+    reach_forward: float = 0.08
+    reach_backward: float = 0.08
+    reach_outward: float = 0.02
     gap: float = 0.012
     step_speed: float = 1.5
     freeze: float = 0.95

@@ -1,0 +1,194 @@
+"""Honest bodies: every effect does what it says, and nothing at zero."""
+
+from dataclasses import fields, replace
+from math import radians
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.control import ControlScheme
+from stepaside.errors import ConfigurationError
+from stepaside.planning import GaitSettings
+from stepaside.poses import Array, Pose
+from stepaside.robots.description import load_robot
+from stepaside.robots.kinematics import LegKinematics
+from stepaside.simulation.body_settings import BODIES, BodySettings
+from stepaside.simulation.push import Push
+from stepaside.simulation.randomness import named_generator
+from stepaside.simulation.robot import SimulatedRobot
+from stepaside.simulation.settings import PhysicsSettings
+from stepaside.simulation.spoilt import SpoiltSensors
+from stepaside.simulation.walk import Walker, WalkSettings
+from stepaside.simulation.world import World, build_model
+
+
+def standing(
+    body: BodySettings, tick: float = 0.004
+) -> tuple[SimulatedRobot, ControlScheme]:
+    walker = Walker(
+        WalkSettings(body=body, physics=PhysicsSettings(tick=tick))
+    )
+    return walker.robot, walker.scheme
+
+
+def answer(body: BodySettings, cycles: int, step: float = 0.05) -> Array:
+    """Angle of a head joint, cycle by cycle, after one changed request."""
+    robot, scheme = standing(body, 0.012)
+    targets = scheme.joint_targets.copy()
+    start = robot.read().joint_positions[0]
+    targets[0] += step
+    angles = []
+    for _ in range(cycles):
+        robot.write(targets)
+        robot.step()
+        angles.append(robot.read().joint_positions[0] - start)
+    return np.array(angles)
+
+
+def test_a_request_moves_the_joint_after_the_delay() -> None:
+    late = answer(BodySettings(delay_cycles=3), 12)
+    assert np.abs(late[:3]).max() < 1e-4
+    assert late[3] > 1e-3
+    assert late[-1] == pytest.approx(0.05, abs=0.005)
+
+
+def test_within_its_play_a_motor_pulls_at_nothing() -> None:
+    """Only legs have play; half of its width lies on either side."""
+    robot, scheme = standing(BodySettings(play=radians(2.0)))
+    names = scheme.kinematics.joint_names
+    hip, head = names.index("LHipPitch"), names.index("HeadYaw")
+    world = robot.world
+    angles = robot.read().joint_positions
+    off = []
+    for step in (0.0, radians(0.9), radians(3.0)):
+        robot.servos.reset(angles + step)
+        world.before_step[0](0.0)
+        off.append(world.data.ctrl - angles)
+    assert abs(off[0][hip]) < 1e-12 and abs(off[1][hip]) < 1e-12
+    assert off[2][hip] == pytest.approx(radians(2.0))
+    assert off[1][head] == pytest.approx(radians(0.9))
+
+
+def test_torque_falls_to_nothing_at_the_no_load_speed() -> None:
+    robot, _ = standing(BodySettings(torque_speed=True, efficiency=0.6))
+    world = robot.world
+    knee = world.model.actuator("walker/LKneePitch").id
+    dof = world.model.joint("walker/LKneePitch").dofadr[0]
+    stall = load_robot("nao").compile().actuator("LKneePitch").forcerange[1]
+    speed = load_robot("nao").speed_limits["LKneePitch"]
+    limits = []
+    for share in (0.0, 0.5, 1.0, 2.0):
+        world.data.qvel[dof] = share * speed
+        world.before_step[0](0.0)
+        limits.append(world.model.actuator_forcerange[knee].copy())
+    upper = np.array(limits)[:, 1] / (0.6 * stall)
+    np.testing.assert_allclose(upper, [1.0, 0.5, 0.0, 0.0], atol=1e-9)
+    np.testing.assert_allclose(np.array(limits)[:, 0] / (0.6 * stall), -1.0)
+
+
+def test_stiffness_caps_the_torque() -> None:
+    robot, _ = standing(BodySettings(stiffness=0.5))
+    world = robot.world
+    ranges = world.model.actuator_forcerange
+    whole = load_robot("nao").compile().actuator_forcerange
+    np.testing.assert_allclose(ranges, 0.5 * whole)
+
+
+def test_sensors_are_quantised_biased_noisy_and_late() -> None:
+    body = BodySettings(
+        encoder_step=0.01,
+        gyro_bias=0.1,
+        gyro_noise=0.01,
+        imu_delay_cycles=2,
+        force_gain_error=0.2,
+    )
+    sensors = SpoiltSensors(body, named_generator(1, "sensors"))
+    angles = sensors.encoders(np.array([0.0149, -0.0151]))
+    np.testing.assert_allclose(angles, [0.01, -0.02])
+    zero = np.zeros(3)
+    readings = [sensors.imu(zero, zero)[0] for _ in range(2000)]
+    bias, noise = np.mean(readings, axis=0), np.std(readings[10:], axis=0)
+    assert 0.0 < np.abs(bias).max() < 0.1
+    np.testing.assert_allclose(noise, 0.01, rtol=0.1)
+    kick = np.array([5.0, 0.0, 0.0])
+    seen = [sensors.imu(kick * (i == 0), zero)[0][0] for i in range(3)]
+    assert seen[2] > 4.0 > max(seen[:2])
+    forces = sensors.foot_forces(np.full(8, 10.0))
+    assert 1.0 > np.abs(forces / 10.0 - 1.0).max() - 0.2
+    assert np.ptp(forces) > 0.1
+
+
+def test_misbuilt_links_keep_their_names_and_change_their_masses() -> None:
+    robots = {"walker": load_robot("nao")}
+    physics = PhysicsSettings()
+    right = build_model(robots, physics)
+    body = BodySettings(mass_error=0.1, com_error=0.01)
+    wrong = build_model(robots, physics, body, seed=3)
+    again = build_model(robots, physics, body, seed=3)
+    ratio = wrong.body_mass[1:] / right.body_mass[1:]
+    assert ratio.min() >= 0.9 - 1e-9 and ratio.max() <= 1.1 + 1e-9
+    assert np.ptp(ratio) > 0.05
+    np.testing.assert_array_equal(wrong.body_mass, again.body_mass)
+    torso = right.body("walker/torso").id
+    shift = wrong.body_ipos[torso] - right.body_ipos[torso]
+    assert 0.0 < np.abs(shift[:2]).max() <= 0.01 and shift[2] == 0.0
+
+
+def test_an_uneven_floor_is_as_high_as_asked() -> None:
+    physics = PhysicsSettings(unevenness=0.005)
+    model = build_model({"walker": load_robot("nao")}, physics)
+    assert model.hfield_size[0, 2] == pytest.approx(0.005)
+    assert model.hfield_data.max() <= 1.0 and np.ptp(model.hfield_data) > 0.9
+
+
+def test_a_slope_turns_gravity() -> None:
+    physics = PhysicsSettings(slope=0.1, slope_direction=np.pi / 2)
+    model = build_model({"walker": load_robot("nao")}, physics)
+    x, y, z = model.opt.gravity
+    assert np.hypot(y, z) == pytest.approx(9.81)
+    assert x == pytest.approx(0.0, abs=1e-12)
+    assert y == pytest.approx(9.81 * np.sin(0.1))
+
+
+def test_a_push_gives_its_impulse_in_the_robots_own_frame() -> None:
+    description = load_robot("nao")
+    kinematics = LegKinematics(description, tick=0.004)
+    world = World({"walker": description}, PhysicsSettings())
+    scheme = ControlScheme(
+        Walker(WalkSettings()).scheme.role,
+        GaitSettings(),
+        kinematics,
+        tick=0.004,
+    )
+    heading = 0.7
+    robot = SimulatedRobot(
+        world, "walker", description, kinematics, Pose(0.0, 0.0, heading)
+    )
+    robot.push(Push(1.5, 0.02, np.pi / 2))
+    for _ in range(60):
+        robot.write(scheme.joint_targets)
+        robot.step()
+    assert robot.pusher is not None
+    given = np.array(robot.pusher.impulse)
+    expected = 1.5 * np.array([-np.sin(heading), np.cos(heading)])
+    np.testing.assert_allclose(given, expected, atol=0.02)
+    torso = world.model.body("walker/torso").id
+    np.testing.assert_array_equal(world.data.xfrc_applied[torso], 0.0)
+
+
+@pytest.mark.parametrize("name", [f.name for f in fields(BodySettings)])
+def test_bodies_refuse_nonsense(name: str) -> None:
+    if name == "torque_speed":
+        pytest.skip("a truth value has no nonsense")
+    changes: dict[str, Any] = {name: -1}
+    with pytest.raises(ConfigurationError, match=name):
+        replace(BodySettings(), **changes)
+
+
+def test_presets_go_from_ideal_to_hardware() -> None:
+    assert BODIES["ideal"].has_ideal_servos
+    assert not BODIES["ideal"].spoils_sensors
+    hardware = BODIES["hardware"]
+    assert hardware.delay_cycles * hardware.cycle == pytest.approx(0.036)
+    assert not hardware.has_ideal_servos and hardware.spoils_sensors
