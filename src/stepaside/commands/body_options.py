@@ -29,9 +29,9 @@ def body_options(command: F) -> F:
         ),
         click.option(
             "--method",
-            type=click.Choice(["closed-form", "measured"]),
-            help="CoM of a maneuver: from the planned state, or from the "
-            "measured one.",
+            type=click.Choice(["closed-form", "measured", "mpc"]),
+            help="Where the CoM comes from: the planned state, the measured "
+            "one, or intrinsically stable MPC.",
         ),
         click.option(
             "--body",
@@ -90,7 +90,9 @@ def body_settings(
     if body is not None:
         built = BODIES[body]
     if feedback is None and (method or body) is not None:
-        feedback = body not in (None, "ideal") or method == "measured"
+        feedback = body not in (None, "ideal") or (
+            method not in (None, "closed-form")
+        )
         feedback = feedback or (body is None and control.feedback)
     if feedback is not None:
         if method is None:

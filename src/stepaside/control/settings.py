@@ -11,8 +11,10 @@ from ..errors import (
 )
 
 ERROR = ConfigurationError
-Method = Literal["closed-form", "measured"]
+Method = Literal["closed-form", "measured", "mpc"]
 METHODS: tuple[str, ...] = get_args(Method)
+Tail = Literal["anticipative", "periodic", "truncated"]
+TAILS: tuple[str, ...] = get_args(Tail)
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,20 +94,53 @@ _NOT_NEGATIVE = {
 
 
 @dataclass(frozen=True, slots=True)
+class MpcSettings:
+    """Horizon and weights.
+
+    Attributes:
+        steps: Steps in the horizon.
+        samples: Samples in a step.
+        tail: What is assumed beyond the horizon.
+        pull: Weight of the distance from the plan's ZMP against that of the
+            added velocity, in [1/s^2].
+    """
+
+    steps: int = 2
+    samples: int = 10
+    tail: Tail = "anticipative"
+    pull: float = 100.0
+
+    def __post_init__(self) -> None:
+        """Refuse an empty horizon and an unknown tail."""
+        check_within(self.steps, 1, 10, "mpc.steps", "steps", ERROR)
+        check_within(self.samples, 2, 100, "mpc.samples", "1", ERROR)
+        check_positive(self.pull, "mpc.pull", "1/s^2", ERROR)
+        if self.tail not in TAILS:
+            raise ConfigurationError(
+                f"mpc.tail must be one of {', '.join(TAILS)}, "
+                f"got {self.tail!r}"
+            )
+
+
+@dataclass(frozen=True, slots=True)
 class ControlSettings:
     """What control does besides planning.
 
     Attributes:
-        method: Where the CoM of a maneuver begins: at the state that the
-            last one planned ("closed-form", the paper's), or at the
-            measured one ("measured", with feedback only).
+        method: Where the CoM comes from. "closed-form": each maneuver begins
+            where the last one planned to be, the paper's way; "measured": it
+            begins at the measured state; "mpc": it does, and in between the
+            ZMP is that of the intrinsically stable MPC. The last two need
+            feedback.
         feedback: Whether to estimate the state and stabilise the walk.
         stabiliser: Gains of the feedback.
+        mpc: Horizon and weights of the MPC.
     """
 
     method: Method = "closed-form"
     feedback: bool = False
     stabiliser: StabiliserSettings = field(default_factory=StabiliserSettings)
+    mpc: MpcSettings = field(default_factory=MpcSettings)
 
     def __post_init__(self) -> None:
         """Refuse an unknown method, and a measured state without sensors."""

@@ -37,6 +37,7 @@ from .step import (
     zmp_box,
 )
 from .stride import StrideLearning
+from .zmp_feedback import zmp_feedback
 
 Vector = tuple[float, float]
 ZERO = (0.0, 0.0)
@@ -71,6 +72,7 @@ class Stabiliser:
         step_shift: Landing of the swing foot less the plan's, in [m].
         adapted: Number of footsteps that were moved.
         joints: Correction of the joint targets.
+        zmp_feedback: How the ZMP brings the shifts back.
         stride: What the feet fall short by.
         lead: Line of sight of the time for which a plan is made.
     """
@@ -114,6 +116,7 @@ class Stabiliser:
         self.lead = LineOfSightLead(
             0.5 * gait.step_duration + delay, gains.lead_blend
         )
+        self.zmp_feedback = zmp_feedback(settings, gait, tick)
         self.stride = StrideLearning(gait, gains.stride_gain)
         self._gait, self._tick = gait, tick
         self._grow = exp(gait.eta * tick)
@@ -198,10 +201,7 @@ class Stabiliser:
         dy = self.dcm_shift[1] + rate * self.error[1]
         cx = self.com_shift[0] + rate * self.com_error[0]
         cy = self.com_shift[1] + rate * self.com_error[1]
-        box = zmp_box(step.swing, self._gait, gains.edge)
-        u, v = step.to_support(dx, dy)
-        k = gains.feedback
-        px, py = step.from_support(*clip_to((k * u, k * v), box))
+        px, py = self.zmp_feedback.shift(step, (dx, dy), self.zmp_shift)
         dx = px + self._grow * (dx - px)
         dy = py + self._grow * (dy - py)
         self.zmp_shift = px, py

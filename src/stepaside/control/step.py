@@ -22,6 +22,8 @@ class Step(NamedTuple):
         remaining: Time until then, in [s]; negative once it stands.
         progress: Fraction of its way that it has made.
         walking: Whether there is a step at all.
+        plan: Plan whose first step it is, if there is one.
+        passed: Time since that plan began, in [s].
     """
 
     support: Pose
@@ -30,6 +32,8 @@ class Step(NamedTuple):
     remaining: float
     progress: float
     walking: bool
+    plan: ManeuverPlan | None = None
+    passed: float = 0.0
 
     def to_support(self, x: float, y: float) -> tuple[float, float]:
         """Turn a vector of odometry into the support foot's axes."""
@@ -56,15 +60,18 @@ def step_of(plan: ManeuverPlan, frame: Pose, passed: float) -> Step:
         passed: Time since it began, in [s].
     """
     gait = plan.schedule.settings
+    walked = passed
     if plan.schedule.standing:
-        passed -= gait.start_support
+        walked -= gait.start_support
     return Step(
         frame,
         plan.first_foot,
         frame.compose(Pose(*plan.placements[2].tolist())),
-        gait.single_support - passed,
-        float(swing_progress(passed / gait.single_support)),
+        gait.single_support - walked,
+        float(swing_progress(walked / gait.single_support)),
         True,
+        plan,
+        passed,
     )
 
 

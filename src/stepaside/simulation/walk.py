@@ -8,6 +8,7 @@ from time import perf_counter
 import mujoco
 
 from ..control import Phase, Sighting
+from ..control.mpc import MpcResult
 from ..control.roles import Walk
 from ..control.settings import ControlSettings
 from ..errors import (
@@ -78,6 +79,7 @@ class WalkResult:
         steps: Footsteps made.
         adapted: Footsteps that feedback moved.
         margins: Least ZMP margin of each plan walked, in [m].
+        answers: Of the solver of the MPC, if there is one.
         push_impulse: Impulse given, in [N s], in the world.
         wall_time: Time that it took, in [s].
     """
@@ -89,6 +91,7 @@ class WalkResult:
     steps: int
     adapted: int
     margins: list[float]
+    answers: list[MpcResult]
     push_impulse: tuple[float, float]
     wall_time: float
 
@@ -188,14 +191,16 @@ def run_walk(
     except KeyboardInterrupt:
         outcome = "interrupted"
     scheme, pusher = walker.scheme, walker.robot.pusher
+    feedback = scheme.stabiliser
     return WalkResult(
         settings=settings,
         outcome=outcome,
         duration=world.time,
         arrays=recorder.arrays(),
         steps=len(scheme.landings),
-        adapted=scheme.stabiliser.adapted if scheme.stabiliser else 0,
+        adapted=feedback.adapted if feedback else 0,
         margins=scheme.margins if record else [],
+        answers=feedback.zmp_feedback.answers if feedback else [],
         push_impulse=(0.0, 0.0) if pusher is None else pusher.impulse,
         wall_time=perf_counter() - began,
     )

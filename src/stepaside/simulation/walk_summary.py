@@ -54,7 +54,24 @@ def summarise_walk(result: WalkResult) -> dict[str, Any]:
         },
         "tilt_max_deg": _tilt(a),
         "min_zmp_margin_m": min(margins) if margins else None,
+        "qp": _solver(result),
         "real_time_factor": result.duration / max(result.wall_time, 1e-9),
+    }
+
+
+def _solver(result: WalkResult) -> dict[str, Any] | None:
+    """Figures of the MPC's solver; None without one."""
+    answers = result.answers
+    if not answers:
+        return None
+    times = 1e6 * np.array([a.time for a in answers])
+    return {
+        "solves": len(answers),
+        "infeasible": sum(not a.feasible for a in answers),
+        "median_us": float(np.median(times)),
+        "p99_us": float(np.quantile(times, 0.99)),
+        "iterations": float(np.mean([a.iterations for a in answers])),
+        "greatest_excess_m": max(float(np.hypot(*a.excess)) for a in answers),
     }
 
 
