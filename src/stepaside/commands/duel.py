@@ -62,6 +62,23 @@ if TYPE_CHECKING:
     "--delay", type=NumberType("s", allow_zero=True), help="Of sight [s]."
 )
 @click.option("--rate", type=NumberType("1/s"), help="Of sight [1/s].")
+@click.option(
+    "--sensing",
+    type=click.Choice(["ideal", "cameras"]),
+    help="Whether they are told where the other is (default) or see it.",
+)
+@click.option(
+    "--drop-frames", type=float, help="Share of images that never arrive."
+)
+@click.option(
+    "--camera-latency",
+    "added_latency",
+    type=NumberType("s", allow_zero=True),
+    help="Added to that of the cameras [s].",
+)
+@click.option(
+    "--clutter", is_flag=True, help="Boxes and a white figure stand about."
+)
 @click.option("--robot", help="Robot, or the folder of its description.")
 @click.option(
     "--config",
@@ -114,6 +131,7 @@ def _settings(config: Path | None, options: dict[str, Any]) -> "DuelSettings":
     from dataclasses import replace
 
     from ..planning import PRESETS
+    from ..simulation.camera_settings import CLUTTER, RoomSettings
     from ..simulation.configuration import load_configuration
     from ..simulation.settings import DuelSettings
 
@@ -125,10 +143,13 @@ def _settings(config: Path | None, options: dict[str, Any]) -> "DuelSettings":
     }
     if "preset" in given:
         settings = replace(settings, gait=PRESETS[given.pop("preset")])
+    if given.pop("clutter", False):
+        settings = replace(settings, room=RoomSettings(things=list(CLUTTER)))
     sections = {
         "start": ("distance", "pursuer_offset", "evader_offset"),
         "strategy": ("angle", "saturated", "release_distance"),
         "sight": ("bearing_noise", "distance_noise", "delay", "rate"),
+        "cameras": ("drop_frames", "added_latency"),
     }
     for section, keys in sections.items():
         changes = {key: given.pop(key) for key in keys if key in given}

@@ -3,6 +3,7 @@
 from collections import deque
 from enum import Enum
 from time import process_time
+from typing import TYPE_CHECKING
 
 from ..planning import (
     CenterState,
@@ -16,6 +17,9 @@ from ..robots.kinematics import LegKinematics
 from .body import Measurement, Sighting
 from .reference import ReferenceTable, standing_reference
 from .roles import Role
+
+if TYPE_CHECKING:
+    from .perception import Perception
 
 MEMORY = 2.0  # how long past torso headings are kept, in [s]
 SETTLING = 1.0  # how long a halted robot takes to come to rest, in [s]
@@ -37,6 +41,7 @@ class ControlScheme:
 
     Attributes:
         role: Pursuit or evasion.
+        perception: What sees and moves the head, if there is any.
         phase: What the robot is doing.
         plan: Maneuver being walked; None while standing.
         plan_frame: Pose of its frame in odometry.
@@ -61,6 +66,7 @@ class ControlScheme:
         *,
         tick: float,
         first_foot: Foot = Foot.LEFT,
+        perception: "Perception | None" = None,
     ) -> None:
         """Take the standing posture.
 
@@ -70,6 +76,8 @@ class ControlScheme:
             kinematics: The robot's joint motion generation.
             tick: Control period, in [s].
             first_foot: Foot that makes the first step.
+            perception: What turns images into sightings; without it the
+                measurements bring sightings.
 
         Raises:
             ReachError: If the robot cannot stand as the gait asks.
@@ -90,6 +98,7 @@ class ControlScheme:
         self.planning_times: list[float] = []
         self.velocity_jumps: list[float] = []
         self.walked: list[ManeuverPlan] = []
+        self.perception = perception
         self._first_foot = first_foot
         self._sighting: Sighting | None = None
         self._headings: deque[tuple[float, float]] = deque(
@@ -114,7 +123,11 @@ class ControlScheme:
         """
         now = measurement.time
         self._headings.append((now, self.kinematics.torso_heading))
-        if measurement.sighting is not None:
+        if self.perception is not None:
+            self._sighting = self.perception.see(
+                measurement, *self._standing_on()
+            )
+        elif measurement.sighting is not None:
             self._sighting = measurement.sighting
         if self.plan is None:
             self._wait(now)
@@ -123,6 +136,8 @@ class ControlScheme:
         if self.plan is not None:
             self.reference, self.zmp_reference = self._table.at(now)
         self.joint_targets = self.kinematics.track(self.reference)
+        if self.perception is not None:
+            self.perception.aim(self.joint_targets)
         return self.joint_targets
 
     @property
@@ -237,6 +252,12 @@ class ControlScheme:
         jump = max(abs(vx - state.velocity[0]), abs(vy - state.velocity[1]))
         self.velocity_jumps.append(jump)
         self.walked.append(plan)
+
+    def _standing_on(self) -> tuple[Pose, bool]:
+        """Pose of the foot that stands, and whether it is the left one."""
+        if self.plan is None:
+            return self.left_foot, True
+        return self.plan_frame, self.plan.first_foot is Foot.RIGHT
 
     def _support(self, swing: Foot) -> Pose:
         """Foot that stands while another swings, in odometry."""

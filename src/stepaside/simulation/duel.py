@@ -5,14 +5,14 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from math import ceil, pi, radians
 from time import perf_counter
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import mujoco
 import numpy as np
 
 from ..control import ControlScheme, Phase, Pursuit, Role
 from ..poses import Array, Pose
-from ..robots.description import load_robot
+from ..robots.description import RobotDescription, load_robot
 from ..robots.kinematics import LegKinematics
 from .randomness import named_generator
 from .record import Recorder
@@ -20,6 +20,9 @@ from .robot import SimulatedRobot
 from .settings import DuelSettings, StartSettings
 from .sight import IdealLineOfSight
 from .world import World
+
+if TYPE_CHECKING:
+    from .seeing import Seeing
 
 NAMES = ("pursuer", "evader")
 CHECK_NEAR = 0.8  # torsos farther apart than two arm spans cannot touch, [m]
@@ -60,6 +63,8 @@ class DuelResult:
         arrays: The record, by name; see :class:`Recorder`.
         min_distance: Least distance between the torsos, in [m].
         triggered_at: When the evader began to evade, in [s]; None if never.
+        triggered_distance: True distance then, in [m].
+        sight: How well they saw, if with cameras.
         replans: Maneuvers planned by both.
         planning_times: Processor time of each, in [s].
         velocity_jump: Greatest jump of a CoM velocity reference, in [m/s].
@@ -75,6 +80,8 @@ class DuelResult:
     arrays: dict[str, Array]
     min_distance: float
     triggered_at: float | None
+    triggered_distance: float | None
+    sight: dict[str, Any] | None
     replans: int
     planning_times: Array
     velocity_jump: float
@@ -104,6 +111,7 @@ class Duel:
         world: The physics.
         robots: Pursuer and evader.
         schemes: What drives them.
+        seeing: What they see with, if with cameras.
     """
 
     def __init__(self, settings: DuelSettings) -> None:
@@ -118,7 +126,12 @@ class Duel:
         assert start.pursuer_offset is not None
         assert start.evader_offset is not None
         description = load_robot(settings.robot)
-        self.world = World(dict.fromkeys(NAMES, description), settings.physics)
+        self.seeing = _seeing(settings, description)
+        self.world = World(
+            dict.fromkeys(NAMES, description),
+            settings.physics,
+            None if self.seeing is None else self.seeing.furnish,
+        )
         frames = (
             Pose(0.0, 0.0, start.pursuer_offset),
             Pose(start.distance, 0.0, pi + start.evader_offset),
@@ -134,6 +147,9 @@ class Duel:
                     settings.gait,
                     kinematics,
                     tick=settings.physics.tick,
+                    perception=None
+                    if self.seeing is None
+                    else self.seeing.perceptions[name],
                 )
             )
             self.robots.append(
@@ -142,16 +158,24 @@ class Duel:
                 )
             )
         mujoco.mj_forward(self.world.model, self.world.data)
+        if self.seeing is not None:
+            self.seeing.open(self.robots)
+        else:
+            self._see_ideally()
+        self.recorder = Recorder(self.robots, self.schemes, frames)
+        self.min_distance = self.distance
+        self.triggered_at: float | None = None
+        self.triggered_distance: float | None = None
+
+    def _see_ideally(self) -> None:
+        """Tell each robot where the other is."""
         for own, other in (self.robots, self.robots[::-1]):
             own.sight = IdealLineOfSight(
                 own.truth,
                 other.truth,
-                settings.sight,
-                named_generator(settings.seed, f"sight/{own.name}"),
+                self.settings.sight,
+                named_generator(self.settings.seed, f"sight/{own.name}"),
             )
-        self.recorder = Recorder(self.robots, self.schemes, frames)
-        self.min_distance = self.distance
-        self.triggered_at: float | None = None
 
     @property
     def distance(self) -> float:
@@ -162,13 +186,16 @@ class Duel:
         """Play one control tick; an outcome if it ends the duel."""
         if self.world.ticks % self.recorder.every == 0:
             self.recorder.sample()
+            if self.seeing is not None:
+                self.seeing.sample(self.world.time)
         for robot, scheme in zip(self.robots, self.schemes, strict=True):
             robot.write(scheme.update(robot.read()))
             robot.step()
+        distance = self.distance
         if self.triggered_at is None:
             if self.schemes[1].phase is not Phase.STANDING:
                 self.triggered_at = self.world.time
-        distance = self.distance
+                self.triggered_distance = distance
         if distance < self.min_distance:
             self.min_distance = distance
         if any(robot.truth.has_fallen for robot in self.robots):
@@ -221,9 +248,12 @@ def run_duel(
         outcome=outcome,
         message=_message(duel, outcome),
         duration=duel.world.time,
-        arrays=duel.recorder.arrays(),
+        arrays=duel.recorder.arrays()
+        | ({} if duel.seeing is None else duel.seeing.arrays()),
         min_distance=duel.min_distance,
         triggered_at=duel.triggered_at,
+        triggered_distance=duel.triggered_distance,
+        sight=None if duel.seeing is None else duel.seeing.figures(),
         replans=sum(s.replans for s in schemes),
         planning_times=np.concatenate(
             [np.array(s.planning_times) for s in schemes]
@@ -234,6 +264,17 @@ def run_duel(
         zmp_margin=min((m for s in schemes for m in s.margins), default=None),
         wall_time=wall,
     )
+
+
+def _seeing(
+    settings: DuelSettings, description: RobotDescription
+) -> "Seeing | None":
+    """Senses of a duel with cameras; an ideal one loads none of it."""
+    if settings.sensing != "cameras":
+        return None
+    from .seeing import Seeing
+
+    return Seeing(settings, description)
 
 
 def _message(duel: Duel, outcome: Outcome) -> str:

@@ -1,6 +1,9 @@
 """A simulated robot behind the interface that control moves."""
 
+from __future__ import annotations
+
 from math import nan
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +14,9 @@ from ..robots.kinematics import LegKinematics
 from .sight import IdealLineOfSight
 from .truth import TrueState
 from .world import World, place_free_body
+
+if TYPE_CHECKING:
+    from .eyes import Eyes
 
 FOOT_FORCES = tuple(
     f"{side}_fsr_{place}"
@@ -29,6 +35,7 @@ class SimulatedRobot:
         name: Its name in the world.
         tick: Control period, in [s].
         sight: Sensor of the other robot, once there is one.
+        eyes: Cameras and sonars, if it sees with those.
         truth: Its true state, for sensors that say so and for the record.
     """
 
@@ -53,6 +60,7 @@ class SimulatedRobot:
         self.name = name
         self.tick = world.physics.tick
         self.sight: IdealLineOfSight | None = None
+        self.eyes: Eyes | None = None
         model, data = world.model, world.data
         names = kinematics.joint_names
         joints = [model.joint(f"{name}/{n}") for n in names]
@@ -102,6 +110,7 @@ class SimulatedRobot:
             sensors[self._accelerometer].copy(),
             sensors[self._forces].copy(),
             sighting,
+            () if self.eyes is None else self.eyes.read(now),
         )
 
     def write(self, joint_targets: Array) -> None:

@@ -11,8 +11,10 @@ from ..errors import (
     check_within,
 )
 from ..planning import GaitSettings
+from .camera_settings import CameraSettings, RoomSettings
 
 ERROR = ConfigurationError
+SENSING = ("ideal", "cameras")
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,6 +149,9 @@ class DuelSettings:
         gait: How both walk.
         sight: What they see.
         physics: Physics and clock.
+        sensing: "ideal" for the line of sight of ``sight``, or "cameras".
+        cameras: What they see with, if with cameras.
+        room: What stands around them, if they see with cameras.
     """
 
     seed: int = 1
@@ -157,9 +162,17 @@ class DuelSettings:
     gait: GaitSettings = field(default_factory=GaitSettings)
     sight: SightSettings = field(default_factory=SightSettings)
     physics: PhysicsSettings = field(default_factory=PhysicsSettings)
+    sensing: str = "ideal"
+    cameras: CameraSettings = field(default_factory=CameraSettings)
+    room: RoomSettings = field(default_factory=RoomSettings)
 
     def __post_init__(self) -> None:
-        """Refuse a negative seed and a duration that is none."""
+        """Refuse a negative seed, a duration that is none, other senses."""
+        if self.sensing not in SENSING:
+            raise ConfigurationError(
+                f"sensing must be one of {', '.join(SENSING)}, "
+                f"got {self.sensing!r}"
+            )
         if not isinstance(self.seed, int) or self.seed < 0:
             raise ConfigurationError(
                 f"seed must be an integer >= 0 [1], got {self.seed}"

@@ -118,6 +118,7 @@ def summarise(result: DuelResult) -> dict[str, Any]:
             "evader_offset_rad": start.evader_offset,
         },
         "triggered_at_s": result.triggered_at,
+        "triggered_at_distance_m": result.triggered_distance,
         "distance_m": float(distance_over_time(last).mean()),
         "relative_orientation_deg": degrees(
             float(orientation_over_time(last).mean())
@@ -146,6 +147,12 @@ def summarise(result: DuelResult) -> dict[str, Any]:
     for name in ("pursuer", "evader"):
         radius = fit_circle(last[f"{name}_com"][:, :2])[1]
         summary[name] = {"radius_m": _number(radius)}
+    if result.sight is not None:
+        for key, value in result.sight.items():
+            if isinstance(value, dict):
+                summary[key] |= value
+            else:
+                summary[key] = value
     return summary
 
 

@@ -1,6 +1,6 @@
 """A floor with robots on it, in MuJoCo."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from math import cos, sin
 
 import mujoco
@@ -18,7 +18,9 @@ COLOURS = {
 
 
 def build_model(
-    robots: Mapping[str, RobotDescription], physics: PhysicsSettings
+    robots: Mapping[str, RobotDescription],
+    physics: PhysicsSettings,
+    furnish: Callable[[mujoco.MjSpec], None] | None = None,
 ) -> mujoco.MjModel:
     """Compile a floor and robots that collide with it and each other.
 
@@ -26,6 +28,7 @@ def build_model(
         robots: Robots by name; the names become prefixes, as in
             ``pursuer/torso``.
         physics: Time step and friction.
+        furnish: Puts more into the world, once the robots are in it.
     """
     spec = mujoco.MjSpec()
     spec.option.timestep = physics.time_step
@@ -50,6 +53,8 @@ def build_model(
             accent.rgba = COLOURS[name]
         frame = spec.worldbody.add_frame()
         spec.attach(part, prefix=f"{name}/", frame=frame)
+    if furnish is not None:
+        furnish(spec)
     return spec.compile()
 
 
@@ -110,10 +115,11 @@ class World:
         self,
         robots: Mapping[str, RobotDescription],
         physics: PhysicsSettings,
+        furnish: Callable[[mujoco.MjSpec], None] | None = None,
     ) -> None:
         """Compile a world in which every robot still has to be placed."""
         self.physics = physics
-        self.model = build_model(robots, physics)
+        self.model = build_model(robots, physics, furnish)
         self.data = mujoco.MjData(self.model)
         self.ticks = 0
         self._waiting = self._robots = len(robots)

@@ -1,0 +1,69 @@
+"""Which of the things seen is the other, and where it is by now."""
+
+from collections.abc import Sequence
+
+from .track import GATE, Observation, Track
+
+IDENTITY = 5.0  # how long a thing stays the other robot unseen, in [s]
+PATIENCE = 4.0  # how long a confirmed thing is remembered, in [s]
+DOUBT = 0.6  # deviation beyond which memory is worth nothing, in [m]
+
+
+class Tracker:
+    """Follows things through frames; says which one counts.
+
+    A thing is confirmed by several frames, so that one wrong frame does
+    not make anybody move. Of the confirmed ones the other robot counts
+    most, when it was recognised lately, and else the nearest.
+
+    Attributes:
+        tracks: Everything followed.
+    """
+
+    def __init__(self) -> None:
+        """Follow nothing yet."""
+        self.tracks: list[Track] = []
+
+    def observe(
+        self, seen: Sequence[Observation], *, founds: bool = True
+    ) -> list[Track]:
+        """Take in everything that one frame shows.
+
+        Args:
+            seen: Observations; the best fitting one updates a track.
+            founds: Whether what fits no track begins one.
+
+        Returns:
+            Tracks that were updated or begun.
+        """
+        fresh = list(seen)
+        updated = []
+        for track in sorted(self.tracks, key=lambda t: -t.seen_at):
+            if not fresh:
+                break
+            best = min(fresh, key=track.misfit)
+            if track.misfit(best) <= GATE:
+                track.correct(best)
+                track.count(True)
+                fresh.remove(best)
+                updated.append(track)
+        if founds:
+            begun = [Track(observation) for observation in fresh]
+            self.tracks += begun
+            updated += begun
+        return updated
+
+    def main(self, now: float, x: float, y: float) -> Track | None:
+        """The track that counts at a time, for a robot at a place."""
+        self.tracks = [
+            track
+            for track in self.tracks
+            if not track.hopeless
+            and now - track.seen_at < (PATIENCE if track.confirmed else 1.0)
+            and track.deviation_at(now) < DOUBT
+        ]
+        known = [track for track in self.tracks if track.confirmed]
+        named = [t for t in known if now - t.identified_at < IDENTITY]
+        if named:
+            return max(named, key=lambda t: t.identified_at)
+        return min(known, key=lambda t: t.away_from(x, y, now), default=None)
