@@ -1,7 +1,7 @@
 """One thing that moves, followed in the robot's own odometry."""
 
 from collections import deque
-from math import atan2, cos, hypot, inf, sin
+from math import atan2, cos, hypot, inf, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -84,8 +84,8 @@ class Track:
 
     def deviation_at(self, time: float) -> float:
         """Greatest standard deviation of the predicted place, in [m]."""
-        covariance = self._predicted(time)[1][:2, :2]
-        return float(np.sqrt(np.linalg.eigvalsh(covariance)[-1]))
+        (a, b), (_, d) = self._predicted(time)[1][:2, :2].tolist()
+        return sqrt(0.5 * (a + d) + hypot(0.5 * (a - d), b))
 
     def misfit(self, seen: Observation) -> float:
         """Squared distance of an observation, in deviations."""
@@ -104,7 +104,12 @@ class Track:
         spread = self._covariance[:2, :2] + seen.covariance
         gain = np.linalg.solve(spread, self._covariance[:2]).T
         self._state = self._state + gain @ (measured - self._state[:2])
-        self._covariance = self._covariance - gain @ self._covariance[:2]
+        # Joseph's form stays positive.
+        keep = np.eye(4)
+        keep[:, :2] -= gain
+        self._covariance = (
+            keep @ self._covariance @ keep.T + gain @ seen.covariance @ gain.T
+        )
         self.seen_at = max(self.seen_at, seen.time)
         if seen.identified:
             self.identified_at = max(self.identified_at, seen.time)
@@ -148,6 +153,6 @@ class Track:
         )
         # White noise within the step: it must not depend on how it is cut.
         push *= min(1.0, 0.3 / step) if step > 0.0 else 0.0
-        covariance[np.ix_((0, 2), (0, 2))] += push
-        covariance[np.ix_((1, 3), (1, 3))] += push
+        covariance[0::2, 0::2] += push
+        covariance[1::2, 1::2] += push
         return move @ self._state, covariance

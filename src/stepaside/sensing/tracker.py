@@ -6,6 +6,7 @@ from .track import GATE, Observation, Track
 
 IDENTITY = 5.0  # how long a thing stays the other robot unseen, in [s]
 PATIENCE = 4.0  # how long a confirmed thing is remembered, in [s]
+FRESH = 0.3  # age up to which nobody doubts a sighting, in [s]
 DOUBT = 0.6  # deviation beyond which memory is worth nothing, in [m]
 
 
@@ -60,7 +61,9 @@ class Tracker:
             for track in self.tracks
             if not track.hopeless
             and now - track.seen_at < (PATIENCE if track.confirmed else 1.0)
-            and track.deviation_at(now) < DOUBT
+            and (
+                now - track.seen_at < FRESH or track.deviation_at(now) < DOUBT
+            )
         ]
         known = [track for track in self.tracks if track.confirmed]
         named = [t for t in known if now - t.identified_at < IDENTITY]

@@ -240,6 +240,9 @@ def run_duel(
                     report(Progress(time, duel.distance, time / (now - began)))
     except KeyboardInterrupt:
         outcome = Outcome.INTERRUPTED
+    finally:
+        for robot in duel.robots:
+            robot.close()
     wall = perf_counter() - began
     duel.recorder.sample()
     schemes = duel.schemes

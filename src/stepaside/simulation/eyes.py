@@ -99,6 +99,7 @@ class Eyes:
         self._world, self._name = world, name
         self._settings, self._seed = settings, seed
         self._head = head
+        self._screen: Screen | None = None
         self.on_exposure: Note = lambda percept: None
         self.camera = _size_for(renderer, settings.colour.model())
         body = f"{name}/{head.body}"
@@ -113,6 +114,12 @@ class Eyes:
         for stream in self._streams:
             arrived += stream.read(now, self.on_exposure)
         return tuple(arrived)
+
+    def close(self) -> None:
+        """Let go of the graphics, if there are any."""
+        if self._screen is not None:
+            self._screen.close()
+            self._screen = None
 
     def _generator(self, purpose: str) -> np.random.Generator:
         return named_generator(self._seed, f"eyes/{self._name}/{purpose}")
@@ -141,7 +148,9 @@ class Eyes:
             caster = RayCaster(model, data, body, self._head.top, rays)
             take_pixels = ColourCaster(model, caster, camera).take
         else:
-            screen = Screen(model, camera.width, camera.height, renderer)
+            self._screen = screen = Screen(
+                model, camera.width, camera.height, renderer
+            )
             number = model.camera(f"{self._name}/{self._head.camera}").id
             vertical = 2.0 * np.arctan(0.5 * camera.height / camera.focal_y)
             model.cam_fovy[number] = np.degrees(vertical)

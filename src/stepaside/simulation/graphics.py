@@ -21,6 +21,7 @@ PROBE = (
     "</worldbody></mujoco>'); Screen(m, 16, 16, {backend!r})"
 )
 GEOMS = 2000  # that a scene can hold
+GRID = 10.0  # spacing of the vertices of a plane, in [m]
 DETAIL = (16, 10)  # slices and stacks of round shapes
 
 
@@ -95,6 +96,9 @@ class Screen:
         quality = model.vis.quality
         quality.shadowsize = quality.offsamples = 0
         quality.numslices, quality.numstacks = DETAIL
+        # The third size of a plane is how fine its grid is drawn.
+        planes = model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE
+        model.geom_size[planes, 2] = GRID
         model.vis.global_.offwidth = width
         model.vis.global_.offheight = height
         scale = mujoco.mjtFontScale.mjFONTSCALE_100
@@ -127,3 +131,9 @@ class Screen:
         mujoco.mjr_render(self._area, self._scene, self._context)
         mujoco.mjr_readPixels(self._pixels, None, self._area, self._context)
         return self._pixels[::-1].copy()
+
+    def close(self) -> None:
+        """Let go of the graphics."""
+        self._gl.make_current()
+        self._context.free()
+        self._gl.free()

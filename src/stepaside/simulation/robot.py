@@ -139,4 +139,6 @@ class SimulatedRobot:
         return x, y
 
     def close(self) -> None:
-        """Nothing to let go of."""
+        """Let go of the eyes."""
+        if self.eyes is not None:
+            self.eyes.close()
