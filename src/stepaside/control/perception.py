@@ -30,6 +30,7 @@ SURE = 0.55  # confidence from which the size of the trim tells distance
 GUESS = 1.2  # distance of a thing whose distance is unknown, in [m]
 STARE = 1.2  # unknown things that rest are looked at up to here, in [m]
 MOVING = 0.08  # speed from which a thing moves, in [m/s]
+NEARBY = 0.15  # beyond the near limit, of what casts a shadow, in [m]
 CHEST = 0.10  # from a sonar to the own axis and into the other, in [m]
 EAR = radians(50.0)  # how far aside a sonar hears
 
@@ -198,14 +199,14 @@ class Perception:
         ranged = away is not None
         if away is None:
             away = self._remembered(image.time, bearing, place)
-        aside = 0.012 if not found.cut_aside else 0.06
+        aside = 0.005 if not found.cut_aside else 0.06
         return Observation(
             image.time,
             float(place[0] + away * cos(bearing)),
             float(place[1] + away * sin(bearing)),
             bearing,
             0.02 + 0.05 * away if ranged else 0.4,
-            0.005 + aside * away,
+            0.003 + aside * away,
             True,
             ranged,
         )
@@ -243,19 +244,23 @@ class Perception:
         ]
         self._observe(seen, image, place, axes, named=False)
         for shadow in scene.shadows:
-            self._take_shadow(shadow, image.time, place)
+            self._take_shadow(shadow, image, place)
 
-    def _take_shadow(self, shadow: Shadow, time: float, place: Array) -> None:
+    def _take_shadow(
+        self, shadow: Shadow, image: DepthImage, place: Array
+    ) -> None:
         """Follow by its bearing what is too near for its distance."""
         x, y = float(place[0]), float(place[1])
+        time = image.time
         away = self._remembered(time, shadow.bearing, place)
+        away = min(away, image.near + NEARBY)
         seen = Observation(
             time,
             x + away * cos(shadow.bearing),
             y + away * sin(shadow.bearing),
             shadow.bearing,
-            0.4,
-            0.08,
+            0.3,
+            0.08 * away,
             False,
             False,
         )

@@ -16,6 +16,10 @@ SELF = 0.22  # what is nearer to the own axis is the robot itself, in [m]
 JUMP = 0.25  # of depth between pixels of one thing, at most, in [m]
 SMALLEST = 14  # pixels of a thing, at 80 columns
 BROADEST = 1.1  # what is broader is a wall, in [m]
+LOWEST = 0.15  # height of what is in the way, in [m]
+TRUSTED = 0.75  # share of the far limit up to which a thing is whole
+TRUNCATED = 0.12  # beyond the near limit: part of it may be nearer, in [m]
+GAP = 0.06  # between parts of one near thing, in [rad]
 BLIND = 24  # pixels without return that something near must hide
 
 
@@ -101,11 +105,46 @@ def detect_obstacles(
         _measure(points[part], part, place, axes)
         for part in _clusters(solid, depths)
     ]
-    obstacles = [thing for thing in found if thing.width < BROADEST]
-    obstacles.sort(key=lambda thing: thing.nearest)
+    things = [
+        thing
+        for thing in found
+        if thing.width < BROADEST
+        and thing.height > LOWEST
+        and thing.nearest < TRUSTED * image.far
+    ]
+    things.sort(key=lambda thing: thing.nearest)
+    near = image.near + TRUNCATED
+    parts = _shadows(image, depths, rays, place, axes)
+    parts += [
+        (
+            t.azimuth - 0.5 * t.width / t.nearest,
+            t.azimuth + 0.5 * t.width / t.nearest,
+        )
+        for t in things
+        if t.nearest < near
+    ]
+    ahead = atan2(axes[1, 0], axes[0, 0])
     return DepthScene(
-        tuple(obstacles), _shadows(image, depths, rays, place, axes)
+        tuple(thing for thing in things if thing.nearest >= near),
+        _join(parts, ahead),
     )
+
+
+def _join(
+    parts: list[tuple[float, float]], ahead: float
+) -> tuple[Shadow, ...]:
+    """Join parts, given by their right and left ends, into near things."""
+    joined: list[tuple[float, float]] = []
+    for low, high in sorted(parts):
+        if joined and low < joined[-1][1] + GAP:
+            joined[-1] = joined[-1][0], max(high, joined[-1][1])
+        else:
+            joined.append((low, high))
+    shadows = [
+        Shadow(ahead + 0.5 * (low + high), 0.5 * (low + high), high - low)
+        for low, high in joined
+    ]
+    return tuple(sorted(shadows, key=lambda shadow: -shadow.width))
 
 
 def _clusters(
@@ -152,7 +191,7 @@ def _measure(
     azimuth = 0.5 * (low + high)
     width = nearest * (high - low)
     columns = np.flatnonzero(part.any(axis=0))
-    reach = nearest + min(max(0.3 * width, 0.05), 0.15)
+    reach = nearest + min(max(0.5 * width, 0.08), 0.15)
     bearing = ahead + azimuth
     return Obstacle(
         float(place[0] + reach * np.cos(bearing)),
@@ -168,7 +207,7 @@ def _measure(
 
 def _shadows(
     image: DepthImage, depths: Array, rays: Array, place: Array, axes: Array
-) -> tuple[Shadow, ...]:
+) -> list[tuple[float, float]]:
     """Where the floor should answer and does not: something too near."""
     down = -rays[..., 2]
     with np.errstate(divide="ignore"):
@@ -192,7 +231,5 @@ def _shadows(
         azimuths = np.arctan2(directions[:, 1], directions[:, 0]) - ahead
         azimuths = (azimuths + np.pi) % (2.0 * np.pi) - np.pi
         low, high = float(azimuths.min()), float(azimuths.max())
-        azimuth = 0.5 * (low + high)
-        shadows.append(Shadow(ahead + azimuth, azimuth, high - low))
-    shadows.sort(key=lambda shadow: -shadow.width)
-    return tuple(shadows)
+        shadows.append((low, high))
+    return shadows

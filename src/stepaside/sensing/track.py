@@ -1,14 +1,15 @@
 """One thing that moves, followed in the robot's own odometry."""
 
 from collections import deque
-from math import atan2, cos, hypot, inf, sin, sqrt
+from math import atan2, cos, exp, hypot, inf, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
 
 from ..poses import Array
 
-RESTLESS = 0.5  # acceleration that things have, in [m/s^2]
+RESTLESS = 1.0  # acceleration that things have, in [m/s^2]
+DECAY = 0.7  # time after which a speed seen once is forgotten, in [s]
 HURRY = 0.25  # speed that a thing may have when first seen, in [m/s]
 WINDOW = 5  # frames that are remembered for confirmation
 ENOUGH = 3  # of them that must have found a thing
@@ -79,7 +80,7 @@ class Track:
     def place_at(self, time: float) -> tuple[float, float]:
         """Predicted place in odometry, in [m]."""
         x, y, vx, vy = self._state.tolist()
-        ahead = time - self.time
+        ahead = DECAY * (1.0 - exp(-(time - self.time) / DECAY))
         return x + ahead * vx, y + ahead * vy
 
     def deviation_at(self, time: float) -> float:
@@ -145,8 +146,9 @@ class Track:
 
     def _predicted(self, time: float) -> tuple[Array, Array]:
         step = max(0.0, time - self.time)
-        move = np.eye(4)
-        move[0, 2] = move[1, 3] = step
+        kept = exp(-step / DECAY)
+        move = np.diag([1.0, 1.0, kept, kept])
+        move[0, 2] = move[1, 3] = DECAY * (1.0 - kept)
         covariance = move @ self._covariance @ move.T
         push = RESTLESS**2 * np.array(
             [[0.25 * step**4, 0.5 * step**3], [0.5 * step**3, step**2]]
