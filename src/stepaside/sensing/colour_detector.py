@@ -12,9 +12,12 @@ from .images import ColourImage, Pixels
 Mask = NDArray[np.uint8]
 HUES = 180  # of OpenCV's circle
 SMALLEST = 1.5  # pixels of a patch of trim, at 160 columns
-PATCHES = 3  # of trim that make a robot
+PATCHES = 2  # of trim that make a robot, at least
+ACROSS, DOWN = 2.5, 6.0  # gaps between patches, of the smaller one
+SQUARE = 0.85  # share of its box that a round patch does not fill
+LARGE = 2.5  # area of what is no trim, of the median patch
 TALLEST = 0.6  # patch, of the height of all trim
-WIDEST = 1.7  # all trim, of its height
+WIDEST = 2.1  # all trim, of its height
 FULLEST = 0.5  # trim, of the box around all of it
 
 
@@ -122,21 +125,15 @@ class ColourDetector:
 
 
 def _groups(boxes: NDArray[np.int32]) -> list[NDArray[np.int32]]:
-    """Patches that belong together: near each other for their size.
-
-    Solid patches that are far larger than the others are left out first:
-    they are things.
-    """
+    """Patches that belong together: near each other for their size."""
     if len(boxes) == 0:
         return []
     left, top, right, bottom = boxes[:, :4].T
     size = np.maximum(right - left, bottom - top)
     across = np.maximum(left[:, None] - right, left - right[:, None])
     down = np.maximum(top[:, None] - bottom, top - bottom[:, None])
-    apart = np.maximum(np.maximum(across, down), 0)
-    larger = np.maximum(size[:, None], size)
     smaller = np.minimum(size[:, None], size)
-    near = (apart <= 3.0 * larger) & (apart <= 12.0 * smaller)
+    near = (across <= ACROSS * smaller) & (down <= DOWN * smaller)
     groups, left_over = [], set(range(len(boxes)))
     while left_over:
         reached = {left_over.pop()}
@@ -155,6 +152,11 @@ def _judge(
     group: NDArray[np.int32], camera: CameraModel
 ) -> ColourDetection | None:
     """A group as a robot, or None if no robot looks so."""
+    sizes = group[:, 2:4] - group[:, :2]
+    areas = group[:, 4]
+    # Trim is round: what is square and large is a thing beside the robot.
+    square = areas > SQUARE * sizes.prod(axis=1)
+    group = group[~(square & (areas > LARGE * np.median(areas)))]
     while True:
         if len(group) < PATCHES:
             return None
@@ -162,7 +164,9 @@ def _judge(
         right, bottom = group[:, 2:4].max(axis=0).tolist()
         height = bottom - top
         tall = group[:, 3] - group[:, 1]
-        if tall.max() <= TALLEST * height:
+        if len(group) == 2 and _is_profile(group):
+            break
+        if len(group) > 2 and tall.max() <= TALLEST * height:
             break
         group = np.delete(group, int(np.argmax(tall)), axis=0)
     cut_above, cut_below = top <= 1, bottom >= camera.height - 1
@@ -182,4 +186,18 @@ def _judge(
         cut_above,
         cut_below,
         cut_aside,
+    )
+
+
+def _is_profile(pair: NDArray[np.int32]) -> bool:
+    """Whether two patches are ear and shoulder of a robot from its side."""
+    upper, lower = pair[np.argsort(pair[:, 1])]
+    broad = max(upper[2] - upper[0], lower[2] - lower[0])
+    middle = 0.5 * abs(int(upper[0] + upper[2] - lower[0] - lower[2]))
+    gap = lower[1] - upper[3]
+    sizes = pair[:, 2:4] - pair[:, :2]
+    square = (pair[:, 4] > SQUARE * sizes.prod(axis=1)).any()
+    alike = pair[:, 4].max() < 4.0 * pair[:, 4].min()
+    return bool(
+        not square and alike and middle < 0.6 * broad and 0 <= gap < broad
     )
