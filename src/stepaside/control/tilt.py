@@ -4,14 +4,14 @@ from math import atan2, cos, hypot, sin, tan
 
 from ..poses import Array
 
-TRUST = 1.0  # time after which the accelerometer is believed, in [s]
+TRUST = 2.0  # time after which the accelerometer is believed, in [s]
 
 
 class TiltFilter:
     """Complementary filter: the gyro quickly, gravity slowly."""
 
     def __init__(self) -> None:
-        """Begin without any idea of the tilt."""
+        """Begin upright, as joint motion keeps the torso."""
         self._roll = self._pitch = 0.0
         self._time: float | None = None
 
@@ -31,8 +31,6 @@ class TiltFilter:
         ax, ay, az = accelerometer.tolist()
         roll, pitch = atan2(ay, az), atan2(-ax, hypot(ay, az))
         if self._time is None or az <= 0.0:
-            if self._time is None and az > 0.0:
-                self._roll, self._pitch = roll, pitch
             self._time = time
             return self._roll, self._pitch
         step = time - self._time

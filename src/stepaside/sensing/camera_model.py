@@ -91,7 +91,7 @@ class CameraModel:
     def sees(self, point: ArrayLike) -> bool:
         """Whether a point in the camera's frame is inside the image."""
         u, v = self.project(point)[0].tolist()
-        return 0.0 <= u <= self.width and 0.0 <= v <= self.height
+        return bool(0.0 <= u <= self.width and 0.0 <= v <= self.height)
 
 
 @lru_cache(maxsize=16)

@@ -54,6 +54,7 @@ class Track:
 
     Attributes:
         time: Time of the state, in [s].
+        begun_at: When it was first seen, in [s].
         identified_at: When it last looked like the other robot, in [s].
         seen_at: When it was last seen, in [s].
         ranged_at: When its distance was last measured, in [s].
@@ -62,7 +63,7 @@ class Track:
 
     def __init__(self, first: Observation) -> None:
         """Begin with a first observation."""
-        self.time = self.seen_at = first.time
+        self.time = self.seen_at = self.begun_at = first.time
         self.identified_at = first.time if first.identified else -inf
         self.ranged_at = first.time if first.ranged else -inf
         self.confirmed = False
@@ -122,6 +123,13 @@ class Track:
         self._hits.append(found)
         if sum(self._hits) >= ENOUGH:
             self.confirmed = True
+
+    def take_over(self, other: "Track") -> None:
+        """Take over what is known of another track of the same thing."""
+        self.identified_at = max(self.identified_at, other.identified_at)
+        self.seen_at = max(self.seen_at, other.seen_at)
+        self.ranged_at = max(self.ranged_at, other.ranged_at)
+        self.confirmed = self.confirmed or other.confirmed
 
     @property
     def hopeless(self) -> bool:

@@ -7,6 +7,8 @@ from .track import GATE, Observation, Track
 IDENTITY = 5.0  # how long a thing stays the other robot unseen, in [s]
 PATIENCE = 4.0  # how long a confirmed thing is remembered, in [s]
 FRESH = 0.3  # age up to which nobody doubts a sighting, in [s]
+LAPSE = 0.5  # of recognition that does not make it another, in [s]
+SAME = 0.15  # distance within which two tracks are one thing, in [m]
 DOUBT = 0.6  # deviation beyond which memory is worth nothing, in [m]
 
 
@@ -65,8 +67,29 @@ class Tracker:
                 now - track.seen_at < FRESH or track.deviation_at(now) < DOUBT
             )
         ]
+        self._merge(now)
         known = [track for track in self.tracks if track.confirmed]
         named = [t for t in known if now - t.identified_at < IDENTITY]
         if named:
-            return max(named, key=lambda t: t.identified_at)
+            # A late one may be a mistake: the oldest still recognised.
+            newest = max(t.identified_at for t in named)
+            return min(
+                (t for t in named if newest - t.identified_at < LAPSE),
+                key=lambda t: t.begun_at,
+            )
         return min(known, key=lambda t: t.away_from(x, y, now), default=None)
+
+    def _merge(self, now: float) -> None:
+        """Drop the younger of two tracks of the same thing."""
+        kept: list[Track] = []
+        for track in sorted(self.tracks, key=lambda t: t.begun_at):
+            x, y = track.place_at(now)
+            for older in kept:
+                if older.away_from(x, y, now) < SAME and (
+                    track.seen_at - older.seen_at < LAPSE
+                ):
+                    older.take_over(track)
+                    break
+            else:
+                kept.append(track)
+        self.tracks = kept

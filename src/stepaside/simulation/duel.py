@@ -22,6 +22,7 @@ from .sight import IdealLineOfSight
 from .world import World
 
 if TYPE_CHECKING:
+    from .judge import Still
     from .seeing import Seeing
 
 NAMES = ("pursuer", "evader")
@@ -65,6 +66,7 @@ class DuelResult:
         triggered_at: When the evader began to evade, in [s]; None if never.
         triggered_distance: True distance then, in [m].
         sight: How well they saw, if with cameras.
+        stills: Some of what they saw, by robot and camera.
         replans: Maneuvers planned by both.
         planning_times: Processor time of each, in [s].
         velocity_jump: Greatest jump of a CoM velocity reference, in [m/s].
@@ -82,6 +84,7 @@ class DuelResult:
     triggered_at: float | None
     triggered_distance: float | None
     sight: dict[str, Any] | None
+    stills: "dict[str, dict[str, list[Still]]]"
     replans: int
     planning_times: Array
     velocity_jump: float
@@ -257,6 +260,7 @@ def run_duel(
         triggered_at=duel.triggered_at,
         triggered_distance=duel.triggered_distance,
         sight=None if duel.seeing is None else duel.seeing.figures(),
+        stills={} if duel.seeing is None else duel.seeing.stills(),
         replans=sum(s.replans for s in schemes),
         planning_times=np.concatenate(
             [np.array(s.planning_times) for s in schemes]

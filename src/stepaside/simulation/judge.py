@@ -1,13 +1,13 @@
 """How well a robot sees, judged by the truth that it does not have."""
 
 from dataclasses import dataclass
-from math import atan2, pi, radians
+from math import atan2, radians
 from typing import Any
 
 import numpy as np
 
 from ..control.perception import FrameReport, Perception
-from ..poses import Array, wrap_angle
+from ..poses import Array, wrap_angle, wrap_angles
 from ..robots.head import HeadDescription, Mount
 from ..sensing.images import ColourImage, DepthImage, Percept, SonarEcho
 from .robot import SimulatedRobot
@@ -58,6 +58,7 @@ class Judge:
         colour: Frames of the colour camera.
         depth: Frames of the depth camera.
         stills: Images kept to be looked at, by camera.
+        still_times: When they are to be kept, in [s].
     """
 
     def __init__(
@@ -86,8 +87,7 @@ class Judge:
         self.colour, self.depth = Tally(), Tally()
         self.stills: dict[str, list[Still]] = {"colour": [], "depth": []}
         self._rows: list[tuple[float, ...]] = []
-        self._next_still = {"colour": 0.0, "depth": 0.0}
-        self.still_period = 1.0
+        self.still_times: tuple[float, ...] = ()
         perception.on_frame = self.judge
 
     def note(self, percept: Percept) -> None:
@@ -130,9 +130,10 @@ class Judge:
                 for thing in allowed
             ):
                 tally.false += 1
-        if report.image.time >= self._next_still[kind]:
-            self._next_still[kind] = report.image.time + self.still_period
-            self.stills[kind].append(Still(report, azimuth))
+        kept = self.stills[kind]
+        if len(kept) < len(self.still_times):
+            if report.image.time >= self.still_times[len(kept)]:
+                kept.append(Still(report, azimuth))
 
     def sample(self, now: float) -> None:
         """Compare the belief of this instant with the truth."""
@@ -158,7 +159,7 @@ class Judge:
     def figures(self) -> dict[str, Any]:
         """Errors and rates, ready for JSON."""
         rows = self.array()
-        off = np.abs((rows[:, 1] - rows[:, 3] + pi) % (2.0 * pi) - pi)
+        off = np.abs(wrap_angles(rows[:, 1] - rows[:, 3]))
         away = np.abs(rows[:, 2] - rows[:, 4])
         period = float(np.diff(rows[:2, 0])[0]) if len(rows) > 1 else 0.0
         known = np.isfinite(off)

@@ -113,7 +113,7 @@ class DepthCaster:
         lost |= (depth < settings.near) | (depth > settings.far)
         depth[lost] = 0.0
         shape = self._camera.height, self._camera.width
-        image = depth.reshape(shape).astype(np.float32)
+        image: Depths = depth.reshape(shape).astype(np.float32)
         image[_edges(image)] = 0.0
         return image
 
@@ -166,7 +166,8 @@ class ColourCaster:
         light[geoms < 0] = 1.0
         colours = colours * light[:, None] * 255.0
         shape = self._camera.height, self._camera.width, 3
-        return np.clip(colours, 0.0, 255.0).astype(np.uint8).reshape(shape)
+        pixels: Pixels = np.clip(colours, 0.0, 255.0).astype(np.uint8)
+        return pixels.reshape(shape)
 
 
 class SonarCaster:

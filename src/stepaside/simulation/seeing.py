@@ -11,13 +11,13 @@ from ..robots.head import load_head
 from ..sensing.colour_detector import BLUE, RED
 from .eyes import Eyes
 from .graphics import choose_renderer
-from .judge import Judge
+from .judge import Judge, Still
 from .robot import SimulatedRobot
 from .room import furnisher
 from .settings import DuelSettings
 
 LOOKS = {"pursuer": BLUE, "evader": RED}  # what each looks for
-STILLS = 12  # images that a duel keeps of each camera
+STILLS = 5  # images that a duel keeps of each camera
 
 
 class Seeing:
@@ -61,7 +61,11 @@ class Seeing:
             judge = Judge(
                 own, other, self.perceptions[own.name], self._head, places
             )
-            judge.still_period = settings.duration / STILLS
+            # Early on more happens: the times grow as squares.
+            judge.still_times = tuple(
+                0.98 * settings.duration * ((i + 0.5) / (STILLS - 0.5)) ** 2
+                for i in range(STILLS)
+            )
             own.eyes = Eyes(
                 own.world,
                 own.name,
@@ -86,6 +90,10 @@ class Seeing:
             f"{name}_sight": judge.array()
             for name, judge in self.judges.items()
         }
+
+    def stills(self) -> dict[str, dict[str, list[Still]]]:
+        """Images kept to be looked at, by robot and camera."""
+        return {name: judge.stills for name, judge in self.judges.items()}
 
     def figures(self) -> dict[str, Any]:
         """Errors and rates, ready for JSON."""
