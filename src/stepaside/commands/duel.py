@@ -230,4 +230,31 @@ def _print(summary: dict[str, Any]) -> None:
         ),
         ("speed", f"{summary['real_time_factor']:.1f} x real time"),
     ]
+    if "camera" in summary:
+        rows += _sight_rows(summary)
     print_table(rows)
+
+
+def _sight_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
+    """How well the robots saw."""
+    rows = [("camera", summary["camera"])]
+    for name in ("pursuer", "evader"):
+        error = summary[name]["bearing_error_deg"]
+        if error["median"] is not None:
+            text = f"{error['median']:.2f} deg median, {error['p95']:.2f} p95"
+            rows.append((f"{name}'s bearing error", text))
+    away = summary["evader"]["distance_error_m"]["median"]
+    if away is not None:
+        rows.append(("evader's distance error", f"{away:.3f} m median"))
+    triggered = summary["triggered_at_distance_m"]
+    rate = summary["detection_rate"]
+    rows += [
+        (
+            "triggered at",
+            "never" if triggered is None else f"{triggered:.3f} m",
+        ),
+        ("detection rate", "-" if rate is None else f"{100.0 * rate:.1f} %"),
+        ("false detections", str(summary["false_detections"])),
+        ("lost", f"{summary['lost_s']:.1f} s"),
+    ]
+    return rows

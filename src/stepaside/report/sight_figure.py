@@ -33,8 +33,8 @@ def draw_sight(result: DuelResult, path: Path) -> None:
     """
     count = max(len(result.stills[name][kind]) for name, kind, _ in ROWS)
     count = max(count, 1)
-    figure = plt.figure(figsize=(2.45 * count, 12.2))
-    ratios = [1.0, 1.0, 1.0, 1.25, 0.8, 0.8]
+    figure = plt.figure(figsize=(2.45 * count, 10.6))
+    ratios = [1.0, 1.0, 1.0, 1.1, 0.8, 0.8]
     grid = figure.add_gridspec(6, count, height_ratios=ratios)
     for row, (name, kind, label) in enumerate(ROWS):
         for column, still in enumerate(result.stills[name][kind]):
@@ -68,9 +68,9 @@ def picture(still: Still) -> Pixels:
         if found is not None:
             corner = int(found.left), int(found.top)
             other = int(found.right), int(found.bottom)
-            cv2.rectangle(canvas, corner, other, FOUND, 1)
+            cv2.rectangle(canvas, corner, other, FOUND, 2)
             middle = int(found.column)
-            cv2.line(canvas, (middle, corner[1]), (middle, other[1]), FOUND)
+            cv2.line(canvas, (middle, corner[1]), (middle, other[1]), FOUND, 2)
         scale = 1
     else:
         canvas, scale = _depth_picture(still, image), SCALE
@@ -131,8 +131,8 @@ def _draw_top(axes: Any, result: DuelResult, time: float) -> None:
     every = np.concatenate(
         [arrays["pursuer_torso"][:, :2], arrays["evader_torso"][:, :2]]
     )
-    for _, place in result.settings.room.places:
-        axes.plot(place.x, place.y, "s", color="#888888", ms=5)
+    for thing in result.settings.room.things:
+        axes.plot(thing.x, thing.y, "s", color="#888888", ms=5)
     low, high = every.min(axis=0) - 0.3, every.max(axis=0) + 0.3
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
     axes.tick_params(labelsize=6)

@@ -191,7 +191,7 @@ def _measure(
     azimuth = 0.5 * (low + high)
     width = nearest * (high - low)
     columns = np.flatnonzero(part.any(axis=0))
-    reach = nearest + min(max(0.5 * width, 0.08), 0.15)
+    reach = nearest + min(max(0.5 * width, 0.11), 0.16)
     bearing = ahead + azimuth
     return Obstacle(
         float(place[0] + reach * np.cos(bearing)),

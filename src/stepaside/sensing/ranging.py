@@ -5,7 +5,7 @@ from math import hypot
 from ..poses import Array
 from .colour_detector import Appearance
 
-FORWARD = 0.06  # how far the lower end stands before the axis, in [m]
+FORWARD = 0.05  # how far the lower end stands before the axis, in [m]
 NEAREST, FARTHEST = 0.2, 4.0  # distances that trim can tell, in [m]
 
 

@@ -9,7 +9,8 @@ import numpy as np
 from ..poses import Array
 
 RESTLESS = 1.0  # acceleration that things have, in [m/s^2]
-DECAY = 0.7  # time after which a speed seen once is forgotten, in [s]
+HOLD = 0.4  # how long a speed is believed unseen, in [s]
+DECAY = 0.7  # time in which it is forgotten thereafter, in [s]
 HURRY = 0.25  # speed that a thing may have when first seen, in [m/s]
 WINDOW = 5  # frames that are remembered for confirmation
 ENOUGH = 3  # of them that must have found a thing
@@ -81,7 +82,7 @@ class Track:
     def place_at(self, time: float) -> tuple[float, float]:
         """Predicted place in odometry, in [m]."""
         x, y, vx, vy = self._state.tolist()
-        ahead = DECAY * (1.0 - exp(-(time - self.time) / DECAY))
+        ahead, _ = _coast(time - self.time)
         return x + ahead * vx, y + ahead * vy
 
     def deviation_at(self, time: float) -> float:
@@ -154,9 +155,9 @@ class Track:
 
     def _predicted(self, time: float) -> tuple[Array, Array]:
         step = max(0.0, time - self.time)
-        kept = exp(-step / DECAY)
+        ahead, kept = _coast(step)
         move = np.diag([1.0, 1.0, kept, kept])
-        move[0, 2] = move[1, 3] = DECAY * (1.0 - kept)
+        move[0, 2] = move[1, 3] = ahead
         covariance = move @ self._covariance @ move.T
         push = RESTLESS**2 * np.array(
             [[0.25 * step**4, 0.5 * step**3], [0.5 * step**3, step**2]]
@@ -166,3 +167,14 @@ class Track:
         covariance[0::2, 0::2] += push
         covariance[1::2, 1::2] += push
         return move @ self._state, covariance
+
+
+def _coast(step: float) -> tuple[float, float]:
+    """How far a unit speed leads unseen, in [s], and what is left of it.
+
+    Walkers sway: the speed of an instant leads nowhere for long.
+    """
+    if step <= HOLD:
+        return step, 1.0
+    kept = exp(-(step - HOLD) / DECAY)
+    return HOLD + DECAY * (1.0 - kept), kept

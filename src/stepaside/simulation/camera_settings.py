@@ -9,10 +9,10 @@ from ..errors import (
     check_positive,
     check_within,
 )
-from ..poses import Pose
 from ..sensing.camera_model import CameraModel
 
 ERROR = ConfigurationError
+KINDS = ("red box", "blue box", "white figure")
 # Horizontal and vertical field of view of NAO's top camera, in [deg].
 OPTICS = {"v5": (60.9, 47.6), "v6": (54.7, 42.5)}
 
@@ -157,40 +157,52 @@ class CameraSettings:
 
 
 @dataclass(frozen=True, slots=True)
+class Thing:
+    """Something that stands in the room.
+
+    Attributes:
+        kind: "red box", "blue box" or "white figure".
+        x: Where it stands, in [m].
+        y: Likewise.
+    """
+
+    kind: str
+    x: float
+    y: float
+
+    def __post_init__(self) -> None:
+        """Refuse unknown things and places outside of any room."""
+        if self.kind not in KINDS:
+            raise ConfigurationError(
+                f"a thing must be one of {', '.join(KINDS)}, got {self.kind!r}"
+            )
+        for name in ("x", "y"):
+            value = getattr(self, name)
+            where = f"{name} of the {self.kind}"
+            check_within(value, -20.0, 20.0, where, "m", ERROR)
+
+
+@dataclass(frozen=True, slots=True)
 class RoomSettings:
     """What stands around the robots.
 
     Attributes:
         walls: Distance of the walls from the middle, in [m]; 0 for none.
-        things: Boxes and figures, as (kind, x [m], y [m]); the kinds are
-            "red box", "blue box" and "white figure".
+        things: Boxes and figures that stand about.
     """
 
     walls: float = 5.0
-    things: list[tuple[str, float, float]] = field(default_factory=list)
+    things: list[Thing] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        """Refuse walls too near and things unknown."""
+        """Refuse walls that are too near."""
         if self.walls:
             check_within(self.walls, 2.0, 20.0, "walls", "m", ERROR)
-        for kind, x, y in self.things:
-            if kind not in KINDS:
-                raise ConfigurationError(
-                    f"things must be of {', '.join(KINDS)}, got {kind!r}"
-                )
-            for value in (x, y):
-                check_within(value, -20.0, 20.0, f"{kind}", "m", ERROR)
-
-    @property
-    def places(self) -> list[tuple[str, Pose]]:
-        """Things and where they stand."""
-        return [(kind, Pose(x, y, 0.0)) for kind, x, y in self.things]
 
 
-KINDS = ("red box", "blue box", "white figure")
 # In the way of nobody, but in view of both.
 CLUTTER = (
-    ("red box", 3.4, 1.6),
-    ("blue box", -1.6, -2.0),
-    ("white figure", 3.2, -1.8),
+    Thing("red box", 3.4, 1.6),
+    Thing("blue box", -1.6, -2.0),
+    Thing("white figure", 3.2, -1.8),
 )

@@ -203,7 +203,8 @@ class Duel:
             self.min_distance = distance
         if any(robot.truth.has_fallen for robot in self.robots):
             return Outcome.FALL
-        if distance < CHECK_NEAR and self.world.robots_touch():
+        crowded = distance < CHECK_NEAR or self.settings.room.things
+        if crowded and self.world.robots_touch():
             return Outcome.CONTACT
         return None
 
@@ -289,7 +290,8 @@ def _message(duel: Duel, outcome: Outcome) -> str:
         fallen = [r.name for r in duel.robots if r.truth.has_fallen]
         return f"{' and '.join(fallen)} fell at {duel.world.time:.2f} s"
     if outcome is Outcome.CONTACT:
-        return f"the robots touched at {duel.world.time:.2f} s"
+        what = "the robots" if duel.distance < CHECK_NEAR else "robot, thing"
+        return f"{what} touched at {duel.world.time:.2f} s"
     if outcome is Outcome.INTERRUPTED:
         return f"interrupted at {duel.world.time:.2f} s"
     return f"played {duel.world.time:.2f} s"

@@ -7,6 +7,7 @@ import mujoco
 from ..robots.head import HeadDescription
 from .camera_settings import RoomSettings
 
+FLOOR_BIT = 1  # as of the floor: robots run into it
 WALL_HEIGHT = 1.2  # half of it, in [m]
 TONES = ((0.78, 0.76, 0.72), (0.70, 0.74, 0.74))
 BOXES = {
@@ -40,11 +41,11 @@ def furnisher(
     def furnish(spec: mujoco.MjSpec) -> None:
         if room.walls:
             _add_walls(spec, room.walls)
-        for index, (kind, place) in enumerate(room.places):
+        for index, thing in enumerate(room.things):
             body = spec.worldbody.add_body(
-                name=f"thing {index}", pos=[place.x, place.y, 0.0]
+                name=f"thing {index}", pos=[thing.x, thing.y, 0.0]
             )
-            _add_thing(body, kind)
+            _add_thing(body, thing.kind)
         _add_housing(spec, wearer, head)
 
     return furnish
@@ -75,7 +76,7 @@ def _add_walls(spec: mujoco.MjSpec, away: float) -> None:
                 WALL_HEIGHT,
             ],
             material="wall",
-            contype=0,
+            contype=FLOOR_BIT,
             conaffinity=0,
         )
 
@@ -87,7 +88,7 @@ def _add_thing(body: mujoco.MjsBody, kind: str) -> None:
             pos=[0.0, 0.0, 0.2],
             size=[0.12, 0.12, 0.2],
             rgba=list(BOXES[kind]),
-            contype=0,
+            contype=FLOOR_BIT,
             conaffinity=0,
         )
         return
@@ -97,7 +98,7 @@ def _add_thing(body: mujoco.MjsBody, kind: str) -> None:
             pos=list(place),
             size=list(size),
             rgba=list(WHITE),
-            contype=0,
+            contype=FLOOR_BIT,
             conaffinity=0,
         )
 

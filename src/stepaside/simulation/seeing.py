@@ -56,7 +56,7 @@ class Seeing:
     def open(self, robots: list[SimulatedRobot]) -> None:
         """Open the eyes of robots that stand in their world."""
         settings = self._settings
-        places = [(p.x, p.y) for _, p in settings.room.places]
+        places = [(thing.x, thing.y) for thing in settings.room.things]
         for own, other in (robots, robots[::-1]):
             judge = Judge(
                 own, other, self.perceptions[own.name], self._head, places

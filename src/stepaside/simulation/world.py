@@ -127,7 +127,9 @@ class World:
             self.model.body(f"{name}/{robot.torso}").id
             for name, robot in robots.items()
         ]
-        owner = np.zeros(self.model.nbody, dtype=int)
+        # Floor and walls are nobody's; other things are strangers.
+        owner = np.full(self.model.nbody, self._robots + 1)
+        owner[0] = 0
         for number, root in enumerate(roots, start=1):
             owner[self.model.body_rootid == self.model.body_rootid[root]] = (
                 number
@@ -150,7 +152,7 @@ class World:
             self._waiting = self._robots
 
     def robots_touch(self) -> bool:
-        """Whether two robots are in contact."""
+        """Whether two robots, or one and a thing, are in contact."""
         if self.data.ncon == 0:
             return False
         owners = self._owner_of_geom[self.data.contact.geom]
