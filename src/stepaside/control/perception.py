@@ -26,10 +26,11 @@ from .tilt import TiltFilter
 MEMORY = 1.0  # how long past poses are kept, in [s]
 FRESH = 0.25  # age at which a distance is worth hearing again, in [s]
 UNSEEN = 1.0  # after which the head searches, in [s]
-SURE = 0.55  # confidence from which the size of the trim tells distance
+SURE = 0.8  # confidence from which the size of the trim tells distance
 GUESS = 1.2  # distance of a thing whose distance is unknown, in [m]
 STARE = 1.2  # unknown things that rest are looked at up to here, in [m]
 MOVING = 0.08  # speed from which a thing moves, in [m/s]
+VAGUE = 0.6  # deviation of a distance that is only remembered, in [m]
 NEARBY = 0.15  # beyond the near limit, of what casts a shadow, in [m]
 CHEST = 0.10  # from a sonar to the own axis and into the other, in [m]
 EAR = radians(50.0)  # how far aside a sonar hears
@@ -205,7 +206,7 @@ class Perception:
             float(place[0] + away * cos(bearing)),
             float(place[1] + away * sin(bearing)),
             bearing,
-            0.02 + 0.05 * away if ranged else 0.4,
+            0.02 + 0.05 * away if ranged else VAGUE,
             0.003 + aside * away,
             True,
             ranged,
@@ -259,7 +260,7 @@ class Perception:
             x + away * cos(shadow.bearing),
             y + away * sin(shadow.bearing),
             shadow.bearing,
-            0.3,
+            VAGUE,
             0.08 * away,
             False,
             False,

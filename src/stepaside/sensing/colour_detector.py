@@ -18,6 +18,7 @@ SQUARE = 0.85  # share of its box that a round patch does not fill
 LARGE = 2.5  # area of what is no trim, of the median patch
 TALLEST = 0.6  # patch, of the height of all trim
 WIDEST = 2.1  # all trim, of its height
+ROOM = 0.1  # below the lowest trim, of its height, if it is the lowest
 FULLEST = 0.5  # trim, of the box around all of it
 
 
@@ -169,7 +170,9 @@ def _judge(
         if len(group) > 2 and tall.max() <= TALLEST * height:
             break
         group = np.delete(group, int(np.argmax(tall)), axis=0)
-    cut_above, cut_below = top <= 1, bottom >= camera.height - 1
+    # So near the edge, trim may be missing below.
+    edge = camera.height - 1 - ROOM * height
+    cut_above, cut_below = top <= 1, bottom >= edge
     cut_aside = left <= 1 or right >= camera.width - 1
     if right - left > WIDEST * height and not (cut_above or cut_below):
         return None

@@ -10,7 +10,7 @@ SPEED = 3.0  # of the head while it follows, in [rad/s]
 SCAN_SPEED = 1.4  # of the head while it searches, in [rad/s]
 SCAN_PITCH = radians(8.0)  # downward, while it searches
 REACH = radians(115.0)  # of the yaw while it searches
-MIDDLE = 0.30  # height of a robot that is looked at, in [m]
+MIDDLE = 0.28  # height of a robot that is looked at, in [m]
 LOOKOUT = 0.46  # height of the eyes, in [m]
 
 
@@ -24,7 +24,7 @@ class Gaze:
     """
 
     def __init__(self, coupling: Array, tick: float) -> None:
-        """Look ahead.
+        """Look ahead, and a little down.
 
         Args:
             coupling: Yaw, least and greatest pitch, in [rad]. Shape (3, n).
@@ -33,7 +33,7 @@ class Gaze:
         self._yaws, self._low, self._high = coupling
         self._tick = tick
         self._side = 1.0
-        self.yaw = self.pitch = 0.0
+        self.yaw, self.pitch = 0.0, SCAN_PITCH
         self.searching = True
 
     def follow(self, bearing: float, distance: float) -> None:
