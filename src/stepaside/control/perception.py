@@ -17,7 +17,7 @@ from ..sensing.colour_detector import (
 from ..sensing.depth_detector import DepthScene, Shadow, detect_obstacles
 from ..sensing.gaze import Gaze
 from ..sensing.images import ColourImage, DepthImage, Percept, SonarEcho
-from ..sensing.ranging import range_of_trim
+from ..sensing.ranging import range_of_breadth, range_of_trim
 from ..sensing.track import Observation, Track
 from ..sensing.tracker import Tracker
 from .body import Measurement, Sighting
@@ -30,6 +30,8 @@ SURE = 0.8  # confidence from which the size of the trim tells distance
 GUESS = 1.2  # distance of a thing whose distance is unknown, in [m]
 STARE = 1.2  # unknown things that rest are looked at up to here, in [m]
 MOVING = 0.08  # speed from which a thing moves, in [m/s]
+CLOSEST = 0.35  # distance below which no other can be, in [m]
+ROUGH = 0.35  # share by which a distance told by breadth is off
 VAGUE = 0.6  # deviation of a distance that is only remembered, in [m]
 NEARBY = 0.15  # beyond the near limit, of what casts a shadow, in [m]
 CHEST = 0.10  # from a sonar to the own axis and into the other, in [m]
@@ -198,15 +200,26 @@ class Perception:
                 self._detector.appearance,
             )
         ranged = away is not None
-        if away is None:
+        along = VAGUE
+        if away is not None:
+            along = 0.02 + 0.05 * away
+        elif not found.cut_aside and found.cut_below:
+            # Too near to be seen whole: its breadth tells roughly.
+            away = range_of_breadth(
+                _angle(image, found.right) - _angle(image, found.left)
+            )
+            along = ROUGH * away
+        else:
             away = self._remembered(image.time, bearing, place)
+            if away <= CLOSEST:
+                along = 0.1
         aside = 0.005 if not found.cut_aside else 0.06
         return Observation(
             image.time,
             float(place[0] + away * cos(bearing)),
             float(place[1] + away * sin(bearing)),
             bearing,
-            0.02 + 0.05 * away if ranged else VAGUE,
+            along,
             0.003 + aside * away,
             True,
             ranged,
@@ -218,7 +231,7 @@ class Perception:
         for track in self._tracker.tracks:
             off = wrap_angle(track.turned_to(x, y, time) - bearing)
             if abs(off) < radians(20.0):
-                return track.away_from(x, y, time)
+                return max(track.away_from(x, y, time), CLOSEST)
         return GUESS
 
     def _take_depth(

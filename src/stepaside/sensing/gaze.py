@@ -11,6 +11,8 @@ SCAN_SPEED = 1.4  # of the head while it searches, in [rad/s]
 SCAN_PITCH = radians(8.0)  # downward, while it searches
 REACH = radians(115.0)  # of the yaw while it searches
 MIDDLE = 0.28  # height of a robot that is looked at, in [m]
+CROWN = 0.54  # height of the upper end of a robot's trim, in [m]
+HALF = radians(20.0)  # upward from the middle of an image, still in it
 LOOKOUT = 0.46  # height of the eyes, in [m]
 
 
@@ -48,7 +50,10 @@ class Gaze:
         bearing = wrap_angle(bearing)
         # Should it leave, the search begins on its side.
         self._side = 1.0 if bearing >= self.yaw else -1.0
-        self._turn(bearing, atan2(LOOKOUT - MIDDLE, distance), SPEED)
+        # From near not all is in view: rather the head than the feet.
+        crown = atan2(CROWN - LOOKOUT, max(distance - 0.06, 0.1))
+        pitch = min(atan2(LOOKOUT - MIDDLE, distance), HALF - crown)
+        self._turn(bearing, pitch, SPEED)
 
     def search(self) -> None:
         """Sweep from side to side."""

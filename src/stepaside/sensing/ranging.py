@@ -6,6 +6,7 @@ from ..poses import Array
 from .colour_detector import Appearance
 
 FORWARD = 0.05  # how far the lower end stands before the axis, in [m]
+BREADTH = 0.25  # of trim, seen aslant, in [m]
 NEAREST, FARTHEST = 0.2, 4.0  # distances that trim can tell, in [m]
 
 
@@ -39,3 +40,15 @@ def range_of_trim(
             return None
         away = FORWARD + below / rest
     return float(away) if NEAREST < away < FARTHEST else None
+
+
+def range_of_breadth(breadth: float) -> float:
+    """Rough distance of a robot from how broad its trim looks.
+
+    Its trim is as broad as its shoulders from the front and half as broad
+    from the side: this is off by a third.
+
+    Args:
+        breadth: Angle from its left to its right end, in [rad].
+    """
+    return min(max(BREADTH / max(breadth, 1e-3), NEAREST), FARTHEST)
