@@ -83,6 +83,10 @@ def converged_at(
         np.abs(distance - theory.distance_m)
         > DISTANCE_BAND * theory.distance_m
     ) | (np.abs(angle - degrees(theory.headings_apart_rad)) > ORIENTATION_BAND)
+    # A window that the end cuts is no gait cycle: the last whole one counts.
+    half = round(period / float(times[1] - times[0])) // 2
+    if 0 < half < len(off):
+        off[-half:] = off[-half - 1]
     last = np.flatnonzero(off)
     start = 0 if last.size == 0 else int(last[-1]) + 1
     if start >= len(times):
