@@ -14,26 +14,26 @@ from ..sensing.colour_detector import (
     ColourDetection,
     ColourDetector,
 )
-from ..sensing.depth_detector import DepthScene, Shadow, detect_obstacles
+from ..sensing.depth_detector import DepthScene, detect_obstacles
 from ..sensing.gaze import Gaze
 from ..sensing.images import ColourImage, DepthImage, Percept, SonarEcho
-from ..sensing.ranging import range_of_breadth, range_of_trim
 from ..sensing.track import Observation, Track
 from ..sensing.tracker import Tracker
 from .body import Measurement, Sighting
+from .observing import (
+    angle_of,
+    observe_obstacle,
+    observe_shadow,
+    observe_trim,
+)
 from .tilt import TiltFilter
 
 MEMORY = 1.0  # how long past poses are kept, in [s]
 FRESH = 0.25  # age at which a distance is worth hearing again, in [s]
 UNSEEN = 1.0  # after which the head searches, in [s]
-SURE = 0.8  # confidence from which the size of the trim tells distance
-GUESS = 1.2  # distance of a thing whose distance is unknown, in [m]
 STARE = 1.2  # unknown things that rest are looked at up to here, in [m]
 MOVING = 0.08  # speed from which a thing moves, in [m/s]
-CLOSEST = 0.35  # distance below which no other can be, in [m]
-ROUGH = 0.35  # share by which a distance told by breadth is off
-VAGUE = 0.6  # deviation of a distance that is only remembered, in [m]
-NEARBY = 0.15  # beyond the near limit, of what casts a shadow, in [m]
+BROAD = 0.12  # shadow of somebody who was not seen before, in [rad]
 CHEST = 0.10  # from a sonar to the own axis and into the other, in [m]
 EAR = radians(50.0)  # how far aside a sonar hears
 
@@ -173,66 +173,11 @@ class Perception:
         azimuths: tuple[float, ...] = ()
         seen: list[Observation] = []
         if found is not None:
-            azimuths = (-_angle(image, found.column),)
-            seen = [self._trim(image, found, place, axes)]
+            azimuths = (-angle_of(image, found.column),)
+            look, tracks = self._detector.appearance, self._tracker.tracks
+            seen = [observe_trim(image, found, place, axes, look, tracks)]
         self.on_frame(FrameReport(image, azimuths, colour=found))
         self._observe(seen, image, place, axes, named=True)
-
-    def _trim(
-        self,
-        image: ColourImage,
-        found: ColourDetection,
-        place: Array,
-        axes: Array,
-    ) -> Observation:
-        """Turn trim in an image into a place in odometry."""
-        camera = image.camera
-        middle = 0.5 * (found.top + found.bottom)
-        x, y, _ = (axes @ camera.ray(found.column, middle)).tolist()
-        bearing = atan2(y, x)
-        away = None
-        whole = not (found.cut_above or found.cut_below)
-        if whole and found.confidence >= SURE:
-            away = range_of_trim(
-                axes @ camera.ray(found.column, found.top),
-                axes @ camera.ray(found.column, found.bottom),
-                float(place[2]),
-                self._detector.appearance,
-            )
-        ranged = away is not None
-        along = VAGUE
-        if away is not None:
-            along = 0.02 + 0.05 * away
-        elif not found.cut_aside and found.cut_below:
-            # Too near to be seen whole: its breadth tells roughly.
-            away = range_of_breadth(
-                _angle(image, found.right) - _angle(image, found.left)
-            )
-            along = ROUGH * away
-        else:
-            away = self._remembered(image.time, bearing, place)
-            if away <= CLOSEST:
-                along = 0.1
-        aside = 0.005 if not found.cut_aside else 0.06
-        return Observation(
-            image.time,
-            float(place[0] + away * cos(bearing)),
-            float(place[1] + away * sin(bearing)),
-            bearing,
-            along,
-            0.003 + aside * away,
-            True,
-            ranged,
-        )
-
-    def _remembered(self, time: float, bearing: float, place: Array) -> float:
-        """Distance of what was seen in a direction, from a place."""
-        x, y = float(place[0]), float(place[1])
-        for track in self._tracker.tracks:
-            off = wrap_angle(track.turned_to(x, y, time) - bearing)
-            if abs(off) < radians(20.0):
-                return max(track.away_from(x, y, time), CLOSEST)
-        return GUESS
 
     def _take_depth(
         self, image: DepthImage, body: BodyPose, now: float
@@ -243,42 +188,16 @@ class Perception:
         azimuths = tuple(o.azimuth for o in scene.obstacles)
         azimuths += tuple(s.azimuth for s in scene.shadows)
         self.on_frame(FrameReport(image, azimuths, depth=scene))
-        seen = [
-            Observation(
-                image.time,
-                o.x,
-                o.y,
-                o.bearing,
-                0.03,
-                0.03 if o.whole else 0.12,
-                False,
-                True,
-            )
-            for o in scene.obstacles
-        ]
+        seen = [observe_obstacle(image, o) for o in scene.obstacles]
         self._observe(seen, image, place, axes, named=False)
         for shadow in scene.shadows:
-            self._take_shadow(shadow, image, place)
-
-    def _take_shadow(
-        self, shadow: Shadow, image: DepthImage, place: Array
-    ) -> None:
-        """Follow by its bearing what is too near for its distance."""
-        x, y = float(place[0]), float(place[1])
-        time = image.time
-        away = self._remembered(time, shadow.bearing, place)
-        away = min(away, image.near + NEARBY)
-        seen = Observation(
-            time,
-            x + away * cos(shadow.bearing),
-            y + away * sin(shadow.bearing),
-            shadow.bearing,
-            VAGUE,
-            0.08 * away,
-            False,
-            False,
-        )
-        self._tracker.observe([seen], founds=False)
+            tracks = self._tracker.tracks
+            # Something that came so near unseen is somebody too.
+            founds = shadow.width > BROAD and not any(
+                track.confirmed for track in tracks
+            )
+            near = observe_shadow(image, shadow, place, tracks)
+            self._tracker.observe([near], founds=founds)
 
     def _hear(self, echo: SonarEcho, body: BodyPose, now: float) -> None:
         """Hear how far away is what no camera measures any more."""
@@ -327,7 +246,7 @@ class Perception:
         """Update tracks, and count those that a frame should have shown."""
         updated = self._tracker.observe(seen)
         ahead = atan2(axes[1, 0], axes[0, 0])
-        half = 0.85 * abs(_angle(image, 0.0))
+        half = 0.85 * abs(angle_of(image, 0.0))
         x, y = float(place[0]), float(place[1])
         for track in self._tracker.tracks:
             if track in updated:
@@ -343,9 +262,3 @@ def _camera(body: BodyPose, mount: Mount) -> tuple[Array, Array]:
     """Place and axes of a camera on the head, in odometry."""
     place = body.head_place + body.head_axes @ mount.place
     return place, body.head_axes @ mount.axes
-
-
-def _angle(image: ColourImage | DepthImage, column: float) -> float:
-    """Angle of a column from the middle, in [rad], positive rightward."""
-    camera = image.camera
-    return atan2(column - 0.5 * camera.width, camera.focal_x)
