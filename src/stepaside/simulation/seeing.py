@@ -2,7 +2,14 @@
 
 from typing import Any
 
-import cv2
+from ..errors import ConfigurationError
+
+try:
+    import cv2
+except ImportError as error:
+    raise ConfigurationError(
+        "sensing with cameras needs OpenCV: pip install 'stepaside[vision]'"
+    ) from error
 
 from ..control.perception import Perception
 from ..poses import Array
