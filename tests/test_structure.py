@@ -1,6 +1,8 @@
 """Test that the house stands: imports point down, doors open."""
 
 import ast
+import subprocess
+import sys
 from importlib import import_module
 from pathlib import Path
 
@@ -15,6 +17,7 @@ FLOORS = {
     "poses": 1,
     "unicycle": 2,
     "robots": 2,
+    "sensing": 2,
     "planning": 3,
     "control": 4,
     "simulation": 5,
@@ -68,3 +71,30 @@ def test_every_name_at_the_door_exists(room: str) -> None:
     )
     for name in module.__all__:
         assert getattr(module, name) is not None
+
+
+@pytest.mark.parametrize("room", ["sensing", "control"])
+def test_who_perceives_knows_nothing_of_the_simulator(room: str) -> None:
+    """No truth can leak in: neither the simulation nor MuJoCo is imported."""
+    files = sorted((ROOT / room).rglob("*.py"))
+    assert files
+    for file in files:
+        assert "simulation" not in imported_rooms(file), file
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        for node in ast.walk(tree):
+            names = [a.name for a in getattr(node, "names", [])]
+            if isinstance(node, ast.ImportFrom):
+                names = [node.module or ""]
+            elif not isinstance(node, ast.Import):
+                continue
+            assert not any(n.startswith("mujoco") for n in names), file
+
+
+def test_an_ideal_duel_loads_neither_cameras_nor_vision() -> None:
+    code = (
+        "import sys; from stepaside.simulation import DuelSettings, run_duel;"
+        "run_duel(DuelSettings(duration=0.01));"
+        "assert 'cv2' not in sys.modules;"
+        "assert 'stepaside.simulation.eyes' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)

@@ -70,6 +70,23 @@ if TYPE_CHECKING:
 @click.option("--rate", type=NumberType("1/s"), help="Of sight [1/s].")
 @body_options
 @floor_options
+@click.option(
+    "--sensing",
+    type=click.Choice(["ideal", "cameras"]),
+    help="Whether they are told where the other is (default) or see it.",
+)
+@click.option(
+    "--drop-frames", type=float, help="Share of images that never arrive."
+)
+@click.option(
+    "--camera-latency",
+    "added_latency",
+    type=NumberType("s", allow_zero=True),
+    help="Added to that of the cameras [s].",
+)
+@click.option(
+    "--clutter", is_flag=True, help="Boxes and a white figure stand about."
+)
 @click.option("--robot", help="Robot, or the folder of its description.")
 @click.option(
     "--config",
@@ -122,6 +139,7 @@ def _settings(config: Path | None, options: dict[str, Any]) -> "DuelSettings":
     from dataclasses import replace
 
     from ..planning import PRESETS
+    from ..simulation.camera_settings import CLUTTER, RoomSettings
     from ..simulation.configuration import load_configuration
     from ..simulation.settings import DuelSettings
 
@@ -141,10 +159,13 @@ def _settings(config: Path | None, options: dict[str, Any]) -> "DuelSettings":
     }
     if "preset" in given:
         settings = replace(settings, gait=PRESETS[given.pop("preset")])
+    if given.pop("clutter", False):
+        settings = replace(settings, room=RoomSettings(things=list(CLUTTER)))
     sections = {
         "start": ("distance", "pursuer_offset", "evader_offset"),
         "strategy": ("angle", "saturated", "release_distance"),
         "sight": ("bearing_noise", "distance_noise", "delay", "rate"),
+        "cameras": ("drop_frames", "added_latency"),
     }
     for section, keys in sections.items():
         changes = {key: given.pop(key) for key in keys if key in given}
@@ -225,4 +246,31 @@ def _print(summary: dict[str, Any]) -> None:
         ),
         ("speed", f"{summary['real_time_factor']:.1f} x real time"),
     ]
+    if "camera" in summary:
+        rows += _sight_rows(summary)
     print_table(rows)
+
+
+def _sight_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
+    """How well the robots saw."""
+    rows = [("camera", summary["camera"])]
+    for name in ("pursuer", "evader"):
+        error = summary[name]["bearing_error_deg"]
+        if error["median"] is not None:
+            text = f"{error['median']:.2f} deg median, {error['p95']:.2f} p95"
+            rows.append((f"{name}'s bearing error", text))
+    away = summary["evader"]["distance_error_m"]["median"]
+    if away is not None:
+        rows.append(("evader's distance error", f"{away:.3f} m median"))
+    triggered = summary["triggered_at_distance_m"]
+    rate = summary["detection_rate"]
+    rows += [
+        (
+            "triggered at",
+            "never" if triggered is None else f"{triggered:.3f} m",
+        ),
+        ("detection rate", "-" if rate is None else f"{100.0 * rate:.1f} %"),
+        ("false detections", str(summary["false_detections"])),
+        ("lost", f"{summary['lost_s']:.1f} s"),
+    ]
+    return rows

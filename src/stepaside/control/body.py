@@ -1,8 +1,11 @@
 """What stands between control and a body, simulated or real."""
 
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from ..poses import Array
+
+if TYPE_CHECKING:
+    from ..sensing.images import Percept
 
 
 class Sighting(NamedTuple):
@@ -35,6 +38,7 @@ class Measurement(NamedTuple):
             left front-left, front-right, rear-left, rear-right, then right.
             Shape (8,).
         sighting: Newest sighting of the other robot, if there is any.
+        percepts: Images and echoes that have arrived since the last tick.
     """
 
     time: float
@@ -43,6 +47,7 @@ class Measurement(NamedTuple):
     accelerometer: Array
     foot_forces: Array
     sighting: Sighting | None
+    percepts: tuple["Percept", ...] = ()
 
 
 class Body(Protocol):

@@ -11,6 +11,8 @@ from ..robots.kinematics import BodyReference
 from .attitude import AttitudeFilter
 from .body import Measurement
 
+FALLEN = 0.7  # tilt of the torso at which a robot knows that it falls, [rad]
+
 
 class BodyState(NamedTuple):
     """What the body does, in odometry.
@@ -34,6 +36,11 @@ class BodyState(NamedTuple):
     rate: tuple[float, float, float]
     left_share: float
     weight: float
+
+    @property
+    def has_fallen(self) -> bool:
+        """Whether the torso leans too far to come back."""
+        return max(map(abs, self.tilt)) > FALLEN
 
 
 class StateEstimator:
@@ -88,7 +95,7 @@ class StateEstimator:
         return self._attitude.ready
 
     @property
-    def heading(self) -> float:
+    def torso_heading(self) -> float:
         """Heading of the torso in odometry over the loaded foot, in [rad]."""
         return self._heading
 

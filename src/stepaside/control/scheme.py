@@ -1,6 +1,7 @@
 """The control scheme of one robot (paper, Fig. 4)."""
 
 from time import process_time
+from typing import TYPE_CHECKING
 
 from ..planning import (
     CenterState,
@@ -24,7 +25,9 @@ from .roles import Role
 from .stabiliser import Stabiliser
 from .step import Step, resting_step, step_of
 
-FALLEN = 0.7  # tilt of the torso at which a robot knows that it falls, [rad]
+if TYPE_CHECKING:
+    from .perception import Perception
+
 SETTLING = 1.0  # how long a halted robot takes to come to rest, in [s]
 
 
@@ -36,6 +39,7 @@ class ControlScheme:
 
     Attributes:
         role: Pursuit or evasion.
+        perception: What sees and moves the head, if there is any.
         phase: What the robot is doing.
         plan: Maneuver being walked; None while standing.
         plan_frame: Pose of its frame in odometry.
@@ -62,6 +66,7 @@ class ControlScheme:
         first_foot: Foot = Foot.LEFT,
         sighting: Sighting | None = None,
         stabiliser: Stabiliser | None = None,
+        perception: "Perception | None" = None,
     ) -> None:
         """Take the standing posture.
 
@@ -73,6 +78,8 @@ class ControlScheme:
             first_foot: Foot that makes the first step.
             sighting: What is known of the other before anything is seen.
             stabiliser: Feedback on top of the plan; none by default.
+            perception: What turns images into sightings; without it the
+                measurements bring sightings.
 
         Raises:
             ReachError: If the robot cannot stand as the gait asks.
@@ -93,6 +100,7 @@ class ControlScheme:
         self.planning_times: list[float] = []
         self.velocity_jumps: list[float] = []
         self.walked: list[ManeuverPlan] = []
+        self.perception = perception
         self._first_foot = first_foot
         self._sighting = sighting
         self.stabiliser = stabiliser
@@ -117,45 +125,36 @@ class ControlScheme:
         if self.phase is Phase.FALLEN:
             return self.joint_targets
         now = measurement.time
-        self._headings.note(now, self._torso_heading())
-        if measurement.sighting is not None:
+        feedback = self.stabiliser
+        known = feedback.estimator if feedback else self.kinematics
+        self._headings.note(now, known.torso_heading)
+        if self.perception is not None:
+            foot = self.step(now)
+            self._sighting = self.perception.see(
+                measurement, foot.support, foot.swing is Foot.RIGHT
+            )
+        elif measurement.sighting is not None:
             self._sighting = measurement.sighting
         if self.plan is None:
             self._wait(now)
         elif now >= self._plan_ends - 1e-9:
             self._finish(self.plan)
-        row: Row | None = None
-        if self.plan is not None:
-            row = self._table.at(now)
-            self.reference, self.zmp_reference, _ = row
-        if self.stabiliser is not None:
-            asked = self._resting if row is None else row
+        row = self._resting if self.plan is None else self._table.at(now)
+        self.reference, self.zmp_reference = row.body, row.zmp
+        if feedback is not None:
             step = self.step(now)
-            self.reference = self.stabiliser.update(measurement, asked, step)
-            if self._falls():
+            self.reference = feedback.update(measurement, row, step)
+            if feedback.state is not None and feedback.state.has_fallen:
+                self.phase, self.plan = Phase.FALLEN, None
                 return self.joint_targets
         targets = self.kinematics.track(self.reference)
-        if self.stabiliser is not None:
-            targets = self.stabiliser.joints.update(
-                measurement.joint_positions, targets
-            )
+        if feedback is not None:
+            angles = measurement.joint_positions
+            targets = feedback.joints.update(angles, targets)
+        if self.perception is not None:
+            self.perception.aim(targets)
         self.joint_targets = targets
         return targets
-
-    def _torso_heading(self) -> float:
-        """Heading of the torso in odometry: measured, or else commanded."""
-        if self.stabiliser is None:
-            return self.kinematics.torso_heading
-        return self.stabiliser.estimator.heading
-
-    def _falls(self) -> bool:
-        """Notice a fall, and stop moving."""
-        assert self.stabiliser is not None
-        state = self.stabiliser.state
-        if state is None or max(map(abs, state.tilt)) < FALLEN:
-            return False
-        self.phase, self.plan = Phase.FALLEN, None
-        return True
 
     @property
     def margins(self) -> list[float]:

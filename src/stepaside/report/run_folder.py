@@ -18,6 +18,7 @@ CONFIGURATION = "configuration.toml"
 SUMMARY = "summary.json"
 TRAJECTORIES = "trajectories.npz"
 FIGURE = "duel.png"
+SIGHT = "sight.png"
 
 
 def check_output(folder: Path) -> None:
@@ -78,6 +79,10 @@ def write_run(
             draft / TRAJECTORIES, allow_pickle=False, **result.arrays
         )
         draw_duel(result.arrays, summary, result.settings, draft / FIGURE)
+        if result.stills:
+            from .sight_figure import draw_sight
+
+            draw_sight(result, draft / SIGHT)
         if folder.is_dir():
             folder.rmdir()
         draft.chmod(0o755)

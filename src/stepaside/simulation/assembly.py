@@ -1,6 +1,7 @@
 """Putting a robot together: body, kinematics, estimator and control."""
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from ..control import ControlScheme, Role, Sighting
 from ..control.estimation import StateEstimator
@@ -16,6 +17,9 @@ from .randomness import named_generator
 from .robot import SimulatedRobot
 from .settings import PhysicsSettings
 from .world import World
+
+if TYPE_CHECKING:
+    from ..control.perception import Perception
 
 
 def with_cycle(
@@ -41,6 +45,7 @@ def assemble(
     body: BodySettings,
     seed: int,
     sighting: Sighting | None = None,
+    perception: "Perception | None" = None,
 ) -> tuple[SimulatedRobot, ControlScheme]:
     """Stand one robot in a world, and give it a mind.
 
@@ -55,6 +60,7 @@ def assemble(
         body: How far its body is from an ideal one.
         seed: Seed of its errors.
         sighting: What it knows of the other before it has seen anything.
+        perception: What turns its images into sightings, if it has eyes.
     """
     tick = world.physics.tick
     kinematics = LegKinematics(description, tick=tick)
@@ -78,6 +84,7 @@ def assemble(
         tick=tick,
         sighting=sighting,
         stabiliser=stabiliser,
+        perception=perception,
     )
     robot = SimulatedRobot(
         world,

@@ -5,20 +5,24 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from math import ceil, pi, radians
 from time import perf_counter
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import mujoco
 import numpy as np
 
 from ..control import Phase, Pursuit, Role
 from ..poses import Array, Pose
-from ..robots.description import load_robot
+from ..robots.description import RobotDescription, load_robot
 from .assembly import assemble, with_cycle
 from .randomness import named_generator
 from .record import Recorder
 from .settings import DuelSettings, StartSettings
 from .sight import IdealLineOfSight
 from .world import World
+
+if TYPE_CHECKING:
+    from .judge import Still
+    from .seeing import Seeing
 
 NAMES = ("pursuer", "evader")
 CHECK_NEAR = 0.8  # torsos farther apart than two arm spans cannot touch, [m]
@@ -59,6 +63,9 @@ class DuelResult:
         arrays: The record, by name; see :class:`Recorder`.
         min_distance: Least distance between the torsos, in [m].
         triggered_at: When the evader began to evade, in [s]; None if never.
+        triggered_distance: True distance then, in [m].
+        sight: How well they saw, if with cameras.
+        stills: Some of what they saw, by robot and camera.
         replans: Maneuvers planned by both.
         planning_times: Processor time of each, in [s].
         velocity_jump: Greatest jump of a CoM velocity reference, in [m/s].
@@ -74,6 +81,9 @@ class DuelResult:
     arrays: dict[str, Array]
     min_distance: float
     triggered_at: float | None
+    triggered_distance: float | None
+    sight: dict[str, Any] | None
+    stills: "dict[str, dict[str, list[Still]]]"
     replans: int
     planning_times: Array
     velocity_jump: float
@@ -103,6 +113,7 @@ class Duel:
         world: The physics.
         robots: Pursuer and evader.
         schemes: What drives them.
+        seeing: What they see with, if with cameras.
     """
 
     def __init__(self, settings: DuelSettings) -> None:
@@ -117,11 +128,13 @@ class Duel:
         assert start.pursuer_offset is not None
         assert start.evader_offset is not None
         description = load_robot(settings.robot)
+        self.seeing = _seeing(settings, description)
         self.world = World(
             dict.fromkeys(NAMES, description),
             with_cycle(settings.physics, settings.body),
             settings.body,
             settings.seed,
+            None if self.seeing is None else self.seeing.furnish,
         )
         frames = (
             Pose(0.0, 0.0, start.pursuer_offset),
@@ -141,20 +154,31 @@ class Duel:
                 control=settings.control,
                 body=settings.body,
                 seed=settings.seed,
+                perception=None
+                if self.seeing is None
+                else self.seeing.perceptions[name],
             )
             self.robots.append(robot)
             self.schemes.append(scheme)
         mujoco.mj_forward(self.world.model, self.world.data)
+        if self.seeing is not None:
+            self.seeing.open(self.robots)
+        else:
+            self._see_ideally()
+        self.recorder = Recorder(self.robots, self.schemes, frames)
+        self.min_distance = self.distance
+        self.triggered_at: float | None = None
+        self.triggered_distance: float | None = None
+
+    def _see_ideally(self) -> None:
+        """Tell each robot where the other is."""
         for own, other in (self.robots, self.robots[::-1]):
             own.sight = IdealLineOfSight(
                 own.truth,
                 other.truth,
-                settings.sight,
-                named_generator(settings.seed, f"sight/{own.name}"),
+                self.settings.sight,
+                named_generator(self.settings.seed, f"sight/{own.name}"),
             )
-        self.recorder = Recorder(self.robots, self.schemes, frames)
-        self.min_distance = self.distance
-        self.triggered_at: float | None = None
 
     @property
     def distance(self) -> float:
@@ -165,18 +189,22 @@ class Duel:
         """Play one control tick; an outcome if it ends the duel."""
         if self.world.ticks % self.recorder.every == 0:
             self.recorder.sample()
+            if self.seeing is not None:
+                self.seeing.sample(self.world.time)
         for robot, scheme in zip(self.robots, self.schemes, strict=True):
             robot.write(scheme.update(robot.read()))
             robot.step()
+        distance = self.distance
         if self.triggered_at is None:
             if self.schemes[1].phase is not Phase.STANDING:
                 self.triggered_at = self.world.time
-        distance = self.distance
+                self.triggered_distance = distance
         if distance < self.min_distance:
             self.min_distance = distance
         if any(robot.truth.has_fallen for robot in self.robots):
             return Outcome.FALL
-        if distance < CHECK_NEAR and self.world.robots_touch():
+        crowded = distance < CHECK_NEAR or self.settings.room.things
+        if crowded and self.world.robots_touch():
             return Outcome.CONTACT
         return None
 
@@ -216,6 +244,9 @@ def run_duel(
                     report(Progress(time, duel.distance, time / (now - began)))
     except KeyboardInterrupt:
         outcome = Outcome.INTERRUPTED
+    finally:
+        for robot in duel.robots:
+            robot.close()
     wall = perf_counter() - began
     duel.recorder.sample()
     schemes = duel.schemes
@@ -224,9 +255,13 @@ def run_duel(
         outcome=outcome,
         message=_message(duel, outcome),
         duration=duel.world.time,
-        arrays=duel.recorder.arrays(),
+        arrays=duel.recorder.arrays()
+        | ({} if duel.seeing is None else duel.seeing.arrays()),
         min_distance=duel.min_distance,
         triggered_at=duel.triggered_at,
+        triggered_distance=duel.triggered_distance,
+        sight=None if duel.seeing is None else duel.seeing.figures(),
+        stills={} if duel.seeing is None else duel.seeing.stills(),
         replans=sum(s.replans for s in schemes),
         planning_times=np.concatenate(
             [np.array(s.planning_times) for s in schemes]
@@ -239,12 +274,24 @@ def run_duel(
     )
 
 
+def _seeing(
+    settings: DuelSettings, description: RobotDescription
+) -> "Seeing | None":
+    """Senses of a duel with cameras; an ideal one loads none of it."""
+    if settings.sensing != "cameras":
+        return None
+    from .seeing import Seeing
+
+    return Seeing(settings, description)
+
+
 def _message(duel: Duel, outcome: Outcome) -> str:
     if outcome is Outcome.FALL:
         fallen = [r.name for r in duel.robots if r.truth.has_fallen]
         return f"{' and '.join(fallen)} fell at {duel.world.time:.2f} s"
     if outcome is Outcome.CONTACT:
-        return f"the robots touched at {duel.world.time:.2f} s"
+        what = "the robots" if duel.distance < CHECK_NEAR else "robot, thing"
+        return f"{what} touched at {duel.world.time:.2f} s"
     if outcome is Outcome.INTERRUPTED:
         return f"interrupted at {duel.world.time:.2f} s"
     return f"played {duel.world.time:.2f} s"

@@ -1,6 +1,9 @@
 """A simulated robot behind the interface that control moves."""
 
+from __future__ import annotations
+
 from math import nan
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,6 +20,9 @@ from .spoilt import AveragedImu, SpoiltSensors
 from .truth import TrueState
 from .world import World, place_free_body
 
+if TYPE_CHECKING:
+    from .eyes import Eyes
+
 
 class SimulatedRobot:
     """One robot of a world, through its own sensors and servos.
@@ -25,6 +31,7 @@ class SimulatedRobot:
         name: Its name in the world.
         tick: Control period, in [s].
         sight: Sensor of the other robot, once there is one.
+        eyes: Cameras and sonars, if it sees with those.
         truth: Its true state, for sensors that say so and for the record.
     """
 
@@ -54,6 +61,7 @@ class SimulatedRobot:
         self.name = name
         self.tick = world.physics.tick
         self.sight: IdealLineOfSight | None = None
+        self.eyes: Eyes | None = None
         model, data = world.model, world.data
         names = kinematics.joint_names
         joints = [model.joint(f"{name}/{n}") for n in names]
@@ -118,7 +126,10 @@ class SimulatedRobot:
             angles = self._spoilt.encoders(angles)
             gyro, force = self._spoilt.imu(gyro, force)
             forces = self._spoilt.foot_forces(forces)
-        return Measurement(now, angles, gyro, force, forces, sighting)
+        percepts = () if self.eyes is None else self.eyes.read(now)
+        return Measurement(
+            now, angles, gyro, force, forces, sighting, percepts
+        )
 
     def write(self, joint_targets: Array) -> None:
         """Send joint targets, in [rad], to the servos. Shape (joints,)."""
@@ -156,4 +167,6 @@ class SimulatedRobot:
         return x, y
 
     def close(self) -> None:
-        """Nothing to let go of."""
+        """Let go of the eyes."""
+        if self.eyes is not None:
+            self.eyes.close()

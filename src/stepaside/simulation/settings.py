@@ -13,8 +13,10 @@ from ..errors import (
 )
 from ..planning import GaitSettings
 from .body_settings import BodySettings
+from .camera_settings import CameraSettings, RoomSettings
 
 ERROR = ConfigurationError
+SENSING = ("ideal", "cameras")
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,6 +165,9 @@ class DuelSettings:
         physics: Physics, floor and clock.
         body: How far the bodies are from ideal ones.
         control: How both control their walk.
+        sensing: "ideal" for the line of sight of ``sight``, or "cameras".
+        cameras: What they see with, if with cameras.
+        room: What stands around them, if they see with cameras.
     """
 
     seed: int = 1
@@ -175,9 +180,17 @@ class DuelSettings:
     physics: PhysicsSettings = field(default_factory=PhysicsSettings)
     body: BodySettings = field(default_factory=BodySettings)
     control: ControlSettings = field(default_factory=ControlSettings)
+    sensing: str = "ideal"
+    cameras: CameraSettings = field(default_factory=CameraSettings)
+    room: RoomSettings = field(default_factory=RoomSettings)
 
     def __post_init__(self) -> None:
-        """Refuse a negative seed and a duration that is none."""
+        """Refuse a negative seed, a duration that is none, other senses."""
+        if self.sensing not in SENSING:
+            raise ConfigurationError(
+                f"sensing must be one of {', '.join(SENSING)}, "
+                f"got {self.sensing!r}"
+            )
         if not isinstance(self.seed, int) or self.seed < 0:
             raise ConfigurationError(
                 f"seed must be an integer >= 0 [1], got {self.seed}"

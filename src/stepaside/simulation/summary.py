@@ -83,6 +83,10 @@ def converged_at(
         np.abs(distance - theory.distance_m)
         > DISTANCE_BAND * theory.distance_m
     ) | (np.abs(angle - degrees(theory.headings_apart_rad)) > ORIENTATION_BAND)
+    # A window that the end cuts is no gait cycle: the last whole one counts.
+    half = round(period / float(times[1] - times[0])) // 2
+    if 0 < half < len(off):
+        off[-half:] = off[-half - 1]
     last = np.flatnonzero(off)
     start = 0 if last.size == 0 else int(last[-1]) + 1
     if start >= len(times):
@@ -118,6 +122,7 @@ def summarise(result: DuelResult) -> dict[str, Any]:
             "evader_offset_rad": start.evader_offset,
         },
         "triggered_at_s": result.triggered_at,
+        "triggered_at_distance_m": result.triggered_distance,
         "distance_m": float(distance_over_time(last).mean()),
         "relative_orientation_deg": degrees(
             float(orientation_over_time(last).mean())
@@ -146,6 +151,12 @@ def summarise(result: DuelResult) -> dict[str, Any]:
     for name in ("pursuer", "evader"):
         radius = fit_circle(last[f"{name}_com"][:, :2])[1]
         summary[name] = {"radius_m": _number(radius)}
+    if result.sight is not None:
+        for key, value in result.sight.items():
+            if isinstance(value, dict):
+                summary[key] |= value
+            else:
+                summary[key] = value
     return summary
 
 

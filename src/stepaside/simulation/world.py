@@ -26,6 +26,7 @@ def build_model(
     physics: PhysicsSettings,
     body: BodySettings | None = None,
     seed: int = 0,
+    furnish: Callable[[mujoco.MjSpec], None] | None = None,
 ) -> mujoco.MjModel:
     """Compile a floor and robots that collide with it and each other.
 
@@ -36,6 +37,7 @@ def build_model(
         body: How far the robots are from their descriptions; not at all by
             default.
         seed: Seed of the floor and of the robots' errors.
+        furnish: Puts more into the world, once the robots are in it.
     """
     spec = mujoco.MjSpec()
     spec.option.timestep = physics.time_step
@@ -64,6 +66,8 @@ def build_model(
             accent.rgba = COLOURS[name]
         frame = spec.worldbody.add_frame()
         spec.attach(part, prefix=f"{name}/", frame=frame)
+    if furnish is not None:
+        furnish(spec)
     return spec.compile()
 
 
@@ -87,13 +91,14 @@ class World:
         physics: PhysicsSettings,
         body: BodySettings | None = None,
         seed: int = 0,
+        furnish: Callable[[mujoco.MjSpec], None] | None = None,
     ) -> None:
         """Compile a world in which every robot still has to be placed.
 
         Args are those of :func:`build_model`.
         """
         self.physics = physics
-        self.model = build_model(robots, physics, body, seed)
+        self.model = build_model(robots, physics, body, seed, furnish)
         self.data = mujoco.MjData(self.model)
         self.before_step: list[Callable[[float], None]] = []
         self.ticks = 0
@@ -102,7 +107,9 @@ class World:
             self.model.body(f"{name}/{robot.torso}").id
             for name, robot in robots.items()
         ]
-        owner = np.zeros(self.model.nbody, dtype=int)
+        # Floor and walls are nobody's; other things are strangers.
+        owner = np.full(self.model.nbody, self._robots + 1)
+        owner[0] = 0
         for number, root in enumerate(roots, start=1):
             owner[self.model.body_rootid == self.model.body_rootid[root]] = (
                 number
@@ -134,7 +141,7 @@ class World:
             mujoco.mj_step(self.model, self.data)
 
     def robots_touch(self) -> bool:
-        """Whether two robots are in contact."""
+        """Whether two robots, or one and a thing, are in contact."""
         if self.data.ncon == 0:
             return False
         owners = self._owner_of_geom[self.data.contact.geom]

@@ -1,0 +1,136 @@
+"""From what an image shows to a place in odometry, as sure as it is."""
+
+from collections.abc import Sequence
+from math import atan2, cos, radians, sin
+
+from ..poses import Array, wrap_angle
+from ..sensing.colour_detector import Appearance, ColourDetection
+from ..sensing.depth_detector import Obstacle, Shadow
+from ..sensing.images import ColourImage, DepthImage
+from ..sensing.ranging import range_of_breadth, range_of_trim
+from ..sensing.track import Observation, Track
+
+SURE = 0.8  # confidence from which the size of the trim tells distance
+GUESS = 1.2  # distance of a thing whose distance is unknown, in [m]
+CLOSEST = 0.35  # distance below which no other can be, in [m]
+ROUGH = 0.35  # share by which a distance told by breadth is off
+VAGUE = 0.6  # deviation of a distance that is only remembered, in [m]
+NEARBY = 0.15  # beyond the near limit, of what casts a shadow, in [m]
+
+
+def observe_trim(
+    image: ColourImage,
+    found: ColourDetection,
+    place: Array,
+    axes: Array,
+    appearance: Appearance,
+    tracks: Sequence[Track],
+) -> Observation:
+    """Turn trim in an image into a place in odometry.
+
+    Its size tells the distance when all of it is in view, its breadth
+    roughly when it is too near for that, and else memory.
+
+    Args:
+        image: The image.
+        found: The trim in it.
+        place: Place of the camera in odometry, in [m]. Shape (3,).
+        axes: Its axes as columns. Shape (3, 3).
+        appearance: Whose trim it is.
+        tracks: What is followed already.
+    """
+    camera = image.camera
+    middle = 0.5 * (found.top + found.bottom)
+    x, y, _ = (axes @ camera.ray(found.column, middle)).tolist()
+    bearing = atan2(y, x)
+    away = None
+    whole = not (found.cut_above or found.cut_below)
+    if whole and found.confidence >= SURE:
+        away = range_of_trim(
+            axes @ camera.ray(found.column, found.top),
+            axes @ camera.ray(found.column, found.bottom),
+            float(place[2]),
+            appearance,
+        )
+    ranged = away is not None
+    along = VAGUE
+    if away is not None:
+        along = 0.02 + 0.05 * away
+    elif not found.cut_aside and found.cut_below:
+        away = range_of_breadth(
+            angle_of(image, found.right) - angle_of(image, found.left)
+        )
+        along = ROUGH * away
+    else:
+        away = _remembered(tracks, image.time, bearing, place)
+        if away <= CLOSEST:
+            along = 0.1
+    aside = 0.005 if not found.cut_aside else 0.06
+    return Observation(
+        image.time,
+        float(place[0] + away * cos(bearing)),
+        float(place[1] + away * sin(bearing)),
+        bearing,
+        along,
+        0.003 + aside * away,
+        True,
+        ranged,
+    )
+
+
+def observe_obstacle(image: DepthImage, thing: Obstacle) -> Observation:
+    """Turn an obstacle into an observation; its side may be cut."""
+    aside = 0.03 if thing.whole else 0.12
+    return Observation(
+        image.time,
+        thing.x,
+        thing.y,
+        thing.bearing,
+        0.03,
+        aside,
+        False,
+        True,
+    )
+
+
+def observe_shadow(
+    image: DepthImage, shadow: Shadow, place: Array, tracks: Sequence[Track]
+) -> Observation:
+    """Place by its bearing what is too near for its distance.
+
+    Args:
+        image: The image.
+        shadow: The shadow in it.
+        place: Place of the camera in odometry, in [m]. Shape (3,).
+        tracks: What is followed already.
+    """
+    away = _remembered(tracks, image.time, shadow.bearing, place)
+    away = min(away, image.near + NEARBY)
+    return Observation(
+        image.time,
+        float(place[0] + away * cos(shadow.bearing)),
+        float(place[1] + away * sin(shadow.bearing)),
+        shadow.bearing,
+        VAGUE,
+        0.08 * away,
+        False,
+        False,
+    )
+
+
+def angle_of(image: ColourImage | DepthImage, column: float) -> float:
+    """Angle of a column from the middle, in [rad], positive rightward."""
+    camera = image.camera
+    return atan2(column - 0.5 * camera.width, camera.focal_x)
+
+
+def _remembered(
+    tracks: Sequence[Track], time: float, bearing: float, place: Array
+) -> float:
+    """Distance of what was seen in a direction, from a place, in [m]."""
+    x, y = float(place[0]), float(place[1])
+    for track in tracks:
+        off = wrap_angle(track.turned_to(x, y, time) - bearing)
+        if abs(off) < radians(20.0):
+            return max(track.away_from(x, y, time), CLOSEST)
+    return GUESS

@@ -1,0 +1,184 @@
+"""Film strip of what the robots saw, and how far off they were."""
+
+from math import degrees
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+
+from ..poses import Array, wrap_angles
+from ..sensing.images import ColourImage, DepthImage, Pixels
+from ..simulation.duel import DuelResult
+from ..simulation.judge import Still
+from .soles import draw_heading
+from .style import COLOURS, THEORY, plt
+
+FOUND = (30, 170, 60)  # red, green and blue of what was detected
+TRUE = (235, 0, 190)  # of where the other truly is
+ROWS = (
+    ("pursuer", "colour", "pursuer sees"),
+    ("evader", "colour", "evader sees"),
+    ("evader", "depth", "its depth"),
+)
+SCALE = 3  # by which depth images are enlarged
+
+
+def draw_sight(result: DuelResult, path: Path) -> None:
+    """Write the film strip of a duel with cameras.
+
+    Args:
+        result: The duel.
+        path: File, of a format that its suffix tells.
+    """
+    count = max(len(result.stills[name][kind]) for name, kind, _ in ROWS)
+    count = max(count, 1)
+    figure = plt.figure(figsize=(2.45 * count, 10.6))
+    ratios = [1.0, 1.0, 1.0, 1.1, 0.8, 0.8]
+    grid = figure.add_gridspec(6, count, height_ratios=ratios)
+    for row, (name, kind, label) in enumerate(ROWS):
+        for column, still in enumerate(result.stills[name][kind]):
+            axes = figure.add_subplot(grid[row, column])
+            axes.imshow(picture(still))
+            axes.set(xticks=[], yticks=[])
+            axes.grid(visible=False)
+            if row == 0:
+                axes.set_title(f"{still.report.image.time:.1f} s")
+            if column == 0:
+                axes.set_ylabel(label)
+    for column, still in enumerate(result.stills["pursuer"]["colour"]):
+        axes = figure.add_subplot(grid[3, column])
+        _draw_top(axes, result, still.report.image.time)
+    _draw_errors(figure, grid, result)
+    figure.suptitle(
+        f"What the robots saw, seed {result.settings.seed}: detections in "
+        "green, the true direction as a tick",
+        fontsize=11,
+    )
+    figure.savefig(path)
+    plt.close(figure)
+
+
+def picture(still: Still) -> Pixels:
+    """Image with what was detected drawn in. Shape (height, width, 3)."""
+    image = still.report.image
+    if isinstance(image, ColourImage):
+        canvas = image.pixels.copy()
+        found = still.report.colour
+        if found is not None:
+            corner = int(found.left), int(found.top)
+            other = int(found.right), int(found.bottom)
+            cv2.rectangle(canvas, corner, other, FOUND, 2)
+            middle = int(found.column)
+            cv2.line(canvas, (middle, corner[1]), (middle, other[1]), FOUND, 2)
+        scale = 1
+    else:
+        canvas, scale = _depth_picture(still, image), SCALE
+    camera = image.camera
+    truth = 0.5 * camera.width - camera.focal_x * np.tan(still.azimuth)
+    if abs(degrees(still.azimuth)) < 80.0:
+        at = int(np.clip(scale * truth, -1e4, 1e4))
+        bottom = canvas.shape[0] - 1
+        cv2.line(canvas, (at, bottom), (at, bottom - 14), TRUE, 2)
+    return canvas
+
+
+def _depth_picture(still: Still, image: DepthImage) -> Pixels:
+    """Depth as brightness, what came back not at all in black."""
+    share = np.clip(image.depths / image.far, 0.0, 1.0)
+    grey = np.where(image.depths > 0.0, 255.0 - 190.0 * share, 0.0)
+    small = np.repeat(grey.astype(np.uint8)[..., None], 3, axis=2)
+    canvas = np.repeat(np.repeat(small, SCALE, axis=0), SCALE, axis=1)
+    canvas = np.ascontiguousarray(canvas)
+    scene = still.report.depth
+    if scene is None:
+        return canvas
+    height = canvas.shape[0]
+    for thing in scene.obstacles:
+        half = 0.5 * thing.width / thing.nearest
+        left, right = _columns(image, thing.azimuth, half)
+        cv2.rectangle(canvas, (left, 4), (right, height - 5), FOUND, 2)
+    for shadow in scene.shadows:
+        left, right = _columns(image, shadow.azimuth, 0.5 * shadow.width)
+        # Too near to be measured: a bracket, not a box.
+        cv2.line(canvas, (left, 8), (right, 8), FOUND, 3)
+        cv2.line(canvas, (left, 8), (left, 26), FOUND, 2)
+        cv2.line(canvas, (right, 8), (right, 26), FOUND, 2)
+    return canvas
+
+
+def _columns(
+    image: DepthImage, azimuth: float, half: float
+) -> tuple[int, int]:
+    camera = image.camera
+    columns = [
+        SCALE * (0.5 * camera.width - camera.focal_x * np.tan(angle))
+        for angle in (azimuth + half, azimuth - half)
+    ]
+    return int(columns[0]), int(columns[1])
+
+
+def _draw_top(axes: Any, result: DuelResult, time: float) -> None:
+    """Top view at a time, with the way so far."""
+    arrays = result.arrays
+    times = arrays["times_s"]
+    index = min(int(np.searchsorted(times, time)), len(times) - 1)
+    for name, colour in COLOURS.items():
+        way = arrays[f"{name}_torso"][: index + 1]
+        axes.plot(way[:, 0], way[:, 1], color=colour, lw=1.0)
+        draw_heading(axes, way[-1], colour, 0.28)
+        _draw_belief(axes, arrays, name, time, way[-1])
+    every = np.concatenate(
+        [arrays["pursuer_torso"][:, :2], arrays["evader_torso"][:, :2]]
+    )
+    for thing in result.settings.room.things:
+        axes.plot(thing.x, thing.y, "s", color="#888888", ms=5)
+    low, high = every.min(axis=0) - 0.3, every.max(axis=0) + 0.3
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
+    axes.tick_params(labelsize=6)
+
+
+def _draw_belief(
+    axes: Any,
+    arrays: dict[str, Array],
+    name: str,
+    time: float,
+    torso: Array,
+) -> None:
+    """Line from a robot to where it believes the other is."""
+    rows = arrays[f"{name}_sight"]
+    row = rows[min(int(np.searchsorted(rows[:, 0], time)), len(rows) - 1)]
+    _, bearing, distance = row[:3]
+    if not np.isfinite(bearing):
+        return
+    angle = torso[2] + bearing
+    end = torso[:2] + distance * np.array([np.cos(angle), np.sin(angle)])
+    axes.plot(
+        [torso[0], end[0]],
+        [torso[1], end[1]],
+        color=COLOURS[name],
+        lw=0.8,
+        ls="--",
+    )
+
+
+def _draw_errors(figure: Any, grid: Any, result: DuelResult) -> None:
+    """Bearing and distance against the truth, over time."""
+    upper = figure.add_subplot(grid[4, :])
+    lower = figure.add_subplot(grid[5, :], sharex=upper)
+    for name, colour in COLOURS.items():
+        rows = result.arrays[f"{name}_sight"]
+        off = np.degrees(wrap_angles(rows[:, 1] - rows[:, 3]))
+        upper.plot(rows[:, 0], off, color=colour, lw=0.7, label=name)
+        away = rows[:, 2] - rows[:, 4]
+        lower.plot(rows[:, 0], away, color=colour, lw=0.7, label=name)
+    for axes, label, limit in (
+        (upper, "bearing error [deg]", 8.0),
+        (lower, "distance error [m]", 0.2),
+    ):
+        axes.axhline(0.0, color=THEORY, lw=0.6)
+        axes.set(ylabel=label, ylim=(-limit, limit))
+    if result.triggered_at is not None:
+        upper.axvline(result.triggered_at, color=THEORY, ls=":", lw=0.8)
+    upper.legend(loc="upper right", ncols=2, fontsize=8)
+    lower.set_xlabel("time [s]")

@@ -1,0 +1,104 @@
+"""Where the torso and the eyes are, from encoders and tilt."""
+
+from dataclasses import dataclass
+from math import atan2, cos, sin
+
+import mujoco
+import numpy as np
+
+from ..poses import Array, Pose
+from .description import RobotDescription
+from .head import HeadDescription, rotation
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BodyPose:
+    """A body in its odometry, as measured at one instant.
+
+    Attributes:
+        time: The instant, in [s].
+        torso: Place and heading of the torso in the plane.
+        torso_place: Place of the torso, in [m]. Shape (3,).
+        torso_axes: Its axes as columns. Shape (3, 3).
+        head_place: Place of the head, in [m]. Shape (3,).
+        head_axes: Its axes as columns. Shape (3, 3).
+        yaw: Measured yaw of the head, in [rad].
+        pitch: Measured pitch of the head, in [rad].
+    """
+
+    time: float
+    torso: Pose
+    torso_place: Array
+    torso_axes: Array
+    head_place: Array
+    head_axes: Array
+    yaw: float
+    pitch: float
+
+
+class BodyKinematics:
+    """Forward kinematics from the foot that stands to the head."""
+
+    def __init__(
+        self, description: RobotDescription, head: HeadDescription
+    ) -> None:
+        """Compile the robot's model, alone and without physics."""
+        self._model = model = description.compile()
+        self._data = data = mujoco.MjData(model)
+        names = [
+            model.joint(model.actuator_trnid[i, 0]).name
+            for i in range(model.nu)
+        ]
+        self._at = np.array([model.joint(n).qposadr[0] for n in names])
+        self.yaw, self.pitch = names.index(head.yaw), names.index(head.pitch)
+        feet = (description.left_foot, description.right_foot)
+        self._feet = [model.site(name).id for name in feet]
+        self._head = model.body(head.body).id
+        self._coupled = [
+            (model.joint(f).qposadr[0], model.joint(leader).qposadr[0])
+            for f, leader in description.coupled_joints(model).items()
+        ]
+        data.qpos[:7] = 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0
+
+    def pose(
+        self,
+        time: float,
+        joints: Array,
+        support: Pose,
+        left_supports: bool,
+        tilt: tuple[float, float],
+    ) -> BodyPose:
+        """Place the body on the foot that stands.
+
+        Args:
+            time: Time of the measurement, in [s].
+            joints: Encoders, in [rad]. Shape (joints,).
+            support: Pose of the standing foot in odometry.
+            left_supports: Whether that is the left one.
+            tilt: Roll and pitch of the torso, in [rad].
+        """
+        data = self._data
+        data.qpos[self._at] = joints
+        for follower, leader in self._coupled:
+            data.qpos[follower] = data.qpos[leader]
+        mujoco.mj_kinematics(self._model, data)
+        foot = self._feet[0 if left_supports else 1]
+        lean = rotation(*tilt, 0.0)
+        # Heading: that of the foot, less its own in the levelled torso.
+        ahead = lean @ data.site_xmat[foot].reshape(3, 3)[:, 0]
+        heading = support.theta - atan2(ahead[1], ahead[0])
+        c, s = cos(heading), sin(heading)
+        axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ lean
+        place = -(axes @ data.site_xpos[foot])
+        place[0] += support.x
+        place[1] += support.y
+        return BodyPose(
+            time,
+            Pose(float(place[0]), float(place[1]), heading),
+            place,
+            axes,
+            place + axes @ data.xpos[self._head],
+            axes @ data.xmat[self._head].reshape(3, 3),
+            float(joints[self.yaw]),
+            float(joints[self.pitch]),
+        )

@@ -1,0 +1,1 @@
+"""From images to where the other is (paper, Sec. II)."""

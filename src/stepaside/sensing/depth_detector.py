@@ -1,0 +1,235 @@
+"""Find whatever stands in the way, in a depth image."""
+
+from dataclasses import dataclass
+from math import atan2
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from ..poses import Array
+from .images import DepthImage
+
+FLOOR = 0.07  # what is lower belongs to the floor, in [m]
+CEILING = 2.2  # what is higher is in nobody's way, in [m]
+SELF = 0.22  # what is nearer to the own axis is the robot itself, in [m]
+JUMP = 0.25  # of depth between pixels of one thing, at most, in [m]
+SMALLEST = 14  # pixels of a thing, at 80 columns
+BROADEST = 1.1  # what is broader is a wall, in [m]
+LOWEST = 0.15  # height of what is in the way, in [m]
+TRUSTED = 0.75  # share of the far limit up to which a thing is whole
+TRUNCATED = 0.12  # beyond the near limit: part of it may be nearer, in [m]
+GAP = 0.06  # between parts of one near thing, in [rad]
+BLIND = 24  # pixels without return that something near must hide
+
+
+@dataclass(frozen=True, slots=True)
+class Obstacle:
+    """Something that is neither floor nor the robot itself.
+
+    Attributes:
+        x: Its estimated axis in odometry, in [m].
+        y: Likewise.
+        nearest: Distance of its nearest part from the camera, in [m].
+        bearing: Direction of its middle from the camera, in odometry, in
+            [rad].
+        azimuth: The same from the camera's axis, positive leftward.
+        width: Breadth, in [m].
+        height: Height of its upper end above the floor, in [m].
+        whole: Whether neither side is cut by the edge of the image.
+    """
+
+    x: float
+    y: float
+    nearest: float
+    bearing: float
+    azimuth: float
+    width: float
+    height: float
+    whole: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Shadow:
+    """Something too near to be measured, that hides the floor.
+
+    Attributes:
+        bearing: Direction of its middle from the camera, in odometry, in
+            [rad].
+        azimuth: The same from the camera's axis, positive leftward.
+        width: How broad it looks, in [rad].
+    """
+
+    bearing: float
+    azimuth: float
+    width: float
+
+
+@dataclass(frozen=True, slots=True)
+class DepthScene:
+    """What a depth image shows.
+
+    Attributes:
+        obstacles: The nearest first.
+        shadows: The broadest first.
+    """
+
+    obstacles: tuple[Obstacle, ...]
+    shadows: tuple[Shadow, ...]
+
+
+def detect_obstacles(
+    image: DepthImage, place: Array, axes: Array, own: tuple[float, float]
+) -> DepthScene:
+    """Remove floor and self, and cluster the rest.
+
+    Args:
+        image: Depth image.
+        place: Place of the camera in odometry, at its exposure, in [m].
+            Shape (3,).
+        axes: Its axes (forward, left, up) as columns, with the measured
+            tilt of the body. Shape (3, 3).
+        own: Own axis in odometry, in [m].
+    """
+    rays = image.camera.rays() @ axes.T
+    depths = image.depths.astype(np.float64)
+    points = place + depths[..., None] * rays
+    there = depths > 0.0
+    level = points[..., 2]
+    # A tilt that is off lifts the far floor.
+    slack = FLOOR + 0.01 * depths
+    solid = there & (level > slack) & (level < CEILING)
+    away = np.hypot(points[..., 0] - own[0], points[..., 1] - own[1])
+    solid &= away > SELF
+    found = [
+        _measure(points[part], part, place, axes)
+        for part in _clusters(solid, depths)
+    ]
+    things = [
+        thing
+        for thing in found
+        if thing.width < BROADEST
+        and thing.height > LOWEST
+        and thing.nearest < TRUSTED * image.far
+    ]
+    things.sort(key=lambda thing: thing.nearest)
+    near = image.near + TRUNCATED
+    parts = _shadows(image, depths, rays, place, axes)
+    parts += [
+        (
+            t.azimuth - 0.5 * t.width / t.nearest,
+            t.azimuth + 0.5 * t.width / t.nearest,
+        )
+        for t in things
+        if t.nearest < near
+    ]
+    ahead = atan2(axes[1, 0], axes[0, 0])
+    return DepthScene(
+        tuple(thing for thing in things if thing.nearest >= near),
+        _join(parts, ahead),
+    )
+
+
+def _join(
+    parts: list[tuple[float, float]], ahead: float
+) -> tuple[Shadow, ...]:
+    """Join parts, given by their right and left ends, into near things."""
+    joined: list[tuple[float, float]] = []
+    for low, high in sorted(parts):
+        if joined and low < joined[-1][1] + GAP:
+            joined[-1] = joined[-1][0], max(high, joined[-1][1])
+        else:
+            joined.append((low, high))
+    shadows = [
+        Shadow(ahead + 0.5 * (low + high), 0.5 * (low + high), high - low)
+        for low, high in joined
+    ]
+    return tuple(sorted(shadows, key=lambda shadow: -shadow.width))
+
+
+def _clusters(
+    solid: NDArray[np.bool_], depths: Array
+) -> list[NDArray[np.bool_]]:
+    """Parts of an image that hang together in depth."""
+    cut = np.zeros_like(solid)
+    for axis in (0, 1):
+        jump = np.abs(np.diff(depths, axis=axis)) > JUMP
+        both = (
+            solid[1:] & solid[:-1]
+            if axis == 0
+            else (solid[:, 1:] & solid[:, :-1])
+        )
+        far = jump & both
+        if axis == 0:
+            cut[1:] |= far
+        else:
+            cut[:, 1:] |= far
+    mask = (solid & ~cut).astype(np.uint8)
+    # Holes where nothing came back do not take a thing apart.
+    closed = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8))
+    closed[cut] = 0
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(
+        closed, connectivity=8
+    )
+    least = SMALLEST * (solid.shape[1] / 80.0) ** 2
+    return [
+        (labels == label) & solid
+        for label in range(1, count)
+        if stats[label, cv2.CC_STAT_AREA] >= least
+    ]
+
+
+def _measure(
+    points: Array, part: NDArray[np.bool_], place: Array, axes: Array
+) -> Obstacle:
+    dx, dy = points[:, 0] - place[0], points[:, 1] - place[1]
+    ahead = atan2(axes[1, 0], axes[0, 0])
+    azimuths = (np.arctan2(dy, dx) - ahead + np.pi) % (2.0 * np.pi) - np.pi
+    distances = np.hypot(dx, dy)
+    nearest = float(np.quantile(distances, 0.1))
+    low, high = np.quantile(azimuths, (0.02, 0.98)).tolist()
+    azimuth = 0.5 * (low + high)
+    width = nearest * (high - low)
+    columns = np.flatnonzero(part.any(axis=0))
+    reach = nearest + min(max(0.5 * width, 0.11), 0.16)
+    bearing = ahead + azimuth
+    return Obstacle(
+        float(place[0] + reach * np.cos(bearing)),
+        float(place[1] + reach * np.sin(bearing)),
+        nearest,
+        bearing,
+        azimuth,
+        width,
+        float(points[:, 2].max()),
+        bool(columns[0] > 0 and columns[-1] < part.shape[1] - 1),
+    )
+
+
+def _shadows(
+    image: DepthImage, depths: Array, rays: Array, place: Array, axes: Array
+) -> list[tuple[float, float]]:
+    """Where the floor should answer and does not: something too near."""
+    down = -rays[..., 2]
+    with np.errstate(divide="ignore"):
+        floor = np.where(down > 1e-6, place[2] / down, np.inf)
+    expected = (floor > 1.1 * image.near) & (floor < 0.85 * image.far)
+    dark = (expected & (depths == 0.0)).astype(np.uint8)
+    dark = np.asarray(
+        cv2.morphologyEx(dark, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8)),
+        dtype=np.uint8,
+    )
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(
+        dark, connectivity=8
+    )
+    least = BLIND * (depths.shape[1] / 80.0) ** 2
+    shadows = []
+    ahead = atan2(axes[1, 0], axes[0, 0])
+    for label in range(1, count):
+        if stats[label, cv2.CC_STAT_AREA] < least:
+            continue
+        directions = rays[labels == label]
+        azimuths = np.arctan2(directions[:, 1], directions[:, 0]) - ahead
+        azimuths = (azimuths + np.pi) % (2.0 * np.pi) - np.pi
+        low, high = float(azimuths.min()), float(azimuths.max())
+        shadows.append((low, high))
+    return shadows

@@ -1,0 +1,76 @@
+"""Where to look: at the other, or for it."""
+
+from math import atan2, hypot, radians
+
+import numpy as np
+
+from ..poses import Array, wrap_angle
+
+SPEED = 3.0  # of the head while it follows, in [rad/s]
+SCAN_SPEED = 1.4  # of the head while it searches, in [rad/s]
+SCAN_PITCH = radians(8.0)  # downward, while it searches
+REACH = radians(115.0)  # of the yaw while it searches
+MIDDLE = 0.28  # height of a robot that is looked at, in [m]
+CROWN = 0.54  # height of the upper end of a robot's trim, in [m]
+HALF = radians(20.0)  # upward from the middle of an image, still in it
+LOOKOUT = 0.46  # height of the eyes, in [m]
+
+
+class Gaze:
+    """Turns the head within its ranges and a calm speed.
+
+    Attributes:
+        yaw: Target of the yaw, in [rad].
+        pitch: Target of the pitch, in [rad].
+        searching: Whether it scans.
+    """
+
+    def __init__(self, coupling: Array, tick: float) -> None:
+        """Look ahead, and a little down.
+
+        Args:
+            coupling: Yaw, least and greatest pitch, in [rad]. Shape (3, n).
+            tick: Control period, in [s].
+        """
+        self._yaws, self._low, self._high = coupling
+        self._tick = tick
+        self._side = 1.0
+        self.yaw, self.pitch = 0.0, SCAN_PITCH
+        self.searching = True
+
+    def follow(self, bearing: float, distance: float) -> None:
+        """Look at something.
+
+        Args:
+            bearing: Its direction from the heading of the torso, in [rad].
+            distance: Its distance, in [m].
+        """
+        if self.searching:
+            self.searching = False
+        bearing = wrap_angle(bearing)
+        # Should it leave, the search begins on its side.
+        self._side = 1.0 if bearing >= self.yaw else -1.0
+        # From near not all is in view: rather the head than the feet.
+        crown = atan2(CROWN - LOOKOUT, max(distance - 0.06, 0.1))
+        pitch = min(atan2(LOOKOUT - MIDDLE, distance), HALF - crown)
+        self._turn(bearing, pitch, SPEED)
+
+    def search(self) -> None:
+        """Sweep from side to side."""
+        self.searching = True
+        edge = min(REACH, float(self._yaws[-1]))
+        if self._side * self.yaw >= edge - 1e-6:
+            self._side = -self._side
+        self._turn(self._side * edge, SCAN_PITCH, SCAN_SPEED)
+
+    def _turn(self, yaw: float, pitch: float, speed: float) -> None:
+        step = speed * self._tick
+        yaw = min(max(yaw, float(self._yaws[0])), float(self._yaws[-1]))
+        to_yaw, to_pitch = yaw - self.yaw, pitch - self.pitch
+        length = hypot(to_yaw, to_pitch)
+        share = 1.0 if length <= step else step / length
+        self.yaw += share * to_yaw
+        self.pitch += share * to_pitch
+        low = float(np.interp(self.yaw, self._yaws, self._low))
+        high = float(np.interp(self.yaw, self._yaws, self._high))
+        self.pitch = min(max(self.pitch, low), high)

@@ -1,0 +1,95 @@
+"""Which of the things seen is the other, and where it is by now."""
+
+from collections.abc import Sequence
+
+from .track import GATE, Observation, Track
+
+IDENTITY = 5.0  # how long a thing stays the other robot unseen, in [s]
+PATIENCE = 4.0  # how long a confirmed thing is remembered, in [s]
+FRESH = 0.3  # age up to which nobody doubts a sighting, in [s]
+LAPSE = 0.5  # of recognition that does not make it another, in [s]
+SAME = 0.15  # distance within which two tracks are one thing, in [m]
+DOUBT = 0.6  # deviation beyond which memory is worth nothing, in [m]
+
+
+class Tracker:
+    """Follows things through frames; says which one counts.
+
+    A thing is confirmed by several frames, so that one wrong frame does
+    not make anybody move. Of the confirmed ones the other robot counts
+    most, when it was recognised lately, and else the nearest.
+
+    Attributes:
+        tracks: Everything followed.
+    """
+
+    def __init__(self) -> None:
+        """Follow nothing yet."""
+        self.tracks: list[Track] = []
+
+    def observe(
+        self, seen: Sequence[Observation], *, founds: bool = True
+    ) -> list[Track]:
+        """Take in everything that one frame shows.
+
+        Args:
+            seen: Observations; the best fitting one updates a track.
+            founds: Whether what fits no track begins one.
+
+        Returns:
+            Tracks that were updated or begun.
+        """
+        fresh = list(seen)
+        updated = []
+        for track in sorted(self.tracks, key=lambda t: -t.seen_at):
+            if not fresh:
+                break
+            best = min(fresh, key=track.misfit)
+            if track.misfit(best) <= GATE:
+                track.correct(best)
+                track.count(True)
+                fresh.remove(best)
+                updated.append(track)
+        if founds:
+            begun = [Track(observation) for observation in fresh]
+            self.tracks += begun
+            updated += begun
+        return updated
+
+    def main(self, now: float, x: float, y: float) -> Track | None:
+        """The track that counts at a time, for a robot at a place."""
+        self.tracks = [
+            track
+            for track in self.tracks
+            if not track.hopeless
+            and now - track.seen_at < (PATIENCE if track.confirmed else 1.0)
+            and (
+                now - track.seen_at < FRESH or track.deviation_at(now) < DOUBT
+            )
+        ]
+        self._merge(now)
+        known = [track for track in self.tracks if track.confirmed]
+        named = [t for t in known if now - t.identified_at < IDENTITY]
+        if named:
+            # A late one may be a mistake: the oldest still recognised.
+            newest = max(t.identified_at for t in named)
+            return min(
+                (t for t in named if newest - t.identified_at < LAPSE),
+                key=lambda t: t.begun_at,
+            )
+        return min(known, key=lambda t: t.away_from(x, y, now), default=None)
+
+    def _merge(self, now: float) -> None:
+        """Drop the younger of two tracks of the same thing."""
+        kept: list[Track] = []
+        for track in sorted(self.tracks, key=lambda t: t.begun_at):
+            x, y = track.place_at(now)
+            for older in kept:
+                if older.away_from(x, y, now) < SAME and (
+                    track.seen_at - older.seen_at < LAPSE
+                ):
+                    older.take_over(track)
+                    break
+            else:
+                kept.append(track)
+        self.tracks = kept

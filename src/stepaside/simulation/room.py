@@ -1,0 +1,122 @@
+"""Walls, things that stand about, and what robots wear to see."""
+
+from collections.abc import Callable
+
+import mujoco
+
+from ..robots.head import HeadDescription
+from .camera_settings import RoomSettings
+
+FLOOR_BIT = 1  # as of the floor: robots run into it
+WALL_HEIGHT = 1.2  # half of it, in [m]
+TONES = ((0.78, 0.76, 0.72), (0.70, 0.74, 0.74))
+BOXES = {
+    "red box": (0.78, 0.14, 0.12, 1.0),
+    "blue box": (0.12, 0.34, 0.72, 1.0),
+}
+WHITE = (0.95, 0.95, 0.94, 1.0)
+# Ellipsoids of a figure as tall as a NAO: place and half axes, in [m].
+FIGURE = (
+    ((0.0, 0.0, 0.50), (0.062, 0.066, 0.064)),
+    ((0.0, 0.0, 0.35), (0.060, 0.080, 0.100)),
+    ((0.0, 0.12, 0.35), (0.030, 0.030, 0.090)),
+    ((0.0, -0.12, 0.35), (0.030, 0.030, 0.090)),
+    ((0.0, 0.05, 0.14), (0.038, 0.038, 0.130)),
+    ((0.0, -0.05, 0.14), (0.038, 0.038, 0.130)),
+)
+Furnish = Callable[[mujoco.MjSpec], None]
+
+
+def furnisher(
+    room: RoomSettings, wearer: str, head: HeadDescription
+) -> Furnish:
+    """What turns an empty world into a room.
+
+    Args:
+        room: Walls and things.
+        wearer: Robot that wears the depth camera.
+        head: Its head.
+    """
+
+    def furnish(spec: mujoco.MjSpec) -> None:
+        if room.walls:
+            _add_walls(spec, room.walls)
+        for index, thing in enumerate(room.things):
+            body = spec.worldbody.add_body(
+                name=f"thing {index}", pos=[thing.x, thing.y, 0.0]
+            )
+            _add_thing(body, thing.kind)
+        _add_housing(spec, wearer, head)
+
+    return furnish
+
+
+def _add_walls(spec: mujoco.MjSpec, away: float) -> None:
+    spec.add_texture(
+        name="wall",
+        type=mujoco.mjtTexture.mjTEXTURE_2D,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_CHECKER,
+        rgb1=list(TONES[0]),
+        rgb2=list(TONES[1]),
+        width=128,
+        height=128,
+    )
+    material = spec.add_material(
+        name="wall", texrepeat=[1, 1], texuniform=True
+    )
+    material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "wall"
+    for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+        spec.worldbody.add_geom(
+            name=f"wall {x} {y}",
+            type=mujoco.mjtGeom.mjGEOM_BOX,
+            pos=[x * away, y * away, WALL_HEIGHT],
+            size=[
+                0.05 if x else away,
+                0.05 if y else away,
+                WALL_HEIGHT,
+            ],
+            material="wall",
+            contype=FLOOR_BIT,
+            conaffinity=0,
+        )
+
+
+def _add_thing(body: mujoco.MjsBody, kind: str) -> None:
+    if kind in BOXES:
+        body.add_geom(
+            type=mujoco.mjtGeom.mjGEOM_BOX,
+            pos=[0.0, 0.0, 0.2],
+            size=[0.12, 0.12, 0.2],
+            rgba=list(BOXES[kind]),
+            contype=FLOOR_BIT,
+            conaffinity=0,
+        )
+        return
+    for place, size in FIGURE:
+        body.add_geom(
+            type=mujoco.mjtGeom.mjGEOM_ELLIPSOID,
+            pos=list(place),
+            size=list(size),
+            rgba=list(WHITE),
+            contype=FLOOR_BIT,
+            conaffinity=0,
+        )
+
+
+def _add_housing(
+    spec: mujoco.MjSpec, wearer: str, head: HeadDescription
+) -> None:
+    """Put a depth camera on a head: seen, but without weight."""
+    depth, width, height = head.housing
+    x, y, z = head.depth.place.tolist()
+    spec.body(f"{wearer}/{head.body}").add_geom(
+        type=mujoco.mjtGeom.mjGEOM_BOX,
+        # Its window is in front.
+        pos=[x - 0.5 * depth, y, z],
+        size=[0.5 * depth, 0.5 * width, 0.5 * height],
+        rgba=[0.1, 0.1, 0.1, 1.0],
+        group=2,
+        contype=0,
+        conaffinity=0,
+        mass=0.0,
+    )

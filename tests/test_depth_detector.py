@@ -1,0 +1,110 @@
+"""Test obstacles in depth images that are computed by hand."""
+
+from math import degrees, radians
+
+import numpy as np
+import pytest
+
+from stepaside.poses import Array
+from stepaside.robots.head import rotation
+from stepaside.sensing.camera_model import CameraModel
+from stepaside.sensing.depth_detector import DepthScene, detect_obstacles
+from stepaside.sensing.images import DepthImage
+
+CAMERA = CameraModel.of_field_of_view(80, 60, radians(58.0), radians(45.0))
+EYE = np.array([0.0, 0.0, 0.5])
+NEAR, FAR = 0.8, 3.5
+Post = tuple[float, float, float, float]  # x, y, radius, height
+
+
+def take(axes: Array, posts: list[Post]) -> DepthImage:
+    """Depth image of a floor with upright posts, by plane geometry."""
+    rays = CAMERA.rays() @ axes.T
+    with np.errstate(divide="ignore"):
+        depth = np.where(rays[..., 2] < 0.0, -EYE[2] / rays[..., 2], np.inf)
+    for x, y, radius, height in posts:
+        a = rays[..., 0] ** 2 + rays[..., 1] ** 2
+        b = rays[..., 0] * x + rays[..., 1] * y
+        root = b**2 - a * (x * x + y * y - radius**2)
+        hit = (b - np.sqrt(np.maximum(root, 0.0))) / a
+        level = EYE[2] + hit * rays[..., 2]
+        there = (root > 0.0) & (hit > 0.0) & (level > 0.0) & (level < height)
+        depth = np.where(there, np.minimum(depth, hit), depth)
+    depth = np.where((depth < NEAR) | (depth > FAR), 0.0, depth)
+    return DepthImage(0.0, CAMERA, depth.astype(np.float32), NEAR, FAR)
+
+
+def find(
+    posts: list[Post], roll: float = 0.0, pitch: float = 10.0, yaw: float = 0.0
+) -> DepthScene:
+    axes = rotation(radians(roll), radians(pitch), radians(yaw))
+    return detect_obstacles(take(axes, posts), EYE, axes, (0.0, 0.0))
+
+
+@pytest.mark.parametrize("pitch", [0.0, 10.0, 20.0])
+@pytest.mark.parametrize("roll", [-6.0, 0.0, 6.0])
+def test_an_empty_floor_holds_nothing(roll: float, pitch: float) -> None:
+    assert find([], roll, pitch) == DepthScene((), ())
+
+
+@pytest.mark.parametrize("roll", [-6.0, 0.0, 6.0])
+@pytest.mark.parametrize("yaw", [-15.0, 0.0, 40.0])
+def test_a_post_is_where_it_stands(roll: float, yaw: float) -> None:
+    """Whatever the tilt and the yaw of the head, as they are measured."""
+    bearing = radians(yaw + 8.0)
+    x, y = 1.6 * np.cos(bearing), 1.6 * np.sin(bearing)
+    scene = find([(x, y, 0.12, 0.6)], roll, 10.0, yaw)
+    (post,) = scene.obstacles
+    assert degrees(post.bearing) == pytest.approx(yaw + 8.0, abs=0.7)
+    assert post.nearest == pytest.approx(1.48, abs=0.03)
+    assert post.x == pytest.approx(x, abs=0.05)
+    assert post.y == pytest.approx(y, abs=0.05)
+    assert post.width == pytest.approx(0.24, abs=0.06)
+
+
+def test_a_tilt_that_is_not_measured_shows_a_floor_that_is_not_there() -> None:
+    """So the compensation of the tilt is what the other tests test."""
+    axes = rotation(0.0, radians(18.0), 0.0)
+    image = take(axes, [])
+    level = rotation(0.0, radians(0.0), 0.0)
+    scene = detect_obstacles(image, EYE, level, (0.0, 0.0))
+    assert scene != DepthScene((), ())
+
+
+def test_the_nearest_comes_first() -> None:
+    scene = find([(2.2, -0.5, 0.15, 1.7), (1.4, 0.3, 0.1, 0.4)])
+    assert [round(o.x, 1) for o in scene.obstacles] == [1.4, 2.2]
+    assert scene.obstacles[1].height > 0.8
+
+
+def test_what_is_too_near_casts_a_shadow_with_its_bearing() -> None:
+    bearing = radians(7.0)
+    x, y = 0.6 * np.cos(bearing), 0.6 * np.sin(bearing)
+    scene = find([(x, y, 0.1, 0.5)])
+    assert scene.obstacles == ()
+    (shadow,) = scene.shadows
+    assert degrees(shadow.bearing) == pytest.approx(7.0, abs=1.5)
+
+
+def test_a_thing_that_is_partly_too_near_is_one_thing() -> None:
+    """Its far side alone would be off to a side."""
+    parts: list[Post] = [(0.83, 0.1, 0.08, 0.5), (0.95, -0.05, 0.08, 0.5)]
+    scene = find(parts)
+    assert scene.obstacles == ()
+    assert len(scene.shadows) == 1
+
+
+def test_a_broad_wall_is_no_obstacle() -> None:
+    wall = [(2.0, 0.1 * i, 0.08, 1.5) for i in range(-15, 16)]
+    assert find(wall).obstacles == ()
+
+
+def test_the_robot_does_not_see_itself() -> None:
+    """Hands and feet within reach of its own axis are its own."""
+    scene = detect_obstacles(
+        take(rotation(0.0, radians(10.0), 0.0), [(1.2, 0.0, 0.1, 0.5)]),
+        EYE,
+        rotation(0.0, radians(10.0), 0.0),
+        (1.2, 0.0),
+    )
+    assert scene.obstacles == ()

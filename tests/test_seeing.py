@@ -1,0 +1,248 @@
+"""Test robots that see, in physics, with cameras made of rays."""
+
+from dataclasses import replace
+from functools import cache
+from math import degrees, hypot, radians
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.control.perception import FrameReport
+from stepaside.errors import ConfigurationError
+from stepaside.sensing.images import ColourImage, SonarEcho
+from stepaside.simulation import DuelResult, DuelSettings, Outcome, run_duel
+from stepaside.simulation.camera_settings import (
+    CLUTTER,
+    CameraSettings,
+    ColourSettings,
+    DepthSettings,
+    RoomSettings,
+    Thing,
+)
+from stepaside.simulation.configuration import (
+    dump_configuration,
+    parse_configuration,
+)
+from stepaside.simulation.duel import Duel
+from stepaside.simulation.graphics import BACKENDS, choose_renderer
+from stepaside.simulation.settings import StartSettings
+from stepaside.simulation.summary import summarise
+
+RAYS = CameraSettings(colour=ColourSettings(renderer="raycast"))
+SEEING = DuelSettings(
+    seed=2,
+    duration=8.0,
+    sensing="cameras",
+    cameras=RAYS,
+    start=StartSettings(1.1, radians(20.0), radians(-10.0)),
+)
+
+
+@cache
+def play() -> DuelResult:
+    return run_duel(SEEING)
+
+
+def test_robots_that_see_begin_as_those_that_know() -> None:
+    result = play()
+    assert result.outcome is Outcome.COMPLETED
+    assert result.triggered_distance == pytest.approx(0.8, abs=0.05)
+    summary = summarise(result)
+    assert summary["camera"] == "raycast"
+    assert summary["detection_rate"] > 0.97
+    assert summary["false_detections"] <= 2
+    for name in ("pursuer", "evader"):
+        error = summary[name]["bearing_error_deg"]
+        assert error["median"] < 1.5
+        assert error["p95"] < 5.0
+        assert summary[name]["lost_s"] < 1.0
+    assert summary["evader"]["distance_error_m"]["median"] < 0.05
+
+
+def test_the_same_seed_sees_the_same() -> None:
+    settings = replace(SEEING, duration=2.0)
+    one, other = run_duel(settings), run_duel(settings)
+    for name, values in one.arrays.items():
+        np.testing.assert_array_equal(values, other.arrays[name])
+
+
+def test_the_pursuer_finds_who_is_behind_its_view() -> None:
+    """It begins with its back half turned, scans and halts nowhere."""
+    start = StartSettings(1.3, radians(-88.0), 0.0)
+    settings = replace(SEEING, start=start, duration=5.0)
+    result = run_duel(settings)
+    sight = result.arrays["pursuer_sight"]
+    assert np.isnan(sight[5, 1])
+    assert np.isfinite(sight[-1, 1])
+    assert abs(degrees(sight[-1, 1] - sight[-1, 3])) < 3.0
+    assert result.arrays["pursuer_landings"].shape[0] > 2
+
+
+@pytest.mark.parametrize("distance", [0.5, 0.65, 0.8])
+def test_the_evader_is_not_blind_below_the_near_limit(
+    distance: float,
+) -> None:
+    """Depth camera and sonars alone still tell bearing and distance."""
+    start = StartSettings(distance, 0.0, radians(15.0))
+    duel = Duel(replace(SEEING, start=start))
+    pursuer, evader = duel.robots
+    perception = duel.seeing.perceptions["evader"] if duel.seeing else None
+    assert perception is not None
+    scheme = duel.schemes[1]
+    eyes = evader.eyes
+    assert eyes is not None
+    for _ in range(200):
+        measurement = evader.read()
+        kept = tuple(
+            p for p in measurement.percepts if not isinstance(p, ColourImage)
+        )
+        perception.see(
+            measurement._replace(percepts=kept), scheme.left_foot, True
+        )
+        targets = scheme.joint_targets.copy()
+        perception.aim(targets)
+        evader.write(targets)
+        evader.step()
+        pursuer.step()
+    seen = perception.sighting
+    assert seen is not None
+    assert degrees(seen.bearing) == pytest.approx(-15.0, abs=4.0)
+    assert seen.distance == pytest.approx(distance, abs=0.15)
+
+
+def test_belief_about_the_own_body_is_true_while_walking() -> None:
+    """Encoders and tilt place the eyes within a centimeter or so."""
+    duel = Duel(replace(SEEING, duration=4.0))
+    assert duel.seeing is not None
+    perception = duel.seeing.perceptions["pursuer"]
+    truth = duel.robots[0].truth
+    head = duel.world.model.body("pursuer/head").id
+    heights, headings = [], []
+    start = None
+    while duel.world.time < 4.0:
+        assert duel.tick() is None
+        body = perception.body
+        assert body is not None
+        if start is None:
+            start = truth.heading - body.torso.theta
+        # The body is a tick older than the truth.
+        true = duel.world.data.xpos[head]
+        heights.append(body.head_place[2] - true[2])
+        headings.append(truth.heading - body.torso.theta - start)
+    assert np.abs(heights).max() < 0.01
+    # Soles slip a little on each step.
+    assert np.abs(np.degrees(headings)).max() < 6.0
+
+
+def test_dropped_and_late_images_are_dropped_and_late() -> None:
+    cameras = replace(RAYS, drop_frames=0.5, added_latency=0.2)
+    duel = Duel(replace(SEEING, cameras=cameras, duration=4.0))
+    assert duel.seeing is not None
+    ages: list[float] = []
+
+    def note(report: FrameReport) -> None:
+        if isinstance(report.image, ColourImage):
+            ages.append(duel.world.time - report.image.time)
+
+    duel.seeing.perceptions["pursuer"].on_frame = note
+    while duel.world.time < 4.0:
+        duel.tick()
+    assert min(ages) == pytest.approx(0.25, abs=0.005)
+    assert max(ages) == pytest.approx(0.25, abs=0.005)
+    assert 15 < len(ages) < 45  # of 60
+
+
+def test_depth_images_keep_to_their_limits() -> None:
+    duel = Duel(replace(SEEING, room=RoomSettings(things=list(CLUTTER))))
+    eyes = duel.robots[1].eyes
+    assert eyes is not None
+    depth = DepthSettings()
+    images = []
+    for tick in range(100):
+        images += [
+            p
+            for p in eyes.read(0.004 * tick)
+            if not isinstance(p, ColourImage | SonarEcho)
+        ]
+    assert images
+    values = images[0].depths[images[0].depths > 0.0]
+    assert depth.near <= values.min()
+    assert values.max() <= depth.far
+    # Quantised: far fewer levels than pixels.
+    assert len(np.unique(values)) < 0.6 * len(values)
+
+
+def test_robots_run_into_things() -> None:
+    things = [Thing("red box", 0.15, 0.0)]
+    start = StartSettings(1.3, 0.0, 0.0)
+    settings = replace(SEEING, start=start, room=RoomSettings(things=things))
+    result = run_duel(replace(settings, duration=12.0))
+    assert result.outcome in (Outcome.CONTACT, Outcome.FALL)
+
+
+def test_a_room_is_a_configuration() -> None:
+    room = RoomSettings(things=list(CLUTTER))
+    settings = replace(SEEING, room=room)
+    text = dump_configuration(settings)
+    import tomllib
+
+    assert parse_configuration(tomllib.loads(text), "test") == settings
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: DuelSettings(sensing="smell"),
+        lambda: CameraSettings(drop_frames=1.5),
+        lambda: CameraSettings(added_latency=float("nan")),
+        lambda: ColourSettings(optics="v7"),
+        lambda: DepthSettings(near=0.0),
+        lambda: Thing("green box", 0.0, 0.0),
+        lambda: RoomSettings(walls=0.5),
+        lambda: choose_renderer("glfw"),
+    ],
+)
+def test_senses_that_cannot_be_are_refused(make: object) -> None:
+    assert callable(make)
+    with pytest.raises(ConfigurationError):
+        make()
+
+
+def test_rendering_and_rays_see_the_same() -> None:
+    """Where the machine renders, both cameras find it in one direction."""
+    renderer = choose_renderer("auto")
+    if renderer not in BACKENDS:
+        pytest.skip("no off-screen graphics (EGL, OSMesa) on this machine")
+    azimuths = {}
+    for kind in (renderer, "raycast"):
+        cameras = CameraSettings(colour=ColourSettings(renderer=kind))
+        start = StartSettings(1.0, radians(10.0), radians(-10.0))
+        duel = Duel(replace(SEEING, cameras=cameras, start=start))
+        assert duel.seeing is not None
+        found: list[float] = []
+
+        def note(report: FrameReport, found: list[float] = found) -> None:
+            found.extend(report.azimuths)
+
+        duel.seeing.perceptions["pursuer"].on_frame = note
+        while duel.world.time < 0.1:
+            duel.tick()
+        for robot in duel.robots:
+            robot.close()
+        azimuths[kind] = degrees(found[0])
+    assert azimuths[renderer] == pytest.approx(azimuths["raycast"], abs=0.8)
+    assert azimuths[renderer] == pytest.approx(-10.0, abs=1.5)
+
+
+def test_sonars_hear_what_stands_before_the_chest() -> None:
+    duel = Duel(replace(SEEING, start=StartSettings(0.6, 0.0, 0.0)))
+    mujoco.mj_forward(duel.world.model, duel.world.data)
+    eyes = duel.robots[1].eyes
+    assert eyes is not None
+    echoes = [p for p in eyes.read(0.0) if isinstance(p, SonarEcho)]
+    assert {e.sonar for e in echoes} == {"left", "right"}
+    for echo in echoes:
+        assert echo.distance is not None
+        assert 0.4 < echo.distance < 0.62
+    assert hypot(*duel.robots[0].truth.position) < 0.05
