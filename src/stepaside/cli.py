@@ -12,6 +12,7 @@ from .errors import StepAsideError
 COMMANDS = {
     "duel": "Let two humanoids chase each other in physics.",
     "walk": "Let one humanoid walk, push it, and measure.",
+    "robustness": "Walk under disturbances, on all cores, and tabulate.",
     "plan": "Plan one maneuver: footsteps, ZMP and CoM.",
     "unicycles": "Play one game of two unicycles (Sec. II).",
     "circle": "Find the circle of a game in closed form.",

@@ -11,7 +11,7 @@ from ..planning import (
     ManeuverPlanner,
 )
 from ..poses import Array, Pose, wrap_angle
-from ..robots.kinematics import LegKinematics
+from ..robots.kinematics import BodyReference, LegKinematics
 from .body import Measurement, Sighting
 from .headings import HeadingMemory
 from .phase import Phase
@@ -89,6 +89,8 @@ class ControlScheme:
         self.planner = ManeuverPlanner(settings)
         self.kinematics = kinematics
         self.phase = Phase.STANDING
+        self.reference: BodyReference
+        self._resting: Row
         self.plan: ManeuverPlan | None = None
         self.plan_frame = Pose(0.0, 0.0, 0.0)
         self.plan_started = 0.0
@@ -170,8 +172,7 @@ class ControlScheme:
         self.reference = standing_reference(
             self.left_foot, self.right_foot, self.settings
         )
-        self.zmp_reference = self.reference.com[:2]
-        rest = self.zmp_reference
+        self.zmp_reference = rest = self.reference.com[:2]
         self._resting = Row(self.reference, rest, rest)
 
     def _wait(self, now: float) -> None:

@@ -1,0 +1,126 @@
+"""Figures of a campaign: survival against strength, pushes by direction."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .style import THEORY, plt
+
+METHOD_STYLES = {
+    "open-loop": ("#8a8a8a", "o", ":"),
+    "closed-form": ("#b5651d", "s", "--"),
+    "measured": ("#0f7b6c", "D", "-"),
+    "mpc": ("#6a3d9a", "^", "-."),
+}
+
+
+def draw_survival(
+    rows: Sequence[dict[str, Any]], units: dict[str, str], file: Path
+) -> None:
+    """Draw survival with its 95 % interval for every kind and direction.
+
+    Args:
+        rows: Of :func:`~stepaside.studies.survival.survival_rows`.
+        units: Unit of each kind's strength.
+        file: Picture to write.
+    """
+    panels = list(dict.fromkeys((r["kind"], r["direction"]) for r in rows))
+    columns = min(4, len(panels))
+    lines = -(-len(panels) // columns)
+    figure, axes = plt.subplots(
+        lines,
+        columns,
+        figsize=(3.1 * columns, 2.6 * lines),
+        squeeze=False,
+        sharey=True,
+    )
+    for axis in axes.flat[len(panels) :]:
+        axis.set_visible(False)
+    for axis, (kind, direction) in zip(axes.flat, panels, strict=False):
+        here = [
+            r for r in rows if (r["kind"], r["direction"]) == (kind, direction)
+        ]
+        for method in dict.fromkeys(r["method"] for r in here):
+            colour, marker, line = METHOD_STYLES[method]
+            own = sorted(
+                (r for r in here if r["method"] == method),
+                key=lambda r: float(r["strength"]),
+            )
+            x = [r["strength"] for r in own]
+            share = np.array([r["survived"] / r["trials"] for r in own])
+            axis.plot(
+                x,
+                100.0 * share,
+                color=colour,
+                marker=marker,
+                linestyle=line,
+                markersize=4,
+                label=method,
+            )
+            axis.fill_between(
+                x,
+                [100.0 * r["low"] for r in own],
+                [100.0 * r["high"] for r in own],
+                color=colour,
+                alpha=0.12,
+                linewidth=0,
+            )
+        axis.set_title(f"{kind} {direction}".strip())
+        axis.set_xlabel(f"{kind} [{units[kind]}]")
+        axis.set_ylim(-4, 104)
+    for row in axes:
+        row[0].set_ylabel("survived [%]")
+    axes.flat[0].legend()
+    figure.savefig(file)
+    plt.close(figure)
+
+
+def draw_limits(rows: Sequence[dict[str, Any]], file: Path) -> None:
+    """Draw the largest push survived over the phase, beside the bound.
+
+    Args:
+        rows: Of :func:`~stepaside.studies.survival.limit_rows`.
+        file: Picture to write.
+    """
+    directions = list(dict.fromkeys(r["direction"] for r in rows))
+    figure, axes = plt.subplots(
+        1,
+        len(directions),
+        figsize=(3.1 * len(directions), 2.8),
+        squeeze=False,
+        sharey=True,
+    )
+    for axis, direction in zip(axes.flat, directions, strict=True):
+        here = [r for r in rows if r["direction"] == direction]
+        for method in dict.fromkeys(r["method"] for r in here):
+            colour, marker, line = METHOD_STYLES[method]
+            own = sorted(
+                (r for r in here if r["method"] == method),
+                key=lambda r: float(r["phase"]),
+            )
+            x = [r["phase"] for r in own]
+            axis.plot(
+                x,
+                [r["limit_n_s"] for r in own],
+                color=colour,
+                marker=marker,
+                linestyle=line,
+                markersize=4,
+                label=method,
+            )
+        axis.plot(
+            x,
+            [r["bound_n_s"] for r in own],
+            color=THEORY,
+            linewidth=1.6,
+            label="pendulum's bound",
+        )
+        axis.set_title(direction)
+        axis.set_xlabel("phase of the gait cycle [1]")
+        axis.set_ylim(bottom=0.0)
+    axes.flat[0].set_ylabel("largest push survived [N s]")
+    axes.flat[0].legend(fontsize=7)
+    figure.savefig(file)
+    plt.close(figure)

@@ -1,0 +1,234 @@
+"""Campaigns: what a walk survives, over disturbance, strength and method."""
+
+import json
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor, as_completed
+from dataclasses import asdict, dataclass, replace
+from math import pi, radians
+from pathlib import Path
+
+from ..control.settings import ControlSettings, Method
+from ..errors import ConfigurationError
+from ..planning import GaitSettings
+from ..simulation.body_settings import BODIES, BodySettings
+from ..simulation.push import Push
+from ..simulation.settings import PhysicsSettings
+from ..simulation.walk import WalkSettings, run_walk
+
+DIRECTIONS = {"left": 90.0, "right": -90.0, "forward": 0.0, "backward": 180.0}
+STRENGTHS: dict[str, tuple[float, ...]] = {
+    "push": (0.4, 0.8, 1.0, 1.2, 1.4, 1.6, 2.0, 2.4, 2.8, 3.2),
+    "friction": (0.05, 0.1, 0.2, 0.3, 0.5, 0.8),
+    "unevenness": (0.0, 0.002, 0.003, 0.005, 0.008),
+    "delay": (0.0, 2.0, 3.0, 4.0, 6.0),
+    "play": (0.0, 0.5, 1.0, 2.0, 3.0),
+    "noise": (0.0, 1.0, 2.0, 4.0, 8.0),
+    "model": (0.0, 0.03, 0.06, 0.1, 0.2),
+}
+UNITS = {
+    "push": "N s",
+    "friction": "1",
+    "unevenness": "m",
+    "delay": "cycles",
+    "play": "deg",
+    "noise": "times the preset",
+    "model": "relative mass error",
+}
+METHODS = ("open-loop", "closed-form", "measured", "mpc")
+BEFORE, AFTER = 6, 4.0  # steps before a push, seconds after it
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """One walk of a campaign.
+
+    Attributes:
+        kind: Disturbance, a key of ``STRENGTHS``.
+        strength: In the unit of ``UNITS``.
+        direction: Of a push, a key of ``DIRECTIONS``; else empty.
+        phase: Of a push, as a fraction of the gait cycle.
+        seed: Of the walk.
+        method: One of ``METHODS``.
+        body: Preset of the body.
+    """
+
+    kind: str
+    strength: float
+    direction: str
+    phase: float
+    seed: int
+    method: str
+    body: str
+
+    @property
+    def key(self) -> str:
+        """Name of the trial in a file of results."""
+        return json.dumps(list(asdict(self).values()))
+
+
+def control_of(method: str) -> ControlSettings:
+    """Control of a method's name."""
+    if method == "open-loop":
+        return ControlSettings()
+    named: dict[str, Method] = {
+        "closed-form": "closed-form",
+        "measured": "measured",
+        "mpc": "mpc",
+    }
+    return ControlSettings(named[method], True)
+
+
+def push_time(phase: float, control: ControlSettings) -> float:
+    """When a push at a phase of the cycle begins, in [s]."""
+    gait = GaitSettings()
+    begins = gait.start_support + (1.0 if control.feedback else 0.0)
+    return begins + (BEFORE + 2.0 * phase) * gait.step_duration
+
+
+def settings_of(trial: Trial) -> WalkSettings:
+    """Walk of a trial.
+
+    Raises:
+        ConfigurationError: If the kind is unknown.
+    """
+    control = control_of(trial.method)
+    body, physics = BODIES[trial.body], PhysicsSettings()
+    duration, pushes, x = 20.0, (), trial.strength
+    if trial.kind == "push":
+        time = push_time(trial.phase, control)
+        duration = time + AFTER
+        direction = radians(DIRECTIONS[trial.direction])
+        return WalkSettings(
+            seed=trial.seed,
+            duration=duration,
+            body=body,
+            control=control,
+            pushes=(Push(x, time, direction),),
+        )
+    if trial.kind in ("friction", "unevenness"):
+        physics = (
+            replace(physics, friction=x)
+            if trial.kind == "friction"
+            else replace(physics, unevenness=x)
+        )
+    elif trial.kind == "delay":
+        body = replace(
+            body, cycle=0.012, delay_cycles=round(x), imu_delay_cycles=1
+        )
+    elif trial.kind == "play":
+        body = replace(body, play=x * pi / 180.0)
+    elif trial.kind == "noise":
+        body = louder(body, x)
+    elif trial.kind == "model":
+        body = replace(body, mass_error=x, com_error=0.1 * x)
+    else:
+        raise ConfigurationError(
+            f"kind must be one of {', '.join(STRENGTHS)}, got {trial.kind!r}"
+        )
+    return WalkSettings(
+        seed=trial.seed,
+        duration=duration,
+        body=body,
+        physics=physics,
+        control=control,
+        pushes=pushes,
+    )
+
+
+def louder(body: BodySettings, factor: float) -> BodySettings:
+    """Body with the hardware's noise and bias, times a factor."""
+    hardware = BODIES["hardware"]
+    names = (
+        *("gyro_noise", "gyro_bias", "accelerometer_noise"),
+        *("accelerometer_bias", "force_noise", "force_gain_error"),
+    )
+    return replace(
+        body, **{name: factor * getattr(hardware, name) for name in names}
+    )
+
+
+def run_trial(trial: Trial) -> tuple[str, bool]:
+    """Key of a trial, and whether the robot stood to the end."""
+    result = run_walk(settings_of(trial), record=False)
+    return trial.key, result.outcome == "completed"
+
+
+def trials(
+    kinds: Sequence[str],
+    methods: Sequence[str],
+    body: str,
+    *,
+    phases: int,
+    seeds: int,
+    first_seed: int = 1,
+) -> Iterator[Trial]:
+    """Grid of a campaign; a push repeats over phases, the rest over seeds."""
+    for method in methods:
+        for kind in kinds:
+            for strength in STRENGTHS[kind]:
+                if kind == "push":
+                    for direction in DIRECTIONS:
+                        for i in range(phases):
+                            yield Trial(
+                                kind,
+                                strength,
+                                direction,
+                                i / phases,
+                                first_seed,
+                                method,
+                                body,
+                            )
+                    continue
+                for seed in range(first_seed, first_seed + seeds):
+                    yield Trial(kind, strength, "", 0.0, seed, method, body)
+
+
+def run_campaign(
+    grid: Sequence[Trial],
+    file: Path | None,
+    executor: Executor,
+    report: Callable[[int], None] | None = None,
+    done: dict[str, bool] | None = None,
+) -> dict[str, bool]:
+    """Run what a file of results does not hold yet.
+
+    Args:
+        grid: Trials.
+        file: JSON lines of (key, survived), one for each trial that is done;
+            they are written as they come, so that a campaign that was
+            stopped goes on. None keeps nothing.
+        executor: Any executor of ``concurrent.futures``.
+        report: Called with the number of trials that are done.
+        done: Filled with the results as they come, for whoever stops it.
+
+    Returns:
+        Whether each trial was survived, by key.
+    """
+    wanted = {trial.key for trial in grid}
+    results: dict[str, bool] = {} if done is None else done
+    if file is not None and file.exists():
+        for line in file.read_text(encoding="utf-8").splitlines():
+            try:
+                key, survived = json.loads(line)
+            except ValueError:
+                continue  # a line that was cut off when the last run stopped
+            if key in wanted:
+                results[key] = survived
+    missing = [trial for trial in grid if trial.key not in results]
+    if report is not None:
+        report(len(results))
+    futures = [executor.submit(run_trial, trial) for trial in missing]
+    try:
+        for future in as_completed(futures):
+            key, survived = future.result()
+            results[key] = survived
+            if file is not None:
+                with file.open("a", encoding="utf-8") as out:
+                    out.write(json.dumps([key, survived]) + "\n")
+            if report is not None:
+                report(len(results))
+    except BaseException:
+        for future in futures:
+            future.cancel()
+        raise
+    return results
