@@ -11,6 +11,7 @@ from .errors import StepAsideError
 
 COMMANDS = {
     "duel": "Let two humanoids chase each other in physics.",
+    "view": "Watch a duel in a browser, push the robots, drive one.",
     "walk": "Let one humanoid walk, push it, and measure.",
     "robustness": "Walk under disturbances, on all cores, and tabulate.",
     "plan": "Plan one maneuver: footsteps, ZMP and CoM.",

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from functools import lru_cache
 from importlib import import_module
 from typing import Any
@@ -113,12 +114,25 @@ class Screen:
         self._area = mujoco.MjrRect(0, 0, width, height)
         self._pixels: Pixels = np.zeros((height, width, 3), dtype=np.uint8)
 
-    def draw(self, data: mujoco.MjData, camera: int) -> Pixels:
-        """Draw what a camera of the model sees. Shape (height, width, 3)."""
+    def draw(
+        self,
+        data: mujoco.MjData,
+        camera: int | mujoco.MjvCamera,
+        decorate: Callable[[mujoco.MjvScene], None] | None = None,
+    ) -> Pixels:
+        """Draw what a camera sees. Shape (height, width, 3).
+
+        Args:
+            data: State of the model.
+            camera: Number of a camera of the model, or one of its own.
+            decorate: Adds to the scene before it is drawn.
+        """
         self._gl.make_current()
-        view = mujoco.MjvCamera()
-        view.type = mujoco.mjtCamera.mjCAMERA_FIXED
-        view.fixedcamid = camera
+        view = camera
+        if isinstance(camera, int):
+            view = mujoco.MjvCamera()
+            view.type = mujoco.mjtCamera.mjCAMERA_FIXED
+            view.fixedcamid = camera
         mujoco.mjv_updateScene(
             self._model,
             data,
@@ -128,6 +142,8 @@ class Screen:
             mujoco.mjtCatBit.mjCAT_ALL,
             self._scene,
         )
+        if decorate is not None:
+            decorate(self._scene)
         mujoco.mjr_render(self._area, self._scene, self._context)
         mujoco.mjr_readPixels(self._pixels, None, self._area, self._context)
         return self._pixels[::-1].copy()

@@ -30,7 +30,7 @@ class Recorder:
     ) -> None:
         """Record robots driven by schemes, placed at frames."""
         self._robots, self._schemes = robots, schemes
-        self._frames = frames
+        self.frames = frames
         world = robots[0].world
         self._qpos = world.data.qpos
         self._world = world
@@ -66,7 +66,7 @@ class Recorder:
             self._rows,
             self._robots,
             self._schemes,
-            self._frames,
+            self.frames,
             strict=True,
         ):
             table = np.array(rows, dtype=np.float64).reshape(-1, 12)

@@ -1,0 +1,137 @@
+"""A run folder, ready to be seen again."""
+
+import json
+from dataclasses import dataclass
+from math import degrees
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from ..errors import ConfigurationError
+from ..poses import Array
+from ..robots.description import load_robot
+from ..simulation.configuration import load_configuration
+from ..simulation.duel import NAMES
+from ..simulation.settings import DuelSettings
+from ..simulation.summary import (
+    distance_over_time,
+    orientation_over_time,
+    theory_of,
+)
+from ..simulation.world import build_model
+from .run_folder import CONFIGURATION, SUMMARY, TRAJECTORIES
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """A duel that was played.
+
+    Attributes:
+        name: Name of its folder.
+        settings: What decided it.
+        summary: Its figures.
+        arrays: Its record.
+    """
+
+    name: str
+    settings: DuelSettings
+    summary: dict[str, Any]
+    arrays: dict[str, Array]
+
+    @property
+    def times(self) -> Array:
+        """Times of the samples, in [s]. Shape (n,)."""
+        return self.arrays["times_s"]
+
+    @property
+    def distance(self) -> Array:
+        """Distance between the torsos, in [m]. Shape (n,)."""
+        return distance_over_time(self.arrays)
+
+    @property
+    def orientation(self) -> Array:
+        """Angle between the headings, in [deg]. Shape (n,)."""
+        angle: Array = np.degrees(orientation_over_time(self.arrays))
+        return angle
+
+    @property
+    def theory(self) -> tuple[float, float, float] | None:
+        """Radius [m], distance [m] and angle [deg] of the circle."""
+        circle = theory_of(self.settings)
+        if not circle.exists:
+            return None
+        return (
+            circle.radius_evader_m,
+            circle.distance_m,
+            degrees(circle.headings_apart_rad),
+        )
+
+    def words(self, index: int) -> str:
+        """What goes on at a sample."""
+        time = float(self.times[index])
+        triggered = self.summary.get("triggered_at_s")
+        converged = self.summary.get("converged_at_s")
+        last = index >= len(self.times) - 1
+        if last and self.summary["outcome"] in ("fall", "contact"):
+            return str(self.summary["message"])
+        if triggered is None or time < triggered:
+            return "the pursuer comes; the evader stands"
+        if time < triggered + 1.0:
+            return "the evader is triggered"
+        if converged is not None and time >= converged:
+            return "both robots are on the circle"
+        return "the evader is evading"
+
+
+def load_run(folder: Path) -> Run:
+    """Read a run folder.
+
+    Raises:
+        ConfigurationError: If it is none.
+    """
+    for name in (CONFIGURATION, SUMMARY, TRAJECTORIES):
+        if not (folder / name).is_file():
+            raise ConfigurationError(
+                f"run must be a folder with {CONFIGURATION}, {SUMMARY} and "
+                f"{TRAJECTORIES}; {folder} has no {name}"
+            )
+    try:
+        summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
+        with np.load(folder / TRAJECTORIES) as stored:
+            arrays = {name: stored[name] for name in stored.files}
+    except (ValueError, OSError) as error:
+        raise ConfigurationError(
+            f"run {folder} cannot be read: {error}"
+        ) from error
+    settings = load_configuration(folder / CONFIGURATION)
+    return Run(folder.resolve().name, settings, summary, arrays)
+
+
+class Stage:
+    """Bodies of a run, put where they were.
+
+    Attributes:
+        model: Robots and floor.
+        data: Their state.
+    """
+
+    def __init__(self, run: Run) -> None:
+        """Build the robots of a run, without its physics."""
+        description = load_robot(run.settings.robot)
+        self.model = build_model(
+            dict.fromkeys(NAMES, description),
+            run.settings.physics,
+            seed=run.settings.seed,
+        )
+        self.data = mujoco.MjData(self.model)
+        self._postures = np.concatenate(
+            [run.arrays[f"{name}_qpos"] for name in NAMES], axis=1
+        ).astype(np.float64)
+
+    def put(self, index: int) -> None:
+        """Put the bodies where they were at a sample."""
+        self.data.qpos[:] = self._postures[index]
+        mujoco.mj_kinematics(self.model, self.data)
+        mujoco.mj_camlight(self.model, self.data)

@@ -1,0 +1,1 @@
+"""The duel as a page in a browser: live, or replayed."""

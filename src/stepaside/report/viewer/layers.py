@@ -1,0 +1,170 @@
+"""Lines on the floor: plans, footsteps, traces, circles."""
+
+from math import inf
+
+import numpy as np
+import viser
+
+from ...control import ControlScheme
+from ...planning.support import convex_hull, sole_corners
+from ...poses import Array, Pose
+from ..style import COLOURS, EVADER, THEORY
+
+LAYERS = (
+    "planned path",
+    "footsteps",
+    "CoM trace",
+    "ZMP trace",
+    "line of sight",
+    "safety area",
+    "circle of theory",
+    "support polygon",
+)
+HEIGHTS = {name: 0.002 + 0.001 * i for i, name in enumerate(LAYERS)}
+TRACE = 1500  # points kept of a trace
+PRINTS = 60  # footsteps kept
+
+
+def rgb(colour: str) -> tuple[int, int, int]:
+    """Colour from ``#rrggbb``, 0 to 255."""
+    red, green, blue = bytes.fromhex(colour[1:])
+    return red, green, blue
+
+
+def chain(points: Array, height: float, *, closed: bool = False) -> Array:
+    """Segments through points of the floor. Shape (n, 2, 3)."""
+    if closed and len(points):
+        points = np.concatenate([points, points[:1]])
+    if len(points) < 2:
+        return np.zeros((0, 2, 3))
+    raised = np.column_stack([points, np.full(len(points), height)])
+    return np.stack([raised[:-1], raised[1:]], axis=1)
+
+
+def ring(x: float, y: float, radius: float, height: float) -> Array:
+    """Segments of a circle. Shape (n, 2, 3)."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 73)[:-1]
+    points = np.column_stack(
+        [x + radius * np.cos(angle), y + radius * np.sin(angle)]
+    )
+    return chain(points, height, closed=True)
+
+
+class Layers:
+    """The lines of one page; each layer can be switched.
+
+    Attributes:
+        shown: Whether each layer is shown.
+    """
+
+    def __init__(self, scene: viser.SceneApi) -> None:
+        """Begin with empty lines."""
+        self._scene = scene
+        self.shown = dict.fromkeys(LAYERS, True)
+        self._drawn: dict[str, bytes] = {}
+
+    def draw(
+        self, layer: str, owner: str, segments: Array, colour: str
+    ) -> None:
+        """Replace the lines of one layer and owner, if they changed.
+
+        Args:
+            layer: One of ``LAYERS``.
+            owner: "pursuer", "evader" or "both".
+            segments: In the world, in [m]. Shape (n, 2, 3).
+            colour: As ``#rrggbb``.
+        """
+        name = f"/layers/{layer}/{owner}"
+        if not self.shown[layer] or len(segments) == 0:
+            if self._drawn.pop(name, None) is not None:
+                self._scene.remove_by_name(name)
+            return
+        points = np.ascontiguousarray(segments, dtype=np.float32)
+        content = points.tobytes()
+        if self._drawn.get(name) == content:
+            return
+        self._drawn[name] = content
+        self._scene.add_line_segments(
+            name, points, colors=rgb(colour), thickness=0.006
+        )
+
+    def clear(self) -> None:
+        """Take every line off the page."""
+        for name in list(self._drawn):
+            self._scene.remove_by_name(name)
+        self._drawn.clear()
+
+
+def path_of(scheme: ControlScheme, frame: Pose) -> Array:
+    """Points of the template's path under the plan. Shape (n, 2)."""
+    plan = scheme.plan
+    if plan is None:
+        return np.zeros((0, 2))
+    x, y = plan.placements[1:, 0], plan.placements[1:, 1]
+    middle = np.column_stack([0.5 * (x[1:] + x[:-1]), 0.5 * (y[1:] + y[:-1])])
+    return frame.compose(scheme.plan_frame).transform_points(middle)
+
+
+def prints_of(scheme: ControlScheme, frame: Pose) -> Array:
+    """Outlines of the last footsteps and the planned ones."""
+    sole = scheme.settings.sole
+    height = HEIGHTS["footsteps"]
+    outlines = []
+    for _, foot, pose in scheme.landings[-PRINTS:]:
+        place = np.array(frame.compose(pose))
+        corners = sole_corners(place, foot, sole)
+        outlines.append(chain(corners, height, closed=True))
+    plan = scheme.plan
+    if plan is not None:
+        at = frame.compose(scheme.plan_frame)
+        for step in plan.footsteps:
+            place = np.array(at.compose(Pose(step.x, step.y, step.theta)))
+            corners = sole_corners(place, step.foot, sole)
+            outlines.append(chain(corners, height, closed=True))
+    return np.concatenate(outlines) if outlines else np.zeros((0, 2, 3))
+
+
+def support_of(scheme: ControlScheme, frame: Pose, now: float) -> Array:
+    """Outline of the support polygon."""
+    step = scheme.step(now)
+    sole = scheme.settings.sole
+    feet = [(step.support, step.swing.other)]
+    if step.remaining <= 0.0:
+        standing = step.landing if step.walking else scheme.left_foot
+        other = step.swing if step.walking else step.swing
+        if not step.walking:
+            standing = (
+                scheme.left_foot if other.value > 0 else scheme.right_foot
+            )
+        feet.append((standing, other))
+    corners = [
+        sole_corners(np.array(frame.compose(pose)), foot, sole)
+        for pose, foot in feet
+    ]
+    hull = convex_hull(np.concatenate(corners))
+    return chain(hull, HEIGHTS["support polygon"], closed=True)
+
+
+def safety_of(place: Array, radius: float) -> Array:
+    """Ring of the safety area round the evader."""
+    if radius == inf:
+        return np.zeros((0, 2, 3))
+    x, y = place[:2].tolist()
+    return ring(x, y, radius, HEIGHTS["safety area"])
+
+
+__all__ = [
+    "COLOURS",
+    "EVADER",
+    "HEIGHTS",
+    "LAYERS",
+    "THEORY",
+    "TRACE",
+    "Layers",
+    "chain",
+    "path_of",
+    "prints_of",
+    "ring",
+    "safety_of",
+    "support_of",
+]

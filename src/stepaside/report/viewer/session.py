@@ -1,0 +1,214 @@
+"""A duel that runs in a thread of its own, whoever looks at it."""
+
+import logging
+import threading
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import degrees
+from time import perf_counter, sleep
+
+import numpy as np
+
+from ...errors import StepAsideError
+from ...poses import Array, wrap_angle
+from ...simulation.duel import Duel, Outcome
+from ...simulation.push import Push
+from ...simulation.settings import DuelSettings
+from ...simulation.summary import theory_of
+
+LOG = logging.getLogger(__name__)
+HISTORY = 6000  # samples of the plots that are kept, 0.1 s apart
+BEHIND = 0.25  # delay after which lost time is given up, in [s]
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """What the page shows of one moment.
+
+    Attributes:
+        time: Simulated time, in [s].
+        positions: Of all bodies in the world, in [m]. Shape (bodies, 3).
+        quaternions: (w, x, y, z). Shape (bodies, 4).
+    """
+
+    time: float
+    positions: Array
+    quaternions: Array
+
+
+class Session:
+    """Runs a duel against the wall clock.
+
+    The page never blocks it: requests go into a queue that the loop empties
+    between two ticks, and what the page shows it copies under a lock that is
+    held for microseconds.
+
+    Attributes:
+        settings: Of the duel that runs, or is started next.
+        duel: The duel.
+        running: Whether time passes.
+        speed: Simulated time per time that passes; inf for all it can.
+        outcome: How the duel ended, if it did.
+        error: What went wrong in the loop, if anything did.
+        history: (time [s], distance [m], angle [deg]) every 0.1 s.
+        lock: Held while the duel changes.
+        factor: Simulated time over time passed, lately.
+    """
+
+    def __init__(self, settings: DuelSettings) -> None:
+        """Prepare a duel; the loop starts with :meth:`start`.
+
+        Raises:
+            StepAsideError: If the settings ask for what cannot be.
+        """
+        self.lock = threading.RLock()
+        self.running = False
+        self.speed = 1.0
+        self.factor = 0.0
+        self.error: str | None = None
+        self._requests: deque[Callable[[], None]] = deque()
+        self._closing = threading.Event()
+        self._thread = threading.Thread(target=self._loop, daemon=True)
+        self.on_tick: Callable[[Duel], None] | None = None
+        self._begin(settings)
+
+    def _begin(self, settings: DuelSettings) -> None:
+        duel = Duel(settings)
+        self.settings = settings
+        self.duel = duel
+        self.outcome: Outcome | None = None
+        self.history: deque[tuple[float, float, float]] = deque(maxlen=HISTORY)
+        self.traces: dict[str, deque[tuple[float, float]]] = {
+            f"{robot.name}/{what}": deque(maxlen=1500)
+            for robot in duel.robots
+            for what in ("CoM", "ZMP")
+        }
+        circle = theory_of(settings)
+        self.theory = (
+            (circle.distance_m, degrees(circle.headings_apart_rad))
+            if circle.exists
+            else None
+        )
+        self.theory_radius = circle.radius_evader_m if circle.exists else None
+        self.generation = getattr(self, "generation", 0) + 1
+
+    def start(self) -> None:
+        """Start the loop."""
+        self._thread.start()
+
+    def close(self) -> None:
+        """Stop the loop and wait for it."""
+        self._closing.set()
+        if self._thread.is_alive():
+            self._thread.join(timeout=5.0)
+
+    def reset(self, settings: DuelSettings | None = None) -> None:
+        """Begin again, with other settings if they are given.
+
+        Raises:
+            StepAsideError: If the settings ask for what cannot be; the duel
+                that runs goes on then.
+        """
+        with self.lock:
+            self._begin(self.settings if settings is None else settings)
+            self.error = None
+
+    def step(self, duration: float) -> None:
+        """Let a paused duel go on for a while, in [s]."""
+        ticks = max(1, round(duration / self.duel.world.physics.tick))
+        self._requests.append(lambda: self._advance(ticks))
+
+    def push(self, robot: int, impulse: float, direction: float) -> None:
+        """Push a robot now.
+
+        Args:
+            robot: 0 for the pursuer, 1 for the evader.
+            impulse: In [N s].
+            direction: From its heading, in [rad].
+
+        Raises:
+            ConfigurationError: If the push makes no sense.
+        """
+        duel = self.duel
+        push = Push(impulse, duel.world.time, direction)
+        self._requests.append(lambda: duel.robots[robot].push(push))
+
+    def change(self, request: Callable[[Duel], None]) -> None:
+        """Change the duel between two ticks; acts at the next replan."""
+        duel = self.duel
+        self._requests.append(lambda: request(duel))
+
+    def moment(self) -> Moment:
+        """Copy what the page shows."""
+        with self.lock:
+            data = self.duel.world.data
+            return Moment(
+                self.duel.world.time, data.xpos.copy(), data.xquat.copy()
+            )
+
+    def _loop(self) -> None:
+        due = perf_counter()
+        measured, simulated = due, 0.0
+        while not self._closing.is_set():
+            try:
+                self._serve()
+                if not self.running or self.outcome is not None:
+                    sleep(0.01)
+                    due = measured = perf_counter()
+                    simulated = 0.0
+                    continue
+                tick = self.duel.world.physics.tick
+                self._advance(1)
+                simulated += tick
+                now = perf_counter()
+                if now - measured > 0.5:
+                    self.factor = simulated / (now - measured)
+                    measured, simulated = now, 0.0
+                due += tick / self.speed
+                if due < now - BEHIND:
+                    due = now
+                elif due > now + 0.002:
+                    sleep(due - now)
+            except StepAsideError as error:
+                self._fail(str(error))
+            except Exception as error:
+                LOG.exception("the duel stopped")
+                self._fail(f"{type(error).__name__}: {error}")
+
+    def _fail(self, message: str) -> None:
+        LOG.error("%s", message)
+        self.error, self.running = message, False
+
+    def _serve(self) -> None:
+        while self._requests:
+            with self.lock:
+                self._requests.popleft()()
+
+    def _advance(self, ticks: int) -> None:
+        for _ in range(ticks):
+            if self.outcome is not None:
+                return
+            with self.lock:
+                self._tick()
+
+    def _tick(self) -> None:
+        duel = self.duel
+        self.outcome = duel.tick()
+        if self.on_tick is not None:
+            self.on_tick(duel)
+        every = max(1, round(0.1 / duel.world.physics.tick))
+        if duel.world.ticks % every:
+            return
+        self._note(duel)
+
+    def _note(self, duel: Duel) -> None:
+        pursuer, evader = (robot.truth for robot in duel.robots)
+        apart = abs(wrap_angle(evader.heading - pursuer.heading))
+        self.history.append((duel.world.time, duel.distance, degrees(apart)))
+        for robot in duel.robots:
+            x, y, _ = robot.truth.com.tolist()
+            self.traces[f"{robot.name}/CoM"].append((x, y))
+            zmp = robot.measured_zmp()
+            if np.isfinite(zmp[0]):
+                self.traces[f"{robot.name}/ZMP"].append(zmp)
