@@ -12,6 +12,8 @@ from .errors import StepAsideError
 COMMANDS = {
     "duel": "Let two humanoids chase each other in physics.",
     "view": "Watch a duel in a browser, push the robots, drive one.",
+    "replay": "See a run again: page, offline page, film.",
+    "compare": "Draw several runs on one figure.",
     "walk": "Let one humanoid walk, push it, and measure.",
     "robustness": "Walk under disturbances, on all cores, and tabulate.",
     "plan": "Plan one maneuver: footsteps, ZMP and CoM.",

@@ -6,20 +6,19 @@ from dataclasses import replace
 from math import degrees, inf, radians
 from time import perf_counter, sleep
 
-import numpy as np
 import viser
-from viser import uplot
 
-from ...control.driving import Driven
 from ...control.settings import OPEN_LOOP, STABILISED
 from ...errors import StepAsideError
 from ...simulation.body_settings import BODIES
 from ...simulation.duel import Duel
 from ...simulation.settings import DuelSettings
-from ..style import EVADER, PURSUER, THEORY
 from .bodies import Bodies
 from .drawing import draw_session
+from .drive_panel import DrivePanel
 from .layers import LAYERS, Layers
+from .plots import Plots
+from .push_panel import add_push
 from .session import Session
 from .words import phases_of, words_of
 
@@ -52,9 +51,6 @@ class Page:
             host=host, port=port, label="stepaside", verbose=False
         )
         self._closing = threading.Event()
-        self._hand: Driven | None = None
-        self._drive_began: float | None = None
-        self._closest = inf
         scene, gui = self.server.scene, self.server.gui
         scene.set_up_direction("+z")
         scene.add_grid(
@@ -67,7 +63,7 @@ class Page:
         )
         self.server.initial_camera.position = (-0.5, -1.6, 1.3)
         self.server.initial_camera.look_at = (0.5, 0.0, 0.2)
-        gui.configure_theme(control_layout="collapsible", dark_mode=False)
+        gui.configure_theme(dark_mode=False)
         self._layers = Layers(scene)
         self._bodies = Bodies(scene, self.session.duel.world.model)
         self._generation = self.session.generation
@@ -75,10 +71,10 @@ class Page:
         self._message = gui.add_markdown("", visible=False)
         self._add_time()
         self._add_duel()
-        self._add_push()
-        self._add_drive()
+        add_push(gui, self.session, self._say)
+        self._drive = DrivePanel(gui, self.session)
         self._add_layers()
-        self._add_plots()
+        self._plots = Plots(gui)
         self._publisher = threading.Thread(target=self._publish, daemon=True)
 
     def start(self) -> None:
@@ -121,9 +117,7 @@ class Page:
 
         @dark.on_update
         def _(_: object) -> None:
-            gui.configure_theme(
-                control_layout="collapsible", dark_mode=dark.value
-            )
+            gui.configure_theme(dark_mode=dark.value)
 
     def _add_duel(self) -> None:
         gui = self.server.gui
@@ -219,94 +213,8 @@ class Page:
         except StepAsideError as error:
             self._say(str(error))
             return
-        self._hand = None
+        self._drive.forget()
         self._say("")
-
-    def _add_push(self) -> None:
-        gui = self.server.gui
-        with gui.add_folder("Push"):
-            who = gui.add_dropdown("Robot", ("pursuer", "evader"))
-            strength = gui.add_number("Impulse [N s]", 0.5, step=0.1)
-            direction = gui.add_dropdown(
-                "To", ("left", "right", "forward", "backward")
-            )
-            push = gui.add_button("Push")
-        angles = {"left": 90, "right": -90, "forward": 0, "backward": 180}
-
-        @push.on_click
-        def _(_: object) -> None:
-            robot = ("pursuer", "evader").index(who.value)
-            angle = radians(angles[direction.value])
-            try:
-                self.session.push(robot, float(strength.value), angle)
-            except StepAsideError as error:
-                self._say(str(error))
-            else:
-                self._say(
-                    f"pushed the {who.value} {direction.value} by "
-                    f"{strength.value:g} N s"
-                )
-
-    def _add_drive(self) -> None:
-        gui = self.server.gui
-        with gui.add_folder("Drive the pursuer"):
-            gui.add_markdown(
-                "Catch the evader with the buttons or the keys: arrows "
-                "left, right and up (straight), g (go), h (halt)."
-            )
-            wheel = gui.add_button_group("Turn", ("left", "straight", "right"))
-            walk = gui.add_button_group("Walk", ("go", "stop"))
-            release = gui.add_button("Let it pursue by itself")
-            self._score = gui.add_markdown("")
-        turns = {"left": 1.0, "straight": 0.0, "right": -1.0}
-
-        @wheel.on_click
-        def _(_: object) -> None:
-            self._drive(turn=turns[wheel.value])
-
-        @walk.on_click
-        def _(_: object) -> None:
-            self._drive(going=walk.value == "go")
-
-        @release.on_click
-        def _(_: object) -> None:
-            self._release()
-
-        left = gui.add_command("Drive left", hotkey="arrowleft")
-        right = gui.add_command("Drive right", hotkey="arrowright")
-        straight = gui.add_command("Drive straight", hotkey="arrowup")
-        go = gui.add_command("Drive: go", hotkey="G")
-        halt = gui.add_command("Drive: halt", hotkey="H")
-        left.on_trigger(lambda _: self._drive(turn=1.0))
-        right.on_trigger(lambda _: self._drive(turn=-1.0))
-        straight.on_trigger(lambda _: self._drive(turn=0.0))
-        go.on_trigger(lambda _: self._drive(going=True))
-        halt.on_trigger(lambda _: self._drive(going=False))
-
-    def _drive(
-        self, *, turn: float | None = None, going: bool | None = None
-    ) -> None:
-        """Take the pursuer over, or steer it."""
-        if self._hand is None:
-            self._hand = hand = Driven(going=True)
-            self._drive_began = self.session.duel.world.time
-            self._closest = inf
-            self.session.change(
-                lambda duel: setattr(duel.schemes[0], "role", hand)
-            )
-        if turn is not None:
-            self._hand.turn = turn
-        if going is not None:
-            self._hand.going = going
-
-    def _release(self) -> None:
-        """Give the pursuer back to itself."""
-        from ...control import Pursuit
-
-        self._hand = None
-        self.session.change(
-            lambda duel: setattr(duel.schemes[0], "role", Pursuit())
-        )
 
     def _add_layers(self) -> None:
         gui = self.server.gui
@@ -321,26 +229,6 @@ class Page:
         def _(_: object) -> None:
             self._layers.shown[layer] = box.value
 
-    def _add_plots(self) -> None:
-        gui = self.server.gui
-        empty = (np.zeros(1), np.zeros(1), np.zeros(1))
-        self._plots = [
-            gui.add_uplot(
-                empty,
-                (
-                    uplot.Series(label="time [s]"),
-                    uplot.Series(label=label, stroke=colour, width=2),
-                    uplot.Series(label="theory", stroke=THEORY, dash=(5, 5)),
-                ),
-                title=title,
-                height=170,
-            )
-            for title, label, colour in (
-                ("Distance [m]", "distance", PURSUER),
-                ("Angle between the headings [deg]", "angle", EVADER),
-            )
-        ]
-
     def _say(self, text: str) -> None:
         self._message.content = f"**{text}**" if text else ""
         self._message.visible = bool(text)
@@ -353,7 +241,7 @@ class Page:
                 self._refresh()
                 if began - plotted > 1.0 / PLOTS:
                     plotted = began
-                    self._plot()
+                    self._plots.show(self.session)
             except Exception:
                 LOG.exception("the page could not be refreshed")
             rest = 1.0 / RATE - (perf_counter() - began)
@@ -391,19 +279,4 @@ class Page:
             text += f"\n\n**stopped: {session.error}**"
         if self._status.content != text:
             self._status.content = text
-        if self._hand is not None and self._drive_began is not None:
-            self._closest = min(self._closest, distance)
-            survived = moment.time - self._drive_began
-            self._score.content = (
-                f"the evader survived {survived:.1f} s; closest approach "
-                f"{self._closest:.2f} m"
-            )
-
-    def _plot(self) -> None:
-        rows = np.array(self.session.history).reshape(-1, 3)
-        if len(rows) < 2:
-            return
-        theory = self.session.theory or (np.nan, np.nan)
-        for column, plot in enumerate(self._plots, start=1):
-            level = np.full(len(rows), theory[column - 1])
-            plot.data = (rows[:, 0], rows[:, column], level)
+        self._drive.show(moment.time, distance)

@@ -1,0 +1,147 @@
+"""``stepaside replay``: a run again, as a page, a file or a film."""
+
+import webbrowser
+from collections.abc import Callable
+from pathlib import Path
+from time import sleep
+from typing import Any
+
+import click
+
+from .options import POSITIVE, SECONDS, NumberType, json_option, print_json
+
+FILE = click.Path(dir_okay=False, path_type=Path)
+
+
+@click.command("replay")
+@click.argument(
+    "run", type=click.Path(exists=True, file_okay=False, path_type=Path)
+)
+@click.option("--html", type=FILE, help="Write one page that opens offline.")
+@click.option("--video", type=FILE, help="Write a film (H.264).")
+@click.option("--gif", type=FILE, help="Write a short film.")
+@click.option(
+    "--begin",
+    type=NumberType("s", allow_zero=True),
+    default=0.0,
+    help="Of a film, in the run [s].",
+)
+@click.option("--duration", type=SECONDS, help="Of the run in a film [s].")
+@click.option("--rate", type=NumberType("1/s"), help="Pictures a second.")
+@click.option(
+    "--speed",
+    type=POSITIVE,
+    default=1.0,
+    help="Of a film; 2 is twice as fast.",
+)
+@click.option("--width", type=click.IntRange(64, 3840), help="Of a picture.")
+@click.option("--height", type=click.IntRange(64, 2160), help="Likewise.")
+@click.option(
+    "--camera",
+    type=click.Choice(["fixed", "following"]),
+    default="fixed",
+    show_default=True,
+)
+@click.option("--layers/--no-layers", default=True, help="Lines in a film.")
+@click.option("--port", type=click.IntRange(1, 65535), default=8080)
+@click.option("--open/--no-open", "opens", default=True, help="A browser.")
+@click.option("--serve-for", type=SECONDS, help="Stop serving after it [s].")
+@json_option
+def replay(run: Path, as_json: bool, **options: Any) -> None:
+    """Show the duel of a RUN folder again.
+
+    With no file asked for, it is served as a page with a time slider.
+    """
+    from ..report.replay import load_run
+
+    loaded = load_run(run)
+    written: dict[str, Any] = {}
+    html, video, gif = (options[k] for k in ("html", "video", "gif"))
+    for file in (html, video, gif):
+        if file is not None:
+            file.parent.mkdir(parents=True, exist_ok=True)
+    if html is not None:
+        from ..report.replay_page import write_page
+
+        write_page(loaded, html)
+        written["html"] = _written(html)
+    if video is not None:
+        from ..report.film import write_video
+
+        shot = _shot(options, 60.0, 30.0, 640, 480)
+        number = _with_bar("video", write_video, run, video, shot)
+        written["video"] = _written(video) | {"pictures": number}
+    if gif is not None:
+        from ..report.film import write_gif
+
+        shot = _shot(options, 12.0, 10.0, 360, 270)
+        number = _with_bar("gif", write_gif, run, gif, shot)
+        written["gif"] = _written(gif) | {"pictures": number}
+    if not written:
+        _serve(loaded, options)
+    elif as_json:
+        print_json(written)
+    else:
+        for kind, entry in written.items():
+            size = entry["bytes"] / 1e6
+            click.echo(f"{kind}: {entry['file']} ({size:.1f} MB)")
+
+
+def _written(file: Path) -> dict[str, Any]:
+    return {"file": str(file), "bytes": file.stat().st_size}
+
+
+def _shot(
+    options: dict[str, Any],
+    duration: float,
+    rate: float,
+    width: int,
+    height: int,
+) -> Any:
+    from ..report.film import Shot
+
+    wide, high = options["width"] or width, options["height"] or height
+    return Shot(
+        # H.264 stores colour for two by two pixels.
+        width=wide - wide % 2,
+        height=high - high % 2,
+        rate=options["rate"] or rate,
+        speed=options["speed"],
+        begin=options["begin"],
+        duration=options["duration"] or duration,
+        following=options["camera"] == "following",
+        layers=options["layers"],
+    )
+
+
+def _with_bar(
+    name: str, write: Callable[..., int], run: Path, file: Path, shot: Any
+) -> int:
+    from tqdm import tqdm
+
+    with tqdm(desc=name, unit="picture", disable=None) as bar:
+
+        def report(done: int, number: int) -> None:
+            bar.total, bar.n = number, done
+            bar.refresh()
+
+        return write(run, file, shot, report)
+
+
+def _serve(run: Any, options: dict[str, Any]) -> None:
+    from ..report.viewer.replaying import ReplayPage
+
+    page = ReplayPage(run, port=options["port"])
+    page.start()
+    address = f"http://127.0.0.1:{page.server.get_port()}"
+    click.echo(f"serving at {address}; Ctrl-C stops")
+    if options["opens"]:
+        webbrowser.open(address)
+    try:
+        while options["serve_for"] is None:
+            sleep(1.0)
+        sleep(options["serve_for"])
+    except KeyboardInterrupt:
+        pass
+    finally:
+        page.close()

@@ -1,0 +1,42 @@
+"""Plots of distance and orientation beside theory."""
+
+import numpy as np
+import viser
+from viser import uplot
+
+from ..style import EVADER, PURSUER, THEORY
+from .session import Session
+
+
+class Plots:
+    """Two plots of a live duel."""
+
+    def __init__(self, gui: viser.GuiApi) -> None:
+        """Add empty plots to a page."""
+        empty = (np.zeros(1), np.zeros(1), np.zeros(1))
+        self._plots = [
+            gui.add_uplot(
+                empty,
+                (
+                    uplot.Series(label="time [s]"),
+                    uplot.Series(label=label, stroke=colour, width=2),
+                    uplot.Series(label="theory", stroke=THEORY, dash=(5, 5)),
+                ),
+                title=title,
+                height=170,
+            )
+            for title, label, colour in (
+                ("Distance [m]", "distance", PURSUER),
+                ("Angle between the headings [deg]", "angle", EVADER),
+            )
+        ]
+
+    def show(self, session: Session) -> None:
+        """Show what a session has gone through."""
+        rows = np.array(session.history).reshape(-1, 3)
+        if len(rows) < 2:
+            return
+        theory = session.theory or (np.nan, np.nan)
+        for column, plot in enumerate(self._plots, start=1):
+            level = np.full(len(rows), theory[column - 1])
+            plot.data = (rows[:, 0], rows[:, column], level)

@@ -1,0 +1,172 @@
+"""The pages in a real browser; pictures are kept in ``artefacts``."""
+
+import shutil
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from stepaside.cli import main
+from stepaside.report.replay import load_run
+from stepaside.report.replay_page import write_page
+from stepaside.simulation.settings import DuelSettings, StartSettings
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+ARTEFACTS = Path(__file__).parent.parent / "artefacts"
+WAIT = 60_000  # for what a browser without a GPU takes its time to do, in [ms]
+OPTIONS = ["--no-sandbox", "--enable-unsafe-swiftshader"]
+
+pytestmark = [
+    pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium here"),
+    pytest.mark.xdist_group("browser"),
+]
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    playwright = pytest.importorskip("playwright.sync_api")
+    ARTEFACTS.mkdir(exist_ok=True)
+    with playwright.sync_playwright() as driver:
+        chromium = driver.chromium.launch(
+            executable_path=CHROMIUM, headless=True, args=OPTIONS
+        )
+        yield chromium
+        chromium.close()
+
+
+def press(page: Any, label: str) -> None:
+    button = page.get_by_role("button", name=label, exact=True).first
+    button.dispatch_event("click")
+
+
+def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
+    from stepaside.report.viewer.page import Page
+
+    start = StartSettings(distance=1.2, pursuer_offset=0.5, evader_offset=0.0)
+    live = Page(DuelSettings(start=start), host="127.0.0.1", port=8731)
+    live.start()
+    session = live.session
+    try:
+        page = browser.new_page(viewport={"width": 640, "height": 420})
+        page.goto(f"http://127.0.0.1:{live.server.get_port()}")
+        page.get_by_text("standing").first.wait_for(timeout=WAIT)
+        assert session.duel.world.time == 0.0
+
+        press(page, "Start")
+        page.get_by_text("the pursuer comes").first.wait_for(timeout=WAIT)
+        pause = page.get_by_role("button", name="Pause", exact=True)
+        pause.first.wait_for(timeout=WAIT)
+        page.screenshot(path=ARTEFACTS / "live.png", timeout=WAIT)
+        press(page, "Pause")
+        until(page, lambda: not session.running)
+        stopped = session.duel.world.time
+        assert stopped > 0.3
+        page.wait_for_timeout(300)
+        assert session.duel.world.time == stopped
+
+        press(page, "Push")
+        page.get_by_text("pushed the pursuer left").wait_for(timeout=WAIT)
+        until(page, lambda: session.duel.robots[0].pusher is not None)
+        press(page, "Start")
+        pusher = session.duel.robots[0].pusher
+        assert pusher is not None
+        until(page, lambda: abs(pusher.impulse[1]) > 0.1)
+
+        press(page, "left")
+        role = session.duel.schemes[0]
+        until(page, lambda: (p := role.plan) is not None and p.bearing > 0.8)
+        page.get_by_text("the evader survived").wait_for(timeout=WAIT)
+
+        field = page.get_by_label("Distance [m]").first
+        field.fill("0.1")
+        field.press("Enter")
+        page.wait_for_timeout(300)
+        press(page, "Reset")
+        page.get_by_text("distance must lie in").first.wait_for(timeout=WAIT)
+        page.screenshot(path=ARTEFACTS / "refused.png", timeout=WAIT)
+        page.close()
+    finally:
+        live.close()
+    assert threading.active_count() < 50
+
+
+def until(page: Any, condition: Any) -> None:
+    """Wait for the loop behind the page."""
+    for _ in range(400):
+        if condition():
+            return
+        page.wait_for_timeout(50)
+    raise AssertionError("it did not happen in 20 s")
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("runs") / "short"
+    arguments = ["duel", "--seed", "3", "--duration", "10", "--json"]
+    result = CliRunner().invoke(main, [*arguments, "--output", str(folder)])
+    assert result.exit_code == 0
+    return folder
+
+
+def test_a_replay_can_be_scrubbed(browser: Any, run: Path) -> None:
+    from stepaside.report.viewer.replaying import ReplayPage
+
+    served = ReplayPage(load_run(run), port=8741)
+    served.start()
+    try:
+        page = browser.new_page(viewport={"width": 640, "height": 420})
+        page.goto(f"http://127.0.0.1:{served.server.get_port()}")
+        page.get_by_text("0.00 s, distance").first.wait_for(timeout=WAIT)
+        slider = page.get_by_role("slider").first
+        slider.press("End")
+        page.get_by_text("10.00 s, distance").first.wait_for(timeout=WAIT)
+        page.screenshot(path=ARTEFACTS / "replay.png", timeout=WAIT)
+        page.close()
+    finally:
+        served.close()
+
+
+@pytest.mark.parametrize(
+    ("width", "height", "scheme"),
+    [(1280, 720, "light"), (390, 800, "dark")],
+)
+def test_the_written_page_opens_without_a_network(
+    browser: Any,
+    run: Path,
+    tmp_path: Path,
+    width: int,
+    height: int,
+    scheme: str,
+) -> None:
+    file = tmp_path / "run.html"
+    write_page(load_run(run), file)
+    context = browser.new_context(
+        viewport={"width": width, "height": height}, color_scheme=scheme
+    )
+    context.set_offline(True)
+    page = context.new_page()
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(file.as_uri())
+    assert page.inner_text("#clock") == "0.0 s"
+    before = page.evaluate("document.getElementById('world').toDataURL()")
+    page.click("#play")
+    page.wait_for_function(
+        "parseFloat(document.getElementById('clock').textContent) > 0.5"
+    )
+    page.click("#play")
+    page.fill("#time", "200")
+    assert float(page.inner_text("#clock").split()[0]) > 7.0
+    after = page.evaluate("document.getElementById('world').toDataURL()")
+    assert after != before
+    page.get_by_label("footsteps").uncheck()
+    bare = page.evaluate("document.getElementById('world').toDataURL()")
+    assert bare != after
+    wide = page.evaluate("document.documentElement.scrollWidth")
+    assert wide <= width
+    page.screenshot(path=ARTEFACTS / f"offline-{scheme}.png")
+    assert errors == []
+    context.close()

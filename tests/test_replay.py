@@ -1,0 +1,115 @@
+"""Runs seen again: offline page, films, comparison."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from stepaside.cli import main
+from stepaside.errors import ConfigurationError
+from stepaside.report.film import Shot
+from stepaside.report.replay import load_run
+from stepaside.report.replay_page import write_page
+from stepaside.simulation.graphics import RAYCAST, choose_renderer
+
+needs_graphics = pytest.mark.skipif(
+    choose_renderer() == RAYCAST,
+    reason="neither EGL nor OSMesa works here",
+)
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("runs") / "short"
+    arguments = ["duel", "--seed", "3", "--duration", "6", "--json"]
+    result = CliRunner().invoke(main, [*arguments, "--output", str(folder)])
+    assert result.exit_code == 0
+    return folder
+
+
+def invoke(*arguments: str) -> tuple[int, str, str]:
+    result = CliRunner().invoke(main, list(arguments))
+    return result.exit_code, result.stdout, result.stderr
+
+
+def test_the_page_needs_nothing_from_outside(
+    run: Path, tmp_path: Path
+) -> None:
+    file = tmp_path / "run.html"
+    write_page(load_run(run), file)
+    text = file.read_text(encoding="utf-8")
+    assert not re.search(r"(src|href)\s*=|https?://|@@", text)
+    assert [p.name for p in tmp_path.iterdir()] == ["run.html"]
+
+
+def test_two_minutes_fit_into_eight_megabytes(
+    run: Path, tmp_path: Path
+) -> None:
+    file = tmp_path / "run.html"
+    write_page(load_run(run), file)
+    small = file.stat().st_size
+    # What grows with time is at most all of it.
+    assert small * 120.0 / 6.0 < 8e6
+
+
+@needs_graphics
+def test_a_film_has_the_pictures_it_should(run: Path, tmp_path: Path) -> None:
+    av = pytest.importorskip("av")
+    file = tmp_path / "run.mp4"
+    code, out, _ = invoke(
+        *("replay", str(run), "--video", str(file), "--duration", "1"),
+        *("--width", "160", "--height", "120", "--rate", "10", "--json"),
+    )
+    assert code == 0
+    assert json.loads(out)["video"]["pictures"] == 11
+    with av.open(str(file)) as film:
+        frames = list(film.decode(video=0))
+        assert film.streams.video[0].codec_context.name == "h264"
+    assert len(frames) == 11
+    first = frames[0].to_ndarray(format="rgb24")
+    assert first.shape == (120, 160, 3) and first.std() > 5.0
+    last = frames[-1].to_ndarray(format="rgb24")
+    assert abs(last.astype(int) - first.astype(int)).max() > 30
+
+
+@needs_graphics
+def test_a_gif_moves(run: Path, tmp_path: Path) -> None:
+    image = pytest.importorskip("PIL.Image")
+    file = tmp_path / "run.gif"
+    code, _, _ = invoke(
+        *("replay", str(run), "--gif", str(file), "--duration", "0.5"),
+        *("--width", "96", "--height", "72", "--camera", "following"),
+    )
+    assert code == 0
+    assert image.open(file).n_frames == 6
+
+
+def test_a_film_knows_its_instants() -> None:
+    shot = Shot(rate=10.0, speed=2.0, begin=1.0, duration=4.0)
+    instants = shot.instants(100.0)
+    assert instants[0] == 1.0 and instants[-1] == pytest.approx(5.0)
+    assert len(instants) == 21
+    assert shot.instants(0.5) == []
+
+
+def test_comparison_draws_and_tells(run: Path, tmp_path: Path) -> None:
+    file = tmp_path / "both.png"
+    code, out, _ = invoke(
+        "compare", str(run), str(run), "--output", str(file), "--json"
+    )
+    assert code == 0 and file.stat().st_size > 10_000
+    assert json.loads(out)["figure"] == str(file)
+
+
+def test_what_is_no_run_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ConfigurationError, match="has no configuration"):
+        load_run(tmp_path)
+    code, out, err = invoke("replay", str(tmp_path))
+    assert code == 2 and out == "" and err.count("\n") == 1
+
+
+def test_words_follow_the_run(run: Path) -> None:
+    loaded = load_run(run)
+    assert "stands" in loaded.words(0)
