@@ -20,6 +20,7 @@ from .options import (
     print_json,
     print_table,
 )
+from .person_options import person_options, with_person
 
 if TYPE_CHECKING:
     from ..simulation.duel import DuelResult
@@ -70,6 +71,7 @@ if TYPE_CHECKING:
 @click.option("--rate", type=NumberType("1/s"), help="Of sight [1/s].")
 @body_options
 @floor_options
+@person_options
 @click.option(
     "--sensing",
     type=click.Choice(["ideal", "cameras"]),
@@ -157,6 +159,7 @@ def _settings(config: Path | None, options: dict[str, Any]) -> "DuelSettings":
         for key, value in options.items()
         if value is not None and value is not False
     }
+    settings = with_person(settings, given)
     if "preset" in given:
         settings = replace(settings, gait=PRESETS[given.pop("preset")])
     if given.pop("clutter", False):
@@ -232,7 +235,12 @@ def _print(summary: dict[str, Any]) -> None:
                 "deg",
             ),
         ),
-        ("closest approach", f"{summary['min_distance_m']:.3f} m"),
+        (
+            "closest approach",
+            beside(
+                summary["min_distance_m"], theory["closest_approach_m"], "m"
+            ),
+        ),
         (
             "on the circle",
             "not reached" if converged is None else f"since {converged:.1f} s",

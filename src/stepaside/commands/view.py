@@ -23,6 +23,11 @@ LOCAL = ("127.0.0.1", "localhost", "::1")
 )
 @click.option("--open/--no-open", "opens", default=True, help="A browser.")
 @click.option("--seed", type=click.IntRange(0), help="Of every random draw.")
+@click.option(
+    "--sensing",
+    type=click.Choice(["ideal", "cameras"]),
+    help="Whether they are told where the other is, or see it.",
+)
 @click.option("--run", is_flag=True, help="Let time pass at once.")
 @click.option(
     "--duration", type=SECONDS, help="Stop serving after this time [s]."
@@ -37,6 +42,7 @@ def view(
     port: int,
     opens: bool,
     seed: int | None,
+    sensing: str | None,
     run: bool,
     duration: float | None,
     config: Path | None,
@@ -51,6 +57,8 @@ def view(
     settings = DuelSettings() if config is None else load_configuration(config)
     if seed is not None:
         settings = replace(settings, seed=seed)
+    if sensing is not None:
+        settings = replace(settings, sensing=sensing)
     if host not in LOCAL:
         click.echo(
             f"stepaside: {host} can be reached from other machines, and "

@@ -10,10 +10,12 @@ import mujoco
 import numpy as np
 
 from ..errors import ConfigurationError
-from ..poses import Array
+from ..poses import Array, Pose
 from ..robots.description import load_robot
 from ..simulation.configuration import load_configuration
 from ..simulation.duel import NAMES
+from ..simulation.people import furnisher_of, walkers_of
+from ..simulation.person import parts_of, pose_figure
 from ..simulation.settings import DuelSettings
 from ..simulation.summary import (
     distance_over_time,
@@ -120,18 +122,29 @@ class Stage:
     def __init__(self, run: Run) -> None:
         """Build the robots of a run, without its physics."""
         description = load_robot(run.settings.robot)
+        walkers = walkers_of(run.settings)
         self.model = build_model(
-            dict.fromkeys(NAMES, description),
+            dict.fromkeys(walkers, description),
             run.settings.physics,
             seed=run.settings.seed,
+            furnish=furnisher_of(run.settings, None),
         )
         self.data = mujoco.MjData(self.model)
         self._postures = np.concatenate(
-            [run.arrays[f"{name}_qpos"] for name in NAMES], axis=1
+            [run.arrays[f"{name}_qpos"] for name in walkers], axis=1
         ).astype(np.float64)
+        self._person: dict[str, int] | None = None
+        if len(walkers) < len(NAMES):
+            self._person = parts_of(self.model, NAMES[0])
+            self._walked: Array = run.arrays[f"{NAMES[0]}_torso"]
 
     def put(self, index: int) -> None:
         """Put the bodies where they were at a sample."""
         self.data.qpos[:] = self._postures[index]
+        if self._person is not None:
+            frame = Pose(*self._walked[index].tolist())
+            steps = np.diff(self._walked[: index + 1, :2], axis=0)
+            way = float(np.hypot(steps[:, 0], steps[:, 1]).sum())
+            pose_figure(self.data, self._person, frame, way)
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_camlight(self.model, self.data)

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..poses import Array
 from ..simulation.duel import NAMES
+from ..simulation.people import walkers_of
 from .replay import Run, Stage
 from .style import COLOURS
 
@@ -105,7 +106,11 @@ def _content(run: Run) -> dict[str, Any]:
             {
                 "name": name,
                 "colour": COLOURS[name],
-                "torso": stage.model.body(f"{name}/{torso}").id,
+                "torso": stage.model.body(
+                    f"{name}/{torso}"
+                    if name in walkers_of(run.settings)
+                    else f"{name}/trunk"
+                ).id,
                 "trace": np.round(
                     run.arrays[f"{name}_com"][chosen, :2], 3
                 ).tolist(),

@@ -3,21 +3,24 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import Enum
-from math import ceil, pi, radians
+from math import ceil, pi
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import mujoco
 import numpy as np
 
-from ..control import Phase, Pursuit, Role
+from ..control import ControlScheme, Phase, Pursuit, Role
 from ..poses import Array, Pose
 from ..robots.description import RobotDescription, load_robot
 from .assembly import assemble, with_cycle
+from .people import furnisher_of, meet, stand_person, walkers_of
 from .randomness import named_generator
 from .record import Recorder
-from .settings import DuelSettings, StartSettings
+from .robot import SimulatedRobot
+from .settings import DuelSettings
 from .sight import IdealLineOfSight
+from .start import draw_start
 from .world import World
 
 if TYPE_CHECKING:
@@ -91,20 +94,6 @@ class DuelResult:
     wall_time: float
 
 
-def draw_start(settings: DuelSettings) -> StartSettings:
-    """Fill in what a start leaves out, from the seed."""
-    generator = named_generator(settings.seed, "start")
-    distance = generator.uniform(0.6, 1.5)
-    pursuer = generator.uniform(-pi / 2, pi / 2)
-    evader = generator.uniform(-radians(30.0), radians(30.0))
-    start = settings.start
-    return StartSettings(
-        distance if start.distance is None else start.distance,
-        pursuer if start.pursuer_offset is None else start.pursuer_offset,
-        evader if start.evader_offset is None else start.evader_offset,
-    )
-
-
 class Duel:
     """Two robots in a world, ready to play.
 
@@ -130,20 +119,25 @@ class Duel:
         description = load_robot(settings.robot)
         self.seeing = _seeing(settings, description)
         self.world = World(
-            dict.fromkeys(NAMES, description),
+            dict.fromkeys(walkers_of(settings), description),
             with_cycle(settings.physics, settings.body),
             settings.body,
             settings.seed,
-            None if self.seeing is None else self.seeing.furnish,
+            furnisher_of(settings, self.seeing),
         )
         frames = (
             Pose(0.0, 0.0, start.pursuer_offset),
             Pose(start.distance, 0.0, pi + start.evader_offset),
         )
         roles: tuple[Role, Role] = (Pursuit(), settings.strategy.role())
-        self.schemes = []
-        self.robots = []
+        self.schemes: list[ControlScheme] = []
+        self.robots: list[SimulatedRobot] = []
         for name, role, frame in zip(NAMES, roles, frames, strict=True):
+            if name not in walkers_of(settings):
+                person, mind = stand_person(self.world, name, settings, frames)
+                self.robots.append(person)
+                self.schemes.append(mind)
+                continue
             robot, scheme = assemble(
                 self.world,
                 name,
@@ -160,6 +154,7 @@ class Duel:
             )
             self.robots.append(robot)
             self.schemes.append(scheme)
+        meet(self.robots)
         mujoco.mj_forward(self.world.model, self.world.data)
         if self.seeing is not None:
             self.seeing.open(self.robots)
@@ -173,6 +168,8 @@ class Duel:
     def _see_ideally(self) -> None:
         """Tell each robot where the other is."""
         for own, other in (self.robots, self.robots[::-1]):
+            if own.name not in walkers_of(self.settings):
+                continue
             own.sight = IdealLineOfSight(
                 own.truth,
                 other.truth,
@@ -291,6 +288,8 @@ def _message(duel: Duel, outcome: Outcome) -> str:
         return f"{' and '.join(fallen)} fell at {duel.world.time:.2f} s"
     if outcome is Outcome.CONTACT:
         what = "the robots" if duel.distance < CHECK_NEAR else "robot, thing"
+        if duel.settings.pursuer == "person":
+            what = "person and robot"
         return f"{what} touched at {duel.world.time:.2f} s"
     if outcome is Outcome.INTERRUPTED:
         return f"interrupted at {duel.world.time:.2f} s"

@@ -57,6 +57,7 @@ class Seeing:
         self.perceptions = {
             name: Perception(description, self._head, look, tick=tick)
             for name, look in LOOKS.items()
+            if name == "evader" or settings.pursuer == "robot"
         }
         self.judges: dict[str, Judge] = {}
 
@@ -65,6 +66,8 @@ class Seeing:
         settings = self._settings
         places = [(thing.x, thing.y) for thing in settings.room.things]
         for own, other in (robots, robots[::-1]):
+            if own.name not in self.perceptions:
+                continue
             judge = Judge(
                 own, other, self.perceptions[own.name], self._head, places
             )

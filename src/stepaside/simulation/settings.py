@@ -14,6 +14,7 @@ from ..errors import (
 from ..planning import GaitSettings
 from .body_settings import BodySettings
 from .camera_settings import CameraSettings, RoomSettings
+from .person_settings import PersonSettings, check_pursuer
 
 ERROR = ConfigurationError
 SENSING = ("ideal", "cameras")
@@ -168,6 +169,8 @@ class DuelSettings:
         sensing: "ideal" for the line of sight of ``sight``, or "cameras".
         cameras: What they see with, if with cameras.
         room: What stands around them, if they see with cameras.
+        pursuer: "robot", or "person".
+        person: How a person walks.
     """
 
     seed: int = 1
@@ -183,9 +186,12 @@ class DuelSettings:
     sensing: str = "ideal"
     cameras: CameraSettings = field(default_factory=CameraSettings)
     room: RoomSettings = field(default_factory=RoomSettings)
+    pursuer: str = "robot"
+    person: PersonSettings = field(default_factory=PersonSettings)
 
     def __post_init__(self) -> None:
         """Refuse a negative seed, a duration that is none, other senses."""
+        check_pursuer(self.pursuer)
         if self.sensing not in SENSING:
             raise ConfigurationError(
                 f"sensing must be one of {', '.join(SENSING)}, "

@@ -1,15 +1,16 @@
 """The figures of a duel, beside what theory says."""
 
 from collections.abc import Mapping
-from math import degrees, isfinite
+from math import degrees, isfinite, pi
 from typing import Any
 
 import numpy as np
 
-from ..poses import Array
+from ..poses import Array, Pose
 from ..unicycle.circling import Circle, find_circle
 from ..unicycle.measure import fit_circle
 from .duel import DuelResult
+from .person_motion import Motion, template_approach
 from .settings import DuelSettings
 
 DISTANCE_BAND = 0.05  # of theory's distance
@@ -19,11 +20,17 @@ ORIENTATION_BAND = 5.0  # of theory's angle, in [deg]
 def theory_of(settings: DuelSettings) -> Circle:
     """Circle that the unicycles of a duel end on (level 0)."""
     gait, strategy = settings.gait, settings.strategy
+    speeds = gait.speed, gait.speed
+    gains = gait.gain, gait.gain
+    if settings.pursuer == "person":
+        # A person lives in real time, the gait in its own.
+        pace = gait.path_interval / gait.step_duration
+        person = settings.person
+        speeds = person.speed, gait.speed * pace
+        gains = person.gain, gait.gain * pace
     return find_circle(
-        gait.speed,
-        gait.speed,
-        gait.gain,
-        gait.gain,
+        *speeds,
+        *gains,
         strategy.angle,
         "saturated" if strategy.saturated else "proportional",
     )
@@ -95,6 +102,24 @@ def converged_at(
     return since if times[-1] - since >= 5.0 else None
 
 
+def _closest_approach(settings: DuelSettings) -> float | None:
+    """Closest approach of a person to the evader's template, in [m]."""
+    start, gait = settings.start, settings.gait
+    if settings.pursuer == "robot" or start.distance is None:
+        return None
+    pace = gait.path_interval / gait.step_duration
+    return template_approach(
+        lambda pose, evader: Motion(settings.person, pose, evader),
+        Pose(0.0, 0.0, start.pursuer_offset or 0.0),
+        Pose(start.distance, 0.0, pi + (start.evader_offset or 0.0)),
+        speed=gait.speed * pace,
+        gain=gait.gain * pace,
+        angle=settings.strategy.angle,
+        safety_radius=settings.strategy.safety_radius,
+        duration=settings.duration,
+    )
+
+
 def summarise(result: DuelResult) -> dict[str, Any]:
     """Figures of a duel, ready for JSON.
 
@@ -133,6 +158,7 @@ def summarise(result: DuelResult) -> dict[str, Any]:
         "max_com_velocity_jump_m_s": result.velocity_jump,
         "min_zmp_margin_m": result.zmp_margin,
         "theory": {
+            "closest_approach_m": _closest_approach(settings),
             "exists": theory.exists,
             "radius_m": _number(theory.radius_evader_m),
             "distance_m": _number(theory.distance_m),

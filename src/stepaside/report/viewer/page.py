@@ -12,8 +12,9 @@ from ...control.settings import OPEN_LOOP, STABILISED
 from ...errors import StepAsideError
 from ...simulation.body_settings import BODIES
 from ...simulation.duel import Duel
-from ...simulation.settings import DuelSettings
+from ...simulation.settings import SENSING, DuelSettings
 from .bodies import Bodies
+from .camera_panel import CameraPanel
 from .drawing import draw_session
 from .drive_panel import DrivePanel
 from .layers import LAYERS, Layers
@@ -24,7 +25,7 @@ from .words import phases_of, words_of
 
 LOG = logging.getLogger(__name__)
 RATE = 30.0  # updates of the scene a second
-PLOTS = 2.0  # updates of the plots a second
+PLOTS = 4.0  # updates of the plots and pictures a second
 SPEEDS = ("0.25", "0.5", "1", "2", "4", "as fast as it goes")
 
 
@@ -75,6 +76,8 @@ class Page:
         self._drive = DrivePanel(gui, self.session)
         self._add_layers()
         self._plots = Plots(gui)
+        self._cameras = CameraPanel(gui)
+        self._cameras.watch(self.session.duel)
         self._publisher = threading.Thread(target=self._publish, daemon=True)
 
     def start(self) -> None:
@@ -151,6 +154,9 @@ class Page:
             self._gain = gui.add_number(
                 "Gain k [1/s]", settings.gait.gain, step=0.05
             )
+            self._sensing = gui.add_dropdown(
+                "Sensing", SENSING, initial_value=settings.sensing
+            )
             self._body = gui.add_dropdown(
                 "Body", tuple(BODIES), initial_value="ideal"
             )
@@ -204,6 +210,7 @@ class Page:
                     speed=float(self._speed_m_s.value),
                     gain=float(self._gain.value),
                 ),
+                sensing=self._sensing.value,
                 body=BODIES[self._body.value],
                 control=OPEN_LOOP
                 if self._body.value == "ideal"
@@ -242,6 +249,7 @@ class Page:
                 if began - plotted > 1.0 / PLOTS:
                     plotted = began
                     self._plots.show(self.session)
+                    self._cameras.show()
             except Exception:
                 LOG.exception("the page could not be refreshed")
             rest = 1.0 / RATE - (perf_counter() - began)
@@ -253,6 +261,7 @@ class Page:
         if session.generation != self._generation:
             self._generation = session.generation
             self._layers.clear()
+            self._cameras.watch(session.duel)
         moment = session.moment()
         with self.server.atomic():
             self._bodies.move(moment.positions, moment.quaternions)

@@ -1,0 +1,168 @@
+"""Where a person walks."""
+
+import csv
+from collections.abc import Callable
+from math import atan2, cos, pi, sin
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import ConfigurationError
+from ..poses import Array, Pose, wrap_angle
+from .person_settings import PersonSettings
+
+Place = tuple[float, float]
+
+
+class Motion:
+    """A walk, step by step.
+
+    Attributes:
+        pose: Where the person is and heads, in the world.
+    """
+
+    def __init__(
+        self, settings: PersonSettings, start: Pose, evader: Place
+    ) -> None:
+        """Begin a walk.
+
+        Args:
+            settings: How the person walks.
+            start: Where the walk begins; a recorded path begins where it
+                says itself.
+            evader: Place of the evader then, in [m].
+
+        Raises:
+            ConfigurationError: If a recorded path cannot be read.
+        """
+        self._settings = settings
+        self._recorded: Array | None = None
+        heading = start.theta
+        if settings.path == "straight":
+            away = atan2(evader[1] - start.y, evader[0] - start.x)
+            aim = (
+                evader[0] - settings.miss * sin(away),
+                evader[1] + settings.miss * cos(away),
+            )
+            heading = atan2(aim[1] - start.y, aim[0] - start.x)
+        self.pose = Pose(start.x, start.y, heading)
+        if settings.path not in ("straight", "steer"):
+            self._recorded = read_path(Path(settings.path))
+            self.pose = self._at(0.0)
+
+    def advance(self, time: float, duration: float, evader: Place) -> None:
+        """Walk on.
+
+        Args:
+            time: Time at the end of the step, in [s].
+            duration: Of the step, in [s].
+            evader: Place of the evader, in [m].
+        """
+        if self._recorded is not None:
+            self.pose = self._at(time)
+            return
+        x, y, theta = self.pose
+        settings = self._settings
+        if settings.path == "steer":
+            # (1)-(2) of the paper, held over one tick.
+            aim = atan2(evader[1] - y, evader[0] - x)
+            theta += settings.gain * wrap_angle(aim - theta) * duration
+        way = settings.speed * duration
+        self.pose = Pose(x + way * cos(theta), y + way * sin(theta), theta)
+
+    def _at(self, time: float) -> Pose:
+        assert self._recorded is not None
+        times, x, y = self._recorded.T
+        later = min(time, float(times[-1]) - 0.1) + 0.1
+        u = np.interp([time, later - 0.1, later], times, x)
+        v = np.interp([time, later - 0.1, later], times, y)
+        here = float(u[0]), float(v[0])
+        dx, dy = float(u[2] - u[1]), float(v[2] - v[1])
+        heading = atan2(dy, dx) if (dx, dy) != (0.0, 0.0) else 0.0
+        return Pose(*here, heading)
+
+
+def read_path(file: Path) -> Array:
+    """Read a recorded path.
+
+    Returns:
+        Rows of time [s], x [m] and y [m]. Shape (n, 3).
+
+    Raises:
+        ConfigurationError: If it is no such file.
+    """
+    try:
+        with file.open(encoding="utf-8", newline="") as lines:
+            rows = list(csv.reader(lines))
+        if not rows or [c.strip() for c in rows[0]] != ["time", "x", "y"]:
+            raise ValueError("its first line is not time,x,y")
+        table = np.array([[float(cell) for cell in row] for row in rows[1:]])
+    except (OSError, ValueError) as error:
+        raise ConfigurationError(
+            f"person.path must be steer, straight or a CSV file of time,x,y "
+            f"[s, m, m], got {str(file)!r}: {error}"
+        ) from error
+    if table.ndim != 2 or table.shape[0] < 2 or table.shape[1] != 3:
+        raise ConfigurationError(
+            f"a recorded path needs two rows of time,x,y [s, m, m], {file} "
+            f"has {max(0, len(rows) - 1)}"
+        )
+    if not (np.isfinite(table).all() and (np.diff(table[:, 0]) > 0.0).all()):
+        raise ConfigurationError(
+            f"times of a recorded path must be finite and rise [s], {file} "
+            "does not keep that"
+        )
+    return table
+
+
+def template_approach(
+    motion: Callable[[Pose, Place], Motion],
+    start: Pose,
+    evader: Pose,
+    *,
+    speed: float,
+    gain: float,
+    angle: float,
+    safety_radius: float,
+    duration: float,
+    step: float = 0.01,
+) -> float:
+    """Closest approach of the person to the template of the evader.
+
+    The evader is a unicycle in gait time: it stands until the person is in
+    the safety area, and then walks backward across the line of sight.
+
+    Args:
+        motion: Begins a walk of the person.
+        start: Where it begins.
+        evader: Where the evader stands and heads.
+        speed: Of the evader, in [m/s] of real time.
+        gain: Of its turning, in [1/s] of real time.
+        angle: Its strategy, in [rad].
+        safety_radius: In [m].
+        duration: How long to look, in [s].
+        step: Of the integration, in [s].
+
+    Returns:
+        Least distance, in [m].
+    """
+    x, y, theta = evader
+    walk = motion(start, (x, y))
+    side: float | None = None
+    least = float(np.hypot(walk.pose.x - x, walk.pose.y - y))
+    for i in range(round(duration / step)):
+        walk.advance((i + 1) * step, step, (x, y))
+        px, py, _ = walk.pose
+        away = float(np.hypot(px - x, py - y))
+        least = min(least, away)
+        if side is None:
+            if away >= safety_radius:
+                continue
+            seen = wrap_angle(atan2(py - y, px - x) - theta)
+            side = 1.0 if seen >= 0.0 else -1.0
+        seen = wrap_angle(atan2(py - y, px - x) - theta)
+        theta += step * gain * wrap_angle(seen - side * angle)
+        x -= step * speed * cos(theta)
+        y -= step * speed * sin(theta)
+        theta = wrap_angle(theta) if abs(theta) > pi else theta
+    return least

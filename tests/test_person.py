@@ -1,0 +1,155 @@
+"""A person instead of the pursuing robot."""
+
+import json
+from math import pi
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from stepaside.cli import main
+from stepaside.errors import ConfigurationError
+from stepaside.poses import Pose
+from stepaside.simulation.duel import Duel, run_duel
+from stepaside.simulation.person_motion import (
+    Motion,
+    read_path,
+    template_approach,
+)
+from stepaside.simulation.person_settings import PersonSettings
+from stepaside.simulation.settings import DuelSettings, StartSettings
+from stepaside.simulation.summary import summarise
+
+START = StartSettings(distance=1.5, pursuer_offset=0.0, evader_offset=0.0)
+
+
+def duel_with(person: PersonSettings, duration: float) -> DuelSettings:
+    return DuelSettings(
+        duration=duration, start=START, pursuer="person", person=person
+    )
+
+
+def walk(person: PersonSettings, start: Pose, evader: Pose) -> Motion:
+    return Motion(person, start, evader[:2])
+
+
+def test_a_straight_walk_passes_at_its_miss() -> None:
+    person = PersonSettings("straight", 0.5, miss=0.7)
+    motion = walk(person, Pose(0.0, 0.0, 0.0), Pose(3.0, 0.0, pi))
+    nearest = 10.0
+    for k in range(1200):
+        motion.advance(0.01 * (k + 1), 0.01, (3.0, 0.0))
+        x, y, _ = motion.pose
+        nearest = min(nearest, float(np.hypot(x - 3.0, y)))
+    assert nearest == pytest.approx(0.7 * 3.0 / np.hypot(3.0, 0.7), abs=1e-3)
+    assert motion.pose.y > 0.0
+
+
+def test_steering_turns_by_the_pursuers_law() -> None:
+    person = PersonSettings("steer", 0.1, 0.5)
+    motion = walk(person, Pose(0.0, 0.0, 1.0), Pose(100.0, 0.0, pi))
+    for k in range(1000):
+        motion.advance(0.002 * (k + 1), 0.002, (100.0, 0.0))
+    assert motion.pose.theta == pytest.approx(np.exp(-1.0), abs=3e-3)
+
+
+def test_a_recorded_path_is_walked(tmp_path: Path) -> None:
+    file = tmp_path / "walk.csv"
+    file.write_text("time,x,y\n0,0,0\n10,1,0\n20,1,1\n", encoding="utf-8")
+    person = PersonSettings(str(file))
+    motion = walk(person, Pose(5.0, 5.0, 0.0), Pose(3.0, 0.0, pi))
+    motion.advance(5.0, 0.01, (3.0, 0.0))
+    assert motion.pose == pytest.approx((0.5, 0.0, 0.0))
+    motion.advance(15.0, 0.01, (3.0, 0.0))
+    assert motion.pose == pytest.approx((1.0, 0.5, pi / 2))
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("x,y\n0,0\n", "first line"),
+        ("time,x,y\n0,0,a\n1,1,1\n", "could not convert"),
+        ("time,x,y\n0,0,0\n", "two rows"),
+        ("time,x,y\n1,0,0\n0,1,0\n", "rise"),
+    ],
+)
+def test_bad_paths_are_refused(
+    tmp_path: Path, text: str, message: str
+) -> None:
+    file = tmp_path / "walk.csv"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(ConfigurationError, match=message):
+        read_path(file)
+
+
+def test_a_person_who_passes_outside_triggers_nothing() -> None:
+    person = PersonSettings("straight", 0.5, miss=1.3)
+    result = run_duel(duel_with(person, 6.0))
+    summary = summarise(result)
+    assert summary["triggered_at_s"] is None and summary["replans"] == 0
+    assert result.outcome.value == "completed"
+    theory = summary["theory"]["closest_approach_m"]
+    assert summary["min_distance_m"] == pytest.approx(theory, abs=0.05)
+
+
+def test_a_slow_person_is_evaded_and_keeps_near_to_theory() -> None:
+    result = run_duel(duel_with(PersonSettings("steer", 0.073, 0.146), 40.0))
+    summary = summarise(result)
+    assert summary["outcome"] == "completed"
+    assert summary["triggered_at_distance_m"] == pytest.approx(0.8, abs=0.02)
+    theory = summary["theory"]["closest_approach_m"]
+    assert summary["min_distance_m"] == pytest.approx(theory, abs=0.12)
+
+
+def test_touching_a_person_ends_the_duel() -> None:
+    result = run_duel(duel_with(PersonSettings("straight", 0.6), 10.0))
+    assert result.outcome.value == "contact"
+    assert "person" in result.message
+
+
+def test_a_robots_duel_has_no_person_in_it() -> None:
+    model = Duel(DuelSettings(start=START)).world.model
+    names = {model.body(i).name for i in range(model.nbody)}
+    assert model.nmocap == 0 and "pursuer/trunk" not in names
+
+
+def test_the_template_evader_gets_away_from_a_slower_one() -> None:
+    def approach(speed: float) -> float:
+        person = PersonSettings("straight", speed)
+        return template_approach(
+            lambda pose, evader: Motion(person, pose, evader),
+            Pose(0.0, 0.0, 0.0),
+            Pose(1.5, 0.0, pi),
+            speed=0.1,
+            gain=0.2,
+            angle=0.0,
+            safety_radius=0.8,
+            duration=60.0,
+        )
+
+    assert approach(0.1) == pytest.approx(0.8, abs=0.01)
+    assert approach(0.2) < 0.1 < approach(0.05)
+
+
+def test_the_command_line_takes_a_person(tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    arguments = [
+        *("duel", "--pursuer", "person", "--person-path", "straight"),
+        *("--person-speed", "0.4", "--person-miss", "1.2", "--json"),
+        *("--duration", "3", "--seed", "1", "--output", str(folder)),
+    ]
+    result = CliRunner().invoke(main, arguments)
+    assert result.exit_code == 0, result.stderr
+    assert json.loads(result.stdout)["theory"]["closest_approach_m"] > 0.5
+    assert (folder / "duel.png").stat().st_size > 10_000
+    again = CliRunner().invoke(
+        main,
+        [
+            *("duel", "--config", str(folder / "configuration.toml")),
+            "--json",
+        ],
+    )
+    assert json.loads(again.stdout)["min_distance_m"] == pytest.approx(
+        json.loads(result.stdout)["min_distance_m"]
+    )
