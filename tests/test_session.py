@@ -144,3 +144,9 @@ def test_words_say_what_goes_on(
 ) -> None:
     words = words_of(phases, distance, angle, 0.8, (0.9, 90.0))
     assert expected in words
+
+
+def test_a_live_duel_keeps_no_record_that_grows(session: Session) -> None:
+    run_until(session, 2.0)
+    assert session.duel.world.time >= 2.0
+    assert len(session.duel.recorder.arrays()["times_s"]) == 1

@@ -19,6 +19,8 @@ from ...simulation.summary import theory_of
 
 LOG = logging.getLogger(__name__)
 HISTORY = 6000  # samples of the plots that are kept, 0.1 s apart
+KEPT = 100  # plans and footsteps of each robot that are kept
+NEVER = 2**62  # ticks between two samples of a record that nobody reads
 BEHIND = 0.25  # delay after which lost time is given up, in [s]
 
 
@@ -75,6 +77,8 @@ class Session:
 
     def _begin(self, settings: DuelSettings) -> None:
         duel = Duel(settings)
+        # A live duel has no end: what would grow with it is not kept.
+        duel.recorder.every = NEVER
         self.settings = settings
         self.duel = duel
         self.outcome: Outcome | None = None
@@ -203,6 +207,11 @@ class Session:
         self._note(duel)
 
     def _note(self, duel: Duel) -> None:
+        for scheme in duel.schemes:
+            del scheme.walked[:-KEPT]
+            del scheme.landings[:-KEPT]
+            del scheme.planning_times[:-KEPT]
+            del scheme.velocity_jumps[:-KEPT]
         pursuer, evader = (robot.truth for robot in duel.robots)
         apart = abs(wrap_angle(evader.heading - pursuer.heading))
         self.history.append((duel.world.time, duel.distance, degrees(apart)))
