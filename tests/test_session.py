@@ -22,7 +22,6 @@ SETTINGS = DuelSettings(start=START)
 def session() -> Iterator[Session]:
     made = Session(SETTINGS)
     made.speed = inf
-    made.start()
     yield made
     made.close()
 
@@ -54,7 +53,6 @@ def test_a_step_is_as_long_as_asked(session: Session) -> None:
 
 def test_real_time_is_kept() -> None:
     made = Session(SETTINGS)
-    made.start()
     made.running = True
     sleep(1.5)
     made.close()
@@ -73,7 +71,6 @@ def test_a_push_changes_the_run() -> None:
 
         made.on_tick = note
         made.push(0, impulse, pi / 2)
-        made.start()
         run_until(made, 1.0)
         made.close()
         ways.append(way[:200])

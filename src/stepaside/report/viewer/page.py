@@ -81,8 +81,7 @@ class Page:
         self._publisher = threading.Thread(target=self._publish, daemon=True)
 
     def start(self) -> None:
-        """Start the loop and the publisher."""
-        self.session.start()
+        """Start to publish."""
         self._publisher.start()
 
     def close(self) -> None:

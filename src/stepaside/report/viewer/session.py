@@ -59,7 +59,7 @@ class Session:
     """
 
     def __init__(self, settings: DuelSettings) -> None:
-        """Prepare a duel; the loop starts with :meth:`start`.
+        """Prepare a duel and a loop in which no time passes yet.
 
         Raises:
             StepAsideError: If the settings ask for what cannot be.
@@ -73,7 +73,31 @@ class Session:
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._loop, daemon=True)
         self.on_tick: Callable[[Duel], None] | None = None
-        self._begin(settings)
+        self.generation = 0
+        self._thread.start()
+        try:
+            self._in_loop(lambda: self._begin(settings))
+        except BaseException:
+            self._closing.set()
+            raise
+
+    def _in_loop(self, call: Callable[[], None]) -> None:
+        """Let the loop do something, and wait: graphics know one thread."""
+        done = threading.Event()
+        failed: list[Exception] = []
+
+        def run() -> None:
+            try:
+                call()
+            except Exception as error:
+                failed.append(error)
+            finally:
+                done.set()
+
+        self._requests.append(run)
+        done.wait()
+        if failed:
+            raise failed[0]
 
     def _begin(self, settings: DuelSettings) -> None:
         duel = Duel(settings)
@@ -95,11 +119,7 @@ class Session:
             else None
         )
         self.theory_radius = circle.radius_evader_m if circle.exists else None
-        self.generation = getattr(self, "generation", 0) + 1
-
-    def start(self) -> None:
-        """Start the loop."""
-        self._thread.start()
+        self.generation += 1
 
     def close(self) -> None:
         """Stop the loop and wait for it."""
@@ -114,9 +134,9 @@ class Session:
             StepAsideError: If the settings ask for what cannot be; the duel
                 that runs goes on then.
         """
-        with self.lock:
-            self._begin(self.settings if settings is None else settings)
-            self.error = None
+        wanted = self.settings if settings is None else settings
+        self._in_loop(lambda: self._begin(wanted))
+        self.error = None
 
     def step(self, duration: float) -> None:
         """Let a paused duel go on for a while, in [s]."""
