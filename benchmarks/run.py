@@ -5,6 +5,7 @@ import platform
 from pathlib import Path
 
 from duel import measure_duel
+from mpc import measure_mpc
 from planner import measure_planner
 
 ROOT = Path(__file__).parent.parent
@@ -37,6 +38,13 @@ ROWS = {
         "m",
         "<= 1e-6",
     ),
+    "mpc_tick_us": (
+        "tick of the MPC, horizon of two steps, no constraint active",
+        "us",
+        "<= 1000",
+    ),
+    "mpc_tick_pushed_us": ("the same, after a push", "us", "<= 1000"),
+    "mpc_closed_form_us": ("closed form beside it: a replan", "us", ""),
     "control_tick_us": ("control tick of one robot", "us", "<= 150"),
     "real_time_factor": ("whole duel", "x real time", ">= 8"),
     "bare_physics_real_time_factor": (
@@ -54,7 +62,7 @@ ROWS = {
 
 def main() -> None:
     """Measure, print and write."""
-    figures = measure_planner() | measure_duel()
+    figures = measure_planner() | measure_mpc() | measure_duel()
     for suffix in ("", "_with_samples"):
         drake = "drake_zmp_planner_us" if not suffix else f"drake{suffix}_us"
         if drake in figures:
