@@ -143,6 +143,7 @@ class Perception:
             distance = candidate.away_from(x, y, now)
             named = now - candidate.identified_at < UNSEEN
             moves = hypot(*candidate.velocity) > MOVING
+            moves = moves and candidate.confirmed
             if named or distance < STARE or moves:
                 bearing = candidate.turned_to(x, y, now) - heading
                 self._gaze.follow(bearing, distance)

@@ -18,6 +18,7 @@ SMALLEST = 14  # pixels of a thing, at 80 columns
 BROADEST = 1.1  # what is broader is a wall, in [m]
 LOWEST = 0.15  # height of what is in the way, in [m]
 TRUSTED = 0.75  # share of the far limit up to which a thing is whole
+PIECE = 2.0  # distance from which a thing has to be in view as a whole, [m]
 TRUNCATED = 0.12  # beyond the near limit: part of it may be nearer, in [m]
 GAP = 0.06  # between parts of one near thing, in [rad]
 BLIND = 24  # pixels without return that something near must hide
@@ -111,6 +112,8 @@ def detect_obstacles(
         if thing.width < BROADEST
         and thing.height > LOWEST
         and thing.nearest < TRUSTED * image.far
+        # A piece of a wall, cut off by the edge of the image.
+        and (thing.whole or thing.nearest < PIECE)
     ]
     things.sort(key=lambda thing: thing.nearest)
     near = image.near + TRUNCATED
