@@ -3,14 +3,16 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..simulation.summary import cycle_mean
 from .replay import Run
 from .style import EVADER, PURSUER, THEORY, plt
 
 LINES = ("-", "--", ":", "-.")
+RUNS = ("#222222", "#0f7b6c", "#b5651d", "#6a3d9a")
 
 
 def draw_comparison(runs: Sequence[Run], file: Path) -> None:
-    """Draw paths, distance and orientation of several runs.
+    """Draw paths, and distance and orientation over gait cycles.
 
     Args:
         runs: The runs; each has its own kind of line.
@@ -21,6 +23,7 @@ def draw_comparison(runs: Sequence[Run], file: Path) -> None:
     )
     for number, run in enumerate(runs):
         line = LINES[number % len(LINES)]
+        cycle = 2.0 * run.settings.gait.step_duration
         shade = 1.0 - 0.6 * (number // len(LINES)) / max(1, len(runs))
         for name, colour in (("pursuer", PURSUER), ("evader", EVADER)):
             place = run.arrays[f"{name}_torso"]
@@ -38,8 +41,8 @@ def draw_comparison(runs: Sequence[Run], file: Path) -> None:
         ):
             axes[key].plot(
                 run.times,
-                values,
-                color="#222222",
+                cycle_mean(values, run.times, cycle),
+                color=RUNS[number % len(RUNS)],
                 linestyle=line,
                 alpha=shade,
                 linewidth=1.1,

@@ -229,7 +229,7 @@ class Page:
                 self._add_layer(layer)
 
     def _add_layer(self, layer: str) -> None:
-        box = self.server.gui.add_checkbox(layer.capitalize(), True)
+        box = self.server.gui.add_checkbox(layer[0].upper() + layer[1:], True)
 
         @box.on_update
         def _(_: object) -> None:

@@ -97,7 +97,7 @@ class ReplayPage:
         self._thread = threading.Thread(target=self._loop, daemon=True)
 
     def _add_layer(self, layer: str) -> None:
-        box = self.server.gui.add_checkbox(layer.capitalize(), True)
+        box = self.server.gui.add_checkbox(layer[0].upper() + layer[1:], True)
 
         @box.on_update
         def _(_: object) -> None:
