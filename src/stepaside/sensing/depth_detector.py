@@ -116,20 +116,22 @@ def detect_obstacles(
         and (thing.whole or thing.nearest < PIECE)
     ]
     things.sort(key=lambda thing: thing.nearest)
-    near = image.near + TRUNCATED
     parts = _shadows(image, depths, rays, place, axes)
-    parts += [
-        (
-            t.azimuth - 0.5 * t.width / t.nearest,
-            t.azimuth + 0.5 * t.width / t.nearest,
-        )
-        for t in things
-        if t.nearest < near
-    ]
+    whole, cut = [], []
+    for thing in things:
+        half = 0.5 * thing.width / thing.nearest
+        ends = thing.azimuth - half, thing.azimuth + half
+        # What hides the floor without an echo may be a nearer part of it.
+        hidden = any(low < ends[1] and ends[0] < high for low, high in parts)
+        near = thing.nearest < image.near + TRUNCATED
+        if near and hidden:
+            cut.append(ends)
+        else:
+            whole.append(thing)
     ahead = atan2(axes[1, 0], axes[0, 0])
     return DepthScene(
-        tuple(thing for thing in things if thing.nearest >= near),
-        _join(parts, ahead),
+        tuple(whole),
+        _join([*parts, *cut], ahead),
     )
 
 
