@@ -177,10 +177,11 @@ def test_a_push_gives_its_impulse_in_the_robots_own_frame() -> None:
     np.testing.assert_array_equal(world.data.xfrc_applied[torso], 0.0)
 
 
-@pytest.mark.parametrize("name", [f.name for f in fields(BodySettings)])
+@pytest.mark.parametrize(
+    "name",
+    [f.name for f in fields(BodySettings) if f.name != "torque_speed"],
+)
 def test_bodies_refuse_nonsense(name: str) -> None:
-    if name == "torque_speed":
-        pytest.skip("a truth value has no nonsense")
     changes: dict[str, Any] = {name: -1}
     with pytest.raises(ConfigurationError, match=name):
         replace(BodySettings(), **changes)
