@@ -40,14 +40,9 @@ def decorate(
     _line(scene, sight[0], sight[1], 0.5 * THICK, THEORY)
     radius = run.settings.strategy.safety_radius
     _lines(scene, _ring(places[1], radius), 0.003, EVADER)
-    theory, since = run.theory, run.summary.get("converged_at_s")
-    if theory is not None and since is not None:
-        tail = run.times >= since
-        center = np.mean(
-            [run.arrays[f"{n}_torso"][tail, :2].mean(axis=0) for n in NAMES],
-            axis=0,
-        )
-        _lines(scene, _ring(center, theory[0]), 0.002, THEORY)
+    if run.circle is not None:
+        x, y, size = run.circle
+        _lines(scene, _ring(np.array([x, y]), size), 0.002, THEORY)
 
 
 def _ring(center: Array, radius: float) -> Array:

@@ -70,6 +70,22 @@ class Run:
             degrees(circle.headings_apart_rad),
         )
 
+    @property
+    def circle(self) -> tuple[float, float, float] | None:
+        """Theory's circle, round where the robots went in the end.
+
+        Returns:
+            Center (x, y) in the world and radius, in [m]; None if they were
+            never on it.
+        """
+        since = self.summary.get("converged_at_s")
+        if self.theory is None or since is None:
+            return None
+        tail = self.times >= since
+        middles = [self.arrays[f"{n}_torso"][tail, :2].mean(0) for n in NAMES]
+        x, y = np.mean(middles, axis=0).tolist()
+        return x, y, self.theory[0]
+
     def words(self, index: int) -> str:
         """What goes on at a sample."""
         time = float(self.times[index])

@@ -11,6 +11,7 @@ import mujoco
 import numpy as np
 
 from ..poses import Array
+from ..robots.description import load_robot
 from ..simulation.duel import NAMES
 from ..simulation.people import walkers_of
 from .replay import Run, Stage
@@ -91,7 +92,7 @@ def _content(run: Run) -> dict[str, Any]:
         poses[row, :, :3] = stage.data.xpos / UNIT
         poses[row, :, 3:] = stage.data.xquat * 32767
     stored = np.clip(np.rint(poses), -32767, 32767).astype("<i2")
-    torso = load_torso(run)
+    torso = load_robot(run.settings.robot).torso
     words = [run.words(int(index)) for index in chosen]
     known = list(dict.fromkeys(words))
     both = np.concatenate([run.arrays[f"{n}_torso"][:, :2] for n in NAMES])
@@ -123,20 +124,13 @@ def _content(run: Run) -> dict[str, Any]:
         "distance": np.round(run.distance[chosen], 3).tolist(),
         "angle": np.round(run.orientation[chosen], 1).tolist(),
         "theory": None if run.theory is None else list(run.theory),
-        "circle": _circle(run),
+        "circle": run.circle and [round(v, 3) for v in run.circle],
         "safety": run.settings.strategy.safety_radius,
         "words": known,
         "says": [known.index(text) for text in words],
         "middle": np.round(0.5 * (low + high), 3).tolist(),
         "away": 1.2 + 0.9 * float(np.hypot(*(high - low))),
     }
-
-
-def load_torso(run: Run) -> str:
-    """Name of the torso's body."""
-    from ..robots.description import load_robot
-
-    return load_robot(run.settings.robot).torso
 
 
 def _chosen(times: Array) -> np.ndarray:
@@ -148,17 +142,3 @@ def _chosen(times: Array) -> np.ndarray:
     if chosen[-1] != len(times) - 1:
         chosen = np.append(chosen, len(times) - 1)
     return chosen
-
-
-def _circle(run: Run) -> list[float] | None:
-    """Circle of theory, round where the robots went in the end."""
-    since = run.summary.get("converged_at_s")
-    if run.theory is None or since is None:
-        return None
-    tail = run.times >= since
-    center = np.mean(
-        [run.arrays[f"{n}_torso"][tail, :2].mean(axis=0) for n in NAMES],
-        axis=0,
-    )
-    x, y = (round(float(v), 3) for v in center)
-    return [x, y, round(run.theory[0], 3)]

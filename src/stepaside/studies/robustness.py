@@ -93,14 +93,13 @@ def settings_of(trial: Trial) -> WalkSettings:
     """
     control = control_of(trial.method)
     body, physics = BODIES[trial.body], PhysicsSettings()
-    duration, pushes, x = 20.0, (), trial.strength
+    x = trial.strength
     if trial.kind == "push":
         time = push_time(trial.phase, control)
-        duration = time + AFTER
         direction = radians(DIRECTIONS[trial.direction])
         return WalkSettings(
             seed=trial.seed,
-            duration=duration,
+            duration=time + AFTER,
             body=body,
             control=control,
             pushes=(Push(x, time, direction),),
@@ -127,11 +126,10 @@ def settings_of(trial: Trial) -> WalkSettings:
         )
     return WalkSettings(
         seed=trial.seed,
-        duration=duration,
+        duration=20.0,
         body=body,
         physics=physics,
         control=control,
-        pushes=pushes,
     )
 
 

@@ -21,7 +21,6 @@ LAYERS = (
     "support polygon",
 )
 HEIGHTS = {name: 0.002 + 0.001 * i for i, name in enumerate(LAYERS)}
-TRACE = 1500  # points kept of a trace
 PRINTS = 60  # footsteps kept
 
 
@@ -130,13 +129,8 @@ def support_of(scheme: ControlScheme, frame: Pose, now: float) -> Array:
     sole = scheme.settings.sole
     feet = [(step.support, step.swing.other)]
     if step.remaining <= 0.0:
-        standing = step.landing if step.walking else scheme.left_foot
-        other = step.swing if step.walking else step.swing
-        if not step.walking:
-            standing = (
-                scheme.left_foot if other.value > 0 else scheme.right_foot
-            )
-        feet.append((standing, other))
+        stood = scheme.left_foot if step.swing.value > 0 else scheme.right_foot
+        feet.append((step.landing if step.walking else stood, step.swing))
     corners = [
         sole_corners(np.array(frame.compose(pose)), foot, sole)
         for pose, foot in feet
@@ -159,7 +153,6 @@ __all__ = [
     "HEIGHTS",
     "LAYERS",
     "THEORY",
-    "TRACE",
     "Layers",
     "chain",
     "path_of",

@@ -163,13 +163,6 @@ class ReplayPage:
         )
         sight = np.array([[[*places[0], 0.25], [*places[1], 0.25]]])
         layers.draw("line of sight", "both", sight, THEORY)
-        since = run.summary.get("converged_at_s")
-        if run.theory is not None and since is not None:
-            tail = run.times >= since
-            x, y = np.mean(
-                [run.arrays[f"{n}_torso"][tail, :2].mean(0) for n in NAMES],
-                axis=0,
-            ).tolist()
-            height = HEIGHTS["circle of theory"]
-            circle = ring(x, y, run.theory[0], height)
+        if run.circle is not None:
+            circle = ring(*run.circle, HEIGHTS["circle of theory"])
             layers.draw("circle of theory", "both", circle, THEORY)

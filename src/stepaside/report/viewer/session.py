@@ -21,6 +21,7 @@ LOG = logging.getLogger(__name__)
 HISTORY = 6000  # samples of the plots that are kept, 0.1 s apart
 KEPT = 100  # plans and footsteps of each robot that are kept
 NEVER = 2**62  # ticks between two samples of a record that nobody reads
+TRACE = 1500  # points of a trace that are kept
 BEHIND = 0.25  # delay after which lost time is given up, in [s]
 
 
@@ -108,7 +109,7 @@ class Session:
         self.outcome: Outcome | None = None
         self.history: deque[tuple[float, float, float]] = deque(maxlen=HISTORY)
         self.traces: dict[str, deque[tuple[float, float]]] = {
-            f"{robot.name}/{what}": deque(maxlen=1500)
+            f"{robot.name}/{what}": deque(maxlen=TRACE)
             for robot in duel.robots
             for what in ("CoM", "ZMP")
         }
