@@ -1,6 +1,6 @@
 """Test the rules from line of sight to desired direction (Sec. II)."""
 
-from math import cos, pi, radians, sin
+from math import copysign, cos, pi, radians, sin
 
 import pytest
 from hypothesis import given
@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from stepaside.control import Evasion, Pursuit
 from stepaside.errors import ConfigurationError
 from stepaside.planning import Direction
+from stepaside.poses import wrap_angle
 
 
 def test_pursuer_heads_for_the_other() -> None:
@@ -49,6 +50,32 @@ def test_noise_about_straight_ahead_does_not_flip_the_side() -> None:
     assert role.desired_heading(-0.02) == pytest.approx(first, abs=0.05)
     flipped = role.desired_heading(radians(-40.0))
     assert flipped == pytest.approx(radians(50.0))
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("past", [0.0, pi])
+def test_side_changes_beyond_the_hysteresis_at_both_ends(
+    side: float, past: float
+) -> None:
+    """At psi = 0 and at psi = pi alike, and not a degree earlier."""
+    inside, beyond = radians(19.0), radians(21.0)
+    role = Evasion(side_hysteresis=radians(20.0))
+    role.desired_heading(side * 1.0)
+    away = -1.0 if past == 0.0 else 1.0
+    role.desired_heading(wrap_angle(side * (past + away * inside)))
+    assert role.side == side
+    role.desired_heading(wrap_angle(side * (past + away * beyond)))
+    assert role.side == -side
+
+
+@pytest.mark.parametrize("step", [0.01, -0.01])
+def test_desired_heading_is_continuous_where_the_bearing_wraps(
+    step: float,
+) -> None:
+    role = Evasion()
+    before = role.desired_heading(copysign(pi - 1e-3, step))
+    after = role.desired_heading(wrap_angle(copysign(pi - 1e-3, step) + step))
+    assert wrap_angle(after - before) == pytest.approx(step)
 
 
 def test_evasion_latches_until_the_release_distance() -> None:

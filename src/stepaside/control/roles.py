@@ -68,8 +68,9 @@ class Evasion:
     :math:`\theta^* = \psi - \sigma \alpha`. The side :math:`\sigma` is
     sign(psi), which takes the normal to the line of sight *behind* the
     robot; it is latched when evasion begins and changes only when psi has
-    clearly changed sign, so that noise at psi = 0 does not flip it. Eq. (5)
-    as printed, with an angle other than pi/2, would walk into the pursuer.
+    clearly changed sign, so that noise does not flip it, neither at psi = 0
+    nor where psi wraps at pi. Eq. (5) as printed, with an angle other than
+    pi/2, would walk into the pursuer.
 
     Attributes:
         angle: Strategy :math:`\alpha`, in [rad]: pi/2 moves aside, 0 moves
@@ -77,7 +78,8 @@ class Evasion:
         safety_radius: Distance at which evasion begins, in [m].
         release_distance: Distance at which it ends, in [m].
         saturated: Whether to turn by (6) instead of (8).
-        side_hysteresis: How far psi must change sign, in [rad].
+        side_hysteresis: How far psi must be past 0 or past pi for the side
+            to change, in [rad]; from pi/2 on it never does.
     """
 
     angle: float = pi / 2
@@ -120,8 +122,11 @@ class Evasion:
 
     def desired_heading(self, bearing: float) -> float:
         """Keep the line of sight at the strategy angle, behind the robot."""
-        if self.side is None or -self.side * bearing > self.side_hysteresis:
+        if self.side is None:
             self.side = copysign(1.0, bearing)
+        past = -self.side * bearing  # how far psi is on the other side
+        if self.side_hysteresis < past < pi - self.side_hysteresis:
+            self.side = -self.side
         return wrap_angle(bearing - self.side * self.angle)
 
 
