@@ -11,6 +11,7 @@ from .errors import StepAsideError
 
 COMMANDS = {
     "duel": "Let two humanoids chase each other in physics.",
+    "duels": "Play many duels, on all cores, and say what came out.",
     "view": "Watch a duel in a browser, push the robots, drive one.",
     "replay": "See a run again: page, offline page, film.",
     "compare": "Draw several runs on one figure.",

@@ -58,7 +58,13 @@ def parse_configuration(entries: dict[str, Any], source: str) -> DuelSettings:
 
 def dump_configuration(settings: DuelSettings) -> str:
     """Text of the configuration that repeats a duel, as TOML."""
-    return tomli_w.dumps(_plain(asdict(settings)))
+    return tomli_w.dumps(plain_settings(settings))
+
+
+def plain_settings(settings: DuelSettings) -> dict[str, Any]:
+    """Nested entries of settings, as a configuration has them."""
+    entries: dict[str, Any] = _plain(asdict(settings))
+    return entries
 
 
 def _as_float(value: Any) -> Any:

@@ -1,0 +1,238 @@
+"""``stepaside duels``: many duels from many starts, on all cores."""
+
+import json
+import re
+import sys
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from .duel_options import duel_options, duel_settings
+from .options import json_option, print_json
+
+if TYPE_CHECKING:
+    from ..simulation.settings import DuelSettings
+
+LARGEST = 100_000  # duels of one call
+RECORDS, SUMMARY, FIGURE = "duels.jsonl", "summary.json", "duels.png"
+
+
+class SeedsType(click.ParamType[range]):
+    """Seeds: ``0:1000`` are the thousand from 0 to 999, ``7`` is one."""
+
+    name = "FIRST:END"
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> range:
+        """Parse a range of seeds."""
+        if isinstance(value, range):
+            return value
+        found = re.fullmatch(r"(\d{1,9})(?::(\d{1,9}))?", str(value).strip())
+        if found is None:
+            self.fail(
+                "must be FIRST:END or one seed, integers >= 0 [1] like "
+                f"0:1000, got {value!r}",
+                param,
+                ctx,
+            )
+        first = int(found[1])
+        end = first + 1 if found[2] is None else int(found[2])
+        if not 1 <= end - first <= LARGEST:
+            self.fail(
+                f"END must be 1 to {LARGEST} past FIRST [1], got {value!r}",
+                param,
+                ctx,
+            )
+        return range(first, end)
+
+
+@click.command("duels")
+@click.option(
+    "--seeds",
+    type=SeedsType(),
+    default="0:40",
+    show_default=True,
+    help="One duel each; the end is not among them.",
+)
+@duel_options
+@click.option(
+    "--workers", type=click.IntRange(1), help="Processes; all cores."
+)
+@click.option(
+    "--verify",
+    type=click.IntRange(1),
+    metavar="N",
+    help="Play N recorded duels again; if all come out the same, take over "
+    "the records that an older version of the code made.",
+)
+@click.option(
+    "--output",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Folder of results, which goes on with what it holds; runs/duels "
+    "by default, none with --json.",
+)
+@json_option
+def duels(
+    seeds: range,
+    config: Path | None,
+    workers: int | None,
+    verify: int | None,
+    output: Path | None,
+    as_json: bool,
+    **options: Any,
+) -> None:
+    """Play many duels and say what came out, how surely, what was worst.
+
+    Outcomes, radii, distance, orientation, convergence and closest approach
+    with 95 % intervals, and the seeds that come worst, each of which
+    `stepaside duel --seed` replays. A study that was stopped goes on where it
+    was when it is started again with the same folder.
+    """
+    settings = duel_settings(config, options)
+    if output is None and not as_json:
+        output = Path("runs") / "duels"
+    if verify is not None:
+        _verify(settings, output, verify, workers)
+    records, stopped = _play(settings, seeds, output, workers)
+    answer = _answer(settings, seeds, records)
+    if output is not None and records:
+        from ..report.duels_figure import draw_duels
+
+        text = json.dumps(answer, indent=1, allow_nan=False) + "\n"
+        (output / SUMMARY).write_text(text, encoding="utf-8")
+        draw_duels({"": records}, answer["summary"], output / FIGURE)
+    if as_json:
+        print_json(answer)
+    else:
+        _print(answer["summary"])
+        click.echo(f"\nresults: {output}")
+    if stopped:
+        raise SystemExit(130)
+
+
+def _file(output: Path | None) -> Any:
+    from ..studies.records import RecordFile
+
+    return None if output is None else RecordFile(output / RECORDS)
+
+
+def _verify(
+    settings: "DuelSettings",
+    output: Path | None,
+    number: int,
+    workers: int | None,
+) -> None:
+    """Take over older records, or say which came out otherwise."""
+    from ..studies.duels import verify_duels
+    from ..studies.workers import worker_pool
+
+    if output is None or not (output / RECORDS).exists():
+        raise click.UsageError(
+            f"--verify needs an --output that holds records, got {output}"
+        )
+    with worker_pool(workers) as executor:
+        played, differ = verify_duels(
+            settings, _file(output), number, executor
+        )
+    same = len(played) - len(differ)
+    click.echo(
+        f"{same} of {len(played)} duels came out the same"
+        + (f"; otherwise: seeds {differ}" if differ else ""),
+        err=True,
+    )
+
+
+def _play(
+    settings: "DuelSettings",
+    seeds: range,
+    output: Path | None,
+    workers: int | None,
+) -> tuple[list[dict[str, Any]], bool]:
+    """Play with a progress bar; whether Ctrl-C stopped it."""
+    from tqdm import tqdm
+
+    from ..studies.duels import run_duels
+    from ..studies.workers import worker_pool
+
+    file = _file(output)
+    done: dict[str, dict[str, Any]] = {}
+    stopped = False
+    with (
+        tqdm(total=len(seeds), desc="duels", unit="duel", disable=None) as bar,
+        worker_pool(workers) as executor,
+    ):
+
+        def report(number: int) -> None:
+            bar.n = number
+            bar.refresh()
+
+        try:
+            run_duels(settings, seeds, file, executor, report, done)
+        except KeyboardInterrupt:
+            stopped = True
+    if file is not None and file.aside:
+        print(
+            f"{file.aside} records were torn or foreign: set aside beside "
+            f"{file.path}",
+            file=sys.stderr,
+        )
+    return sorted(done.values(), key=lambda r: int(r["seed"])), stopped
+
+
+def _answer(
+    settings: "DuelSettings", seeds: range, records: list[dict[str, Any]]
+) -> dict[str, Any]:
+    from ..simulation.configuration import plain_settings
+    from ..studies.duel_statistics import summarise_duels
+    from ..studies.duels import stamps_of
+
+    entries = plain_settings(settings)
+    del entries["seed"]  # the seeds stand above
+    return {
+        "command": " ".join(["stepaside", *sys.argv[1:]]),
+        "seeds": f"{seeds.start}:{seeds.stop}",
+        **stamps_of(records),
+        "settings": _spelled(entries),
+        "summary": summarise_duels(settings, records),
+    }
+
+
+def _spelled(value: Any) -> Any:
+    """Value with what JSON has no number for spelled out."""
+    if isinstance(value, dict):
+        return {key: _spelled(entry) for key, entry in value.items()}
+    endless = isinstance(value, float) and not isfinite(value)
+    return str(value) if endless else value
+
+
+def _print(summary: dict[str, Any]) -> None:
+    for name, share in summary["outcomes"].items():
+        click.echo(_share(name, share))
+    click.echo(_share("on the circle", summary["on_the_circle"]))
+    click.echo(
+        f"\n{'':<26}{'theory':>9}{'mean':>9}{'+-95 %':>9}"
+        f"{'least':>9}{'greatest':>9}  worst seed"
+    )
+    for name, row in summary["figures"].items():
+        theory = "" if row["theory"] is None else f"{row['theory']:.3f}"
+        half = row["mean_high"] - row["mean"]
+        click.echo(
+            f"{name:<26}{theory:>9}{row['mean']:>9.3f}{half:>9.3f}"
+            f"{row['least']:>9.3f}{row['greatest']:>9.3f}"
+            f"  {row['worst_seed']}"
+        )
+    for entry in summary["not_completed"]:
+        click.echo(f"seed {entry['seed']}: {entry['message']}")
+
+
+def _share(name: str, share: dict[str, float]) -> str:
+    return (
+        f"{name:<20}{share['number']:>5} of {share['of']}"
+        f"   95 %: {100 * share['low']:.1f}-{100 * share['high']:.1f} %"
+    )

@@ -1,0 +1,86 @@
+"""Figure of many duels: how their figures are distributed."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .style import COLOURS, LEFT, RIGHT, THEORY, plt
+
+# Record, label, unit, colour and where theory stands, panel by panel.
+PANELS = (
+    (("pursuer_radius_m", "evader_radius_m"), "radius [m]"),
+    (("distance_m",), "distance [m]"),
+    (("relative_orientation_deg",), "between headings [deg]"),
+    (("converged_at_s",), "on the circle since [s]"),
+    (("min_distance_m",), "closest approach [m]"),
+)
+BINS = 40
+DISTRIBUTION = {
+    "pursuer_radius_m": COLOURS["pursuer"],
+    "evader_radius_m": COLOURS["evader"],
+}
+
+
+def draw_duels(
+    groups: Mapping[str, Sequence[dict[str, Any]]],
+    summary: Mapping[str, Any],
+    file: Path,
+) -> None:
+    """Draw histograms of the duels that were played to their end.
+
+    Args:
+        groups: Records of duels, a row of panels for each name.
+        summary: Of one of them; theory is taken from it.
+        file: Picture to write.
+    """
+    figure, axes = plt.subplots(
+        len(groups),
+        len(PANELS),
+        figsize=(2.6 * len(PANELS), 0.6 + 2.0 * len(groups)),
+        squeeze=False,
+        sharex="col",
+    )
+    for row, (name, records) in zip(axes, groups.items(), strict=True):
+        played = [r for r in records if r["outcome"] == "completed"]
+        for axis, (keys, label) in zip(row, PANELS, strict=True):
+            _draw_panel(axis, keys, played, summary)
+            axis.set_yticks([])
+            if row is axes[-1]:
+                axis.set_xlabel(label)
+        row[0].set_ylabel(f"{name}\n{len(played)} duels".strip())
+    axes[0][0].legend(fontsize=7)
+    figure.savefig(file)
+    plt.close(figure)
+
+
+def _draw_panel(
+    axis: Any,
+    keys: Sequence[str],
+    records: Sequence[dict[str, Any]],
+    summary: Mapping[str, Any],
+) -> None:
+    every = [r[key] for key in keys for r in records if r[key] is not None]
+    if not every:
+        return
+    low, high = min(every), max(every)
+    room = 0.02 * max(high - low, 1e-3)
+    bins = np.linspace(low - room, high + room, BINS)
+    for key, hatch in zip(keys, ("", "///"), strict=False):
+        colour = DISTRIBUTION.get(key, LEFT)
+        axis.hist(
+            [r[key] for r in records if r[key] is not None],
+            bins,
+            color=colour,
+            alpha=0.6,
+            hatch=hatch,
+            label=key.split("_")[0],
+        )
+        theory = summary["figures"].get(key, {}).get("theory")
+        if theory is not None:
+            axis.axvline(theory, color=THEORY, linestyle="--", linewidth=1.2)
+    if len(keys) == 1:
+        axis.axvline(
+            float(np.mean(every)), color=RIGHT, linewidth=1.2, label="mean"
+        )

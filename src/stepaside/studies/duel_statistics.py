@@ -1,0 +1,148 @@
+"""Statistics of many duels: shares, means with intervals, worst seeds."""
+
+from collections.abc import Iterable, Sequence
+from math import sqrt
+from typing import Any
+
+import numpy as np
+
+from ..simulation.settings import DuelSettings
+from ..simulation.summary import theory_of
+from .survival import CONFIDENCE, wilson
+
+Record = dict[str, Any]
+# Figure of a record, the theory that it stands beside, and which end of its
+# range is bad: farthest from theory (0), largest (1), smallest (-1).
+FIGURES: dict[str, tuple[str | None, int]] = {
+    "pursuer_radius_m": ("radius_m", 0),
+    "evader_radius_m": ("radius_m", 0),
+    "distance_m": ("distance_m", 0),
+    "relative_orientation_deg": ("relative_orientation_deg", 0),
+    "converged_at_s": (None, 1),
+    "min_distance_m": (None, -1),
+    "triggered_at_distance_m": (None, -1),
+    "min_zmp_margin_m": (None, -1),
+    "misled_s": (None, 1),
+    "lost_s": (None, 1),
+    "detection_rate": (None, -1),
+    "false_detections": (None, 1),
+}
+
+
+def summarise_duels(
+    settings: DuelSettings, records: Sequence[Record]
+) -> dict[str, Any]:
+    """Figures of many duels, ready for JSON.
+
+    Outcomes and convergence are shares with a 95 % interval after Wilson;
+    figures are those of the duels that were played to their end, with the
+    95 % interval of their mean.
+
+    Args:
+        settings: Of all of them.
+        records: Of :func:`~stepaside.studies.duels.play_record`.
+    """
+    theory = _theory(settings)
+    played = [r for r in records if r["outcome"] == "completed"]
+    outcomes = dict.fromkeys(["completed", *(r["outcome"] for r in records)])
+    figures = {}
+    for name, (beside, bad) in FIGURES.items():
+        found = figure_row(name, played, theory.get(beside or ""), bad)
+        if found is not None:
+            figures[name] = found
+    return {
+        "duels": len(records),
+        "outcomes": {
+            name: share(r["outcome"] == name for r in records)
+            for name in outcomes
+        },
+        "on_the_circle": share(
+            r["converged_at_s"] is not None for r in records
+        ),
+        "theory": theory,
+        "figures": figures,
+        "certificate": certificate_row(records),
+        "not_completed": [
+            {key: r[key] for key in ("seed", "outcome", "message")}
+            for r in records
+            if r["outcome"] != "completed"
+        ],
+        "not_on_the_circle": [
+            r["seed"] for r in played if r["converged_at_s"] is None
+        ],
+    }
+
+
+def share(hits: Iterable[bool]) -> dict[str, float]:
+    """Number and share of hits, with its 95 % interval."""
+    each = list(hits)
+    low, high = wilson(sum(each), len(each))
+    return {"number": sum(each), "of": len(each), "low": low, "high": high}
+
+
+def figure_row(
+    name: str, records: Sequence[Record], theory: float | None, bad: int
+) -> dict[str, Any] | None:
+    """Mean, spread and worst seed of a figure; None if nobody has it.
+
+    Args:
+        name: Key of a record.
+        records: Those that count.
+        theory: Value that it stands beside, if there is one.
+        bad: Which end of its range is bad; see ``FIGURES``.
+    """
+    having = [r for r in records if r.get(name) is not None]
+    if not having:
+        return None
+    values = np.array([r[name] for r in having], dtype=np.float64)
+    badness = bad * values
+    if bad == 0:
+        middle = values.mean() if theory is None else theory
+        badness = np.abs(values - middle)
+    sigma = float(values.std(ddof=1)) if len(values) > 1 else 0.0
+    half = CONFIDENCE * sigma / sqrt(len(values))
+    mean = float(values.mean())
+    return {
+        "number": len(values),
+        "theory": theory,
+        "mean": mean,
+        "mean_low": mean - half,
+        "mean_high": mean + half,
+        "deviation": sigma,
+        "least": float(values.min()),
+        "median": float(np.median(values)),
+        "greatest": float(values.max()),
+        "worst_seed": int(having[int(np.argmax(badness))]["seed"]),
+    }
+
+
+def certificate_row(records: Sequence[Record]) -> dict[str, Any]:
+    """Closest approaches beside what is certain of the template."""
+    both = [
+        r
+        for r in records
+        if r["certified_m"] is not None
+        and r["evading_min_distance_m"] is not None
+    ]
+    over = [r["evading_min_distance_m"] - r["certified_m"] for r in both]
+    nearest = int(np.argmin(over)) if over else None
+    return {
+        "certified": share(r["certified_m"] is not None for r in records),
+        "nearer_than_certified": share(x < 0.0 for x in over),
+        "least_excess_m": None if nearest is None else over[nearest],
+        "median_excess_m": float(np.median(over)) if over else None,
+        "worst_seed": None if nearest is None else both[nearest]["seed"],
+    }
+
+
+def _theory(settings: DuelSettings) -> dict[str, float]:
+    circle = theory_of(settings)
+    if not circle.exists:
+        return {}
+    return {
+        "radius_m": circle.radius_evader_m,
+        "distance_m": circle.distance_m,
+        "relative_orientation_deg": float(
+            np.degrees(circle.headings_apart_rad)
+        ),
+    }

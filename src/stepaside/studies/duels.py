@@ -1,0 +1,261 @@
+"""Many duels from many starts: what comes out, how surely, what was worst."""
+
+import json
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import Executor, as_completed
+from dataclasses import asdict, replace
+from functools import cache
+from hashlib import sha256
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from ..errors import PlanError
+from ..poses import Pose
+from ..simulation.duel import DuelResult, run_duel
+from ..simulation.randomness import named_generator
+from ..simulation.settings import DuelSettings
+from ..simulation.summary import distance_over_time, summarise
+from ..unicycle.certificate import certify
+from ..unicycle.laws import make_game
+from ..unicycle.relative import Start
+from .records import RecordFile
+from .version import PHYSICS, code_version, library_versions
+
+Record = dict[str, Any]
+# Of a record, what depends on the machine and not on the duel alone.
+MACHINE = ("version", "libraries", "verified", "wall_s")
+
+
+def settings_hash(settings: DuelSettings) -> str:
+    """Fingerprint of everything that decides a duel but its seed."""
+    text = json.dumps(asdict(replace(settings, seed=0)), sort_keys=True)
+    return sha256(text.encode()).hexdigest()[:12]
+
+
+def key_of(settings: DuelSettings) -> str:
+    """Key of a duel among records: its seed and its settings."""
+    return f"{settings.seed}/{settings_hash(settings)}"
+
+
+@cache
+def _stamp() -> Record:
+    return {
+        "version": code_version(PHYSICS),
+        "libraries": library_versions(("mujoco", "numpy")),
+    }
+
+
+def play_record(settings: DuelSettings) -> Record:
+    """Play one duel and keep its figures.
+
+    Returns:
+        Figures in SI units and [deg] as their names say, ``digest`` of the
+        whole trajectories, versions of code and libraries.
+    """
+    began = perf_counter()
+    result = run_duel(settings)
+    summary = summarise(result)
+    record = {
+        "seed": settings.seed,
+        "outcome": summary["outcome"],
+        "message": summary["message"],
+        "duration_s": summary["duration_s"],
+        "start_distance_m": result.settings.start.distance,
+        "pursuer_radius_m": summary["pursuer"]["radius_m"],
+        "evader_radius_m": summary["evader"]["radius_m"],
+        "distance_m": summary["distance_m"],
+        "relative_orientation_deg": summary["relative_orientation_deg"],
+        "converged_at_s": summary["converged_at_s"],
+        "min_distance_m": summary["min_distance_m"],
+        "triggered_at_s": summary["triggered_at_s"],
+        "triggered_at_distance_m": summary["triggered_at_distance_m"],
+        "min_zmp_margin_m": summary["min_zmp_margin_m"],
+        "max_com_velocity_jump_m_s": summary["max_com_velocity_jump_m_s"],
+        **_evasion(result),
+    }
+    for name in ("misled_s", "lost_s", "detection_rate", "false_detections"):
+        if name in summary:
+            record[name] = summary[name]
+    record["digest"] = digest_of(result)
+    record["wall_s"] = round(perf_counter() - began, 3)
+    return record | _stamp()
+
+
+def _evasion(result: DuelResult) -> Record:
+    """Closest approach while evading, and what is certain of the template.
+
+    The certificate is that of two unicycles that start like the torsos at
+    the moment evasion begins, with an evader that keeps its side.
+    """
+    found: Record = {"evading_min_distance_m": None, "certified_m": None}
+    if result.triggered_at is None or result.settings.pursuer != "robot":
+        return found
+    arrays = result.arrays
+    since = arrays["times_s"] >= result.triggered_at - 1e-9
+    if not since.any():
+        return found
+    apart = distance_over_time(arrays)[since]
+    found["evading_min_distance_m"] = float(apart.min())
+    first = int(np.argmax(since))
+    start = Start.from_world(
+        Pose(*arrays["pursuer_torso"][first].tolist()),
+        Pose(*arrays["evader_torso"][first].tolist()),
+    )
+    gait, strategy = result.settings.gait, result.settings.strategy
+    try:
+        game = make_game(
+            *(gait.speed, gait.speed, gait.gain, gait.gain),
+            strategy.angle,
+            "saturated" if strategy.saturated else "proportional",
+            side_rule="latched",
+        )
+        certificate = certify(game, start)
+    except PlanError:  # not a game that the certificate speaks of
+        return found
+    if certificate.holds:
+        found["certified_m"] = certificate.distance_m
+    return found
+
+
+def digest_of(result: DuelResult) -> str:
+    """Fingerprint of every number that was recorded of a duel."""
+    digest = sha256()
+    for name in sorted(result.arrays):
+        digest.update(name.encode())
+        digest.update(np.ascontiguousarray(result.arrays[name]).tobytes())
+    return digest.hexdigest()[:12]
+
+
+def run_duels(
+    settings: DuelSettings,
+    seeds: Sequence[int],
+    file: RecordFile | None,
+    executor: Executor,
+    report: Callable[[int], None] | None = None,
+    done: dict[str, Record] | None = None,
+) -> dict[str, Record]:
+    """Play what a file of records does not hold yet.
+
+    Args:
+        settings: Of every duel but for the seed.
+        seeds: One duel each.
+        file: Where records are kept as they come; None keeps nothing. One
+            that was made by another version of the code is made again.
+        executor: Any executor of ``concurrent.futures``.
+        report: Called with the number of duels that are done.
+        done: Filled with the records as they come, for whoever stops it.
+
+    Returns:
+        Records by key, in the order of the seeds.
+    """
+    wanted = {
+        key_of(one): one
+        for one in (replace(settings, seed=seed) for seed in seeds)
+    }
+    results: dict[str, Record] = {} if done is None else done
+    if file is not None:
+        results |= {
+            key: record
+            for key, record in file.read().items()
+            if key in wanted and is_current(record)
+        }
+    if report is not None:
+        report(len(results))
+    futures = {
+        executor.submit(play_record, one): key
+        for key, one in wanted.items()
+        if key not in results
+    }
+    try:
+        for future in as_completed(futures):
+            key = futures[future]
+            results[key] = future.result()
+            if file is not None:
+                file.append(key, results[key])
+            if report is not None:
+                report(len(results))
+    except BaseException:
+        for future in futures:
+            future.cancel()
+        raise
+    return {key: results[key] for key in wanted}
+
+
+def is_current(record: Record) -> bool:
+    """Whether this version of the code and libraries made a record.
+
+    A record that another version made counts, too, once
+    :func:`verify_duels` has found that the two play the same.
+    """
+    now = _stamp()
+    stamp = record.get("verified", record)
+    return all(stamp.get(name) == now[name] for name in now)
+
+
+def verify_duels(
+    settings: DuelSettings,
+    file: RecordFile,
+    number: int,
+    executor: Executor,
+) -> tuple[list[int], list[int]]:
+    """Hold records of an older version against duels played anew.
+
+    If every one of some drawn records comes out the same, all of them are
+    marked as verified by this version: by whom they were played stays.
+
+    Args:
+        settings: Of every duel but for the seed.
+        file: Records.
+        number: How many to play again.
+        executor: Any executor of ``concurrent.futures``.
+
+    Returns:
+        Seeds that were played again, and those that came out otherwise.
+    """
+    own = settings_hash(settings)
+    records = file.read()
+    old = [key for key in records if key.endswith("/" + own)]
+    drawn = named_generator(0, "verify").permutation(len(old))[:number]
+    keys = [old[i] for i in sorted(drawn.tolist())]
+    tasks = [replace(settings, seed=records[key]["seed"]) for key in keys]
+    differ = [
+        int(records[key]["seed"])
+        for key, new in zip(
+            keys, executor.map(play_record, tasks), strict=True
+        )
+        if _substance(new) != _substance(records[key])
+    ]
+    if keys and not differ:
+        stamp = _stamp() | {"replayed": len(keys)}
+        for key in old:
+            records[key]["verified"] = stamp
+        file.write(records)
+    return [int(records[key]["seed"]) for key in keys], differ
+
+
+def _substance(record: Record) -> Record:
+    return {k: v for k, v in record.items() if k not in MACHINE}
+
+
+def stamps_of(records: Iterable[Record]) -> Record:
+    """Which versions played records, for whoever keeps what they say.
+
+    Returns:
+        ``version`` and ``libraries`` that played them, and ``verified``:
+        versions that were found to play the same, if any. Lists where there
+        is more than one.
+    """
+    stamps: dict[str, list[Any]] = {}
+    for record in records:
+        for name in ("version", "libraries", "verified"):
+            value = record.get(name)
+            found = stamps.setdefault(name, [])
+            if value is not None and value not in found:
+                found.append(value)
+    return {
+        name: found[0] if len(found) == 1 else found
+        for name, found in stamps.items()
+        if found
+    }

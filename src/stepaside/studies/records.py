@@ -1,0 +1,93 @@
+"""Results of a long study on disk: one whole, checked record a line."""
+
+import json
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+DIGITS = 12
+
+
+class RecordFile:
+    """Records by key; what was cut off or altered is done again.
+
+    A line holds a key, a record and a checksum of both. Lines that are torn
+    or foreign are kept beside the file, with ``.aside`` behind its name, and
+    count as not done.
+
+    Attributes:
+        path: JSON lines.
+        aside: How many lines were set aside.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Open a file of records, or a place for one; nothing is written."""
+        self.path = path
+        self.aside = 0
+
+    def read(self) -> dict[str, dict[str, Any]]:
+        """Records by key; of several with one key, the last."""
+        if not self.path.exists():
+            return {}
+        found: dict[str, dict[str, Any]] = {}
+        bad: list[str] = []
+        text = self.path.read_text(encoding="utf-8", errors="replace")
+        for line in text.splitlines():
+            entry = _parse(line)
+            if entry is None:
+                bad.append(line)
+            else:
+                found[entry[0]] = entry[1]
+        if bad:
+            self._set_aside(bad, found)
+        return found
+
+    def append(self, key: str, record: dict[str, Any]) -> None:
+        """Add one record."""
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        with self.path.open("a", encoding="utf-8") as out:
+            out.write(_line(key, record))
+
+    def write(self, records: dict[str, dict[str, Any]]) -> None:
+        """Replace the file by these records, whole or not at all."""
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        draft = self.path.with_name(self.path.name + ".draft")
+        draft.write_text(
+            "".join(_line(key, record) for key, record in records.items()),
+            encoding="utf-8",
+        )
+        draft.replace(self.path)
+
+    def _set_aside(
+        self, lines: list[str], good: dict[str, dict[str, Any]]
+    ) -> None:
+        """Move bad lines out of the way, so that none grows onto them."""
+        self.aside += len(lines)
+        place = self.path.with_name(self.path.name + ".aside")
+        with place.open("a", encoding="utf-8") as out:
+            out.writelines(line + "\n" for line in lines)
+        self.write(good)
+
+
+def _line(key: str, record: dict[str, Any]) -> str:
+    check = _checksum(key, record)
+    line = {"key": key, "check": check, "record": record}
+    return json.dumps(line, allow_nan=False) + "\n"
+
+
+def _checksum(key: str, record: Any) -> str:
+    text = json.dumps([key, record], sort_keys=True)
+    return sha256(text.encode()).hexdigest()[:DIGITS]
+
+
+def _parse(line: str) -> tuple[str, dict[str, Any]] | None:
+    """Key and record of a line; None unless it is whole."""
+    try:
+        entry = json.loads(line)
+        key, record = entry["key"], entry["record"]
+        whole = entry["check"] == _checksum(key, record)
+    except (ValueError, TypeError, KeyError, RecursionError):
+        return None
+    if whole and isinstance(key, str) and isinstance(record, dict):
+        return key, record
+    return None
