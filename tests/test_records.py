@@ -1,0 +1,70 @@
+"""Test records on disk: whole lines or none."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from stepaside.studies.records import RecordFile
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> RecordFile:
+    """File with two records."""
+    records = RecordFile(tmp_path / "records.jsonl")
+    records.append("a", {"x": 1.5})
+    records.append("b", {"x": 2.5, "none": None})
+    return records
+
+
+def test_what_is_appended_is_read(file: RecordFile) -> None:
+    assert file.read() == {"a": {"x": 1.5}, "b": {"x": 2.5, "none": None}}
+    assert file.aside == 0
+
+
+def test_of_two_records_with_a_key_the_last_counts(file: RecordFile) -> None:
+    file.append("a", {"x": 3.0})
+    assert file.read()["a"] == {"x": 3.0}
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        '{"key": "c", "check": "0", "rec',
+        '{"key": "c", "check": "000000000000", "record": {}}',
+        '["c"]',
+        "123",
+        "[" * 100_000,
+        '{"key": 1, "check": 2, "record": 3}',
+    ],
+)
+def test_torn_and_foreign_lines_are_set_aside(
+    file: RecordFile, line: str
+) -> None:
+    with file.path.open("a", encoding="utf-8") as out:
+        out.write(line)
+    assert set(file.read()) == {"a", "b"}
+    assert file.aside == 1
+    aside = file.path.with_name("records.jsonl.aside")
+    assert aside.read_text(encoding="utf-8") == line + "\n"
+    file.append("c", {"x": 4.0})  # not glued to what was torn
+    assert set(RecordFile(file.path).read()) == {"a", "b", "c"}
+
+
+def test_an_altered_number_is_noticed(file: RecordFile) -> None:
+    text = file.path.read_text(encoding="utf-8").replace("1.5", "1.6")
+    file.path.write_text(text, encoding="utf-8")
+    assert set(file.read()) == {"b"}
+
+
+def test_a_record_under_another_key_is_noticed(file: RecordFile) -> None:
+    lines = file.path.read_text(encoding="utf-8").splitlines()
+    entry = json.loads(lines[0]) | {"key": "z"}
+    file.path.write_text(json.dumps(entry) + "\n", encoding="utf-8")
+    assert file.read() == {}
+
+
+def test_no_file_holds_nothing_and_is_not_made(tmp_path: Path) -> None:
+    file = RecordFile(tmp_path / "none.jsonl")
+    assert file.read() == {}
+    assert not file.path.exists()
