@@ -181,20 +181,48 @@ def test_zmp_stays_inside_the_soles() -> None:
 
 
 def test_horizon_of_five_steps_decides_the_next_one() -> None:
-    """Truncation: the DCM at the start of a short and of a long plan."""
+    """Truncation: how the next step begins after a short and a long plan.
+
+    The CoM of now is given, so what a horizon decides is the DCM at the end
+    of the step; it falls by exp(-eta T) with every footstep.
+    """
     state = CenterState((0.01, 0.03), (0.05, -0.1))
-    plans = [
-        PLANNER.plan(
+    ends = []
+    for count in (3, 4, 5, 20):
+        plan = PLANNER.plan(
             0.6,
             Direction.FORWARD,
             first_foot=Foot.LEFT,
             state=state,
             count=count,
         )
-        for count in (5, 20)
-    ]
-    shifts = [plan.correction for plan in plans]
-    np.testing.assert_allclose(shifts[0], shifts[1], atol=1e-7)
+        end = plan.sample([plan.schedule.first_step_duration])
+        ends.append([end.dcm[0], end.com[0]])
+    off = [np.hypot(*(dcm - ends[-1][0])) for dcm, _ in ends[:-1]]
+    gait = PLANNER.settings
+    fade = np.exp(-gait.eta * gait.step_duration)
+    assert off[1] == pytest.approx(fade * off[0], rel=0.05)
+    assert off[2] == pytest.approx(fade * off[1], rel=0.05)
+    assert 1e-7 < off[2] < 2e-7
+    assert np.hypot(*(ends[2][1] - ends[-1][1])) < 0.5 * off[2]
+
+
+def test_acceleration_jumps_after_a_plan_of_one_step_only() -> None:
+    """It ends midway between the feet; so no horizon may be 1."""
+    state = CenterState((0.01, 0.03), (0.05, -0.1))
+    for count, jumps in ((1, True), (2, False)):
+        plan = PLANNER.plan(
+            0.0,
+            Direction.FORWARD,
+            first_foot=Foot.LEFT,
+            state=state,
+            count=count,
+        )
+        zmp = plan.sample([plan.schedule.first_step_duration]).zmp[0]
+        jump = np.hypot(*(zmp - plan.inputs[1]))  # from there to the foot
+        assert (PLANNER.settings.eta**2 * jump > 1.8) == jumps
+    with pytest.raises(PlanError, match="horizon must be 2 .*midway.* got 1"):
+        replace(GaitSettings(), horizon=1)
 
 
 def test_halt_ends_at_rest_with_the_feet_abreast() -> None:
@@ -217,7 +245,7 @@ def test_halt_ends_at_rest_with_the_feet_abreast() -> None:
         ("stride", float("inf")),
         ("foot_spacing", 0.05),
         ("zmp_profile", "quintic"),
-        ("horizon", 0),
+        ("horizon", 1),
         ("step_height", -0.01),
         ("zmp_forward", 0.2),
     ],

@@ -19,7 +19,8 @@ METHODS = ("open-loop", "closed-form", "measured", "mpc")
     "kinds",
     type=click.Choice(KINDS),
     multiple=True,
-    help="Disturbance, any number of times; all by default.",
+    help="Disturbance, any number of times; all by default. Of pushes the "
+    "largest one survived is searched, to 0.1 N s.",
 )
 @click.option(
     "--method",
@@ -78,34 +79,34 @@ def robustness(
     A campaign that was stopped goes on where it was when it is started
     again with the same folder.
     """
+    from ..studies.limits import push_cases
+    from ..studies.pushes import pushes_result
     from ..studies.robustness import UNITS, trials
     from ..studies.survival import (
         limit_rows,
+        push_survival_rows,
         summarise_limits,
         survival_rows,
     )
 
-    grid = list(
-        trials(
-            kinds or KINDS,
-            methods or ("open-loop", "measured"),
-            body,
-            phases=phases,
-            seeds=seeds,
-            first_seed=seed,
-        )
-    )
+    kinds, methods = kinds or KINDS, methods or ("open-loop", "measured")
+    grid = list(trials(kinds, methods, body, seeds=seeds, first_seed=seed))
+    cases = []
+    if "push" in kinds:
+        cases = list(push_cases(methods, body, phases=phases, seed=seed))
     if output is None and not as_json:
         output = Path("runs") / f"robustness-{body}"
     if output is not None:
         output.mkdir(parents=True, exist_ok=True)
     file = None if output is None else output / "trials.jsonl"
-    results, stopped = _run(grid, file, workers)
-    rows, limits = survival_rows(grid, results), limit_rows(grid, results)
+    results, stopped = _run(grid, cases, file, workers)
+    limits = limit_rows(cases, results)
+    rows = survival_rows(grid, results) + push_survival_rows(limits)
     answer: dict[str, Any] = {
         "body": body,
         "trials": len(results),
         "planned": len(grid),
+        "push_cases": len(cases),
         "survival": rows,
         "limits": limits,
         "limits_by_method": summarise_limits(limits),
@@ -119,6 +120,12 @@ def robustness(
         draw_survival(rows, UNITS, output / "survival.png")
         if limits:
             draw_limits(limits, output / "limits.png")
+            made = pushes_result(
+                limits, methods, body, phases=phases, seed=seed
+            )
+            (output / "pushes.json").write_text(
+                json.dumps(made, indent=1) + "\n", encoding="utf-8"
+            )
     if as_json:
         print_json(answer)
     else:
@@ -129,7 +136,7 @@ def robustness(
 
 
 def _run(
-    grid: list[Any], file: Path | None, workers: int | None
+    grid: list[Any], cases: list[Any], file: Path | None, workers: int | None
 ) -> tuple[dict[str, bool], bool]:
     """Run with a progress bar; whether Ctrl-C stopped it."""
     from concurrent.futures import ProcessPoolExecutor
@@ -137,13 +144,17 @@ def _run(
 
     from tqdm import tqdm
 
+    from ..studies.limits import search_limits
     from ..studies.robustness import run_campaign
 
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     done: dict[str, bool] = {}
     with (
         tqdm(
-            total=len(grid), desc="robustness", unit="walk", disable=None
+            total=len(grid) + len(cases),
+            desc="robustness",
+            unit="job",
+            disable=None,
         ) as bar,
         ProcessPoolExecutor(workers, get_context("spawn")) as executor,
     ):
@@ -154,6 +165,13 @@ def _run(
 
         try:
             run_campaign(grid, file, executor, report, done)
+            search_limits(
+                cases,
+                file,
+                executor,
+                lambda number: report(len(grid) + number),
+                done,
+            )
         except KeyboardInterrupt:
             return done, True
     return done, False
@@ -176,6 +194,8 @@ def _print(
         )
     if not limits:
         return
+    from ..studies.survival import summarise_limits
+
     click.echo("\nlargest push survived / pendulum's bound [N s], by phase")
     for method in dict.fromkeys(r["method"] for r in limits):
         for direction in dict.fromkeys(r["direction"] for r in limits):
@@ -185,3 +205,10 @@ def _print(
                 if (r["method"], r["direction"]) == (method, direction)
             )
             click.echo(f"{method:<12} {direction:<9} {cells}")
+    click.echo("\nmeasured over the bound: median, least, most; above it")
+    for method, found in summarise_limits(limits).items():
+        click.echo(
+            f"{method:<12} {found['median_of_bound']:.2f} "
+            f"{found['least_of_bound']:.2f} {found['most_of_bound']:.2f}  "
+            f"{found['above_bound']} of {found['cases']}"
+        )

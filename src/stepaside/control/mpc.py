@@ -10,10 +10,14 @@ plan's, the motion stays bounded exactly if
 
 where the tail is what is assumed beyond the horizon: the plan's own ZMP
 (anticipative: 0), a ZMP that rests (truncated), or one whose velocity repeats
-(periodic). The ZMP has to stay in the sole, or, in double support, in a box
-that moves from one sole to the next.
+(periodic). The ZMP has to stay under the feet on the floor
+(:mod:`stepaside.planning.support`), at the end of each sample and whenever a
+foot lands or leaves. Between these instants the added ZMP runs straight, and
+so does the plan's, but for its correction (27 a / T^2 in curvature, at most
+0.06 of its amplitude a between two samples) and for the cubic profile.
 """
 
+from math import hypot
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -21,12 +25,27 @@ import numpy as np
 
 from ..errors import ConfigurationError
 from ..planning import GaitSettings, ManeuverPlan
+from ..planning.zmp import evaluate
 from ..poses import Array
 from .settings import MpcSettings
-from .step import zmp_box
 
 EQUALITY = 5  # sense of a constraint in the solver
-SLACK = 1e6  # weight of a boundedness that cannot be met
+INFEASIBLE = -1  # what it answers; others below 1 mean that it gave up
+PRECISION = 1e-6  # an excess below this is none, in [m]
+# Weight of a boundedness that cannot be met against the cost of moving the
+# ZMP: so large that the excess is the least there is to a micrometre.
+SLACK = 1e11
+
+
+class _Feet(NamedTuple):
+    """Support of one plan, each phase with the same number of half planes."""
+
+    plan: ManeuverPlan
+    starts: Array
+    single: np.ndarray
+    normals: Array
+    offsets: Array
+    zmp: Array
 
 
 class MpcResult(NamedTuple):
@@ -70,28 +89,24 @@ class IntrinsicallyStableMpc:
             ConfigurationError: If the solver is not installed.
         """
         self._solver = _solver()
-        self.settings, self._gait, self._edge = settings, gait, edge
+        self.settings, self._edge = settings, edge
         n = settings.steps * settings.samples
         self.interval = delta = gait.step_duration / settings.samples
         eta = gait.eta
-        self._times: Array = np.linspace(delta, n * delta, n)
+        self._ends: Array = np.linspace(delta, n * delta, n)
         fade = np.exp(-eta * delta)
         self._kappa = fade ** np.arange(n) * (1.0 - fade) / eta
         self._end = float(fade**n)
-        self._sum = delta * np.tri(n)
-        cost = np.eye(n) + settings.pull * self._sum.T @ self._sum
-        zero = np.zeros((n, n))
-        self._cost = np.block([[cost, zero], [zero, cost]])
-        self._drift = settings.pull * self._sum.sum(axis=0)
-        row, none = self._kappa, np.zeros(n)
-        bounded = np.array([[*row, *none], [*none, *row]])
-        self._rows = np.vstack([np.zeros((2 * n, 2 * n)), bounded])
-        self._sense = np.zeros(2 * n + 2, dtype=np.int32)
-        self._sense[-2:] = EQUALITY
+        total = delta * np.tri(n)
+        cost = np.eye(n) + settings.pull * total.T @ total
+        none = np.zeros((n, n))
+        self._cost = np.block([[cost, none], [none, cost]])
+        self._drift = settings.pull * total.sum(axis=0)
+        self._bounded = np.kron(np.eye(2), self._kappa)
         self._soft_cost = np.zeros((2 * n + 2, 2 * n + 2))
         self._soft_cost[: 2 * n, : 2 * n] = self._cost
         self._soft_cost[-2:, -2:] = SLACK * np.eye(2)
-        self._model: Any = None
+        self._feet: _Feet | None = None
 
     def solve(
         self, plan: ManeuverPlan, passed: float, dcm: Array, zmp: Array
@@ -105,27 +120,29 @@ class IntrinsicallyStableMpc:
             zmp: ZMP less the plan's, likewise.
         """
         began = perf_counter()
-        times: Array = passed + self._times
-        rows, low, high = self._constraints(plan, times, zmp)
+        rows, high, soon = self._constraints(plan, passed, zmp)
         wanted = self._wanted(plan, passed, dcm, zmp)
-        low = np.concatenate([low, wanted])
-        high = np.concatenate([high, wanted])
         gradient = np.concatenate([self._drift * zmp[0], self._drift * zmp[1]])
-        if self._model is None:
-            self._model = self._solver.Model()
-            self._model.setup(
-                self._cost, gradient, rows, high, low, self._sense
-            )
-        else:
-            self._model.update(f=gradient, A=rows, bupper=high, blower=low)
-        w, _, flag, info = self._model.solve()
+        w, flag, info = self._program(self._cost, gradient, rows, high, wanted)
         excess, feasible = (0.0, 0.0), flag > 0
         if not feasible:
-            w, excess, info = self._best(gradient, rows, high, low)
-            self._model = None
-        n = self._kappa.size
+            gave_up = flag != INFEASIBLE
+            w, flag, info = self._program(
+                self._soft_cost, gradient, rows, high, wanted
+            )
+            if flag <= 0:  # the ZMP itself is where no foot is
+                w, flag, info = self._program(
+                    self._soft_cost,
+                    gradient,
+                    rows,
+                    np.maximum(high, soon),
+                    wanted,
+                )
+            excess = float(w[-2]), float(w[-1])
+            if gave_up and hypot(*excess) < PRECISION:
+                excess, feasible = (0.0, 0.0), True
         return MpcResult(
-            (float(w[0]), float(w[n])),
+            (float(w[0]), float(w[self._kappa.size])),
             feasible,
             excess,
             int(info["iterations"]),
@@ -133,23 +150,48 @@ class IntrinsicallyStableMpc:
         )
 
     def _constraints(
-        self, plan: ManeuverPlan, times: Array, zmp: Array
+        self, plan: ManeuverPlan, passed: float, zmp: Array
     ) -> tuple[Array, Array, Array]:
-        """Rows and bounds that keep the ZMP in the feet at given times."""
-        n = self._kappa.size
-        centre, theta, low, high = support_boxes(plan, times, self._edge)
-        planned = plan.sample(times).zmp
-        c, s = np.cos(theta), np.sin(theta)
-        rows = self._rows
-        rows[:n, :n], rows[:n, n:] = (
-            c[:, None] * self._sum,
-            (s[:, None] * self._sum),
+        """Half planes that keep the ZMP under the feet.
+
+        Returns:
+            Rows and bounds on the velocities, and what the bounds of the
+            first sample have to be for a ZMP that heads straight back to
+            the plan's. Shapes (m, 2 n), (m,), (m,).
+        """
+        feet = self._feet
+        if feet is None or feet.plan is not plan:
+            feet = self._feet = _feet(plan)
+        delta, span = self.interval, float(self._ends[-1])
+        ends = passed + self._ends
+        changes = feet.starts[1:]
+        inside = (changes > passed) & (changes < passed + span)
+        # When a foot lands or leaves, the phase of the one foot decides.
+        after = np.nonzero(inside)[0] + 1
+        times = np.concatenate([ends, changes[inside]])
+        last = np.searchsorted(feet.starts, ends, side="right") - 1
+        phase = np.concatenate([last, after - ~feet.single[after]])
+        ahead = times - passed
+        shares = np.clip(
+            ahead[:, None] - self._ends + delta, 0.0, delta
+        )  # time of each sample before each instant
+        normals, offsets = feet.normals[phase], feet.offsets[phase]
+        rows = (normals[..., None] * shares[:, None, None, :]).reshape(
+            -1, 2 * self._kappa.size
         )
-        rows[n : 2 * n, :n] = -s[:, None] * self._sum
-        rows[n : 2 * n, n:] = c[:, None] * self._sum
-        x, y = (planned + zmp - centre).T
-        off = np.concatenate([c * x + s * y, c * y - s * x])
-        return rows, low.T.ravel() - off, high.T.ravel() - off
+        schedule = plan.schedule
+        piece, local = schedule.zmp_map.locate(times)
+        local = np.minimum(local, schedule.durations[piece])
+        planned = evaluate(feet.zmp[:, piece], local)
+        room = offsets - self._edge - (normals @ planned[..., None])[..., 0]
+        held = (normals @ zmp).ravel()
+        room = room.ravel()
+        left = np.maximum(1.0 - ahead / delta, 0.0)
+        back = np.repeat(left, normals.shape[1]) * held
+        keep = np.isfinite(room)
+        high = room - held
+        soon = np.where(back == 0.0, high, back - held)
+        return rows[keep], high[keep], soon[keep]
 
     def _wanted(
         self, plan: ManeuverPlan, passed: float, dcm: Array, zmp: Array
@@ -158,7 +200,7 @@ class IntrinsicallyStableMpc:
         wanted: Array = dcm - zmp
         if self.settings.tail == "anticipative":
             return wanted
-        span = float(self._times[-1])
+        span = float(self._ends[-1])
         samples = plan.sample([passed, passed + span])
         lead = samples.dcm - samples.zmp
         if self.settings.tail == "truncated":
@@ -169,65 +211,51 @@ class IntrinsicallyStableMpc:
         wanted = (1.0 - self._end) * (wanted + lead[0]) - inside
         return wanted
 
-    def _best(
-        self, gradient: Array, rows: Array, high: Array, low: Array
-    ) -> tuple[Array, tuple[float, float], Any]:
-        """Least unbounded motion, for a DCM that cannot be held."""
-        slack = np.zeros((rows.shape[0], 2))
-        slack[-2:] = np.eye(2)
-        w, _, _, info = self._solver.solve(
-            self._soft_cost,
-            np.concatenate([gradient, np.zeros(2)]),
-            np.hstack([rows, slack]),
-            high,
-            low,
-            self._sense,
+    def _program(
+        self,
+        cost: Array,
+        gradient: Array,
+        rows: Array,
+        high: Array,
+        wanted: Array,
+    ) -> tuple[Array, int, Any]:
+        """Solve for the velocities, and for the excess if the cost has it."""
+        count, extra = high.size, cost.shape[0] - gradient.size
+        matrix = np.zeros((count + 2, cost.shape[0]))
+        matrix[:count, : gradient.size] = rows
+        matrix[count:, : gradient.size] = self._bounded
+        if extra:
+            matrix[count:, gradient.size :] = np.eye(2)
+        sense = np.zeros(count + 2, dtype=np.int32)
+        sense[count:] = EQUALITY
+        w, _, flag, info = self._solver.solve(
+            cost,
+            np.concatenate([gradient, np.zeros(extra)]),
+            matrix,
+            np.concatenate([high, wanted]),
+            np.concatenate([np.full(count, -np.inf), wanted]),
+            sense,
         )
-        return w, (float(w[-2]), float(w[-1])), info
+        return w, int(flag), info
 
 
-def support_boxes(
-    plan: ManeuverPlan, times: Array, edge: float
-) -> tuple[Array, Array, Array, Array]:
-    """Boxes that the ZMP has to stay in, in the plan frame.
-
-    Args:
-        plan: Plan.
-        times: Times since it began, in [s]. Shape (n,).
-        edge: Distance kept from the edge of the soles, in [m].
-
-    Returns:
-        Centers [m], headings [rad], and lowest and highest shift [m] along
-        the heading and to its left. Shapes (n, 2), (n,), (n, 2), (n, 2).
-    """
-    gait = plan.schedule.settings
-    walked = times - (gait.start_support if plan.schedule.standing else 0.0)
-    step = np.floor(walked / gait.step_duration)
-    step = np.clip(step, 0, plan.schedule.count - 1).astype(int)
-    stood = walked - step * gait.step_duration - gait.single_support
-    share = np.clip(stood / gait.double_support, 0.0, 1.0)
-    theta = plan.placements[:, 2]
-    ahead = gait.zmp_forward * np.column_stack([np.cos(theta), np.sin(theta)])
-    anchors = plan.placements[:, :2] + ahead
-    first = np.array(zmp_box(plan.first_foot, gait, edge))
-    second = np.array(zmp_box(plan.first_foot.other, gait, edge))
-    even = (step % 2 == 0)[:, None]
-    weight = share[:, None]
-
-    def between(now: Array, then: Array) -> Array:
-        mixed: Array = now + weight * (then - now)
-        return mixed
-
-    low = between(
-        np.where(even, first[0], second[0]),
-        np.where(even, second[0], first[0]),
+def _feet(plan: ManeuverPlan) -> _Feet:
+    """Half planes of a plan; what a phase lacks of them is infinite."""
+    phases = plan.support()
+    most = max(phase.offsets.size for phase in phases)
+    normals = np.zeros((len(phases), most, 2))
+    offsets = np.full((len(phases), most), np.inf)
+    for i, phase in enumerate(phases):
+        normals[i, : phase.offsets.size] = phase.normals
+        offsets[i, : phase.offsets.size] = phase.offsets
+    return _Feet(
+        plan,
+        np.array([phase.start for phase in phases]),
+        np.array([phase.single for phase in phases]),
+        normals,
+        offsets,
+        plan.zmp_coefficients,
     )
-    high = between(
-        np.where(even, first[1], second[1]),
-        np.where(even, second[1], first[1]),
-    )
-    turned = theta[step + 1] + share * (theta[step + 2] - theta[step + 1])
-    return between(anchors[step + 1], anchors[step + 2]), turned, low, high
 
 
 def _solver() -> Any:

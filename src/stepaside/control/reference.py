@@ -127,16 +127,3 @@ class ReferenceTable:
             if len(self._samplers) < CACHED:
                 self._samplers[key] = sampler
         return sampler
-
-
-def landing_center(
-    frame: Pose, plan: ManeuverPlan
-) -> tuple[tuple[float, float], tuple[float, float]]:
-    """CoM at the end of the first step, in a frame given in the plan's."""
-    samples = plan.sample(plan.schedule.first_step_sampler)
-    back = frame.inverse()
-    x, y = samples.com[0].tolist()
-    vx, vy = samples.com_velocity[0].tolist()
-    position = back.compose(Pose(x, y, 0.0))
-    velocity = Pose(0.0, 0.0, back.theta).compose(Pose(vx, vy, 0.0))
-    return position[:2], velocity[:2]

@@ -10,6 +10,7 @@ from ..planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
+from ..planning.steady import landing_state
 from ..poses import Array, Pose, wrap_angle
 from ..robots.kinematics import BodyReference, LegKinematics
 from .body import Measurement, Sighting
@@ -18,7 +19,6 @@ from .phase import Phase
 from .reference import (
     ReferenceTable,
     Row,
-    landing_center,
     standing_reference,
 )
 from .roles import Role
@@ -192,7 +192,7 @@ class ControlScheme:
         """End a step: the foot that landed supports, and a plan follows."""
         step = Pose(*plan.placements[2].tolist())
         landed = self.plan_frame.compose(step)
-        position, velocity = landing_center(step, plan)
+        position, velocity = landing_state(plan)
         if self.stabiliser is not None:
             landed, position, velocity = self.stabiliser.land(
                 landed, position, velocity, self.step(self._plan_ends)

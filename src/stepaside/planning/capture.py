@@ -1,4 +1,4 @@
-r"""How hard a push the linear inverted pendulum can take in a step.
+r"""Largest push after which the linear inverted pendulum can be held.
 
 An impulse J at the CoM moves the DCM by :math:`J / (m \eta)`. A ZMP whose
 mean, weighted by :math:`e^{-\eta t}`, is p takes the DCM over a time T to
@@ -7,9 +7,21 @@ mean, weighted by :math:`e^{-\eta t}`, is p takes the DCM over a time T to
 
 so the DCMs that can be brought into a convex set X by ZMPs out of a convex
 set P are :math:`e^{-\eta T} X \oplus (1 - e^{-\eta T}) P`, again convex.
+
+A footstep f out of a convex set F brings a sole B + f beside the sole A that
+stands. The DCMs that the two feet then hold for good are their hull, and the
+union of these hulls over all f is convex, too: it is the hull of A and
+:math:`F \oplus B`, for a mean of a in A and b + f in B + f is one of a and
+a point of :math:`F \oplus B`.
+
+What this bounds is a pendulum: a point mass at a constant height, with flat
+feet of the sole's size, its ZMP anywhere under the feet on the floor and as
+fast as it likes, and footsteps that land when planned, parallel to the foot
+that stands. Whatever turns the body about its CoM, raises it, or lands at
+another time is outside it.
 """
 
-from math import cos, exp, sin
+from math import cos, exp, expm1, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -23,7 +35,10 @@ from ..errors import (
 from ..poses import Array
 from .footsteps import Foot
 from .plan import ManeuverPlan
+from .settings import GaitSettings
 from .support import convex_hull, sole_corners
+
+MOST_STEPS = 20  # more change nothing: each counts by exp(-eta T)
 
 
 class Reach(NamedTuple):
@@ -48,21 +63,29 @@ def push_bound(
     direction: float,
     mass: float,
     reach: Reach,
+    *,
+    lasts: float = 0.0,
+    steps: int = 1,
 ) -> float:
-    """Largest impulse after which the DCM can still be held.
+    r"""Largest push that can be held, and every smaller one too.
 
-    It can be held where it is, by the feet on the floor, or by the footstep
-    after it, which lands when planned, parallel to its support foot, within
-    reach and without crossing. In double support the sole in which the ZMP
-    may be moves from foot to foot.
+    It is held by the feet on the floor, or by footsteps within reach that
+    land when planned, the first in place of the next that is planned.
+
+    A push that lasts is a constant force, and the ZMP is free from its
+    begin: with :math:`h = \eta T` it moves the DCM by the factor
+    :math:`(1 - e^{-h}) / h` less than an impulse at its begin would.
 
     Args:
         plan: Plan being walked.
-        time: When the push comes, since the plan began, in [s]; within its
+        time: When the push begins, since the plan began, in [s]; within its
             first step.
         direction: Of the push, from the support foot's heading, in [rad].
         mass: Of the body, in [kg].
         reach: Where a footstep may land.
+        lasts: How long the push lasts, in [s]; 0 is an impulse.
+        steps: Footsteps that may be made, one by default. After a halt none
+            follow.
 
     Returns:
         Impulse at the CoM, in [N s]; 0 if the DCM cannot be held at all.
@@ -73,70 +96,59 @@ def push_bound(
     check_positive(mass, "mass", "kg")
     check_finite(direction, "direction", "rad")
     check_within(time, 0.0, plan.schedule.first_step_duration, "time", "s")
+    check_not_negative(lasts, "lasts", "s")
+    check_within(steps, 0, MOST_STEPS, "steps", "1")
     for name, value in reach._asdict().items():
         check_not_negative(value, f"reach.{name}", "m")
     dcm = plan.sample([time]).dcm[0]
     heading = np.array([cos(direction), sin(direction)])
-    regions = (
-        held_without_step(plan, time),
-        held_with_step(plan, time, reach),
-    )
+    eta = plan.schedule.settings.eta
     shift = 0.0
     # Every smaller push must be held too, whichever region holds it.
     for enter, leave in sorted(
-        ray_interval(dcm, heading, region) for region in regions
+        ray_interval(dcm, heading, region)
+        for region in held_regions(plan, time, reach, steps)
     ):
         if enter <= shift:
             shift = max(shift, leave)
-    return mass * plan.schedule.settings.eta * shift
+    h = eta * lasts
+    spread = h / -expm1(-h) if h > 0.0 else 1.0
+    return mass * eta * shift * spread
 
 
-def held_without_step(plan: ManeuverPlan, time: float) -> Array:
-    """DCMs that the feet on the floor hold for good.
-
-    Args:
-        plan: Plan being walked.
-        time: Since it began, in [s].
-
-    Returns:
-        Corners in the plan frame, counter-clockwise, in [m]. Shape (n, 2).
-    """
-    starting, landing, _ = _phases(plan)
-    rows = (1,) if starting <= time < landing else (1, 2)
-    if time < starting:
-        rows = (0, 1)
-    return convex_hull(np.concatenate([_sole(plan, row) for row in rows]))
-
-
-def held_with_step(plan: ManeuverPlan, time: float, reach: Reach) -> Array:
-    """DCMs that the next footstep can catch.
+def held_regions(
+    plan: ManeuverPlan, time: float, reach: Reach, steps: int
+) -> list[Array]:
+    """DCMs that can be held; each region is convex, their union need not be.
 
     Args:
         plan: Plan being walked.
         time: Since it began, in [s].
-        reach: Where that footstep may land.
+        reach: Where a footstep may land.
+        steps: Footsteps that may be made.
 
     Returns:
-        Corners in the plan frame, counter-clockwise, in [m]. Shape (n, 2).
+        Corners of each region in the plan frame, counter-clockwise, in [m]:
+        first of what the feet on the floor hold for good, then of what
+        footsteps hold. Shapes (n, 2).
     """
-    gait = plan.schedule.settings
-    starting, landing, end = _phases(plan)
-    row = 1 if time < landing else 2
-    lasts = gait.single_support
-    if starting <= time < landing:
-        lasts = landing - time
-    stance, region = _sole(plan, row), _caught(plan, row, reach)
-    region = _before(region, [(1.0, stance)], gait.eta, lasts)
-    if time < starting:
-        feet = convex_hull(np.concatenate([_sole(plan, 0), stance]))
-        region = _before(region, [(1.0, feet)], gait.eta, starting - time)
-    elif time >= landing:
-        rest = max(end - time, 0.0)
-        done = min(1.0 - rest / gait.double_support, 1.0)
-        later = done + (1.0 - done) * _lateness(gait.eta * rest)
-        soles = [(1.0 - later, _sole(plan, 1)), (later, stance)]
-        region = _before(region, soles, gait.eta, rest)
-    return region
+    gait, phases = plan.schedule.settings, plan.support()
+    now = max(i for i, phase in enumerate(phases) if phase.start <= time)
+    regions = [phases[now].corners]
+    until = now if phases[now].single else now + 1
+    if not steps or until == len(phases):
+        return regions
+    row = phases[until].rows[0]
+    x, y, theta = plan.placements[row]
+    c, s = cos(theta), sin(theta)
+    support = plan.first_foot if row % 2 == 0 else plan.first_foot.other
+    for region in _caught(gait, reach, support, steps):
+        region = region @ np.array([[c, s], [-s, c]]) + (x, y)
+        for phase in reversed(phases[now : until + 1]):
+            rest = phase.end - max(phase.start, time)
+            region = _before(region, phase.corners, gait.eta, rest)
+        regions.append(region)
+    return regions
 
 
 def ray_interval(
@@ -164,79 +176,43 @@ def ray_interval(
     return enter, leave
 
 
-def _phases(plan: ManeuverPlan) -> tuple[float, float, float]:
-    """When the first single support begins, it ends, and its step ends."""
-    gait = plan.schedule.settings
-    starting = gait.start_support if plan.schedule.standing else 0.0
-    landing = starting + gait.single_support
-    return starting, landing, landing + gait.double_support
+def _caught(
+    gait: GaitSettings, reach: Reach, support: Foot, steps: int
+) -> list[Array]:
+    """DCMs at a landing that this footstep and later ones hold.
 
-
-def _side(plan: ManeuverPlan, row: int) -> Foot:
-    """Side of a row of the placements."""
-    return plan.first_foot if row % 2 == 0 else plan.first_foot.other
-
-
-def _sole(plan: ManeuverPlan, row: int) -> Array:
-    """Corners of a sole where the plan has it. Shape (4, 2)."""
-    sole = plan.schedule.settings.sole
-    return sole_corners(plan.placements[row], _side(plan, row), sole)
-
-
-def _caught(plan: ManeuverPlan, row: int, reach: Reach) -> Array:
-    """DCMs at a landing that can be brought into the new sole.
-
-    With the weight w of the new foot f in the mean ZMP, and points a, b and
-    c of the old sole, of the new one, and of the new one at the end, it is
-    e^(-h) (f + c) + (1 - e^(-h)) ((1 - w) a + w (f + b)), h = eta D.
+    Returns:
+        Corners of convex regions in the axes of the foot that stands.
     """
-    gait = plan.schedule.settings
-    support, swing = _side(plan, row), _side(plan, row + 1)
-    here = np.zeros(3)
+    side = support.other.value
     near = 2.0 * gait.sole.inner + reach.gap
     far = max(gait.foot_spacing + reach.outward, near)
-    landings = np.array(
-        [
-            (x, swing.value * y)
-            for x in (-reach.backward, reach.forward)
-            for y in (near, far)
-        ]
-    )
-    old = sole_corners(here, support, gait.sole)
-    new = sole_corners(here, swing, gait.sole)
-    h = gait.eta * gait.double_support
-    fade, later = exp(-h), _lateness(h)
-    share = fade + (1.0 - fade) * later
-    region = _sum(share * landings, share * new)
-    region = _sum(region, (1.0 - share) * old)
-    x, y, theta = plan.placements[row]
-    c, s = cos(theta), sin(theta)
-    turned: Array = region @ np.array([[c, s], [-s, c]]) + (x, y)
-    return turned
+    ahead = (-reach.backward, reach.forward)
+    landings = np.array([(x, side * y) for x in ahead for y in (near, far)])
+    old = sole_corners(np.zeros(3), support, gait.sole)
+    new = sole_corners(np.zeros(3), support.other, gait.sole)
+    regions = [convex_hull(np.concatenate([old, _sum(landings, new)]))]
+    if steps == 1:
+        return regions
+    # Or on: hull of both for a double support, then the new foot alone, then
+    # the next landing. With the weight w of the new foot in the mean ZMP the
+    # region is linear in w, so the union is the hull of its two ends.
+    fade = exp(-gait.eta * gait.double_support)
+    for later in _caught(gait, reach, support.other, steps - 1):
+        alone = _before(later, new, gait.eta, gait.single_support)
+        stays = _sum(fade * _sum(landings, alone), (1.0 - fade) * old)
+        moves = _sum(landings, _sum(fade * alone, (1.0 - fade) * new))
+        regions.append(convex_hull(np.concatenate([stays, moves])))
+    return regions
 
 
-def _lateness(h: float) -> float:
-    """Mean of a ramp from 0 to 1 over [0, h], weighted by e^(-t)."""
-    if h < 1e-6:  # both sums below vanish
-        return 0.5 - h / 12.0
-    return 1.0 / h - exp(-h) / (1.0 - exp(-h))
-
-
-def _before(
-    region: Array,
-    soles: list[tuple[float, Array]],
-    eta: float,
-    duration: float,
-) -> Array:
-    """DCMs that weighted soles can bring into a region in a time."""
+def _before(region: Array, feet: Array, eta: float, duration: float) -> Array:
+    """DCMs that a ZMP under the feet can bring into a region in a time."""
     fade = exp(-eta * duration)
-    region = fade * region
-    for weight, sole in soles:
-        region = _sum(region, (1.0 - fade) * weight * sole)
-    return convex_hull(region)
+    return _sum(fade * region, (1.0 - fade) * feet)
 
 
 def _sum(a: Array, b: Array) -> Array:
-    """Minkowski sum of two convex polygons given by corners."""
+    """Minkowski sum of two convex polygons, one of them with an inside."""
     total: Array = (a[:, None] + b[None]).reshape(-1, 2)
-    return convex_hull(total) if np.ptp(total, axis=0).all() else total
+    return convex_hull(total)

@@ -4,15 +4,14 @@ from dataclasses import dataclass
 from math import inf
 from typing import NamedTuple
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from ..poses import Array
 from .footsteps import Foot, Footstep
 from .path import Direction
 from .schedule import Sampler, Schedule
-from .support import convex_hull, margin_inside, sole_corners
-from .zmp import evaluate
+from .support import SupportPhase, support_phases
+from .zmp import least_values
 
 
 class PlanSamples(NamedTuple):
@@ -95,8 +94,21 @@ class ManeuverPlan:
         coefficients: Array = self.schedule.zmp_map.coefficients @ self.inputs
         return coefficients
 
-    def margin(self, duration: float | None = None) -> float:
+    def support(self, duration: float = inf) -> tuple[SupportPhase, ...]:
+        """Feet on the floor over time, as half planes for the ZMP.
+
+        Args:
+            duration: Phases that begin later than this are left out, in [s].
+        """
+        return support_phases(
+            self.schedule, self.placements, self.first_foot, duration
+        )
+
+    def margin(self, duration: float = inf) -> float:
         """Least distance of the ZMP from the edge of the support polygon.
+
+        The distance from each edge is a polynomial in each phase, so its
+        least value is exact, not one of samples.
 
         Args:
             duration: Part of the plan to look at from its start, in [s];
@@ -105,32 +117,15 @@ class ManeuverPlan:
         Returns:
             Margin, in [m], negative if the ZMP leaves the polygon.
         """
-        schedule, sole = self.schedule, self.schedule.settings.sole
         coefficients = self.zmp_coefficients
-        first = 1 if schedule.standing else 0
+        until = min(duration, self.schedule.duration)
         least = inf
-        for phase, (start, lasts) in enumerate(
-            zip(schedule.starts.tolist(), schedule.durations, strict=False)
-        ):
-            if duration is not None and start >= duration - 1e-9:
-                break
-            zmp = evaluate(
-                np.repeat(coefficients[:, phase, None], 21, axis=1),
-                np.linspace(0.0, lasts, 21),
-            )
-            step, double = divmod(phase - first, 2)
-            rows = (step + 1, step + 2) if double else (step + 1,)
-            corners = [
-                sole_corners(self.placements[row], self._foot(row), sole)
-                for row in (rows if step >= 0 else (0, 1))
-            ]
-            polygon = convex_hull(np.concatenate(corners))
-            least = min(least, float(margin_inside(zmp, polygon).min()))
+        for i, phase in enumerate(self.support(duration)):
+            room = -coefficients[:, i] @ phase.normals.T
+            room[0] += phase.offsets
+            lasts = min(phase.end, until) - phase.start
+            least = min(least, float(least_values(room, lasts).min()))
         return least
-
-    def _foot(self, row: int) -> Foot:
-        """Side of a row of the placements."""
-        return self.first_foot if row % 2 == 0 else self.first_foot.other
 
     def sample(self, times: ArrayLike | Sampler) -> PlanSamples:
         """Evaluate the plan.

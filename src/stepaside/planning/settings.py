@@ -60,7 +60,9 @@ class GaitSettings:
         zmp_forward: Sagittal place of the ZMP reference in a foot frame,
             in [m].
         zmp_profile: ZMP between two feet in double support.
-        horizon: Footsteps in a replanned maneuver.
+        horizon: Footsteps in a replanned maneuver, at least 2: the last
+            one brings the ZMP midway between the feet, where no next plan
+            can begin.
         gravity: Gravitational acceleration, in [m/s^2].
         sole: Shape of the soles.
     """
@@ -97,9 +99,11 @@ class GaitSettings:
                 "zmp_profile must be 'linear' or 'cubic', "
                 f"got {self.zmp_profile!r}"
             )
-        if not isinstance(self.horizon, int) or not 1 <= self.horizon <= 1000:
+        if not isinstance(self.horizon, int) or not 2 <= self.horizon <= 1000:
             raise PlanError(
-                f"horizon must be 1 to 1000 [steps], got {self.horizon}"
+                "horizon must be 2 to 1000 [steps], for a plan of one step "
+                "ends with the ZMP midway between the feet and the next one "
+                f"begins with it in a foot, got {self.horizon}"
             )
         if self.foot_spacing <= 2.0 * self.sole.inner:
             raise PlanError(

@@ -78,3 +78,29 @@ def evaluate(coefficients: Array, local_times: Array) -> Array:
     for coefficient in coefficients[::-1]:
         value = value * s + coefficient
     return value
+
+
+def least_values(coefficients: Array, duration: float) -> Array:
+    """Least value of cubic polynomials over an interval from zero.
+
+    Args:
+        coefficients: Of the powers 0 to 3. Shape (4, n).
+        duration: Length of the interval, in [s].
+
+    Returns:
+        Least values, at an end or where the derivative vanishes. Shape (n,).
+    """
+    _, c1, c2, c3 = coefficients
+    # c1 + 2 c2 s + 3 c3 s^2 = 0 without loss of digits, whatever vanishes.
+    root = np.sqrt(np.maximum(c2 * c2 - 3.0 * c3 * c1, 0.0))
+    half = -(c2 + np.copysign(root, c2))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        turns = np.array([half / (3.0 * c3), c1 / half])
+    # Where nothing turns the candidate is an end: it does no harm.
+    turns = np.clip(np.nan_to_num(turns), 0.0, duration)
+    times = np.vstack([np.zeros_like(c1), np.full_like(c1, duration), turns])
+    values = np.polynomial.polynomial.polyval(
+        times, coefficients[:, None, :], tensor=False
+    )
+    least: Array = values.min(axis=0)
+    return least

@@ -14,6 +14,10 @@ METHOD_STYLES = {
     "measured": ("#0f7b6c", "D", "-"),
     "mpc": ("#6a3d9a", "^", "-."),
 }
+BOUNDS = (  # column, label, width of the line
+    ("bound_n_s", "pendulum's bound", 1.6),
+    ("impulse_bound_n_s", "for an impulse in the middle", 0.6),
+)
 
 
 def draw_survival(
@@ -78,7 +82,7 @@ def draw_survival(
 
 
 def draw_limits(rows: Sequence[dict[str, Any]], file: Path) -> None:
-    """Draw the largest push survived over the phase, beside the bound.
+    """Draw the largest push survived over the phase, beside the bounds.
 
     Args:
         rows: Of :func:`~stepaside.studies.survival.limit_rows`.
@@ -110,17 +114,24 @@ def draw_limits(rows: Sequence[dict[str, Any]], file: Path) -> None:
                 markersize=4,
                 label=method,
             )
-        axis.plot(
-            x,
-            [r["bound_n_s"] for r in own],
-            color=THEORY,
-            linewidth=1.6,
-            label="pendulum's bound",
-        )
+        for name, label, width in BOUNDS:
+            bounds = sorted({(r["phase"], r[name]) for r in here})
+            axis.plot(
+                *zip(*bounds, strict=True),
+                color=THEORY,
+                linewidth=width,
+                label=label,
+            )
         axis.set_title(direction)
         axis.set_xlabel("phase of the gait cycle [1]")
-        axis.set_ylim(bottom=0.0)
+    # Once all is drawn: a limit that is set ends the scaling of all axes.
+    axes.flat[0].set_ylim(bottom=0.0)
     axes.flat[0].set_ylabel("largest push survived [N s]")
-    axes.flat[0].legend(fontsize=7)
+    figure.legend(
+        *axes.flat[0].get_legend_handles_labels(),
+        loc="outside lower center",
+        ncols=6,
+        fontsize=7,
+    )
     figure.savefig(file)
     plt.close(figure)

@@ -14,6 +14,7 @@ from ..simulation.body_settings import BODIES, BodySettings
 from ..simulation.push import Push
 from ..simulation.settings import PhysicsSettings
 from ..simulation.walk import WalkSettings, run_walk
+from .results import note_result, read_results
 
 DIRECTIONS = {"left": 90.0, "right": -90.0, "forward": 0.0, "backward": 180.0}
 STRENGTHS: dict[str, tuple[float, ...]] = {
@@ -156,27 +157,15 @@ def trials(
     methods: Sequence[str],
     body: str,
     *,
-    phases: int,
     seeds: int,
     first_seed: int = 1,
 ) -> Iterator[Trial]:
-    """Grid of a campaign; a push repeats over phases, the rest over seeds."""
+    """Grid of strengths and seeds; for pushes see :mod:`.limits`."""
     for method in methods:
         for kind in kinds:
+            if kind == "push":
+                continue
             for strength in STRENGTHS[kind]:
-                if kind == "push":
-                    for direction in DIRECTIONS:
-                        for i in range(phases):
-                            yield Trial(
-                                kind,
-                                strength,
-                                direction,
-                                i / phases,
-                                first_seed,
-                                method,
-                                body,
-                            )
-                    continue
                 for seed in range(first_seed, first_seed + seeds):
                     yield Trial(kind, strength, "", 0.0, seed, method, body)
 
@@ -192,9 +181,8 @@ def run_campaign(
 
     Args:
         grid: Trials.
-        file: JSON lines of (key, survived), one for each trial that is done;
-            they are written as they come, so that a campaign that was
-            stopped goes on. None keeps nothing.
+        file: Results that are done, which grows, so that a campaign that
+            was stopped goes on. None keeps nothing.
         executor: Any executor of ``concurrent.futures``.
         report: Called with the number of trials that are done.
         done: Filled with the results as they come, for whoever stops it.
@@ -204,27 +192,21 @@ def run_campaign(
     """
     wanted = {trial.key for trial in grid}
     results: dict[str, bool] = {} if done is None else done
-    if file is not None and file.exists():
-        for line in file.read_text(encoding="utf-8").splitlines():
-            try:
-                key, survived = json.loads(line)
-            except ValueError:
-                continue  # a line that was cut off when the last run stopped
-            if key in wanted:
-                results[key] = survived
+    known = read_results(file)
+    results.update((key, known[key]) for key in wanted & known.keys())
     missing = [trial for trial in grid if trial.key not in results]
+    number = len(grid) - len(missing)
     if report is not None:
-        report(len(results))
+        report(number)
     futures = [executor.submit(run_trial, trial) for trial in missing]
     try:
         for future in as_completed(futures):
             key, survived = future.result()
             results[key] = survived
-            if file is not None:
-                with file.open("a", encoding="utf-8") as out:
-                    out.write(json.dumps([key, survived]) + "\n")
+            number += 1
+            note_result(file, key, survived)
             if report is not None:
-                report(len(results))
+                report(number)
     except BaseException:
         for future in futures:
             future.cancel()

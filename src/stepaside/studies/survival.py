@@ -2,23 +2,20 @@
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
+from functools import cache
 from math import radians, sqrt
 from typing import Any
 
 import numpy as np
 
 from ..control.settings import StabiliserSettings
-from ..planning import (
-    CenterState,
-    Direction,
-    Foot,
-    GaitSettings,
-    ManeuverPlanner,
-)
+from ..planning import Direction, Foot, GaitSettings, ManeuverPlanner
 from ..planning.capture import Reach, push_bound
+from ..planning.steady import steady_plan
 from ..robots.description import load_robot
 from ..robots.forward import ForwardKinematics
-from .robustness import DIRECTIONS, Trial
+from .limits import limit_of, next_strength, outcomes_of
+from .robustness import DIRECTIONS, STRENGTHS, Trial
 
 CONFIDENCE = 1.96  # standard deviations of a 95 % interval
 PUSH = 0.1  # duration of a push, in [s]
@@ -39,94 +36,139 @@ def wilson(survived: int, number: int) -> tuple[float, float]:
 def survival_rows(
     grid: Sequence[Trial], results: Mapping[str, bool]
 ) -> list[dict[str, Any]]:
-    """Share of survivors for each method, kind, direction and strength."""
+    """Share of survivors for each method, kind and strength of a grid."""
     groups: dict[tuple[str, str, str, float], list[bool]] = defaultdict(list)
     for trial in grid:
         if trial.key in results:
             group = trial.method, trial.kind, trial.direction, trial.strength
             groups[group].append(results[trial.key])
-    rows = []
-    for (method, kind, direction, strength), outcomes in groups.items():
-        low, high = wilson(sum(outcomes), len(outcomes))
-        rows.append(
-            {
-                "method": method,
-                "kind": kind,
-                "direction": direction,
-                "strength": strength,
-                "survived": sum(outcomes),
-                "trials": len(outcomes),
-                "low": low,
-                "high": high,
-            }
+    return [_survival_row(*group, groups[group]) for group in groups]
+
+
+def push_survival_rows(
+    limits: Sequence[dict[str, Any]],
+) -> list[dict[str, Any]]:
+    """Share of phases at which pushes up to each strength are survived.
+
+    Args:
+        limits: Of :func:`limit_rows`.
+    """
+    groups: dict[tuple[str, str], list[float]] = defaultdict(list)
+    for row in limits:
+        groups[row["method"], row["direction"]].append(row["limit_n_s"])
+    return [
+        _survival_row(
+            method, "push", direction, strength, [x >= strength for x in found]
         )
-    return rows
+        for (method, direction), found in groups.items()
+        for strength in STRENGTHS["push"]
+    ]
+
+
+def _survival_row(
+    method: str,
+    kind: str,
+    direction: str,
+    strength: float,
+    outcomes: Sequence[bool],
+) -> dict[str, Any]:
+    low, high = wilson(sum(outcomes), len(outcomes))
+    return {
+        "method": method,
+        "kind": kind,
+        "direction": direction,
+        "strength": strength,
+        "survived": sum(outcomes),
+        "trials": len(outcomes),
+        "low": low,
+        "high": high,
+    }
 
 
 def limit_rows(
-    grid: Sequence[Trial], results: Mapping[str, bool]
+    cases: Sequence[Trial], results: Mapping[str, bool]
 ) -> list[dict[str, Any]]:
-    """Largest push survived with all smaller ones, beside the bound."""
-    groups: dict[tuple[str, str, float], dict[float, bool]] = defaultdict(dict)
-    for trial in grid:
-        if trial.kind == "push" and trial.key in results:
-            group = trial.method, trial.direction, trial.phase
-            groups[group][trial.strength] = results[trial.key]
+    """Largest push survived with all smaller ones, beside the bounds.
+
+    Cases whose limit is not known yet are left out.
+    """
     rows = []
-    for (method, direction, phase), outcomes in groups.items():
-        limit = 0.0
-        for strength in sorted(outcomes):
-            if not outcomes[strength]:
-                break
-            limit = strength
-        bound = bound_at(direction, phase)
+    for case, outcomes in outcomes_of(cases, results).items():
+        if next_strength(outcomes) is not None:
+            continue
+        limit = limit_of(outcomes)
+        bound = bound_at(case.direction, case.phase)
         rows.append(
             {
-                "method": method,
-                "direction": direction,
-                "phase": phase,
+                "method": case.method,
+                "direction": case.direction,
+                "phase": case.phase,
                 "limit_n_s": limit,
                 "bound_n_s": bound,
+                "impulse_bound_n_s": bound_at(
+                    case.direction, case.phase, impulse=True
+                ),
                 "ratio": limit / bound,
             }
         )
     return rows
 
 
-def bound_at(direction: str, phase: float) -> float:
+@cache
+def bound_at(direction: str, phase: float, *, impulse: bool = False) -> float:
     """Bound of the pendulum at a phase of a straight walk, in [N s].
 
-    A push of 0.1 s counts as an impulse at its middle.
+    The walk is under way: the push meets the state that recurs.
+
+    Args:
+        direction: Of the push, a key of ``DIRECTIONS``.
+        phase: At which the push begins, as a fraction of the gait cycle.
+        impulse: Whether to take an impulse at the middle of the push
+            instead. That is no bound for the push, for it denies the ZMP
+            the first half of it.
     """
     gait = GaitSettings()
     cycle = 2.0 * gait.step_duration
-    passed = (phase * cycle + 0.5 * PUSH) % cycle
+    lasts = 0.0 if impulse else PUSH
+    passed = (phase * cycle + (0.5 * PUSH if impulse else 0.0)) % cycle
     foot = Foot.LEFT if passed < gait.step_duration else Foot.RIGHT
-    passed %= gait.step_duration
-    state = CenterState((0.0, 0.0), (0.0, 0.0))
-    plan = ManeuverPlanner(gait).plan(
-        0.0, Direction.FORWARD, first_foot=foot, state=state
+    plan = steady_plan(
+        ManeuverPlanner(gait), 0.0, Direction.FORWARD, first_foot=foot
     )
+    passed %= gait.step_duration
+    mass = ForwardKinematics(load_robot("nao")).mass
+    angle = radians(DIRECTIONS[direction])
+    return push_bound(plan, passed, angle, mass, walking_reach(), lasts=lasts)
+
+
+def walking_reach() -> Reach:
+    """Where the feedback of a walk may set a foot."""
     gains = StabiliserSettings()
-    reach = Reach(
+    return Reach(
         gains.reach_forward,
         gains.reach_backward,
         gains.reach_outward,
         gains.gap,
     )
-    mass = ForwardKinematics(load_robot("nao")).mass
-    angle = radians(DIRECTIONS[direction])
-    return push_bound(plan, passed, angle, mass, reach)
 
 
 def summarise_limits(rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    """Median and least ratio of limit to bound, by method."""
+    """Ratio of limit to bound by method: median, least, number above."""
     methods = dict.fromkeys(row["method"] for row in rows)
     summary = {}
     for method in methods:
-        ratios = [r["ratio"] for r in rows if r["method"] == method]
+        own = [row for row in rows if row["method"] == method]
+        ratios = [row["ratio"] for row in own]
+        impulse = [row["limit_n_s"] / row["impulse_bound_n_s"] for row in own]
         summary[method] = {
+            "cases": len(own),
             "median_of_bound": float(np.median(ratios)),
             "least_of_bound": float(min(ratios)),
+            "most_of_bound": float(max(ratios)),
+            "above_bound": sum(ratio > 1.0 for ratio in ratios),
+            "median_of_impulse_bound": float(np.median(impulse)),
+            "least_of_impulse_bound": float(min(impulse)),
+            "above_impulse_bound": sum(ratio > 1.0 for ratio in impulse),
+            "least_n_s": min(row["limit_n_s"] for row in own),
         }
     return summary

@@ -1,0 +1,106 @@
+"""MPC in every kind of plan: a shift comes back, the ZMP stays inside."""
+
+from math import exp
+
+import numpy as np
+import pytest
+
+from by_hand import KINDS, plan_of
+from stepaside.control.mpc import IntrinsicallyStableMpc
+from stepaside.control.settings import MpcSettings
+from stepaside.planning import GaitSettings, ManeuverPlan
+from stepaside.poses import Array
+
+GAIT = GaitSettings()
+TICK = 0.004  # [s]
+EDGE = 0.002  # [m]
+
+
+def follow(
+    plan: ManeuverPlan, dcm: Array, duration: float
+) -> tuple[Array, Array, bool]:
+    """Ideal pendulum under the MPC.
+
+    Returns:
+        DCM and ZMP less the plan's after each tick, in [m], shape (n, 2)
+        each, and whether every tick was feasible.
+    """
+    mpc = IntrinsicallyStableMpc(GAIT, MpcSettings(), edge=EDGE)
+    zmp, feasible = np.zeros(2), True
+    shifts, zmps = [], []
+    for k in range(round(duration / TICK)):
+        answer = mpc.solve(plan, k * TICK, dcm, zmp)
+        feasible &= answer.feasible
+        zmp = zmp + TICK * np.array(answer.velocity)
+        dcm = zmp + exp(GAIT.eta * TICK) * (dcm - zmp)
+        shifts.append(dcm)
+        zmps.append(zmp)
+    return np.array(shifts), np.array(zmps), feasible
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("size", [1e-4, 1e-3, 5e-3])
+@pytest.mark.parametrize("angle", [0.0, 1.6, 3.1, -1.6])
+def test_a_shift_is_back_within_a_second(
+    kind: str, size: float, angle: float
+) -> None:
+    """Feasible at every tick; the starting and halting feet are known."""
+    plan = plan_of(kind)
+    push = size * np.array([np.cos(angle), np.sin(angle)])
+    shifts, _, feasible = follow(plan, push, 1.0)
+    assert feasible
+    assert np.hypot(*shifts[-1]) < 0.01 * size
+    assert np.hypot(*shifts.T).max() < 1.5 * size
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_on_every_plan_mpc_and_closed_form_are_one(kind: str) -> None:
+    """The plan's own ZMP breaks no constraint, so nothing is added."""
+    mpc = IntrinsicallyStableMpc(GAIT, MpcSettings(), edge=EDGE)
+    plan = plan_of(kind)
+    for time in np.linspace(0.0, plan.schedule.duration + 0.5, 40):
+        answer = mpc.solve(plan, float(time), np.zeros(2), np.zeros(2))
+        assert answer.feasible
+        np.testing.assert_allclose(answer.velocity, 0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_zmp_never_leaves_the_feet_however_hard_it_is_used(
+    kind: str,
+) -> None:
+    """Also where a foot lands or leaves, and when all is lost."""
+    plan, size, lost = plan_of(kind), 0.03, 0
+    times = TICK * np.arange(1, 301)
+    least = np.inf
+    for angle in np.linspace(0.0, 5.5, 8):
+        push = size * np.array([np.cos(angle), np.sin(angle)])
+        shifts, zmps, feasible = follow(plan, push, 1.2)
+        zmps += plan.sample(times).zmp
+        for phase in plan.support():
+            now = (times >= phase.start) & (times <= phase.end)
+            room = phase.offsets - zmps[now] @ phase.normals.T
+            least = min(least, float(room.min(initial=np.inf)))
+        lost += not feasible
+        assert np.hypot(*shifts[-1]) < 0.1 * size or not feasible
+    assert least > EDGE - 1e-4  # the correction bends between two samples
+    if kind != "start":
+        assert least < EDGE + 1e-4 and lost == 1
+
+
+@pytest.mark.parametrize("off", [(0.0, 0.09), (0.2, 0.0), (-0.1, -0.3)])
+def test_a_zmp_that_no_foot_is_under_is_brought_back(
+    off: tuple[float, float],
+) -> None:
+    """Nothing satisfies the feet at once: said so, and still answered."""
+    plan = plan_of("walk")
+    mpc = IntrinsicallyStableMpc(GAIT, MpcSettings(), edge=EDGE)
+    leaving = plan.schedule.first_step_duration - 0.002
+    answer = mpc.solve(plan, leaving, np.zeros(2), np.array(off))
+    assert not answer.feasible
+    # At the end of the first sample it is under the foot that stands then.
+    then = leaving + mpc.interval
+    zmp = plan.sample([then]).zmp[0] + off
+    zmp += mpc.interval * np.array(answer.velocity)
+    [phase] = [p for p in plan.support() if p.start < then < p.end]
+    assert phase.single
+    assert (phase.offsets - phase.normals @ zmp).min() > EDGE - 1e-6

@@ -1,0 +1,110 @@
+"""Figures of a campaign: the axes hold what the rows say."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.report import style
+from stepaside.report.robustness_figure import draw_limits, draw_survival
+
+
+@pytest.fixture
+def drawn(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
+    """Figures that were made, kept open to be read."""
+    figures: list[Any] = []
+    subplots = style.plt.subplots
+
+    def keep(*arguments: Any, **options: Any) -> Any:
+        figure, axes = subplots(*arguments, **options)
+        figures.append(figure)
+        return figure, axes
+
+    monkeypatch.setattr(style.plt, "subplots", keep)
+    monkeypatch.setattr(style.plt, "close", lambda figure: None)
+    return figures
+
+
+def survival(kind: str, method: str, strength: float, survived: int) -> Any:
+    return {
+        "kind": kind,
+        "direction": "left" if kind == "push" else "",
+        "method": method,
+        "strength": strength,
+        "survived": survived,
+        "trials": 4,
+        "low": 0.1 * survived,
+        "high": 0.2 * survived,
+    }
+
+
+def limit(method: str, direction: str, phase: float, x: float) -> Any:
+    return {
+        "method": method,
+        "direction": direction,
+        "phase": phase,
+        "limit_n_s": x,
+        "bound_n_s": 2.0 + phase,
+        "impulse_bound_n_s": 1.0 + phase,
+    }
+
+
+def lines_of(axis: Any) -> dict[str, Any]:
+    return {line.get_label(): line for line in axis.get_lines()}
+
+
+def test_survival_is_drawn_in_percent_over_strength(
+    drawn: list[Any], tmp_path: Path
+) -> None:
+    rows = [
+        survival("play", "mpc", 2.0, 1),
+        survival("play", "mpc", 1.0, 3),
+        survival("play", "measured", 1.0, 4),
+        survival("push", "mpc", 0.4, 2),
+    ]
+    file = tmp_path / "survival.png"
+    draw_survival(rows, {"play": "deg", "push": "N s"}, file)
+    assert file.read_bytes()[:4] == b"\x89PNG"
+    play, push = drawn[0].axes
+    assert (play.get_title(), push.get_title()) == ("play", "push left")
+    assert play.get_xlabel() == "play [deg]"
+    lines = lines_of(play)
+    assert set(lines) == {"mpc", "measured"}
+    np.testing.assert_allclose(
+        lines["mpc"].get_xydata(), [[1.0, 75.0], [2.0, 25.0]]
+    )
+    band = play.collections[0].get_paths()[0].vertices
+    assert {(1.0, 30.0), (1.0, 60.0), (2.0, 10.0), (2.0, 20.0)} <= {
+        (round(x, 9), round(y, 9)) for x, y in band.tolist()
+    }
+
+
+def test_limits_are_drawn_over_the_phase_beside_the_bound(
+    drawn: list[Any], tmp_path: Path
+) -> None:
+    """The bound too where a method is known at some phases only."""
+    rows = [
+        limit("mpc", "left", 0.5, 1.1),
+        limit("mpc", "left", 0.0, 0.9),
+        limit("measured", "left", 0.0, 1.3),
+        limit("mpc", "right", 0.0, 0.7),
+        limit("mpc", "right", 1.0, 0.7),  # with the highest bound
+    ]
+    draw_limits(rows, tmp_path / "limits.png")
+    left, right = drawn[0].axes
+    assert (left.get_title(), right.get_title()) == ("left", "right")
+    lines = lines_of(left)
+    np.testing.assert_allclose(
+        lines["mpc"].get_xydata(), [[0.0, 0.9], [0.5, 1.1]]
+    )
+    np.testing.assert_allclose(lines["measured"].get_xydata(), [[0.0, 1.3]])
+    np.testing.assert_allclose(
+        lines["pendulum's bound"].get_xydata(), [[0.0, 2.0], [0.5, 2.5]]
+    )
+    np.testing.assert_allclose(
+        lines["for an impulse in the middle"].get_xydata(),
+        [[0.0, 1.0], [0.5, 1.5]],
+    )
+    assert left.get_ylim()[0] == 0.0 and left.get_ylim()[1] > 3.0
+    assert lines_of(right)["mpc"].get_ydata() == pytest.approx([0.7, 0.7])
