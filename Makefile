@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: setup duel test bench clean constraints
+.PHONY: setup duel test mutate bench clean constraints
 
 setup: $(STAMP)
 
@@ -22,6 +22,10 @@ test: setup
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/pytest --numprocesses auto
+
+# Faults that the tests should notice; goes on where it was cut short.
+mutate: setup
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m tests.mutation --write
 
 bench: setup
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check \

@@ -1,57 +1,103 @@
-"""Let a person walk at the evader and print docs/person.md's table.
+"""Let persons walk at the evader, who is told where they are or sees them.
 
-Usage: python benchmarks/person.py [ideal | cameras] [first seed] [number]
+::
+
+    python benchmarks/person.py ideal --seeds 1:6
+    python benchmarks/person.py cameras --seeds 1:3
 """
 
-import os
+from typing import NamedTuple
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-
-import sys
+from asking import RESULTS, ask, seeds_of
+from gathering import Row, finished, gather, spread
 
 from stepaside.simulation import DuelSettings, run_duel
 from stepaside.simulation.person_settings import PersonSettings
 from stepaside.simulation.summary import summarise
+from stepaside.studies.results import header, write_result
 
+DURATION = 90.0  # of each, in [s]
 WALKS = {
-    "steers, 0.073 m/s": PersonSettings("steer", 0.073, 0.146),
-    "steers, 0.15 m/s": PersonSettings("steer", 0.15, 0.2),
-    "straight at it, 0.15 m/s": PersonSettings("straight", 0.15),
-    "straight past at 1.2 m, 0.15 m/s": PersonSettings(
-        "straight", 0.15, miss=1.2
-    ),
+    "steers-slowly": PersonSettings("steer", 0.073, 0.146),
+    "steers": PersonSettings("steer", 0.15, 0.2),
+    "straight": PersonSettings("straight", 0.15),
+    "past": PersonSettings("straight", 0.15, miss=1.2),
 }
+FIGURES = ("triggered_at_distance_m", "min_distance_m", "theory_closest_m")
+
+
+class Walk(NamedTuple):
+    """Who walks, and how the evader knows."""
+
+    name: str
+    seed: int
+    sensing: str
+
+
+def play(walk: Walk) -> Row:
+    """Figures of one duel with a person."""
+    settings = DuelSettings(
+        seed=walk.seed,
+        duration=DURATION,
+        pursuer="person",
+        person=WALKS[walk.name],
+        sensing=walk.sensing,
+    )
+    found = summarise(run_duel(settings))
+    return {
+        "walk": walk.name,
+        "seed": walk.seed,
+        "outcome": found["outcome"],
+        "message": found["message"],
+        "triggered_at_distance_m": found["triggered_at_distance_m"],
+        "min_distance_m": found["min_distance_m"],
+        "theory_closest_m": found["theory"]["closest_approach_m"],
+    }
+
+
+def together(rows: list[Row]) -> Row:
+    """Outcomes of some duels, and the range of each figure."""
+    outcomes = [row["outcome"] for row in rows]
+    return {
+        "number": len(rows),
+        "contacts": outcomes.count("contact"),
+        "falls": outcomes.count("fall"),
+        **{key: spread([row[key] for row in rows]) for key in FIGURES},
+    }
 
 
 def main() -> None:
-    """Play and print."""
-    sensing = sys.argv[1] if len(sys.argv) > 1 else "ideal"
-    first = int(sys.argv[2]) if len(sys.argv) > 2 else 1
-    number = int(sys.argv[3]) if len(sys.argv) > 3 else 5
-    print(
-        "| walk | seed | outcome | triggered at [m] | closest [m] | theory |"
-    )
-    print("|---|---|---|---|---|---|")
-    for name, person in WALKS.items():
-        for seed in range(first, first + number):
-            result = run_duel(
-                DuelSettings(
-                    seed=seed,
-                    duration=90.0,
-                    pursuer="person",
-                    person=person,
-                    sensing=sensing,
-                )
-            )
-            s = summarise(result)
-            at = s["triggered_at_distance_m"]
-            theory = s["theory"]["closest_approach_m"]
-            print(
-                f"| {name} | {seed} | {s['message']} | "
-                f"{'never' if at is None else f'{at:.3f}'} | "
-                f"{s['min_distance_m']:.3f} | {theory:.3f} |",
-                flush=True,
-            )
+    """Play and write."""
+    asked = ask(__doc__, "person-SENSING.json")
+    asked.add_argument("sensing", choices=["ideal", "cameras"])
+    asked.add_argument("--seeds", type=seeds_of, default="1:6")
+    asked.add_argument("--workers", type=int)
+    arguments = asked.parse_args()
+    seeds, sensing = arguments.seeds, arguments.sensing
+    output = arguments.output
+    if output == asked.get_default("output"):
+        output = RESULTS / f"person-{sensing}.json"
+    jobs = {
+        f"{name}/{seed}": Walk(name, seed, sensing)
+        for name in WALKS
+        for seed in seeds
+    }
+    libraries = ["mujoco", "numpy"]
+    if sensing == "cameras":
+        libraries.append("opencv-python-headless")
+    settings = {
+        "sensing": sensing,
+        "seeds": [seeds.start, seeds.stop],
+        "duration_s": DURATION,
+    }
+    head = header(settings, libraries=libraries)
+    rows = gather(output, head, jobs, play, arguments.workers)
+    walks = {
+        name: together([rows[f"{name}/{seed}"] for seed in seeds])
+        for name in WALKS
+    }
+    write_result(output, head, walks=walks, rows=list(rows.values()))
+    finished(output)
 
 
 if __name__ == "__main__":

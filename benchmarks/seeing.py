@@ -1,19 +1,16 @@
-"""Play duels of robots that see and print docs/sensing.md's table.
-
-Usage: python benchmarks/seeing.py [plain | degraded] [first seed] [number]
+"""Play duels of robots that see, in an empty room or under difficulties.
 
 Degraded means 30 % of the images dropped, 100 ms more latency, and boxes
-and a figure standing in the room.
+and a figure standing in the room::
+
+    python benchmarks/seeing.py plain --seeds 302:309
+    python benchmarks/seeing.py degraded --seeds 302:305
 """
 
-import os
+from typing import NamedTuple
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-
-import sys
-from typing import Any
-
-import numpy as np
+from asking import RESULTS, ask, machine, seeds_of
+from gathering import Row, finished, gather, spread
 
 from stepaside.simulation import DuelSettings, run_duel
 from stepaside.simulation.camera_settings import (
@@ -22,77 +19,95 @@ from stepaside.simulation.camera_settings import (
     RoomSettings,
 )
 from stepaside.simulation.summary import summarise
+from stepaside.studies.results import header, write_result
 
-ROWS = {
-    "pursuer's bearing error, median [deg]": (
-        "pursuer",
-        "bearing_error_deg",
-        "median",
-    ),
-    "the same, 95th percentile [deg]": ("pursuer", "bearing_error_deg", "p95"),
-    "evader's bearing error, median [deg]": (
-        "evader",
-        "bearing_error_deg",
-        "median",
-    ),
-    "the same, 95th percentile [deg] ": ("evader", "bearing_error_deg", "p95"),
-    "evader's distance error, median [m]": (
-        "evader",
-        "distance_error_m",
-        "median",
-    ),
-    "detection rate": ("detection_rate",),
-    "false detections": ("false_detections",),
-    "misled, pursuer [s]": ("pursuer", "misled_s"),
-    "misled, evader [s]": ("evader", "misled_s"),
-    "triggered at [m], if begun beyond 0.85 m": ("triggered_at_distance_m",),
-    "distance on the circle [m]": ("distance_m",),
-    "between headings [deg]": ("relative_orientation_deg",),
-    "on the circle since [s]": ("converged_at_s",),
-    "closest approach [m]": ("min_distance_m",),
-    "times real time": ("real_time_factor",),
-}
+BEYOND = 0.85  # start distance beyond which the trigger tells something, [m]
+LIBRARIES = ("mujoco", "numpy", "opencv-python-headless")
+PLAIN = (
+    "detection_rate",
+    "false_detections",
+    "distance_m",
+    "relative_orientation_deg",
+    "converged_at_s",
+    "min_distance_m",
+    "real_time_factor",
+)
 
 
-def play(kind: str, seed: int) -> dict[str, Any]:
-    """Summary of one duel of 120 s."""
-    settings = DuelSettings(seed=seed, sensing="cameras")
-    if kind == "degraded":
+class Seen(NamedTuple):
+    """One duel to play."""
+
+    kind: str
+    seed: int
+
+
+def play(seen: Seen) -> Row:
+    """Figures of one duel of 120 s."""
+    settings = DuelSettings(seed=seen.seed, sensing="cameras")
+    if seen.kind == "degraded":
         settings = DuelSettings(
-            seed=seed,
+            seed=seen.seed,
             sensing="cameras",
             cameras=CameraSettings(drop_frames=0.3, added_latency=0.1),
             room=RoomSettings(things=list(CLUTTER)),
         )
-    return summarise(run_duel(settings))
+    found = summarise(run_duel(settings))
+    row = {key: found[key] for key in PLAIN}
+    for name in ("pursuer", "evader"):
+        row[f"{name}_misled_s"] = found[name]["misled_s"]
+        for which in ("median", "p95"):
+            error = found[name]["bearing_error_deg"][which]
+            row[f"{name}_bearing_error_{which}_deg"] = error
+    away = found["evader"]["distance_error_m"]["median"]
+    row["evader_distance_error_median_m"] = away
+    begun = found["start"]["distance_m"]
+    at = found["triggered_at_distance_m"]
+    row["triggered_at_distance_m"] = at if begun > BEYOND else None
+    return {
+        "seed": seen.seed,
+        "outcome": found["outcome"],
+        "camera": found["camera"],
+        **row,
+    }
 
 
-def main(kind: str = "plain", first: int = 1, number: int = 20) -> None:
-    """Print outcomes and the range of each figure as a table."""
-    found = [play(kind, seed) for seed in range(first, first + number)]
-    print_table(found)
-
-
-def print_table(found: list[dict[str, Any]]) -> None:
-    """Print outcomes and the range of each figure."""
-    outcomes = [summary["outcome"] for summary in found]
-    for outcome in sorted(set(outcomes)):
-        print(f"{outcome}: {outcomes.count(outcome)} of {len(found)}")
-    print("\n| what | least | mean | greatest |\n|---|---|---|---|")
-    for what, keys in ROWS.items():
-        values = []
-        for summary in found:
-            if "triggered" in what and summary["start"]["distance_m"] < 0.85:
-                continue
-            value: Any = summary
-            for key in keys:
-                value = value[key]
-            values.append(float("nan") if value is None else value)
-        low, high = min(values), max(values)
-        mean = float(np.mean(values))
-        print(f"| {what.strip()} | {low:.3f} | {mean:.3f} | {high:.3f} |")
+def main() -> None:
+    """Play and write."""
+    asked = ask(__doc__, "seeing-KIND.json")
+    asked.add_argument("kind", choices=["plain", "degraded"])
+    asked.add_argument("--seeds", type=seeds_of, default="302:309")
+    asked.add_argument("--workers", type=int)
+    arguments = asked.parse_args()
+    seeds, kind = arguments.seeds, arguments.kind
+    output = arguments.output
+    if output == asked.get_default("output"):
+        output = RESULTS / f"seeing-{kind}.json"
+    settings = {
+        "kind": kind,
+        "seeds": [seeds.start, seeds.stop],
+        "duration_s": 120.0,
+    }
+    head = header(settings, libraries=LIBRARIES)
+    jobs = {str(seed): Seen(kind, seed) for seed in seeds}
+    found = gather(output, head, jobs, play, arguments.workers)
+    rows = list(found.values())
+    outcomes = [row["outcome"] for row in rows]
+    names = [
+        key for key in rows[0] if key not in ("seed", "outcome", "camera")
+    ]
+    write_result(
+        output,
+        head,
+        machine=machine(),
+        number=len(rows),
+        falls=outcomes.count("fall"),
+        contacts=outcomes.count("contact"),
+        cameras=sorted({row["camera"] for row in rows}),
+        summary={key: spread([row[key] for row in rows]) for key in names},
+        rows=rows,
+    )
+    finished(output)
 
 
 if __name__ == "__main__":
-    kind, *numbers = sys.argv[1:] or ["plain"]
-    main(kind, *map(int, numbers))
+    main()

@@ -40,3 +40,50 @@ def test_impossible_cameras_are_refused(change: dict[str, float]) -> None:
     values = {"width": 80, "height": 60, "horizontal": 1.0, "vertical": 0.8}
     with pytest.raises(ConfigurationError, match="must lie in"):
         CameraModel.of_field_of_view(**(values | change))  # type: ignore[arg-type]
+
+
+def test_axes_are_forward_left_and_up() -> None:
+    (center, left, above) = XTION.project(
+        [[2.0, 0.0, 0.0], [2.0, 0.5, 0.0], [2.0, 0.0, 0.5]]
+    )
+    assert center == pytest.approx((40.0, 30.0))
+    assert left[0] == pytest.approx(40.0 - 40.0 / tan(radians(29.0)) / 4.0)
+    assert left[1] == pytest.approx(30.0)
+    assert above[1] == pytest.approx(30.0 - 30.0 / tan(radians(22.5)) / 4.0)
+    assert above[0] == pytest.approx(40.0)
+
+
+def test_a_pixel_looks_where_the_grid_of_rays_says() -> None:
+    for row, column in ((0, 0), (7, 50), (59, 79)):
+        ray = XTION.ray(column + 0.5, row + 0.5)
+        np.testing.assert_allclose(ray, XTION.rays()[row, column])
+        assert ray[0] == 1.0
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_an_image_ends_on_all_four_sides(side: float) -> None:
+    inside, outside = tan(radians(22.4)), tan(radians(22.6))
+    assert XTION.sees([1.0, 0.0, side * inside])
+    assert not XTION.sees([1.0, 0.0, side * outside])
+    inside, outside = tan(radians(28.9)), tan(radians(29.1))
+    assert XTION.sees([1.0, side * inside, 0.0])
+    assert not XTION.sees([1.0, side * outside, 0.0])
+
+
+def test_rays_are_shared_and_therefore_read_only() -> None:
+    again = CameraModel.of_field_of_view(80, 60, radians(58.0), radians(45.0))
+    assert again.rays() is XTION.rays()
+    with pytest.raises(ValueError, match="read-only"):
+        XTION.rays()[0, 0, 0] = 2.0
+
+
+def test_sizes_and_angles_of_cameras_end_where_they_should() -> None:
+    for size, angle in ((8, 0.05), (4096, 2.8)):
+        CameraModel.of_field_of_view(size, size, angle, angle)
+    for size, angle in ((7, 1.0), (4097, 1.0), (80, 0.049), (80, 2.81)):
+        for arguments in (
+            (size, 80, angle, 1.0),
+            (80, size, 1.0, angle),
+        ):
+            with pytest.raises(ConfigurationError, match="must lie in"):
+                CameraModel.of_field_of_view(*arguments)

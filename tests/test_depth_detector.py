@@ -108,3 +108,17 @@ def test_the_robot_does_not_see_itself() -> None:
         (1.2, 0.0),
     )
     assert scene.obstacles == ()
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_only_what_is_nearer_than_an_arm_is_oneself(side: float) -> None:
+    """The post's flank is 0.19 m or 0.25 m away from the own axis."""
+    axes = rotation(0.0, radians(10.0), 0.0)
+    image = take(axes, [(1.2, 0.0, 0.1, 0.5)])
+    width = {}
+    for gap in (0.19, 0.25, 5.0):
+        own = 1.2, side * (0.1 + gap)
+        (post,) = detect_obstacles(image, EYE, axes, own).obstacles
+        width[gap] = post.width
+    assert width[0.25] == width[5.0]
+    assert width[0.19] < width[5.0] - 0.005

@@ -51,6 +51,11 @@ def test_unknown_robot_names_the_known_ones() -> None:
         ("accent =", "acent =", "unknown entry 'acent'"),
         ('torso = "torso" ', "", "entry 'torso' is missing"),
         ("HeadYaw =", "Neck =", "no actuator 'Neck'"),
+        ('torso = "torso"', 'torso = "trunk"', "no body 'trunk'"),
+        ("r_sole_center", "r_toe", "foot of NAO: there is no site 'r_toe'"),
+        ("LHipPitch = -0.3", "LHip = -0.3", "standing .* no joint 'LHip'"),
+        ("LKneePitch = [", "LKnee = [", "working_limits .* joint 'LKnee'"),
+        ("HeadYaw = 7.457", "", "there is no speed limit 'HeadYaw'"),
         ("[speed_limits]", "[speed_limits", "robot.toml"),
     ],
 )
@@ -60,3 +65,44 @@ def test_wrong_description_is_refused_by_name(
     folder = copy_of_nao(tmp_path, **{old: new})
     with pytest.raises(ModelError, match=message):
         load_robot(folder).compile()
+
+
+def test_joints_are_coupled_by_the_equalities_of_joints_alone(
+    tmp_path: Path,
+) -> None:
+    folder = copy_of_nao(tmp_path)
+    weld = '<equality>\n    <weld body1="torso" body2="head"/>'
+    text = NAO.mjcf().replace("<equality>", weld)
+    assert text != NAO.mjcf()
+    (folder / "model.xml").write_text(text)
+    robot = load_robot(folder)
+    expected = {"RHipYawPitch": "LHipYawPitch"}
+    assert robot.coupled_joints(robot.compile()) == expected
+    assert NAO.coupled_joints(NAO.compile()) == expected
+
+
+def test_joints_that_share_a_motor_must_move_alike(tmp_path: Path) -> None:
+    folder = copy_of_nao(tmp_path)
+    text = NAO.mjcf().replace('polycoef="0 1 0 0 0"', 'polycoef="0 -1 0 0 0"')
+    assert text != NAO.mjcf()
+    (folder / "model.xml").write_text(text)
+    robot = load_robot(folder)
+    with pytest.raises(ModelError, match=r"RHipYawPitch and LHip.*0\.0, -1\."):
+        robot.coupled_joints(robot.compile())
+
+
+def test_a_model_that_is_none_is_refused_by_its_file(tmp_path: Path) -> None:
+    folder = copy_of_nao(tmp_path)
+    (folder / "model.xml").write_text("<mujoco><nonsense/></mujoco>")
+    with pytest.raises(ModelError, match="model.xml is no MuJoCo model"):
+        load_robot(folder).compile()
+
+
+def test_working_limits_are_optional(tmp_path: Path) -> None:
+    folder = copy_of_nao(tmp_path)
+    text = (folder / "robot.toml").read_text()
+    start, end = text.index("[working_limits]"), text.index("# No-load")
+    (folder / "robot.toml").write_text(text[:start] + text[end:])
+    robot = load_robot(folder)
+    assert robot.working_limits == {}
+    assert robot.compile().nu == 23

@@ -1,13 +1,19 @@
 """Test the head: within its ranges and speed, and all about in a search."""
 
-from math import degrees, hypot, radians
+from math import atan2, degrees, hypot, pi, radians
 
 import numpy as np
 import pytest
 
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
-from stepaside.sensing.gaze import SPEED, Gaze
+from stepaside.sensing.gaze import (
+    REACH,
+    SCAN_PITCH,
+    SCAN_SPEED,
+    SPEED,
+    Gaze,
+)
 
 TICK = 0.004
 COUPLING = load_head(load_robot("nao")).coupling
@@ -62,3 +68,94 @@ def test_a_search_begins_where_the_other_left() -> None:
         before = gaze.yaw
         gaze.search()
         assert side * (gaze.yaw - before) > 0.0
+
+
+def test_it_turns_at_the_speed_of_a_following_head() -> None:
+    gaze = Gaze(COUPLING, TICK)
+    before = gaze.yaw, gaze.pitch
+    gaze.follow(1.0, 1.0)
+    assert hypot(
+        gaze.yaw - before[0], gaze.pitch - before[1]
+    ) == pytest.approx(3.0 * TICK)
+    gaze = Gaze(COUPLING, TICK)
+    gaze.search()
+    moved = hypot(gaze.yaw - before[0], gaze.pitch - before[1])
+    assert moved == pytest.approx(1.4 * TICK)
+
+
+def test_it_begins_ahead_a_little_down_and_searching() -> None:
+    gaze = Gaze(COUPLING, TICK)
+    assert (gaze.yaw, gaze.pitch) == (0.0, radians(8.0))
+    assert gaze.searching
+
+
+def settled(bearing: float, distance: float) -> Gaze:
+    gaze = Gaze(COUPLING, TICK)
+    for _ in range(500):
+        gaze.follow(bearing, distance)
+    return gaze
+
+
+def test_it_looks_at_the_middle_of_a_body_and_keeps_the_crown_in_view() -> (
+    None
+):
+    for distance in (1.0, 1.5, 3.0):
+        gaze = settled(0.2, distance)
+        assert gaze.pitch == pytest.approx(atan2(0.46 - 0.28, distance))
+    # What trim there is stands 0.06 m nearer, and never nearer than 0.1 m.
+    for distance, away in ((0.36, 0.3), (0.17, 0.11), (0.12, 0.1)):
+        crown = atan2(0.54 - 0.46, away)
+        near = settled(0.2, distance)
+        assert near.pitch == pytest.approx(radians(20.0) - crown)
+
+
+def test_what_it_reaches_it_keeps_without_overshoot() -> None:
+    gaze = settled(0.5, 1.0)
+    assert gaze.yaw == 0.5
+    gaze.follow(0.5 + 0.5 * SPEED * TICK, 1.0)
+    assert gaze.yaw == 0.5 + 0.5 * SPEED * TICK
+
+
+def test_bearings_are_taken_the_short_way() -> None:
+    wrapped, plain = Gaze(COUPLING, TICK), Gaze(COUPLING, TICK)
+    for _ in range(100):
+        wrapped.follow(-0.6 + 2.0 * pi, 1.0)
+        plain.follow(-0.6, 1.0)
+    assert wrapped.yaw == pytest.approx(plain.yaw)
+
+
+def test_a_search_after_another_goes_on_to_the_same_side() -> None:
+    for side in (-1.0, 1.0):
+        gaze = settled(side * 0.3, 1.0)
+        assert not gaze.searching
+        gaze.search()
+        assert gaze.searching
+        while side * gaze.yaw < REACH - 1e-3:
+            gaze.search()
+        assert gaze.pitch == pytest.approx(SCAN_PITCH)
+        for _ in range(20):
+            gaze.search()
+        assert side * gaze.yaw < REACH - 10 * SCAN_SPEED * TICK
+
+
+def test_a_neck_that_turns_less_searches_as_far_as_it_can() -> None:
+    short = np.array([[-1.0, 0.0, 1.0], [-0.5, -0.5, -0.5], [0.5, 0.5, 0.5]])
+    gaze = Gaze(short, TICK)
+    yaws = []
+    for _ in range(1500):
+        gaze.search()
+        yaws.append(gaze.yaw)
+    assert max(yaws) == pytest.approx(1.0)
+    assert min(yaws) == pytest.approx(-1.0)
+    assert settled(0.0, 1.0).pitch < 0.5
+
+
+@pytest.mark.parametrize("shift", [-0.6, 0.6])
+def test_pitch_keeps_to_either_limit_at_its_yaw(shift: float) -> None:
+    yaws = np.array([-1.0, 0.0, 1.0])
+    low, high = np.array([-0.1, 0.0, -0.1]), np.array([0.1, 0.2, 0.1])
+    gaze = Gaze(np.stack([yaws, low + shift, high + shift]), TICK)
+    for _ in range(2000):
+        gaze.follow(0.5, 1.0)
+    limit = 0.15 + shift if shift < 0.0 else -0.05 + shift
+    assert gaze.pitch == pytest.approx(limit, abs=1e-4)

@@ -3,6 +3,7 @@
 from math import pi, tau
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -37,3 +38,22 @@ def test_wrapped_angles_differ_by_whole_turns(angle: float) -> None:
         assert -pi <= wrapped <= pi
         turns = (angle - wrapped) / tau
         assert abs(turns - round(turns)) < 1e-9
+
+
+def test_headings_turn_counter_clockwise() -> None:
+    """A mirrored plane obeys the laws of a group too."""
+    quarter = Pose(1.0, 2.0, pi / 2)
+    assert quarter.compose(Pose(3.0, 0.5, 0.1)) == pytest.approx(
+        (0.5, 5.0, pi / 2 + 0.1)
+    )
+    np.testing.assert_allclose(
+        quarter.transform_points([[3.0, 0.5], [0.0, 0.0]]),
+        [[0.5, 5.0], [1.0, 2.0]],
+    )
+
+
+def test_half_turns_wrap_to_the_promised_end() -> None:
+    np.testing.assert_array_equal(wrap_angles([pi, -pi, 3 * pi]), 3 * [-pi])
+    assert abs(wrap_angle(pi)) == pi
+    assert wrap_angle(1.5 * pi) == pytest.approx(-0.5 * pi)
+    assert wrap_angle(-1.5 * pi) == pytest.approx(0.5 * pi)

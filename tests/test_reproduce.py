@@ -1,6 +1,10 @@
-"""Test the claims: rows measure something, and broken laws make them fail."""
+"""Test the study of claims: verdicts, what is kept, command and page."""
 
 import json
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -8,113 +12,342 @@ import pytest
 from click.testing import CliRunner
 
 from stepaside.cli import main
+from stepaside.commands import reproduce_figures
 from stepaside.report.claims_page import markdown_page
-from stepaside.studies import reproduce, unicycle_claims
-from stepaside.studies.claims import Row
+from stepaside.studies import reproduce
+from stepaside.studies.claims import Claim, Job, Row
+from stepaside.studies.jobs import JOBS
+from stepaside.studies.paper_figures import paper_figures
+from stepaside.studies.readings import Readings, farthest
+from stepaside.studies.version import code_version
 
-QUICK = ("circle", "saturated", "strategies", "sampled", "path", "com")
-
-
-@pytest.mark.parametrize("job", [*QUICK, "footsteps"])
-def test_claims_of_theory_and_planner_hold(job: str) -> None:
-    for row in reproduce.JOBS[job](1):
-        assert row.holds, row
+NAN, INF = float("nan"), float("inf")
 
 
-def test_feet_that_slip_make_the_circle_smaller() -> None:
-    """Under which floor: friction 0.05, against 0.8."""
-    for row in reproduce.JOBS["slip"](1):
-        assert row.holds, row
+def claim(relation: Any = "=", key: str = "it") -> Claim:
+    return Claim(key, "it is one", "I", "paper", 1.0, "m", 0.1, relation)
 
 
 @pytest.mark.parametrize(
-    ("relation", "measured", "holds"),
+    ("relation", "values", "holds"),
     [
-        ("=", 1.05, True),
-        ("=", 1.2, False),
-        ("<", 0.9, True),
-        ("<", 1.0, False),
-        (">", 1.1, True),
-        ("=", float("nan"), False),
-        ("<", float("-inf"), False),
+        ("=", (1.05,), True),
+        ("=", (1.15,), False),
+        ("=", (0.85,), False),
+        ("=", (-5.0,), False),
+        ("=", (1.15, 0.95), True),  # the mean counts,
+        ("=", (1.25, 0.75), False),  # but none may be far off
+        ("=", (0.75, 1.19), False),
+        ("=", (1.12, 1.12), False),
+        ("<", (0.9, 0.99), True),
+        ("<", (0.5, 1.01), False),
+        ("<", (1.0,), False),
+        (">", (1.1, 9.0), True),
+        (">", (9.0, 0.99), False),
+        ("=", (1.0, NAN), False),
+        ("<", (0.0, -INF), False),
+        ("=", (), False),
     ],
 )
-def test_verdict(relation: Any, measured: float, holds: bool) -> None:
-    row = Row("it is one", "I", "paper", 1.0, measured, 0.1, "m", relation)
+def test_verdict(
+    relation: Any, values: tuple[float, ...], holds: bool
+) -> None:
+    row = Row("a.it", claim(relation), values, "v")
     assert row.holds is holds
     assert row.to_json()["verdict"] == ("holds" if holds else "fails")
 
 
-def test_a_sign_broken_in_the_evaders_law_fails_a_row(
-    monkeypatch: pytest.MonkeyPatch,
+def test_a_row_tells_mean_spread_and_runs() -> None:
+    row = Row("a.it", claim(), (1.0, 1.02, 0.98), "v").to_json()
+    assert row["measured"] == pytest.approx(1.0)
+    assert row["spread"] == pytest.approx(0.02)
+    assert (row["least"], row["greatest"], row["runs"]) == (0.98, 1.02, 3)
+    alone = Row("a.it", claim(), (1.0,), "v").to_json()
+    assert (alone["spread"], alone["runs"], alone["version"]) == (0.0, 1, "v")
+    fallen = Row("a.it", claim(), (1.0, NAN), "v").to_json()
+    assert fallen["measured"] is fallen["spread"] is None
+    assert fallen["runs"] == 2
+
+
+def test_the_value_farthest_off_is_on_either_side() -> None:
+    assert farthest([1.0, 0.5, 1.4], 1.0) == 0.5
+    assert farthest([1.0, 0.9, 1.4], 1.0) == 1.4
+    assert farthest([1.0, INF], 1.0) == INF
+    assert farthest([], 1.0) != farthest([], 1.0)  # NaN
+
+
+# --- what is kept ---------------------------------------------------------
+
+
+class Bench:
+    """Two jobs that count how often they measure."""
+
+    def __init__(self) -> None:
+        self.measured: list[tuple[str, int]] = []
+        self.settings = "as they are"
+        self.stop_at: int | None = None
+        self.jobs = {
+            "seeded": self.job("seeded", ("planning",), True),
+            "once": self.job("once", ("unicycle",), False),
+        }
+
+    def job(self, name: str, rooms: tuple[str, ...], seeded: bool) -> Job:
+        """One that depends on some rooms."""
+
+        def measure(seed: int) -> Readings:
+            if seed == self.stop_at:
+                raise KeyboardInterrupt
+            self.measured.append((name, seed))
+            return {"it": 1.0 + 0.01 * seed}
+
+        return Job(
+            (claim(),),
+            measure,
+            rooms,
+            ("numpy",),
+            lambda _: self.settings if seeded else "",
+            seeded,
+        )
+
+
+@pytest.fixture
+def bench(monkeypatch: pytest.MonkeyPatch) -> Bench:
+    bench = Bench()
+    monkeypatch.setattr(reproduce, "JOBS", bench.jobs)
+    return bench
+
+
+def again(bench: Bench, folder: Path, *seeds: int) -> list[tuple[str, int]]:
+    """What a folder makes it measure."""
+    bench.measured.clear()
+    reproduce.reproduce(folder, seeds)
+    return sorted(bench.measured)
+
+
+ALL = [("once", 0), ("seeded", 1), ("seeded", 2)]
+
+
+def test_what_is_kept_is_not_measured_again(
+    bench: Bench, tmp_path: Path
 ) -> None:
-    """The evader that turns the wrong way ends on no such circle."""
-    from stepaside.unicycle.simulate import simulate as right
+    told: list[tuple[int, int]] = []
+    rows = reproduce.reproduce(
+        tmp_path, (1, 2), report=lambda *numbers: told.append(numbers)
+    )
+    assert sorted(bench.measured) == ALL
+    assert told == [(0, 3), (1, 3), (2, 3), (3, 3)]
+    assert [row["name"] for row in rows] == ["seeded.it", "once.it"]
+    assert [row["runs"] for row in rows] == [2, 1]
+    assert again(bench, tmp_path, 1, 2) == []
+    assert reproduce.reproduce(tmp_path, (1, 2)) == rows
+    assert again(bench, tmp_path, 1, 2, 3) == [("seeded", 3)]
+    assert reproduce.reproduce(None, (1, 2)) == rows
 
-    def wrong(game: Any, start: Any, duration: float) -> Any:
-        from dataclasses import replace
 
-        flipped = replace(game, angle=3.0 - game.angle)
-        return right(flipped, start, duration)
-
-    monkeypatch.setattr(unicycle_claims, "simulate", wrong)
-    assert not all(row.holds for row in unicycle_claims.circle_rows())
-
-
-def test_an_arc_that_bends_to_one_side_fails_a_row(
-    monkeypatch: pytest.MonkeyPatch,
+def test_an_edit_of_planning_moves_what_depends_on_it_only(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Eq. (10) as printed."""
-    from stepaside.planning import UnicycleTrajectory
-
-    right = UnicycleTrajectory.poses
-
-    def printed(self: UnicycleTrajectory, times: Any) -> Any:
-        poses = right(self, times)
-        poses[..., 1] *= -1.0 if self.bearing < 0.0 else 1.0
-        return poses
-
-    monkeypatch.setattr(UnicycleTrajectory, "poses", printed)
-    assert not all(row.holds for row in reproduce.JOBS["path"](1))
+    versions = {("planning",): "a", ("unicycle",): "b"}
+    monkeypatch.setattr(reproduce, "code_version", versions.__getitem__)
+    assert again(bench, tmp_path, 1, 2) == ALL
+    versions["planning",] = "c"
+    assert again(bench, tmp_path, 1, 2) == [("seeded", 1), ("seeded", 2)]
+    rows = reproduce.reproduce(tmp_path, (1, 2))
+    assert [row["version"] for row in rows] == ["c", "b"]
 
 
-def test_command_goes_on_where_it_stopped(
+def test_other_settings_or_libraries_are_measured_again(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert again(bench, tmp_path, 1, 2) == ALL
+    bench.settings = "others"
+    assert again(bench, tmp_path, 1, 2) == [("seeded", 1), ("seeded", 2)]
+    monkeypatch.setattr(
+        reproduce, "library_versions", lambda names: dict.fromkeys(names, "9")
+    )
+    assert again(bench, tmp_path, 1, 2) == ALL
+    assert again(bench, tmp_path, 1, 2) == []
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda text: text[: len(text) // 2],
+        lambda text: "[]",
+        lambda text: "{}",
+        lambda text: "",
+        lambda text: text.replace('"it": 1.01', '"it": "1.01"'),
+        lambda text: text.replace('"it": 1.01', '"other": 1.01'),
+        lambda text: text.replace('"seed": 1', '"seed": 2'),
+    ],
+)
+def test_a_torn_or_foreign_file_is_set_aside(
+    bench: Bench, tmp_path: Path, spoil: Callable[[str], str]
+) -> None:
+    assert again(bench, tmp_path, 1, 2) == ALL
+    file = tmp_path / "seeded-seed1.json"
+    spoilt = spoil(file.read_text())
+    assert spoilt != file.read_text()
+    file.write_text(spoilt)
+    assert again(bench, tmp_path, 1, 2) == [("seeded", 1)]
+    assert (tmp_path / "seeded-seed1.json.aside").read_text() == spoilt
+    assert again(bench, tmp_path, 1, 2) == []
+
+
+def test_who_stops_it_keeps_what_is_done(bench: Bench, tmp_path: Path) -> None:
+    bench.stop_at = 2
+    with pytest.raises(KeyboardInterrupt):
+        reproduce.reproduce(tmp_path, (1, 2, 3))
+    assert bench.measured == [("once", 0), ("seeded", 1)]
+    bench.stop_at = None
+    assert again(bench, tmp_path, 1, 2, 3) == [("seeded", 2), ("seeded", 3)]
+
+
+def test_a_reading_that_is_missing_stays_missing_and_fails(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    job = replace(bench.jobs["once"], measure=lambda _: {"it": NAN})
+    monkeypatch.setattr(reproduce, "JOBS", {"once": job})
+    for _ in range(2):
+        (row,) = reproduce.reproduce(tmp_path, (1,))
+        assert (row["verdict"], row["measured"]) == ("fails", None)
+
+
+def test_processes_measure_the_same(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    measured = []
+    monkeypatch.setattr(reproduce, "JOBS", {"path": JOBS["path"]})
+    here = reproduce.reproduce(None, (1,))
+    with ProcessPoolExecutor(1, get_context("spawn")) as executor:
+        there = reproduce.reproduce(tmp_path, (1,), executor)
+    assert there == here
+    assert (tmp_path / "path-seed0.json").exists()
 
-    def job(seed: int) -> list[Row]:
-        measured.append(seed)
-        return [Row("it is", "I", "paper", 1.0, 1.0, 0.1, "m")]
 
-    monkeypatch.setattr(reproduce, "JOBS", {"one": job, "two": job})
-    rows = reproduce.reproduce(tmp_path, 4)
-    assert measured == [4, 4]
-    assert reproduce.reproduce(tmp_path, 4) == rows
-    assert measured == [4, 4]
-    page = markdown_page(rows, [("A figure", "a.png")])
-    assert "2 of 2 hold" in page
+def test_each_job_names_each_of_its_claims_once() -> None:
+    for name, job in JOBS.items():
+        keys = [claim.key for claim in job.claims]
+        assert len(set(keys)) == len(keys) > 0, name
+        assert reproduce.key_of(reproduce.Trial(name, 1), job)["version"]
+
+
+def test_settings_of_a_physical_job_name_seed_and_gait() -> None:
+    for name in ("humanoids", "durations", "slip"):
+        first, second = (JOBS[name].settings(seed) for seed in (1, 2))
+        assert first != second
+        assert "single_support=0.425" in first
+    assert "single_support=0.122" in JOBS["durations"].settings(1)
+
+
+# --- page and command -----------------------------------------------------
+
+MADE = {
+    "seed": 1,
+    "runs": 10,
+    "jobs": {
+        "path": {"version": "abc", "libraries": {"numpy": "2"}},
+        "com": {"version": "abc", "libraries": {"numpy": "2"}},
+    },
+}
+
+
+def test_the_page_tells_values_runs_and_how_it_was_made() -> None:
+    rows = [
+        Row("a.it", claim(), (1.0, 1.02, 0.98), "v").to_json(),
+        Row("b.it", claim("<"), (0.5,), "v").to_json(),
+        Row("c.it", claim(), (NAN,), "v").to_json(),
+    ]
+    page = markdown_page(rows, [("2", "a|b")], [("A figure", "a.png")], MADE)
+    assert "2 of 3 hold" in page
+    assert "| 1 ± 0.1 | 1 ± 0.02 | 0.98 to 1.02 | 3 | m | **holds** |" in page
+    assert "| &lt; 1 | 0.5 |  | 1 | m | **holds** |" in page
+    assert "| none |  | 1 | m | **fails** |" in page
+    assert "| 2 | a\\|b |" in page
     assert "![A figure](a.png)" in page
+    assert "--seed 1 --runs 10" in page
+    assert "| path, com | `abc` | numpy 2 |" in page
+
+
+def test_figures_of_the_paper_stand_beside_what_was_measured() -> None:
+    rows: list[dict[str, Any]] = [
+        {"name": "circle.pursuer_radius", "measured": 2.5},
+        {"name": "slip.smaller", "measured": 0.9},
+        {"name": "humanoids.orientation", "measured": None},
+    ]
+    found = {(f.figure, f.what): f for f in paper_figures(rows, 1.5, 36.0)}
+    radius = found["2", "radius of the circle"]
+    assert (radius.paper, radius.source) == (
+        "not given",
+        "neither caption nor text",
+    )
+    assert (
+        radius.ours == "2.500 m: 5.00 ticks, the circle is 10.0 ticks across"
+    )
+    assert found["2", "number of turns"].ours.startswith("1.50 of")
+    assert "0.90 times" in found["6", "circle"].ours
+    assert found["5", "relative orientation"].ours == "not measured"
+    assert {figure for figure, _ in found} == {"2", "5", "6"}
 
 
 def test_command_prints_rows_and_writes_the_page(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from stepaside.commands import reproduce as command
-
-    quick = {"path": reproduce.JOBS["path"]}
-    monkeypatch.setattr(reproduce, "JOBS", quick)
-    monkeypatch.setattr(command, "_figures", lambda *_: [])
-    result = CliRunner().invoke(
-        main, ["reproduce", "--output", str(tmp_path), "--json"]
-    )
+    monkeypatch.setattr(reproduce, "JOBS", {"path": JOBS["path"]})
+    monkeypatch.setattr(reproduce_figures, "draw_figures", lambda *_: [])
+    call = ["reproduce", "--workers", "1", "--output", str(tmp_path)]
+    result = CliRunner().invoke(main, [*call, "--json"])
     assert result.exit_code == 0, result.stderr
     rows = json.loads(result.stdout)
+    assert len(rows) == len(JOBS["path"].claims)
     for row in rows:
         assert row["measured"] is not None
-        for key in ("claim", "section", "expected", "tolerance", "verdict"):
-            assert key in row
+        assert (row["runs"], row["spread"]) == (1, 0.0)
+        assert row["version"] == code_version(JOBS["path"].rooms)
+        assert row["verdict"] == "holds"
+    kept = json.loads((tmp_path / "claims.json").read_text())
+    assert kept["rows"] == rows
+    assert (kept["seed"], kept["runs"]) == (1, 10)
+    job = kept["jobs"]["path"]
+    assert job["version"] == rows[0]["version"]
+    assert "single_support=0.425" in job["settings"]
     html = (tmp_path / "claims.html").read_text()
-    assert html.count("<tr>") == len(rows) + 1
-    assert html.count("<td") == 8 * len(rows)  # bars in texts split no cell
+    first = html.split("</table>")[0]
+    assert first.count("<tr>") == len(rows) + 1
+    assert first.count("<td") == 10 * len(rows)  # bars split no cell
     assert "|theta*|" in html
+    told = CliRunner().invoke(main, call)
+    assert f"{len(rows)} of {len(rows)} hold" in told.stdout
+
+
+def test_figures_are_drawn_and_drawn_again_when_they_must_be(
+    tmp_path: Path,
+) -> None:
+    def draw(duration: float = 1.0) -> list[tuple[str, str]]:
+        return reproduce_figures.draw_figures(
+            tmp_path, 3, duration=duration, marks=2
+        )
+
+    def times() -> dict[str, int]:
+        return {name: (tmp_path / name).stat().st_mtime_ns for name in names}
+
+    names = [name for _, name in draw()]
+    assert names == ["fig2.png", "sweep.png", "duel-seed3.png"]
+    for name in names:
+        assert (tmp_path / name).read_bytes().startswith(b"\x89PNG")
+        assert (tmp_path / name).stat().st_size > 20_000
+    before = times()
+    draw()
+    assert times() == before
+    (tmp_path / "fig2.png").unlink()
+    draw(duration=1.2)
+    after = times()
+    assert {n for n in names if after[n] != before[n]} == {
+        "fig2.png",
+        "duel-seed3.png",
+    }
+
+
+def test_our_fig_2_shows_the_circle_more_than_once_round() -> None:
+    turns, end = reproduce_figures.turns_shown()
+    assert 1.0 < turns < 3.0
+    assert end == pytest.approx(36.0)  # five time constants and one turn

@@ -7,14 +7,40 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stepaside.control import Evasion, Pursuit
+from stepaside.control.roles import Walk
 from stepaside.errors import ConfigurationError
 from stepaside.planning import Direction
 from stepaside.poses import wrap_angle
 
 
-def test_pursuer_heads_for_the_other() -> None:
-    assert Pursuit().desired_heading(0.4) == 0.4
-    assert Pursuit().direction is Direction.FORWARD
+def test_pursuer_heads_for_the_other_wherever_it_is() -> None:
+    role = Pursuit()
+    assert role.desired_heading(0.4) == 0.4
+    assert role.desired_heading(-0.4) == -0.4
+    assert role.direction is Direction.FORWARD
+    assert role.is_triggered(0.0) and role.is_triggered(100.0)
+
+
+def test_a_walk_heads_where_it_was_told_whatever_is_seen() -> None:
+    role = Walk(bearing=-0.3)
+    assert role.desired_heading(1.0) == role.desired_heading(-1.0) == -0.3
+    assert role.is_triggered(0.0) and role.is_triggered(100.0)
+    assert role.direction is Direction.FORWARD
+    assert Walk().desired_heading(1.0) == 0.0
+
+
+def test_players_turn_by_8_unless_told_otherwise() -> None:
+    """Eq. (6), bang-bang, is for the figure that compares both."""
+    assert not any(r.saturated for r in (Pursuit(), Evasion(), Walk()))
+
+
+def test_evader_of_the_paper_moves_aside_backwards_from_0_8_m() -> None:
+    """Sec. IV: the safety area has a radius of 0.8 m and has no end."""
+    role = Evasion()
+    assert role.direction is Direction.BACKWARD
+    assert not role.is_triggered(0.801)
+    assert role.is_triggered(0.799) and role.is_triggered(1e6)
+    assert role.side_hysteresis == pytest.approx(radians(20.0))
 
 
 @given(st.floats(-pi, pi))
@@ -85,6 +111,35 @@ def test_evasion_latches_until_the_release_distance() -> None:
     assert tuple(map(role.is_triggered, distances)) == expected
 
 
+def test_side_is_chosen_anew_after_a_release() -> None:
+    """Kept, it would send the evader to the wrong side of a new pursuer."""
+    role = Evasion(safety_radius=0.8, release_distance=1.2)
+    role.is_triggered(0.7)
+    role.desired_heading(radians(10.0))
+    assert role.side == 1.0
+    role.is_triggered(1.1)
+    assert role.side == 1.0  # not before it ends
+    role.is_triggered(1.3)
+    assert role.side is None
+    role.is_triggered(0.7)
+    assert role.desired_heading(radians(-10.0)) == pytest.approx(radians(80.0))
+
+
+@given(st.floats(-pi, pi), st.floats(-pi, pi), st.floats(0.0, pi))
+def test_desired_heading_is_an_angle_within_half_a_turn(
+    first: float, then: float, angle: float
+) -> None:
+    """Also when the latched side is not that of the bearing."""
+    role = Evasion(angle=angle)
+    role.desired_heading(first)
+    assert abs(role.desired_heading(then)) <= pi
+
+
+@pytest.mark.parametrize("angle", [0.0, pi])
+def test_extreme_strategies_are_allowed(angle: float) -> None:
+    assert Evasion(angle=angle, side_hysteresis=0.0).angle == angle
+
+
 @pytest.mark.parametrize(
     "bad",
     [
@@ -92,6 +147,10 @@ def test_evasion_latches_until_the_release_distance() -> None:
         {"angle": float("nan")},
         {"safety_radius": 0.0},
         {"release_distance": 0.5},
+        {"release_distance": 0.8},
+        {"side_hysteresis": -0.1},
+        {"side_hysteresis": 3.2},
+        {"angle": 3.2},
     ],
 )
 def test_impossible_evasion_is_refused(bad: dict[str, float]) -> None:

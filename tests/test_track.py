@@ -1,6 +1,6 @@
 """Test following things through frames: gates, memory, latency."""
 
-from math import hypot
+from math import hypot, inf
 
 import numpy as np
 import pytest
@@ -126,3 +126,173 @@ def test_covariance_does_not_depend_on_axes() -> None:
     seen = Observation(0.0, 1.0, 1.0, 0.7, 0.2, 0.05, True, True)
     deviations = np.sqrt(np.linalg.eigvalsh(seen.covariance))
     np.testing.assert_allclose(deviations, [0.05, 0.2], atol=1e-12)
+
+
+def test_deviations_lie_along_and_across_the_line_of_sight() -> None:
+    seen = Observation(0.0, 1.0, 1.0, 0.7, 0.2, 0.05, True, True)
+    sight = np.array([np.cos(0.7), np.sin(0.7)])
+    aside = np.array([-np.sin(0.7), np.cos(0.7)])
+    np.testing.assert_allclose(seen.covariance @ sight, 0.2**2 * sight)
+    np.testing.assert_allclose(seen.covariance @ aside, 0.05**2 * aside)
+
+
+def test_a_track_begins_at_rest_where_it_was_seen() -> None:
+    track = Track(Observation(2.0, 1.0, -0.5, 0.7, 0.2, 0.05, False, False))
+    assert track.place_at(2.0) == (1.0, -0.5)
+    assert track.velocity == (0.0, 0.0)
+    assert track.deviation_at(2.0) == pytest.approx(0.2)
+    assert (track.time, track.begun_at, track.seen_at) == (2.0, 2.0, 2.0)
+    assert (track.identified_at, track.ranged_at) == (-inf, -inf)
+    assert not track.confirmed
+    known = Track(Observation(2.0, 1.0, -0.5, 0.7, 0.2, 0.05, True, True))
+    assert (known.identified_at, known.ranged_at) == (2.0, 2.0)
+
+
+def unseen_for(step: float) -> tuple[float, float, float]:
+    """Way of a unit speed, what is left of it and variance pushed in."""
+    ahead, kept = step, 1.0
+    if step > 0.4:
+        kept = np.exp(-(step - 0.4) / 0.7)
+        ahead = 0.4 + 0.7 * (1.0 - kept)
+    return ahead, kept, min(1.0, 0.3 / step)
+
+
+@pytest.mark.parametrize("step", [0.1, 0.3, 0.39, 0.8, 2.0])
+def test_doubt_grows_by_speed_and_push(step: float) -> None:
+    """HURRY of 0.25 m/s and pushes of 1 m/s^2, forgotten after 0.4 s."""
+    track = Track(look(1.0, 2.0))
+    ahead, _, share = unseen_for(step)
+    variance = 0.03**2 + (0.25 * ahead) ** 2 + share * 0.25 * step**4
+    assert track.deviation_at(1.0 + step) == pytest.approx(np.sqrt(variance))
+
+
+@pytest.mark.parametrize("step", [0.1, 0.39, 0.8, 2.0])
+@pytest.mark.parametrize("bearing", [0.0, 0.7, -2.0])
+def test_a_correction_is_the_best_linear_estimate(
+    step: float, bearing: float
+) -> None:
+    """Two observations against the sum of their informations."""
+    first = Observation(0.0, 1.0, -0.5, 0.3, 0.2, 0.05, False, False)
+    second = Observation(step, 1.2, -0.4, bearing, 0.1, 0.03, True, True)
+    third = Observation(step + 0.2, 1.2, 0.1, 0.5, 0.2, 0.1, False, False)
+    ahead, kept, share = unseen_for(step)
+    eye = np.eye(2)
+    move = np.block([[eye, ahead * eye], [0.0 * eye, kept * eye]])
+    spread = np.zeros((4, 4))
+    spread[:2, :2] = first.covariance
+    spread[2:, 2:] = 0.25**2 * eye
+    push = share * np.block(
+        [
+            [0.25 * step**4 * eye, 0.5 * step**3 * eye],
+            [0.5 * step**3 * eye, step**2 * eye],
+        ]
+    )
+    spread = move @ spread @ move.T + push
+    measured = np.linalg.inv(second.covariance)
+    information = np.linalg.inv(spread)
+    before = information @ np.array([1.0, -0.5, 0.0, 0.0])
+    before[:2] += measured @ (1.2, -0.4)
+    information[:2, :2] += measured
+    after = np.linalg.inv(information)
+    x, y, vx, vy = after @ before
+
+    track = Track(first)
+    gap = np.array([0.2, 0.1])
+    misfit = gap @ np.linalg.inv(spread[:2, :2] + second.covariance) @ gap
+    assert track.misfit(second) == pytest.approx(misfit)
+    track.correct(second)
+    assert track.place_at(step) == pytest.approx((x, y))
+    assert track.velocity == pytest.approx((vx, vy))
+    greatest = np.linalg.eigvalsh(after[:2, :2])[-1]
+    assert track.deviation_at(step) == pytest.approx(np.sqrt(greatest))
+    # What is known together of place and speed shows in what comes next.
+    move = np.block([[eye, 0.2 * eye], [0.0 * eye, eye]])
+    spread = (move @ after @ move.T)[:2, :2] + 0.25 * 0.2**4 * eye
+    gap = np.array([1.2 - x - 0.2 * vx, 0.1 - y - 0.2 * vy])
+    misfit = gap @ np.linalg.inv(spread + third.covariance) @ gap
+    assert track.misfit(third) == pytest.approx(misfit)
+
+
+def test_a_speed_is_believed_for_a_while_and_then_forgotten() -> None:
+    track = Track(look(0.0, 2.0))
+    for i in range(1, 60):
+        time = i * FRAME
+        track.correct(look(time, 2.0 - 0.3 * time, 0.2 * time))
+    start, speed = np.array(track.place_at(track.time)), track.velocity
+    assert speed == pytest.approx((-0.3, 0.2), abs=0.02)
+    for step in (0.1, 0.4, 0.8, 10.0):
+        there = track.place_at(track.time + step)
+        way = unseen_for(step)[0] * np.array(speed)
+        np.testing.assert_allclose(there - start, way, rtol=1e-6)
+
+
+def test_the_past_neither_turns_back_time_nor_memory() -> None:
+    track = Track(look(1.0, 2.0))
+    track.correct(look(1.2, 2.0))
+    track.correct(look(1.1, 2.0))
+    assert (track.time, track.seen_at) == (1.2, 1.2)
+    assert (track.identified_at, track.ranged_at) == (1.2, 1.2)
+    track.correct(Observation(1.4, 2.0, 0.0, 0.0, 0.1, 0.1, False, False))
+    assert (track.time, track.seen_at) == (1.4, 1.4)
+    assert (track.identified_at, track.ranged_at) == (1.2, 1.2)
+
+
+def test_a_late_frame_fits_where_the_thing_was() -> None:
+    track = Track(look(0.0, 2.0))
+    for i in range(1, 60):
+        track.correct(look(i * FRAME, 2.0 - 0.3 * i * FRAME))
+    now = 59 * FRAME
+    assert track.misfit(look(now - 0.3, 2.0 - 0.3 * (now - 0.3))) < 0.01
+    assert track.misfit(look(now - 0.3, 2.0 - 0.3 * now)) > 1.0
+
+
+@pytest.mark.parametrize(
+    ("frames", "confirmed", "hopeless"),
+    [
+        ("", False, False),
+        ("+", False, False),
+        ("++", True, False),
+        ("--", False, False),
+        ("---", False, True),
+        ("-+-", False, False),
+        ("-+-+", True, False),
+        ("--+-", False, True),
+        ("--+-+", False, True),  # the first is forgotten by now
+        ("++-----", True, False),
+    ],
+)
+def test_three_of_five_frames_decide(
+    frames: str, confirmed: bool, hopeless: bool
+) -> None:
+    """A track begins with a frame that found it."""
+    track = Track(look(0.0, 1.0))
+    for frame in frames:
+        track.count(frame == "+")
+    assert track.confirmed is confirmed
+    assert track.hopeless is hopeless
+
+
+def test_direction_and_distance_are_from_the_place_that_asks() -> None:
+    track = Track(look(0.0, 2.0, 1.0))
+    assert track.turned_to(1.0, 3.0, 0.0) == pytest.approx(np.arctan2(-2, 1))
+    assert track.away_from(1.0, 3.0, 0.0) == pytest.approx(hypot(1.0, 2.0))
+
+
+def test_what_takes_over_knows_what_both_knew() -> None:
+    def pair() -> tuple[Track, Track]:
+        old = Track(look(0.0, 2.0))
+        new = Track(look(1.0, 2.0))
+        new.confirmed = True
+        return old, new
+
+    old, new = pair()
+    old.take_over(new)
+    assert (old.identified_at, old.seen_at, old.ranged_at) == (1.0, 1.0, 1.0)
+    assert old.confirmed and old.begun_at == 0.0
+    old, new = pair()
+    new.take_over(old)
+    assert (new.identified_at, new.seen_at, new.ranged_at) == (1.0, 1.0, 1.0)
+    assert new.confirmed
+    unsure = Track(look(0.0, 2.0))
+    unsure.take_over(Track(look(0.1, 2.0)))
+    assert not unsure.confirmed

@@ -1,7 +1,5 @@
 """Test games with held turning rates and the stability of their circle."""
 
-from math import pi
-
 import numpy as np
 import pytest
 
@@ -43,27 +41,35 @@ def test_sampling_and_delay_leave_the_circle_as_it_is(
     )
 
 
-@pytest.mark.parametrize("delay", [0.0, 0.25, 1.0, 1.3])
-def test_step_map_is_the_derivative_of_the_game(delay: float) -> None:
-    """Finite differences of played periods give the same decay."""
-    rest, h, period = on_circle(UNEVEN), 1e-6, 0.5
-    values = step_eigenvalues(UNEVEN, period, delay)
+@pytest.mark.parametrize("delay", [0.0, 0.25, 0.5, 1.0, 1.3])
+def test_step_map_foretells_the_next_sample_of_a_game(delay: float) -> None:
+    """State and the rates chosen before, newest first, near the circle."""
+    period = 0.5
+    rest = on_circle(UNEVEN)
+    rate = circle_of(UNEVEN).turning_rate_rad_s
     matrix = step_map(UNEVEN, period, delay)
-    assert max(abs(v) for v in values) == pytest.approx(
-        max(abs(np.linalg.eigvals(matrix)))
-    )
-    if delay == 0.0:
-        columns = []
-        for i in range(3):
-            ends = []
-            for sign in (1, -1):
-                start = Start(*(rest + sign * h * np.eye(3)[i]))
-                run = simulate_sampled(UNEVEN, start, period, period)
-                ends.append(run.states[-1])
-            columns.append((ends[0] - ends[1]) / (2 * h))
-        np.testing.assert_allclose(
-            np.array(columns).T, matrix[:3, :3], atol=1e-8
-        )
+    depth = (len(matrix) - 3) // 2
+    start = Start(*(rest + [0.02, -0.01, 0.015]))
+    run = simulate_sampled(UNEVEN, start, 60.0, period, delay=delay)
+    seen = 0
+    for n in range(depth, len(run.turning_rates)):
+        pipe = run.turning_rates[n - depth : n][::-1] - rate
+        now = np.concatenate([run.states[n] - rest, pipe.ravel()])
+        size = np.abs(now).max()
+        if not 1e-5 < size < 0.05:
+            continue
+        seen += 1
+        then = run.states[n + 1] - rest
+        assert np.abs((matrix @ now)[:3] - then).max() < 4.0 * size**2
+        chosen = run.turning_rates[n] - rate
+        np.testing.assert_allclose((matrix @ now)[3:5], chosen, atol=1e-12)
+        np.testing.assert_allclose((matrix @ now)[5:], now[3:-2], atol=0)
+    assert seen > 5
+    values = step_eigenvalues(UNEVEN, period, delay)
+    sizes = [abs(value) for value in values]
+    assert sizes == sorted(sizes, reverse=True)
+    assert len(values) == len(matrix)
+    assert sum(values).real == pytest.approx(np.trace(matrix))
 
 
 def test_short_periods_tend_to_the_continuous_law() -> None:
@@ -129,4 +135,11 @@ def test_no_linearisation_where_the_evader_slides_or_nothing_circles() -> None:
         step_map(make_game(1, 1, 1, 1, 0.3, "saturated"), 0.1)
     with pytest.raises(PlanError, match="no circle"):
         step_map(make_game(1, 1, 1, 1, 0.0), 0.1)
-    assert pi > largest_stable_sample_time(NAO) * 0.2 > 0.5
+
+
+def test_equal_players_bear_1_7_of_sampling_and_1_1_of_delay() -> None:
+    """In units of 1/k, at an angle of pi / 2."""
+    assert 0.2 * largest_stable_sample_time(NAO) == pytest.approx(
+        1.70, abs=0.005
+    )
+    assert 0.2 * largest_stable_delay(NAO) == pytest.approx(1.10, abs=0.005)

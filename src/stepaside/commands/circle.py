@@ -1,17 +1,18 @@
-"""``stepaside circle``: the circle of a game, from its equations."""
+"""``stepaside circle``: the circles of a game, from its equations."""
 
 from typing import Any
 
 import click
 
 from ..unicycle.laws import Game
+from .circles import describe_circles, describe_remedies, print_circles
 from .game_options import (
     check_figure_folder,
     describe_game,
     finite,
     game_options,
 )
-from .options import NumberType, json_option, print_json, print_table
+from .options import METERS, NumberType, json_option, print_json
 
 TIME = NumberType("s", allow_zero=True)
 
@@ -37,17 +38,62 @@ TIME = NumberType("s", allow_zero=True)
     type=click.Path(dir_okay=False),
     help="Write a figure over angle and ratios of gains and speeds.",
 )
+@click.option(
+    "--figure",
+    type=click.Path(dir_okay=False),
+    help="Write a map of the reversed circle over both ratios.",
+)
+@click.option(
+    "--starts",
+    type=click.IntRange(0, 1_000_000),
+    default=400,
+    show_default=True,
+    help="Random starts that are played to see which circle they end on.",
+)
+@click.option(
+    "--seed",
+    type=click.IntRange(0),
+    default=0,
+    show_default=True,
+    help="Of the random starts.",
+)
+@click.option(
+    "--body",
+    type=METERS,
+    default=1e-6,
+    show_default=True,
+    help="Distance that counts as capture, in [m].",
+)
+@click.option(
+    "--remedies", is_flag=True, help="Try what else the evader could do."
+)
 @json_option
 def circle(
     game: Game,
     sample_time: float,
     delay: float,
     sweep: str | None,
+    figure: str | None,
+    starts: int,
+    seed: int,
+    body: float,
+    remedies: bool,
     as_json: bool,
 ) -> None:
-    """Find the circle that a game ends on, and how firmly it holds."""
+    """Find the circles that a game ends on, and how firmly they hold."""
     check_figure_folder(sweep)
+    check_figure_folder(figure)
+    if remedies and starts == 0:
+        raise click.UsageError("--remedies needs --starts > 0")
     result = describe_circle(game, sample_time, delay)
+    result |= describe_circles(game, starts, seed, body)
+    if remedies:
+        result["remedies"] = describe_remedies(game, starts, seed, body)
+    if figure is not None:
+        from ..report.unicycle_ratios import draw_ratios
+
+        draw_ratios(game, figure)
+        result["map"] = figure
     if sweep is not None:
         from ..report.unicycle_sweep import draw_sweep
 
@@ -56,16 +102,7 @@ def circle(
     if as_json:
         print_json(result)
         return
-    if not result["exists"]:
-        click.echo("There is no circle for these speeds, gains and angle.")
-        return
-    print_table(
-        [
-            (name, _text(value))
-            for name, value in result.items()
-            if name != "game"
-        ]
-    )
+    print_circles(result)
 
 
 def describe_circle(
@@ -139,12 +176,3 @@ def _describe_sampling(
 
 def _pairs(values: tuple[complex, ...]) -> list[list[float]]:
     return [[value.real, value.imag] for value in values]
-
-
-def _text(value: Any) -> str:
-    """A value as a cell of the table."""
-    if isinstance(value, list):
-        return ", ".join(f"{re:.6g}{im:+.6g}i" for re, im in value)
-    if isinstance(value, float):
-        return f"{value:.6g}"
-    return "-" if value is None else str(value)

@@ -140,6 +140,7 @@ def map(  # noqa: A001 (the command's name)
         "mean_closest_distance_m": float(out.closest_distance.mean()),
         "captured_share": float(out.captured.mean()),
         "settled_share": len(settled) / total,
+        "circles": _circles(game, out),
         "settled_time_median_s": finite(
             float(np.median(settled)) if len(settled) else float("inf")
         ),
@@ -159,8 +160,9 @@ def map(  # noqa: A001 (the command's name)
     }
     if figure is not None:
         from ..report.unicycle_map import draw_map
+        from ..unicycle.circles import circles_of
 
-        draw_map(found, figure, body=body)
+        draw_map(found, figure, circles=circles_of(game), body=body)
         result["figure"] = figure
     if as_json:
         print_json(result)
@@ -168,7 +170,30 @@ def map(  # noqa: A001 (the command's name)
     rows = [
         (name, f"{value:.6g}" if isinstance(value, float) else str(value))
         for name, value in result.items()
-        if not isinstance(value, dict)
+        if not isinstance(value, dict | list)
     ]
+    for found_circle in result["circles"]:
+        way = "main" if found_circle["direction"] > 0 else "reversed"
+        apart, share = found_circle["distance_m"], found_circle["share"]
+        rows.append((f"on the {way} circle", f"{share:.6g} at {apart:.6g} m"))
     start = result["worst_start"]
     print_table([*rows, *((f"worst {k}", str(v)) for k, v in start.items())])
+
+
+def _circles(game: Game, outcomes: Any) -> list[dict[str, Any]]:
+    """Every circle of the game, with the share of games that are on it."""
+    from ..unicycle.basins import shares_of
+    from ..unicycle.circles import circles_of
+
+    circles = circles_of(game)
+    return [
+        {
+            "direction": circle.direction,
+            "distance_m": circle.distance_m,
+            "stable": circle.stable,
+            "share": share,
+        }
+        for circle, share in zip(
+            circles, shares_of(outcomes, len(circles)), strict=True
+        )
+    ]

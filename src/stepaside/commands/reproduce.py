@@ -1,5 +1,7 @@
 """``stepaside reproduce``: every claim of the paper, measured."""
 
+import json
+import os
 from pathlib import Path
 from typing import Any
 
@@ -14,35 +16,49 @@ from .options import json_option, print_json
     type=click.IntRange(0),
     default=1,
     show_default=True,
-    help="Of the duels.",
+    help="Of the first duel; the others follow it.",
+)
+@click.option(
+    "--runs",
+    type=click.IntRange(1),
+    default=10,
+    show_default=True,
+    help="Runs of each claim that is measured in physics.",
+)
+@click.option(
+    "--workers", type=click.IntRange(1), help="Processes; all cores."
 )
 @click.option(
     "--output",
     type=click.Path(file_okay=False, path_type=Path),
     default=Path("runs/reproduce"),
     show_default=True,
-    help="Folder of the page; what it holds already is not measured again.",
+    help="Folder of the page; what it holds already and what still has the "
+    "same code, settings and libraries is not measured again.",
 )
 @json_option
-def reproduce(seed: int, output: Path, as_json: bool) -> None:
+def reproduce(
+    seed: int, runs: int, workers: int | None, output: Path, as_json: bool
+) -> None:
     """Measure every claim of the paper and write a page about it.
 
-    Takes about two minutes; when stopped, it goes on where it was.
+    Takes TIME. When stopped, it keeps
+    what is done and goes on there the next time.
     """
-    from tqdm import tqdm
-
     from ..report.claims_page import write_page
-    from ..studies.reproduce import JOBS
-    from ..studies.reproduce import reproduce as measure
+    from ..studies.paper_figures import paper_figures
+    from ..studies.reproduce import provenance
+    from .reproduce_figures import draw_figures, turns_shown
 
-    with tqdm(total=len(JOBS), desc="claims", disable=None) as bar:
-
-        def report(name: str) -> None:
-            bar.set_postfix_str(name)
-            bar.update()
-
-        rows = measure(output / "rows", seed, report)
-    page = write_page(output, rows, _figures(output, seed))
+    rows = _measure(output / "rows", range(seed, seed + runs), workers)
+    figures = draw_figures(output, seed)
+    made = {"seed": seed, "runs": runs, "jobs": provenance(seed)}
+    (output / "claims.json").write_text(
+        json.dumps(made | {"rows": rows}, indent=1, allow_nan=False) + "\n",
+        encoding="utf-8",
+    )
+    beside = paper_figures(rows, *turns_shown())
+    page = write_page(output, rows, beside, figures, made)
     if as_json:
         print_json(rows)
         return
@@ -54,37 +70,34 @@ def reproduce(seed: int, output: Path, as_json: bool) -> None:
     click.echo(f"\n{len(rows) - failed} of {len(rows)} hold\npage: {page}")
 
 
-def _figures(folder: Path, seed: int) -> list[tuple[str, str]]:
-    """Draw the manner of Fig. 2, the family of strategies and Fig. 5."""
-    from ..report.duel_figure import draw_duel
-    from ..report.unicycle_figures import draw_game
-    from ..report.unicycle_sweep import draw_sweep
-    from ..simulation.duel import run_duel
-    from ..simulation.settings import DuelSettings
-    from ..simulation.summary import summarise
-    from ..studies.unicycle_claims import FIG_2, play
+def _measure(
+    folder: Path, seeds: range, workers: int | None
+) -> list[dict[str, Any]]:
+    """Measure on all cores, with a progress bar."""
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
 
-    def duel(file: str) -> None:
-        result = run_duel(DuelSettings(seed=seed))
-        summary = summarise(result)
-        draw_duel(result.arrays, summary, result.settings, Path(file))
+    from tqdm import tqdm
 
-    drawings: dict[str, tuple[str, Any]] = {
-        "fig2.png": (
-            "Unicycles under (1)-(4), in the manner of Fig. 2",
-            lambda file: draw_game(play(FIG_2), file),
-        ),
-        "sweep.png": (
-            "The circle over angle and ratios: theory as lines, simulation "
-            "as marks",
-            lambda file: draw_sweep(FIG_2, file),
-        ),
-        f"duel-seed{seed}.png": (
-            "Two NAOs in physics, in the manner of Fig. 5",
-            duel,
-        ),
-    }
-    for name, (_, draw) in drawings.items():
-        if not (folder / name).exists():
-            draw(str(folder / name))
-    return [(caption, name) for name, (caption, _) in drawings.items()]
+    from ..studies.reproduce import reproduce as measure
+
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    with tqdm(desc="claims", unit="run", disable=None) as bar:
+
+        def report(number: int, total: int) -> None:
+            bar.total, bar.n = total, number
+            bar.refresh()
+
+        if workers == 1:
+            return measure(folder, seeds, None, report)
+        with ProcessPoolExecutor(
+            workers, get_context("spawn"), initializer=_stop_at_once
+        ) as executor:
+            return measure(folder, seeds, executor, report)
+
+
+def _stop_at_once() -> None:
+    """Let Ctrl-C end a worker without a word; what is done is kept."""
+    import signal
+
+    signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -114,6 +114,7 @@ def unicycles(
     result["theory"] = {
         name: theory[name] for name in ("exists", *_NAMES, "time_constant_s")
     }
+    result["certified"] = _certify(game, start)
     if as_json:
         print_json(result)
     else:
@@ -150,12 +151,41 @@ def _play(
         found = {k: finite(v) for k, v in asdict(measure(run)).items()}
         result |= {"radius_m": found["radius_pursuer_m"]} | found
         result["turning_rate_rad_s"] = abs(found["turning_rate_rad_s"] or 0.0)
+        last = run.states([run.end_time])[0, :3]
+        result["circle"] = _ended_on(game, last, run.sides[-1])
     if figure is not None:
         from ..report.unicycle_figures import draw_game
 
         draw_game(run, figure)
         result["figure"] = figure
     return result
+
+
+def _certify(game: Game, start: Any) -> dict[str, Any] | None:
+    """What is proved of the closest approach; None outside its reach."""
+    from ..errors import PlanError
+    from ..unicycle.certificate import certify
+
+    try:
+        found = certify(game, start)
+    except PlanError:  # unequal players, the saturated law or moving back
+        return None
+    return {"holds": found.holds, "distance_m": found.distance_m}
+
+
+def _ended_on(game: Game, state: Any, side: int) -> dict[str, Any] | None:
+    """Give the circle that a state is on; None for none."""
+    from ..unicycle.circles import circles_of
+    from ..unicycle.measure import circle_at
+
+    circle = circle_at(circles_of(game), state, side)
+    if circle is None:
+        return None
+    return {
+        "direction": circle.direction,
+        "distance_m": circle.distance_m,
+        "stable": circle.stable,
+    }
 
 
 def _play_sampled(
@@ -204,6 +234,13 @@ def _print(result: dict[str, Any]) -> None:
         cells = [result.get(name), theory[name]]
         texts = ["-" if c is None else f"{c:.6g}" for c in cells]
         rows.append((name, f"{texts[0]:<12} {texts[1]}"))
+    circle = result.get("circle")
+    if circle is not None:
+        way = "main" if circle["direction"] > 0 else "reversed"
+        rows.append(("ended on", f"the {way} circle"))
+    certified = result["certified"]
+    if certified is not None and certified["holds"]:
+        rows.append(("certified_m", f"{certified['distance_m']:.6g}"))
     rows.append(("captured", "yes" if result["captured"] else "no"))
     rows.append(("end_time_s", f"{result['end_time_s']:.6g}"))
     closest = result["closest_distance_m"]

@@ -1,6 +1,6 @@
 """The page of claims, in Markdown and HTML."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +10,33 @@ HEAD = """# Every claim of the paper, measured
 should read, at which level it was measured, and whether it holds; where the
 text reads otherwise, the last column says how.
 
+What is measured in physics is measured in several duels from random starts:
+the page gives their mean, their standard deviation, the least and the
+greatest. An equality holds if the mean is within the tolerance and every
+single run within twice the tolerance; an inequality holds if every single run
+is on its side. A run that has no such value, as after a fall, makes its row
+fail.
+
+"""
+FIGURES = """## What the paper's own figures show
+
+Read from captions and text only: the drawings themselves were not at hand, so
+what can only be measured in them (the radius and the number of turns of
+Fig. 2, against its ticks) stands here as not given. Figs. 1, 3 and 4 show no
+measurement.
+
+| figure | what | paper | where | ours |
+|---|---|---|---|---|
+"""
+MADE = """## How this page was made
+
+`stepaside reproduce --seed {seed} --runs {runs}`, which measures again what
+depends on code, settings or libraries that have changed. `claims.json` holds
+the same rows. The version is a fingerprint of the code that a row depends on,
+less comments.
+
+| measured | version | libraries |
+|---|---|---|
 """
 STYLE = (
     "body{font-family:sans-serif;margin:2rem auto;max-width:75rem;"
@@ -18,46 +45,53 @@ STYLE = (
     "padding:.3rem .6rem;text-align:left;vertical-align:top}"
     "img{max-width:100%}"
 )
+COLUMNS = (
+    *("section", "claim", "level", "expected", "measured"),
+    *("least to greatest", "runs", "unit", "verdict", "as printed"),
+)
 
 
 def markdown_page(
-    rows: Sequence[dict[str, Any]], figures: Sequence[tuple[str, str]]
+    rows: Sequence[Mapping[str, Any]],
+    beside: Sequence[tuple[str, ...]],
+    figures: Sequence[tuple[str, str]],
+    made: Mapping[str, Any],
 ) -> str:
     """Text of the page.
 
     Args:
         rows: Claims as JSON objects.
+        beside: What the paper's figures show: figure, what, paper, where,
+            ours.
         figures: Pairs of a caption and the name of a file beside the page.
+        made: First seed, runs, and version and libraries of each job.
     """
     held = sum(row["verdict"] == "holds" for row in rows)
     lines = [
         HEAD + f"{held} of {len(rows)} hold.",
         "",
-        "| section | claim | level | expected | measured | unit | verdict "
-        "| as printed |",
-        "|---|---|---|---|---|---|---|---|",
+        "| " + " | ".join(COLUMNS) + " |",
+        "|" + "---|" * len(COLUMNS),
     ]
-    for row in rows:
-        lines.append(
-            f"| {row['section']} | {_text(row['claim'])} | {row['level']} "
-            f"| {_expected(row)} | {_number(row['measured'])} "
-            f"| {row['unit']} | **{row['verdict']}** "
-            f"| {_text(row['as_printed'] or '')} |"
-        )
+    lines += [_line(_cells(row)) for row in rows]
+    lines += ["", FIGURES + "\n".join(_line(row) for row in beside)]
     for caption, file in figures:
         lines += ["", f"![{caption}]({file})", "", f"*{caption}*"]
+    lines += ["", MADE.format(**made) + "\n".join(_jobs(made["jobs"]))]
     return "\n".join(lines) + "\n"
 
 
 def write_page(
     folder: Path,
-    rows: Sequence[dict[str, Any]],
+    rows: Sequence[Mapping[str, Any]],
+    beside: Sequence[tuple[str, ...]],
     figures: Sequence[tuple[str, str]],
+    made: Mapping[str, Any],
 ) -> Path:
     """Write ``claims.md`` and ``claims.html``; return the latter."""
     import markdown
 
-    text = markdown_page(rows, figures)
+    text = markdown_page(rows, beside, figures, made)
     (folder / "claims.md").write_text(text, encoding="utf-8")
     body = markdown.markdown(text, extensions=["tables"])
     html = folder / "claims.html"
@@ -70,12 +104,52 @@ def write_page(
     return html
 
 
+def _cells(row: Mapping[str, Any]) -> tuple[str, ...]:
+    """Cells of a claim, as Markdown."""
+    measured, extremes = _number(row["measured"]), ""
+    if row["runs"] > 1:
+        measured += f" ± {_number(row['spread'], 2)}"
+        ends = (_number(row[end]) for end in ("least", "greatest"))
+        extremes = " to ".join(ends)
+    return (
+        row["section"],
+        row["claim"],
+        row["level"],
+        _expected(row),
+        measured,
+        extremes,
+        str(row["runs"]),
+        row["unit"],
+        row["verdict"],
+        row["as_printed"] or "",
+    )
+
+
+def _jobs(jobs: Mapping[str, Any]) -> list[str]:
+    """Lines on versions; jobs of one version share a line."""
+    groups: dict[tuple[str, str], list[str]] = {}
+    for name, job in jobs.items():
+        libraries = ", ".join(f"{k} {v}" for k, v in job["libraries"].items())
+        groups.setdefault((job["version"], libraries), []).append(name)
+    return [
+        _line((", ".join(names), f"`{version}`", libraries))
+        for (version, libraries), names in groups.items()
+    ]
+
+
+def _line(cells: Sequence[str]) -> str:
+    """One line of a table."""
+    return "| " + " | ".join(_text(cell) for cell in cells) + " |"
+
+
 def _text(text: str) -> str:
     """Keep the table and the stars of a text that Markdown would take."""
+    if text in ("holds", "fails"):
+        return f"**{text}**"
     return text.replace("|", "\\|").replace("*", "\\*")
 
 
-def _expected(row: dict[str, Any]) -> str:
+def _expected(row: Mapping[str, Any]) -> str:
     value = _number(row["expected"])
     if row["relation"] != "=":
         sign = "&lt;" if row["relation"] == "<" else "&gt;"
@@ -83,5 +157,5 @@ def _expected(row: dict[str, Any]) -> str:
     return f"{value} ± {row['tolerance']:.2g}"
 
 
-def _number(value: float | None) -> str:
-    return "none" if value is None else f"{value:.5g}"
+def _number(value: float | None, digits: int = 5) -> str:
+    return "none" if value is None else f"{value:.{digits}g}"

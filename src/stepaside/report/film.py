@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from fractions import Fraction
 from functools import partial
+from math import floor
 from multiprocessing import get_context
 from pathlib import Path
 from typing import NamedTuple
@@ -54,7 +55,7 @@ class Shot(NamedTuple):
         """
         end = min(last, self.begin + self.duration)
         step = self.speed / self.rate
-        number = int((end - self.begin) / step + 1e-9) + 1
+        number = floor((end - self.begin) / step + 1e-9) + 1
         return [self.begin + i * step for i in range(max(number, 0))]
 
 

@@ -34,7 +34,8 @@ def shapes_of(model: mujoco.MjModel) -> list[dict[str, Any]]:
         frame = np.zeros(9)
         mujoco.mju_quat2Mat(frame, model.geom_quat[geom])
         axes = frame.reshape(3, 3)
-        kind = model.geom_type[geom]
+        # As int: an enumeration does not equal a number of numpy.
+        kind = int(model.geom_type[geom])
         if kind in (types.mjGEOM_CAPSULE, types.mjGEOM_CYLINDER):
             axis, half, radius = axes[:, 2], size[1], size[0]
         elif kind == types.mjGEOM_SPHERE:

@@ -13,21 +13,29 @@ TICK = 0.5  # [m], as in Fig. 2
 _FRACTIONS = (0.0, 0.12, 0.4, 1.0)  # of the time shown
 
 
+def time_shown(run: Run) -> float:
+    """Time of the last snapshot of a game, in [s].
+
+    Five time constants of the circle and one turn, at most the whole game.
+    """
+    circle = circle_of(run.game)
+    if not (circle.exists and circle.stable):
+        return run.end_time
+    turn = 2.0 * np.pi / circle.turning_rate_rad_s
+    return min(run.end_time, 5.0 * circle.time_constant_s + turn)
+
+
 def draw_game(run: Run, path: str, *, shown: float | None = None) -> None:
     """Write four snapshots of a game, ticks 0.5 m apart.
 
     Args:
         run: The game.
         path: File, of a format that its suffix tells.
-        shown: Time of the last snapshot, in [s]; by default five time
-            constants of the circle and one turn, at most the whole game.
+        shown: Time of the last snapshot, in [s]; by default that of
+            :func:`time_shown`.
     """
     if shown is None:
-        circle = circle_of(run.game)
-        shown = run.end_time
-        if circle.exists and circle.stable:
-            turn = 2.0 * np.pi / circle.turning_rate_rad_s
-            shown = min(shown, 5.0 * circle.time_constant_s + turn)
+        shown = time_shown(run)
     times = np.linspace(0.0, shown, 1200)
     pursuer, evader = run.poses(times)
     both = np.vstack([pursuer[:, :2], evader[:, :2]])

@@ -1,17 +1,28 @@
 """Figure of a map over starts."""
 
-import numpy as np
+from typing import Any
 
+import numpy as np
+from matplotlib.colors import ListedColormap
+
+from ..unicycle.circling import Circle
 from ..unicycle.maps import StartMap
 from .style import plt
 
+# By Okabe and Ito, told apart by everybody; the main way round is pale.
+_COLOURS = ("#f0e442", "#0072b2", "#cc79a7", "#d55e00", "#009e73", "#56b4e9")
 
-def draw_map(found: StartMap, path: str, *, body: float) -> None:
-    """Write closest approach and settling time over the two bearings.
+
+def draw_map(
+    found: StartMap, path: str, *, circles: tuple[Circle, ...], body: float
+) -> None:
+    """Write closest approach, settling time and circle over the bearings.
 
     Args:
         found: The map; four of its distances at most are drawn.
         path: File, of a format that its suffix tells.
+        circles: Circles of the game; which of them a game ends on is drawn
+            where there is more than one.
         body: Distance that counts as capture, in [m], drawn as a line.
     """
     count = len(found.distances)
@@ -21,10 +32,11 @@ def draw_map(found: StartMap, path: str, *, body: float) -> None:
     settled[~np.isfinite(settled)] = np.nan
     aims = np.rad2deg(found.pursuer_errors)
     bearings = np.rad2deg(found.bearings)
+    count = 3 if len(circles) > 1 else 2
     figure, axes = plt.subplots(
-        2,
+        count,
         len(picks),
-        figsize=(2.7 * len(picks) + 1.2, 5.8),
+        figsize=(2.7 * len(picks) + 1.2, 2.4 * count + 1.0),
         sharex=True,
         sharey=True,
         squeeze=False,
@@ -33,7 +45,7 @@ def draw_map(found: StartMap, path: str, *, body: float) -> None:
         (closest, "closest approach [m]", "viridis"),
         (settled, "time until it circles [s]", "cividis"),
     )
-    for row, (values, label, colours) in zip(axes, rows, strict=True):
+    for row, (values, label, colours) in zip(axes, rows, strict=False):
         high = float(np.nanmax(values)) if np.isfinite(values).any() else 1.0
         for ax, i in zip(row, picks, strict=True):
             image = ax.pcolormesh(
@@ -46,6 +58,8 @@ def draw_map(found: StartMap, path: str, *, body: float) -> None:
                     bearings, aims, closest[i], [1.001 * body], colors="w"
                 )
         figure.colorbar(image, ax=list(row), label=label)
+    if count == 3:
+        _draw_circles(figure, axes[2], found, picks, circles)
     for ax, i in zip(axes[0], picks, strict=True):
         ax.set_title(f"start {found.distances[i]:.2f} m apart")
     for ax in axes[-1]:
@@ -54,3 +68,34 @@ def draw_map(found: StartMap, path: str, *, body: float) -> None:
         ax.set_ylabel("bearing of the evader\nseen by the pursuer [deg]")
     figure.savefig(path)
     plt.close(figure)
+
+
+def _draw_circles(
+    figure: Any,
+    row: Any,
+    found: StartMap,
+    picks: Any,
+    circles: tuple[Circle, ...],
+) -> None:
+    """Draw which circle games end on; captured and on the way stay grey."""
+    numbers = found.grid("circle").astype(float)
+    numbers[numbers < 0.0] = np.nan
+    count = len(circles)
+    for ax, i in zip(row, picks, strict=True):
+        image = ax.pcolormesh(
+            np.rad2deg(found.bearings),
+            np.rad2deg(found.pursuer_errors),
+            numbers[i],
+            vmin=-0.5,
+            vmax=count - 0.5,
+            cmap=ListedColormap(_COLOURS[:count]),
+        )
+        ax.set_facecolor("0.8")
+        ax.grid(visible=False)
+    bar = figure.colorbar(
+        image, ax=list(row), ticks=range(count), label="circle [m apart]"
+    )
+    names = {1: "main way", -1: "reversed"}
+    bar.ax.set_yticklabels(
+        [f"{names[c.direction]}\n{c.distance_m:.3g}" for c in circles]
+    )

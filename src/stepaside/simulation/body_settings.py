@@ -1,7 +1,7 @@
 """How far a simulated body is from an ideal one.
 
 Values that teams or the vendor published carry their source in
-``docs/bodies.md``; the others are marked as assumptions there, with a table
+``docs/walking.md``; the others are marked as assumptions there, with a table
 of what they do.
 """
 

@@ -1,6 +1,7 @@
 """Configurations as files: TOML in, TOML out."""
 
 import tomllib
+from collections.abc import Callable
 from dataclasses import asdict
 from enum import Enum
 from pathlib import Path
@@ -40,7 +41,9 @@ def parse_configuration(entries: dict[str, Any], source: str) -> DuelSettings:
     Raises:
         ConfigurationError: As :func:`load_configuration`.
     """
-    config = dacite.Config(strict=True, type_hooks={float: _as_float})
+    hooks: dict[type[Any], Callable[[Any], Any]]
+    hooks = {float: _as_float, int: _as_int}
+    config = dacite.Config(strict=True, type_hooks=hooks)
     try:
         return dacite.from_dict(DuelSettings, entries, config)
     except dacite.UnexpectedDataError as error:
@@ -68,8 +71,17 @@ def plain_settings(settings: DuelSettings) -> dict[str, Any]:
 
 
 def _as_float(value: Any) -> Any:
-    whole = isinstance(value, int) and not isinstance(value, bool)
-    return float(value) if whole else value
+    """Take whole numbers for real ones."""
+    if isinstance(value, bool):
+        raise dacite.WrongTypeError(float, value)
+    return float(value) if isinstance(value, int) else value
+
+
+def _as_int(value: Any) -> Any:
+    """Refuse true and false, which Python takes for numbers."""
+    if isinstance(value, bool):
+        raise dacite.WrongTypeError(int, value)
+    return value
 
 
 def _plain(value: Any) -> Any:

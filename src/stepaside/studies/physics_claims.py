@@ -1,190 +1,228 @@
 """Claims of Sec. III-E and IV, measured on two NAOs in physics."""
 
-from dataclasses import replace
-from typing import Any
+from math import pi, sqrt
 
-import numpy as np
-
-from ..planning import PRESETS
-from ..poses import Array
-from ..simulation.duel import DuelResult, run_duel
-from ..simulation.settings import DuelSettings, StartSettings
-from ..simulation.summary import summarise
-from .claims import Row
+from .claims import Claim
+from .physics_readings import SLIPPERY
 
 LEVEL = "physics"
-SLIPPERY = 0.05  # sliding friction of a floor on which the feet slip
+SPEED, GAIN = 0.1, 0.2  # of Sec. IV, in [m/s] and [1/s]
+SINGLE, DOUBLE = 0.425, 0.122  # support, exchanged, in [s]
+STRIDE, STEP = 0.04, SINGLE + DOUBLE
+RADIUS = 4.0 * SPEED / (pi * GAIN)
+DISTANCE = sqrt(2.0) * RADIUS
+START = 0.8  # double support before the first step, in [s]
+WALK = 30.0  # simulated time of the walks of "durations", in [s]
 
 
-def circle_rows(seed: int) -> list[Row]:
-    """The circle of Sec. IV."""
-    result = run_duel(DuelSettings(seed=seed))
-    found = summarise(result)
-    theory = found["theory"]
-    landings = [
-        np.diff(result.arrays[f"{name}_landings"][2:, 0])
-        for name in ("pursuer", "evader")
-    ]
-    gait = result.settings.gait
-    late = max(float(np.abs(d - gait.step_duration).max()) for d in landings)
-    pursuer, evader = walking_speeds(result)
-
-    def row(
-        claim: str, expected: float, measured: float, off: float, unit: str
-    ) -> Row:
-        return Row(claim, "IV, Fig. 5", LEVEL, expected, measured, off, unit)
-
-    radius = theory["radius_m"]
-    return [
-        row(
-            "the pursuer converges to a circle",
-            radius,
-            found["pursuer"]["radius_m"],
-            0.04 * radius,
+CIRCLE = tuple(
+    Claim(key, text, "IV, Fig. 5", LEVEL, expected, unit, tolerance)
+    for key, text, expected, unit, tolerance in (
+        (
+            "pursuer_radius",
+            "the pursuer converges to a circle (of the last third)",
+            RADIUS,
             "m",
+            0.04 * RADIUS,
         ),
-        row(
+        (
+            "evader_radius",
             "the evader converges to a circle",
-            radius,
-            found["evader"]["radius_m"],
-            0.04 * radius,
+            RADIUS,
             "m",
+            0.04 * RADIUS,
         ),
-        row(
-            "their distance",
-            theory["distance_m"],
-            found["distance_m"],
-            0.04 * theory["distance_m"],
+        (
+            "one_circle",
+            "it is one circle (distance of the centres)",
+            0.0,
             "m",
+            0.02,
         ),
-        row(
-            "with a relative orientation of pi/2",
+        (
+            "distance",
+            "their distance settles",
+            DISTANCE,
+            "m",
+            0.04 * DISTANCE,
+        ),
+        (
+            "orientation",
+            "their relative orientation is pi/2",
             90.0,
-            found["relative_orientation_deg"],
-            3.0,
             "deg",
+            3.0,
         ),
-        row("at the same speed (ratio)", 1.0, evader / pursuer, 0.04, "1"),
-        Row(
-            "a new plan follows each double support (greatest deviation of "
-            "the time between landings from a step)",
-            "III-E",
-            LEVEL,
-            0.0,
-            late,
-            1e-9,
-            "s",
+        (
+            "same_speed",
+            "they travel along it at the same speed (ratio)",
+            1.0,
+            "1",
+            0.04,
         ),
-        Row(
-            "replanning does not destabilise (greatest jump of the CoM "
-            "velocity reference)",
-            "III-E",
-            LEVEL,
-            0.0,
-            found["max_com_velocity_jump_m_s"],
-            1e-9,
-            "m/s",
-            as_printed="(15) alone lets the velocity jump by eta times the "
-            "change of x_u",
-        ),
-    ]
-
-
-def duration_rows(seed: int) -> list[Row]:
-    """The durations as printed, and exchanged."""
-    settings = DuelSettings(seed=seed, duration=30.0)
-    printed = run_duel(replace(settings, gait=PRESETS["as-printed"]))
-    walks = run_duel(settings)
-    pursuer, _ = walking_speeds(walks)
-    return [
-        Row(
-            "with single support 0.122 s and double support 0.425 s, and "
-            "the joints' speed limits, the robots fall (time of the fall)",
-            "IV",
-            LEVEL,
-            30.0,
-            printed.duration,
-            0.0,
-            "s",
-            "<",
-            "single and double support of 0.122 s and 0.425 s",
-        ),
-        Row(
-            "exchanged, they walk (time walked)",
-            "IV",
-            LEVEL,
-            30.0,
-            walks.duration,
-            1e-6,
-            "s",
-        ),
-        Row(
-            "at 0.04 m every 0.547 s, slower than the path's 0.1 m/s",
-            "IV",
-            LEVEL,
-            0.04 / 0.547,
-            pursuer,
-            0.004,
-            "m/s",
-            as_printed="0.1 m/s",
-        ),
-    ]
-
-
-def slip_rows(seed: int) -> list[Row]:
-    """The smaller circle of the experiment, where feet slip."""
-    start = StartSettings(0.8, 0.2, 0.1)
-    settings = DuelSettings(seed=seed, duration=80.0, start=start)
-    slippery = replace(settings.physics, friction=SLIPPERY)
-    grip = run_duel(settings)
-    slip = run_duel(replace(settings, physics=slippery))
-    radii = [_mean_radius(summarise(result)) for result in (grip, slip)]
-    speeds = [float(np.mean(walking_speeds(r))) for r in (grip, slip)]
-    section = "IV, Fig. 6"
-    return [
-        Row(
-            f"on a floor with friction {SLIPPERY} the robots are slower "
-            "than on one with 0.8",
-            section,
-            LEVEL,
-            speeds[0],
-            speeds[1],
-            0.0,
-            "m/s",
-            "<",
-        ),
-        Row(
-            "and their circle is smaller",
-            section,
-            LEVEL,
-            radii[0],
-            radii[1],
-            0.0,
-            "m",
-            "<",
-        ),
-    ]
-
-
-def walking_speeds(result: DuelResult) -> tuple[float, float]:
-    """Speeds of pursuer and evader over the last third, in [m/s].
-
-    Chords of a gait cycle, so that the sway does not count as way.
-    """
-    arrays = result.arrays
-    times = arrays["times_s"]
-    cycle = round(
-        2.0 * result.settings.gait.step_duration / float(times[1] - times[0])
     )
-
-    def speed(name: str) -> float:
-        torso: Array = arrays[f"{name}_torso"][len(times) * 2 // 3 :, :2]
-        way = np.hypot(*(torso[cycle:] - torso[:-cycle]).T)
-        return float(way.mean() / (cycle * (times[1] - times[0])))
-
-    return speed("pursuer"), speed("evader")
-
-
-def _mean_radius(summary: dict[str, Any]) -> float:
-    radii = [summary[name]["radius_m"] for name in ("pursuer", "evader")]
-    return float(np.mean(radii))
+)
+REPLANNING = (
+    Claim(
+        "settled",
+        "they are within 5 % and 5 deg of it for good before the last third "
+        "(time)",
+        "IV, Fig. 5",
+        LEVEL,
+        80.0,
+        "s",
+        relation="<",
+    ),
+    Claim(
+        "landings",
+        "feet land every 0.547 s (by the foot forces; the time farthest off)",
+        "III-E, IV",
+        LEVEL,
+        STEP,
+        "s",
+        0.02,
+    ),
+    Claim(
+        "both_feet",
+        "a new plan follows each landing, and replaces the old one while "
+        "both feet are on the ground (share of the plans, by the foot "
+        "forces)",
+        "III-E",
+        LEVEL,
+        1.0,
+        "1",
+    ),
+    Claim(
+        "at_its_end",
+        "namely at the end of double support (longest time from a plan to "
+        "the next lift-off; a double support lasts 0.122 s)",
+        "III-E",
+        LEVEL,
+        0.5 * DOUBLE,
+        "s",
+        relation="<",
+    ),
+    Claim(
+        "straight_part",
+        "the straight part is never travelled (greatest share of t_s that a "
+        "plan was walked before another replaced it)",
+        "III-E",
+        LEVEL,
+        1.0,
+        "1",
+        relation="<",
+    ),
+    Claim(
+        "place_jump",
+        "replanning does not destabilise (greatest jump of the CoM "
+        "reference that the joints are sent)",
+        "III-E",
+        LEVEL,
+        0.0,
+        "m",
+        1e-8,
+    ),
+    Claim(
+        "velocity_jump",
+        "nor does the velocity of that reference jump (by finite differences)",
+        "III-E",
+        LEVEL,
+        0.0,
+        "m/s",
+        1e-6,
+        as_printed="(15) alone lets the velocity jump by eta times the "
+        "change of x_u",
+    ),
+)
+HUMANOIDS = CIRCLE + REPLANNING
+DURATIONS = (
+    Claim(
+        "fall",
+        "with single support 0.122 s and double support 0.425 s, and the "
+        "joints' speed limits, the robots fall (time of the fall)",
+        "IV",
+        LEVEL,
+        WALK,
+        "s",
+        relation="<",
+        as_printed="single and double support of 0.122 s and 0.425 s",
+    ),
+    Claim(
+        "fall_tilt",
+        "by a fall, not a contact (greatest angle of a torso from the "
+        "vertical)",
+        "IV",
+        LEVEL,
+        45.0,
+        "deg",
+        relation=">",
+    ),
+    Claim(
+        "upright_for",
+        "exchanged, they walk to the end (time walked)",
+        "IV",
+        LEVEL,
+        WALK,
+        "s",
+        1e-6,
+    ),
+    Claim(
+        "tilt",
+        "upright (greatest angle of a torso from the vertical)",
+        "IV",
+        LEVEL,
+        10.0,
+        "deg",
+        relation="<",
+    ),
+    Claim(
+        "distance",
+        "and get on (way of the one that gets less far)",
+        "IV",
+        LEVEL,
+        STRIDE / STEP * (WALK - START),
+        "m",
+        0.05 * STRIDE / STEP * (WALK - START),
+    ),
+    Claim(
+        "speed",
+        "at 0.04 m every 0.547 s, slower than the path's 0.1 m/s (the speed "
+        "farther off)",
+        "IV",
+        LEVEL,
+        STRIDE / STEP,
+        "m/s",
+        0.004,
+        as_printed="0.1 m/s",
+    ),
+)
+SLIP = (
+    Claim(
+        "slide",
+        f"on a floor with friction {SLIPPERY} feet slip more than on one "
+        "with 0.8 (ratio of their ways on the floor in a step)",
+        "IV, Fig. 6",
+        LEVEL,
+        1.0,
+        "1",
+        relation=">",
+    ),
+    Claim(
+        "slower",
+        "the robots are slower (ratio of the speeds)",
+        "IV, Fig. 6",
+        LEVEL,
+        1.0,
+        "1",
+        relation="<",
+    ),
+    Claim(
+        "smaller",
+        "and their circle is smaller (ratio of the radii)",
+        "IV, Fig. 6",
+        LEVEL,
+        1.0,
+        "1",
+        relation="<",
+    ),
+)

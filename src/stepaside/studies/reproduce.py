@@ -1,57 +1,142 @@
-"""Every claim of the paper beside its measurement, job by job."""
+"""Every claim of the paper beside its measurement, over many runs."""
 
-import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor, Future, as_completed
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from . import physics_claims, planner_claims, unicycle_claims
-from .claims import Row
+from .claims import Job, Row
+from .jobs import JOBS
+from .kept import Kept, Key
+from .readings import Readings
+from .version import code_version, library_versions
 
-Job = Callable[[int], list[Row]]
-JOBS: dict[str, Job] = {
-    "circle": lambda _: unicycle_claims.circle_rows(),
-    "saturated": lambda _: unicycle_claims.saturated_rows(),
-    "strategies": lambda _: unicycle_claims.strategy_rows(),
-    "sampled": lambda _: unicycle_claims.sampled_rows(),
-    "path": lambda _: planner_claims.path_rows(),
-    "footsteps": lambda _: planner_claims.footstep_rows(),
-    "com": lambda _: planner_claims.com_rows(),
-    "humanoids": physics_claims.circle_rows,
-    "durations": physics_claims.duration_rows,
-    "slip": physics_claims.slip_rows,
-}
+
+class Trial(NamedTuple):
+    """One run of a job.
+
+    Attributes:
+        job: Name of the job.
+        seed: Seed of the run; 0 where the seed does not matter.
+    """
+
+    job: str
+    seed: int
+
+    @property
+    def file(self) -> str:
+        """Name of the file that keeps its readings, less the suffix."""
+        return f"{self.job}-seed{self.seed}"
+
+
+def key_of(trial: Trial, job: Job) -> Key:
+    """All that the readings of a trial depend on."""
+    return {
+        "job": trial.job,
+        "seed": trial.seed,
+        "settings": job.settings(trial.seed),
+        "version": code_version(job.rooms),
+        "libraries": library_versions(job.libraries),
+    }
+
+
+def run_trial(trial: Trial) -> Readings:
+    """Measure the claims of a job once."""
+    return JOBS[trial.job].measure(trial.seed)
+
+
+def trials(
+    seeds: Sequence[int], jobs: Mapping[str, Job]
+) -> dict[str, list[Trial]]:
+    """Runs of each job: one for each seed where the seed matters, else one."""
+    return {
+        name: [Trial(name, seed) for seed in (seeds if job.seeded else (0,))]
+        for name, job in jobs.items()
+    }
 
 
 def reproduce(
     folder: Path | None,
-    seed: int,
-    report: Callable[[str], None] | None = None,
+    seeds: Sequence[int],
+    executor: Executor | None = None,
+    report: Callable[[int, int], None] | None = None,
 ) -> list[dict[str, Any]]:
     """Measure every claim; what a folder holds already is kept.
 
+    A reading is measured again when the code, the settings or the libraries
+    change that it depends on. Readings are kept as they come, so that a run
+    that was stopped goes on where it was.
+
     Args:
-        folder: Where each job's rows are kept as they come, so that an
-            interrupted run goes on where it stopped; None keeps nothing.
-        seed: Seed of the duels.
-        report: Called with the name of each job when it is done.
+        folder: Where readings are kept; None keeps nothing.
+        seeds: Seeds of the physical runs.
+        executor: Any executor of ``concurrent.futures``; None measures here.
+        report: Called with the number of runs done and of all runs.
 
     Returns:
         Rows, as JSON objects.
     """
-    rows: list[dict[str, Any]] = []
-    for name, job in JOBS.items():
-        kept = None if folder is None else folder / f"{name}-seed{seed}.json"
-        if kept is not None and kept.exists():
-            found = json.loads(kept.read_text(encoding="utf-8"))
-        else:
-            found = [row.to_json() for row in job(seed)]
-            if kept is not None:
-                kept.parent.mkdir(parents=True, exist_ok=True)
-                draft = kept.with_suffix(".part")
-                draft.write_text(json.dumps(found), encoding="utf-8")
-                draft.rename(kept)
-        rows += found
+    kept, plan = Kept(folder), trials(seeds, JOBS)
+    found: dict[Trial, Readings] = {}
+    missing: list[Trial] = []
+    total = sum(len(runs) for runs in plan.values())
+    for name, runs in plan.items():
+        wanted = [claim.key for claim in JOBS[name].claims]
+        for trial in runs:
+            key = key_of(trial, JOBS[name])
+            readings = kept.load(trial.file, key, wanted)
+            if readings is None:
+                missing.append(trial)
+            else:
+                found[trial] = readings
+    if report is not None:
+        report(len(found), total)
+
+    def done(trial: Trial, readings: Readings) -> None:
+        found[trial] = readings
+        kept.store(trial.file, key_of(trial, JOBS[trial.job]), readings)
         if report is not None:
-            report(name)
-    return rows
+            report(len(found), total)
+
+    # Seed by seed, so that a run that is stopped has whole seeds.
+    _run(sorted(missing, key=lambda trial: trial.seed), executor, done)
+    rows: list[Row] = []
+    for name, runs in plan.items():
+        job = JOBS[name]
+        readings_of_runs = [found[trial] for trial in runs]
+        rows += job.rows(name, readings_of_runs, code_version(job.rooms))
+    return [row.to_json() for row in rows]
+
+
+def _run(
+    missing: Sequence[Trial],
+    executor: Executor | None,
+    done: Callable[[Trial, Readings], None],
+) -> None:
+    """Run trials, and tell of each as it comes."""
+    if executor is None:
+        for trial in missing:
+            done(trial, run_trial(trial))
+        return
+    futures: dict[Future[Readings], Trial] = {
+        executor.submit(run_trial, trial): trial for trial in missing
+    }
+    try:
+        for future in as_completed(futures):
+            done(futures[future], future.result())
+    except BaseException:
+        for future in futures:
+            future.cancel()
+        raise
+
+
+def provenance(seed: int) -> dict[str, dict[str, Any]]:
+    """Version, libraries and settings of each job, for a first seed."""
+    return {
+        name: {
+            "version": code_version(job.rooms),
+            "libraries": library_versions(job.libraries),
+            "settings": job.settings(seed if job.seeded else 0),
+        }
+        for name, job in JOBS.items()
+    }

@@ -1,20 +1,28 @@
 """Claims of Sec. II, measured by simulation of unicycles."""
 
 from dataclasses import replace
-from math import pi, sin, sqrt
+from math import nan, pi, sin, sqrt
 
 import numpy as np
 
+from ..poses import Array, wrap_angle
 from ..unicycle.laws import Game, TurningLaw, Unicycle
-from ..unicycle.measure import Measured, measure, settling_time
+from ..unicycle.measure import Measured, fit_circle, measure, settling_time
 from ..unicycle.relative import Start
-from ..unicycle.sampled import simulate_sampled
+from ..unicycle.sampled import SampledRun, simulate_sampled
 from ..unicycle.simulate import Run, simulate
-from .claims import Row
+from .claims import Claim
+from .readings import Readings
 
 FIG_2 = Game(Unicycle(1.0, 0.5), Unicycle(1.0, 0.5))
 START = Start(5.0, 0.4, -0.2)
 ANGLES = tuple(np.radians([15.0, 30.0, 45.0, 60.0, 75.0, 90.0]).tolist())
+SMALL = 0.1  # evasion angle near "move back", in [rad]
+NAO = Game(Unicycle(0.1, 0.2), Unicycle(0.1, 0.2))
+NAO_START = Start(1.0, 0.3, -0.1)
+STEP = 0.4  # path time of a step, in [s]
+RADIUS = 4.0 / (pi * 0.5)  # of Fig. 2, in [m]
+NAO_RADIUS = 4.0 * 0.1 / (pi * 0.2)
 
 
 def play(game: Game) -> Run:
@@ -22,180 +30,211 @@ def play(game: Game) -> Run:
     return simulate(game, START, settling_time(game))
 
 
-def circle_rows() -> list[Row]:
-    """Rows on the circle of Fig. 2."""
-    seen = measure(play(FIG_2))
-    v, k = 1.0, 0.5
-    radius, distance = 4 * v / (pi * k), 4 * sqrt(2.0) * v / (pi * k)
-
-    def row(claim: str, expected: float, measured: float, unit: str) -> Row:
-        return Row(
-            claim, "II-C, Fig. 2", "unicycles", expected, measured, 1e-3, unit
-        )
-
-    return [
-        row(
-            "the pursuer ends on a circle", radius, seen.radius_pursuer_m, "m"
-        ),
-        row("the evader ends on a circle", radius, seen.radius_evader_m, "m"),
-        row("both circles are one", 0.0, seen.centers_apart_m, "m"),
-        row("their distance settles", distance, seen.distance_m, "m"),
-        row(
-            "relative orientation becomes pi/2",
-            pi / 2,
-            seen.headings_apart_rad,
-            "rad",
-        ),
-        row(
-            "both travel at the same speed (ratio on the floor)",
-            1.0,
-            seen.radius_evader_m / seen.radius_pursuer_m,
-            "1",
-        ),
+def _speeds(run: Run) -> tuple[float, float]:
+    """Speeds on the floor over the last tenth, in [m/s]."""
+    times = np.linspace(0.9 * run.end_time, run.end_time, 2001)
+    ways = [
+        float(np.hypot(*np.diff(poses[:, :2], axis=0).T).sum())
+        for poses in run.poses(times)
     ]
+    return ways[0] / float(np.ptp(times)), ways[1] / float(np.ptp(times))
 
 
-def saturated_rows() -> list[Row]:
-    """Rows on the saturated law (6)."""
+def read_circle() -> Readings:
+    """The circle of Fig. 2."""
+    run = play(FIG_2)
+    seen = measure(run)
+    pursuer, evader = _speeds(run)
+    return {
+        "pursuer_radius": seen.radius_pursuer_m,
+        "evader_radius": seen.radius_evader_m,
+        "one_circle": seen.centers_apart_m,
+        "distance": seen.distance_m,
+        "orientation": seen.headings_apart_rad,
+        "pursuer_speed": pursuer,
+        "same_speed": evader / pursuer if pursuer > 0.0 else nan,
+    }
+
+
+CIRCLE = tuple(
+    Claim(key, text, "II-C, Fig. 2", "unicycles", expected, unit, 1e-3)
+    for key, text, expected, unit in (
+        ("pursuer_radius", "the pursuer settles on a circle", RADIUS, "m"),
+        ("evader_radius", "the evader settles on a circle", RADIUS, "m"),
+        ("one_circle", "it is one circle (distance of the centres)", 0, "m"),
+        ("distance", "their distance settles", sqrt(2.0) * RADIUS, "m"),
+        ("orientation", "their relative orientation is pi/2", pi / 2, "rad"),
+        ("pursuer_speed", "the pursuer travels at 1 m/s", 1.0, "m/s"),
+        ("same_speed", "both travel at the same speed (ratio)", 1.0, "1"),
+    )
+)
+
+
+def read_saturated() -> Readings:
+    """The saturated law (6) beside the proportional one."""
     seen = measure(play(replace(FIG_2, law=TurningLaw.SATURATED)))
-    proportional = 4.0 / (pi * 0.5)
-    return [
-        Row(
-            "with (6) the radius is v/k",
-            "II-C",
-            "unicycles",
-            2.0,
-            seen.radius_evader_m,
-            1e-3,
-            "m",
-        ),
-        Row(
-            "and smaller than with (4)",
-            "II-C",
-            "unicycles",
-            proportional,
-            seen.radius_evader_m,
-            0.0,
-            "m",
-            "<",
-        ),
-        Row(
-            "the headings are then less than pi/2 apart",
-            "II-C",
-            "unicycles",
-            pi / 2,
-            seen.headings_apart_rad,
-            0.0,
-            "rad",
-            "<",
-            "relative orientation; the directions of motion are 2 rad apart",
-        ),
-        Row(
-            "namely pi - 2",
-            "II-C",
-            "unicycles",
-            pi - 2.0,
-            seen.headings_apart_rad,
-            1e-3,
-            "rad",
-        ),
-    ]
+    beside = measure(play(FIG_2))
+    return {
+        "radius": seen.radius_evader_m,
+        "smaller": seen.radius_evader_m / beside.radius_evader_m,
+        "less": seen.headings_apart_rad,
+        "namely": seen.headings_apart_rad,
+    }
 
 
-def strategy_rows() -> list[Row]:
-    """Rows on the family of strategies between moving back and aside."""
+SATURATED = (
+    Claim(
+        "radius",
+        "with (6) the radius is v/k",
+        "II-C",
+        "unicycles",
+        2.0,
+        "m",
+        1e-3,
+    ),
+    Claim(
+        "smaller",
+        "and smaller than with (4) (ratio of the radii)",
+        "II-C",
+        "unicycles",
+        1.0,
+        "1",
+        relation="<",
+    ),
+    Claim(
+        "less",
+        "the headings are then less than pi/2 apart",
+        "II-C",
+        "unicycles",
+        pi / 2,
+        "rad",
+        relation="<",
+        as_printed="relative orientation; the directions of motion are "
+        "2 rad apart",
+    ),
+    Claim(
+        "namely",
+        "namely pi - 2",
+        "II-C",
+        "unicycles",
+        pi - 2.0,
+        "rad",
+        1e-3,
+    ),
+)
+
+
+def read_strategies() -> Readings:
+    """The family of strategies between moving back and moving aside."""
     seen: list[Measured] = [
         measure(play(replace(FIG_2, angle=angle))) for angle in ANGLES
     ]
-    apart = max(
-        abs(circle.motions_apart_rad - angle)
-        for circle, angle in zip(seen, ANGLES, strict=True)
-    )
     radii = [circle.radius_evader_m for circle in seen]
-    growth = min(a / b for a, b in zip(radii, radii[1:], strict=False))
-    small = 0.1
-    limit = measure(play(replace(FIG_2, angle=small))).radius_evader_m
     back = play(replace(FIG_2, angle=0.0))
-    ends, lasts = back.poses([back.end_time - 1.0, back.end_time])
-    return [
-        Row(
-            "with an angle alpha the directions of motion end alpha apart",
-            "II-C",
-            "unicycles",
-            0.0,
-            apart,
-            1e-4,
-            "rad",
-            as_printed="relative orientation alpha; headings: pi - alpha. "
-            "(5) with alpha read literally walks into the pursuer",
+    times = [back.end_time - 1.0, back.end_time]
+    pursuer, evader = back.poses(times)
+    return {
+        "apart": max(
+            abs(circle.motions_apart_rad - angle)
+            for circle, angle in zip(seen, ANGLES, strict=True)
         ),
-        Row(
-            "the radius grows as alpha falls (least ratio of neighbours)",
-            "II-C",
-            "unicycles",
-            1.0,
-            growth,
-            0.0,
-            "1",
-            ">",
-        ),
-        Row(
-            "without bound: the radius is 2 v/(k alpha), at alpha = 0.1",
-            "II-C",
-            "unicycles",
-            2.0 / (0.5 * small),
-            limit,
-            0.04,
-            "m",
-        ),
-        Row(
-            "alpha = 0 moves straight back (turning rate at the end)",
-            "II-C",
-            "unicycles",
-            0.0,
-            float(abs(np.diff(lasts[:, 2])[0]) + abs(np.diff(ends[:, 2])[0])),
-            1e-3,
-            "rad/s",
-        ),
-    ]
+        "grows": min(a / b for a, b in zip(radii, radii[1:], strict=False)),
+        "unbounded": measure(play(replace(FIG_2, angle=SMALL))).radius_evader_m
+        * SMALL,
+        "back": _off_line(pursuer, evader),
+    }
 
 
-def sampled_rows() -> list[Row]:
+def _off_line(pursuer: Array, evader: Array) -> float:
+    """Angle between the evader's way and the line of sight, in [rad].
+
+    Zero if it moves straight away from the pursuer.
+
+    Args:
+        pursuer: Its poses at two times. Shape (2, 3).
+        evader: Likewise. Shape (2, 3).
+    """
+    sight = evader[0, :2] - pursuer[0, :2]
+    way = evader[1, :2] - evader[0, :2]
+    if not np.hypot(*way) > 0.5:
+        return nan
+    off = np.arctan2(way[1], way[0]) - np.arctan2(sight[1], sight[0])
+    return abs(wrap_angle(float(off)))
+
+
+STRATEGIES = (
+    Claim(
+        "apart",
+        "with an angle alpha the directions of motion end alpha apart "
+        "(greatest difference for six angles)",
+        "II-C",
+        "unicycles",
+        0.0,
+        "rad",
+        1e-4,
+        as_printed="relative orientation alpha; headings: pi - alpha. "
+        "(5) with alpha read literally walks into the pursuer",
+    ),
+    Claim(
+        "grows",
+        "the radius grows as alpha falls (least ratio of neighbours)",
+        "II-C",
+        "unicycles",
+        1.0,
+        "1",
+        relation=">",
+    ),
+    Claim(
+        "unbounded",
+        "without bound: as 2 v/(k alpha) (radius times alpha, at alpha = 0.1)",
+        "II-C",
+        "unicycles",
+        4.0,
+        "m",
+        4e-3,
+    ),
+    Claim(
+        "back",
+        "alpha = 0 moves back (angle between the evader's way and the line "
+        "of sight, at the end)",
+        "II-C",
+        "unicycles",
+        0.0,
+        "rad",
+        1e-3,
+    ),
+)
+
+
+def read_sampled() -> Readings:
     """The circle of Sec. IV with turning rates held from step to step."""
-    v, k, step = 0.1, 0.2, 0.4
-    game = Game(Unicycle(v, k), Unicycle(v, k))
-    run = simulate_sampled(game, Start(1.0, 0.3, -0.1), 400.0, step)
-    turn = float(run.turning_rates[-1, 0])
+    run: SampledRun = simulate_sampled(NAO, NAO_START, 400.0, STEP)
+    turns = np.diff(run.pursuer[-200:, 2])
+    last = max(2, round(2.0 * pi / max(abs(float(turns[-1])), 1e-3)))
     apart = run.evader[-1] - run.pursuer[-1]
-    distance = float(np.hypot(apart[0], apart[1]))
-    heading = float(np.abs((apart[2] + pi) % (2 * pi) - pi))
-    section = "III-B, IV"
-    return [
-        Row(
-            "holding the rate from step to step leaves the circle as it is",
-            section,
-            "sampled",
-            4 * v / (pi * k),
-            v / abs(turn),
-            1e-3,
+    return {
+        "radius": fit_circle(run.pursuer[-last:, :2])[1],
+        "distance": float(np.hypot(apart[0], apart[1])),
+        "orientation": abs(wrap_angle(float(apart[2]))),
+    }
+
+
+SAMPLED = tuple(
+    Claim(key, text, "III-B, IV", "sampled", expected, unit, 1e-3)
+    for key, text, expected, unit in (
+        (
+            "radius",
+            "holding the turning rate from step to step leaves the circle "
+            "as it is",
+            NAO_RADIUS,
             "m",
         ),
-        Row(
+        (
+            "distance",
             "and the distance",
-            section,
-            "sampled",
-            4 * v * sin(pi / 4) / (pi / 2 * k),
-            distance,
-            1e-3,
+            4.0 * 0.1 * sin(pi / 4) / (pi / 2 * 0.2),
             "m",
         ),
-        Row(
-            "and the relative orientation",
-            section,
-            "sampled",
-            pi / 2,
-            heading,
-            1e-3,
-            "rad",
-        ),
-    ]
+        ("orientation", "and the relative orientation", pi / 2, "rad"),
+    )
+)

@@ -1,5 +1,6 @@
 """Pursuit and evasion with unicycles (paper, Sec. II)."""
 
+from .circles import circles_of, find_circles
 from .circling import Circle, circle_of, find_circle
 from .kernel import Outcomes, play_games
 from .laws import MOVE_ASIDE, MOVE_BACK, Game, SideRule, TurningLaw, make_game
@@ -18,7 +19,9 @@ __all__ = [
     "Start",
     "TurningLaw",
     "circle_of",
+    "circles_of",
     "find_circle",
+    "find_circles",
     "make_game",
     "play_games",
     "simulate",

@@ -20,7 +20,8 @@ _R, _A, _P, _R1, _A1, _P1 = (SIZE * row for row in range(6))
 _D, _W, _SA, _CA, _SP, _CP = (SIZE * row for row in range(6, 12))
 _C0, _FREE, _LOW, _HIGH = (SIZE * row for row in range(12, 16))
 _STEP, _FLAG, _SETTLED = (SIZE * row for row in range(16, 19))
-_ROWS = 19
+_SIDE, _OFF = (SIZE * row for row in range(19, 21))
+_ROWS = 21
 _ROUND = 6755399441055744.0  # 1.5 * 2**52: adding it rounds to an integer
 
 
@@ -71,12 +72,11 @@ def sweep(
     ke: float,
     c1: float,
     capture: float,
-    circle: tuple[float, float, float],
+    circles: Any,
     near: float,
 ) -> int:
     """Do one step of every game of a block; count the flagged ones."""
     flags = 0
-    shrink, error, bearing = 1.0 / circle[0], circle[1], circle[2]
     for i in range(SIZE):
         r, a, p = w[_R + i], w[_A + i], w[_P + i]
         c0, free, h = w[_C0 + i], w[_FREE + i], w[_STEP + i]
@@ -120,11 +120,20 @@ def sweep(
         ) & (h > 0.0)
         w[_FLAG + i] = 1.0 if flag else 0.0
         flags += 1 if flag else 0
-        off = max(
-            abs(x * shrink - 1.0),
-            max(abs(abs(y) - error), abs(abs(z) - bearing)),
+    for c in range(len(circles)):
+        shrink, error, bearing = (
+            1.0 / circles[c, 0],
+            circles[c, 1],
+            circles[c, 2],
         )
-        apart = (off > near) & (h > 0.0)
+        for i in range(SIZE):
+            side = w[_SIDE + i]
+            off = abs(w[_R1 + i] * shrink - 1.0)
+            off = max(off, abs(side * w[_A1 + i] - error))
+            off = max(off, abs(side * w[_P1 + i] - bearing))
+            w[_OFF + i] = off if c == 0 else min(off, w[_OFF + i])
+    for i in range(SIZE):
+        apart = (w[_OFF + i] > near) & (w[_STEP + i] > 0.0)
         w[_SETTLED + i] = time if apart else w[_SETTLED + i]
     return flags
 
@@ -145,7 +154,7 @@ def set_piece(
         side, branch, angle, hysteresis, keeps_side, ke
     )
     w[_LOW + i], w[_HIGH + i] = low, high
-    w[_C0 + i], w[_FREE + i] = c0, 1.0 - c2
+    w[_C0 + i], w[_FREE + i], w[_SIDE + i] = c0, 1.0 - c2, side
 
 
 @compiled
@@ -172,7 +181,7 @@ def play_block(
     laws: tuple[float, float, float, float, float, float, float],
     keeps_side: bool,
     capture: float,
-    circle: tuple[float, float, float],
+    circles: Any,
     near: float,
 ) -> None:
     """Play games ``first`` to ``last`` (excluded); see :mod:`.kernel`."""
@@ -180,6 +189,7 @@ def play_block(
     w = np.zeros(_ROWS * SIZE)
     w[_R : _R + SIZE] = 1.0
     w[_R1 : _R1 + SIZE] = 1.0
+    w[_OFF : _OFF + SIZE] = np.inf
     for i in range(last - first):
         j = first + i
         w[_R + i], w[_A + i], w[_P + i] = state[j, 0], state[j, 1], state[j, 2]
@@ -188,7 +198,7 @@ def play_block(
         set_piece(w, i, side[j], branch[j], angle, hysteresis, keeps_side, ke)
     for n in range(count):
         flags = sweep(
-            w, (n + 1) * step, vp, ve, kp, ke, c1, capture, circle, near
+            w, (n + 1) * step, vp, ve, kp, ke, c1, capture, circles, near
         )
         if flags > 0:
             for i in range(last - first):
@@ -231,7 +241,7 @@ def play_blocks(
     laws: tuple[float, float, float, float, float, float, float],
     keeps_side: bool,
     capture: float,
-    circle: tuple[float, float, float],
+    circles: Any,
     near: float,
 ) -> None:
     """Play all games, blocks in parallel; see :mod:`.kernel`."""
@@ -241,5 +251,5 @@ def play_blocks(
         last = min(first + SIZE, games)
         play_block(
             first, last, state, side, branch, out, count, step, laws,
-            keeps_side, capture, circle, near,
+            keeps_side, capture, circles, near,
         )  # fmt: skip

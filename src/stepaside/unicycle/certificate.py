@@ -18,16 +18,21 @@ so that, :math:`\Delta = |c(d) - c(0)|`,
     \frac{(r^* + \rho) \Delta^2}{4 k r^* \rho}\Bigr).
 
 Integrated over the known decay of :math:`d` this bounds :math:`\rho`, and
-:math:`r \ge r^* - \rho`. Proof in ``docs/unicycles.md``.
+:math:`r \ge r^* - \rho`. No error wraps in a game that starts in the diamond
+:math:`|a| + |\psi| < \pi`, which no game leaves (:mod:`.diamond`). Proofs in
+``docs/unicycles.md``.
 """
 
 from cmath import exp
 from dataclasses import dataclass
 from math import asin, inf, log, pi, sin
 
+import numpy as np
+
 from ..errors import PlanError
 from ..poses import wrap_angle
 from .circling import circle_of
+from .diamond import stays_unwrapped
 from .laws import Game
 from .relative import Start
 
@@ -41,16 +46,18 @@ class Certificate:
     """What is certain of a game before it is played.
 
     Attributes:
-        holds: Whether the bound is proved for this start: it is positive,
-            and large enough that no error wraps and no side changes. The
-            game then ends on the circle.
-        distance_m: Bound: the distance never falls below it, in [m].
-        plain_distance_m: The bound with |c(d) - c(0)| <= v |d| only, in [m].
+        holds: Whether a bound is proved for this start: it is positive, no
+            error wraps and no side changes. The game then ends on the
+            circle.
+        distance_m: Bound: the distance never falls below it, in [m]; None
+            where nothing is proved.
+        plain_distance_m: The bound with |c(d) - c(0)| <= v |d| only, which
+            is not above it, in [m]; None likewise.
     """
 
     holds: bool
-    distance_m: float
-    plain_distance_m: float
+    distance_m: float | None = None
+    plain_distance_m: float | None = None
 
 
 def certify(game: Game, start: Start, *, side: int = 0) -> Certificate:
@@ -78,13 +85,21 @@ def certify(game: Game, start: Start, *, side: int = 0) -> Certificate:
     r, a, psi = start.wrapped()
     if side == 0:
         side = -1 if psi > 0.0 else 1
-    a, b = side * a, wrap_angle(side * psi + alpha)
+    a, psi = side * a, side * psi
+    if psi > 0.0 and not game.keeps_side:
+        return Certificate(False)  # the side changes at once
+    b = wrap_angle(psi + alpha)
     d, x = a - b, 0.5 * (a + b - alpha)
     spread = abs(r * exp(1j * x) - radius)
     plain = radius - spread - speed * abs(d) / gain
     spread = _largest_spread(spread, d, alpha, speed, gain, radius)
     bound = radius - spread
-    return Certificate(_proved(game, bound, radius, d), bound, plain)
+    unwrapped = stays_unwrapped(game, a, psi) or _unwrapped(
+        game, bound, radius, d
+    )
+    if bound > 0.0 and unwrapped and _keeps_side(game, bound, radius):
+        return Certificate(True, bound, plain)
+    return Certificate(False)
 
 
 def _largest_spread(
@@ -97,17 +112,10 @@ def _largest_spread(
 ) -> float:
     """Upper sum of the comparison equation over the decay of ``d``."""
     size, sign = abs(d), 1.0 if d > 0.0 else -1.0
-
-    def change(s: float) -> float:
-        both = sin(0.5 * (alpha + sign * s)) - sin(0.5 * alpha)
-        return 2.0 * speed * abs(both)
-
-    top = sign * (pi - alpha)  # where the sine has its maximum
     while size > _TAIL:
         smaller = _FACTOR * size
-        largest = max(change(size), change(smaller))
-        if smaller < top < size:
-            largest = max(largest, change(top))
+        ends = sorted((sign * size, sign * smaller))
+        largest = 2.0 * speed * largest_change(alpha, ends[0], ends[1])
         slow = inf
         if spread > 0.0:
             slow = (radius + spread) * largest**2
@@ -117,24 +125,45 @@ def _largest_spread(
     return spread + speed * size / gain
 
 
-def _proved(game: Game, bound: float, radius: float, d: float) -> bool:
-    """Whether the bound rules out wraps and changes of side.
+def largest_change(alpha: float, low: float, high: float) -> float:
+    """Largest |sin((alpha + d) / 2) - sin(alpha / 2)| over an interval.
+
+    Args:
+        alpha: Evasion angle in [0, pi], in [rad].
+        low: Least d, above -2 pi, in [rad].
+        high: Largest d, below 2 pi, in [rad].
+    """
+    # The sine has its maximum at pi - alpha and its minimum at -pi - alpha.
+    turns = [d for d in (pi - alpha, -pi - alpha) if low < d < high]
+    still = sin(0.5 * alpha)
+    return max(
+        abs(sin(0.5 * (alpha + d)) - still) for d in (low, high, *turns)
+    )
+
+
+def _unwrapped(game: Game, bound: float, radius: float, d: float) -> bool:
+    """Whether a bound rules out that an error wraps.
 
     An error reaches pi only where the line of sight turns at k pi, or where
-    it is that far out. The side changes only where the line of sight, which
-    then turns at v |sin 2 x| / r, outruns the evader; on every ray the
-    nearest point of the disc around r* is on its rim, which is walked with a
-    Lipschitz bound between the stops.
+    it is that far out.
     """
-    if bound <= 0.0:
-        return False
-    speed, gain = game.evader.speed, game.evader.gain
     tilt = asin(min(1.0, (radius - bound) / radius))
-    unwrapped = tilt + 0.5 * (game.angle + abs(d)) < pi
-    if not (unwrapped or bound * gain * pi > 2.0 * speed):
-        return False
+    if tilt + 0.5 * (game.angle + abs(d)) < pi:
+        return True
+    return bound * game.evader.gain * pi > 2.0 * game.evader.speed
+
+
+def _keeps_side(game: Game, bound: float, radius: float) -> bool:
+    """Whether a bound rules out that the side changes.
+
+    It changes only where the line of sight, which then turns at
+    v |sin 2 x| / r, outruns the evader; on every ray the nearest point of
+    the disc around r* is on its rim, which is walked with a Lipschitz bound
+    between the stops.
+    """
     if game.keeps_side:
         return True
+    speed, gain = game.evader.speed, game.evader.gain
     slowest = gain * min(game.angle, pi - game.angle)
     if game.hysteresis > 0.0 or slowest == 0.0:
         return False
@@ -143,10 +172,7 @@ def _proved(game: Game, bound: float, radius: float, d: float) -> bool:
     spread, far = radius - bound, 2.0 * radius - bound
     slope = spread * (3.0 * slowest * far**2 + 4.0 * speed * far)
     slack = slope * pi / _STOPS
-    for i in range(_STOPS + 1):
-        around = pi * i / _STOPS
-        z = radius - spread * exp(-1j * around)
-        lead = slowest * abs(z) ** 3 - 2.0 * speed * z.real * z.imag
-        if lead <= slack:
-            return False
-    return True
+    around = pi * np.arange(_STOPS + 1) / _STOPS
+    z = radius - spread * np.exp(-1j * around)
+    lead = slowest * np.abs(z) ** 3 - 2.0 * speed * z.real * z.imag
+    return bool(lead.min() > slack)

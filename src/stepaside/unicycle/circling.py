@@ -29,6 +29,8 @@ class Circle:
         time_constant_s: Of the slowest mode, in [s]; inf if unstable.
         pursuer_error_rad: Error of the pursuer on the circle, in [rad].
         evader_error_rad: Error of the evader on the circle, in [rad].
+        bearing_rad: Bearing of the pursuer seen by the evader; within a turn
+            of what the evader's error says, in [rad].
         sliding: Whether the saturated evader slides on zero error.
     """
 
@@ -44,7 +46,21 @@ class Circle:
     time_constant_s: float = nan
     pursuer_error_rad: float = nan
     evader_error_rad: float = nan
+    bearing_rad: float = nan
     sliding: bool = False
+
+    @property
+    def direction(self) -> int:
+        """Sign of the turning rate: +1 for the main way round, 0 for none."""
+        return (self.turning_rate_rad_s > 0) - (self.turning_rate_rad_s < 0)
+
+    @property
+    def behind(self) -> bool:
+        """Whether side +1 is the one behind the evader on the circle.
+
+        If not, only an evader that keeps its side can stay on it.
+        """
+        return -pi < self.bearing_rad < 0.0
 
 
 def find_circle(
@@ -101,7 +117,8 @@ def circle_of(game: Game) -> Circle:
     if errors is None:
         return Circle(exists=False)
     turning = game.pursuer.gain * errors[0]
-    sliding = game.saturated and turning < game.evader.gain
+    # By more than rounding: at its full rate the evader does not slide.
+    sliding = game.saturated and turning < game.evader.gain * (1.0 - 1e-12)
     return describe_circle(game, turning, *errors, sliding=sliding)
 
 
@@ -135,6 +152,7 @@ def describe_circle(
         time_constant_s=time_constant(eigenvalues),
         pursuer_error_rad=pursuer_error,
         evader_error_rad=evader_error,
+        bearing_rad=bearing,
         sliding=sliding,
     )
 

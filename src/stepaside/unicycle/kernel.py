@@ -9,11 +9,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import PlanError, check_positive
 from ..poses import wrap_angles
-from .circling import circle_of
+from .circles import circles_of
 from .laws import Game
 
 Array = NDArray[np.float64]
-NEAR = 0.02  # off the circle by less than 2 % and 0.02 rad is "on it"
+NEAR = 0.02  # off a circle by less than 2 % and 0.02 rad is "on it"
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,8 +26,10 @@ class Outcomes:
         captured: Whether the distance fell to the capture distance.
         capture_time: When that was, in [s]; NaN where not.
         settled_time: Time after which the game stays within 2 % and 0.02 rad
-            of the circle, in [s]; inf where it does not, or was captured.
+            of a circle, in [s]; inf where it does not, or was captured.
+        circle: Which of ``circles_of(game)`` it has settled on; -1 for none.
         states: Last r [m], a, psi [rad]. Shape (n, 3).
+        sides: Last side. Shape (n,).
     """
 
     closest_distance: Array
@@ -35,7 +37,9 @@ class Outcomes:
     captured: NDArray[np.bool_]
     capture_time: Array
     settled_time: Array
+    circle: NDArray[np.int64]
     states: Array
+    sides: NDArray[np.int64]
 
 
 def play_games(
@@ -108,11 +112,12 @@ def play_games(
     out = np.empty((len(state), 4))  # closest, its time, capture, settled
     out[:, 0], out[:, 1:] = state[:, 0], (0.0, -1.0, 0.0)
     out[state[:, 0] <= capture_distance, 2] = 0.0
-    circle = circle_of(game)
-    target = (1.0, inf, inf)
-    if circle.exists:
-        bearing = game.angle - circle.evader_error_rad
-        target = (circle.distance_m, circle.pursuer_error_rad, bearing)
+    circles = np.array(
+        [
+            (c.distance_m, c.pursuer_error_rad, c.bearing_rad)
+            for c in circles_of(game)
+        ]
+    ).reshape(-1, 3)
     count = ceil(duration / step - 1e-9)
     c1 = 0.0 if game.saturated else ke
     laws = (vp, ve, kp, ke, c1, game.angle, game.hysteresis)
@@ -128,18 +133,22 @@ def play_games(
             laws,
             game.keeps_side,
             capture_distance,
-            target,
+            circles,
             NEAR,
         )
         if progress is not None:
             progress(min(chunk, len(state) - first))
     captured = out[:, 2] >= 0.0
     unsettled = captured | (out[:, 3] >= count * step * (1.0 - 1e-12))
+    off = plain.distances_off(circles, sides, *state.T)
+    nearest = off.argmin(axis=0) if len(circles) else sides
     return Outcomes(
         out[:, 0],
         out[:, 1],
         captured,
         np.where(captured, out[:, 2], np.nan),
         np.where(unsettled, inf, out[:, 3]),
+        np.where(unsettled, -1, nearest),
         state,
+        sides,
     )

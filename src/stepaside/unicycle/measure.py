@@ -7,8 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..poses import wrap_angle
-from .circling import circle_of
+from .circles import circles_of
+from .circling import Circle
+from .kernel import NEAR
 from .laws import Game
+from .plain import distances_off
 from .simulate import Run
 
 Array = NDArray[np.float64]
@@ -47,14 +50,41 @@ def fit_circle(points: Array) -> tuple[Array, float]:
     return origin + (x, y), float(np.sqrt(rest + x * x + y * y))
 
 
+def circle_at(
+    circles: tuple[Circle, ...], state: Array, side: int
+) -> Circle | None:
+    """Find the circle that a state is on, within 2 % and 0.02 rad.
+
+    Args:
+        circles: Circles of the game.
+        state: r [m], a, psi [rad]. Shape (3,).
+        side: Side of the evader, +1 or -1.
+
+    Returns:
+        The nearest of them, or None.
+    """
+    rows = [
+        (c.distance_m, c.pursuer_error_rad, c.bearing_rad) for c in circles
+    ]
+    if not rows:
+        return None
+    columns = np.reshape(state, (3, 1))
+    off = distances_off(np.array(rows), np.array([side]), *columns)[:, 0]
+    return circles[int(off.argmin())] if off.min() <= NEAR else None
+
+
 def settling_time(game: Game, *, precision: float = 1e-6) -> float:
-    """Time of a game after which its last turn is the circle, in [s]."""
-    circle = circle_of(game)
+    """Time of a game after which its last turn is a circle, in [s]."""
     gain = min(game.pursuer.gain, game.evader.gain)
-    if not (circle.exists and circle.stable):
+    ends = [
+        -np.log(precision) * circle.time_constant_s
+        + 2.0 * pi / abs(circle.turning_rate_rad_s)
+        for circle in circles_of(game)
+        if circle.stable
+    ]
+    if not ends:
         return 60.0 / gain
-    settle = -np.log(precision) * circle.time_constant_s
-    return float(30.0 / gain + settle + 2.0 * pi / circle.turning_rate_rad_s)
+    return float(30.0 / gain + max(ends))
 
 
 def measure(run: Run, *, count: int = 361) -> Measured:
@@ -64,10 +94,11 @@ def measure(run: Run, *, count: int = 361) -> Measured:
         run: A game that was not captured.
         count: Number of points of each path.
     """
-    circle = circle_of(run.game)
+    last = run.states([run.end_time])[0, :3]
+    circle = circle_at(circles_of(run.game), last, run.sides[-1])
     span = 0.1 * run.end_time
-    if circle.exists:
-        turn = 2.0 * pi / circle.turning_rate_rad_s
+    if circle is not None:
+        turn = 2.0 * pi / abs(circle.turning_rate_rad_s)
         span = min(turn, 0.5 * run.end_time)
     times = np.linspace(run.end_time - span, run.end_time, count)
     pursuer, evader = run.poses(times)

@@ -20,6 +20,27 @@ def rates(
     return distance, sight
 
 
+def distances_off(
+    circles: Array, side: Any, r: Array, a: Array, psi: Array
+) -> Array:
+    """How far states are off each circle, as a share of it or in [rad].
+
+    Args:
+        circles: Rows of r [m], a, psi [rad] at side +1. Shape (n, 3).
+        side: Side of each game. Shape (m,).
+        r: Distance, in [m]. Shape (m,).
+        a: Error of the pursuer, in [rad]. Shape (m,).
+        psi: Bearing of the pursuer, in [rad]. Shape (m,).
+
+    Returns:
+        The largest of the three deviations. Shape (n, m).
+    """
+    radius, error, bearing = circles.T[..., None]
+    off = np.maximum(np.abs(r / radius - 1.0), np.abs(side * a - error))
+    found: Array = np.maximum(off, np.abs(side * psi - bearing))
+    return found
+
+
 def play_arrays(
     state: Array,
     side: Any,
@@ -30,7 +51,7 @@ def play_arrays(
     laws: tuple[float, float, float, float, float, float, float],
     keeps_side: bool,
     capture: float,
-    circle: tuple[float, float, float],
+    circles: Array,
     near: float,
 ) -> None:
     """Play all games together; the twin of :func:`.blocks.play_blocks`."""
@@ -45,7 +66,6 @@ def play_arrays(
     r, a, p = (column.copy() for column in state.T)
     d1, w1 = rates(r, a, p, vp, ve)
     h = np.where(r > capture, step, 0.0)
-    shrink, error, bearing = 1.0 / circle[0], circle[1], circle[2]
     with np.errstate(all="ignore"):
         for n in range(count):
             f1, g1 = w1 - kp * a, free * w1 - c1 * p - c0
@@ -69,9 +89,7 @@ def play_arrays(
             flag |= (z < low) | (z > high) | ((1.0 - free) * np.abs(s) > ke)
             flag |= (vp + ve) * h > LOOSE * r
             flag &= h > 0.0
-            off = np.abs(x * shrink - 1.0)
-            off = np.maximum(off, np.abs(np.abs(y) - error))
-            off = np.maximum(off, np.abs(np.abs(z) - bearing))
+            off = distances_off(circles, side, x, y, z).min(0, initial=np.inf)
             out[(off > near) & (h > 0.0), 3] = (n + 1) * step
             for j in np.flatnonzero(flag).tolist():
                 *now, side[j], branch[j], best, when, caught = careful_step(

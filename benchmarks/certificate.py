@@ -1,0 +1,64 @@
+"""Share of random starts that the certificate covers, as docs/unicycles.md.
+
+Writes ``docs/results/certificate.json``::
+
+    python benchmarks/certificate.py
+"""
+
+import json
+from math import pi, radians
+from pathlib import Path
+
+import numpy as np
+
+from stepaside.studies.results import header, write_result
+from stepaside.studies.version import UNICYCLES
+from stepaside.unicycle.certificate import certify
+from stepaside.unicycle.laws import make_game
+from stepaside.unicycle.relative import Start
+
+BOXES = {
+    "any headings, 0.15-2 m": (0.15, 2.0, pi, pi),
+    "facing (±30.5°), pursuer aiming (±30°), 0.8-2 m": (
+        0.8,
+        2.0,
+        radians(30.0),
+        radians(30.5),
+    ),
+    "the same, 0.8-1.2 m": (0.8, 1.2, radians(30.0), radians(30.5)),
+}
+COUNT, SEED = 4000, 1
+COMMAND = "python benchmarks/certificate.py"
+FILE = Path(__file__).parents[1] / "docs" / "results" / "certificate.json"
+
+
+def main() -> None:
+    """Certify random starts under the parameters of Sec. IV."""
+    rows = []
+    for name, (low, high, aim, facing) in BOXES.items():
+        rng = np.random.default_rng(SEED)
+        r = rng.uniform(low, high, COUNT)
+        a = rng.uniform(-aim, aim, COUNT)
+        psi = rng.uniform(-facing, facing, COUNT)
+        starts = [Start(*row) for row in zip(r, a, psi, strict=True)]
+        row: dict[str, object] = {"starts": name}
+        inside = np.abs(a) + np.abs(psi) < pi
+        row["in the diamond"] = float(inside.mean())
+        for rule in ("latched", "behind"):
+            game = make_game(0.1, 0.1, 0.2, 0.2, side_rule=rule)
+            proofs = [certify(game, start) for start in starts]
+            row[f"certain, {rule}"] = float(np.mean([p.holds for p in proofs]))
+        rows.append(row)
+    settings = {
+        "speed_m_s": 0.1,
+        "gain_per_s": 0.2,
+        "angle_rad": pi / 2,
+        "starts": COUNT,
+        "seed": SEED,
+    }
+    head = header(settings, rooms=UNICYCLES, command=COMMAND)
+    print(json.dumps(write_result(FILE, head, rows=rows), indent=1))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,234 @@
+r"""Every rest of the relative motion, for many games at once.
+
+In relative coordinates a circle is a rest: :math:`v_e \cos\psi = v_p \cos a`
+and both players turn with the line of sight, :math:`\omega = k_p a =
+\Omega = \omega_e`. All errors are wrapped to (-pi, pi], all quantities are
+those of side +1; side -1 is the mirror image. The evader keeps its side
+here: which of the circles lie behind the evader is for the reader to ask.
+
+Where a law jumps and drives the motion away on both sides (the errors at
+:math:`\pm\pi`, the change of side) nothing rests for longer than an
+instant; such places are no circles.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .stability import loop_matrices
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+Flags = NDArray[np.bool_]
+Found = tuple[Indices, Array, Array, Flags]  # game, rate, b, sliding
+_PIECES = 96  # of the range of turning rates, where roots are looked for
+_HALVINGS = 64  # of a bracket: down to rounding
+_TOUCH = 1e-12  # m/s per m/s: below it the two stand on one spot
+
+
+@dataclass(frozen=True, slots=True)
+class Rests:
+    """Rests of many games, in no order; every array has shape (n,).
+
+    Attributes:
+        game: Which game it belongs to.
+        turning_rate: Common turning rate, signed, in [rad/s].
+        pursuer_error: In (-pi, pi], in [rad].
+        evader_error: In (-pi, pi], in [rad].
+        distance: In [m].
+        sliding: Whether the saturated evader slides on zero error.
+    """
+
+    game: Indices
+    turning_rate: Array
+    pursuer_error: Array
+    evader_error: Array
+    distance: Array
+    sliding: Flags
+
+
+def find_rests(
+    pursuer_speed: ArrayLike,
+    evader_speed: ArrayLike,
+    pursuer_gain: ArrayLike,
+    evader_gain: ArrayLike,
+    angle: ArrayLike,
+    *,
+    saturated: bool,
+) -> Rests:
+    """Find every circle of games whose evader keeps its side.
+
+    Args:
+        pursuer_speed: In [m/s]. This and the others broadcast to shape (n,).
+        evader_speed: In [m/s].
+        pursuer_gain: In [1/s].
+        evader_gain: In [1/s].
+        angle: Evasion angle in [0, pi], in [rad].
+        saturated: Whether the evader turns by (6) rather than by (4).
+
+    Returns:
+        The rests with a positive distance.
+    """
+    values = (pursuer_speed, evader_speed, pursuer_gain, evader_gain, angle)
+    arrays = [np.atleast_1d(np.asarray(v, dtype=np.float64)) for v in values]
+    games = np.array(np.broadcast_arrays(*arrays))
+    found = _saturated(games) if saturated else _proportional(games)
+    index, rate, b, sliding = found
+    vp, ve, kp, _, alpha = games[:, index]
+    a = rate / kp
+    across = vp * np.sin(a) - ve * np.sin(b - alpha)
+    apart = np.abs(across) > _TOUCH * np.maximum(vp, ve)
+    keep = apart & (across * rate > 0.0) & (a > -pi) & (a <= pi)
+    keep &= (b > -pi) & (b <= pi)
+    distance = across[keep] / rate[keep]
+    return Rests(
+        index[keep], rate[keep], a[keep], b[keep], distance, sliding[keep]
+    )
+
+
+def imbalance(games: Array, rate: Array) -> Array:
+    """Rate of the distance at given turning rates under (4), in [m/s].
+
+    Written so that nothing cancels when the speeds are equal.
+    """
+    vp, ve, kp, ke, alpha = games
+    a, u = rate / kp, alpha - rate / ke
+    difference = -2.0 * np.sin(0.5 * (u + a)) * np.sin(0.5 * (u - a))
+    found: Array = (ve - vp) * np.cos(a) + ve * difference
+    return found
+
+
+def _slope(games: Array, rate: Array) -> Array:
+    """Derivative of the imbalance by the turning rate, in [m]."""
+    vp, ve, kp, ke, alpha = games
+    evader = ve / ke * np.sin(alpha - rate / ke)
+    found: Array = evader + vp / kp * np.sin(rate / kp)
+    return found
+
+
+def _proportional(games: Array) -> Found:
+    """Roots of the balance over all rates that the errors allow.
+
+    It is a sum of two sinusoids, and the range holds one period of the
+    faster one, so pieces are short against what it can do between two
+    knots: cross zero once, or turn back before or behind it.
+    """
+    top = pi * np.minimum(games[2], games[3])
+    knots = np.linspace(-1.0, 1.0, _PIECES + 1)[:, None] * top
+    value = imbalance(games[:, None], knots)
+    slope = _slope(games[:, None], knots)
+    above = value > 0.0
+    crosses = above[1:] != above[:-1]
+    towards = (slope[:-1] < 0.0) == above[:-1]
+    returns = ~crosses & towards & ((slope[1:] > 0.0) == above[1:])
+    piece, index = np.nonzero(returns)
+    low, high = knots[piece, index], knots[piece + 1, index]
+    turn = _bisect(_slope, games[:, index], low, high)
+    beyond = (imbalance(games[:, index], turn) > 0.0) != above[piece, index]
+    piece, index, turn = piece[beyond], index[beyond], turn[beyond]
+    lows = [knots[piece, index], turn]
+    highs = [turn, knots[piece + 1, index]]
+    where = [index, index]
+    piece, index = np.nonzero(crosses)
+    low = np.concatenate([*lows, knots[piece, index]])
+    high = np.concatenate([*highs, knots[piece + 1, index]])
+    index = np.concatenate([*where, index])
+    rate = _bisect(imbalance, games[:, index], low, high)
+    sliding = np.zeros(len(index), dtype=np.bool_)
+    return index, rate, rate / games[3, index], sliding
+
+
+def _bisect(
+    function: Callable[[Array, Array], Array],
+    games: Array,
+    low: Array,
+    high: Array,
+) -> Array:
+    """Halve brackets with a sign change until they are at rounding."""
+    rising = function(games, high) > 0.0
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        right = (function(games, middle) > 0.0) == rising
+        low, high = np.where(right, low, middle), np.where(right, middle, high)
+    found: Array = 0.5 * (low + high)
+    return found
+
+
+def _saturated(games: Array) -> Found:
+    """Rests under (6): at full rate either way round, or sliding.
+
+    Where the two meet, the rest counts as one at full rate.
+    """
+    vp, ve, kp, ke, alpha = games
+    count = len(vp)
+    rates, errors, slides = [], [], []
+    with np.errstate(invalid="ignore"):
+        bearing = np.arccos(vp / ve * np.cos(ke / kp))  # NaN: none
+        slid = np.arccos(ve / vp * np.cos(alpha))
+    for way in (1.0, -1.0):
+        for sign in (-1.0, 1.0):
+            b = alpha + sign * bearing
+            b = np.where(b > pi, b - 2.0 * pi, b)
+            twice = (sign > 0.0) & np.isin(bearing, (0.0, pi))
+            rates.append(way * ke)
+            errors.append(np.where((way * b >= 0.0) & ~twice, b, np.nan))
+            slides.append(np.zeros(count, dtype=np.bool_))
+        rate = np.where((slid > 0.0) & (kp * slid < ke), way * kp * slid, 1.0)
+        rates.append(rate)
+        errors.append(np.where(rate == way * kp * slid, 0.0, np.nan))
+        slides.append(np.ones(count, dtype=np.bool_))
+    index = np.tile(np.arange(count), len(rates))
+    b = np.concatenate(errors)
+    real = np.isfinite(b)
+    rate, sliding = np.concatenate(rates), np.concatenate(slides)
+    return index[real], rate[real], b[real], sliding[real]
+
+
+def growth_rates(
+    rests: Rests,
+    pursuer_speed: Array,
+    evader_speed: Array,
+    pursuer_gain: Array,
+    evader_gain: Array,
+    angle: Array,
+    *,
+    saturated: bool,
+) -> Array:
+    """Largest real part of the eigenvalues about each rest, in [1/s].
+
+    Args:
+        rests: Rests of the games.
+        pursuer_speed: Of the games, in [m/s]. All have shape (n,).
+        evader_speed: In [m/s].
+        pursuer_gain: In [1/s].
+        evader_gain: In [1/s].
+        angle: Evasion angle, in [rad].
+        saturated: Whether the evader turns by (6) rather than by (4).
+
+    Returns:
+        Rates, of the sliding motion where the evader slides; negative where
+        the circle is stable. Shape (m,) for m rests.
+    """
+    vp, ve, kp, ke, alpha = (
+        values[rests.game]
+        for values in (
+            pursuer_speed,
+            evader_speed,
+            pursuer_gain,
+            evader_gain,
+            angle,
+        )
+    )
+    a, psi = rests.pursuer_error, rests.evader_error - alpha
+    loops = loop_matrices(
+        (vp, ve), (kp, 0.0 * ke if saturated else ke), rests.distance, a, psi
+    )
+    found = np.empty(len(a))
+    for slides, size in ((False, 3), (True, 2)):
+        some = rests.sliding == slides
+        values = np.linalg.eigvals(loops[some, :size, :size])
+        found[some] = values.real.max(axis=-1)
+    return found

@@ -1,0 +1,185 @@
+"""Perception of a robot that is made up to stand somewhere, turned."""
+
+from math import atan2, cos, sin
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.control import perception as module
+from stepaside.control.body import Measurement
+from stepaside.control.perception import (
+    FrameReport,
+    Perception,
+)
+from stepaside.poses import Pose, wrap_angle
+from stepaside.robots.description import load_robot
+from stepaside.robots.head import load_head
+from stepaside.sensing.camera_model import CameraModel
+from stepaside.sensing.colour_detector import RED, ColourDetection
+from stepaside.sensing.depth_detector import DepthScene, Obstacle, Shadow
+from stepaside.sensing.images import ColourImage, DepthImage
+from stepaside.sensing.track import Observation, Track
+
+TICK = 0.02
+
+
+NAO = load_robot("nao")
+
+
+HEAD = load_head(NAO)
+
+
+CAMERA = CameraModel(160, 120, 140.0, 140.0)
+
+
+SUPPORT = Pose(1.0, -2.0, 0.7)
+
+
+UP = np.array([0.0, 0.0, 9.81])
+
+
+JOINTS = NAO.compile().nu
+
+
+class FakeDetector:
+    """Finds what it is told in every image."""
+
+    appearance = RED
+
+    def __init__(self) -> None:
+        self.found: ColourDetection | None = None
+
+    def detect(self, image: ColourImage) -> ColourDetection | None:
+        """Find what was told."""
+        return self.found
+
+
+class FakeGaze:
+    """Notes what it is told."""
+
+    yaw, pitch = 0.4, -0.2
+
+    def __init__(self) -> None:
+        self.followed: tuple[float, float] | None = None
+
+    def follow(self, bearing: float, distance: float) -> None:
+        """Note what is looked at."""
+        self.followed = wrap_angle(bearing), distance
+
+    def search(self) -> None:
+        """Look at nothing."""
+        self.followed = None
+
+
+class Eyes:
+    """Perception of a robot that stands somewhere, turned."""
+
+    def __init__(self) -> None:
+        self.perception = Perception(NAO, HEAD, RED, tick=TICK)
+        detector: Any = FakeDetector()
+        gaze: Any = FakeGaze()
+        self.detector = self.perception._detector = detector
+        self.gaze = self.perception._gaze = gaze
+        self.reports: list[FrameReport] = []
+        self.perception.on_frame = self.reports.append
+        self.support = SUPPORT
+
+    @property
+    def tracks(self) -> list[Track]:
+        """Everything followed."""
+        return self.perception._tracker.tracks
+
+    @property
+    def torso(self) -> Pose:
+        """Pose of the torso in odometry."""
+        assert self.perception.body is not None
+        return self.perception.body.torso
+
+    def see(self, time: float, *percepts: Any) -> Any:
+        """Take in one tick."""
+        angles = np.zeros(JOINTS)
+        return self.perception.see(
+            Measurement(
+                time, angles, np.zeros(3), UP, np.zeros(8), None, percepts
+            ),
+            self.support,
+            True,
+        )
+
+    def know(self, x: float, y: float, **changes: Any) -> Track:
+        """Follow something at a place in odometry."""
+        values: dict[str, Any] = {
+            "time": 0.0,
+            "identified": True,
+            "ranged": True,
+        } | changes
+        track = Track(
+            Observation(
+                x=x, y=y, bearing=0.0, along=0.02, across=0.02, **values
+            )
+        )
+        track.confirmed = True
+        self.tracks.append(track)
+        return track
+
+    def beside(self, distance: float, bearing: float) -> tuple[float, float]:
+        """Place at a distance from the torso, aside of its heading."""
+        x, y, heading = self.torso
+        angle = heading + bearing
+        return x + distance * cos(angle), y + distance * sin(angle)
+
+
+def colour(time: float) -> ColourImage:
+    return ColourImage(time, CAMERA, np.zeros((2, 2, 3), np.uint8))
+
+
+def depth(time: float) -> DepthImage:
+    return DepthImage(time, CAMERA, np.zeros((2, 2), np.float32), 0.8, 3.5)
+
+
+def trim(column: float) -> ColourDetection:
+    """Somebody whose feet are cut off: his breadth tells the distance."""
+    return ColourDetection(
+        column,
+        40.0,
+        80.0,
+        column - 15.0,
+        column + 15.0,
+        1.0,
+        False,
+        True,
+        False,
+    )
+
+
+def obstacle(x: float, y: float, azimuth: float = 0.0) -> Obstacle:
+    return Obstacle(x, y, 1.0, 0.0, azimuth, 0.2, 0.5, True)
+
+
+def show(
+    monkeypatch: pytest.MonkeyPatch, *things: Obstacle | Shadow
+) -> list[tuple[Any, ...]]:
+    """Let every depth image show some things; notes what it is given."""
+    given: list[tuple[Any, ...]] = []
+    obstacles = tuple(t for t in things if isinstance(t, Obstacle))
+    shadows = tuple(t for t in things if isinstance(t, Shadow))
+
+    def detect(*arguments: Any) -> DepthScene:
+        given.append(arguments)
+        return DepthScene(obstacles, shadows)
+
+    monkeypatch.setattr(module, "detect_obstacles", detect)
+    return given
+
+
+def axis_of(eyes: Eyes, sonar: str) -> float:
+    """Direction of a sonar in odometry."""
+    body = eyes.perception.body
+    assert body is not None
+    axis = body.torso_axes @ HEAD.sonars[sonar].axes[:, 0]
+    return atan2(axis[1], axis[0])
+
+
+def hits(track: Track) -> list[bool]:
+    return list(track._hits)

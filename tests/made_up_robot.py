@@ -1,0 +1,158 @@
+"""A robot that is made up, to test what controls it."""
+
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from stepaside.control.body import Measurement, Sighting
+from stepaside.control.phase import Phase
+from stepaside.control.scheme import ControlScheme
+from stepaside.planning import Direction, GaitSettings
+from stepaside.poses import Array, Pose
+from stepaside.robots.kinematics import BodyReference
+
+GAIT = GaitSettings()
+
+
+TICK = 0.004
+
+
+STEP = GAIT.step_duration
+
+
+class FakeLegs:
+    """Legs that reach everything: the targets are the reference itself."""
+
+    def __init__(self) -> None:
+        self.torso_heading = 0.0
+        self.tracked: list[BodyReference] = []
+
+    def stand(self, reference: BodyReference) -> Array:
+        """Take any posture."""
+        return np.array(reference.com)
+
+    def track(self, reference: BodyReference) -> Array:
+        """Follow anything."""
+        self.tracked.append(reference)
+        return np.array(reference.com)
+
+
+@dataclass
+class FakeRole:
+    """Notes what it is asked, heads where it is told."""
+
+    going: bool = True
+    heading: float = 0.0
+    direction: Direction = Direction.FORWARD
+    saturated: bool = False
+    asked: list[float] = field(default_factory=list)
+
+    def is_triggered(self, distance: float) -> bool:
+        """Go when told, and not too far."""
+        return self.going and distance < 2.0
+
+    def desired_heading(self, bearing: float) -> float:
+        """Note what is seen, and head where told."""
+        self.asked.append(bearing)
+        return self.heading
+
+
+class FakeFeedback:
+    """Passes everything on, and can be told to interfere."""
+
+    def __init__(self) -> None:
+        self.ready = True
+        self.estimator = SimpleNamespace(torso_heading=0.0)
+        self.state: Any = None
+        self.lift = self.shift = self.turn = 0.0
+        self.jump = (0.0, 0.0)
+        self.steps: list[Any] = []
+        self.landed: list[Any] = []
+        self.fits = 0
+        self.joints = SimpleNamespace(update=lambda angles, t: t + angles)
+        self.lead = SimpleNamespace(ahead=lambda time, d: d + self.turn)
+
+    def update(self, _: Any, row: Any, step: Any) -> BodyReference:
+        """Pass the reference on, lifted."""
+        self.steps.append(step)
+        x, y, z = row.body.com
+        body: BodyReference = row.body._replace(com=(x, y, z + self.lift))
+        return body
+
+    def land(self, landed: Pose, position: Any, velocity: Any, step: Any):  # type: ignore[no-untyped-def]
+        """Let a foot land, shifted."""
+        self.landed.append((landed, step))
+        moved = Pose(landed.x + self.shift, landed.y, landed.theta)
+        return moved, position, velocity
+
+    def fit(self, plan_from: Any, state: Any, support: Any) -> Any:
+        """Plan as asked."""
+        self.fits += 1
+        (x, y), (u, v) = self.jump, state.velocity
+        return plan_from(state), state._replace(velocity=(u + x, v + y))
+
+
+def measure(
+    time: float, distance: float | None = 1.0, bearing: float = 0.0
+) -> Measurement:
+    seen = None if distance is None else Sighting(time, bearing, distance)
+    nothing = np.zeros(3)
+    return Measurement(time, nothing, nothing, nothing, np.zeros(8), seen)
+
+
+class Run:
+    """A scheme on its clock."""
+
+    def __init__(
+        self, role: Any = None, gait: GaitSettings = GAIT, **changes: Any
+    ) -> None:
+        legs: Any = FakeLegs()
+        self.legs = legs
+        self.role = role or FakeRole()
+        self.scheme = ControlScheme(
+            self.role, gait, legs, tick=TICK, **changes
+        )
+        self.ticks = 0
+
+    def phase(self) -> Phase:
+        """What the robot is doing by now."""
+        return self.scheme.phase
+
+    def until(
+        self, time: float, distance: float | None = 1.0, bearing: float = 0.0
+    ) -> ControlScheme:
+        """Run all ticks before a time."""
+        while self.ticks * TICK < time - 1e-9:
+            now = self.ticks * TICK
+            self.scheme.update(measure(now, distance, bearing))
+            self.ticks += 1
+        return self.scheme
+
+
+FIRST = GAIT.start_support + STEP  # duration of the first maneuver walked
+
+
+def feeding(role: Any = None) -> tuple[Run, FakeFeedback]:
+    feedback: Any = FakeFeedback()
+    return Run(role, stabiliser=feedback), feedback
+
+
+class FakePerception:
+    """Sees what it is told and turns the head."""
+
+    def __init__(self) -> None:
+        self.seen: Sighting | None = None
+        self.stood: list[tuple[Pose, bool]] = []
+
+    def see(
+        self, measurement: Measurement, support: Pose, left_supports: bool
+    ) -> Sighting | None:
+        """See what was told."""
+        self.stood.append((support, left_supports))
+        return self.seen
+
+    def aim(self, targets: Array) -> None:
+        """Turn the head."""
+        targets[0] = 0.75

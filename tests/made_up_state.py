@@ -1,0 +1,104 @@
+"""Feedback of a robot whose state is made up."""
+
+from typing import Any
+
+import numpy as np
+
+from stepaside.control.body import Measurement
+from stepaside.control.estimation import BodyState
+from stepaside.control.reference import Row
+from stepaside.control.settings import ControlSettings, StabiliserSettings
+from stepaside.control.stabiliser import Stabiliser
+from stepaside.control.step import Step
+from stepaside.planning import (
+    Foot,
+    GaitSettings,
+)
+from stepaside.poses import Pose
+from stepaside.robots.forward import MeasuredPosture
+from stepaside.robots.kinematics import BodyReference
+
+GAIT = GaitSettings()
+
+
+ETA, TICK = GAIT.eta, 0.004
+
+
+GAINS = StabiliserSettings()
+
+
+SUPPORT = Pose(1.0, -2.0, 0.7)
+
+
+ZERO = (0.0, 0.0)
+
+
+MEASUREMENT = Measurement(
+    0.0, np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(8), None
+)
+
+
+COM, DCM, ZMP = (1.0, -1.95), (1.02, -1.94), (0.99, -1.96)
+
+
+BODY = BodyReference(
+    (*COM, 0.27), (0.1, 0.2, 0.01, 0.3), (0.4, 0.5, 0.02, 0.6)
+)
+
+
+ROW = Row(BODY, ZMP, DCM)
+
+
+class FakeEstimator:
+    """States as they are wanted; notes what it is told."""
+
+    def __init__(self) -> None:
+        self.ready = True
+        self.posture: MeasuredPosture | None = None
+        self.off_com = self.off_dcm = self.tilt = ZERO
+        self.left_share = 0.5
+        self.told: list[tuple[BodyReference, tuple[float, float]]] = []
+
+    def update(
+        self, measurement: Measurement, feet: BodyReference, asked: Any
+    ) -> BodyState:
+        """Note what is told, and answer with a state."""
+        self.told.append((feet, asked))
+        (cx, cy), (dx, dy) = self.off_com, self.off_dcm
+        return BodyState(
+            (COM[0] + cx, COM[1] + cy),
+            ZERO,
+            (DCM[0] + dx, DCM[1] + dy),
+            ZMP,
+            self.tilt,
+            (0.0, 0.0, 0.0),
+            self.left_share,
+            50.0,
+        )
+
+
+def stabiliser(
+    method: str = "measured",
+    gains: StabiliserSettings = GAINS,
+    **changes: Any,
+) -> tuple[Stabiliser, FakeEstimator]:
+    fake: Any = FakeEstimator()
+    settings = ControlSettings(method, True, gains)  # type: ignore[arg-type]
+    return Stabiliser(settings, fake, GAIT, tick=TICK, **changes), fake
+
+
+def step(**changes: Any) -> Step:
+    landing = SUPPORT.compose(Pose(0.04, 0.1, 0.0))
+    values: dict[str, Any] = {
+        "support": SUPPORT,
+        "swing": Foot.LEFT,
+        "landing": landing,
+        "remaining": 0.2,
+        "progress": 0.5,
+        "walking": True,
+    } | changes
+    return Step(**values)
+
+
+def same(one: Any, other: Any) -> None:
+    np.testing.assert_allclose(one, other, atol=1e-12)

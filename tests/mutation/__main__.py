@@ -1,0 +1,143 @@
+"""Run faults before the tests: ``python -m tests.mutation --help``."""
+
+import argparse
+import os
+from pathlib import Path
+from typing import Any
+
+from . import page
+from .campaign import record_reach, try_faults
+from .child import warm_up
+from .faults import Fault, draw, faults_of, modules_of
+from .mention import Index
+from .places import optional_keywords
+from .runner import append, rows_of
+from .source import Source
+from .tree import Tree, code_version, digest, files_of
+
+ROOMS = (
+    "planning",
+    "control",
+    "unicycle",
+    "sensing",
+    "robots",
+    "simulation",
+    "studies",
+)
+PACKAGES = [f"src/stepaside/{room}" for room in ROOMS]
+WORK = Path("runs/mutation")
+OWN = "test_mutation.py"  # tests of these files are about no fault
+
+
+def main() -> None:
+    """Read the command line and do what it says."""
+    options = _options()
+    root: Path = options.root
+    files = files_of(root)
+    texts = {
+        file: (root / file).read_text(encoding="utf-8")
+        for file in modules_of(root, options.only or PACKAGES)
+    }
+    count = None if options.all else options.sample
+    faults = _drawn(root, texts, count, options.seed)
+    version = digest(
+        root, [f for f in files if f.parts[0] in ("src", "tests")]
+    )
+    chosen = options.tests or [
+        file.as_posix()
+        for file in files
+        if file.match("tests/test_*.py") and file.name != OWN
+    ]
+    name = "-".join(["trials", version, f"{options.cap:g}"])
+    if options.tests:
+        name += "-" + "-".join(Path(file).stem for file in chosen)
+    rows = root / WORK / f"{name}.jsonl"
+    if not options.list_survivors:
+        _try(root, rows, faults, texts, chosen, options)
+    found = {row["key"]: row for row in rows_of(rows)}
+    summary = page.summary(
+        [found[fault.key] for fault in faults if fault.key in found],
+        sample=count,
+        seed=options.seed,
+        cap=options.cap,
+        version=code_version(root, PACKAGES),
+        reasons=page.read_reasons(root / page.REASONS),
+    )
+    for row in summary["survivors"]:
+        print(f"{row['file']}:{row['line']} {row['before']} => {row['after']}")
+    print(page.score_line(summary))
+    if options.write:
+        page.write(root, summary)
+
+
+def _options() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python -m tests.mutation")
+    add = parser.add_argument
+    add("--only", nargs="+", metavar="PATH", help="folders or files to change")
+    add("--tests", nargs="+", metavar="FILE", help="files of tests to run")
+    add("--sample", type=int, default=400, metavar="N")
+    add("--all", action="store_true", help="every fault, not a sample")
+    add("--seed", type=int, default=1, metavar="S")
+    add("--jobs", type=int, default=os.cpu_count(), metavar="N")
+    add(
+        "--cap",
+        type=float,
+        default=40.0,
+        metavar="SECONDS",
+        help="processor time of the tests that one fault may take",
+    )
+    add("--list-survivors", action="store_true", help="of earlier runs")
+    add("--write", action="store_true", help="write results and page of docs")
+    add("--root", type=Path, default=Path(__file__).parents[2])
+    return parser.parse_args()
+
+
+def _drawn(
+    root: Path, texts: dict[str, str], count: int | None, seed: int
+) -> list[Fault]:
+    optional = optional_keywords(
+        Source(path.read_text(encoding="utf-8")).tree
+        for path in (root / "src").rglob("*.py")
+    )
+    faults = (
+        fault
+        for file, text in texts.items()
+        for fault in faults_of(file, text, optional, seed)
+    )
+    return draw(faults, texts, count, seed)
+
+
+def _try(
+    root: Path,
+    rows: Path,
+    faults: list[Fault],
+    texts: dict[str, str],
+    tests: list[str],
+    options: argparse.Namespace,
+) -> None:
+    """Try the faults that have no record yet."""
+    warm_up()
+    rows.parent.mkdir(parents=True, exist_ok=True)
+    known = {row["key"] for row in rows_of(rows)}
+    todo = [fault for fault in faults if fault.key not in known]
+    if not todo:
+        return
+    trees = [
+        Tree(root, rows.parent / f"tree-{number}", set(texts))
+        for number in range(options.jobs)
+    ]
+    index = Index(root, record_reach(root, trees, tests, rows.parent))
+    trials = try_faults(todo, texts, index, trees, options.cap)
+    for number, row in enumerate(trials, 1):
+        append(rows, row)
+        print(f"{number}/{len(todo)} {_told(row)}", flush=True)
+
+
+def _told(row: dict[str, Any]) -> str:
+    where = f"{row['file']}:{row['line']}"
+    change = f"{row['before']} => {row['after']}"
+    return f"{row['outcome']}: {where} {change} {row['test']}".strip()
+
+
+if __name__ == "__main__":
+    main()

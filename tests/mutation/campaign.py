@@ -1,0 +1,132 @@
+"""Find the tests of each fault, and try it before them."""
+
+import json
+import os
+import signal
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from . import reach, trial
+from .faults import Fault
+from .mention import Index
+from .runner import Job, numba_cache, run_jobs
+from .source import Source
+from .tree import Tree, digest, files_of
+
+
+def record_reach(
+    root: Path, trees: list[Tree], tests: list[str], out: Path
+) -> dict[str, reach.Reach]:
+    """Record what tests reach, once for each version of them and the code.
+
+    Args:
+        root: Tree with the package and its tests.
+        trees: Scratch copies of it.
+        tests: Files of tests, relative to the tree.
+        out: Folder that keeps what was recorded.
+
+    Returns:
+        What the tests of each file reach.
+    """
+    helpers = [
+        file
+        for file in files_of(root)
+        if file.parts[0] == "src"
+        or (file.parts[0] == "tests" and not file.match("tests/test_*.py"))
+    ]
+    common = digest(root, [f for f in helpers if "mutation" not in f.parts])
+    paths = {}
+    for file in tests:
+        mark = f"{common}-{digest(root, [Path(file)])}"
+        paths[file] = out / f"reach-{Path(file).stem}-{mark}.json"
+
+    def jobs() -> Iterator[Job]:
+        for file, path in paths.items():
+            if not path.exists():
+
+                def work(
+                    tree: Tree, file: str = file, path: Path = path
+                ) -> None:
+                    numba_cache(tree, fresh=False)
+                    reach.record(tree.path, file, path)
+
+                yield Job(file, lambda tree: None, work)
+
+    for job, tree, _ in run_jobs(jobs(), trees):
+        log = tree.path.with_suffix(".log").read_text(encoding="utf-8")
+        last = log.strip().splitlines()[-1:] or ["no word"]
+        print(f"reach of {job.name}: {last[0]}", flush=True)
+    return {file: reach.load(path) for file, path in paths.items()}
+
+
+def try_faults(
+    faults: list[Fault],
+    texts: Mapping[str, str],
+    index: Index,
+    trees: list[Tree],
+    cap: float,
+) -> Iterator[dict[str, Any]]:
+    """Try faults, each before the tests that reach it.
+
+    Args:
+        faults: Faults to try.
+        texts: Text of each file.
+        index: Which test reaches what.
+        trees: Scratch copies of the tree.
+        cap: Most processor time of the tests of one fault, in [s].
+
+    Yields:
+        A record of each fault as its trial ends.
+    """
+    chosen = {
+        fault.key: trial.choose(index.tests(fault), index.times, cap)
+        for fault in faults
+    }
+    by_key = {fault.key: fault for fault in faults}
+    for fault in faults:
+        if not chosen[fault.key]:
+            yield _row(fault, "unreached", "")
+
+    def jobs() -> Iterator[Job]:
+        for fault in faults:
+            if chosen[fault.key]:
+                yield _job(fault, texts[fault.file], index, chosen[fault.key])
+
+    for job, tree, status in run_jobs(jobs(), trees):
+        note = tree.path.with_suffix(".note").read_text(encoding="utf-8")
+        yield _row(by_key[job.name], *_verdict(note, status))
+
+
+def _job(fault: Fault, text: str, index: Index, chosen: list[str]) -> Job:
+    def prepare(tree: Tree) -> None:
+        tree.change(fault.file, Source(text).apply(fault.edit))
+
+    def work(tree: Tree) -> None:
+        numba_cache(tree, fresh="unicycle" in fault.file)
+        times = {test: index.times[test] for test in chosen}
+        trial.run(tree.path, times, tree.path.with_suffix(".note"))
+
+    return Job(fault.key, prepare, work)
+
+
+def _verdict(note: str, status: int) -> tuple[str, str]:
+    if note.startswith("{"):
+        red = json.loads(note)["red"]
+        return ("killed", red) if red else ("survived", "")
+    if os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGXCPU:
+        return "timeout", note
+    return "killed", f"{note} (the process ended)"
+
+
+def _row(fault: Fault, outcome: str, test: str) -> dict[str, Any]:
+    return {
+        "key": fault.key,
+        "file": fault.file,
+        "line": fault.line,
+        "operator": fault.operator,
+        "before": fault.before,
+        "after": fault.after,
+        "outcome": outcome,
+        "test": test,
+    }

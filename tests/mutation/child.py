@@ -1,0 +1,131 @@
+"""What a forked process does: run tests in a scratch copy of the tree."""
+
+import os
+import sys
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from importlib import import_module
+from pathlib import Path
+from resource import (
+    RLIMIT_CPU,
+    RUSAGE_CHILDREN,
+    RUSAGE_SELF,
+    getrlimit,
+    getrusage,
+    setrlimit,
+)
+
+import pytest
+from hypothesis import Phase, settings
+
+PROFILE = "mutation"
+# Imported once, before forking: what tests import from elsewhere.
+WARM = (
+    "click.testing",
+    "coverage",
+    "cv2",
+    "dacite",
+    "daqp",
+    "markdown",
+    "matplotlib.pyplot",
+    "mujoco",
+    "numba",
+    "numpy",
+    "scipy.integrate",
+    "scipy.linalg",
+    "scipy.optimize",
+    "scipy.signal",
+    "scipy.spatial",
+    "tomli_w",
+    "tqdm",
+    "xml.etree.ElementTree",
+)
+
+
+def warm_up() -> None:
+    """Import the libraries that every child uses; nothing of the package."""
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    os.environ.setdefault("MPLBACKEND", "Agg")
+    for name in WARM:
+        with suppress(ImportError):
+            import_module(name)
+    settings.register_profile(
+        PROFILE,
+        deadline=None,
+        derandomize=True,
+        database=None,
+        phases=(Phase.explicit, Phase.generate),
+    )
+
+
+def cpu_time() -> float:
+    """Processor time of this process and of those it waited for, in [s]."""
+    both = getrusage(RUSAGE_SELF), getrusage(RUSAGE_CHILDREN)
+    return sum(used.ru_utime + used.ru_stime for used in both)
+
+
+def allow(seconds: float) -> None:
+    """End this process if it uses more processor time from here."""
+    used = getrusage(RUSAGE_SELF)
+    limit = int(used.ru_utime + used.ru_stime + seconds) + 1
+    setrlimit(RLIMIT_CPU, (limit, getrlimit(RLIMIT_CPU)[1]))
+
+
+def fork(tree: Path, log: Path, work: Callable[[], None]) -> int:
+    """Do some work in a forked process whose package is that of a tree.
+
+    Args:
+        tree: Scratch copy to work in.
+        log: File that takes what the process prints.
+        work: What to do.
+
+    Returns:
+        Process identifier, also that of its process group.
+    """
+    child = os.fork()
+    if child:
+        return child
+    status = 70
+    try:
+        os.setsid()
+        _enter(tree, log)
+        work()
+        status = 0
+    except BaseException as error:  # the fork must not return
+        print(repr(error), flush=True)
+    finally:
+        sys.stdout.flush()
+        os._exit(status)
+
+
+def run_tests(
+    tree: Path, files: Iterable[str], plugin: object, *options: str
+) -> None:
+    """Run tests of some files in this process."""
+    pytest.main(
+        [
+            *(str(tree / file) for file in files),
+            "--quiet",
+            "--tb=short",
+            f"--rootdir={tree}",
+            f"--config-file={tree / 'pyproject.toml'}",
+            f"--basetemp={tree.parent / f'tmp-{tree.name}'}",
+            f"--hypothesis-profile={PROFILE}",
+            "-pno:cacheprovider",
+            "-Wignore",
+            *options,
+        ],
+        plugins=[plugin],
+    )
+
+
+def _enter(tree: Path, log: Path) -> None:
+    """Make a tree the place that code is imported from and run in."""
+    os.chdir(tree)
+    paths = [str(tree / "src"), str(tree / "tests"), str(tree)]
+    sys.path[:0] = paths
+    os.environ["PYTHONPATH"] = os.pathsep.join(paths[:1])
+    with open(os.devnull) as nothing, log.open("w") as out:
+        os.dup2(nothing.fileno(), 0)
+        os.dup2(out.fileno(), 1)
+        os.dup2(out.fileno(), 2)

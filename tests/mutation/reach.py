@@ -1,0 +1,115 @@
+"""Which test reaches which line, recorded one file of tests at a time."""
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import coverage
+import pytest
+
+from .child import cpu_time, run_tests
+
+SHARED = "*"  # reached by a fixture that all tests of a file share
+
+
+@dataclass(frozen=True, slots=True)
+class Reach:
+    """What the tests of one file reach.
+
+    Attributes:
+        times: Processor time of each test that passed, in [s].
+        red: Tests that failed although nothing was wrong.
+        lines: Tests by file and line.
+    """
+
+    times: dict[str, float]
+    red: list[str]
+    lines: dict[str, dict[int, set[str]]]
+
+
+class Recorder:
+    """Pytest plugin that tells coverage which test is running."""
+
+    def __init__(self, measured: coverage.Coverage) -> None:
+        self._measured = measured
+        self.times: dict[str, float] = {}
+        self.red: set[str] = set()
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_protocol(
+        self, item: pytest.Item
+    ) -> Iterator[None]:  # pragma: no cover
+        """Note what one test reaches, and its time."""
+        began = cpu_time()
+        self._measured.switch_context(item.nodeid)
+        try:
+            return (yield)
+        finally:
+            self._measured.switch_context("")
+            self.times[item.nodeid] = round(cpu_time() - began, 3)
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_fixture_setup(
+        self,
+        fixturedef: pytest.FixtureDef[Any],
+        request: pytest.FixtureRequest,
+    ) -> Iterator[None]:
+        """Note what a fixture of several tests reaches for all of them."""
+        if fixturedef.scope == "function":
+            return (yield)
+        self._measured.switch_context(SHARED)
+        try:
+            return (yield)
+        finally:
+            self._measured.switch_context(request.node.nodeid)
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Note a test that does not pass."""
+        if report.outcome != "passed":
+            self.red.add(report.nodeid)
+
+    def pytest_collectreport(self, report: pytest.CollectReport) -> None:
+        """Note a file that cannot be read."""
+        if report.failed:
+            self.red.add(report.nodeid)
+
+
+def record(tree: Path, file: str, out: Path) -> None:
+    """Run the tests of a file, and write down what each of them reaches."""
+    source = tree / "src"
+    measured = coverage.Coverage(
+        data_file=None, config_file=False, include=[f"{source}/*"]
+    )
+    plugin = Recorder(measured)
+    measured.start()
+    run_tests(tree, [file], plugin)
+    measured.stop()
+    data = measured.get_data()
+    lines = {
+        Path(path).relative_to(tree).as_posix(): {
+            str(line): sorted(set(contexts) - {""})
+            for line, contexts in data.contexts_by_lineno(path).items()
+            if set(contexts) - {""}
+        }
+        for path in data.measured_files()
+    }
+    found = {"times": plugin.times, "red": sorted(plugin.red), "lines": lines}
+    draft = out.with_suffix(".draft")
+    draft.write_text(json.dumps(found), encoding="utf-8")
+    draft.replace(out)
+
+
+def load(path: Path) -> Reach:
+    """Read what :func:`record` wrote."""
+    found = json.loads(path.read_text(encoding="utf-8"))
+    red = set(found["red"])
+    times = {t: s for t, s in found["times"].items() if t not in red}
+    lines: dict[str, dict[int, set[str]]] = {}
+    for file, by_line in found["lines"].items():
+        lines[file] = {}
+        for line, names in by_line.items():
+            tests = set(times) if SHARED in names else set(names) & set(times)
+            lines[file][int(line)] = tests
+    return Reach(times, sorted(red), lines)

@@ -1,0 +1,152 @@
+"""Many trials at once, each in a process of its own."""
+
+import json
+import os
+import shutil
+import signal
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from time import monotonic, sleep
+
+from .child import fork
+from .tree import Tree
+
+IDLE = 120.0  # [s] without any processor time: it hangs
+LONGEST = 3600.0  # [s]
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """Work for a scratch copy.
+
+    Attributes:
+        name: What it is, for people.
+        prepare: Done to the copy first.
+        work: Done in a forked process.
+    """
+
+    name: str
+    prepare: Callable[[Tree], None]
+    work: Callable[[Tree], None]
+
+
+@dataclass(slots=True)
+class _Running:
+    job: Job
+    tree: Tree
+    began: float
+    used: int = -1
+    moved: float = 0.0
+    hung: bool = False
+
+
+def run_jobs(
+    jobs: Iterable[Job], trees: list[Tree]
+) -> Iterator[tuple[Job, Tree, int]]:
+    """Work through jobs on as many processes as there are copies.
+
+    Args:
+        jobs: Work to do.
+        trees: Free scratch copies.
+
+    Yields:
+        Each job when it has ended, its copy, restored, and the wait status
+        of its process; SIGXCPU stands for one that hung.
+    """
+    free, running = list(trees), dict[int, _Running]()
+    waiting = iter(jobs)
+    job = next(waiting, None)
+    try:
+        while job is not None or running:
+            while free and job is not None:
+                tree = free.pop()
+                job.prepare(tree)
+                log = tree.path.with_suffix(".log")
+                work = _bound(job, tree)
+                child = fork(tree.path, log, work)
+                running[child] = _Running(job, tree, monotonic())
+                job = next(waiting, None)
+            child, status = os.waitpid(-1, os.WNOHANG)
+            if child not in running:
+                _end_what_hangs(running)
+                sleep(0.02)
+                continue
+            done = running.pop(child)
+            _end(child)
+            done.tree.restore()
+            free.append(done.tree)
+            yield done.job, done.tree, signal.SIGXCPU if done.hung else status
+    finally:
+        for child, left in running.items():
+            _end(child)
+            os.waitpid(child, 0)
+            left.tree.restore()
+
+
+def _bound(job: Job, tree: Tree) -> Callable[[], None]:
+    return lambda: job.work(tree)
+
+
+def _end_what_hangs(running: dict[int, _Running]) -> None:
+    now = monotonic()
+    for child, state in running.items():
+        used = _ticks(child)
+        if used > state.used:
+            state.used, state.moved = used, now
+        if now - state.moved > IDLE or now - state.began > LONGEST:
+            state.hung = True
+            _end(child)
+
+
+def _end(group: int) -> None:
+    """End a process and all that it started."""
+    try:
+        os.killpg(group, signal.SIGKILL)
+    except (ProcessLookupError, PermissionError):
+        pass
+
+
+def _ticks(child: int) -> int:
+    """Processor time of a process and its ended children, in tenths [s]."""
+    try:
+        stat = Path(f"/proc/{child}/stat").read_text(encoding="utf-8")
+    except OSError:
+        return 0
+    fields = stat.rpartition(")")[2].split()
+    return sum(map(int, fields[11:15])) // 10
+
+
+def append(path: Path, row: dict[str, object]) -> None:
+    """Add one whole record to a file, at once."""
+    line = (json.dumps(row, ensure_ascii=False) + "\n").encode()
+    file = os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o644)
+    try:
+        os.write(file, line)
+    finally:
+        os.close(file)
+
+
+def rows_of(path: Path) -> Iterator[dict[str, str]]:
+    """Whole records of a file; a torn one, of a run cut short, is left."""
+    if not path.exists():
+        return
+    data = path.read_bytes()
+    whole = data[: data.rfind(b"\n") + 1]
+    if whole != data:
+        path.write_bytes(whole)
+    for line in whole.splitlines():
+        yield json.loads(line)
+
+
+def numba_cache(tree: Tree, *, fresh: bool) -> None:
+    """Keep compiled functions of a changed file apart from the others."""
+    folder = tree.path.parent / f"numba-{tree.path.name}"
+    if fresh:
+        folder = folder.with_name(f"{folder.name}-fresh")
+        shutil.rmtree(folder, ignore_errors=True)
+    os.environ["NUMBA_CACHE_DIR"] = str(folder)
+    numba = sys.modules.get("numba")
+    if numba is not None:
+        numba.config.CACHE_DIR = str(folder)

@@ -1,0 +1,115 @@
+"""One fault before the tests that reach it."""
+
+import json
+import os
+import sys
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from .child import allow, cpu_time, run_tests
+
+QUICK = 0.5  # [s]; slower tests run only when these have noticed nothing
+START = 60.0  # [s] of processor time to import and collect
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """How a trial ended.
+
+    Attributes:
+        outcome: "killed", "survived", "timeout" or "unreached".
+        test: Test that noticed the fault; empty if none did.
+    """
+
+    outcome: str
+    test: str
+
+
+class Judge:
+    """Pytest plugin that runs chosen tests and stops at the first red one.
+
+    Args:
+        times: Usual processor time of each chosen test, in [s].
+        note: File that always tells the test that is running.
+    """
+
+    def __init__(self, times: Mapping[str, float], note: Path) -> None:
+        self._times = times
+        self._note = note
+        self.red = ""
+
+    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
+        """Keep the chosen tests, the quick ones first."""
+        items[:] = [item for item in items if item.nodeid in self._times]
+        items.sort(key=lambda item: rank(item.nodeid, self._times))
+
+    def pytest_runtest_logstart(self, nodeid: str) -> None:
+        """Note what runs, and limit its time."""
+        self._note.write_text(nodeid, encoding="utf-8")
+        allow(10.0 + 5.0 * self._times[nodeid])
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Note the first test that does not pass."""
+        if report.failed and not self.red:
+            self.red = report.nodeid
+
+    def pytest_collectreport(self, report: pytest.CollectReport) -> None:
+        """Note a file that can no longer be read."""
+        if report.failed and not self.red:
+            self.red = report.nodeid
+
+
+def rank(test: str, times: Mapping[str, float]) -> tuple[int, str, float]:
+    """Order of a test: by size, then together with those of its file."""
+    size = sum(times[test] > limit for limit in (0.05, QUICK, 3.0))
+    return size, test.partition("::")[0], times[test]
+
+
+def choose(
+    tests: Iterable[str], times: Mapping[str, float], cap: float
+) -> list[str]:
+    """Tests to run, in order, as far as they fit into a time.
+
+    Args:
+        tests: Tests that reach a fault.
+        times: Usual processor time of each test, in [s].
+        cap: Most time for all of them, in [s]; one test always fits.
+    """
+    chosen: list[str] = []
+    total = 0.0
+    for test in sorted(tests, key=lambda test: rank(test, times)):
+        total += times[test]
+        if chosen and total > cap:
+            break
+        chosen.append(test)
+    return chosen
+
+
+def run(tree: Path, chosen: Mapping[str, float], note: Path) -> None:
+    """Run tests in this process until one is red, and write the verdict.
+
+    Args:
+        tree: Scratch copy with the fault in it.
+        chosen: Usual time of each test, in [s].
+        note: File for the verdict; until there is one it names the test
+            that is running.
+    """
+    sys.dont_write_bytecode = True  # of the fault
+    os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
+    allow(START)
+    quick = {test: s for test, s in chosen.items() if s <= QUICK}
+    slow = {test: s for test, s in chosen.items() if s > QUICK}
+    red = ""
+    for part in (quick, slow):
+        if part and not red:
+            files = sorted({test.partition("::")[0] for test in part})
+            note.write_text(f"start of {files[0]}", encoding="utf-8")
+            allow(START)
+            judge = Judge(part, note)
+            run_tests(tree, files, judge, "--exitfirst")
+            red = judge.red
+    verdict = {"red": red, "cpu": round(cpu_time(), 2)}
+    note.write_text(json.dumps(verdict), encoding="utf-8")

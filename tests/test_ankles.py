@@ -1,0 +1,90 @@
+"""Test feet that tilt against the torso's tilt."""
+
+from typing import Any
+
+import pytest
+
+from stepaside.control.ankles import Ankles, Tilt
+from stepaside.control.estimation import BodyState
+from stepaside.control.settings import StabiliserSettings
+
+GAINS = StabiliserSettings(ankle=0.5, ankle_rate=0.04, ankle_bandwidth=50.0)
+TICK = 0.004
+ZERO = (0.0, 0.0)
+
+
+def state(**changes: Any) -> BodyState:
+    values: dict[str, Any] = {
+        "tilt": (0.02, -0.03),
+        "rate": (0.1, 0.3, 9.0),
+        "left_share": 0.5,
+    } | changes
+    return BodyState(ZERO, ZERO, ZERO, ZERO, weight=50.0, **values)
+
+
+def settled(state: BodyState, gains: StabiliserSettings = GAINS) -> list[Tilt]:
+    ankles = Ankles(gains, TICK)
+    tilts: tuple[Tilt, Tilt] = (ZERO, ZERO)
+    for _ in range(500):
+        tilts = ankles.tilts(state)
+    return list(tilts)
+
+
+def test_feet_tilt_with_the_torso_by_tilt_and_rate() -> None:
+    """A torso that leans right presses the right edge: the sole gives."""
+    roll = 0.5 * 0.02 + 0.04 * 0.1
+    pitch = 0.5 * -0.03 + 0.04 * 0.3
+    for tilt in settled(state()):
+        assert tilt == pytest.approx((roll, pitch))
+
+
+@pytest.mark.parametrize(
+    ("share", "left", "right"),
+    [
+        (1.0, 1.0, 0.0),
+        (0.75, 1.0, 0.5),
+        (0.5, 1.0, 1.0),
+        (0.25, 0.5, 1.0),
+        (0.0, 0.0, 1.0),
+    ],
+)
+def test_a_foot_tilts_as_far_as_it_bears_weight(
+    share: float, left: float, right: float
+) -> None:
+    whole = settled(state())[0]
+    tilts = settled(state(left_share=share))
+    for tilt, part in zip(tilts, (left, right), strict=True):
+        expected = (part * whole[0], part * whole[1])
+        assert tilt == pytest.approx(expected, abs=1e-12)
+
+
+def test_tilts_follow_with_their_bandwidth() -> None:
+    ankles = Ankles(GAINS, TICK)
+    whole = settled(state())[0]
+    for ticks in (1, 2, 3):
+        left, right = ankles.tilts(state())
+        part = 1.0 - (1.0 - 50.0 * TICK) ** ticks
+        assert left == pytest.approx((part * whole[0], part * whole[1]))
+        assert right == pytest.approx(left)
+
+
+def test_tilts_fade_with_the_weight() -> None:
+    """Both axes of both feet, each from where it is."""
+    for share, foot in ((1.0, 0), (0.0, 1)):
+        ankles = Ankles(GAINS, TICK)
+        for _ in range(200):
+            before = ankles.tilts(state(left_share=share))[foot]
+        after = ankles.tilts(state(left_share=1.0 - share))[foot]
+        keep = 1.0 - 50.0 * TICK
+        assert after == pytest.approx((keep * before[0], keep * before[1]))
+
+
+def test_a_filter_faster_than_the_tick_follows_at_once() -> None:
+    gains = StabiliserSettings(ankle=0.5, ankle_rate=0.04, ankle_bandwidth=1e4)
+    left, right = Ankles(gains, TICK).tilts(state())
+    assert left == right == pytest.approx(tuple(settled(state())[0]))
+
+
+def test_an_upright_torso_asks_for_level_feet() -> None:
+    upright = state(tilt=ZERO, rate=(0.0, 0.0, 3.0))
+    assert settled(upright) == [ZERO, ZERO]

@@ -1,0 +1,126 @@
+"""Test the kinematics of the measured body against MuJoCo's own."""
+
+from functools import cache
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.poses import Array, Pose
+from stepaside.robots.body_pose import BodyKinematics
+from stepaside.robots.description import load_robot
+from stepaside.robots.forward import FOOT_FORCES, ForwardKinematics
+from stepaside.robots.head import load_head, rotation
+
+NAO = load_robot("nao")
+TILT, HEADING = (0.06, -0.11), 2.7  # roll and pitch; yaw, in [rad]
+
+
+@cache
+def kinematics() -> BodyKinematics:
+    return BodyKinematics(NAO, load_head(NAO))
+
+
+@cache
+def forward() -> ForwardKinematics:
+    return ForwardKinematics(NAO)
+
+
+def bent() -> tuple[mujoco.MjModel, mujoco.MjData, Array]:
+    """NAO tilted and turned, with other angles in all of its joints."""
+    model = NAO.compile()
+    data = mujoco.MjData(model)
+    names = [
+        model.joint(model.actuator_trnid[i, 0]).name for i in range(model.nu)
+    ]
+    data.qpos[:3] = 0.7, -0.4, 0.31
+    axes = rotation(*TILT, HEADING)
+    mujoco.mju_mat2Quat(data.qpos[3:7], axes.reshape(-1))
+    generator = np.random.default_rng(3)
+    angles = np.zeros(len(names))
+    for i, name in enumerate(names):
+        low, high = model.joint(name).range
+        angles[i] = low + (high - low) * generator.uniform(0.3, 0.7)
+        data.joint(name).qpos[0] = angles[i]
+    for follower, leader in NAO.coupled_joints(model).items():
+        data.joint(follower).qpos[0] = data.joint(leader).qpos[0]
+    mujoco.mj_forward(model, data)
+    return model, data, angles
+
+
+@pytest.mark.parametrize("left", [True, False])
+def test_torso_and_head_are_where_they_are(left: bool) -> None:
+    """From the standing foot, the encoders and the measured tilt."""
+    _, data, angles = bent()
+    foot = data.site(NAO.left_foot if left else NAO.right_foot)
+    x, y, height = foot.xpos.tolist()
+    turned = float(np.arctan2(foot.xmat[3], foot.xmat[0]))
+    body = kinematics().pose(1.5, angles, Pose(x, y, turned), left, TILT)
+    rise = np.array([0.0, 0.0, height])
+    torso, head = data.body("torso"), data.body("head")
+    assert body.time == 1.5
+    np.testing.assert_allclose(body.torso_place, torso.xpos - rise)
+    np.testing.assert_allclose(body.torso_axes.reshape(-1), torso.xmat)
+    np.testing.assert_allclose(body.head_place, head.xpos - rise)
+    np.testing.assert_allclose(body.head_axes.reshape(-1), head.xmat)
+    assert body.torso == pytest.approx((0.7, -0.4, HEADING))
+    assert body.yaw == data.joint("HeadYaw").qpos[0]
+    assert body.pitch == data.joint("HeadPitch").qpos[0]
+    assert body.yaw != body.pitch
+
+
+def test_the_body_moves_with_the_foot_that_stands() -> None:
+    _, _, angles = bent()
+    start = kinematics().pose(0.0, angles, Pose(0, 0, 0), True, TILT)
+    moved = Pose(0.4, -0.3, 1.0)
+    body = kinematics().pose(0.0, angles, moved, True, TILT)
+    assert body.torso == pytest.approx(moved.compose(start.torso))
+    head = moved.transform_points(start.head_place[None, :2])[0]
+    np.testing.assert_allclose(body.head_place[:2], head)
+    assert body.head_place[2] == pytest.approx(start.head_place[2])
+
+
+def test_measured_posture_is_that_of_the_model() -> None:
+    """In the frame of the torso, wherever that is."""
+    _, data, angles = bent()
+    posture = forward().posture(angles)
+    torso = data.body("torso")
+    axes = torso.xmat.reshape(3, 3)
+    com = axes.T @ (data.subtree_com[torso.id] - torso.xpos)
+    np.testing.assert_allclose(posture.com, com, atol=1e-12)
+    for i, name in enumerate((NAO.left_foot, NAO.right_foot)):
+        foot = axes.T @ (data.site(name).xpos - torso.xpos)
+        np.testing.assert_allclose(posture.feet[i], foot, atol=1e-12)
+        frame = axes.T @ data.site(name).xmat.reshape(3, 3)
+        np.testing.assert_allclose(posture.frames[i], frame, atol=1e-12)
+    # The CoM is nobody's view: it stays when the robot moves on.
+    kept = posture.com.copy()
+    forward().posture(0.5 * angles)
+    np.testing.assert_array_equal(posture.com, kept)
+
+
+def test_the_model_weighs_what_the_robot_weighs() -> None:
+    model = NAO.compile()
+    assert forward().mass == pytest.approx(model.body_mass.sum())
+
+
+def test_force_sensors_sit_at_the_corners_of_the_soles() -> None:
+    """Left before right; front-left, front-right, rear-left, rear-right."""
+    assert [name[0] for name in FOOT_FORCES] == 4 * ["l"] + 4 * ["r"]
+    corners = forward().force_sensors()
+    np.testing.assert_array_equal(
+        np.sign(corners), 2 * [(1, 1), (1, -1), (-1, 1), (-1, -1)]
+    )
+    # Feet are mirror images: left of one is right of the other.
+    mirrored = corners[[5, 4, 7, 6]] * (1.0, -1.0)
+    np.testing.assert_allclose(corners[:4], mirrored, atol=1e-12)
+    assert corners[0] == pytest.approx((0.07025, 0.0299))
+
+
+def test_force_sensors_are_placed_from_the_frame_of_the_foot() -> None:
+    """A sole whose frame is elsewhere has its corners elsewhere."""
+    moved = ForwardKinematics(NAO)
+    moved._model.site(NAO.left_foot).pos += (0.01, 0.02, 0.03)
+    shift = moved.force_sensors() - forward().force_sensors()
+    np.testing.assert_allclose(shift[:4], 4 * [(-0.01, -0.02)], atol=1e-12)
+    np.testing.assert_allclose(shift[4:], 0.0, atol=1e-12)

@@ -1,0 +1,25 @@
+"""Test what a body knows about itself at once."""
+
+import pytest
+
+from stepaside.control.estimation import BodyState
+
+ZERO = (0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("tilt", "fallen"),
+    [
+        ((0.69, 0.0), False),
+        ((0.71, 0.0), True),
+        ((-0.71, 0.0), True),
+        ((0.0, 0.71), True),
+        ((0.0, -0.71), True),
+        ((-0.69, 0.69), False),
+    ],
+)
+def test_forty_degrees_either_way_are_a_fall(
+    tilt: tuple[float, float], fallen: bool
+) -> None:
+    state = BodyState(ZERO, ZERO, ZERO, ZERO, tilt, (0, 0, 0), 0.5, 50.0)
+    assert state.has_fallen is fallen

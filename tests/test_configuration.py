@@ -1,0 +1,342 @@
+"""Settings as values and as files: what is allowed, what comes back."""
+
+from collections.abc import Callable
+from dataclasses import FrozenInstanceError, asdict, fields, replace
+from math import inf, nan, pi, radians
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from stepaside.control.settings import ControlSettings
+from stepaside.errors import ConfigurationError
+from stepaside.simulation.assembly import with_cycle
+from stepaside.simulation.body_settings import BODIES, BodySettings
+from stepaside.simulation.configuration import (
+    dump_configuration,
+    load_configuration,
+    parse_configuration,
+)
+from stepaside.simulation.push import Push
+from stepaside.simulation.settings import (
+    DuelSettings,
+    PhysicsSettings,
+    SightSettings,
+    StartSettings,
+    StrategySettings,
+)
+from stepaside.simulation.start import draw_start
+from stepaside.simulation.walk import WalkSettings
+
+# The edges of every range: both are allowed, what lies beyond is not.
+RANGES: list[tuple[Callable[..., Any], str, float, float]] = [
+    (StartSettings, "distance", 0.4, 100.0),
+    (StartSettings, "pursuer_offset", -pi, pi),
+    (StartSettings, "evader_offset", -pi, pi),
+    (SightSettings, "bearing_noise", 0.0, 1e9),
+    (SightSettings, "distance_noise", 0.0, 1e9),
+    (SightSettings, "delay", 0.0, 2.0),
+    (SightSettings, "rate", 1e-9, inf),
+    (PhysicsSettings, "friction", 1e-9, 1e9),
+    (PhysicsSettings, "unevenness", 0.0, 0.1),
+    (PhysicsSettings, "slope", 0.0, 0.5),
+    (PhysicsSettings, "slope_direction", -pi, pi),
+    (DuelSettings, "duration", 1e-9, 86400.0),
+    (DuelSettings, "seed", 0, 2**70),
+    (BodySettings, "cycle", 0.0, 0.1),
+    (BodySettings, "delay_cycles", 0, 100),
+    (BodySettings, "imu_delay_cycles", 0, 100),
+    (BodySettings, "efficiency", 0.01, 1.0),
+    (BodySettings, "stiffness", 0.0, 1.0),
+    (BodySettings, "servo_gain", 0.01, 10.0),
+    (BodySettings, "play", 0.0, 0.2),
+    (BodySettings, "encoder_step", 0.0, 1e9),
+    (BodySettings, "gyro_noise", 0.0, 1e9),
+    (BodySettings, "gyro_bias", 0.0, 1e9),
+    (BodySettings, "accelerometer_noise", 0.0, 1e9),
+    (BodySettings, "accelerometer_bias", 0.0, 1e9),
+    (BodySettings, "force_noise", 0.0, 1e9),
+    (BodySettings, "force_gain_error", 0.0, 1e9),
+    (BodySettings, "mass_error", 0.0, 0.9),
+    (BodySettings, "com_error", 0.0, 0.1),
+]
+
+
+@pytest.mark.parametrize(("kind", "name", "low", "high"), RANGES)
+def test_a_range_holds_its_edges_and_nothing_beyond(
+    kind: Callable[..., Any], name: str, low: float, high: float
+) -> None:
+    beyond = [low - (1 if isinstance(low, int) else 1e-6), nan, -inf]
+    if high < 1e6:
+        beyond.append(high + (1 if isinstance(high, int) else 1e-6))
+    for value in (low, high):
+        assert getattr(kind(**{name: value}), name) == value
+    for value in beyond:
+        with pytest.raises(ConfigurationError, match=name):
+            kind(**{name: value})
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        StartSettings(),
+        StrategySettings(),
+        SightSettings(),
+        PhysicsSettings(),
+        DuelSettings(),
+        BodySettings(),
+        WalkSettings(),
+        Push(1.0, 2.0, 0.0),
+    ],
+    ids=lambda value: type(value).__name__,
+)
+def test_settings_are_values_that_nobody_changes(value: Any) -> None:
+    for field in fields(value):
+        with pytest.raises(FrozenInstanceError):
+            setattr(value, field.name, getattr(value, field.name))
+    assert not hasattr(value, "__dict__")
+
+
+@pytest.mark.parametrize(
+    ("name", "low", "high"), [("time_step", 1e-5, 0.01), ("tick", 1e-5, 0.1)]
+)
+def test_the_clock_has_its_range(name: str, low: float, high: float) -> None:
+    for value in (low, high):
+        PhysicsSettings(time_step=min(value, 0.01), tick=value)
+    for value in (0.9 * low, 1.1 * high):
+        with pytest.raises(ConfigurationError, match=name):
+            replace(PhysicsSettings(time_step=1e-5, tick=0.1), **{name: value})
+
+
+@pytest.mark.parametrize(
+    ("time_step", "tick", "steps"),
+    [(0.002, 0.002, 1), (0.002, 0.012, 6), (0.001, 0.1, 100), (3e-5, 9e-5, 3)],
+)
+def test_a_tick_has_whole_steps(
+    time_step: float, tick: float, steps: int
+) -> None:
+    physics = PhysicsSettings(time_step=time_step, tick=tick)
+    assert physics.steps_per_tick == steps
+
+
+@pytest.mark.parametrize("tick", [0.001, 0.0008, 0.0031, 0.00400001])
+def test_a_tick_that_no_steps_fill_is_refused(tick: float) -> None:
+    with pytest.raises(ConfigurationError, match="whole multiple"):
+        PhysicsSettings(time_step=0.002, tick=tick)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"seed": 1.5}, "seed must be an integer"),
+        ({"sensing": "ears"}, "sensing must be one of ideal, cameras"),
+        ({"pursuer": "dog"}, "pursuer"),
+    ],
+)
+def test_a_duel_refuses_what_it_does_not_know(
+    changes: dict[str, Any], message: str
+) -> None:
+    with pytest.raises(ConfigurationError, match=message):
+        DuelSettings(**changes)
+
+
+def test_rates_below_zero_are_refused_even_without_end() -> None:
+    for rate in (-inf, 0.0, -1.0):
+        with pytest.raises(ConfigurationError, match="rate"):
+            SightSettings(rate=rate)
+
+
+def test_a_strategy_becomes_a_role_value_by_value() -> None:
+    strategy = StrategySettings(0.4, True, 0.7, 1.3, 0.2)
+    role = strategy.role()
+    assert role.angle == 0.4 and role.saturated
+    assert role.safety_radius == 0.7 and role.release_distance == 1.3
+    assert role.side_hysteresis == 0.2
+    usual = StrategySettings().role()
+    assert usual.angle == pi / 2 and not usual.saturated
+    assert usual.safety_radius == 0.8 and usual.release_distance == inf
+    assert usual.side_hysteresis == pytest.approx(radians(20.0))
+
+
+def test_a_strategy_that_no_role_takes_is_refused_at_once() -> None:
+    with pytest.raises(ValueError, match="safety"):
+        StrategySettings(safety_radius=-1.0)
+
+
+def test_a_body_may_ask_for_its_own_control_period() -> None:
+    physics = PhysicsSettings()
+    assert with_cycle(physics, BodySettings()) is physics
+    asked = with_cycle(physics, BodySettings(cycle=0.012))
+    assert asked == replace(physics, tick=0.012)
+    with pytest.raises(ConfigurationError, match="whole multiple"):
+        with_cycle(physics, BodySettings(cycle=0.011))
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("delay_cycles", 1),
+        ("torque_speed", True),
+        ("efficiency", 0.99),
+        ("stiffness", 0.99),
+        ("servo_gain", 1.01),
+        ("play", 0.001),
+    ],
+)
+def test_any_effect_on_servos_makes_them_honest(
+    name: str, value: float
+) -> None:
+    effects: dict[str, Any] = {name: value}
+    body = replace(BodySettings(), **effects)
+    assert not body.has_ideal_servos and not body.spoils_sensors
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "imu_delay_cycles",
+        "encoder_step",
+        "gyro_noise",
+        "gyro_bias",
+        "accelerometer_noise",
+        "accelerometer_bias",
+        "force_noise",
+        "force_gain_error",
+    ],
+)
+def test_any_error_of_a_sensor_spoils_them(name: str) -> None:
+    effects: dict[str, Any] = {name: 1}
+    body = replace(BodySettings(), **effects)
+    assert body.spoils_sensors and body.has_ideal_servos
+
+
+def test_wrong_masses_leave_servos_and_sensors_alone() -> None:
+    body = BodySettings(mass_error=0.1, com_error=0.01, cycle=0.012)
+    assert body.has_ideal_servos and not body.spoils_sensors
+
+
+def test_presets_are_those_of_the_documents() -> None:
+    """docs/walking.md gives these values with their source."""
+    assert BODIES["ideal"] == BodySettings()
+    assert asdict(BODIES["delayed"]) == asdict(BodySettings()) | {
+        "cycle": 0.012,
+        "delay_cycles": 3,
+        "imu_delay_cycles": 1,
+    }
+    assert asdict(BODIES["hardware"]) == {
+        "cycle": 0.012,
+        "delay_cycles": 3,
+        "imu_delay_cycles": 1,
+        "torque_speed": True,
+        "efficiency": 0.6,
+        "stiffness": 1.0,
+        "servo_gain": 0.75,
+        "play": pytest.approx(pi / 180.0),
+        "encoder_step": pytest.approx(2.0 * pi / 4096),
+        "gyro_noise": 0.01,
+        "gyro_bias": 0.01,
+        "accelerometer_noise": 0.2,
+        "accelerometer_bias": 0.1,
+        "force_noise": 0.4,
+        "force_gain_error": 0.1,
+        "mass_error": 0.03,
+        "com_error": 0.003,
+    }
+
+
+def test_starts_fill_their_ranges_and_repeat() -> None:
+    """Distance, pursuer and evader, as the docstring gives the ranges."""
+    drawn = [draw_start(DuelSettings(seed=seed)) for seed in range(400)]
+    for name, low, high in (
+        ("distance", 0.6, 1.5),
+        ("pursuer_offset", -pi / 2, pi / 2),
+        ("evader_offset", -pi / 6, pi / 6),
+    ):
+        values = [getattr(start, name) for start in drawn]
+        assert low <= min(values) < low + 0.03 * (high - low)
+        assert high - 0.03 * (high - low) < max(values) <= high
+    assert draw_start(DuelSettings(seed=7)) == drawn[7]
+
+
+def test_what_a_start_gives_is_kept_and_the_rest_drawn_as_ever() -> None:
+    whole = draw_start(DuelSettings(seed=5))
+    for name in ("distance", "pursuer_offset", "evader_offset"):
+        given = StartSettings(**{name: 0.5})
+        found = draw_start(DuelSettings(seed=5, start=given))
+        assert found == replace(whole, **{name: 0.5})
+    away = draw_start(DuelSettings(seed=5, pursuer="person"))
+    assert away.distance == pytest.approx((whole.distance or 0.0) + 1.5)
+    assert away.evader_offset == whole.evader_offset
+
+
+def test_a_configuration_comes_back_as_it_was(tmp_path: Path) -> None:
+    settings = DuelSettings(
+        seed=9,
+        duration=33.0,
+        start=StartSettings(distance=0.9),
+        strategy=StrategySettings(angle=0.4, saturated=True),
+        body=BODIES["hardware"],
+        control=ControlSettings(method="measured", feedback=True),
+    )
+    file = tmp_path / "duel.toml"
+    file.write_text(dump_configuration(settings), encoding="utf-8")
+    assert "pursuer_offset" not in file.read_text(encoding="utf-8")
+    assert load_configuration(file) == settings
+
+
+def test_whole_numbers_are_taken_for_real_ones_alone() -> None:
+    settings = parse_configuration({"duration": 30}, "here")
+    assert settings.duration == 30.0 and isinstance(settings.duration, float)
+    given = parse_configuration({"start": {"distance": 1}}, "here")
+    assert given.start.distance == 1.0
+    assert isinstance(given.start.distance, float)
+    for entries in ({"seed": 1.5}, {"seed": "2"}, {"duration": "1"}):
+        with pytest.raises(ConfigurationError, match="here: .* must be"):
+            parse_configuration(entries, "here")
+
+
+@pytest.mark.parametrize(
+    ("entries", "message"),
+    [
+        ({"duration": True}, "here: duration must be a float, got True"),
+        ({"seed": False}, "here: seed must be a int, got False"),
+        ({"start": {"distance": True}}, "here: start.distance must be"),
+    ],
+)
+def test_true_and_false_are_no_numbers(
+    entries: dict[str, Any], message: str
+) -> None:
+    """Python takes them for 1 and 0: a duel of one second."""
+    with pytest.raises(ConfigurationError, match=message):
+        parse_configuration(entries, "here")
+
+
+@pytest.mark.parametrize(
+    ("entries", "message"),
+    [
+        ({"weather": 1, "mood": 2}, "here: unknown entry mood, weather"),
+        ({"physics": {"tock": 1.0}}, "here: unknown entry tock"),
+        ({"physics": {"tick": "x"}}, "physics.tick must be a float, got 'x'"),
+        ({"duration": -1.0}, "duration must lie in"),
+    ],
+)
+def test_errors_in_a_configuration_are_named(
+    entries: dict[str, Any], message: str
+) -> None:
+    with pytest.raises(ConfigurationError, match=message):
+        parse_configuration(entries, "here")
+
+
+def test_files_that_are_no_configuration_are_refused(tmp_path: Path) -> None:
+    broken = tmp_path / "broken.toml"
+    with pytest.raises(ConfigurationError, match=r"broken\.toml"):
+        load_configuration(broken)
+    broken.write_text("seed = = 1", encoding="utf-8")
+    with pytest.raises(ConfigurationError, match=r"broken\.toml"):
+        load_configuration(broken)
+    broken.write_bytes(b"\xff\xfe")
+    with pytest.raises(ConfigurationError, match=r"broken\.toml"):
+        load_configuration(broken)
+    broken.write_text("weather = 1", encoding="utf-8")
+    with pytest.raises(ConfigurationError, match=r"broken\.toml: unknown"):
+        load_configuration(broken)

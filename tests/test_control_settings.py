@@ -1,0 +1,109 @@
+"""Test settings of control: what means nothing is refused by name."""
+
+from dataclasses import asdict, fields
+
+import pytest
+
+from stepaside.control.settings import (
+    OPEN_LOOP,
+    STABILISED,
+    ControlSettings,
+    MpcSettings,
+    StabiliserSettings,
+)
+from stepaside.errors import ConfigurationError
+
+GAINS = [f.name for f in fields(StabiliserSettings)]
+
+
+def test_gains_are_those_that_the_documents_were_measured_with() -> None:
+    """Whoever changes one measures the tables of docs/walking.md anew."""
+    assert asdict(StabiliserSettings()) == {
+        "dead_zone": 0.015,
+        "yielding": 5.0,
+        "feedback": 4.0,
+        "ankle": 0.3,
+        "ankle_rate": 0.03,
+        "ankle_bandwidth": 50.0,
+        "edge": 0.002,
+        "reach_forward": 0.08,
+        "reach_backward": 0.08,
+        "reach_outward": 0.02,
+        "gap": 0.012,
+        "step_speed": 1.5,
+        "freeze": 0.95,
+        "stride_gain": 0.3,
+        "lead_blend": 0.3,
+        "joint_gain": 10.0,
+        "joint_bound": 0.03,
+        "joint_leak": 1.0,
+    }
+    assert asdict(MpcSettings()) == {
+        "steps": 2,
+        "samples": 10,
+        "tail": "anticipative",
+        "pull": 100.0,
+    }
+
+
+def test_the_paper_walks_without_feedback() -> None:
+    assert OPEN_LOOP == ControlSettings("closed-form", False)
+    assert STABILISED == ControlSettings("measured", True)
+
+
+@pytest.mark.parametrize("value", [-0.1, float("nan"), float("inf")])
+@pytest.mark.parametrize("name", GAINS)
+def test_a_gain_that_means_nothing_is_refused(name: str, value: float) -> None:
+    with pytest.raises(ConfigurationError, match=f"{name}.* must"):
+        StabiliserSettings(**{name: value})
+
+
+@pytest.mark.parametrize("name", sorted({*GAINS} - {"feedback", "freeze"}))
+def test_a_gain_of_nothing_is_allowed(name: str) -> None:
+    assert asdict(StabiliserSettings(**{name: 0.0}))[name] == 0.0
+
+
+@pytest.mark.parametrize("gain", [0.0, 0.9, 1.0])
+def test_a_feedback_that_brings_nothing_back_is_refused(gain: float) -> None:
+    with pytest.raises(ConfigurationError, match="feedback - 1"):
+        StabiliserSettings(feedback=gain)
+    assert StabiliserSettings(feedback=1.01).feedback == 1.01
+
+
+def test_a_share_lies_between_none_and_all() -> None:
+    for whole in (0.0, 1.0):
+        assert StabiliserSettings(freeze=whole).freeze == whole
+    with pytest.raises(ConfigurationError, match="freeze"):
+        StabiliserSettings(freeze=1.01)
+
+
+@pytest.mark.parametrize(
+    ("name", "low", "high"), [("steps", 1, 10), ("samples", 2, 100)]
+)
+def test_horizons_have_limits(name: str, low: int, high: int) -> None:
+    for value in (low, high):
+        assert asdict(MpcSettings(**{name: value}))[name] == value  # type: ignore[arg-type]
+    for value in (low - 1, high + 1):
+        with pytest.raises(ConfigurationError, match=f"mpc.{name}"):
+            MpcSettings(**{name: value})  # type: ignore[arg-type]
+
+
+def test_an_mpc_that_pulls_at_nothing_is_refused() -> None:
+    with pytest.raises(ConfigurationError, match="mpc.pull"):
+        MpcSettings(pull=0.0)
+
+
+def test_what_is_unknown_is_refused_with_what_is_known() -> None:
+    with pytest.raises(ConfigurationError, match="anticipative, periodic"):
+        MpcSettings(tail="curly")  # type: ignore[arg-type]
+    with pytest.raises(ConfigurationError, match="closed-form, measured"):
+        ControlSettings(method="guess")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("method", ["measured", "mpc"])
+def test_a_measured_state_needs_feedback(method: str) -> None:
+    with pytest.raises(ConfigurationError, match="needs feedback = true"):
+        ControlSettings(method=method)  # type: ignore[arg-type]
+    settings = ControlSettings(method=method, feedback=True)  # type: ignore[arg-type]
+    assert settings.method == method
+    assert ControlSettings(feedback=True).method == "closed-form"

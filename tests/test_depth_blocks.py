@@ -1,0 +1,248 @@
+"""Test obstacles and shadows in depth images of drawn blocks."""
+
+from math import radians
+
+import numpy as np
+import pytest
+
+from stepaside.robots.head import rotation
+from stepaside.sensing.camera_model import CameraModel
+from stepaside.sensing.depth_detector import DepthScene, detect_obstacles
+from stepaside.sensing.images import DepthImage
+
+NEAR, FAR = 0.8, 3.5
+ACROSS = 40.0 / np.tan(radians(29.0))  # focal lengths, in pixels
+FOCAL = 30.0 / np.tan(radians(22.5))
+Block = tuple[int, int, int, int, float]  # rows, columns, depth
+
+
+def draw(
+    *blocks: Block, height: float = 0.5, yaw: float = 0.0, scale: int = 1
+) -> DepthScene:
+    """Scene of a level camera with blocks of a depth before a floor.
+
+    Rows and columns of a block are the first and the one after the last.
+    """
+    camera = CameraModel.of_field_of_view(
+        80 * scale, 60 * scale, radians(58.0), radians(45.0)
+    )
+    down = -camera.rays()[..., 2]
+    depths = np.where(down > 0.0, height / np.maximum(down, 1e-9), 0.0)
+    depths[(depths < NEAR) | (depths > FAR)] = 0.0
+    # Nothing near hides the floor, unless a block of no depth says so.
+    for top, bottom, left, right, depth in blocks:
+        depths[top:bottom, left:right] = depth
+    image = DepthImage(0.0, camera, depths.astype(np.float32), NEAR, FAR)
+    axes = rotation(0.0, 0.0, yaw)
+    eye = np.array([0.3, -0.2, height])
+    return detect_obstacles(image, eye, axes, (-1.0, -1.0))
+
+
+def count(*blocks: Block, height: float = 0.5, scale: int = 1) -> int:
+    return len(draw(*blocks, height=height, scale=scale).obstacles)
+
+
+@pytest.mark.parametrize("yaw", [0.0, 1.0, 3.0, -3.1])
+@pytest.mark.parametrize("shift", [-12, 0, 12])
+def test_a_block_is_measured_as_it_is_drawn(yaw: float, shift: int) -> None:
+    """Twelve columns at 1.5 m, whose mirror image is to the other side."""
+    scene = draw((10, 40, 34 + shift, 46 + shift, 1.5), yaw=yaw)
+    (thing,) = scene.obstacles
+    assert scene.shadows == ()
+    azimuth = -np.arctan(shift / ACROSS)
+    assert thing.azimuth == pytest.approx(azimuth, abs=3e-3)
+    assert thing.bearing == pytest.approx(yaw + thing.azimuth)
+    away = 1.5 / np.cos(azimuth)
+    assert thing.nearest == pytest.approx(away, abs=0.03)
+    angle = np.diff(np.arctan((np.array([-6, 6]) + shift) / ACROSS))[0]
+    assert thing.width == pytest.approx(away * angle, rel=0.1)
+    assert thing.height == pytest.approx(0.5 + 1.5 * 19.5 / FOCAL)
+    reach = thing.nearest + 0.5 * thing.width
+    assert thing.x == pytest.approx(0.3 + reach * np.cos(thing.bearing))
+    assert thing.y == pytest.approx(-0.2 + reach * np.sin(thing.bearing))
+    assert thing.whole
+
+
+@pytest.mark.parametrize(
+    ("columns", "behind"), [(4, 0.11), (11, None), (30, 0.16)]
+)
+def test_the_axis_lies_behind_the_front_as_deep_as_robots_are(
+    columns: int, behind: float | None
+) -> None:
+    (thing,) = draw((10, 40, 40, 40 + columns, 1.6)).obstacles
+    x, y = thing.x - 0.3, thing.y + 0.2
+    expected = behind or 0.5 * thing.width
+    assert 0.11 <= expected <= 0.16
+    assert np.hypot(x, y) - thing.nearest == pytest.approx(expected)
+
+
+def test_what_is_above_heads_is_in_nobodys_way() -> None:
+    (thing,) = draw((0, 40, 30, 40, 1.5), height=1.9).obstacles
+    assert 2.15 < thing.height < 2.2
+    assert count((0, 20, 30, 40, 1.5), height=2.2) == 0
+    assert count((0, 40, 30, 40, 1.5), height=2.2) == 1
+
+
+def test_what_is_lower_than_a_foot_is_high_is_nothing() -> None:
+    """The upper row of one block is 0.158 m above the floor."""
+    assert count((46, 50, 30, 40, 1.5)) == 1
+    assert count((47, 50, 30, 40, 1.5)) == 0
+
+
+def test_the_floor_ends_7_cm_above_itself() -> None:
+    """Fourteen pixels make a thing: two columns of seven rows.
+
+    At 1.5 m with its slack the floor ends at 0.085 m; rows 49 and 50 are
+    0.096 m and 0.076 m high.
+    """
+    assert count((43, 50, 30, 32, 1.5)) == 1
+    assert count((44, 51, 30, 32, 1.5)) == 0
+
+
+@pytest.mark.parametrize(("share", "found"), [(0.011, 1), (0.009, 0)])
+def test_the_floor_has_a_hundredth_of_slack(share: float, found: int) -> None:
+    """The lowest row lies above the floor by 0.07 m and a share of depth."""
+    depth = 0.43 / (11.5 / FOCAL + share)
+    assert count((35, 42, 30, 32, depth)) == found
+
+
+@pytest.mark.parametrize("scale", [1, 2])
+def test_few_pixels_are_noise_at_any_resolution(scale: int) -> None:
+    rows = 7 * scale
+    assert count((10, 10 + rows, 30, 30 + 2 * scale, 1.5), scale=scale) == 1
+    assert count((10, 9 + rows, 30, 30 + 2 * scale, 1.5), scale=scale) == 0
+
+
+@pytest.mark.parametrize(("gap", "things"), [(0.22, 1), (0.28, 2)])
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_a_jump_of_depth_takes_things_apart(
+    gap: float, things: int, sign: float
+) -> None:
+    there = 1.5 + sign * gap
+    beside = (10, 40, 30, 40, 1.5), (10, 40, 40, 50, there)
+    above = (10, 25, 30, 40, 1.5), (25, 40, 30, 40, there)
+    assert count(*beside) == things
+    assert count(*above) == things
+
+
+@pytest.mark.parametrize(("hole", "things"), [(1, 1), (2, 1), (3, 2)])
+def test_small_holes_do_not_take_things_apart(hole: int, things: int) -> None:
+    whole = (10, 40, 30, 50, 1.5)
+    assert count(whole, (10, 40, 38, 38 + hole, 0.0)) == things
+    assert count(whole, (24, 24 + hole, 30, 50, 0.0)) == things
+
+
+def test_what_is_broader_than_a_robot_is_a_wall() -> None:
+    """1.03 m and 1.17 m."""
+    assert count((10, 40, 15, 65, 1.6)) == 1
+    assert count((10, 40, 11, 69, 1.6)) == 0
+
+
+def test_what_is_too_far_to_be_measured_whole_is_left_out() -> None:
+    assert count((10, 36, 30, 40, 2.55)) == 1
+    assert count((10, 36, 30, 40, 2.70)) == 0
+
+
+@pytest.mark.parametrize(("left", "right"), [(0, 12), (68, 80)])
+def test_a_piece_at_the_edge_counts_only_near(left: int, right: int) -> None:
+    """Afar it may be a wall; nobody sees how broad it is."""
+    (thing,) = draw((10, 36, left, right, 1.6)).obstacles
+    assert not thing.whole
+    assert count((10, 36, left, right, 1.75)) == 1  # 1.94 m away
+    assert count((10, 36, left, right, 1.87)) == 0  # 2.07 m away
+    left, right = max(left, 1), min(right, 79)
+    (thing,) = draw((10, 36, left, right, 1.87)).obstacles
+    assert thing.whole
+
+
+def test_the_nearest_tenth_tells_how_near() -> None:
+    """Fewer pixels than that, of 400, are noise: 36 and 44 of them."""
+    body = (10, 30, 30, 50, 1.5)
+    for more, nearest in ((), 1.5), (((10, 18, 42, 43, 1.4),), 1.4):
+        (thing,) = draw(body, (10, 28, 40, 42, 1.4), *more).obstacles
+        assert thing.nearest == pytest.approx(nearest, abs=0.01)
+
+
+@pytest.mark.parametrize("sign", [-1, 1])
+def test_the_outermost_fiftieth_does_not_broaden(sign: int) -> None:
+    plain = draw((10, 30, 30, 50, 1.5)).obstacles[0]
+    for rows, same in ((3, True), (6, False)):
+        ear = (10, 10 + rows, 50, 52, 1.5)
+        if sign < 0:
+            ear = (10, 10 + rows, 28, 30, 1.5)
+        (thing,) = draw((10, 30, 30, 50, 1.5), ear).obstacles
+        assert (abs(thing.width - plain.width) < 0.01) is same
+
+
+def angle(column: int) -> float:
+    """Azimuth of the middle of a column, in [rad]."""
+    return float(np.arctan((39.5 - column) / ACROSS))
+
+
+@pytest.mark.parametrize("yaw", [0.0, 1.0, 3.1, -3.1])
+def test_a_shadow_is_as_broad_as_the_floor_it_hides(yaw: float) -> None:
+    scene = draw((43, 60, 10, 20, 0.0), (43, 60, 50, 70, 0.0), yaw=yaw)
+    first, second = scene.shadows
+    for shadow, left, right in ((first, 50, 69), (second, 10, 19)):
+        assert shadow.width == pytest.approx(angle(left) - angle(right))
+        middle = 0.5 * (angle(left) + angle(right))
+        assert shadow.azimuth == pytest.approx(middle)
+        assert shadow.bearing == pytest.approx(yaw + middle)
+
+
+def test_only_floor_that_must_answer_can_be_hidden() -> None:
+    """Between 1.1 of the near limit and 0.85 of the far one."""
+    near = [(55, 60, 30, 40, 0.0), (51, 55, 30, 40, 0.0)]
+    seen = [draw(block, height=0.3).shadows for block in near]
+    assert [len(shadows) for shadows in seen] == [0, 1]
+    far = [(50, 54, 30, 40, 0.0), (54, 58, 30, 40, 0.0)]
+    seen = [draw(block, height=1.0).shadows for block in far]
+    assert [len(shadows) for shadows in seen] == [0, 1]
+
+
+def test_few_dark_pixels_hide_nobody() -> None:
+    for scale in (1, 2):
+        for columns, shadows in ((8, 1), (7, 0)):
+            dark = 50 * scale, 53 * scale, 30 * scale, (30 + columns) * scale
+            scene = draw((*dark, 0.0), scale=scale)
+            assert len(scene.shadows) == shadows
+    specks = (45, 48, 10, 13, 0.0), (50, 56, 30, 40, 0.0)
+    assert len(draw(*specks).shadows) == 1
+    # Lines are no shadows, however long.
+    assert draw((50, 52, 10, 70, 0.0)).shadows == ()
+
+
+@pytest.mark.parametrize(("between", "shadows"), [(3, 1), (4, 2)])
+def test_near_shadows_are_of_one_thing(between: int, shadows: int) -> None:
+    """Gaps of 0.055 and 0.069 rad."""
+    scene = draw(
+        (43, 60, 30, 36, 0.0), (43, 60, 36 + between, 45 + between, 0.0)
+    )
+    assert len(scene.shadows) == shadows
+    if shadows == 1:
+        ends = angle(30), angle(44 + between)
+        assert scene.shadows[0].width == pytest.approx(ends[0] - ends[1])
+
+
+def test_a_shadow_within_another_adds_nothing() -> None:
+    dark = (43, 60, 20, 60, 0.0), (50, 55, 30, 36, 1.5), (51, 54, 31, 35, 0.0)
+    (shadow,) = draw(*dark).shadows
+    assert shadow.width == pytest.approx(angle(20) - angle(59))
+
+
+@pytest.mark.parametrize(
+    ("depth", "left", "cut"),
+    [(0.90, 36, True), (0.94, 36, False), (0.90, 60, False)],
+)
+def test_what_is_near_and_hides_the_floor_is_cut(
+    depth: float, left: int, cut: bool
+) -> None:
+    """Part of it may be nearer than the near limit, and so not measured."""
+    scene = draw((10, 35, 30, 42, depth), (43, 60, left, left + 8, 0.0))
+    assert len(scene.obstacles) == (0 if cut else 1)
+    (shadow,) = scene.shadows
+    if cut:
+        assert shadow.azimuth > angle(left + 4)
+        assert shadow.width > angle(31) - angle(left + 7)
+    else:
+        assert shadow.width == pytest.approx(angle(left) - angle(left + 7))

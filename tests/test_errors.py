@@ -1,0 +1,83 @@
+"""Test the checks of numbers: what passes, what is refused, in what words."""
+
+from math import inf, nan
+
+import pytest
+
+from stepaside.errors import (
+    ConfigurationError,
+    ModelError,
+    PlanError,
+    ReachError,
+    StepAsideError,
+    check_finite,
+    check_not_negative,
+    check_positive,
+    check_within,
+)
+
+TINY = 5e-324
+
+
+@pytest.mark.parametrize("value", [-1e300, -TINY, 0.0, TINY, 1e300])
+def test_every_finite_number_is_finite(value: float) -> None:
+    check_finite(value, "x", "m")
+
+
+@pytest.mark.parametrize("value", [nan, inf, -inf])
+def test_what_is_not_finite_is_refused_by_every_check(value: float) -> None:
+    with pytest.raises(PlanError, match=r"x must be finite \[m\], got"):
+        check_finite(value, "x", "m")
+    with pytest.raises(PlanError, match=r"x must be finite and > 0 \[m\]"):
+        check_positive(value, "x", "m")
+    with pytest.raises(PlanError, match=r"x must be finite and >= 0 \[m\]"):
+        check_not_negative(value, "x", "m")
+    with pytest.raises(PlanError, match=r"x must lie in \[0, 2\] \[m\], got"):
+        check_within(value, 0.0, 2.0, "x", "m")
+
+
+def test_positive_begins_above_zero() -> None:
+    check_positive(TINY, "x", "m")
+    check_positive(1e300, "x", "m")
+    for value in (0.0, -TINY):
+        with pytest.raises(PlanError, match=f"got {value}"):
+            check_positive(value, "x", "m")
+
+
+def test_not_negative_begins_at_zero() -> None:
+    check_not_negative(0.0, "x", "m")
+    check_not_negative(1e300, "x", "m")
+    with pytest.raises(PlanError, match=f"got {-TINY}"):
+        check_not_negative(-TINY, "x", "m")
+
+
+def test_a_range_holds_both_of_its_ends() -> None:
+    for value in (-1.0, 0.5, 2.0):
+        check_within(value, -1.0, 2.0, "x", "m")
+    for value in (-1.0 - 1e-12, 2.0 + 1e-12):
+        with pytest.raises(PlanError, match=f"got {value}"):
+            check_within(value, -1.0, 2.0, "x", "m")
+
+
+@pytest.mark.parametrize("error", [ConfigurationError, ModelError, ReachError])
+def test_a_check_raises_what_it_is_told_to(
+    error: type[StepAsideError],
+) -> None:
+    with pytest.raises(error):
+        check_finite(nan, "x", "m", error)
+    with pytest.raises(error):
+        check_positive(nan, "x", "m", error)
+    with pytest.raises(error):
+        check_not_negative(nan, "x", "m", error)
+    with pytest.raises(error):
+        check_within(nan, 0.0, 1.0, "x", "m", error)
+
+
+@pytest.mark.parametrize(
+    "error", [PlanError, ConfigurationError, ModelError, ReachError]
+)
+def test_every_error_is_the_packages_and_a_value_error(
+    error: type[Exception],
+) -> None:
+    assert issubclass(error, StepAsideError)
+    assert issubclass(error, ValueError)

@@ -1,0 +1,291 @@
+"""Test the state of a body from its sensors, with a posture given."""
+
+from math import exp
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.control.body import Measurement
+from stepaside.control.estimation import BodyState, StateEstimator, _level
+from stepaside.poses import Array
+from stepaside.robots.forward import MeasuredPosture
+from stepaside.robots.head import rotation
+from stepaside.robots.kinematics import BodyReference
+
+ETA, TICK = 6.0, 0.004
+GRAVITY = np.array([0.0, 0.0, 9.81])
+CORNERS = [(0.09, 0.04), (0.09, -0.03), (-0.05, 0.04), (-0.05, -0.03)]
+SENSORS = np.array(CORNERS + [(x, -y) for x, y in CORNERS])
+LEVER = np.array([0.03, 0.02, 0.26])  # from the left foot to the CoM
+FEET = BodyReference((9.0, 9.0, 0.27), (1.0, 2.0, 0.0, 0.5), (1.0, 1.9, 0, 0))
+ZERO = (0.0, 0.0)
+
+
+class FakeKinematics:
+    """A body that stands with its feet where it is told.
+
+    Seen from a frame with the heading of the odometry, the left foot is at
+    the origin, the right one at ``apart``, and the CoM at ``lever``.
+    """
+
+    def __init__(self) -> None:
+        self.lever = LEVER.copy()
+        self.apart = np.array([0.0, -0.1, 0.0])
+        self.yaws = (0.5, 0.0)  # of the feet, as the reference has them
+        self.torso = rotation(0.0, 0.0, 0.2)
+
+    def posture(self, joint_positions: Array) -> MeasuredPosture:
+        """Posture whatever the joints say."""
+        back = self.torso.T
+        left = np.array([0.01, 0.05, -0.3])
+        return MeasuredPosture(
+            left + back @ self.lever,
+            np.array([left, left + back @ self.apart]),
+            np.array([back @ rotation(0.0, 0.0, yaw) for yaw in self.yaws]),
+        )
+
+
+def estimator(body: Any = None, **changes: Any) -> StateEstimator:
+    stands: Any = body or FakeKinematics()
+    return StateEstimator(stands, SENSORS, ETA, TICK, **changes)
+
+
+def measured(
+    left: Any = 10.0, right: Any = 10.0, felt: Array = GRAVITY
+) -> Measurement:
+    forces = np.concatenate(
+        [np.broadcast_to(left, 4), np.broadcast_to(right, 4)]
+    )
+    return Measurement(0.0, np.zeros(3), np.zeros(3), felt, forces, None)
+
+
+def see(
+    estimate: StateEstimator,
+    measurement: Measurement,
+    feet: BodyReference = FEET,
+    ticks: int = 1,
+) -> BodyState:
+    for _ in range(ticks):
+        state = estimate.update(measurement, feet, ZERO)
+    return state
+
+
+def test_com_is_over_the_foot_that_bears_the_weight() -> None:
+    """By the lever of the joints, turned as the foot stands in odometry.
+
+    So light a body is not pulled by its ZMP: what is measured is seen.
+    """
+    state = see(estimator(), measured(left=2.0, right=0.0))
+    np.testing.assert_allclose(state.com, [1.03, 2.02], atol=1e-12)
+    state = see(estimator(), measured(left=0.0, right=2.0))
+    # The right foot stands 0.1 m to the right of the left one.
+    np.testing.assert_allclose(state.com, [1.03, 2.02], atol=1e-12)
+
+
+def test_a_foot_that_stands_elsewhere_takes_the_com_along() -> None:
+    """Odometry turned by 0.3 rad and shifted: so is the CoM."""
+    for left, foot in ((2.0, FEET.left_foot), (0.0, FEET.right_foot)):
+        x, y, z, yaw = foot
+        there = x + 0.5, y - 0.2, z, yaw + 0.3
+        feet = FEET._replace(left_foot=there, right_foot=there)
+        state = see(estimator(), measured(left, 2.0 - left), feet)
+        lever = LEVER if left else LEVER + (0.0, 0.1, 0.0)
+        turned = rotation(0.0, 0.0, 0.3) @ lever
+        expected = turned[:2] + there[:2]
+        np.testing.assert_allclose(state.com, expected, atol=1e-12)
+
+
+def test_feet_that_disagree_are_weighed() -> None:
+    feet = FEET._replace(right_foot=(1.0, 1.94, 0.0, 0.0))
+    for left, share in ((1.5, 0.75), (0.5, 0.25)):
+        state = see(estimator(), measured(left, 2.0 - left), feet)
+        assert state.left_share == pytest.approx(share)
+        shift = 0.04 * (1.0 - share)
+        np.testing.assert_allclose(state.com, [1.03, 2.02 + shift])
+
+
+@pytest.mark.parametrize(
+    ("left", "share"),
+    [
+        (0.010, 0.0),
+        (0.019, 0.0),
+        (0.021, 0.021),
+        (0.979, 0.979),
+        (0.981, 1.0),
+        (1.0, 1.0),
+    ],
+)
+def test_a_foot_that_hardly_presses_says_nothing(
+    left: float, share: float
+) -> None:
+    state = see(estimator(), measured(10.0 * left, 10.0 * (1.0 - left)))
+    assert state.left_share == pytest.approx(share)
+    assert state.weight == pytest.approx(40.0)
+
+
+def test_in_the_air_the_last_share_counts() -> None:
+    estimate = estimator()
+    assert see(estimate, measured(0.1, 0.1)).left_share == 0.5
+    see(estimate, measured(7.5, 2.5))
+    state = see(estimate, measured(0.05, 0.15))
+    assert state.left_share == pytest.approx(0.75)
+    assert see(estimate, measured(0.1, 0.3)).left_share == pytest.approx(0.25)
+
+
+def test_heading_of_the_torso_is_that_over_the_foot_that_stands() -> None:
+    """It stands turned by 0.2 rad; the right foot has slipped by 0.1 rad."""
+    feet = FEET._replace(right_foot=(1.0, 1.9, 0.0, 0.1))
+    for left, heading in ((9.0, 0.2), (1.0, 0.3)):
+        estimate = estimator()
+        assert estimate.torso_heading == 0.0
+        see(estimate, measured(left, 10.0 - left), feet)
+        assert estimate.torso_heading == pytest.approx(heading)
+
+
+@pytest.mark.parametrize("tilt", [(0.2, 0.0), (0.0, 0.3), (-0.2, 0.25)])
+def test_a_tilt_of_the_torso_leans_the_com(tilt: tuple[float, float]) -> None:
+    """Joints say the same, but the IMU says that all of it leans."""
+    body = FakeKinematics()
+    body.torso = lean = rotation(*tilt, 0.2)
+    estimate = estimator(body)
+    felt = lean.T @ GRAVITY
+    light = measured(left=1.0, right=1.0, felt=felt)
+    state = see(estimate, light, ticks=400)
+    assert estimate.ready
+    assert state.tilt == pytest.approx(tilt, abs=1e-9)
+    np.testing.assert_allclose(state.com, [1.03, 2.02], atol=1e-6)
+
+
+def test_level_is_the_rotation_of_roll_and_pitch() -> None:
+    np.testing.assert_allclose(_level(0.3, -0.4), rotation(0.3, -0.4, 0.0))
+
+
+def test_it_is_ready_after_standing() -> None:
+    estimate = estimator()
+    see(estimate, measured(), ticks=200)
+    assert not estimate.ready
+    see(estimate, measured(), ticks=60)
+    assert estimate.ready
+
+
+def test_zmp_is_the_center_of_the_forces() -> None:
+    """A foot pressed at one corner, in its own axes, at its place."""
+    for corner in range(4):
+        press = np.eye(4)[corner] * 40.0
+        state = see(estimator(), measured(left=press, right=0.0))
+        turned = rotation(0.0, 0.0, 0.5)[:2, :2] @ SENSORS[corner]
+        np.testing.assert_allclose(state.zmp, turned + [1.0, 2.0])
+        state = see(estimator(), measured(left=0.0, right=press))
+        expected = SENSORS[4 + corner] + [1.0, 1.9]
+        np.testing.assert_allclose(state.zmp, expected)
+
+
+def test_zmp_between_the_feet_is_weighed_by_what_they_bear() -> None:
+    state = see(estimator(), measured(left=[30, 0, 0, 0], right=[0, 10, 0, 0]))
+    left = rotation(0.0, 0.0, 0.5)[:2, :2] @ SENSORS[0] + [1.0, 2.0]
+    right = SENSORS[5] + [1.0, 1.9]
+    np.testing.assert_allclose(state.zmp, 0.75 * left + 0.25 * right)
+
+
+def test_dcm_is_ahead_of_the_com_by_its_velocity() -> None:
+    estimate, body = estimator(), FakeKinematics()
+    estimate._kinematics = body  # type: ignore[assignment]
+    for i in range(40):
+        body.lever = LEVER + (0.001 * i, -0.002 * i, 0.0)
+        state = see(estimate, measured())
+    assert state.velocity[0] > 0.1 > -0.1 > state.velocity[1]
+    expected = np.add(state.com, np.divide(state.velocity, ETA))
+    np.testing.assert_allclose(state.dcm, expected)
+
+
+def test_a_falling_pendulum_is_followed_without_lag() -> None:
+    """Its ZMP tells its acceleration."""
+    body = FakeKinematics()
+    estimate = estimator(body)
+    press = np.full(4, 15.0)  # in the middle of the left foot
+    local = SENSORS[:4].mean(axis=0)
+    pivot = rotation(0.0, 0.0, 0.5)[:2, :2] @ local + [1.0, 2.0]
+    start = np.array([0.004, -0.002])
+    for i in range(150):
+        off = start * np.cosh(ETA * i * TICK)
+        body.lever = np.array([*(pivot + off - [1.0, 2.0]), 0.26])
+        state = see(estimate, measured(left=press, right=0.0))
+    speed = start * ETA * np.sinh(ETA * 149 * TICK)
+    np.testing.assert_allclose(state.com - pivot, off, rtol=1e-3)
+    np.testing.assert_allclose(state.velocity, speed, rtol=5e-3)
+
+
+def test_without_trust_in_joints_the_pendulum_is_integrated() -> None:
+    """One tick from rest: x = a t^2 / 2, v = a t, a = eta^2 (x - p)."""
+    state = see(estimator(bandwidth=0.0), measured(left=10.0, right=0.0))
+    start = np.array([1.03, 2.02])
+    pull = ETA**2 * (start - state.zmp)
+    np.testing.assert_allclose(state.com - start, 0.5 * TICK**2 * pull)
+    np.testing.assert_allclose(state.velocity, TICK * pull)
+
+
+def test_off_the_ground_nothing_pulls() -> None:
+    """Below ten newtons the ZMP says nothing."""
+    for force, moves in ((1.1, False), (1.4, True)):
+        estimate = estimator()
+        state = see(estimate, measured(left=force, right=force), ticks=2)
+        moved = np.abs(state.velocity).max() > 1e-6
+        assert moved == moves
+
+
+def test_the_observer_has_two_poles_at_its_bandwidth() -> None:
+    """Unweighted, a step of the measured CoM: e(n + 2) - 2 f e(n + 1) + ..."""
+    body, bandwidth = FakeKinematics(), 30.0
+    estimate = estimator(body, bandwidth=bandwidth)
+    light = measured(left=1.0, right=1.0)
+    see(estimate, light, ticks=3)
+    body.lever = LEVER + (0.01, 0.02, 0.0)
+    states = [see(estimate, light) for _ in range(12)]
+    errors = np.array([1.04 - s.com[0] for s in states]) / 0.01
+    fade = exp(-bandwidth * TICK)
+    assert errors[0] == pytest.approx(fade**2)
+    speed = 0.01 * (1.0 - fade) ** 2 / TICK
+    assert states[0].velocity == pytest.approx((speed, 2.0 * speed))
+    rest = errors[2:] - 2.0 * fade * errors[1:-1] + fade**2 * errors[:-2]
+    np.testing.assert_allclose(rest, 0.0, atol=1e-9)
+
+
+def test_acceleration_that_was_asked_for_is_no_tilt() -> None:
+    """Asked in odometry, felt in the torso, which is turned by 0.2 rad."""
+    estimate = estimator()
+    see(estimate, measured(), ticks=260)
+    asked = (1.0, -0.5)
+    felt = GRAVITY + rotation(0.0, 0.0, 0.2).T @ (*asked, 0.0)
+    for _ in range(200):
+        state = estimate.update(measured(felt=felt), FEET, asked)
+    assert state.tilt == pytest.approx((0.0, 0.0), abs=1e-9)
+
+
+def test_defaults_of_the_filters() -> None:
+    """40 rad/s for the observer, 2 s and the like for the tilt."""
+    body = FakeKinematics()
+    estimate = estimator(body)
+    light = measured(left=1.0, right=1.0)
+    see(estimate, light)
+    body.lever = LEVER + (0.01, 0.0, 0.0)
+    gone = 1.04 - see(estimate, light).com[0]
+    assert gone / 0.01 == pytest.approx(exp(-80.0 * TICK))
+    estimate = estimator()
+    see(estimate, measured(), ticks=251)
+    assert estimate.ready
+    felt = rotation(0.01, 0.0, 0.0).T @ GRAVITY
+    state = see(estimate, measured(felt=felt))
+    assert state.tilt[0] == pytest.approx(0.5 * TICK * 0.01, rel=1e-3)
+    assert state.rate == (0.0, 0.0, 0.0)
+    state = see(estimate, measured(felt=felt))
+    drift = 0.06 * TICK * 0.01
+    assert state.rate[0] == pytest.approx(drift, rel=1e-2)
+
+
+def test_the_posture_is_kept_for_whoever_learns_from_it() -> None:
+    estimate = estimator()
+    assert estimate.posture is None
+    see(estimate, measured())
+    assert estimate.posture is not None
+    assert estimate.posture.feet.shape == (2, 3)

@@ -1,0 +1,283 @@
+"""Test when eyes and ears look and when the robot learns of it."""
+
+from collections import deque
+from dataclasses import replace
+from math import degrees
+from types import SimpleNamespace
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.robots.description import load_robot
+from stepaside.robots.head import load_head
+from stepaside.sensing.camera_model import CameraModel
+from stepaside.sensing.images import (
+    ColourImage,
+    DepthImage,
+    Percept,
+    SonarEcho,
+)
+from stepaside.simulation import eyes as eyes_module
+from stepaside.simulation.camera_settings import (
+    CameraSettings,
+    ColourSettings,
+    DepthSettings,
+    SonarSettings,
+)
+from stepaside.simulation.eyes import Eyes, Grain, Stream, _size_for
+
+TICK = 0.004
+HEAD = load_head(load_robot("nao"))
+PLAIN = CameraSettings(
+    colour=ColourSettings(width=80, height=60, noise=0.0),
+    depth=DepthSettings(noise=0.0, missing=0.0),
+    sonar=SonarSettings(noise=0.0),
+)
+
+
+def stream(
+    period: float = 0.1, latency: float = 0.0, drop: float = 0.0
+) -> Stream:
+    def take(now: float) -> Percept:
+        return SonarEcho(now, "left", None)
+
+    generator = np.random.default_rng(1)
+    return Stream(take, period, latency, drop, generator, 0, deque())
+
+
+def watch(sensor: Stream, ticks: int) -> tuple[list[float], list[float]]:
+    """When percepts were taken, and how old they were at their arrival."""
+    noted: list[Percept] = []
+    ages, taken = [], []
+    for tick in range(ticks):
+        now = tick * TICK
+        for percept in sensor.read(now, noted.append):
+            taken.append(percept.time)
+            ages.append(now - percept.time)
+    assert [p.time for p in noted][: len(taken)] == taken
+    return taken, ages
+
+
+def test_a_sensor_looks_at_its_rate_and_tells_at_once() -> None:
+    taken, ages = watch(stream(), 101)
+    np.testing.assert_allclose(taken, [0.0, 0.1, 0.2, 0.3, 0.4])
+    assert ages == [0.0] * 5
+
+
+def test_latency_delays_what_arrives_but_not_when_it_is_taken() -> None:
+    taken, ages = watch(stream(latency=0.052), 101)
+    np.testing.assert_allclose(taken, [0.0, 0.1, 0.2, 0.3])
+    np.testing.assert_allclose(ages, 0.052)
+    taken, ages = watch(stream(latency=0.25), 101)
+    np.testing.assert_allclose(taken, [0.0, 0.1])
+    np.testing.assert_allclose(ages, 0.252)
+
+
+def test_a_share_is_dropped_and_the_rest_keeps_its_times() -> None:
+    taken, ages = watch(stream(0.02, 0.1, drop=0.3), 4000)
+    assert len(taken) == pytest.approx(0.7 * 800, rel=0.06)
+    multiples = np.array(taken) / 0.02
+    np.testing.assert_allclose(multiples, np.round(multiples), atol=1e-9)
+    np.testing.assert_allclose(ages, 0.1)
+    assert watch(stream(drop=1.0), 100) == ([], [])
+
+
+def eyes_of(
+    settings: CameraSettings = PLAIN,
+    *,
+    depth: bool = True,
+    seed: int = 3,
+    renderer: str = "raycast",
+) -> Eyes:
+    """Eyes of a head 0.5 m above a floor, with a box 1.6 m ahead."""
+    model = mujoco.MjModel.from_xml_string(
+        '<mujoco><worldbody><geom name="floor" type="plane" size="9 9 1"/>'
+        '<geom type="box" pos="2.1 0 0.4" size="0.5 0.4 0.4" rgba="1 0 0 1"/>'
+        '<body name="me/torso" pos="1.0 0 0.3"/>'
+        '<camera name="other"/><body name="me/head" pos="0 0 0.5">'
+        '<camera name="me/head_camera"/></body></worldbody></mujoco>'
+    )
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    physics = SimpleNamespace(tick=TICK)
+    world: Any = SimpleNamespace(model=model, data=data, physics=physics)
+    return Eyes(
+        world,
+        "me",
+        "torso",
+        HEAD,
+        settings,
+        renderer,
+        seed,
+        with_depth=depth,
+    )
+
+
+def arrivals(eyes: Eyes, ticks: int) -> dict[str, list[tuple[float, float]]]:
+    """Time of each percept and of its arrival, by kind."""
+    found: dict[str, list[tuple[float, float]]] = {}
+    for tick in range(ticks):
+        for percept in eyes.read(tick * TICK):
+            kind = type(percept).__name__
+            if isinstance(percept, SonarEcho):
+                kind = percept.sonar
+            found.setdefault(kind, []).append((percept.time, tick * TICK))
+    return found
+
+
+def test_each_sense_keeps_its_own_clock() -> None:
+    """Rates become whole ticks: 15 images a second are one in 17 ticks."""
+    settings = replace(
+        PLAIN,
+        colour=replace(PLAIN.colour, rate=15.0, latency=0.05),
+        depth=replace(PLAIN.depth, rate=30.0, latency=0.02),
+        added_latency=0.008,
+    )
+    found = arrivals(eyes_of(settings), 60)
+    assert sorted(found) == ["ColourImage", "DepthImage", "left", "right"]
+    expected = {
+        "ColourImage": (17 * TICK, 0.058),
+        "DepthImage": (8 * TICK, 0.028),
+        "left": (25 * TICK, 0.008),
+        "right": (25 * TICK, 0.008),
+    }
+    for kind, (period, latency) in expected.items():
+        taken, arrived = np.array(found[kind]).T
+        np.testing.assert_allclose(taken, period * np.arange(len(taken)))
+        late = arrived - taken
+        assert (late >= latency - 1e-9).all()
+        assert (late < latency + TICK).all()
+
+
+def test_only_who_wears_the_depth_camera_listens_too() -> None:
+    assert list(arrivals(eyes_of(depth=False), 30)) == ["ColourImage"]
+
+
+def test_images_are_taken_from_where_the_sensors_sit() -> None:
+    eyes = eyes_of()
+    noted: list[Percept] = []
+    eyes.on_exposure = noted.append
+    arrivals(eyes, 1)
+    colour, depth, left, right = noted
+    assert isinstance(colour, ColourImage) and isinstance(depth, DepthImage)
+    assert (depth.near, depth.far) == (0.8, 3.5)
+    # The face of the box, from the depth camera that looks down by 8 deg.
+    lift = 0.645 - 0.5
+    ahead = (1.6 - 0.03) * np.cos(np.radians(8.0))
+    row, column = 30, 40
+    assert depth.depths[row, column] == pytest.approx(ahead, abs=0.05)
+    assert lift > 0.0 and depth.depths.shape == (60, 80)
+    assert colour.camera == eyes.camera
+    assert colour.pixels.shape == (60, 80, 3)
+    assert colour.pixels[30, 40, 0] > 2 * colour.pixels[30, 40, 1]
+    # The sonars sit on the torso, which stands a meter ahead.
+    for echo in (left, right):
+        assert isinstance(echo, SonarEcho) and echo.distance is not None
+        assert echo.distance == pytest.approx(0.6, abs=0.03)
+
+
+def test_what_is_drawn_by_chance_depends_on_the_seed_alone() -> None:
+    noisy = replace(
+        PLAIN, colour=replace(PLAIN.colour, noise=4.0), drop_frames=0.5
+    )
+
+    def colours(seed: int) -> list[np.ndarray]:
+        eyes, seen = eyes_of(noisy, depth=False, seed=seed), []
+        for tick in range(120):
+            for percept in eyes.read(tick * TICK):
+                assert isinstance(percept, ColourImage)
+                seen.append(percept.pixels)
+        return seen
+
+    one, same, other = colours(3), colours(3), colours(4)
+    assert 1 < len(one) < 7
+    for a, b in zip(one, same, strict=True):
+        np.testing.assert_array_equal(a, b)
+    assert not np.array_equal(one[0], other[0])
+
+
+def test_senses_drop_their_images_apart_from_each_other() -> None:
+    found = arrivals(eyes_of(replace(PLAIN, drop_frames=0.5)), 500)
+    left, right = ({t for t, _ in found[ear]} for ear in ("left", "right"))
+    assert left != right
+
+
+def test_grain_is_noise_of_the_size_asked_for() -> None:
+    camera = CameraModel.of_field_of_view(80, 60, 1.0, 0.8)
+    grey = np.full((60, 80, 3), 128, dtype=np.uint8)
+    grain = Grain(camera, 6.0, np.random.default_rng(2))
+    one, other = grain.spoil(grey), grain.spoil(grey)
+    assert one.shape == grey.shape and one.dtype == np.uint8
+    assert not np.array_equal(one, other)
+    for noise in (one.astype(float) - 128.0, other.astype(float) - 128.0):
+        assert noise.std() == pytest.approx(6.0, rel=0.03)
+        assert abs(noise.mean()) < 0.15
+    # Bright stays bright: noise does not wrap around.
+    white = np.full((60, 80, 3), 254, dtype=np.uint8)
+    assert grain.spoil(white).min() > 200
+    still = Grain(camera, 0.0, np.random.default_rng(2))
+    np.testing.assert_array_equal(still.spoil(grey), grey)
+
+
+def test_noise_is_shifted_all_about() -> None:
+    """Any part of the tile may come, up to its last row and column."""
+    camera = CameraModel.of_field_of_view(10, 8, 1.0, 0.8)
+    grey = np.full((8, 10, 3), 128, dtype=np.uint8)
+    grain = Grain(camera, 6.0, np.random.default_rng(2))
+    images = {grain.spoil(grey).tobytes() for _ in range(2000)}
+    assert len(images) == 80
+
+
+def test_rays_afford_160_columns_of_the_same_view() -> None:
+    camera = ColourSettings().model()
+    assert _size_for("egl", camera) is camera
+    small = _size_for("raycast", camera)
+    assert (small.width, small.height) == (160, 120)
+    assert isinstance(small.height, int)
+    for large, less in (
+        (camera.width / camera.focal_x, small.width / small.focal_x),
+        (camera.height / camera.focal_y, small.height / small.focal_y),
+    ):
+        assert degrees(less) == pytest.approx(degrees(large))
+    assert _size_for("raycast", small) is small
+
+
+def test_graphics_draw_the_field_of_view_of_the_camera(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """MuJoCo takes its height, in degrees; the width follows."""
+    sizes: list[tuple[Any, ...]] = []
+    drawn: list[int] = []
+
+    class Screen:
+        def __init__(self, model: Any, *arguments: Any) -> None:
+            sizes.append(arguments)
+
+        def draw(self, data: Any, number: int) -> np.ndarray:
+            """Draw a grey image."""
+            drawn.append(number)
+            return np.full((60, 80, 3), 99, dtype=np.uint8)
+
+    monkeypatch.setattr(eyes_module, "Screen", Screen)
+    eyes = eyes_of(depth=False, renderer="egl")
+    model = eyes._world.model
+    assert model.camera("me/head_camera").fovy[0] == pytest.approx(47.6)
+    assert model.camera("other").fovy[0] == 45.0
+    assert sizes == [(80, 60, "egl")]
+    for tick in range(30):
+        for percept in eyes.read(tick * TICK):
+            assert isinstance(percept, ColourImage)
+            assert (percept.pixels == 99).all()
+    assert drawn == 2 * [model.camera("me/head_camera").id]
+
+
+def test_closed_eyes_may_be_closed_again() -> None:
+    eyes = eyes_of(depth=False)
+    closed: list[bool] = []
+    screen: Any = SimpleNamespace(close=lambda: closed.append(True))
+    eyes._screen = screen
+    eyes.close()
+    eyes.close()
+    assert closed == [True]

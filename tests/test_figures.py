@@ -1,0 +1,342 @@
+"""Figures of duels, plans and comparisons, read back from their axes."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+from math import cos, pi, sin
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import numpy as np
+import pytest
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+
+from stepaside.planning import (
+    Direction,
+    Foot,
+    GaitSettings,
+    ManeuverPlanner,
+    Sole,
+)
+from stepaside.planning.support import sole_corners
+from stepaside.poses import Array
+from stepaside.report import compare_figure, duel_figure, plan_figure
+from stepaside.report.replay import Run
+from stepaside.report.soles import draw_heading, draw_soles
+from stepaside.report.style import COLOURS, EVADER, PURSUER, THEORY, plt
+from stepaside.simulation.settings import DuelSettings
+from stepaside.simulation.summary import cycle_mean, theory_of
+
+TIMES = np.linspace(0.0, 18.0, 901)
+SETTINGS = DuelSettings(seed=7)
+CYCLE = 2.0 * SETTINGS.gait.step_duration
+
+
+@cache
+def record() -> dict[str, Array]:
+    """Robots that walk along, one behind the other, with some sway."""
+    sway = 0.02 * np.sin(2.0 * pi * TIMES / CYCLE)
+    arrays = {"times_s": TIMES}
+    for name, ahead, heading in (("pursuer", 0.0, 0.4), ("evader", 1.0, 1.4)):
+        c, s = cos(heading), sin(heading)
+        x, y = ahead + 0.1 * TIMES - s * sway, 0.2 * ahead + c * sway
+        turn = np.full_like(TIMES, heading)
+        arrays[f"{name}_torso"] = np.column_stack([x, y, turn])
+        arrays[f"{name}_com"] = np.column_stack([x + 0.01, y, 0.27 + 0 * x])
+        arrays[f"{name}_zmp"] = np.column_stack([x, y]) * 1.0
+        arrays[f"{name}_zmp_reference"] = np.column_stack([x - 3.0, y + 1.0])
+        arrays[f"{name}_com_reference"] = np.column_stack([x - 3.0, y + 1.0])
+        arrays[f"{name}_landings"] = np.array(
+            [[1.0, 1.0, ahead, 0.05, 0.2], [1.5, -1.0, ahead, -0.05, 0.0]]
+        )
+    return arrays
+
+
+@pytest.fixture
+def kept(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Figure]]:
+    """Figures that were drawn, instead of files."""
+    figures: list[Figure] = []
+
+    def save(figure: Figure, path: Any) -> None:
+        assert path == Path("figure.png")
+        figures.append(figure)
+
+    closed: list[Figure] = []
+    monkeypatch.setattr(Figure, "savefig", save)
+    real = plt.close
+    monkeypatch.setattr(plt, "close", closed.append)
+    yield figures
+    assert closed == figures
+    for figure in figures:
+        real(figure)
+
+
+def corners_of(patch: Any) -> Array:
+    """Corners of a polygon. Shape (n, 2)."""
+    corners: Array = np.asarray(patch.get_path().vertices)[:4]
+    return corners
+
+
+def line(axes: Any, label: str) -> Array:
+    """Points of the line with a label. Shape (n, 2)."""
+    (found,) = [one for one in axes.lines if one.get_label() == label]
+    return points_of(found)
+
+
+def points_of(drawn: Any) -> Array:
+    """Points of a line. Shape (n, 2)."""
+    points: Array = np.column_stack(drawn.get_data())
+    return points
+
+
+def levels(axes: Any) -> dict[float, str]:
+    """Horizontal lines, by height."""
+    return {
+        float(one.get_ydata()[0]): to_hex(one.get_color())
+        for one in axes.lines
+        if len(one.get_ydata()) == 2
+    }
+
+
+SUMMARY = {
+    "seed": 7,
+    "message": "played 18.00 s",
+    "theory": {"distance_m": 0.9, "relative_orientation_deg": 90.0},
+}
+
+
+def duel(kept: list[Figure], **theory: Any) -> Figure:
+    summary = SUMMARY | {"theory": SUMMARY["theory"] | theory}  # type: ignore[operator]
+    duel_figure.draw_duel(record(), summary, SETTINGS, Path("figure.png"))
+    return kept[-1]
+
+
+def test_a_duel_is_shown_at_four_times_with_the_way_so_far(
+    kept: list[Figure],
+) -> None:
+    figure = duel(kept)
+    assert "seed 7: played 18.00 s" in figure.get_suptitle()
+    for axes, time in zip(figure.axes[:4], (0.0, 2.0, 8.0, 18.0), strict=True):
+        assert axes.get_title() == f"{time:.1f} s"
+        count = round(50 * time) + 1
+        for drawn, name in zip(axes.lines, COLOURS, strict=True):
+            way = points_of(drawn)
+            np.testing.assert_allclose(
+                way, record()[f"{name}_com"][:count, :2]
+            )
+            assert to_hex(drawn.get_color()) == COLOURS[name]
+        for wedge, name in zip(axes.patches, COLOURS, strict=True):
+            place = record()[f"{name}_torso"][count - 1, :2]
+            off = np.hypot(*(corners_of(wedge) - place).T)
+            assert off.max() < 0.2
+        every = np.concatenate(
+            [record()["pursuer_com"][:, :2], record()["evader_com"][:, :2]]
+        )
+        for axis, limits in enumerate((axes.get_xlim(), axes.get_ylim())):
+            low, high = every[:, axis].min(), every[:, axis].max()
+            np.testing.assert_allclose(limits, (low - 0.2, high + 0.2))
+    assert [bool(axes.get_ylabel()) for axes in figure.axes[:4]] == [
+        *(True, False, False, False)
+    ]
+
+
+def test_paths_have_their_starts_ends_and_footsteps(
+    kept: list[Figure],
+) -> None:
+    axes = duel(kept).axes[4]
+    for name in COLOURS:
+        com = record()[f"{name}_com"]
+        np.testing.assert_allclose(line(axes, f"{name}, CoM"), com[:, :2])
+        starts = [
+            points_of(one)[0] for one in axes.lines if one.get_marker() == "o"
+        ]
+        assert any(np.allclose(one, com[0, :2]) for one in starts)
+    # Two soles and a wedge for each.
+    assert len(axes.patches) == 6
+    wedge = corners_of(axes.patches[2])
+    end = record()["pursuer_torso"][-1, :2]
+    assert np.hypot(*(wedge - end).T).max() < 0.2
+
+
+def test_distance_and_angle_are_drawn_beside_theory(
+    kept: list[Figure],
+) -> None:
+    figure = duel(kept)
+    distance, angle = figure.axes[5:7]
+    arrays = record()
+    apart = arrays["evader_torso"] - arrays["pursuer_torso"]
+    raw = np.hypot(apart[:, 0], apart[:, 1])
+    for axes, values in (
+        (distance, raw),
+        (angle, np.full(len(TIMES), 180.0 / pi)),
+    ):
+        plain, mean = axes.lines[:2]
+        np.testing.assert_allclose(
+            points_of(plain), np.column_stack([TIMES, values])
+        )
+        smooth = cycle_mean(values, TIMES, CYCLE)
+        np.testing.assert_allclose(
+            points_of(mean), np.column_stack([TIMES, smooth])
+        )
+    assert levels(distance) == {0.9: THEORY, 0.8: EVADER}
+    assert levels(angle) == {90.0: THEORY}
+    assert "theory 0.9" in [t.get_text() for t in distance.texts]
+    assert distance.get_ylabel() == "distance [m]"
+    assert angle.get_ylabel() == "between headings [deg]"
+    assert (distance.get_xlabel(), angle.get_xlabel()) == ("", "time [s]")
+    none = duel(kept, distance_m=None, relative_orientation_deg=None)
+    assert levels(none.axes[5]) == {0.8: EVADER}
+    assert levels(none.axes[6]) == {}
+
+
+def test_balance_is_leftward_of_each_robot_over_six_steps(
+    kept: list[Figure],
+) -> None:
+    """Whatever way it heads, the sway is what was put in."""
+    figure = duel(kept)
+    begin = TIMES[-1] - 6.0 * SETTINGS.gait.step_duration
+    shown = TIMES[begin <= TIMES]
+    for axes, name, heading in zip(
+        figure.axes[7:], COLOURS, (0.4, 1.4), strict=True
+    ):
+        assert axes.get_title() == f"{name}: last steps"
+        # Along the way it drifts by what its heading is off the x axis.
+        drift = -0.1 * sin(heading) * (shown - shown.mean())
+        sway = 0.02 * np.sin(2.0 * pi * shown / CYCLE)
+        expected = 1e3 * (drift + sway - sway.mean())
+        for label in ("ZMP", "ZMP reference", "CoM reference", "CoM"):
+            found = line(axes, label)
+            np.testing.assert_allclose(found[:, 0], shown)
+            shift = 1e3 * 0.01 * -sin(heading) if label == "ZMP" else 0.0
+            np.testing.assert_allclose(
+                found[:, 1], expected - shift, atol=1e-6
+            )
+
+
+@pytest.mark.parametrize("pose", [(1.0, 2.0, 0.5), (-1.0, 0.0, -2.0)])
+def test_a_wedge_points_where_the_robot_heads(
+    pose: tuple[float, float, float],
+) -> None:
+    axes = Figure().add_subplot()
+    draw_heading(axes, np.array(pose), PURSUER, 0.5)
+    x, y, theta = pose
+    (wedge,) = axes.patches
+    tip, left, notch, right = corners_of(wedge)
+    ahead, aside = (
+        np.array([cos(theta), sin(theta)]),
+        [-sin(theta), cos(theta)],
+    )
+    place = np.array([x, y])
+    np.testing.assert_allclose(tip, place + 0.3 * ahead)
+    np.testing.assert_allclose(notch, place - 0.1 * ahead)
+    np.testing.assert_allclose((left - place) @ aside, 0.175)
+    np.testing.assert_allclose((right - place) @ aside, -0.175)
+    np.testing.assert_allclose((left - place) @ ahead, -0.2)
+    np.testing.assert_allclose((right - place) @ ahead, -0.2)
+    assert to_hex(wedge.get_facecolor()) == PURSUER
+
+
+def test_soles_lie_where_they_landed_with_their_side() -> None:
+    axes = Figure().add_subplot()
+    sole = Sole()
+    rows = np.array([[0.0, 1.0, 0.3, 0.1, 0.4], [0.5, -1.0, 0.4, -0.1, 0.2]])
+    draw_soles(axes, rows, sole, EVADER, alpha=0.5)
+    for patch, row, foot in zip(axes.patches, rows, Foot, strict=True):
+        corners = sole_corners(row[2:], foot, sole)
+        np.testing.assert_allclose(corners_of(patch), corners)
+        assert not patch.get_fill() and patch.get_alpha() == 0.5
+        assert to_hex(patch.get_edgecolor()) == EVADER
+    # A left sole reaches farther to the left, a right one to the right.
+    left, right = (corners_of(p) for p in axes.patches)
+    turn = np.array([-sin(0.4), cos(0.4)])
+    assert ((left - [0.3, 0.1]) @ turn).max() == pytest.approx(0.042)
+    turn = np.array([-sin(0.2), cos(0.2)])
+    assert ((right - [0.4, -0.1]) @ turn).min() == pytest.approx(-0.042)
+
+
+def test_a_plan_is_drawn_from_above_and_over_time(kept: list[Figure]) -> None:
+    gait = GaitSettings()
+    plan = ManeuverPlanner(gait).plan(
+        0.5,
+        Direction.BACKWARD,
+        first_foot=Foot.RIGHT,
+        standing=True,
+        count=7,
+    )
+    plan_figure.draw_plan(plan, "evader", Path("figure.png"))
+    above, x, y = kept[-1].axes
+    degrees = np.degrees(plan.bearing)
+    assert above.get_title() == f"evader: desired heading {degrees:.1f}°"
+    samples = plan.sample(np.arange(0.0, plan.schedule.duration, 0.01))
+    np.testing.assert_allclose(line(above, "CoM"), samples.com)
+    np.testing.assert_allclose(line(above, "ZMP"), samples.zmp)
+    for index, axes in enumerate((x, y)):
+        for label, values in (
+            ("ZMP", samples.zmp),
+            ("DCM", samples.dcm),
+            ("CoM", samples.com),
+        ):
+            np.testing.assert_allclose(
+                line(axes, label),
+                np.column_stack([samples.times, values[:, index]]),
+            )
+    assert [x.get_xlabel(), y.get_xlabel()] == ["", "time [s]"]
+    assert (x.get_legend() is None, y.get_legend() is None) == (False, True)
+    assert len(above.patches) == len(plan.placements)
+    foot = plan.first_foot
+    for number, patch in enumerate(above.patches):
+        pose = plan.placements[number]
+        corners = sole_corners(pose, foot, gait.sole)
+        np.testing.assert_allclose(corners_of(patch), corners)
+        colour = THEORY if number < 2 else EVADER
+        assert to_hex(patch.get_edgecolor()) == colour
+        foot = foot.other
+
+
+def run(name: str, settings: DuelSettings = SETTINGS) -> Run:
+    return Run(name, settings, {}, record())
+
+
+def test_a_comparison_has_every_run_and_the_first_ones_theory(
+    kept: list[Figure],
+) -> None:
+    runs = [run(f"run {i}") for i in range(5)]
+    compare_figure.draw_comparison(runs, Path("figure.png"))
+    path, distance, angle = kept[-1].axes
+    assert len(path.lines) == 10
+    for number, drawn in enumerate(path.lines):
+        name = ("pursuer", "evader")[number % 2]
+        way = points_of(drawn)
+        np.testing.assert_allclose(way, record()[f"{name}_torso"][:, :2])
+        assert to_hex(drawn.get_color()) == COLOURS[name]
+        styles = compare_figure.LINES
+        assert drawn.get_linestyle() == styles[number // 2 % 4]
+    shades = [drawn.get_alpha() for drawn in path.lines[::2]]
+    assert shades == [1.0] * 4 + [pytest.approx(1.0 - 0.6 / 5)]
+    circle = theory_of(SETTINGS)
+    for axes, values, level in (
+        (distance, runs[0].distance, circle.distance_m),
+        (angle, runs[0].orientation, 90.0),
+    ):
+        for number, drawn in enumerate(axes.lines[:5]):
+            assert drawn.get_label() == f"run {number}"
+            smooth = cycle_mean(values, TIMES, CYCLE)
+            np.testing.assert_allclose(
+                points_of(drawn), np.column_stack([TIMES, smooth])
+            )
+            style = compare_figure.LINES[number % 4]
+            assert drawn.get_linestyle() == style
+            colour = compare_figure.RUNS[number % 4]
+            assert to_hex(drawn.get_color()) == colour
+        (height,) = levels(axes)
+        assert height == pytest.approx(level)
+    strategy = replace(SETTINGS.strategy, angle=0.0)
+    back = run("back", replace(SETTINGS, strategy=strategy))
+    compare_figure.draw_comparison([back], Path("figure.png"))
+    assert levels(kept[-1].axes[1]) == {} == levels(kept[-1].axes[2])
+
+
+def test_figures_are_drawn_without_a_screen() -> None:
+    assert matplotlib.get_backend().lower() == "agg"

@@ -1,0 +1,103 @@
+"""The floor: gravity on a slope, heights of an uneven one, randomness."""
+
+from math import cos, pi, sin
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.simulation.floor import add_floor, tilt_gravity
+from stepaside.simulation.randomness import named_generator
+from stepaside.simulation.settings import PhysicsSettings
+
+
+def floor(seed: int = 1, **changes: float) -> mujoco.MjModel:
+    spec = mujoco.MjSpec()
+    physics = PhysicsSettings(**changes)
+    tilt_gravity(spec, physics)
+    add_floor(spec, physics, named_generator(seed, "floor"), 1)
+    return spec.compile()
+
+
+@pytest.mark.parametrize("down", [0.0, 0.7, pi / 2, -2.0])
+@pytest.mark.parametrize("slope", [0.0, 0.1, 0.4])
+def test_gravity_pulls_down_the_slope(slope: float, down: float) -> None:
+    x, y, z = floor(slope=slope, slope_direction=down).opt.gravity
+    along = 9.81 * sin(slope)
+    assert x == pytest.approx(along * cos(down), abs=1e-12)
+    assert y == pytest.approx(along * sin(down), abs=1e-12)
+    assert z == pytest.approx(-9.81 * cos(slope))
+
+
+def test_an_even_floor_is_a_plane_with_the_friction_asked_for() -> None:
+    model = floor(friction=0.63)
+    assert model.nhfield == 0
+    assert model.geom_type[0] == mujoco.mjtGeom.mjGEOM_PLANE
+    np.testing.assert_allclose(model.geom_friction[0], [0.63, 0.005, 0.0001])
+    assert model.geom_contype[0] == 1 and model.geom_conaffinity[0] == 0
+    np.testing.assert_array_equal(model.geom_pos[0], 0.0)
+
+
+def test_what_is_seen_of_the_floor_is_pale_and_lit_from_above() -> None:
+    """Checks of 0.25 m whose two shades hardly differ, under a sky."""
+    model = floor()
+    assert model.ntex == 2 and model.nmat == 1 and model.nlight == 1
+    checks, sky = model.texture("floor"), model.texture("sky")
+    assert checks.type == mujoco.mjtTexture.mjTEXTURE_2D
+    assert sky.type == mujoco.mjtTexture.mjTEXTURE_SKYBOX
+    shades = np.unique(checks.data.reshape(-1, 3), axis=0) / 255.0
+    assert len(shades) == 2 and np.ptp(shades, axis=0).max() < 0.07
+    np.testing.assert_allclose(shades.mean(axis=0), 0.82, atol=0.02)
+    assert (checks.width, checks.height) == (256, 256)
+    assert sky.width == 64 and sky.height == 384
+    material = model.material("floor")
+    np.testing.assert_array_equal(material.texrepeat, [2, 2])
+    assert material.texuniform and material.reflectance == pytest.approx(0.05)
+    assert model.geom_matid[0] == material.id
+    assert checks.id in material.texid and sky.id not in material.texid
+    np.testing.assert_array_equal(model.geom_size[0], [20, 20, 0.1])
+    assert model.light_castshadow[0]
+    assert model.light_type[0] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
+    down = np.array([0.2, 0.3, -1.0])
+    np.testing.assert_allclose(model.light_dir[0], down / np.linalg.norm(down))
+    np.testing.assert_array_equal(model.light_pos[0], [0, 0, 4])
+
+
+def heights(model: mujoco.MjModel) -> np.ndarray:
+    rows, columns = model.hfield_nrow[0], model.hfield_ncol[0]
+    grid: np.ndarray = model.hfield_data.reshape(rows, columns)
+    return grid
+
+
+def test_an_uneven_floor_is_rough_by_the_grain_and_as_high_as_asked() -> None:
+    """8 m square; independent every 0.1 m, straight between."""
+    model = floor(unevenness=0.004, friction=0.5)
+    assert model.geom_type[0] == mujoco.mjtGeom.mjGEOM_HFIELD
+    assert model.geom_dataid[0] == 0
+    np.testing.assert_allclose(model.hfield_size[0], [4.0, 4.0, 0.004, 0.1])
+    assert model.geom_friction[0, 0] == 0.5
+    grid = heights(model)
+    assert grid.shape == (162, 162)
+    assert grid.min() >= 0.0 and grid.max() <= 1.0
+    # Uniform heights, straight between: two thirds are left on each axis.
+    assert grid.std() == pytest.approx(12**-0.5 * 2.0 / 3.0, rel=0.03)
+    assert grid.mean() == pytest.approx(0.5, abs=0.02)
+    near = np.corrcoef(grid[:-1].ravel(), grid[1:].ravel())[0, 1]
+    far = np.corrcoef(grid[:-4].ravel(), grid[4:].ravel())[0, 1]
+    assert near > 0.5 and abs(far) < 0.05
+
+
+def test_heights_come_from_the_seed_alone() -> None:
+    one, same = floor(2, unevenness=0.01), floor(2, unevenness=0.02)
+    other = floor(3, unevenness=0.01)
+    np.testing.assert_array_equal(heights(one), heights(same))
+    assert np.abs(heights(one) - heights(other)).max() > 0.5
+
+
+def test_a_purpose_has_draws_of_its_own() -> None:
+    def draws(seed: int, name: str) -> tuple[float, ...]:
+        return tuple(named_generator(seed, name).uniform(size=4))
+
+    assert draws(1, "start") == draws(1, "start")
+    found = [draws(s, n) for s in (1, 2) for n in ("start", "floor", "tart")]
+    assert len(set(found)) == 6

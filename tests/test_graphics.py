@@ -1,0 +1,181 @@
+"""Test the choice of a renderer on machines that have other ones."""
+
+import os
+import subprocess
+from collections.abc import Iterator
+from types import SimpleNamespace
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.errors import ConfigurationError
+from stepaside.simulation import graphics
+from stepaside.simulation.graphics import (
+    BACKENDS,
+    Screen,
+    _works,
+    choose_renderer,
+)
+
+
+@pytest.fixture
+def works(monkeypatch: pytest.MonkeyPatch) -> Iterator[set[str]]:
+    """Backends that work; a test fills them in."""
+    found: set[str] = set()
+    monkeypatch.delenv("MUJOCO_GL", raising=False)
+    monkeypatch.setattr(graphics, "_works", found.__contains__)
+    yield found
+
+
+def test_egl_goes_before_osmesa_and_rays_work_always(works: set[str]) -> None:
+    assert choose_renderer() == "raycast"
+    works.add("osmesa")
+    assert choose_renderer() == "osmesa"
+    works.add("egl")
+    assert choose_renderer() == "egl"
+
+
+@pytest.mark.parametrize(
+    ("asked", "renderer"),
+    [
+        ("osmesa", "osmesa"),
+        ("OSMesa", "osmesa"),
+        ("egl", "egl"),
+        ("glfw", "egl"),
+        ("glx", "egl"),
+        ("", "egl"),
+        ("disable", "raycast"),
+    ],
+)
+def test_the_environment_narrows_down_what_is_tried(
+    works: set[str],
+    monkeypatch: pytest.MonkeyPatch,
+    asked: str,
+    renderer: str,
+) -> None:
+    works |= {"egl", "osmesa", "disable", "glfw"}
+    monkeypatch.setenv("MUJOCO_GL", asked)
+    assert choose_renderer() == renderer
+
+
+def test_what_is_wanted_is_taken_or_refused(
+    works: set[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MUJOCO_GL", "osmesa")
+    works |= {"egl", "glfw"}
+    assert choose_renderer("egl") == "egl"
+    assert choose_renderer("raycast") == "raycast"
+    with pytest.raises(ConfigurationError, match="osmesa does not work"):
+        choose_renderer("osmesa")
+    known = "one of auto, egl, osmesa, raycast, got 'glfw'"
+    with pytest.raises(ConfigurationError, match=known):
+        choose_renderer("glfw")
+
+
+def test_a_backend_works_if_another_process_survives_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked: list[dict[str, Any]] = []
+    outcome: list[Any] = [0]
+
+    def run(command: list[str], **options: Any) -> Any:
+        asked.append({"command": command, **options})
+        if isinstance(outcome[0], Exception):
+            raise outcome[0]
+        return SimpleNamespace(returncode=outcome[0])
+
+    monkeypatch.setattr(subprocess, "run", run)
+    monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
+    for end, good in (
+        (0, True),
+        (1, False),
+        (-11, False),
+        (OSError(), False),
+        (subprocess.TimeoutExpired("python", 60.0), False),
+    ):
+        outcome[0] = end
+        # Past its memory, that other tests rely on.
+        assert _works.__wrapped__("egl") is good
+    probe = asked[0]
+    assert "Screen(m, 16, 16, 'egl')" in probe["command"][-1]
+    assert probe["env"]["MUJOCO_GL"] == "egl"
+    assert probe["env"]["PYOPENGL_PLATFORM"] == "egl"
+    assert "PATH" in probe["env"]
+    # It may fail, in silence, but not hang.
+    assert probe["check"] is False and probe["capture_output"] is True
+    assert probe["timeout"] == 60.0
+    assert probe["env"]["OPENBLAS_NUM_THREADS"] == "1"
+
+
+SCENE = """<mujoco><visual><headlight ambient="1 1 1" diffuse="0 0 0"
+specular="0 0 0"/></visual><worldbody>
+<geom name="floor" type="plane" size="4 4 0.01" rgba="0.5 0.5 0.5 1"/>
+<geom type="box" size="0.2 0.2 0.2" pos="2 0.5 1.3" rgba="1 0 0 1"/>
+<geom type="box" size="0.2 0.2 0.2" pos="-2 0 1" rgba="0 0 1 1"/>
+<camera name="ahead" pos="0 0 1" xyaxes="0 -1 0 0 0 1" fovy="60"/>
+<camera name="back" pos="0 0 1" xyaxes="0 1 0 0 0 1" fovy="60"/>
+</worldbody></mujoco>"""
+
+
+def test_a_screen_draws_what_a_camera_sees_the_right_way_up(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Ahead a red box up on the left, behind a blue one in the middle."""
+    renderer = choose_renderer("auto")
+    if renderer not in BACKENDS:
+        pytest.skip("no off-screen graphics (EGL, OSMesa) on this machine")
+    model = mujoco.MjModel.from_xml_string(SCENE)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    for name in ("MUJOCO_GL", "PYOPENGL_PLATFORM"):
+        monkeypatch.setenv(name, "none")
+    screen = Screen(model, 64, 48, renderer)
+    assert os.environ["MUJOCO_GL"] == renderer
+    assert os.environ["PYOPENGL_PLATFORM"] == renderer
+    ahead = screen.draw(data, model.camera("ahead").id)
+    back = screen.draw(data, model.camera("back").id)
+    assert ahead.shape == (48, 64, 3)
+    focal = 24.0 / np.tan(np.radians(30.0))
+    for image, channel, (left, up) in (
+        (ahead, 0, (0.5 / 1.8, 0.3 / 1.8)),
+        (back, 2, (0.0, 0.0)),
+    ):
+        other = np.delete(image.astype(int), channel, axis=2).max(axis=2)
+        rows, columns = np.nonzero(image[..., channel] > other + 100)
+        assert columns.mean() + 0.5 == pytest.approx(32 - focal * left, abs=1)
+        assert rows.mean() + 0.5 == pytest.approx(24 - focal * up, abs=1)
+        assert len(rows) == pytest.approx((focal * 0.4 / 1.8) ** 2, rel=0.25)
+    # An image drawn before is not drawn over.
+    assert (ahead[..., 0] > 200).any() and (back[..., 2] > 200).any()
+
+    def add(scene: mujoco.MjvScene) -> None:
+        mujoco.mjv_initGeom(
+            scene.geoms[scene.ngeom],
+            mujoco.mjtGeom.mjGEOM_SPHERE,
+            np.array([0.3, 0.0, 0.0]),
+            np.array([-1.2, 0.0, 1.0]),
+            np.eye(3).reshape(-1),
+            np.array([0.0, 1.0, 0.0, 1.0], dtype=np.float32),
+        )
+        scene.ngeom += 1
+
+    green = screen.draw(data, model.camera("back").id, add)[24, 32]
+    assert green[1] > 2 * green[2]
+    free = mujoco.MjvCamera()
+    free.lookat[:] = 2.0, 0.5, 1.3
+    free.distance, free.azimuth, free.elevation = 2.0, 0.0, 0.0
+    red = screen.draw(data, free)[24, 32]
+    assert red[0] > 200 and red[2] < 50
+    screen.close()
+    # Nothing is finer than a robot needs it: it has to be fast.
+    quality = model.vis.quality
+    assert quality.shadowsize == 0 == quality.offsamples
+    assert (quality.numslices, quality.numstacks) == (16, 10)
+    for flag in ("mjRND_SHADOW", "mjRND_REFLECTION"):
+        number = getattr(mujoco.mjtRndFlag, flag)
+        assert screen._scene.flags[number] == 0
+    assert model.geom("floor").size[2] == 10.0
+    assert model.vis.global_.offwidth == 64
+    assert model.vis.global_.offheight == 48

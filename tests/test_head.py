@@ -1,0 +1,109 @@
+"""Test the geometry of the head and the file that describes it."""
+
+from math import cos, radians, sin
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from stepaside.errors import ModelError
+from stepaside.poses import Array
+from stepaside.robots.description import load_robot
+from stepaside.robots.head import HeadDescription, load_head, rotation
+
+NAO = load_robot("nao")
+HEAD = load_head(NAO)
+
+
+def about(axis: int, angle: float) -> Array:
+    """Rotation about one axis, from its definition."""
+    c, s = cos(angle), sin(angle)
+    turn = np.eye(3)
+    i, j = [(1, 2), (2, 0), (0, 1)][axis]
+    turn[i, i], turn[j, j] = c, c
+    turn[i, j], turn[j, i] = -s, s
+    return turn
+
+
+@pytest.mark.parametrize(
+    "angles", [(0.3, 0.0, 0.0), (0.0, -0.4, 0.0), (0.0, 0.0, 2.0), (1, 2, 3)]
+)
+def test_a_rotation_rolls_then_pitches_then_yaws(
+    angles: tuple[float, float, float],
+) -> None:
+    roll, pitch, yaw = angles
+    expected = about(2, yaw) @ about(1, pitch) @ about(0, roll)
+    np.testing.assert_allclose(rotation(*angles), expected, atol=1e-15)
+
+
+def test_signs_of_angles_are_those_of_a_robot() -> None:
+    """Left ear up, nose down, turned to the left."""
+    assert rotation(0.1, 0.0, 0.0)[2, 1] > 0.0
+    assert rotation(0.0, 0.1, 0.0)[2, 0] < 0.0
+    assert rotation(0.0, 0.0, 0.1)[1, 0] > 0.0
+
+
+def test_cameras_look_ahead_and_a_little_down() -> None:
+    for mount, degrees in ((HEAD.top, 1.2), (HEAD.depth, 8.0)):
+        ahead = cos(radians(degrees)), 0.0, -sin(radians(degrees))
+        np.testing.assert_allclose(mount.axes[:, 0], ahead, atol=1e-15)
+        np.testing.assert_allclose(mount.axes[:, 1], (0, 1, 0), atol=1e-15)
+        assert mount.axes[2, 2] > 0.9 and mount.place[1] == 0.0
+    assert HEAD.depth.place[2] > HEAD.top.place[2]
+    assert HEAD.housing == (0.035, 0.18, 0.05)
+
+
+def test_ears_are_mirror_images_and_listen_aside() -> None:
+    left, right = HEAD.sonars["left"], HEAD.sonars["right"]
+    mirror = np.diag([1.0, -1.0, 1.0])
+    np.testing.assert_allclose(mirror @ left.place, right.place)
+    turned = mirror @ left.axes @ mirror
+    np.testing.assert_allclose(turned, right.axes, atol=1e-12)
+    assert left.axes[1, 0] == pytest.approx(sin(0.392441), rel=2e-3)
+    assert left.axes[2, 0] == pytest.approx(-sin(0.0436497))
+
+
+def test_ranges_of_the_neck_are_in_radians_and_symmetric() -> None:
+    yaws, low, high = HEAD.coupling
+    np.testing.assert_allclose(yaws, -yaws[::-1], atol=1e-12)
+    np.testing.assert_allclose(low, low[::-1])
+    np.testing.assert_allclose(high, high[::-1])
+    assert yaws[-1] == pytest.approx(radians(119.52))
+    assert (np.diff(yaws) > 0.0).all() and (low < high).all()
+    model = NAO.compile()
+    assert model.joint(HEAD.yaw).range[1] == pytest.approx(yaws[-1], abs=0.01)
+
+
+def rewritten(folder: Path, old: str, new: str) -> HeadDescription:
+    text = (NAO.folder / "head.toml").read_text(encoding="utf-8")
+    assert old in text
+    for name in ("robot.toml", "model.xml"):
+        (folder / name).write_bytes((NAO.folder / name).read_bytes())
+    (folder / "head.toml").write_text(text.replace(old, new))
+    return load_head(load_robot(folder))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("[coupling]", "[copling]", "coupling"),
+        ("pitch_min =", "pitch_mn =", "pitch_min"),
+        ('camera = "head_camera"', "", "camera"),
+        ("pitch = 8.0", 'pitch = "down"', "real number"),
+        ("[sonar.left]", "[sonar.left", "head.toml"),
+        ("turn = [-0.00478508, ", "turn = [", "rotation"),
+    ],
+)
+def test_a_wrong_head_is_refused_by_its_file(
+    old: str, new: str, message: str, tmp_path: Path
+) -> None:
+    with pytest.raises(ModelError, match=message) as caught:
+        rewritten(tmp_path, old, new)
+    assert str(tmp_path / "head.toml") in str(caught.value)
+
+
+def test_a_robot_without_a_head_cannot_look_about(tmp_path: Path) -> None:
+    for name in ("robot.toml", "model.xml"):
+        (tmp_path / name).write_bytes((NAO.folder / name).read_bytes())
+    with pytest.raises(ModelError, match="NAO cannot look about.*missing"):
+        load_head(load_robot(tmp_path))

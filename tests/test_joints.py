@@ -1,0 +1,90 @@
+"""Test the correction of joints that miss their targets."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.control.joints import JointCorrection
+from stepaside.poses import Array
+
+TICK = 0.01
+
+
+def correction(**changes: Any) -> JointCorrection:
+    request: dict[str, Any] = {
+        "gain": 4.0,
+        "bound": 0.05,
+        "leak": 0.5,
+        "tick": TICK,
+        "delay": 0.0,
+    } | changes
+    return JointCorrection(**request)
+
+
+def hold(joints: JointCorrection, missing: Array, ticks: int) -> Array:
+    """Ask for the same, always missed by the same; the last correction."""
+    targets = np.array([0.2, -0.3])
+    corrected = targets
+    for _ in range(ticks):
+        corrected = joints.update(targets - missing, targets)
+    added: Array = corrected - targets
+    return added
+
+
+def test_what_is_missed_is_asked_for_on_top() -> None:
+    added = hold(correction(), np.array([0.001, -0.001]), 50)
+    assert added[0] > 0.0 > added[1]
+    assert added[0] == pytest.approx(-added[1])
+
+
+def test_without_a_leak_a_miss_is_integrated() -> None:
+    joints = correction(leak=0.0)
+    ticks = 52  # two to fill the delay line
+    added = hold(joints, np.array([0.001, 0.0]), ticks)
+    np.testing.assert_allclose(added, [4.0 * 0.001 * 50 * TICK, 0.0])
+
+
+def test_a_lasting_miss_settles_where_gain_and_leak_balance() -> None:
+    """The joint stays off by what the play leaves: gain / leak of it."""
+    joints = correction(gain=1.0)
+    added = hold(joints, np.array([0.002, -0.002]), 5000)
+    np.testing.assert_allclose(added, [0.004, -0.004], rtol=1e-6)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_correction_keeps_to_its_bound(side: float) -> None:
+    added = hold(correction(), np.array([side, 0.0]), 1000)
+    assert added[0] == pytest.approx(side * 0.05)
+    assert added[1] == 0.0
+
+
+def test_a_servo_that_answers_too_late_is_not_mistaken_for_play() -> None:
+    """Measured now is what was asked for a delay and a ramp ago."""
+    delay = 0.03
+    joints = correction(delay=delay)
+    lag = round(delay / TICK) + 2
+    asked = [np.array([0.1 * np.sin(0.3 * i)]) for i in range(60)]
+    for i, targets in enumerate(asked):
+        measured = asked[max(i - lag, 0)]
+        corrected = joints.update(measured, targets)
+        np.testing.assert_allclose(corrected, targets, atol=1e-15)
+
+
+def test_nothing_is_corrected_before_an_answer_can_be_there() -> None:
+    joints = correction(delay=0.03)
+    lag = round(0.03 / TICK) + 2
+    targets = np.array([0.1])
+    for _ in range(lag):
+        assert joints.update(np.zeros(1), targets)[0] == 0.1
+    assert joints.update(np.zeros(1), targets)[0] > 0.1
+
+
+def test_a_correction_that_is_no_longer_needed_fades() -> None:
+    joints = correction(gain=0.0, leak=0.5)
+    joints._correction = np.array([0.02])
+    targets = np.array([0.1])
+    ticks = 200
+    for _ in range(ticks + 2):
+        added = joints.update(targets, targets)[0] - 0.1
+    assert added == pytest.approx(0.02 * (1.0 - 0.5 * TICK) ** ticks)

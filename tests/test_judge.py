@@ -1,0 +1,295 @@
+"""Test the judge of sight on beliefs and images whose truth is known."""
+
+from math import atan2, cos, hypot, inf, nan, radians, sin
+from types import SimpleNamespace
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.control.body import Sighting
+from stepaside.control.perception import FrameReport
+from stepaside.robots.head import Mount, rotation
+from stepaside.sensing.camera_model import CameraModel
+from stepaside.sensing.images import ColourImage, DepthImage, SonarEcho
+from stepaside.simulation.judge import Judge, Tally
+
+CAMERA = CameraModel.of_field_of_view(80, 60, radians(60.0), radians(45.0))
+PERIOD = 0.1
+TOP = Mount(np.array([0.05, 0.01, 0.06]), rotation(0.0, radians(3.0), 0.0))
+DEPTH = Mount(np.array([0.03, -0.02, 0.14]), rotation(0.0, radians(9.0), 0.0))
+HEAD = SimpleNamespace(body="head", top=TOP, depth=DEPTH)
+
+
+class Truth:
+    """A true state, as a test has it."""
+
+    def __init__(self, x: float, y: float, heading: float, z: float) -> None:
+        self.position, self.heading = (x, y), heading
+        self.com = np.array([x, y, z])
+
+    def distance_to(self, other: "Truth") -> float:
+        """Horizontal distance to another, in [m]."""
+        x, y = self.position
+        return hypot(other.position[0] - x, other.position[1] - y)
+
+
+def thoughtless() -> Any:
+    """What stands for a perception: it believes what a test says."""
+    return SimpleNamespace(sighting=None, searching=False, on_frame=None)
+
+
+class Scene:
+    """A judge of a robot whose head a test turns and moves."""
+
+    def __init__(
+        self, yaw: float = 0.0, things: list[tuple[float, float]] | None = None
+    ) -> None:
+        quaternion = f"{cos(0.5 * yaw)} 0 0 {sin(0.5 * yaw)}"
+        model = mujoco.MjModel.from_xml_string(
+            "<mujoco><worldbody>"
+            f'<body name="me/head" pos="0.3 -0.2 0.4" quat="{quaternion}">'
+            '<geom size="0.01"/></body></worldbody></mujoco>'
+        )
+        data = mujoco.MjData(model)
+        mujoco.mj_kinematics(model, data)
+        self.frame = data.body("me/head").xmat.reshape(3, 3)
+        self.place = data.body("me/head").xpos
+        self.own = Truth(0.3, -0.2, 0.0, 0.3)
+        self.other = Truth(1.5, 0.0, 0.0, 0.3)
+        self.mind = thoughtless()
+        world = SimpleNamespace(model=model, data=data)
+        own: Any = SimpleNamespace(world=world, name="me", truth=self.own)
+        other: Any = SimpleNamespace(truth=self.other)
+        head: Any = HEAD
+        self.judge = Judge(own, other, self.mind, head, things or [])
+
+    def stand(self, mount: Mount, azimuth: float, away: float) -> None:
+        """Put the other where a camera sees it, at the camera's height."""
+        axes = self.frame @ mount.axes
+        eye = self.place + self.frame @ mount.place
+        point = eye + axes @ (away * np.array([cos(azimuth), sin(azimuth), 0]))
+        self.other.position = float(point[0]), float(point[1])
+        self.other.com = point
+
+    def believe(self, bearing: float, away: float = 1.0) -> None:
+        """Believe the other to be somewhere."""
+        self.mind.sighting = Sighting(0.0, bearing, away)
+
+
+def colour(time: float = 0.0) -> ColourImage:
+    return ColourImage(time, CAMERA, np.zeros((60, 80, 3), dtype=np.uint8))
+
+
+def depth(time: float = 0.0) -> DepthImage:
+    pixels = np.zeros((60, 80), dtype=np.float32)
+    return DepthImage(time, CAMERA, pixels, 0.8, 3.5)
+
+
+def show(
+    scene: Scene, image: ColourImage | DepthImage, *azimuths: float
+) -> None:
+    """Take an image that is found to show things, in degrees."""
+    scene.judge.note(image)
+    angles = tuple(radians(a) for a in azimuths)
+    scene.judge.judge(FrameReport(image, angles))
+
+
+def rows(scene: Scene, errors: list[float | None]) -> None:
+    """Sample beliefs that are off by so many degrees, None if lost."""
+    true = atan2(0.2, 1.2)
+    for i, error in enumerate(errors):
+        scene.mind.sighting = None
+        if error is not None:
+            scene.believe(true + radians(error))
+        scene.judge.sample(i * PERIOD)
+
+
+def test_time_with_a_belief_far_off_is_misled_time() -> None:
+    scene = Scene()
+    rows(scene, [0.0, 21.0, -21.0, 30.0, 19.0, -19.0, None, 180.0])
+    figures = scene.judge.figures()
+    assert figures["misled_s"] == pytest.approx(4 * PERIOD)
+    assert figures["lost_s"] == pytest.approx(1 * PERIOD)
+
+
+def test_errors_of_bearing_are_taken_the_short_way() -> None:
+    scene = Scene()
+    scene.own.heading = radians(-175.0) + atan2(0.2, 1.2)
+    for i, belief in enumerate((172.0, 178.0, -178.0)):
+        scene.believe(radians(belief))
+        scene.judge.sample(i * PERIOD)
+    true = scene.judge.array()[:, 3]
+    np.testing.assert_allclose(true, radians(175.0))
+    figures = scene.judge.figures()
+    assert figures["bearing_error_deg"]["median"] == pytest.approx(3.0)
+    assert figures["misled_s"] == 0.0
+
+
+def test_who_searches_is_lost_even_with_a_belief() -> None:
+    scene = Scene()
+    scene.believe(0.0)
+    for i in range(5):
+        scene.mind.searching = i < 2
+        scene.judge.sample(i * PERIOD)
+    assert scene.judge.figures()["lost_s"] == pytest.approx(2 * PERIOD)
+
+
+def test_samples_hold_beliefs_beside_the_truth() -> None:
+    scene = Scene()
+    scene.own.heading = 0.5
+    scene.judge.sample(1.0)
+    scene.believe(-0.1, 1.4)
+    scene.judge.sample(1.1)
+    bearing, distance = atan2(0.2, 1.2) - 0.5, hypot(0.2, 1.2)
+    np.testing.assert_allclose(
+        scene.judge.array(),
+        [
+            [1.0, nan, nan, bearing, distance, 1.0],
+            [1.1, -0.1, 1.4, bearing, distance, 0.0],
+        ],
+    )
+
+
+def test_spread_of_errors_leaves_out_when_all_was_lost() -> None:
+    scene = Scene()
+    true = hypot(0.2, 1.2)
+    rows(scene, [None, None])
+    for i in range(101):
+        scene.believe(atan2(0.2, 1.2) + radians(0.1 * i), true - 0.01 * i)
+        scene.judge.sample((i + 2) * PERIOD)
+    figures = scene.judge.figures()
+    assert figures["bearing_error_deg"] == pytest.approx(
+        {"median": 5.0, "p95": 9.5}
+    )
+    assert figures["distance_error_m"] == pytest.approx(
+        {"median": 0.5, "p95": 0.95}
+    )
+
+
+def test_without_samples_there_are_no_errors() -> None:
+    scene = Scene()
+    assert scene.judge.array().shape == (0, 6)
+    figures = scene.judge.figures()
+    assert figures["bearing_error_deg"] == {"median": None, "p95": None}
+    assert figures["misled_s"] == figures["lost_s"] == 0.0
+    assert figures["detection_rate"] is None
+    rows(scene, [90.0])
+    assert scene.judge.figures()["misled_s"] == 0.0  # one sample lasts nil
+
+
+def test_rates_are_shares_of_the_frames_that_could_have_found_it() -> None:
+    assert Tally().rate is None
+    assert Tally(shown=8, found=2).rate == 0.25
+
+
+@pytest.mark.parametrize("yaw", [0.0, 2.0, -1.0])
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_frames_count_as_shown_found_and_false(
+    yaw: float, side: float
+) -> None:
+    """Ten degrees decide whether a detection is of the other."""
+    scene = Scene(yaw)
+    scene.stand(TOP, side * radians(20.0), 1.2)
+    show(scene, colour(), side * 20.0)
+    show(scene, colour(), side * 11.0)
+    show(scene, colour(), side * 29.0)
+    show(scene, colour())
+    show(scene, colour(), side * 9.0)
+    show(scene, colour(), side * 31.0, side * 21.0, side * -20.0)
+    scene.stand(TOP, side * radians(50.0), 1.2)
+    show(scene, colour())
+    show(scene, colour(), 0.0)
+    assert scene.judge.colour == Tally(shown=6, found=4, false=4)
+    assert scene.judge.depth == Tally()
+    figures = scene.judge.figures()
+    assert figures["detection_rate"] == pytest.approx(4 / 6)
+    assert figures["false_detections"] == 4
+    assert "depth_detection_rate" not in figures
+
+
+def test_both_cameras_count_separately_and_false_ones_together() -> None:
+    scene = Scene()
+    scene.stand(DEPTH, 0.0, 1.2)
+    show(scene, colour(), 0.0, 25.0)
+    show(scene, depth(), 0.0, -25.0, 25.0)
+    show(scene, depth())
+    assert scene.judge.colour == Tally(1, 1, 1)
+    assert scene.judge.depth == Tally(2, 1, 2)
+    figures = scene.judge.figures()
+    assert figures["false_detections"] == 3
+    assert figures["detection_rate"] == 1.0
+    assert figures["depth_detection_rate"] == 0.5
+
+
+@pytest.mark.parametrize(
+    ("away", "shown"), [(0.94, 0), (0.96, 1), (3.48, 1), (3.52, 0)]
+)
+def test_depth_shows_only_what_is_well_in_range(
+    away: float, shown: int
+) -> None:
+    """From 0.15 m beyond the near limit; a colour image has no range."""
+    scene = Scene(0.7)
+    scene.stand(DEPTH, 0.2, away)
+    show(scene, depth())
+    assert scene.judge.depth.shown == shown
+    scene.stand(TOP, 0.2, away)
+    show(scene, colour())
+    assert scene.judge.colour.shown == 1
+
+
+def test_the_middle_of_the_other_must_be_in_view() -> None:
+    scene = Scene()
+    scene.stand(TOP, 0.0, 1.0)
+    for lift, shown in ((0.38, 1), (0.46, 0), (-0.37, 1), (-0.46, 0)):
+        level = scene.other.com.copy()
+        scene.other.com[2] += lift
+        before = scene.judge.colour.shown
+        show(scene, colour())
+        assert scene.judge.colour.shown - before == shown
+        scene.other.com = level
+
+
+def test_things_are_no_false_detections_of_the_depth_camera() -> None:
+    """A colour camera that takes them for the other is wrong."""
+    eye = np.array([0.3, -0.2]) + DEPTH.place[:2]
+    scene = Scene(0.0, [(9.0, 9.0), (eye[0] + 2.0, eye[1] - 1.0)])
+    scene.stand(DEPTH, 0.3, 1.5)
+    # How far the thing is aside, seen from the tilted camera.
+    down = scene.place[2] + DEPTH.place[2] - 0.2
+    ahead = 2.0 * cos(radians(9.0)) + down * sin(radians(9.0))
+    there = np.degrees(atan2(-1.0, ahead))
+    show(scene, depth(), there, there - 19.5, there + 19.5)
+    assert scene.judge.depth.false == 0
+    show(scene, depth(), there - 20.5)
+    assert scene.judge.depth.false == 1
+    show(scene, colour(), there)
+    assert scene.judge.colour.false == 1
+
+
+def test_what_was_not_noted_is_not_judged_nor_twice() -> None:
+    scene = Scene()
+    image = colour()
+    assert scene.mind.on_frame == scene.judge.judge
+    scene.judge.judge(FrameReport(image, (1.0,)))
+    assert scene.judge.colour == Tally()
+    scene.stand(TOP, 0.0, 1.0)
+    show(scene, image, 0.0)
+    scene.judge.judge(FrameReport(image, (0.0,)))
+    assert scene.judge.colour == Tally(1, 1, 0)
+    scene.judge.note(SonarEcho(0.0, "left", 0.5))
+
+
+def test_stills_are_the_first_images_at_their_times() -> None:
+    scene = Scene()
+    scene.judge.still_times = 0.5, 1.0
+    scene.stand(TOP, radians(12.0), 1.0)
+    images = [colour(t) for t in (0.4, 0.5, 0.6, 1.1, inf)]
+    for image in images:
+        show(scene, image)
+    kept = scene.judge.stills["colour"]
+    assert [still.report.image for still in kept] == [images[1], images[3]]
+    assert kept[0].azimuth == pytest.approx(radians(12.0))
+    show(scene, depth(0.7))
+    assert len(scene.judge.stills["depth"]) == 1

@@ -1,0 +1,261 @@
+"""Test the laws of one step of the legs: rows, limits and refusals."""
+
+from functools import cache
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.errors import ReachError
+from stepaside.poses import Array
+from stepaside.robots.description import load_robot
+from stepaside.robots.head import rotation
+from stepaside.robots.kinematics import (
+    ROWS,
+    BodyReference,
+    LegKinematics,
+    _lean,
+    _turn,
+)
+
+NAO = load_robot("nao")
+TICK = 0.004
+STANCE = BodyReference(
+    (0.015, 0.005, 0.26), (0.01, 0.05, 0.0, 0.1), (-0.01, -0.05, 0.0, -0.05)
+)
+
+
+@cache
+def stood() -> LegKinematics:
+    return LegKinematics(NAO, tick=TICK)
+
+
+def state(kinematics: LegKinematics) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    model = NAO.compile()
+    data = mujoco.MjData(model)
+    data.qpos[:] = kinematics.posture
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+def reached(kinematics: LegKinematics) -> Array:
+    """What the 17 rows are of, measured by MuJoCo; rotations as vectors."""
+    _, data = state(kinematics)
+    rows: list[float] = []
+    for name in (NAO.left_foot, NAO.right_foot):
+        rows += data.site(name).xpos.tolist()
+        quaternion, turn = np.zeros(4), np.zeros(3)
+        mujoco.mju_mat2Quat(quaternion, data.site(name).xmat)
+        mujoco.mju_quat2Vel(turn, quaternion, 1.0)
+        rows += turn.tolist()
+    rows += data.subtree_com[1].tolist()
+    up = data.body("torso").xmat.reshape(3, 3)[:, 2]
+    return np.array([*rows, -up[1], up[0]])
+
+
+def asked(reference: BodyReference) -> Array:
+    rows: list[float] = []
+    for foot, tilt in (
+        (reference.left_foot, reference.left_tilt),
+        (reference.right_foot, reference.right_tilt),
+    ):
+        quaternion, turn = np.zeros(4), np.zeros(3)
+        frame = rotation(tilt[0], tilt[1], foot[3])
+        mujoco.mju_mat2Quat(quaternion, frame.reshape(-1))
+        mujoco.mju_quat2Vel(turn, quaternion, 1.0)
+        rows += [*foot[:3], *turn.tolist()]
+    return np.array([*rows, *reference.com, 0.0, 0.0])
+
+
+def test_a_stance_with_turned_feet_is_taken_in_every_row() -> None:
+    kinematics = stood()
+    kinematics.stand(STANCE)
+    np.testing.assert_allclose(reached(kinematics), asked(STANCE), atol=1e-4)
+
+
+def moved(row: int, size: float) -> BodyReference:
+    """The stance with one of its numbers changed."""
+    left, right = list(STANCE.left_foot), list(STANCE.right_foot)
+    com, tilts = list(STANCE.com), [[0.0, 0.0], [0.0, 0.0]]
+    if row >= 12:
+        com[row - 12] += size
+    else:
+        foot, number = divmod(row, 6)
+        if number in (3, 4):
+            tilts[foot][number - 3] += size
+        else:
+            (left, right)[foot][number - 2 * (number > 3)] += size
+    return BodyReference(
+        (com[0], com[1], com[2]),
+        (left[0], left[1], left[2], left[3]),
+        (right[0], right[1], right[2], right[3]),
+        (tilts[0][0], tilts[0][1]),
+        (tilts[1][0], tilts[1][1]),
+    )
+
+
+@pytest.mark.parametrize("row", range(15), ids=ROWS[:15])
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_one_step_closes_a_small_gap_in_every_row(
+    row: int, sign: float
+) -> None:
+    """Newton's step leaves what is quadratic: the Jacobian is right."""
+    kinematics = stood()
+    kinematics.stand(STANCE)
+    kinematics.track(STANCE)
+    reference = moved(row, sign * 3e-4)
+    gap = np.abs(asked(reference) - reached(kinematics)).max()
+    assert gap == pytest.approx(3e-4, rel=0.2)
+    kinematics.track(reference)
+    gap = np.abs(asked(reference) - reached(kinematics)).max()
+    assert gap < 6e-6
+
+
+@pytest.mark.parametrize("tilt", [(1e-3, 0.0), (0.0, 1e-3), (-1e-3, 2e-3)])
+def test_one_step_levels_a_torso_that_leans(
+    tilt: tuple[float, float],
+) -> None:
+    kinematics = stood()
+    kinematics.stand(STANCE)
+    kinematics.track(STANCE)
+    axes = rotation(*tilt, kinematics.torso_heading)
+    mujoco.mju_mat2Quat(kinematics._qpos[3:7], axes.reshape(-1))
+    assert np.abs(reached(kinematics)[15:]).max() > 0.9e-3
+    kinematics.track(STANCE)
+    gap = np.abs(asked(STANCE) - reached(kinematics)).max()
+    assert gap < 2e-5
+
+
+def test_no_joint_moves_faster_than_its_motor() -> None:
+    kinematics = stood()
+    before = kinematics.stand(STANCE)
+    x, y, z = STANCE.com
+    after = kinematics.track(STANCE._replace(com=(x, y + 0.03, z - 0.04)))
+    limits = [NAO.speed_limits[n] * TICK for n in kinematics.joint_names]
+    legs = [name in NAO.legs for name in kinematics.joint_names]
+    share = np.abs(after - before) / limits
+    assert share.max() == pytest.approx(1.0)
+    assert (share[legs] > 1.0 - 1e-9).sum() > 5
+    assert share[np.logical_not(legs)].max() == 0.0
+    moves = (after - before)[legs]
+    assert moves.min() < -0.01 and moves.max() > 0.01
+
+
+def limited(kinematics: LegKinematics, joint: str) -> list[float]:
+    """How far a joint is from either end of its range; all keep to it."""
+    model, data = state(kinematics)
+    ends = {}
+    for name in NAO.legs:
+        low, high = NAO.working_limits.get(name, model.joint(name).range)
+        angle = float(data.joint(name).qpos[0])
+        ends[name] = [angle - low, high - angle]
+        assert min(ends[name]) > -1e-9, name
+    return ends[joint]
+
+
+def test_knees_stay_bent_where_they_are_asked_to_straighten() -> None:
+    kinematics = stood()
+    kinematics.stand(STANCE)
+    for _ in range(100):
+        kinematics.track(STANCE._replace(com=(*STANCE.com[:2], 0.28)))
+    assert limited(kinematics, "LKneePitch")[0] == pytest.approx(0.0)
+    assert limited(kinematics, "RKneePitch")[0] == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize(("sign", "end"), [(-1.0, 0), (1.0, 1)])
+def test_a_joint_stays_at_either_end_of_its_range(
+    sign: float, end: int
+) -> None:
+    kinematics = stood()
+    kinematics.stand(STANCE)
+    for i in range(160):
+        roll = sign * 0.7 * min(1.0, i / 150)
+        kinematics.track(STANCE._replace(left_tilt=(roll, 0.0)))
+    assert limited(kinematics, "LAnkleRoll")[end] == pytest.approx(0.0)
+
+
+def test_legs_that_share_a_motor_move_as_one() -> None:
+    kinematics = stood()
+    kinematics.stand(STANCE)
+    for _ in range(5):
+        kinematics.track(moved(5, 0.2))
+    _, data = state(kinematics)
+    left, right = data.joint("LHipYawPitch"), data.joint("RHipYawPitch")
+    assert left.qpos[0] == right.qpos[0] != 0.0
+
+
+def test_the_torso_heads_where_the_feet_point() -> None:
+    kinematics = stood()
+    for turn in (-2.0, 0.0, 1.0, 0.5 * np.pi, -0.5 * np.pi):
+        c, s = np.cos(turn), np.sin(turn)
+        kinematics.stand(
+            BodyReference(
+                (0.01 * c, 0.01 * s, 0.26),
+                (-0.05 * s, 0.05 * c, 0.0, turn + 0.1),
+                (0.05 * s, -0.05 * c, 0.0, turn - 0.1),
+            )
+        )
+        # The heading is that of the pose before the last of the steps.
+        assert kinematics.torso_heading == pytest.approx(turn, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("row", "name"),
+    [
+        (0, "left foot x"),
+        (1, "left foot y"),
+        (7, "right foot y"),
+        (11, "right foot yaw"),
+        (14, "CoM z"),
+    ],
+)
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_beyond_half_a_meter_or_radian_a_request_is_refused(
+    row: int, name: str, sign: float
+) -> None:
+    kinematics = stood()
+    kinematics.stand(STANCE)
+    kinematics.track(moved(row, sign * 0.45))
+    kinematics.stand(STANCE)
+    with pytest.raises(ReachError, match=f"cannot follow: {name} is off by"):
+        kinematics.track(moved(row, sign * 0.55))
+
+
+def test_the_greatest_height_is_the_last_that_is_reached() -> None:
+    kinematics = stood()
+    x, y, _ = STANCE.com
+    greatest = kinematics.highest_com(STANCE._replace(com=(x, y, 0.3)))
+    assert 0.26 < greatest < 0.28
+    kinematics.stand(STANCE._replace(com=(x, y, greatest)))
+    above = STANCE._replace(com=(x, y, greatest + 3e-4))
+    with pytest.raises(ReachError, match=f"at most {greatest:.3f} m"):
+        kinematics.stand(above)
+    assert kinematics.highest_com(above) == pytest.approx(greatest, abs=4e-4)
+
+
+def test_feet_too_far_apart_leave_no_height_at_all() -> None:
+    wide = STANCE._replace(left_foot=(0.0, 0.9, 0.0, 0.0))
+    assert stood().highest_com(wide) == 0.0
+
+
+@pytest.mark.parametrize("yaw", [0.0, 0.7, -2.0])
+def test_the_turn_that_levels_a_frame_is_its_small_rotation(
+    yaw: float,
+) -> None:
+    for axis in range(3):
+        vector = np.zeros(3)
+        vector[axis] = 1e-5
+        turn = rotation(*vector)
+        frame = turn @ rotation(0.0, 0.0, yaw)
+        back = _turn(frame.reshape(-1), yaw)
+        np.testing.assert_allclose(back, -vector, atol=1e-9)
+
+
+@pytest.mark.parametrize("yaw", [0.0, 0.7, -2.0])
+def test_a_lean_is_about_the_own_heading(yaw: float) -> None:
+    roll, pitch = _lean((1e-5, -2e-5), yaw)
+    turned = rotation(0.0, 0.0, yaw) @ rotation(1e-5, -2e-5, 0.0)
+    level = rotation(0.0, 0.0, yaw)
+    small = turned @ level.T
+    assert roll == pytest.approx(small[2, 1], abs=1e-9)
+    assert pitch == pytest.approx(-small[2, 0], abs=1e-9)

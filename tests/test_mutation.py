@@ -1,0 +1,189 @@
+"""Test the faults that tests are tried by, on a small package."""
+
+import ast
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import stepaside
+from mutation.faults import Fault, draw, faults_of
+from mutation.page import markdown, summary
+from mutation.places import optional_keywords
+from mutation.runner import append, rows_of
+from mutation.source import Source
+from mutation.trial import choose
+
+REPOSITORY = Path(__file__).parents[1]
+FILE = "src/stepaside/planning/toy.py"
+TEXT = '''"""Doc with 1.0 number."""
+
+import math
+
+LIMIT = 2.0
+
+
+def clipped(x: float, low: float = -1.0) -> float:
+    """Text with 2 numbers."""
+    if x > LIMIT and not math.isnan(x):
+        raise ValueError("over 2" + "!")
+    return max(low, -x) * 3.0
+
+
+def unused(x: float) -> float:
+    return x + 1.0
+'''
+TESTS = """from stepaside.planning.toy import LIMIT, clipped
+import pytest
+
+def test_clipped():
+    assert clipped(0.5) == -1.5
+    assert clipped(1.5) == -3.0
+    with pytest.raises(ValueError, match="over"):
+        clipped(2.1)
+    assert LIMIT == 2.0
+"""
+
+
+def faults(text: str = TEXT, seed: int = 1) -> list[Fault]:
+    optional = optional_keywords([ast.parse(text)])
+    return list(faults_of(FILE, text, optional, seed))
+
+
+def changed(text: str, fault: Fault) -> str:
+    return Source(text).apply(fault.edit)
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ("def f(x):\n    return x + 1j\n", "x - 1j"),
+        ("def f(x, y):\n    return x if x > y else y\n", "x <= y"),
+        ("def f(x, y):\n    return x and y\n", "x or y"),
+        ("def f(x):\n    return abs(x)\n", "return (x)"),
+        ("def f(x, y):\n    return hypot(min(x, y))\n", "max(x, y)"),
+        ("def f(x):\n    return -x\n", "return (x)"),
+        ("def f(x) -> bool:\n    return x.ok\n", "return not (x.ok)"),
+        ("def f(x):\n    x.go()\n", "    pass\n"),
+        ("def f(x):\n    if x:\n        return x\n", "if not (x):"),
+        ("def f(x):\n    return atan2(x.a, x.b)\n", "atan2(x.b, x.a)"),
+        ("def f(x, *, y=z):\n    return f(x, y=x)\n", "f(x, )"),
+        ("class A:\n    b: bool = True\n", "b: bool = False"),
+        ("LIMIT = 0\n", "LIMIT = 1"),
+    ],
+)
+def test_each_operator_does_what_it_says(before: str, after: str) -> None:
+    assert any(after in changed(before, fault) for fault in faults(before))
+
+
+def test_texts_and_annotations_are_left_alone() -> None:
+    lines = {fault.before for fault in faults()}
+    assert not any("Doc" in line or "Text" in line for line in lines)
+    text = '__all__ = [1]\nx: "Literal[1]"\n\ndef f() -> Literal[2]:\n'
+    assert not faults(text + '    """Doc."""\n')
+
+
+def test_every_fault_drawn_changes_the_code_and_has_a_key_of_its_own() -> None:
+    drawn = draw(faults(), {FILE: TEXT}, None, 1)
+    assert len(drawn) > 12
+    assert len({fault.key for fault in drawn}) == len(drawn)
+    for fault in drawn:
+        assert ast.dump(ast.parse(changed(TEXT, fault))) != ast.dump(
+            ast.parse(TEXT)
+        )
+
+
+def test_a_draw_hangs_on_the_seed_and_on_the_faults_own_text_only() -> None:
+    texts = {FILE: TEXT}
+    one = [f.key for f in draw(faults(), texts, None, 1)]
+    assert [f.key for f in draw(faults(), texts, 5, 1)] == one[:5]
+    assert [f.key for f in draw(faults(seed=2), texts, None, 2)] != one
+    moved = TEXT.replace("import math", "import math\n\nMORE = [3, 4]")
+    more = [f.key for f in draw(faults(moved), {FILE: moved}, None, 1)]
+    assert [key for key in more if "MORE" not in key] == one
+
+
+def test_a_torn_record_is_left_out(tmp_path: Path) -> None:
+    path = tmp_path / "rows.jsonl"
+    append(path, {"key": "one"})
+    path.write_bytes(path.read_bytes() + b'{"key": "tw')
+    assert [row["key"] for row in rows_of(path)] == ["one"]
+    append(path, {"key": "two"})
+    assert [row["key"] for row in rows_of(path)] == ["one", "two"]
+
+
+def test_quick_tests_come_first_and_the_cap_holds() -> None:
+    times = {"b::slow": 9.0, "b::quick": 0.01, "a::slow": 8.0}
+    assert choose(times, times, 10.0) == ["b::quick", "a::slow"]
+    assert choose(["b::slow"], times, 1.0) == ["b::slow"]
+
+
+def test_the_score_counts_what_was_noticed() -> None:
+    rows = [
+        {"key": str(i), "outcome": outcome, "test": "", "file": FILE}
+        | {"line": i, "operator": "sign", "before": "a | b", "after": "b"}
+        for i, outcome in enumerate(
+            ["killed", "timeout", "survived", "unreached"]
+        )
+    ]
+    found = summary(
+        rows, sample=4, seed=1, cap=1.0, version="v", reasons={"2": "same"}
+    )
+    assert found["score"] == 0.5
+    assert [row["reason"] for row in found["survivors"]] == ["same", ""]
+    page = markdown(found)
+    assert "2 of 4 faults noticed (50.0 %)" in page
+    assert "| planning/toy.py:2 | `a \\| b` | `b` | same |" in page
+
+
+@pytest.fixture
+def root(tmp_path: Path) -> Path:
+    """Tree with a small package, one function of which is not tested."""
+    package = tmp_path / "src" / "stepaside"
+    studies = Path(stepaside.__file__).parent / "studies"
+    for room in "planning control unicycle sensing robots simulation".split():
+        (package / room).mkdir(parents=True)
+        (package / room / "__init__.py").touch()
+    (package / "studies").mkdir()
+    (package / "__init__.py").touch()
+    (package / "studies" / "__init__.py").touch()
+    (package / "studies" / "version.py").write_text(
+        (studies / "version.py").read_text()
+    )
+    (tmp_path / FILE).write_text(TEXT)
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "tests" / "test_toy.py").write_text(TESTS)
+    (tmp_path / "pyproject.toml").write_text("")
+    return tmp_path
+
+
+def run(root: Path, *options: str) -> str:
+    done = subprocess.run(
+        [sys.executable, "-m", "tests.mutation", f"--root={root}"]
+        + ["--all", "--jobs=2", f"--only={FILE}", *options],
+        cwd=REPOSITORY,
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    return done.stdout
+
+
+def test_a_run_cut_short_ends_with_the_same_table(root: Path) -> None:
+    whole = run(root)
+    assert "killed" in whole
+    listed = run(root, "--list-survivors")
+    survivors = listed.splitlines()[:-1]
+    unused = [line for line in survivors if "return x + 1.0" in line]
+    assert len(unused) >= 2 and len(survivors) < 6, listed
+    assert (root / FILE).read_text() == TEXT
+    (rows,) = (root / "runs" / "mutation").glob("trials-*.jsonl")
+    lines = rows.read_text().splitlines(keepends=True)
+    rows.write_text("".join(lines[: len(lines) // 2]) + lines[-1][:9])
+    again = run(root)
+    assert again.splitlines()[-1] == listed.splitlines()[-1]
+    assert run(root, "--list-survivors") == listed
+    keys = [json.loads(line)["key"] for line in rows.read_text().splitlines()]
+    assert len(keys) == len(set(keys)) == len(lines)

@@ -1,0 +1,225 @@
+"""Test the way from what an image shows to a place in odometry."""
+
+from math import atan2, cos, hypot, pi, radians, sin
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.control.observing import (
+    CLOSEST,
+    GUESS,
+    NEARBY,
+    ROUGH,
+    SURE,
+    VAGUE,
+    angle_of,
+    observe_obstacle,
+    observe_shadow,
+    observe_trim,
+)
+from stepaside.poses import wrap_angle
+from stepaside.robots.head import rotation
+from stepaside.sensing.camera_model import CameraModel
+from stepaside.sensing.colour_detector import RED, ColourDetection
+from stepaside.sensing.depth_detector import Obstacle, Shadow
+from stepaside.sensing.images import ColourImage, DepthImage
+from stepaside.sensing.ranging import BREADTH, FORWARD
+from stepaside.sensing.track import Observation, Track
+
+CAMERA = CameraModel(640, 480, 550.0, 560.0)
+PIXELS = np.zeros((8, 8, 3), dtype=np.uint8)
+IMAGE = ColourImage(3.5, CAMERA, PIXELS)
+DEPTH = DepthImage(3.5, CAMERA, np.zeros((8, 8), np.float32), 0.8, 3.5)
+PLACE = np.array([0.3, -0.4, 0.47])
+YAW = 2.8
+AXES = rotation(0.15, 0.05, YAW)
+
+
+def trim(distance: float, bearing: float, **changes: Any) -> ColourDetection:
+    """Ends of a robot's trim, projected by plane geometry.
+
+    Args:
+        distance: Of its axis from the camera, in [m].
+        bearing: In odometry, in [rad].
+        changes: Other entries of the detection.
+    """
+    ends = []
+    for away, height in ((distance, RED.top), (distance - FORWARD, 0.06)):
+        ray = away * cos(bearing), away * sin(bearing), height - PLACE[2]
+        ends.append(CAMERA.project(AXES.T @ np.array(ray))[0].tolist())
+    (column, top), (_, bottom) = ends
+    values: dict[str, Any] = {
+        "column": column,
+        "top": top,
+        "bottom": bottom,
+        "left": column - 20.0,
+        "right": column + 20.0,
+        "confidence": 1.0,
+        "cut_above": False,
+        "cut_below": False,
+        "cut_aside": False,
+    } | changes
+    return ColourDetection(**values)
+
+
+def observe(found: ColourDetection, *tracks: Track) -> Observation:
+    return observe_trim(IMAGE, found, PLACE, AXES, RED, tracks)
+
+
+def track(distance: float, bearing: float, time: float = 3.5) -> Track:
+    """Something that was seen at a distance from the camera."""
+    x = PLACE[0] + distance * cos(bearing)
+    y = PLACE[1] + distance * sin(bearing)
+    return Track(Observation(time, x, y, bearing, 0.03, 0.01, True, True))
+
+
+def distance_of(seen: Observation) -> float:
+    return hypot(seen.x - PLACE[0], seen.y - PLACE[1])
+
+
+@pytest.mark.parametrize("distance", [0.9, 1.7])
+def test_trim_that_is_whole_tells_bearing_and_distance(
+    distance: float,
+) -> None:
+    """With the head turned, nodding and aslant."""
+    axes = rotation(0.0, 0.05, YAW)
+    bearing = YAW - 0.2
+    ends = []
+    for away, height in ((distance, RED.top), (distance - FORWARD, 0.06)):
+        ray = away * cos(bearing), away * sin(bearing), height - PLACE[2]
+        ends.append(CAMERA.project(axes.T @ np.array(ray))[0].tolist())
+    found = trim(1.0, YAW, column=ends[0][0], top=ends[0][1])
+    found = ColourDetection(
+        0.5 * (ends[0][0] + ends[1][0]),
+        ends[0][1],
+        ends[1][1],
+        *(found.left, found.right, 1.0, False, False, False),
+    )
+    seen = observe_trim(IMAGE, found, PLACE, axes, RED, ())
+    assert wrap_angle(seen.bearing - bearing) == pytest.approx(0.0, abs=0.01)
+    assert distance_of(seen) == pytest.approx(distance, rel=0.01)
+    direction = atan2(seen.y - PLACE[1], seen.x - PLACE[0])
+    assert wrap_angle(direction - seen.bearing) == pytest.approx(0.0, abs=1e-9)
+    assert seen.time == 3.5 and seen.identified and seen.ranged
+    away = distance_of(seen)
+    assert seen.along == pytest.approx(0.02 + 0.05 * away)
+    assert seen.across == pytest.approx(0.003 + 0.005 * away)
+
+
+def test_bearing_is_that_of_the_middle_of_the_trim() -> None:
+    """A head aslant sees the feet aside of the chest."""
+    found = trim(1.2, YAW + 0.1)
+    ray = AXES @ CAMERA.ray(found.column, 0.5 * (found.top + found.bottom))
+    seen = observe(found)
+    assert seen.bearing == pytest.approx(atan2(ray[1], ray[0]))
+
+
+@pytest.mark.parametrize(
+    ("confidence", "ranged"), [(SURE, True), (SURE - 0.01, False)]
+)
+def test_only_what_is_sure_tells_distance_by_its_height(
+    confidence: float, ranged: bool
+) -> None:
+    seen = observe(trim(1.5, YAW, confidence=confidence))
+    assert seen.ranged is ranged and seen.identified
+    away = distance_of(seen)
+    if ranged:
+        assert away == pytest.approx(1.5, rel=0.1)
+    else:
+        assert away == pytest.approx(GUESS)
+        assert seen.along == VAGUE
+
+
+def test_confidence_of_four_fifths_is_sure() -> None:
+    """What the constants mean, in one place."""
+    assert (SURE, GUESS, CLOSEST) == (0.8, 1.2, 0.35)
+    assert (ROUGH, VAGUE, NEARBY) == (0.35, 0.6, 0.15)
+
+
+def test_feet_out_of_view_leave_the_breadth() -> None:
+    found = trim(0.6, YAW, cut_below=True, left=200.0, right=420.0)
+    seen = observe(found)
+    breadth = atan2(100.0, 550.0) + atan2(120.0, 550.0)
+    assert distance_of(seen) == pytest.approx(BREADTH / breadth)
+    assert seen.along == pytest.approx(ROUGH * BREADTH / breadth)
+    assert not seen.ranged
+
+
+@pytest.mark.parametrize(
+    "cut",
+    [
+        {"cut_above": True},
+        {"cut_below": True, "cut_aside": True},
+        {"cut_above": True, "cut_aside": True},
+        {"top": 200.0, "bottom": 201.0},  # makes no sense
+    ],
+)
+def test_what_tells_nothing_leaves_memory(cut: dict[str, Any]) -> None:
+    found = trim(1.5, YAW, left=200.0, right=420.0, **cut)
+    assert distance_of(observe(found)) == pytest.approx(GUESS)
+    seen = observe(found, track(0.9, YAW))
+    assert distance_of(seen) == pytest.approx(0.9, abs=0.01)
+    assert seen.along == VAGUE and not seen.ranged
+    sideways = 0.06 if found.cut_aside else 0.005
+    assert seen.across == pytest.approx(0.003 + sideways * 0.9, rel=0.01)
+
+
+@pytest.mark.parametrize("bearing", [YAW, pi - 0.05, -pi + 0.05])
+def test_memory_is_of_what_was_in_that_direction(bearing: float) -> None:
+    """Within 20 degrees, also over the half turn."""
+    found = trim(1.5, bearing, cut_above=True)
+    there = observe(found).bearing
+    for off, known in ((19.0, True), (-19.0, True), (21.0, False)):
+        seen = observe(found, track(0.9, there + radians(off)))
+        away = 0.9 if known else GUESS
+        assert distance_of(seen) == pytest.approx(away, abs=1e-9)
+    several = track(2.0, there + 1.0), track(0.7, there), track(0.9, there)
+    assert distance_of(observe(found, *several)) == pytest.approx(0.7)
+
+
+def test_memory_is_of_where_it_is_by_now() -> None:
+    moving = track(2.0, YAW, time=3.0)
+    moving._state[2:] = -0.5 * cos(YAW), -0.5 * sin(YAW)
+    seen = observe(trim(1.5, YAW, cut_above=True), moving)
+    assert 1.7 < distance_of(seen) < 1.8
+
+
+def test_nobody_is_nearer_than_can_be() -> None:
+    found = trim(1.5, YAW, cut_above=True)
+    seen = observe(found, track(0.2, observe(found).bearing))
+    assert distance_of(seen) == pytest.approx(CLOSEST)
+    assert seen.along == 0.1
+    seen = observe(found, track(0.36, observe(found).bearing))
+    assert seen.along == VAGUE
+
+
+@pytest.mark.parametrize(("whole", "across"), [(True, 0.03), (False, 0.12)])
+def test_an_obstacle_is_where_it_was_measured(
+    whole: bool, across: float
+) -> None:
+    thing = Obstacle(1.0, 2.0, 1.5, 0.3, 0.1, 0.2, 0.5, whole)
+    seen = observe_obstacle(DEPTH, thing)
+    expected = (3.5, 1.0, 2.0, 0.3, 0.03, across, False, True)
+    assert tuple(seen) == expected
+
+
+def test_a_shadow_is_no_farther_than_the_near_limit() -> None:
+    shadow = Shadow(YAW, 0.2, 0.3)
+    seen = observe_shadow(DEPTH, shadow, PLACE, ())
+    away = 0.8 + NEARBY
+    assert (seen.x - PLACE[0], seen.y - PLACE[1]) == pytest.approx(
+        (away * cos(YAW), away * sin(YAW))
+    )
+    assert seen.bearing == YAW and seen.time == 3.5
+    assert seen.along == VAGUE
+    assert seen.across == pytest.approx(0.08 * away)
+    assert not seen.identified and not seen.ranged
+    nearer = observe_shadow(DEPTH, shadow, PLACE, (track(0.5, YAW),))
+    assert distance_of(nearer) == pytest.approx(0.5)
+
+
+def test_columns_to_the_right_have_positive_angles() -> None:
+    assert angle_of(IMAGE, 320.0) == 0.0
+    assert angle_of(IMAGE, 420.0) == pytest.approx(atan2(100.0, 550.0))
+    assert angle_of(DEPTH, 220.0) == pytest.approx(-atan2(100.0, 550.0))

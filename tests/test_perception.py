@@ -1,0 +1,153 @@
+"""Test the way from images to a line of sight."""
+
+from math import atan2, hypot
+
+import numpy as np
+import pytest
+
+from made_up_eyes import (
+    HEAD,
+    JOINTS,
+    NAO,
+    SUPPORT,
+    TICK,
+    UP,
+    Eyes,
+    colour,
+    trim,
+)
+from stepaside.control.body import Measurement
+from stepaside.control.perception import (
+    Perception,
+)
+from stepaside.poses import Pose, wrap_angle
+from stepaside.sensing.colour_detector import RED
+
+
+@pytest.fixture
+def eyes() -> Eyes:
+    made = Eyes()
+    made.see(0.0)
+    return made
+
+
+def test_before_anything_is_seen_it_searches(eyes: Eyes) -> None:
+    perception = eyes.perception
+    assert perception.searching and perception.sighting is None
+    assert eyes.gaze.followed is None and not eyes.reports
+    fresh = Perception(NAO, HEAD, RED, tick=TICK)
+    assert fresh.body is None and fresh.sighting is None and fresh.searching
+
+
+def test_the_body_is_placed_on_the_foot_that_stands(eyes: Eyes) -> None:
+    """Straight joints: the torso is half a hip to the right of the left."""
+    x, y, heading = SUPPORT.inverse().compose(eyes.torso)
+    assert heading == pytest.approx(0.0, abs=1e-6)
+    assert y == pytest.approx(-0.05, abs=0.002)
+    eyes.perception.see(
+        Measurement(0.1, np.zeros(JOINTS), np.zeros(3), UP, np.zeros(8), None),
+        SUPPORT,
+        False,
+    )
+    right = SUPPORT.inverse().compose(eyes.torso)
+    assert right.y == pytest.approx(-y, abs=1e-6)
+    assert right.x == pytest.approx(x, abs=1e-6)
+
+
+def test_tilt_of_the_torso_is_taken_from_gravity(eyes: Eyes) -> None:
+    lean = np.array([0.0, 1.0, 9.81])
+    for i in range(1, 50):
+        eyes.perception.see(
+            Measurement(
+                TICK * i,
+                np.zeros(JOINTS),
+                np.zeros(3),
+                lean,
+                np.zeros(8),
+                None,
+            ),
+            SUPPORT,
+            True,
+        )
+    body = eyes.perception.body
+    assert body is not None and body.torso_axes[2, 1] > 0.02
+
+
+@pytest.mark.parametrize("column", [40.0, 80.0, 130.0])
+def test_three_images_of_the_other_make_a_sighting(column: float) -> None:
+    """Bearing and distance are from the torso, not from the eyes."""
+    eyes = Eyes()
+    eyes.detector.found = trim(column)
+    for i in range(3):
+        seen = eyes.see(TICK * i, colour(TICK * i))
+        assert (seen is not None) == (i == 2)
+    assert eyes.perception.sighting == seen and seen.time == 2 * TICK
+    (track,) = eyes.tracks
+    x, y, heading = eyes.torso
+    u, v = track.place_at(seen.time)
+    assert seen.distance == pytest.approx(hypot(u - x, v - y))
+    expected = wrap_angle(atan2(v - y, u - x) - heading)
+    assert seen.bearing == pytest.approx(expected)
+    assert np.sign(round(seen.bearing, 2)) == np.sign(80.0 - column)
+    assert not eyes.perception.searching
+    assert eyes.gaze.followed == pytest.approx((seen.bearing, seen.distance))
+
+
+def test_the_eyes_are_where_head_and_mount_have_them(eyes: Eyes) -> None:
+    """An image ahead places the other before the camera."""
+    eyes.detector.found = trim(80.0)
+    eyes.see(TICK, colour(TICK))
+    body = eyes.perception.body
+    assert body is not None
+    place = body.head_place + body.head_axes @ HEAD.top.place
+    u, v = eyes.tracks[0].place_at(TICK)
+    angle = atan2(v - place[1], u - place[0])
+    assert angle == pytest.approx(SUPPORT.theta, abs=1e-3)
+    breadth = 2.0 * atan2(15.0, 140.0)
+    away = hypot(u - place[0], v - place[1])
+    assert away == pytest.approx(0.25 / breadth, rel=1e-3)
+
+
+def test_frames_are_reported_with_azimuths_to_the_left(eyes: Eyes) -> None:
+    image = colour(TICK)
+    eyes.detector.found = trim(100.0)
+    eyes.see(TICK, image)
+    (report,) = eyes.reports
+    assert report.image is image and report.colour is eyes.detector.found
+    assert report.azimuths == pytest.approx((-atan2(20.0, 140.0),))
+    eyes.detector.found = None
+    eyes.see(2 * TICK, colour(2 * TICK))
+    assert eyes.reports[1].azimuths == () and not eyes.reports[1].colour
+
+
+def test_a_late_image_is_of_where_the_eyes_were_then() -> None:
+    eyes = Eyes()
+    for i in range(40):
+        eyes.support = Pose(1.0, -2.0, 0.7 + 0.02 * i)
+        eyes.see(TICK * i)
+    eyes.detector.found = trim(80.0)
+    eyes.see(40 * TICK, colour(10 * TICK + 0.4 * TICK))
+    body = eyes.perception._poses[10]
+    assert body.time == pytest.approx(10 * TICK)
+    place = body.head_place + body.head_axes @ HEAD.top.place
+    u, v = eyes.tracks[0].place_at(10 * TICK)
+    angle = atan2(v - place[1], u - place[0])
+    assert angle == pytest.approx(0.7 + 0.02 * 10, abs=1e-3)
+
+
+def test_poses_are_kept_for_a_second(eyes: Eyes) -> None:
+    for i in range(1, 100):
+        eyes.see(TICK * i)
+    poses = eyes.perception._poses
+    assert len(poses) == 50
+    assert eyes.perception._pose_at(0.0) is poses[0]
+    assert eyes.perception._pose_at(poses[7].time - 1e-12) is poses[7]
+
+
+def test_the_head_goes_where_the_gaze_turns(eyes: Eyes) -> None:
+    targets = np.full(JOINTS, 9.0)
+    eyes.perception.aim(targets)
+    names = [NAO.compile().actuator(i).name for i in range(JOINTS)]
+    assert targets[names.index("HeadYaw")] == 0.4
+    assert targets[names.index("HeadPitch")] == -0.2
+    assert (targets == 9.0).sum() == JOINTS - 2

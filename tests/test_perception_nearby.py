@@ -1,0 +1,218 @@
+"""Test what depth, shadows, echoes and empty frames tell."""
+
+from math import cos, degrees, radians, sin
+from typing import Any
+
+import numpy as np
+import pytest
+
+from made_up_eyes import (
+    HEAD,
+    SUPPORT,
+    TICK,
+    Eyes,
+    axis_of,
+    colour,
+    depth,
+    hits,
+    obstacle,
+    show,
+    trim,
+)
+from stepaside.control.perception import (
+    BROAD,
+    CHEST,
+    EAR,
+    FRESH,
+)
+from stepaside.poses import Pose, wrap_angle
+from stepaside.sensing.depth_detector import Shadow
+from stepaside.sensing.images import SonarEcho
+
+HEARD = [  # sonar, bearing from the heading in [deg], whether it is heard
+    ("left", 49.0, True),
+    ("left", 51.0, False),
+    ("left", -4.0, True),
+    ("left", -7.0, False),
+    ("right", -49.0, True),
+    ("right", -51.0, False),
+    ("right", 4.0, True),
+    ("right", 7.0, False),
+]
+
+
+@pytest.fixture
+def eyes() -> Eyes:
+    made = Eyes()
+    made.see(0.0)
+    return made
+
+
+def test_obstacles_are_followed_unnamed(
+    eyes: Eyes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    x, y = eyes.beside(1.0, 0.0)
+    given = show(monkeypatch, obstacle(x, y, 0.2), Shadow(0.0, -0.3, 0.05))
+    image = depth(TICK)
+    eyes.see(TICK, image)
+    (track,) = eyes.tracks
+    assert track.place_at(TICK) == pytest.approx((x, y))
+    assert track.identified_at == -np.inf
+    (report,) = eyes.reports
+    assert report.azimuths == (0.2, -0.3)
+    assert report.depth is not None and report.image is image
+    taken, place, axes, own = given[0]
+    body = eyes.perception.body
+    assert body is not None and taken is image
+    np.testing.assert_allclose(
+        place, body.head_place + body.head_axes @ HEAD.depth.place
+    )
+    np.testing.assert_allclose(axes, body.head_axes @ HEAD.depth.axes)
+    assert own == pytest.approx(eyes.torso[:2])
+
+
+@pytest.mark.parametrize(
+    ("width", "known", "founds"),
+    [
+        (BROAD + 0.01, False, True),
+        (BROAD - 0.01, False, False),
+        (BROAD + 0.01, True, False),
+    ],
+)
+def test_a_broad_shadow_is_somebody_who_came_unseen(
+    eyes: Eyes,
+    monkeypatch: pytest.MonkeyPatch,
+    width: float,
+    known: bool,
+    founds: bool,
+) -> None:
+    """Unless somebody is known: then it is only a hint about him."""
+    if known:
+        eyes.know(*eyes.beside(1.0, 2.5))
+    show(monkeypatch, Shadow(SUPPORT.theta, 0.0, width))
+    eyes.see(TICK, depth(TICK))
+    assert len(eyes.tracks) == known + founds
+    assert BROAD == 0.12
+
+
+def test_a_shadow_tells_the_bearing_of_who_is_known(
+    eyes: Eyes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    track = eyes.know(*eyes.beside(0.7, 0.0))
+    before = track.turned_to(*eyes.torso[:2], 0.0)
+    show(monkeypatch, Shadow(SUPPORT.theta + 0.06, 0.06, 0.3))
+    eyes.see(TICK, depth(TICK))
+    assert track.turned_to(*eyes.torso[:2], TICK) > before + 0.001
+    assert track.seen_at == TICK and len(eyes.tracks) == 1
+
+
+@pytest.mark.parametrize("sonar", ["left", "right"])
+def test_an_echo_of_nobody_known_founds_somebody_near(
+    eyes: Eyes, sonar: str
+) -> None:
+    eyes.see(TICK, SonarEcho(TICK, sonar, None))
+    eyes.see(2 * TICK, SonarEcho(2 * TICK, sonar, 0.61))
+    assert not eyes.tracks
+    eyes.see(3 * TICK, SonarEcho(3 * TICK, sonar, 0.59))
+    (track,) = eyes.tracks
+    x, y, heading = eyes.torso
+    away = track.away_from(x, y, 3 * TICK)
+    assert away == pytest.approx(0.59 + CHEST)
+    turned = track.turned_to(x, y, 3 * TICK)
+    assert turned == pytest.approx(axis_of(eyes, sonar))
+    assert (turned > heading) == (sonar == "left")
+    assert track.identified_at == -np.inf and track.ranged_at == 3 * TICK
+    assert track.deviation_at(3 * TICK) == pytest.approx(0.25)
+    assert CHEST == 0.10
+
+
+def test_an_echo_tells_the_distance_of_who_is_known(eyes: Eyes) -> None:
+    """When nothing else has told it lately."""
+    for age, heard in ((FRESH - 0.05, False), (FRESH + 0.05, True)):
+        eyes.tracks.clear()
+        now = 1.0
+        track = eyes.know(
+            *eyes.beside(0.8, 0.1), time=now, identified=True, ranged=False
+        )
+        track.ranged_at = now - age
+        eyes.see(now, SonarEcho(now, "left", 0.5))
+        x, y, heading = eyes.torso
+        away = track.away_from(x, y, now)
+        assert (away < 0.79) == heard
+        turned = wrap_angle(track.turned_to(x, y, now) - heading)
+        assert turned == pytest.approx(0.1, abs=0.01)
+        if heard:
+            part = 0.02**2 / (0.02**2 + 0.06**2)
+            assert away == pytest.approx(0.8 - 0.2 * part, abs=2e-3)
+        assert len(eyes.tracks) == 1
+    assert FRESH == 0.25
+
+
+@pytest.mark.parametrize(("sonar", "bearing", "heard"), HEARD)
+def test_a_sonar_hears_over_the_half_turn(
+    sonar: str, bearing: float, heard: bool
+) -> None:
+    """As anywhere else: odometry's angles wrap ahead of this robot."""
+    for theta in (np.pi - 0.1, -np.pi + 0.1):
+        eyes = Eyes()
+        eyes.support = Pose(0.0, 0.0, theta)
+        eyes.see(0.0)
+        test_a_sonar_hears_its_own_side(eyes, sonar, bearing, heard)
+
+
+@pytest.mark.parametrize(("sonar", "bearing", "heard"), HEARD)
+def test_a_sonar_hears_its_own_side(
+    eyes: Eyes, sonar: str, bearing: float, heard: bool
+) -> None:
+    """50 degrees aside, and little across the middle."""
+    track = eyes.know(
+        *eyes.beside(0.8, radians(bearing)), time=1.0, ranged=False
+    )
+    eyes.see(1.0, SonarEcho(1.0, sonar, 0.5))
+    away = track.away_from(*eyes.torso[:2], 1.0)
+    assert (away < 0.79) == heard
+    assert len(eyes.tracks) == 1
+    assert degrees(EAR) == pytest.approx(50.0)
+
+
+@pytest.mark.parametrize("percept", [colour, depth])
+@pytest.mark.parametrize(
+    ("bearing", "missed"),
+    [(0.0, True), (23.0, True), (-23.0, True), (27.5, False), (-27.5, False)],
+)
+def test_a_frame_counts_against_what_it_should_have_shown(
+    eyes: Eyes,
+    monkeypatch: pytest.MonkeyPatch,
+    percept: Any,
+    bearing: float,
+    missed: bool,
+) -> None:
+    """What is inside 85 percent of its width: 25.3 of 29.7 degrees."""
+    body = eyes.perception.body
+    assert body is not None
+    show(monkeypatch)
+    angle = SUPPORT.theta + radians(bearing)
+    place = body.head_place + body.head_axes @ HEAD.top.place
+    if percept is depth:
+        place = body.head_place + body.head_axes @ HEAD.depth.place
+    track = eyes.know(place[0] + 1.5 * cos(angle), place[1] + 1.5 * sin(angle))
+    eyes.see(TICK, percept(TICK))
+    assert hits(track) == ([True, False] if missed else [True])
+
+
+def test_a_colour_frame_says_nothing_of_things_without_colour(
+    eyes: Eyes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    show(monkeypatch)
+    thing = eyes.know(*eyes.beside(1.5, 0.0), identified=False)
+    eyes.see(TICK, colour(TICK))
+    assert hits(thing) == [True]
+    eyes.see(2 * TICK, depth(2 * TICK))
+    assert hits(thing) == [True, False]
+
+
+def test_what_a_frame_shows_is_not_missed(eyes: Eyes) -> None:
+    eyes.detector.found = trim(80.0)
+    for i in range(1, 4):
+        eyes.see(TICK * i, colour(TICK * i))
+    assert hits(eyes.tracks[0]) == [True] * 3

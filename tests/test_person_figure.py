@@ -1,0 +1,300 @@
+"""Test the figure of a person: its size, its walk and its place in a duel."""
+
+from math import isnan, pi, sin
+from types import SimpleNamespace
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.control import Phase
+from stepaside.planning import GaitSettings
+from stepaside.poses import Array, Pose
+from stepaside.robots.head import rotation
+from stepaside.simulation.people import (
+    furnisher_of,
+    meet,
+    stand_person,
+    walkers_of,
+)
+from stepaside.simulation.person import (
+    HIP,
+    PARTS,
+    STEP,
+    Person,
+    PersonMind,
+    add_person,
+    parts_of,
+    pose_figure,
+)
+from stepaside.simulation.person_motion import Motion
+from stepaside.simulation.person_settings import PersonSettings
+from stepaside.simulation.settings import DuelSettings
+
+TICK = 0.05
+
+
+def figure() -> tuple[mujoco.MjModel, mujoco.MjData]:
+    spec = mujoco.MjSpec()
+    add_person(spec, "her")
+    model = spec.compile()
+    return model, mujoco.MjData(model)
+
+
+def posed(frame: Pose, way: float) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    model, data = figure()
+    pose_figure(data, parts_of(model, "her"), frame, way)
+    mujoco.mj_kinematics(model, data)
+    return model, data
+
+
+def box(model: mujoco.MjModel, data: mujoco.MjData, *names: str) -> Array:
+    """Least and greatest corner of parts. Shape (2, 3)."""
+    ends = []
+    for name in names:
+        body = model.body(f"her/{name}").id
+        for geom in np.flatnonzero(model.geom_bodyid == body):
+            radius, half = model.geom_size[geom, :2]
+            axis = half * data.geom_xmat[geom].reshape(3, 3)[:, 2]
+            for end in (-axis, axis):
+                place = data.geom_xpos[geom] + end
+                ends += [place - radius, place + radius]
+    return np.array([np.min(ends, axis=0), np.max(ends, axis=0)])
+
+
+STANDING = Pose(0.0, 0.0, 0.0)
+
+
+def test_a_person_is_as_large_as_people_are() -> None:
+    model, data = posed(STANDING, 0.0)
+    low, high = box(model, data, *PARTS)
+    assert low[2] == pytest.approx(0.0, abs=0.01)
+    assert high[2] == pytest.approx(1.74, abs=0.01)
+    np.testing.assert_allclose((low[1], high[1]), (-0.295, 0.295), atol=5e-3)
+    low, high = box(model, data, "trunk")
+    np.testing.assert_allclose((low[1], high[1]), (-0.23, 0.23), atol=1e-9)
+    np.testing.assert_allclose((low[0], high[0]), (-0.15, 0.15), atol=1e-9)
+    assert low[2] == pytest.approx(0.8)  # hips overlap with the legs
+    low, high = box(model, data, "left leg")
+    np.testing.assert_allclose((low[0], high[0]), (-0.085, 0.185), atol=1e-9)
+    np.testing.assert_allclose((low[1], high[1]), (0.025, 0.155), atol=1e-9)
+    assert high[2] == pytest.approx(0.965)
+    low, high = box(model, data, "left arm")
+    assert low[2] == pytest.approx(1.42 - 0.55 - 0.045)
+    assert high[2] == pytest.approx(1.465)
+    assert low[1] == pytest.approx(0.195)
+    assert high[0] == pytest.approx(0.075)
+
+
+def test_a_trunk_has_a_chest_shoulders_hips_and_a_head() -> None:
+    """Each from its lower to its upper end, and half as broad as that."""
+    model, data = posed(STANDING, 0.0)
+    spans = []
+    body = model.body("her/trunk").id
+    for geom in np.flatnonzero(model.geom_bodyid == body):
+        radius, half = model.geom_size[geom, :2]
+        axis = half * data.geom_xmat[geom].reshape(3, 3)[:, 2]
+        up, aside = abs(axis[2]) + radius, abs(axis[1]) + radius
+        x, y, level = data.geom_xpos[geom]
+        spans.append((level - up, level + up, aside, x, y))
+    expected = [
+        (0.80, 1.00, 0.18, 0.0, 0.0),
+        (0.85, 1.50, 0.15, 0.0, 0.0),
+        (1.35, 1.49, 0.23, 0.0, 0.0),
+        (1.49, 1.74, 0.09, 0.01, 0.0),
+    ]
+    np.testing.assert_allclose(sorted(spans), expected, atol=1e-12)
+
+
+@pytest.mark.parametrize("way", [0.0, 0.1, 0.125, 0.3])
+def test_left_and_right_are_mirror_images_half_a_walk_apart(
+    way: float,
+) -> None:
+    now, later = posed(STANDING, way), posed(STANDING, way + STEP)
+    for part in ("leg", "arm"):
+        left = box(*now, f"left {part}") * (1, -1, 1)
+        right = box(*later, f"right {part}")
+        np.testing.assert_allclose(np.sort(left, axis=0), right, atol=1e-12)
+
+
+def feet(way: float) -> Array:
+    """How far each leg's ankle is ahead, left and right. Shape (2,)."""
+    _, data = posed(STANDING, way)
+    ahead = []
+    for side in ("left", "right"):
+        leg = data.body(f"her/{side} leg")
+        hip = leg.xpos + leg.xmat.reshape(3, 3) @ (0.0, 0.0, -HIP)
+        ahead.append(float(hip[0]))
+    return np.array(ahead)
+
+
+def test_feet_are_a_step_apart_in_the_middle_of_a_step() -> None:
+    """Rigid legs would slide over the floor."""
+    left, right = feet(0.5 * STEP)
+    assert abs(left - right) == pytest.approx(STEP, rel=0.02)
+    assert left == pytest.approx(-right)
+    np.testing.assert_allclose(feet(0.0), 0.0, atol=1e-12)
+    np.testing.assert_allclose(feet(STEP), 0.0, atol=1e-12)
+    np.testing.assert_allclose(feet(1.5 * STEP), [right, left])
+    ways = np.linspace(0.0, 2.0 * STEP, 9)
+    swing = np.array([feet(way)[0] for way in ways])
+    expected = left * np.sin(pi * ways / STEP)
+    np.testing.assert_allclose(swing, expected, atol=1e-3)
+    assert STEP == pytest.approx(0.25)
+
+
+def test_arms_swing_against_the_legs_of_their_side() -> None:
+    _, data = posed(STANDING, 0.5 * STEP)
+    for side in ("left", "right"):
+        leg, arm = (data.body(f"her/{side} {p}") for p in ("leg", "arm"))
+        assert arm.xmat[2] == pytest.approx(
+            -sin(0.7 * 0.14) * np.sign(leg.xmat[2])
+        )
+
+
+@pytest.mark.parametrize("theta", [0.0, 1.0, -2.5])
+def test_a_figure_turns_and_moves_as_one(theta: float) -> None:
+    frame = Pose(1.0, -2.0, theta)
+    model, data = posed(frame, 0.4 * STEP)
+    still = posed(STANDING, 0.4 * STEP)[1]
+    turn = rotation(0.0, 0.0, theta)
+    for geom in range(model.ngeom):
+        place = turn @ still.geom_xpos[geom] + (1.0, -2.0, 0.0)
+        np.testing.assert_allclose(data.geom_xpos[geom], place, atol=1e-12)
+        frames = turn @ still.geom_xmat[geom].reshape(3, 3)
+        np.testing.assert_allclose(
+            data.geom_xmat[geom], frames.reshape(-1), atol=1e-12
+        )
+
+
+def test_robots_run_into_people_and_cameras_see_them() -> None:
+    model, _ = figure()
+    assert (model.geom_contype == 1).all()
+    assert (model.geom_conaffinity == 0).all()
+    assert (model.geom_group == 2).all()
+    assert model.nmocap == len(PARTS) == 5
+    # The shirt is as red as a pursuer's trim.
+    reds = model.geom_rgba[:, 0] > 3.0 * model.geom_rgba[:, 1]
+    names = {model.body(b).name for b in model.geom_bodyid[reds]}
+    assert names == {"her/trunk", "her/left arm", "her/right arm"}
+
+
+def world_of(model: mujoco.MjModel, data: mujoco.MjData) -> Any:
+    physics = SimpleNamespace(tick=TICK)
+    return SimpleNamespace(model=model, data=data, physics=physics, time=0.0)
+
+
+def test_a_person_walks_leg_by_leg_towards_the_evader() -> None:
+    model, data = figure()
+    world = world_of(model, data)
+    motion = Motion(PersonSettings("steer", 0.5), Pose(1.03, 2, 0), (4, 2))
+    person = Person(world, "her", motion)
+    assert (person.name, person.tick, person.world) == ("her", TICK, world)
+    trunk = int(model.body("her/trunk").mocapid[0])
+    leg = int(model.body("her/left leg").mocapid[0])
+    assert data.mocap_pos[trunk, :2].tolist() == [1.03, 2.0]
+    other: Any = SimpleNamespace(position=(4.0, 2.0))
+    person.meet(other)
+    for i in range(5):
+        world.time = i * TICK
+        person.step()
+    way = 5 * TICK * 0.5
+    assert way == pytest.approx(0.5 * STEP)
+    assert data.mocap_pos[trunk, :2] == pytest.approx((1.03 + way, 2.0))
+    assert data.mocap_quat[leg, 2] == pytest.approx(sin(0.07))
+    assert person.truth.position == pytest.approx((1.03 + way, 2.0))
+
+
+def test_a_recorded_person_is_where_the_end_of_the_tick_says(
+    tmp_path: Any,
+) -> None:
+    file = tmp_path / "walk.csv"
+    file.write_text("time,x,y\n0,0,0\n10,10,0\n")
+    model, data = figure()
+    world = world_of(model, data)
+    motion = Motion(PersonSettings(str(file)), STANDING, (4.0, 0.0))
+    person = Person(world, "her", motion)
+    other: Any = SimpleNamespace(position=(4.0, 0.0))
+    person.meet(other)
+    world.time = 2.0
+    person.step()
+    assert person.truth.position == pytest.approx((2.0 + TICK, 0.0))
+
+
+def test_truth_of_a_person_is_that_of_the_walk() -> None:
+    model, data = figure()
+    motion = Motion(PersonSettings("steer"), Pose(1, 2, 0.7), (4.0, 2.0))
+    truth = Person(world_of(model, data), "her", motion).truth
+    assert truth.heading == 0.7
+    assert truth.com.tolist() == [1.0, 2.0, 1.0]
+    assert truth.has_fallen is False
+    other: Any = SimpleNamespace(position=(4.0, -2.0))
+    assert truth.distance_to(other) == 5.0
+
+
+def test_nothing_is_read_from_a_person_or_planned_for_one() -> None:
+    model, data = figure()
+    motion = Motion(PersonSettings("steer"), STANDING, (4.0, 2.0))
+    person = Person(world_of(model, data), "her", motion)
+    measured = person.read()
+    assert measured.time == 0.0 and measured.sighting is None
+    assert all(values.size == 0 for values in measured[1:5])
+    before = data.mocap_pos.copy()
+    person.write(np.ones(3))
+    person.close()
+    np.testing.assert_array_equal(data.mocap_pos, before)
+    assert all(isnan(value) for value in person.measured_zmp())
+    assert person.qpos_slice == slice(0, 0) and person.pusher is None
+    gait = GaitSettings()
+    mind = PersonMind(gait)
+    assert mind.settings is gait and mind.phase is Phase.WALKING
+    assert mind.update(measured).size == 0
+    assert (mind.plan, mind.stabiliser, mind.replans) == (None, None, 0)
+    lists = mind.landings, mind.planning_times, mind.velocity_jumps
+    assert (*lists, mind.margins) == ([], [], [], [])
+    assert np.isnan(mind.zmp_reference).all()
+    assert np.isnan(mind.reference.com).all()
+    assert np.isnan(mind.reference.left_foot).all()
+    assert np.isnan(mind.reference.right_foot).all()
+
+
+WITH = DuelSettings(pursuer="person")
+
+
+def test_only_robots_walk_by_control() -> None:
+    assert walkers_of(DuelSettings()) == ("pursuer", "evader")
+    assert walkers_of(WITH) == ("evader",)
+
+
+def test_a_world_is_furnished_with_all_that_there_is() -> None:
+    put: list[mujoco.MjSpec] = []
+    seeing: Any = SimpleNamespace(furnish=put.append)
+    assert furnisher_of(DuelSettings(), None) is None
+    assert furnisher_of(DuelSettings(), seeing) == seeing.furnish
+    for sense, times in ((None, 0), (seeing, 1)):
+        spec = mujoco.MjSpec()
+        furnish = furnisher_of(WITH, sense)
+        assert furnish is not None
+        furnish(spec)
+        assert put == times * [spec]
+        assert spec.compile().body("pursuer/trunk").mocapid[0] >= 0
+
+
+def test_a_person_stands_where_the_pursuer_would_and_meets_the_evader() -> (
+    None
+):
+    model, data = figure()
+    frames = [Pose(1.0, 2.0, 0.5), Pose(3.0, 2.0, 3.0)]
+    straight = DuelSettings(
+        pursuer="person", person=PersonSettings("straight", miss=-0.5)
+    )
+    person, mind = stand_person(world_of(model, data), "her", straight, frames)
+    assert isinstance(person, Person) and isinstance(mind, PersonMind)
+    assert person.truth.position == (1.0, 2.0)
+    assert person.truth.heading == pytest.approx(np.arctan2(-0.5, 2.0))
+    evader: Any = SimpleNamespace(truth=SimpleNamespace(position=(3, 2)))
+    meet([person, evader])
+    person.step()
+    assert person.truth.position[0] > 1.0
+    meet([evader, evader])

@@ -1,0 +1,251 @@
+"""Test where persons walk, and how near they come to theory's evader."""
+
+from math import atan2, cos, hypot, pi, sin
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from stepaside.errors import ConfigurationError
+from stepaside.poses import Pose, wrap_angle
+from stepaside.simulation.person_motion import (
+    Motion,
+    Place,
+    read_path,
+    template_approach,
+)
+from stepaside.simulation.person_settings import PersonSettings
+
+EVADER = (1.0, -2.0)
+
+
+@pytest.mark.parametrize("miss", [-0.7, 0.0, 0.4])
+@pytest.mark.parametrize("start", [(0.0, 0.0), (3.0, 1.0), (-1.0, -4.0)])
+def test_a_straight_walk_aims_to_the_left_of_the_evader(
+    start: Place, miss: float
+) -> None:
+    """A right miss is a negative one; the heading at the start is nothing."""
+    person = PersonSettings("straight", 0.5, miss=miss)
+    motion = Motion(person, Pose(*start, 2.0), EVADER)
+    assert motion.pose[:2] == start
+    dx, dy = EVADER[0] - start[0], EVADER[1] - start[1]
+    aside = wrap_angle(motion.pose.theta - atan2(dy, dx))
+    assert aside == pytest.approx(atan2(miss, hypot(dx, dy)))
+
+
+def test_a_straight_walk_does_not_care_where_the_evader_goes() -> None:
+    person = PersonSettings("straight", 0.5)
+    motion = Motion(person, Pose(0.0, 0.0, 0.0), EVADER)
+    heading = motion.pose.theta
+    for i in range(10):
+        motion.advance(0.1 * (i + 1), 0.1, (5.0 * i, 7.0))
+    x, y, theta = motion.pose
+    assert theta == heading
+    assert (x, y) == pytest.approx((0.5 * cos(theta), 0.5 * sin(theta)))
+
+
+@pytest.mark.parametrize("bearing", [-3.0, -0.5, 0.5, 3.0])
+@pytest.mark.parametrize("heading", [0.0, 3.0])
+def test_steering_turns_the_short_way_and_walks_on(
+    bearing: float, heading: float
+) -> None:
+    person = PersonSettings("steer", 0.4, 0.6)
+    motion = Motion(person, Pose(1.0, 2.0, heading), EVADER)
+    assert motion.pose.theta == heading
+    aim = heading + bearing
+    evader = 1.0 + 9.0 * cos(aim), 2.0 + 9.0 * sin(aim)
+    motion.advance(0.05, 0.05, evader)
+    x, y, theta = motion.pose
+    assert theta - heading == pytest.approx(0.05 * 0.6 * bearing)
+    way = 0.05 * 0.4
+    assert (x - 1.0, y - 2.0) == pytest.approx(
+        (way * cos(theta), way * sin(theta))
+    )
+
+
+def recorded(folder: Path, lines: str) -> Path:
+    file = folder / "walk.csv"
+    file.write_text("time, x, y\n" + lines, encoding="utf-8")
+    return file
+
+
+def test_a_recorded_walk_is_where_and_heads_as_recorded(
+    tmp_path: Path,
+) -> None:
+    file = recorded(tmp_path, "1,0,0\n3,-1,-1\n5,-1,-2\n")
+    person = PersonSettings(str(file))
+    motion = Motion(person, Pose(9.0, 9.0, 1.0), EVADER)
+    aslant = -0.75 * pi
+    assert motion.pose == pytest.approx((0.0, 0.0, 0.0))  # not begun yet
+    for time, pose in (
+        (1.5, (-0.25, -0.25, aslant)),
+        (2.0, (-0.5, -0.5, aslant)),
+        (2.95, (-0.975, -0.975, atan2(-0.05, -0.025))),  # 0.1 s ahead
+        (4.0, (-1.0, -1.5, -pi / 2)),
+        (4.99, (-1.0, -1.995, -pi / 2)),
+        (8.0, (-1.0, -2.0, -pi / 2)),  # there it stands
+    ):
+        motion.advance(time, 0.004, EVADER)
+        assert motion.pose == pytest.approx(pose)
+
+
+def test_who_rests_heads_ahead(tmp_path: Path) -> None:
+    file = recorded(tmp_path, "0,1,2\n3,1,2\n")
+    motion = Motion(PersonSettings(str(file)), Pose(0.0, 0.0, 1.0), EVADER)
+    assert motion.pose == (1.0, 2.0, 0.0)
+
+
+def test_paths_are_read_as_rows(tmp_path: Path) -> None:
+    table = read_path(recorded(tmp_path, "0,1,2\n0.5,3,4\n"))
+    np.testing.assert_array_equal(table, [[0, 1, 2], [0.5, 3, 4]])
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        ("", "has 0"),
+        ("0,1,2\n", "has 1"),
+        ("0,1\n1,2\n", "needs two rows of time,x,y"),
+        ("0,1,2,3\n1,2,3,4\n", "needs two rows of time,x,y"),
+        ("0,0,0\n0,1,1\n", "finite and rise"),
+        ("0,0,nan\n1,1,1\n", "finite and rise"),
+        ("0,0,0\n1,inf,1\n", "finite and rise"),
+        ("0,0,0\n1,1\n", "must be steer, straight or a CSV file"),
+    ],
+)
+def test_bad_rows_are_refused_by_their_count(
+    tmp_path: Path, lines: str, message: str
+) -> None:
+    with pytest.raises(ConfigurationError, match=message):
+        read_path(recorded(tmp_path, lines))
+
+
+def test_no_file_is_no_path(tmp_path: Path) -> None:
+    with pytest.raises(ConfigurationError, match="got '.*none.csv'"):
+        read_path(tmp_path / "none.csv")
+    empty = tmp_path / "empty.csv"
+    empty.write_text("")
+    with pytest.raises(ConfigurationError, match="first line"):
+        read_path(empty)
+
+
+SPEED, GAIN, RADIUS = 0.1, 0.25, 0.8
+
+
+def approach(
+    start: Pose,
+    evader: Pose,
+    angle: float,
+    person: PersonSettings | None = None,
+    **changes: float,
+) -> float:
+    walk = person or PersonSettings("straight", 0.15)
+    given = {"duration": 18.0, "speed": SPEED, "gain": GAIN} | changes
+    return template_approach(
+        lambda pose, place: Motion(walk, pose, place),
+        start,
+        evader,
+        angle=angle,
+        safety_radius=RADIUS,
+        **given,
+    )
+
+
+def computed(
+    start: Pose, evader: Pose, angle: float, miss: float = 0.0
+) -> float:
+    """The same by an integrator that knows nothing of the package."""
+    aim = atan2(evader.y - start.y, evader.x - start.x)
+    away = hypot(evader.x - start.x, evader.y - start.y)
+    off = atan2(miss, away)
+    aim += off
+    # Where the straight way comes into the safety area.
+    way = away * cos(off) - (RADIUS**2 - (away * sin(off)) ** 2) ** 0.5
+    begun = way / 0.15
+    u, v = start.x + way * cos(aim), start.y + way * sin(aim)
+    seen = wrap_angle(atan2(v - evader.y, u - evader.x) - evader.theta)
+    side = 1.0 if seen >= 0.0 else -1.0
+
+    def person(time: float) -> tuple[float, float]:
+        way = 0.15 * time
+        return start.x + way * cos(aim), start.y + way * sin(aim)
+
+    def rate(time: float, state: np.ndarray) -> list[float]:
+        x, y, theta = state
+        u, v = person(time)
+        bearing = wrap_angle(atan2(v - y, u - x) - theta)
+        turn = GAIN * wrap_angle(bearing - side * angle)
+        return [-SPEED * cos(theta), -SPEED * sin(theta), turn]
+
+    times = np.linspace(begun, 18.0, 2001)
+    found = solve_ivp(
+        rate, (begun, 18.0), tuple(evader), t_eval=times, rtol=1e-7
+    )
+    places = np.array([person(t) for t in times])
+    return float(np.hypot(*(places.T - found.y[:2])).min())
+
+
+@pytest.mark.parametrize("bearing", [-2.5, -0.4, 0.4, 2.5])
+@pytest.mark.parametrize("angle", [0.0, 0.6, pi / 2])
+@pytest.mark.parametrize("heading", [0.3, 2.9])
+def test_the_template_moves_by_the_law_of_the_paper(
+    bearing: float, angle: float, heading: float
+) -> None:
+    """The person comes from that bearing, left or right of the evader."""
+    evader = Pose(5.0, -3.0, heading)
+    there = evader.compose(Pose(1.2 * cos(bearing), 1.2 * sin(bearing), 0.0))
+    least = approach(there, evader, angle)
+    assert least == pytest.approx(computed(there, evader, angle), abs=3e-3)
+
+
+def test_mirrored_persons_come_as_near() -> None:
+    """The evader steps aside to the side where the person is not."""
+    evader = Pose(0.0, 0.0, 0.0)
+    left, right = Pose(1.1, 0.5, 0.0), Pose(1.1, -0.5, 0.0)
+    aside = pi / 2
+    assert approach(left, evader, aside) == pytest.approx(
+        approach(right, evader, aside)
+    )
+    # Aside to the other side, it would walk into the person's way.
+    assert approach(left, evader, aside) > approach(left, evader, -aside)
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_the_side_is_kept_from_the_first_on(sign: float) -> None:
+    """A person who walks past the heading does not turn the evader."""
+    evader = Pose(0.0, 0.0, 0.0)
+    walk = PersonSettings("straight", 0.15, miss=0.3 * sign)
+    start = Pose(1.2, sign * 0.05, 0.0)
+    least = approach(start, evader, 0.6, walk)
+    expected = computed(start, evader, 0.6, 0.3 * sign)
+    assert least == pytest.approx(expected, abs=3e-3)
+
+
+def test_outside_of_the_safety_area_the_template_stands() -> None:
+    evader = Pose(0.0, 0.0, 0.0)
+    walk = PersonSettings("straight", 0.5, miss=-1.0)
+    least = approach(Pose(3.0, 0.0, 0.0), evader, 0.0, walk)
+    assert least == pytest.approx(3.0 / hypot(3.0, 1.0), abs=1e-3)
+    far = approach(Pose(9.0, 0.0, 0.0), evader, 0.0, duration=1.0)
+    assert far == pytest.approx(9.0 - 0.15, abs=1e-9)
+    there = Pose(2.0, 5.0, 0.0)
+    soon = approach(Pose(9.0, 4.0, 0.0), there, 0.0, duration=0.0)
+    assert soon == pytest.approx(hypot(7.0, 1.0))
+
+
+def test_a_recorded_person_comes_as_near_as_recorded(tmp_path: Path) -> None:
+    file = recorded(tmp_path, "0,0,0\n10,10,0\n")
+    walk = PersonSettings(str(file))
+    start, evader = Pose(0.0, 0.0, 0.0), Pose(5.0, 2.0, 0.0)
+    least = approach(start, evader, 0.0, walk, duration=2.0)
+    assert least == pytest.approx(hypot(3.0, 2.0))
+    assert approach(start, evader, 0.0, walk) == pytest.approx(2.0)
+
+
+def test_a_straight_retreat_is_the_difference_of_the_speeds() -> None:
+    evader = Pose(0.0, 0.0, 0.0)
+    least = approach(Pose(1.0, 0.0, 0.0), evader, 0.0, duration=8.0)
+    begun = 0.2 / 0.15
+    gap = RADIUS - (8.0 - begun) * (0.15 - SPEED)
+    assert least == pytest.approx(gap, abs=2e-3)

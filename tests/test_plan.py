@@ -1,0 +1,241 @@
+"""Test plans as values: what a plan says about itself."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from stepaside.errors import PlanError
+from stepaside.planning import (
+    CenterState,
+    Direction,
+    Foot,
+    GaitSettings,
+    ManeuverPlan,
+    ManeuverPlanner,
+)
+from stepaside.poses import Pose
+
+GAIT = GaitSettings()
+PLANNER = ManeuverPlanner(GAIT)
+STATE = CenterState((0.01, 0.03), (0.05, -0.1))
+START = Pose(-0.03, 0.11, 0.1)
+
+
+def walking(
+    foot: Foot = Foot.LEFT, state: CenterState = STATE
+) -> ManeuverPlan:
+    return PLANNER.plan(
+        0.5,
+        Direction.FORWARD,
+        first_foot=foot,
+        state=state,
+        swing_start=START,
+    )
+
+
+def test_a_plan_begins_where_the_body_is() -> None:
+    plan = walking()
+    begin = plan.sample([0.0])
+    np.testing.assert_allclose(begin.com[0], STATE.position, atol=1e-12)
+    np.testing.assert_allclose(begin.com_velocity[0], STATE.velocity)
+    np.testing.assert_allclose(plan.start_velocity, STATE.velocity)
+    np.testing.assert_allclose(begin.left_foot[0], START)
+    np.testing.assert_allclose(begin.right_foot[0], 0.0)
+    np.testing.assert_allclose(begin.zmp[0], [GAIT.zmp_forward, 0.0])
+
+
+def test_from_standing_it_begins_at_rest_midway_between_the_feet() -> None:
+    for foot, side in ((Foot.LEFT, 1.0), (Foot.RIGHT, -1.0)):
+        plan = PLANNER.plan(
+            0.5, Direction.BACKWARD, first_foot=foot, standing=True
+        )
+        begin = plan.sample([0.0])
+        middle = [GAIT.zmp_forward, 0.5 * side * GAIT.foot_spacing]
+        np.testing.assert_allclose(begin.com[0], middle, atol=1e-12)
+        np.testing.assert_allclose(begin.zmp[0], middle, atol=1e-12)
+        np.testing.assert_allclose(begin.com_velocity[0], 0.0, atol=1e-12)
+
+
+def test_standing_on_feet_that_are_not_abreast_the_com_is_midway() -> None:
+    """Midway between the anchors, each ahead along its own foot."""
+    plan = PLANNER.plan(
+        0.0,
+        Direction.FORWARD,
+        first_foot=Foot.LEFT,
+        swing_start=Pose(-0.03, 0.11, 0.4),
+        standing=True,
+    )
+    ahead = GAIT.zmp_forward
+    middle = 0.5 * np.array(
+        [
+            -0.03 + ahead * np.cos(0.4) + ahead,
+            0.11 + ahead * np.sin(0.4),
+        ]
+    )
+    np.testing.assert_allclose(plan.sample([0.0]).com[0], middle)
+
+
+def test_zmp_stands_in_the_anchor_of_each_support_foot() -> None:
+    """Ahead of the foot frame, along the foot's own heading."""
+    plan = walking()
+    middles = np.arange(5) * GAIT.step_duration + 0.5 * GAIT.single_support
+    zmp = plan.sample(middles[1:]).zmp
+    x, y, theta = plan.placements[2:6].T
+    ahead = GAIT.zmp_forward
+    np.testing.assert_allclose(zmp[:, 0], x + ahead * np.cos(theta))
+    np.testing.assert_allclose(zmp[:, 1], y + ahead * np.sin(theta))
+
+
+def test_footsteps_alternate_from_the_first_foot() -> None:
+    for foot in Foot:
+        steps = walking(foot).footsteps
+        assert [s.foot for s in steps] == [foot, foot.other] * 2 + [foot]
+        np.testing.assert_allclose(
+            [(s.x, s.y, s.theta) for s in steps],
+            walking(foot).placements[2:],
+        )
+
+
+def test_feet_stand_by_their_side() -> None:
+    for foot in Foot:
+        plan = walking(foot)
+        end = plan.sample([plan.schedule.first_step_duration])
+        swing, stance = end.left_foot[0], end.right_foot[0]
+        if foot is Foot.RIGHT:
+            swing, stance = stance, swing
+        np.testing.assert_allclose(swing, plan.placements[2])
+        np.testing.assert_allclose(stance, plan.placements[1])
+        middle = plan.sample([0.5 * GAIT.single_support])
+        heights = middle.left_height[0], middle.right_height[0]
+        up, down = heights if foot is Foot.LEFT else heights[::-1]
+        assert up == pytest.approx(GAIT.step_height) and down == 0.0
+
+
+def test_correction_takes_up_what_the_velocity_is_off() -> None:
+    """No correction if the velocity is that of (16); else it is linear."""
+    plan = walking()
+    row = plan.schedule.dcm_start_map
+    free = plan.inputs.copy()
+    free[-2] = 0.0
+    wanted = GAIT.eta * (row @ free - free[-1])
+    calm = walking(state=CenterState(STATE.position, tuple(wanted.tolist())))
+    np.testing.assert_allclose(calm.correction, 0.0, atol=1e-12)
+    off = (np.array(STATE.velocity) - wanted) / GAIT.eta
+    np.testing.assert_allclose(plan.correction * row[-2], off, atol=1e-12)
+    assert np.abs(plan.correction).max() > 1e-4
+
+
+def test_zmp_coefficients_are_those_of_the_samples() -> None:
+    plan = walking()
+    times = plan.schedule.starts[:-1]
+    np.testing.assert_allclose(
+        plan.zmp_coefficients[0], plan.sample(times).zmp, atol=1e-12
+    )
+
+
+def test_a_halt_plans_a_single_step() -> None:
+    for foot in Foot:
+        plan = PLANNER.plan_halt(
+            first_foot=foot, state=STATE, swing_start=START
+        )
+        assert plan.schedule.count == 1 and not plan.schedule.standing
+        spacing = foot.value * GAIT.foot_spacing
+        expected = [START, (0.0, 0.0, 0.0), (0.0, spacing, 0.0)]
+        np.testing.assert_allclose(plan.placements, expected)
+        np.testing.assert_allclose(plan.start_velocity, STATE.velocity)
+        assert plan.bearing == 0.0 and plan.direction is Direction.FORWARD
+
+
+@pytest.mark.parametrize("count", [0, -1])
+def test_a_plan_of_no_steps_is_refused(count: int) -> None:
+    with pytest.raises(PlanError, match="count must be finite and > 0"):
+        PLANNER.plan(
+            0.1,
+            Direction.FORWARD,
+            first_foot=Foot.LEFT,
+            standing=True,
+            count=count,
+        )
+
+
+@pytest.mark.parametrize("place", [(np.nan, 0.0), (0.0, np.inf)])
+def test_a_state_that_is_no_number_is_refused(
+    place: tuple[float, float],
+) -> None:
+    for name, state in (
+        ("CoM position", CenterState(place, (0.0, 0.0))),
+        ("CoM velocity", CenterState((0.0, 0.0), place)),
+    ):
+        with pytest.raises(PlanError, match=f"{name} must be finite"):
+            PLANNER.plan(
+                0.1, Direction.FORWARD, first_foot=Foot.LEFT, state=state
+            )
+
+
+def test_schedules_are_made_once() -> None:
+    one = PLANNER.schedule(5, standing=True)
+    assert PLANNER.schedule(5, standing=True) is one
+    assert PLANNER.schedule(5, standing=False) is not one
+    assert PLANNER.schedule(4, standing=True) is not one
+    assert one.standing and one.count == 5
+
+
+def test_a_replan_looks_the_settings_horizon_ahead() -> None:
+    for horizon in (3, 5):
+        planner = ManeuverPlanner(replace(GAIT, horizon=horizon))
+        plan = planner.plan(
+            0.1, Direction.FORWARD, first_foot=Foot.LEFT, standing=True
+        )
+        assert len(plan.footsteps) == horizon
+
+
+def test_a_saturated_template_turns_at_full_rate() -> None:
+    """Eq. (6): k sign(theta*) instead of k theta*, eq. (8)."""
+    turns = {}
+    for saturated in (False, True):
+        plan = PLANNER.plan(
+            0.5,
+            Direction.FORWARD,
+            first_foot=Foot.LEFT,
+            standing=True,
+            saturated=saturated,
+        )
+        turns[saturated] = plan.placements[2, 2]
+    interval = GAIT.path_interval
+    assert turns[False] == pytest.approx(0.2 * 0.5 * interval)
+    assert turns[True] == pytest.approx(0.2 * interval)
+
+
+@pytest.mark.parametrize("foot", Foot)
+@pytest.mark.parametrize("hurry", [-0.06, 0.06])
+def test_margin_in_single_support_is_that_of_the_sole_that_stands(
+    foot: Foot, hurry: float
+) -> None:
+    """Sampled densely: outside and inside of a sole are not alike."""
+    aside = foot.value * (hurry - 0.15)
+    state = CenterState((0.01, 0.03 * foot.value), (0.05, aside))
+    plan = walking(foot, state)
+    until = GAIT.single_support
+    x, y = plan.sample(np.linspace(0.0, until, 1001)).zmp.T
+    sole, side = GAIT.sole, -foot.value  # outward of the foot that stands
+    edges = [
+        x - sole.back,
+        sole.front - x,
+        sole.outer - side * y,
+        sole.inner + side * y,
+    ]
+    expected = np.min(edges)
+    assert plan.margin(until) == pytest.approx(expected, abs=1e-4)
+    assert 0.01 < np.abs(plan.correction[1]) < 0.04
+
+
+def test_margin_of_all_is_the_least_of_its_parts() -> None:
+    plan = PLANNER.plan(
+        0.9, Direction.BACKWARD, first_foot=Foot.LEFT, standing=True
+    )
+    parts = [plan.margin(d) for d in plan.schedule.starts[1:].tolist()]
+    assert all(a >= b for a, b in zip(parts[:-1], parts[1:], strict=True))
+    assert parts[-1] == pytest.approx(plan.margin())
+    assert parts[0] > plan.margin()  # two feet hold more than one
+    assert parts[0] < GAIT.foot_spacing

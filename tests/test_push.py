@@ -1,0 +1,143 @@
+"""Pushes: begin, end, direction and impulse, on one free body."""
+
+from math import cos, inf, nan, pi, sin
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.errors import ConfigurationError
+from stepaside.poses import Array
+from stepaside.simulation.push import Push, Pusher
+
+STEP = 0.002
+MODEL = f"""
+<mujoco><option timestep="{STEP}" gravity="0 0 0"/><worldbody>
+<body name="other"><freejoint/><geom size="0.1" mass="1"/></body>
+<body name="torso" pos="5 0 0"><freejoint/><geom size="0.1" mass="2"/></body>
+</worldbody></mujoco>
+"""
+
+
+class Bench:
+    """One body that somebody pushes."""
+
+    def __init__(self, quaternion: Array, *pushes: Push) -> None:
+        """Turn the body, and take the pushes."""
+        self.model = mujoco.MjModel.from_xml_string(MODEL)
+        self.data = mujoco.MjData(self.model)
+        self.data.qpos[10:14] = quaternion
+        mujoco.mj_forward(self.model, self.data)
+        self.pusher = Pusher(self.model, self.data, 2)
+        for push in pushes:
+            self.pusher.add(push)
+
+    def forces(self, count: int) -> Array:
+        """Force in every step. Shape (count, 3)."""
+        found = []
+        for step in range(count):
+            self.pusher.before_step(step * STEP)
+            found.append(self.data.xfrc_applied[2, :3].copy())
+            np.testing.assert_array_equal(self.data.xfrc_applied[1], 0.0)
+            np.testing.assert_array_equal(self.data.xfrc_applied[2, 3:], 0.0)
+            mujoco.mj_step(self.model, self.data)
+        return np.array(found)
+
+
+def turned(heading: float, pitch: float = 0.0) -> Array:
+    """Quaternion of a body that heads somewhere and leans forward."""
+    yaw = np.array([cos(heading / 2), 0.0, 0.0, sin(heading / 2)])
+    lean = np.array([cos(pitch / 2), 0.0, sin(pitch / 2), 0.0])
+    out = np.zeros(4)
+    mujoco.mju_mulQuat(out, yaw, lean)
+    return out
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.7, -2.5])
+@pytest.mark.parametrize("direction", [0.0, pi / 2, -0.4, pi])
+@pytest.mark.parametrize("pitch", [0.0, 0.6])
+def test_a_push_goes_where_the_heading_says(
+    heading: float, direction: float, pitch: float
+) -> None:
+    bench = Bench(turned(heading, pitch), Push(1.5, 0.0, direction))
+    force = bench.forces(1)[0]
+    angle = heading + direction
+    np.testing.assert_allclose(
+        force, [15.0 * cos(angle), 15.0 * sin(angle), 0.0], atol=1e-9
+    )
+
+
+def test_a_push_begins_and_ends_when_it_should() -> None:
+    bench = Bench(turned(0.0), Push(1.2, 0.02, 0.0, 0.04))
+    pushed = bench.forces(60)[:, 0]
+    np.testing.assert_allclose(pushed[10:30], 30.0)
+    np.testing.assert_array_equal(pushed[:10], 0.0)
+    np.testing.assert_array_equal(pushed[30:], 0.0)
+
+
+def test_a_clock_that_rounds_down_begins_and_ends_in_time() -> None:
+    bench = Bench(turned(0.0), Push(1.0, 0.3, 0.0, 0.1))
+    before = bench.pusher.before_step
+    force = bench.data.xfrc_applied[2]
+    for time, pushed in (
+        (0.299, False),
+        (0.3 - 1e-12, True),
+        (0.399, True),
+        (0.4 - 1e-11, False),
+    ):
+        before(time)
+        assert bool(force[0] > 0.0) is pushed
+
+
+def test_the_impulse_is_what_the_body_gets() -> None:
+    bench = Bench(turned(0.5), Push(0.8, 0.01, 1.0))
+    bench.forces(100)
+    expected = 0.8 * np.array([cos(1.5), sin(1.5)])
+    np.testing.assert_allclose(bench.pusher.impulse, expected)
+    np.testing.assert_allclose(2.0 * bench.data.qvel[6:8], expected)
+
+
+def test_pushes_at_one_time_add_up_and_come_in_any_order() -> None:
+    late, early = Push(2.0, 0.04, 0.0), Push(1.0, 0.02, pi / 2)
+    bench = Bench(turned(0.0), late, early)
+    found = bench.forces(100)
+    np.testing.assert_allclose(found[15], [0.0, 10.0, 0.0], atol=1e-9)
+    np.testing.assert_allclose(found[30], [20.0, 10.0, 0.0], atol=1e-9)
+    np.testing.assert_allclose(found[65], [20.0, 0.0, 0.0], atol=1e-9)
+    np.testing.assert_array_equal(found[75], 0.0)
+    np.testing.assert_allclose(bench.pusher.impulse, [2.0, 1.0])
+
+
+def test_a_push_is_held_in_the_direction_in_which_it_began() -> None:
+    bench = Bench(turned(0.0), Push(1.0, 0.0, 0.0))
+    bench.forces(5)
+    bench.data.qpos[10:14] = turned(pi / 2)
+    mujoco.mj_kinematics(bench.model, bench.data)
+    np.testing.assert_allclose(bench.forces(1)[0], [10.0, 0.0, 0.0])
+
+
+def test_the_edges_of_a_push_are_taken() -> None:
+    for direction in (-2 * pi, 2 * pi):
+        Push(0.0, 0.0, direction, 1e-3)
+    Push(0.0, 86400.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("values", "name"),
+    [
+        ((-0.01, 1.0, 0.0), "push impulse"),
+        ((inf, 1.0, 0.0), "push impulse"),
+        ((1.0, -0.01, 0.0), "push time"),
+        ((1.0, 86401.0, 0.0), "push time"),
+        ((1.0, nan, 0.0), "push time"),
+        ((1.0, 1.0, 2 * pi + 0.01), "push direction"),
+        ((1.0, 1.0, -2 * pi - 0.01), "push direction"),
+        ((1.0, 1.0, 0.0, 0.0), "push duration"),
+        ((1.0, 1.0, 0.0, -0.1), "push duration"),
+    ],
+)
+def test_pushes_that_nobody_can_give_are_refused(
+    values: tuple[float, ...], name: str
+) -> None:
+    with pytest.raises(ConfigurationError, match=name):
+        Push(*values)

@@ -1,0 +1,79 @@
+"""Test distances from apparent size against the geometry of the trim."""
+
+import numpy as np
+import pytest
+
+from stepaside.poses import Array
+from stepaside.sensing.colour_detector import RED, Appearance
+from stepaside.sensing.ranging import range_of_breadth, range_of_trim
+
+EYE = 0.46
+TOES = 0.05  # that trim at the feet is nearer than the axis, in [m]
+
+
+def direction(away: float, height: float, eye: float, aside: float) -> Array:
+    """Direction to a point at a distance and height, of any length."""
+    scale = 0.3 + away
+    return scale * np.array(
+        [away * np.cos(aside), away * np.sin(aside), height - eye]
+    )
+
+
+def measured(
+    away: float, eye: float = EYE, aside: float = 0.0
+) -> float | None:
+    """Range of a robot whose axis is ``away``; its feet stand before it."""
+    upper = direction(away, RED.top, eye, aside)
+    lower = direction(away - TOES, RED.bottom, eye, aside)
+    return range_of_trim(upper, lower, eye, RED)
+
+
+@pytest.mark.parametrize("aside", [-0.7, 0.0, 0.4])
+@pytest.mark.parametrize("away", [0.4, 0.8, 1.5, 3.0])
+def test_trim_tells_the_distance_of_the_axis(
+    away: float, aside: float
+) -> None:
+    assert measured(away, aside=aside) == pytest.approx(away, rel=1e-3)
+
+
+@pytest.mark.parametrize("eye", [0.40, 0.46, 0.50])
+def test_from_any_height_of_the_eye(eye: float) -> None:
+    assert measured(1.2, eye) == pytest.approx(1.2, rel=1e-3)
+
+
+def test_an_eye_that_is_off_by_centimeters_matters_little() -> None:
+    upper = direction(1.5, RED.top, 0.44, 0.0)
+    lower = direction(1.5 - TOES, RED.bottom, 0.44, 0.0)
+    away = range_of_trim(upper, lower, 0.47, RED)
+    assert away == pytest.approx(1.5, abs=0.01)
+
+
+def test_ends_that_make_no_sense_tell_nothing() -> None:
+    upper, lower = direction(1.0, 0.54, EYE, 0.0), direction(1.0, 0.06, EYE, 0)
+    assert range_of_trim(lower, upper, EYE, RED) is None
+    assert range_of_trim(upper, upper, EYE, RED) is None
+
+
+@pytest.mark.parametrize(
+    ("away", "told"), [(0.19, False), (0.21, True), (3.9, True), (4.1, False)]
+)
+def test_trim_tells_from_0_2_m_to_4_m(away: float, told: bool) -> None:
+    assert measured(away) == (pytest.approx(away, rel=0.01) if told else None)
+
+
+def test_a_span_too_small_tells_nothing() -> None:
+    """Even of something so small that it would be near."""
+    small = Appearance(0, 9, 110, 45, top=0.5, bottom=0.4)
+    level = np.array([1.0, 0.0, 0.0])
+    for slope, tells in ((0.045, False), (0.055, True)):
+        lower = np.array([1.0, 0.0, -slope])
+        assert (range_of_trim(level, lower, 0.5, small) is not None) is tells
+
+
+def test_breadth_tells_by_proportion_and_within_limits() -> None:
+    """Shoulders of 0.3 m from the front, half of that from the side."""
+    assert range_of_breadth(0.25) == pytest.approx(1.0)
+    assert range_of_breadth(0.5) == pytest.approx(0.5)
+    for narrow in (-0.1, 0.0, 0.05):
+        assert range_of_breadth(narrow) == 4.0
+    assert range_of_breadth(3.0) == 0.2

@@ -1,0 +1,229 @@
+"""Test cameras and sonars made of rays, before walls that are computed."""
+
+from dataclasses import replace
+from math import cos, radians, sqrt
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.poses import Array
+from stepaside.robots.head import Mount, rotation
+from stepaside.sensing.camera_model import CameraModel
+from stepaside.simulation.camera_settings import DepthSettings
+from stepaside.simulation.rays import (
+    ColourCaster,
+    DepthCaster,
+    RayCaster,
+    _edges,
+)
+
+CAMERA = CameraModel.of_field_of_view(40, 30, radians(58.0), radians(45.0))
+AHEAD = Mount(np.array([0.1, 0.0, 0.0]), np.eye(3))
+CLEAN = DepthSettings(noise=0.0, missing=0.0, step=1e-5)
+
+
+def generator() -> np.random.Generator:
+    return np.random.default_rng(4)
+
+
+def wall(away: float, top: float = 3.0, half: float = 5.0) -> str:
+    """A wall whose face is so far ahead of the body."""
+    return (
+        f'<geom name="wall" type="box" pos="{away + 0.5} 0 0"'
+        f' size="0.5 {half} {top}" rgba="1 0 0 1"/>'
+    )
+
+
+def cast(
+    things: str, rays: Array, mount: Mount = AHEAD, at: str = 'pos="0 0 0.5"'
+) -> tuple[mujoco.MjModel, RayCaster]:
+    """Rays from a body above a floor, that wears a shell."""
+    model = mujoco.MjModel.from_xml_string(
+        '<mujoco><worldbody><geom name="floor" type="plane" size="9 9 1"/>'
+        f'<body name="eye" {at}><geom size="0.3" group="1"/></body>'
+        f"{things}</worldbody></mujoco>"
+    )
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    return model, RayCaster(model, data, "eye", mount, rays)
+
+
+def test_a_ray_goes_from_its_mount_on_a_turned_body() -> None:
+    """The body looks to the left; the mount is aside and looks down."""
+    mount = Mount(np.array([0.1, -0.2, 0.05]), rotation(0, radians(30), 0))
+    at = 'pos="1 2 0.5" quat="0.70710678 0 0 0.70710678"'
+    _, caster = cast(
+        "", np.array([[2.0, 0.0, 0.0], [3.0, 0.0, 2.0]]), mount, at
+    )
+    caster.cast(10.0)
+    np.testing.assert_allclose(caster.origin, (1.2, 2.1, 0.55), atol=1e-7)
+    ahead = (0.0, cos(radians(30)), -0.5)
+    np.testing.assert_allclose(caster.directions[0], ahead, atol=1e-7)
+    assert caster.distances.tolist() == pytest.approx([1.1, -1.0])
+    assert caster.geoms.tolist() == [0, -1]
+    assert caster.slants[0] == pytest.approx(0.5)
+    np.testing.assert_allclose(caster.along, (0.5, 1.0 / sqrt(13.0)))
+
+
+def test_rays_pass_through_what_has_no_look() -> None:
+    rays = np.array([[1.0, 0.0, 0.0]])
+    for group, there in ((0, True), (2, True), (3, False), (5, False)):
+        thing = wall(1.1).replace("<geom", f'<geom group="{group}"')
+        _, caster = cast(thing, rays)
+        caster.cast(1.1)
+        assert caster.distances[0] == (pytest.approx(1.0) if there else -1.0)
+
+
+def depths(
+    things: str, settings: DepthSettings, mount: Mount = AHEAD
+) -> np.ndarray:
+    _, caster = cast(things, CAMERA.rays().reshape(-1, 3), mount)
+    return DepthCaster(caster, CAMERA, settings, generator()).take()
+
+
+def test_depth_is_along_the_axis_and_not_along_the_ray() -> None:
+    """A wall across the axis is as deep everywhere."""
+    image = depths(wall(1.6), CLEAN)
+    assert image.shape == (30, 40)
+    down = -CAMERA.rays()[..., 2]
+    clear = 0.5 / np.maximum(down, 1e-9) > 1.5
+    np.testing.assert_allclose(image[clear], 1.5, atol=1e-4)
+    floor = ~clear
+    np.testing.assert_allclose(image[floor], (0.5 / down)[floor], atol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("face", "seen"),
+    [(0.85, False), (0.95, True), (3.55, True), (3.65, False)],
+)
+def test_depth_comes_back_from_within_the_limits(
+    face: float, seen: bool
+) -> None:
+    """They hold from the mount, 0.1 m ahead of the body."""
+    image = depths(wall(face), CLEAN)
+    assert (image[2] > 0.0).all() if seen else (image[2] == 0.0).all()
+
+
+def test_depth_noise_and_quanta_grow_with_the_square() -> None:
+    for face in (1.1, 2.6):
+        away = face - 0.1
+        noisy = depths(wall(face), replace(CLEAN, noise=0.004))[:12]
+        assert noisy.std() == pytest.approx(0.004 * away**2, rel=0.1)
+        assert noisy.mean() == pytest.approx(away, abs=0.001 * away**2)
+        steps = replace(CLEAN, noise=0.004, step=0.003)
+        levels = np.unique(depths(wall(face), steps)[:12])
+        assert np.diff(levels).min() == pytest.approx(
+            0.003 * away**2, rel=0.02
+        )
+
+
+def test_a_share_of_the_pixels_is_missing() -> None:
+    image = depths(wall(1.6), replace(CLEAN, missing=0.2))[:12]
+    assert (image == 0.0).mean() == pytest.approx(0.2, abs=0.04)
+
+
+@pytest.mark.parametrize(("slant", "seen"), [(0.13, True), (0.11, False)])
+def test_surfaces_seen_at_a_grazing_angle_send_nothing_back(
+    slant: float, seen: bool
+) -> None:
+    """The face of a leaf, 2 m ahead, that is turned nearly edge on."""
+    angle = 90.0 - np.degrees(np.arcsin(slant))
+    leaf = (
+        '<geom type="box" pos="2.1 0 0.5" size="0.001 0.5 0.5" '
+        f'euler="0 0 {angle}"/>'
+    )
+    _, caster = cast(leaf, np.array([[1.0, 0.0, 0.0]]))
+    single = CameraModel(1, 1, 10.0, 10.0)
+    eye = DepthCaster(caster, single, CLEAN, generator())
+    assert (eye.take()[0, 0] > 0.0) is np.bool_(seen)
+    assert caster.slants[0] == pytest.approx(slant, rel=1e-3)
+
+
+def test_what_is_left_of_a_near_edge_lies_in_its_shadow() -> None:
+    row = np.array([[2.0, 2.0, 1.6, 1.6, 2.0, 2.0, 0.0, 2.0]])
+    assert _edges(row).tolist() == [
+        [False, True, False, False, False, False, False, False]
+    ]
+    assert not _edges(np.array([[2.0, 1.71]])).any()
+    assert _edges(np.array([[2.0, 1.69]])).any()
+
+
+def test_the_shadow_of_an_edge_is_dark_in_the_image() -> None:
+    post = '<geom type="box" pos="1.1 0 0.5" size="0.05 0.1 0.5"/>'
+    image = depths(wall(2.1) + post, CLEAN)[10]
+    near = np.flatnonzero(np.abs(image - 0.95) < 0.01)
+    dark = np.flatnonzero(image == 0.0)
+    assert dark.tolist() == [near[0] - 1]
+
+
+def colours(things: str, mount: Mount = AHEAD) -> np.ndarray:
+    model, caster = cast(things, CAMERA.rays().reshape(-1, 3), mount)
+    return ColourCaster(model, caster, CAMERA).take()
+
+
+def test_colours_are_those_of_things_in_the_light() -> None:
+    """Faces towards the viewer are turned from the light but a little."""
+    box = (
+        '<geom type="box" pos="1.5 0 0.5" size="0.4 0.4 0.3"'
+        ' rgba="1 0.5 0 1"/>'
+    )
+    image = colours(box)
+    face = 0.55 + 0.45 * 0.2 / sqrt(1.13)
+    assert image[15, 20].tolist() == [int(255 * face), int(127.5 * face), 0]
+    sky = [int(255 * c) for c in (0.78, 0.84, 0.90)]
+    assert image[0, 0].tolist() == sky
+
+
+@pytest.mark.parametrize(
+    ("yaw", "facing"), [(0, 0.2), (90, 0.3), (180, 0.0), (270, 0.0)]
+)
+def test_light_falls_on_the_sides_that_face_it(
+    yaw: int, facing: float
+) -> None:
+    """It comes from behind the right; other sides have what is about."""
+    model, caster = cast(
+        '<geom type="box" pos="0 0 0.5" size="0.1 0.1 0.1" rgba="1 1 1 1"/>',
+        np.array([[1.0, 0.0, 0.0]]),
+        Mount(np.array([-1.0, 0.0, 0.0]), np.eye(3)),
+        f'pos="0 0 0.5" euler="0 0 {yaw}"',
+    )
+    pixel = ColourCaster(model, caster, CameraModel(1, 1, 1.0, 1.0)).take()
+    light = 0.55 + 0.45 * facing / sqrt(1.13)
+    assert pixel.ravel().tolist() == 3 * [int(255 * light)]
+
+
+def test_materials_go_before_colours_and_walls_are_grey() -> None:
+    named = wall(1.6).replace('name="wall"', 'name="wall 1 0"')
+    face = 0.55 + 0.45 * 0.2 / sqrt(1.13)
+    expected = [int(255 * c * face) for c in (0.74, 0.75, 0.73)]
+    np.testing.assert_allclose(colours(named)[2, 20], expected, atol=1)
+    worn = named.replace('"wall 1 0"', '"box"').replace(
+        "<geom", '<geom material="paint"'
+    )
+    model = mujoco.MjModel.from_xml_string(
+        '<mujoco><asset><material name="paint" rgba="0 0 1 1"/></asset>'
+        '<worldbody><geom name="floor" type="plane" size="9 9 1"/>'
+        f'<body name="eye" pos="0 0 0.5"/>{worn}</worldbody></mujoco>'
+    )
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    rays = CAMERA.rays().reshape(-1, 3)
+    caster = RayCaster(model, data, "eye", AHEAD, rays)
+    pixel = ColourCaster(model, caster, CAMERA).take()[2, 20]
+    assert pixel.tolist() == [0, 0, int(255 * face)]
+
+
+def test_the_floor_is_a_board_of_half_a_meter() -> None:
+    """Seen from above: dark and bright where their places say so."""
+    mount = Mount(np.array([0.1, 0.0, 0.5]), rotation(0.0, radians(90.0), 0))
+    image = colours("", mount)
+    light = 0.55 + 0.45 / sqrt(1.13)
+    # Camera 1 m high at x = 0.1; up in the image is ahead.
+    rays = CAMERA.rays()
+    x, y = 0.1 + rays[..., 2], rays[..., 1]
+    dark = (np.floor(x / 0.5) + np.floor(y / 0.5)) % 2
+    for channel, tone in enumerate((1.0, 1.0, 0.98)):
+        expected = 255 * light * tone * (0.86 - 0.06 * dark)
+        np.testing.assert_allclose(image[..., channel], expected, atol=1.01)
+    assert np.unique(image[..., 0]).size == 2

@@ -1,0 +1,460 @@
+"""Pages and films of a run, read back from what was written."""
+
+import json
+import re
+from base64 import b64decode
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.errors import ConfigurationError
+from stepaside.poses import Array
+from stepaside.report import film, film_layers
+from stepaside.report.film import Cinema, Shot
+from stepaside.report.replay import Run, Stage
+from stepaside.report.replay_page import shapes_of, write_page
+from stepaside.report.style import COLOURS, THEORY
+from stepaside.simulation.duel import run_duel
+from stepaside.simulation.graphics import RAYCAST
+from stepaside.simulation.settings import DuelSettings, StartSettings
+from stepaside.simulation.summary import summarise
+
+TIMES: Array = 0.02 * np.arange(102, dtype=float)  # 2.02 s
+
+
+@cache
+def made() -> Run:
+    """A short run whose robots then are moved by hand."""
+    settings = DuelSettings(
+        seed=3, duration=2.01, start=StartSettings(1.2, 0.4, -0.2)
+    )
+    result = run_duel(settings)
+    arrays = {name: values.copy() for name, values in result.arrays.items()}
+    assert len(arrays["times_s"]) == len(TIMES)
+    arrays["times_s"] = TIMES
+    for name, side in (("pursuer", 1.0), ("evader", -1.0)):
+        way = side * np.column_stack([TIMES, -0.5 * TIMES])
+        arrays[f"{name}_torso"][:, :2] += way
+        arrays[f"{name}_com"][:, :2] += way
+        arrays[f"{name}_qpos"][:, :2] += way.astype(np.float32)
+    arrays["evader_landings"] = np.array([[0.5, -1.0, 1.1, 0.2, 0.3]])
+    summary = summarise(result) | {
+        "triggered_at_s": 0.5,
+        "converged_at_s": 1.8,
+    }
+    return Run("a </b> run", result.settings, summary, arrays)
+
+
+def content(run: Run, folder: Path) -> Any:
+    """What the page's script is given."""
+    file = folder / "run.html"
+    write_page(run, file)
+    text = file.read_text(encoding="utf-8")
+    assert [p.name for p in folder.iterdir()] == ["run.html"]
+    assert "a </b> run" not in text and "a &lt;/b&gt; run" in text
+    (found,) = re.findall(r"(\{\"times\".*\})", text)
+    return json.loads(found.replace("<\\/", "</"))
+
+
+def test_a_page_shows_twenty_moments_a_second_and_the_last(
+    tmp_path: Path,
+) -> None:
+    shown = content(made(), tmp_path)
+    expected = [*(0.04 * np.arange(51)), 2.02]
+    np.testing.assert_allclose(shown["times"], expected, atol=1e-9)
+
+
+def test_a_page_without_frequent_samples_shows_them_all(
+    tmp_path: Path,
+) -> None:
+    run = made()
+    thin = {
+        name: values[::25] if len(values) == len(TIMES) else values
+        for name, values in run.arrays.items()
+    }
+    shown = content(replace(run, arrays=thin), tmp_path)
+    np.testing.assert_allclose(shown["times"], TIMES[::25], atol=1e-9)
+
+
+def test_bodies_on_the_page_are_where_they_were(tmp_path: Path) -> None:
+    run = made()
+    shown = content(run, tmp_path)
+    raw = np.frombuffer(b64decode(shown["poses"]), dtype="<i2")
+    poses = raw.reshape(len(shown["times"]), shown["bodies"], 7)
+    stage = Stage(run)
+    assert shown["bodies"] == stage.model.nbody
+    for row, index in ((0, 0), (20, 40), (51, 101)):
+        stage.put(index)
+        places = poses[row, :, :3] * shown["unit"]
+        np.testing.assert_allclose(places, stage.data.xpos, atol=1.1e-4)
+        turns = poses[row, :, 3:] / 32767.0
+        np.testing.assert_allclose(turns, stage.data.xquat, atol=2e-5)
+    assert 0.5 < 32767 * shown["unit"] < 10.0
+
+
+def test_a_page_tells_what_the_run_tells(tmp_path: Path) -> None:
+    run = made()
+    shown = content(run, tmp_path)
+    chosen = [*range(0, 101, 2), 101]
+    said = [shown["words"][number] for number in shown["says"]]
+    assert said == [run.words(index) for index in chosen]
+    assert len(set(said)) == 4 == len(shown["words"])
+    for key, values, size in (
+        ("distance", run.distance, 5e-4),
+        ("angle", run.orientation, 0.05),
+    ):
+        np.testing.assert_allclose(
+            shown[key], values[chosen], atol=size + 1e-9
+        )
+    assert run.theory is not None and run.circle is not None
+    assert shown["theory"] == list(run.theory)
+    np.testing.assert_allclose(shown["circle"], run.circle, atol=6e-4)
+    assert shown["safety"] == 0.8
+    both = np.concatenate(
+        [run.arrays[f"{n}_torso"][:, :2] for n in ("pursuer", "evader")]
+    )
+    middle = 0.5 * (both.min(axis=0) + both.max(axis=0))
+    np.testing.assert_allclose(shown["middle"], middle, atol=6e-4)
+    size = np.hypot(*(both.max(axis=0) - both.min(axis=0)))
+    assert shown["away"] == pytest.approx(1.2 + 0.9 * size)
+    stage = Stage(run)
+    for robot, name in zip(
+        shown["robots"], ("pursuer", "evader"), strict=True
+    ):
+        assert robot["name"] == name and robot["colour"] == COLOURS[name]
+        assert stage.model.body(robot["torso"]).name == f"{name}/torso"
+        np.testing.assert_allclose(
+            robot["trace"], run.arrays[f"{name}_com"][chosen, :2], atol=6e-4
+        )
+        np.testing.assert_allclose(
+            robot["landings"], run.arrays[f"{name}_landings"], atol=6e-4
+        )
+    never = replace(run, summary=run.summary | {"converged_at_s": None})
+    other = tmp_path / "never"
+    other.mkdir()
+    assert content(never, other)["circle"] is None
+
+
+SHAPES = """
+<mujoco>
+<asset><material name="grass" rgba="0 0.5 0 1"/></asset>
+<worldbody><geom type="plane" size="1 1 1"/>
+<body pos="1 2 3">
+<geom type="capsule" size="0.02 0.1" pos="0.5 0 0" rgba="1 0 0 1"
+quat="0.7071067811865476 0 0.7071067811865476 0"/>
+<geom type="sphere" size="0.3" material="grass"/>
+<geom type="box" size="0.1 0.4 0.025" pos="0 0 1" rgba="0 0 1 1"/>
+<geom type="cylinder" size="0.05 0.2" rgba="0 0 0 1"/>
+<geom type="box" size="0.1 0.1 0.4" group="3"/>
+</body></worldbody></mujoco>
+"""
+
+
+def test_shapes_are_thick_lines_in_the_frame_of_their_body() -> None:
+    model = mujoco.MjModel.from_xml_string(SHAPES)
+    capsule, sphere, box, cylinder = shapes_of(model)
+    assert {s["body"] for s in (capsule, sphere, box, cylinder)} == {1}
+    np.testing.assert_allclose(
+        sorted([capsule["a"], capsule["b"]]),
+        [[0.4, 0.0, 0.0], [0.6, 0.0, 0.0]],
+        atol=1e-9,
+    )
+    assert capsule["r"] == 0.02 and capsule["colour"] == "#ff0000"
+    np.testing.assert_allclose([sphere["a"], sphere["b"]], 0.0)
+    assert sphere["r"] == 0.3 and sphere["colour"] == "#007f00"
+    # As thick as its smaller sides, as long as its longest.
+    assert box["r"] == pytest.approx(0.05)
+    np.testing.assert_allclose(
+        [box["a"], box["b"]], [[0, -0.35, 1.0], [0, 0.35, 1.0]]
+    )
+    np.testing.assert_allclose(
+        [cylinder["a"], cylinder["b"]], [[0, 0, -0.2], [0, 0, 0.2]]
+    )
+
+
+@pytest.mark.parametrize(
+    ("shot", "last", "expected"),
+    [
+        (Shot(rate=10.0, duration=0.3), 9.0, [0.0, 0.1, 0.2, 0.3]),
+        (Shot(rate=10.0, begin=0.8), 1.0, [0.8, 0.9, 1.0]),
+        (Shot(rate=10.0, speed=4.0, duration=1.0), 9.0, [0.0, 0.4, 0.8]),
+        (Shot(rate=10.0, begin=2.0), 2.0, [2.0]),
+        (Shot(rate=10.0, begin=2.1), 2.0, []),
+        (Shot(rate=10.0, begin=5.0), 2.0, []),
+    ],
+)
+def test_pictures_of_a_film_are_evenly_spaced(
+    shot: Shot, last: float, expected: list[float]
+) -> None:
+    np.testing.assert_allclose(shot.instants(last), expected, atol=1e-12)
+
+
+class FakeScreen:
+    """Keeps what it was asked to draw."""
+
+    def __init__(self, model: Any, width: int, height: int, backend: str):
+        """Note the size."""
+        self.size = (width, height, backend)
+        self.drawn: list[tuple[Any, Any, Any]] = []
+
+    def draw(self, data: Any, camera: Any, add: Any = None) -> Any:
+        """Keep the bodies' places, the camera and what adds lines."""
+        self.drawn.append((data.xpos.copy(), camera, add))
+        return len(self.drawn)
+
+    def close(self) -> None:
+        """Be closed."""
+        self.drawn.clear()
+
+
+@pytest.fixture
+def screened(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(film, "Screen", FakeScreen)
+
+
+def filmed(shot: Shot, time: float) -> tuple[Any, Any, Any]:
+    cinema = Cinema(made(), shot, "egl")
+    screen: Any = cinema._screen
+    assert screen.size == (shot.width, shot.height, "egl")
+    cinema.picture(time)
+    (found,) = screen.drawn
+    cinema.close()
+    assert screen.drawn == []
+    return found  # type: ignore[no-any-return]
+
+
+@pytest.mark.usefixtures("screened")
+@pytest.mark.parametrize(
+    ("time", "index"), [(0.0, 0), (1.0, 50), (1.01, 51), (2.02, 101), (9, 101)]
+)
+def test_a_picture_is_of_the_time_asked_for(time: float, index: int) -> None:
+    places, camera, add = filmed(Shot(), time)
+    stage = Stage(made())
+    stage.put(index)
+    np.testing.assert_array_equal(places, stage.data.xpos)
+    assert add.keywords["index"] == index
+    assert add.keywords["trail"] == 20.0
+    assert camera.azimuth == 60.0 and camera.elevation == -38.0
+
+
+@pytest.mark.usefixtures("screened")
+def test_the_camera_sees_the_whole_way_or_follows() -> None:
+    run = made()
+    torsos = [run.arrays[f"{n}_torso"][:, :2] for n in ("pursuer", "evader")]
+    both = np.concatenate(torsos)
+    low, high = both.min(axis=0), both.max(axis=0)
+    _, camera, _ = filmed(Shot(), 1.0)
+    np.testing.assert_allclose(camera.lookat, [*(low + high) / 2, 0.2])
+    size = float(np.hypot(*(high - low)))
+    assert camera.distance == pytest.approx(0.9 + 0.95 * size)
+    _, camera, add = filmed(Shot(following=True, layers=False), 1.0)
+    pursuer, evader = torsos[0][50], torsos[1][50]
+    np.testing.assert_allclose(camera.lookat, [*(pursuer + evader) / 2, 0.2])
+    apart = float(np.hypot(*(evader - pursuer)))
+    assert camera.distance == pytest.approx(1.1 + apart)
+    assert add is None
+
+
+def scene() -> mujoco.MjvScene:
+    return mujoco.MjvScene(Stage(made()).model, maxgeom=2000)
+
+
+def lines_of(drawn: mujoco.MjvScene, colour: str) -> list[Any]:
+    rgb = np.array(list(bytes.fromhex(colour[1:]))) / 255.0
+    return [
+        geom
+        for geom in drawn.geoms[: drawn.ngeom]
+        if np.allclose(geom.rgba[:3], rgb, atol=1e-3)
+    ]
+
+
+def ends(geom: Any) -> Array:
+    """Ends of a line in the world. Shape (2, 3)."""
+    axis = np.asarray(geom.mat).reshape(3, 3)[:, 2]
+    half = geom.size[2] * axis
+    return np.array([geom.pos - half, geom.pos + half])
+
+
+def test_lines_of_a_film_lie_where_the_run_was() -> None:
+    run, index = made(), 60
+    drawn = scene()
+    film_layers.decorate(drawn, run=run, index=index, trail=0.8)
+    (sight, *circle) = lines_of(drawn, THEORY)
+    places = [run.arrays[f"{n}_torso"][index, :2] for n in COLOURS]
+    np.testing.assert_allclose(
+        np.sort(ends(sight), axis=0),
+        np.sort([[*p, 0.25] for p in places], axis=0),
+        atol=1e-5,
+    )
+    assert run.circle is not None
+    x, y, size = run.circle
+    corners = np.concatenate([ends(g) for g in circle])
+    away = np.hypot(corners[:, 0] - x, corners[:, 1] - y)
+    np.testing.assert_allclose(away, size, atol=1e-5)
+    assert len(circle) == 60
+    np.testing.assert_allclose(corners[:, 2], 0.002, atol=1e-6)
+    blue = lines_of(drawn, COLOURS["evader"])
+    boxes = [g for g in blue if g.type == mujoco.mjtGeom.mjGEOM_BOX]
+    (foot,) = boxes
+    heading = 0.3
+    at = np.array([1.1 + 0.02 * np.cos(heading), 0.2 + 0.02 * np.sin(heading)])
+    np.testing.assert_allclose(foot.pos[:2], at, atol=1e-5)
+    frame = np.asarray(foot.mat).reshape(3, 3)
+    np.testing.assert_allclose(
+        frame[:2, 0], [np.cos(heading), np.sin(heading)], atol=1e-5
+    )
+    np.testing.assert_allclose(np.linalg.det(frame), 1.0, atol=1e-5)
+    np.testing.assert_allclose(foot.size[:2], film_layers.PRINT, atol=1e-6)
+    assert foot.rgba[3] == pytest.approx(0.55)
+    rest = [ends(g) for g in blue if g.type != mujoco.mjtGeom.mjGEOM_BOX]
+    safety = [e for e in rest if abs(e[0, 2] - 0.003) < 1e-6]
+    assert len(safety) == 60
+    away = np.hypot(*(np.concatenate(safety)[:, :2] - places[1]).T)
+    np.testing.assert_allclose(away, 0.8, atol=1e-4)
+    trace = [e for e in rest if abs(e[0, 2] - 0.004) < 1e-6]
+    # 0.8 s before the sample, one line for each sample.
+    assert len(trace) == 40
+    com = run.arrays["evader_com"][20:61, :2]
+    ways = np.concatenate(trace)[:, :2]
+    np.testing.assert_allclose(ways.min(axis=0), com.min(axis=0), atol=1e-5)
+    np.testing.assert_allclose(ways.max(axis=0), com.max(axis=0), atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("index", "trail", "shown"),
+    [(0, 20.0, 1), (20, 0.4, 1), (60, 0.8, 1), (60, 0.6, 0), (101, 9.0, 1)],
+)
+def test_footprints_come_half_a_second_early_and_go_with_the_trail(
+    index: int, trail: float, shown: int
+) -> None:
+    drawn = scene()
+    film_layers.decorate(drawn, run=made(), index=index, trail=trail)
+    boxes = [
+        geom
+        for geom in lines_of(drawn, COLOURS["evader"])
+        if geom.type == mujoco.mjtGeom.mjGEOM_BOX
+    ]
+    assert len(boxes) == shown
+
+
+def test_a_full_scene_takes_no_more() -> None:
+    small = mujoco.MjvScene(Stage(made()).model, maxgeom=10)
+    film_layers.decorate(small, run=made(), index=60, trail=20.0)
+    assert small.ngeom == 10
+
+
+class InlinePool:
+    """A pool of processes that are none."""
+
+    def __init__(self, count: int, context: Any) -> None:
+        """Note nothing."""
+
+    def __enter__(self) -> "InlinePool":
+        """Begin."""
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        """End."""
+
+    def submit(self, draw: Any, times: list[float]) -> Any:
+        """Draw when the result is asked for."""
+
+        class Later:
+            def result(self) -> Any:
+                return draw(times)
+
+        return Later()
+
+
+def test_pictures_come_in_order_and_all_of_them(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(film, "choose_renderer", lambda wanted: "egl")
+    monkeypatch.setattr(film, "load_run", lambda folder: made())
+    monkeypatch.setattr(film, "ProcessPoolExecutor", InlinePool)
+    monkeypatch.setattr(film, "_draw", lambda f, s, b, times: list(times))
+    shot = Shot(rate=100.0)
+    for workers in (1, 2, 30):
+        drawn = list(film.pictures(Path("run"), shot, workers=workers))
+        np.testing.assert_allclose(drawn, 0.01 * np.arange(203))
+    with pytest.raises(ConfigurationError, match="before the run's end"):
+        list(film.pictures(Path("run"), Shot(begin=5.0)))
+    monkeypatch.setattr(film, "choose_renderer", lambda wanted: RAYCAST)
+    with pytest.raises(ConfigurationError, match="EGL or OSMesa"):
+        list(film.pictures(Path("run"), shot))
+
+
+def test_a_worker_keeps_its_graphics(monkeypatch: pytest.MonkeyPatch) -> None:
+    began: list[Any] = []
+
+    class Kept:
+        def __init__(self, *arguments: Any) -> None:
+            began.append(arguments)
+
+        def picture(self, time: float) -> float:
+            return 2.0 * time
+
+    monkeypatch.setattr(film, "Cinema", Kept)
+    monkeypatch.setattr(film, "load_run", lambda folder: folder)
+    monkeypatch.setattr(film, "_cinemas", {})
+    for times in ([1.0, 2.0], [3.0]):
+        drawn = film._draw(Path("run"), Shot(), "egl", times)
+        assert drawn == [2.0 * time for time in times]
+    assert began == [(Path("run"), Shot(), "egl")]
+
+
+def shades(count: int) -> Iterator[Any]:
+    for number in range(count):
+        yield np.full((48, 64, 3), 40 * number, dtype=np.uint8)
+
+
+@pytest.mark.parametrize("kind", ["gif", "mp4"])
+def test_films_have_their_pictures_and_their_rate(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str
+) -> None:
+    monkeypatch.setattr(film, "load_run", lambda folder: made())
+    monkeypatch.setattr(film, "pictures", lambda folder, shot: shades(6))
+    told: list[tuple[int, int]] = []
+    file = tmp_path / f"run.{kind}"
+    shot = Shot(64, 48, rate=5.0, duration=1.0)
+
+    def report(done: int, all_of_them: int) -> None:
+        told.append((done, all_of_them))
+
+    write = film.write_gif if kind == "gif" else film.write_video
+    assert write(tmp_path, file, shot, report) == 6
+    assert told == [(done, 6) for done in range(1, 7)]
+    assert list(tmp_path.iterdir()) == [file]
+    if kind == "gif":
+        image = pytest.importorskip("PIL.Image").open(file)
+        assert image.n_frames == 6 and image.info["duration"] == 200
+        assert image.info["loop"] == 0 and image.size == (64, 48)
+        return
+    av = pytest.importorskip("av")
+    with av.open(str(file)) as out:
+        assert out.streams.video[0].average_rate == 5
+        frames = [f.to_ndarray(format="rgb24") for f in out.decode(video=0)]
+    levels = [frame.mean() for frame in frames]
+    np.testing.assert_allclose(levels, 40.0 * np.arange(6), atol=6.0)
+
+
+def test_a_film_that_fails_leaves_nothing_behind(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("av")
+
+    def failing(folder: Path, shot: Shot) -> Iterator[Any]:
+        yield from shades(2)
+        raise RuntimeError("the light went out")
+
+    monkeypatch.setattr(film, "load_run", lambda folder: made())
+    monkeypatch.setattr(film, "pictures", failing)
+    with pytest.raises(RuntimeError, match="light"):
+        film.write_video(tmp_path, tmp_path / "run.mp4", Shot(64, 48))
+    assert list(tmp_path.iterdir()) == []

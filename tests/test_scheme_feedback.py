@@ -1,0 +1,115 @@
+"""Test how the control scheme asks feedback and perception."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from made_up_robot import (
+    FIRST,
+    GAIT,
+    STEP,
+    TICK,
+    FakePerception,
+    Run,
+    feeding,
+    measure,
+)
+from stepaside.control.body import Sighting
+from stepaside.control.phase import Phase
+from stepaside.planning import Foot
+
+
+def test_it_waits_until_feedback_is_ready() -> None:
+    run, feedback = feeding()
+    feedback.ready = False
+    run.until(0.5)
+    assert run.phase() is Phase.STANDING
+    feedback.ready = True
+    run.until(0.5 + TICK)
+    assert run.phase() is Phase.WALKING
+
+
+def test_feedback_decides_what_is_asked_of_the_legs() -> None:
+    run, feedback = feeding()
+    feedback.lift = 0.01
+    scheme = run.until(0.1)
+    assert scheme.reference.com[2] == pytest.approx(GAIT.com_height + 0.01)
+    assert run.legs.tracked[-1] == scheme.reference
+    assert feedback.steps[-1].passed == pytest.approx(0.1 - TICK)
+    measurement = measure(0.1)._replace(joint_positions=np.full(3, 7.0))
+    targets = scheme.update(measurement)
+    np.testing.assert_allclose(targets, np.add(scheme.reference.com, 7.0))
+    assert scheme.joint_targets is targets
+
+
+def test_feedback_says_where_a_foot_landed() -> None:
+    run, feedback = feeding()
+    feedback.shift = 0.01
+    scheme = run.until(FIRST + 0.1)
+    (landed, step), *_ = feedback.landed
+    assert landed == pytest.approx((GAIT.stride, 0.05, 0.0))
+    assert step.remaining == pytest.approx(-GAIT.double_support)
+    expected = (GAIT.stride + 0.01, 0.05, 0.0)
+    assert scheme.plan_frame == pytest.approx(expected)
+    assert scheme.left_foot == scheme.plan_frame
+
+
+def test_feedback_fits_all_plans_but_the_first() -> None:
+    run, feedback = feeding()
+    run.until(0.1)
+    assert feedback.fits == 0
+    run.until(FIRST + STEP + 0.1)
+    assert feedback.fits == 2
+
+
+@pytest.mark.parametrize("jump", [(0.1, -0.3), (-0.3, 0.1)])
+def test_a_velocity_that_jumps_is_noted(jump: tuple[float, float]) -> None:
+    run, feedback = feeding()
+    feedback.jump = jump
+    scheme = run.until(FIRST + 0.1)
+    assert scheme.velocity_jumps == pytest.approx([0.0, 0.3], abs=1e-9)
+
+
+def test_feedback_knows_the_heading_and_looks_ahead() -> None:
+    run, feedback = feeding()
+    run.legs.torso_heading = 9.0
+    feedback.estimator.torso_heading, feedback.turn = 0.2, 0.05
+    run.until(TICK, bearing=0.1)
+    assert run.role.asked == pytest.approx([0.35])
+
+
+def test_who_has_fallen_lies_still() -> None:
+    run, feedback = feeding()
+    feedback.state = SimpleNamespace(has_fallen=False)
+    scheme = run.until(FIRST)
+    before = scheme.joint_targets.copy()
+    feedback.state = SimpleNamespace(has_fallen=True)
+    run.until(FIRST + 0.2)
+    assert run.phase() is Phase.FALLEN and scheme.plan is None
+    np.testing.assert_array_equal(scheme.joint_targets, before)
+    steps = len(feedback.steps)
+    feedback.state = SimpleNamespace(has_fallen=False)
+    run.until(FIRST + 2.0)
+    assert run.phase() is Phase.FALLEN and len(feedback.steps) == steps
+
+
+@pytest.mark.parametrize("foot", Foot)
+def test_perception_stands_on_the_support_foot(foot: Foot) -> None:
+    eyes: Any = FakePerception()
+    run = Run(perception=eyes, first_foot=foot)
+    scheme = run.until(0.1, distance=1.0)
+    assert run.phase() is Phase.STANDING  # only what is seen counts
+    eyes.seen = Sighting(0.1, 0.2, 1.0)
+    run.until(0.1 + TICK, bearing=9.0)
+    assert run.role.asked == pytest.approx([0.2])
+    assert scheme.joint_targets[0] == 0.75
+    run.until(0.1 + FIRST + 0.1)
+    left = foot is Foot.RIGHT  # the left one stands while the right swings
+    support = scheme.left_foot if not left else scheme.right_foot
+    assert eyes.stood[0][1] is left
+    assert eyes.stood[-1] == (support, not left)
+    eyes.seen = None
+    run.until(0.1 + FIRST + STEP + 0.1)
+    assert run.phase() is Phase.HALTING

@@ -1,0 +1,236 @@
+"""Servos on two hinges: speed limits, feedforward, lag, play, torque."""
+
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.poses import Array
+from stepaside.simulation.body_settings import BodySettings
+from stepaside.simulation.servos import HonestServos, IdealServos
+
+KP, KV, STALL = 20.0, 0.5, 1.5
+STEP, CYCLE = 0.002, 0.012
+SPEEDS = np.array([5.0, 2.0])
+# Nothing here has the same number as qpos, as speed and as actuator.
+MODEL = f"""
+<mujoco><option timestep="{STEP}" gravity="0 0 0"/>
+<worldbody>
+<body name="free"><freejoint/><geom size="0.1" mass="1"/></body>
+<body pos="3 0 0"><joint name="first" axis="0 0 1"/>
+<geom size="0.1" pos="0.2 0 0" mass="1"/></body>
+<body pos="5 0 0"><joint name="a" axis="0 0 1"/>
+<geom size="0.1" pos="0.2 0 0" mass="1"/></body>
+<body pos="7 0 0"><joint name="b" axis="0 0 1"/>
+<geom size="0.1" pos="0.2 0 0" mass="1"/></body>
+</worldbody>
+<actuator>
+<position joint="first" kp="7" kv="0.1" forcerange="-9 9"/>
+<position joint="a" kp="{KP}" kv="{KV}" forcerange="-{STALL} {STALL}"/>
+<position joint="b" kp="{2 * KP}" kv="{KV}" forcerange="-{STALL} {STALL}"/>
+</actuator></mujoco>
+"""
+ACTUATORS = np.array([1, 2])
+QPOS, DOFS = slice(8, 10), slice(7, 9)
+
+
+def bench() -> tuple[mujoco.MjModel, mujoco.MjData]:
+    model = mujoco.MjModel.from_xml_string(MODEL)
+    data = mujoco.MjData(model)
+    data.ctrl[0] = 0.123  # somebody else's
+    return model, data
+
+
+def ideal() -> tuple[IdealServos, mujoco.MjModel, mujoco.MjData]:
+    model, data = bench()
+    servos = IdealServos(model, data, ACTUATORS, SPEEDS, CYCLE)
+    return servos, model, data
+
+
+def honest(
+    play: tuple[float, float] = (0.0, 0.0), **effects: Any
+) -> tuple[HonestServos, mujoco.MjModel, mujoco.MjData]:
+    model, data = bench()
+    body = BodySettings(**effects)
+    servos = HonestServos(
+        model, data, ACTUATORS, SPEEDS, CYCLE, body, np.array(play)
+    )
+    servos.reset(np.zeros(2))
+    return servos, model, data
+
+
+def torques(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
+    """Torque of the two motors in the present state, in [N m]."""
+    mujoco.mj_forward(model, data)
+    found: Array = data.actuator_force[ACTUATORS].copy()
+    return found
+
+
+def test_a_reset_is_taken_as_what_was_always_asked() -> None:
+    servos, _, data = ideal()
+    servos.reset(np.array([0.3, -0.4]))
+    np.testing.assert_array_equal(data.ctrl, [0.123, 0.3, -0.4])
+    servos.write(np.array([0.3, -0.4]))
+    np.testing.assert_array_equal(data.ctrl, [0.123, 0.3, -0.4])
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_target_moves_no_faster_than_the_joint_can(side: float) -> None:
+    """Step after step by speed times cycle, then it stays."""
+    servos, _, data = ideal()
+    servos.reset(np.zeros(2))
+    wanted = side * np.array([0.1, 0.06])
+    for count in range(1, 4):
+        servos.write(wanted)
+        expected = np.minimum(np.abs(wanted), count * SPEEDS * CYCLE) * side
+        np.testing.assert_allclose(servos._target, expected, atol=1e-12)
+    np.testing.assert_allclose(servos._target, wanted, atol=1e-12)
+    servos.write(wanted)
+    np.testing.assert_allclose(data.ctrl[1:], wanted, atol=1e-12)
+
+
+def test_a_small_change_is_followed_whole() -> None:
+    servos, _, _ = ideal()
+    servos.reset(np.zeros(2))
+    servos.write(np.array([0.002, -0.001]))
+    np.testing.assert_allclose(servos._target, [0.002, -0.001])
+
+
+def test_a_joint_that_keeps_up_needs_no_torque() -> None:
+    """At the target, at the target's own speed, damping pulls at nothing."""
+    servos, model, data = ideal()
+    servos.reset(np.zeros(2))
+    targets = np.array([0.01, -0.02])
+    servos.write(targets)
+    data.qpos[QPOS], data.qvel[DOFS] = targets, targets / CYCLE
+    np.testing.assert_allclose(torques(model, data), 0.0, atol=1e-12)
+    data.qvel[DOFS] = 0.0
+    np.testing.assert_allclose(torques(model, data), KV * targets / CYCLE)
+
+
+def test_honest_servos_reach_a_request_over_one_cycle() -> None:
+    servos, _, data = honest(delay_cycles=0, efficiency=0.9)
+    wanted = np.array([0.012, -0.006])
+    servos.write(wanted)
+    lead = KV / np.array([KP, 2 * KP]) / CYCLE * wanted
+    for step in range(1, 9):
+        servos.before_step(0.0)
+        share = min(step / 6.0, 1.0)
+        np.testing.assert_allclose(data.ctrl[1:], share * wanted + lead)
+    assert data.ctrl[0] == 0.123
+    servos.write(wanted)
+    for _ in range(2):
+        servos.before_step(0.0)
+        np.testing.assert_allclose(data.ctrl[1:], wanted)
+
+
+@pytest.mark.parametrize("delay", [0, 1, 3])
+def test_requests_arrive_in_order_after_the_delay(delay: int) -> None:
+    servos, _, data = honest(delay_cycles=delay, efficiency=0.9)
+    sent = [np.array([0.001 * i, -0.002 * i]) for i in range(1, 8)]
+    for number, request in enumerate(sent):
+        servos.write(request)
+        for _ in range(6):
+            servos.before_step(0.0)
+        ramp = data.ctrl[1:] - servos._lead * servos._change
+        due = number - delay
+        expected = sent[due] if due >= 0 else np.zeros(2)
+        np.testing.assert_allclose(ramp, expected, atol=1e-12)
+
+
+def test_a_reset_forgets_what_was_on_its_way() -> None:
+    servos, _, data = honest(delay_cycles=2)
+    for _ in range(3):
+        servos.write(np.array([0.01, 0.01]))
+    servos.reset(np.array([0.2, 0.1]))
+    for _ in range(4):
+        servos.write(np.array([0.2, 0.1]))
+        servos.before_step(0.0)
+        np.testing.assert_allclose(data.ctrl[1:], [0.2, 0.1])
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_honest_servos_keep_the_speed_limits_too(side: float) -> None:
+    servos, _, _ = honest(efficiency=0.9)
+    wanted = side * np.ones(2)
+    for count in range(1, 4):
+        servos.write(wanted)
+        reached = servos._target + servos._change
+        np.testing.assert_allclose(reached, count * side * SPEEDS * CYCLE)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_play_takes_half_its_width_off_an_error(side: float) -> None:
+    """Within it no torque, beyond it the rest; a joint without has none."""
+    servos, _, data = honest(play=(0.04, 0.0))
+    data.qpos[QPOS] = [0.5, -0.5]
+    for off, seen in ((0.019, 0.0), (0.021, 0.001), (0.05, 0.03)):
+        servos.reset(data.qpos[QPOS] + side * off)
+        servos.before_step(0.0)
+        error = data.ctrl[1:] - data.qpos[QPOS]
+        np.testing.assert_allclose(error, side * np.array([seen, off]))
+
+
+def test_a_weak_gain_scales_the_pull_and_leaves_the_rest_point() -> None:
+    servos, model, data = honest(servo_gain=0.75)
+    data.qpos[QPOS] = [0.3, -0.2]
+    servos.reset(np.array([0.31, -0.21]))
+    servos.before_step(0.0)
+    pull = 0.75 * KP * np.array([0.01, -0.02])
+    np.testing.assert_allclose(torques(model, data), pull)
+    servos.reset(data.qpos[QPOS].copy())
+    servos.before_step(0.0)
+    np.testing.assert_allclose(torques(model, data), 0.0, atol=1e-12)
+    assert model.actuator_gainprm[0, 0] == 7.0
+
+
+def limits_at(share: float, **effects: Any) -> tuple[Array, Array]:
+    """Torque limits of both motors at a share of their no-load speeds."""
+    servos, model, data = honest(**effects)
+    data.qvel[DOFS] = share * SPEEDS
+    servos.before_step(0.0)
+    low, high = model.actuator_forcerange[ACTUATORS].T
+    np.testing.assert_array_equal(model.actuator_forcerange[0], [-9.0, 9.0])
+    return low / STALL, high / STALL
+
+
+@pytest.mark.parametrize(
+    ("share", "low", "high"),
+    [
+        (0.0, -1.0, 1.0),
+        (0.25, -1.0, 0.75),
+        (0.5, -1.0, 0.5),
+        (1.0, -1.0, 0.0),
+        (1.5, -1.0, 0.0),
+        (-0.25, -0.75, 1.0),
+        (-0.5, -0.5, 1.0),
+        (-1.0, 0.0, 1.0),
+        (-1.5, 0.0, 1.0),
+    ],
+)
+def test_a_motor_tires_in_the_direction_in_which_it_turns(
+    share: float, low: float, high: float
+) -> None:
+    """A motor that is turned backward brakes with its stall, not more."""
+    found = limits_at(share, torque_speed=True)
+    np.testing.assert_allclose(found[0], low, atol=1e-12)
+    np.testing.assert_allclose(found[1], high, atol=1e-12)
+
+
+def test_stall_is_the_share_that_efficiency_and_stiffness_leave() -> None:
+    for share in (0.0, 0.5, -0.5):
+        low, high = limits_at(share, efficiency=0.6, stiffness=0.5)
+        np.testing.assert_allclose(low, -0.3)
+        np.testing.assert_allclose(high, 0.3)
+    low, high = limits_at(-0.5, efficiency=0.6, torque_speed=True)
+    np.testing.assert_allclose(low, -0.3)
+    np.testing.assert_allclose(high, 0.6)
+
+
+def test_the_physics_holds_a_motor_to_its_limits() -> None:
+    servos, model, data = honest(torque_speed=True)
+    servos.reset(np.array([1.0, 1.0]))
+    data.qvel[DOFS] = 0.5 * SPEEDS
+    servos.before_step(0.0)
+    np.testing.assert_allclose(torques(model, data), 0.5 * STALL)

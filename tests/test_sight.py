@@ -1,0 +1,94 @@
+"""Test the ideal line of sight: geometry, rate, delay and noise."""
+
+from math import atan2, hypot, pi
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.control.body import Sighting
+from stepaside.simulation.settings import SightSettings
+from stepaside.simulation.sight import IdealLineOfSight
+
+OWN: Any = SimpleNamespace(position=(1.0, 2.0), heading=2.5)
+OTHER: Any = SimpleNamespace(position=(-0.5, 1.6), heading=0.0)
+TICK = 0.004
+
+
+def look(**settings: float) -> IdealLineOfSight:
+    generator = np.random.default_rng(5)
+    return IdealLineOfSight(OWN, OTHER, SightSettings(**settings), generator)
+
+
+def read(sight: IdealLineOfSight, now: float) -> Sighting:
+    seen = sight.read(now)
+    assert seen is not None
+    return seen
+
+
+def test_the_truth_is_seen_at_once() -> None:
+    sight = look()
+    for tick in range(5):
+        time, bearing, distance = read(sight, tick * TICK)
+        assert time == tick * TICK
+        assert distance == pytest.approx(hypot(1.5, 0.4))
+        # Beyond half a turn: the short way, which is to the left.
+        expected = atan2(-0.4, -1.5) - 2.5 + 2 * pi
+        assert bearing == pytest.approx(expected)
+        assert 0.0 < bearing < 1.0
+
+
+def test_a_rate_holds_sightings_until_the_next() -> None:
+    sight = look(rate=10.0)
+    times = [read(sight, tick * TICK).time for tick in range(101)]
+    taken = sorted(set(times))
+    np.testing.assert_allclose(taken, [0.0, 0.1, 0.2, 0.3, 0.4])
+    ages = np.arange(101) * TICK - times
+    assert ages.max() == pytest.approx(0.1 - TICK)
+
+
+def test_a_delay_keeps_back_what_was_seen() -> None:
+    sight = look(delay=0.02)
+    assert sight.read(0.0) is None
+    assert sight.read(0.016) is None
+    assert read(sight, 0.02).time == 0.0
+    assert read(sight, 0.034).time == 0.0
+    assert read(sight, 0.036).time == 0.016
+    assert read(sight, 0.056).time == pytest.approx(0.036)
+
+
+def test_of_several_that_arrive_the_newest_counts() -> None:
+    sight = look(delay=0.01)
+    for now in (0.0, 0.004, 0.008):
+        sight.read(now)
+    assert read(sight, 0.1).time == 0.008
+
+
+def test_noise_is_as_large_as_asked_and_has_no_bias() -> None:
+    sight = look(bearing_noise=0.05, distance_noise=0.1)
+    seen = np.array([read(sight, i * TICK) for i in range(4000)])
+    true = atan2(-0.4, -1.5) - 2.5 + 2 * pi
+    for values, mean, deviation in (
+        (seen[:, 1], true, 0.05),
+        (seen[:, 2], hypot(1.5, 0.4), 0.1),
+    ):
+        assert values.mean() == pytest.approx(mean, abs=deviation / 12.0)
+        assert values.std() == pytest.approx(deviation, rel=0.05)
+    assert abs(np.corrcoef(seen[:, 1], seen[:, 2])[0, 1]) < 0.06
+
+
+def test_each_noise_stands_alone() -> None:
+    sight = look(bearing_noise=0.05)
+    assert read(sight, 0.0).distance == hypot(-1.5, 1.6 - 2.0)
+    sight = look(distance_noise=0.1)
+    bearings = {read(sight, i * TICK).bearing for i in range(5)}
+    assert len(bearings) == 1
+
+
+def test_noise_wraps_bearings_and_leaves_no_distance_below_nothing() -> None:
+    sight = look(bearing_noise=3.0, distance_noise=5.0)
+    seen = np.array([read(sight, i * TICK) for i in range(500)])
+    assert np.abs(seen[:, 1]).max() <= pi
+    assert seen[:, 2].min() == 0.0
+    assert seen[:, 2].max() > 5.0

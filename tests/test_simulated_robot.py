@@ -1,0 +1,311 @@
+"""A robot behind its own sensors and servos, its fall, its place."""
+
+from math import cos, pi, radians, sin
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.control import Phase, Pursuit, Sighting
+from stepaside.control.settings import OPEN_LOOP, STABILISED
+from stepaside.planning import GaitSettings
+from stepaside.poses import Array, Pose
+from stepaside.robots.description import load_robot
+from stepaside.robots.forward import FOOT_FORCES
+from stepaside.robots.kinematics import LegKinematics
+from stepaside.simulation.assembly import assemble
+from stepaside.simulation.body_settings import BodySettings
+from stepaside.simulation.push import Push
+from stepaside.simulation.randomness import named_generator
+from stepaside.simulation.robot import SimulatedRobot
+from stepaside.simulation.servos import HonestServos
+from stepaside.simulation.settings import PhysicsSettings
+from stepaside.simulation.spoilt import SpoiltSensors
+from stepaside.simulation.truth import TrueState
+from stepaside.simulation.world import World
+
+NAO = load_robot("nao")
+FRAME = Pose(1.2, -0.7, 0.9)
+
+
+def stand(
+    frame: Pose = FRAME, *, feedback: bool = False, **effects: Any
+) -> tuple[SimulatedRobot, Any]:
+    """The second of two robots in a world."""
+    body = BodySettings(**effects)
+    physics = PhysicsSettings(tick=0.012)
+    world = World({"first": NAO, "second": NAO}, physics, body)
+    world.data.qpos[:3] = (-9.0, 0.0, 0.33)  # out of the way
+    robot, scheme = assemble(
+        world,
+        "second",
+        NAO,
+        frame,
+        Pursuit(),
+        gait=GaitSettings(),
+        control=STABILISED if feedback else OPEN_LOOP,
+        body=body,
+        seed=5,
+        sighting=Sighting(0.0, 0.2, 2.0),
+    )
+    mujoco.mj_forward(world.model, world.data)
+    return robot, scheme
+
+
+def test_a_robot_stands_where_its_odometry_begins() -> None:
+    robot, scheme = stand()
+    # The torso stands over the feet, on the line between them.
+    place = FRAME.inverse().transform_points([robot.truth.position])[0]
+    assert abs(place[0]) < 0.03 and abs(place[1]) < 1e-6
+    assert robot.truth.heading == pytest.approx(FRAME.theta)
+    data = robot.world.data
+    wanted = scheme.kinematics.posture
+    assert robot.qpos_slice.stop - robot.qpos_slice.start == wanted.size
+    np.testing.assert_array_equal(data.qpos[robot.qpos_slice][7:], wanted[7:])
+    measured = robot.read()
+    np.testing.assert_allclose(
+        measured.joint_positions, scheme.joint_targets, atol=1e-12
+    )
+    np.testing.assert_allclose(
+        data.ctrl[data.ctrl.size // 2 :], scheme.joint_targets
+    )
+    np.testing.assert_array_equal(data.ctrl[: data.ctrl.size // 2], 0.0)
+
+
+def test_a_robot_reads_its_own_sensors() -> None:
+    """Each value of the simulator's list comes out where it should."""
+    robot, _ = stand()
+    model, data = robot.world.model, robot.world.data
+    data.sensordata[:] = np.arange(data.sensordata.size)
+    measured = robot.read()
+
+    def values(sensor: str) -> Array:
+        found: Array = data.sensor(f"second/{sensor}").data
+        return found
+
+    np.testing.assert_array_equal(measured.gyro, values("gyro"))
+    np.testing.assert_array_equal(
+        measured.accelerometer, values("accelerometer")
+    )
+    forces = [values(name)[0] for name in FOOT_FORCES]
+    np.testing.assert_array_equal(measured.foot_forces, forces)
+    assert measured.time == 0.0 and measured.percepts == ()
+    assert measured.sighting is None
+    # What was read is kept when time goes on.
+    data.sensordata[:] = 0.0
+    np.testing.assert_array_equal(measured.foot_forces, forces)
+    assert measured.gyro.any() and measured.accelerometer.any()
+    assert model.nsensordata == data.sensordata.size
+
+
+def test_the_zmp_is_the_centre_of_the_forces_at_the_soles() -> None:
+    robot, _ = stand()
+    data = robot.world.data
+    forces = np.arange(1.0, 9.0)
+    for name, force in zip(FOOT_FORCES, forces, strict=True):
+        data.sensor(f"second/{name}").data[:] = force
+    corners = np.array(
+        [data.site(f"second/{name}").xpos[:2] for name in FOOT_FORCES]
+    )
+    expected = (forces[:, None] * corners).sum(axis=0) / forces.sum()
+    np.testing.assert_allclose(robot.measured_zmp(), expected)
+    for name in FOOT_FORCES:
+        data.sensor(f"second/{name}").data[:] = 0.0
+    assert np.isnan(robot.measured_zmp()).all()
+
+
+@pytest.mark.parametrize("direction", [0.0, 1.0, pi / 2, pi, -2.0])
+def test_a_robot_has_fallen_when_it_leans_by_45_degrees(
+    direction: float,
+) -> None:
+    robot, _ = stand()
+    data = robot.world.data
+    at = robot.qpos_slice.start
+    for angle, fallen in ((44.0, False), (46.0, True), (120.0, True)):
+        half = radians(angle) / 2.0
+        axis = sin(half) * np.array([cos(direction), sin(direction), 0.0])
+        data.qpos[at + 3 : at + 7] = (cos(half), *axis)
+        mujoco.mj_kinematics(robot.world.model, data)
+        assert robot.truth.has_fallen is fallen
+
+
+def test_distance_is_level_and_the_same_from_both_sides() -> None:
+    robot, _ = stand()
+    world = robot.world
+    other = TrueState(world.model, world.data, "first/torso")
+    world.data.qpos[:3] = (-2.3, 1.7, 5.0)
+    at = robot.qpos_slice.start
+    world.data.qpos[at : at + 3] = (0.7, -2.3, 0.3)
+    mujoco.mj_kinematics(world.model, world.data)
+    assert robot.truth.distance_to(other) == pytest.approx(5.0)
+    assert other.distance_to(robot.truth) == pytest.approx(5.0)
+    assert other.position == (-2.3, 1.7)
+
+
+def test_truth_is_the_robots_own() -> None:
+    robot, _ = stand()
+    model, data = robot.world.model, robot.world.data
+    masses = model.body_mass.copy()
+    torso = model.body("second/torso").id
+    masses[model.body_rootid != torso] = 0.0
+    com = masses @ data.xipos / masses.sum()
+    np.testing.assert_allclose(robot.truth.com, com)
+
+
+@pytest.mark.parametrize(
+    ("effect", "value"), [("efficiency", 0.9), ("play", 0.01)]
+)
+def test_servos_are_honest_where_the_body_is_not_ideal(
+    effect: str, value: float
+) -> None:
+    plain, _ = stand()
+    assert not isinstance(plain.servos, HonestServos)
+    assert plain.world.before_step == []
+    effects: dict[str, Any] = {effect: value}
+    robot, scheme = stand(**effects)
+    assert isinstance(robot.servos, HonestServos)
+    assert robot.world.before_step == [robot.servos.before_step]
+    legs = np.array([n in NAO.legs for n in scheme.kinematics.joint_names])
+    assert 10 <= legs.sum() < legs.size
+    play = 0.5 * value if effect == "play" else 0.0
+    np.testing.assert_allclose(robot.servos._half_play, play * legs)
+
+
+def test_speed_limits_belong_to_their_joints() -> None:
+    changes: list[dict[str, Any]] = [{}, {"efficiency": 0.9}]
+    for effects in changes:
+        robot, scheme = stand(**effects)
+        limits = [NAO.speed_limits[n] for n in scheme.kinematics.joint_names]
+        assert len(set(limits)) > 1
+        reach = robot.servos._reach
+        np.testing.assert_allclose(reach, 0.012 * np.array(limits))
+
+
+def test_sensors_are_spoilt_by_the_robots_own_draws() -> None:
+    """Encoders, IMU and feet go through the errors, in their places."""
+    effects: dict[str, Any] = {
+        "encoder_step": 0.01,
+        "gyro_bias": 0.1,
+        "accelerometer_bias": 0.5,
+        "force_gain_error": 0.2,
+    }
+    robot, _ = stand(**effects)
+    plain, _ = stand()
+    # A real spoilt robot measures what another with the same draws does.
+    body = BodySettings(**effects)
+    other = SpoiltSensors(body, named_generator(5, "sensors/second"))
+    truth, seen = plain.read(), robot.read()
+    turn, force = other.imu(truth.gyro, truth.accelerometer)
+    np.testing.assert_allclose(seen.gyro, turn)
+    np.testing.assert_allclose(seen.accelerometer, force)
+    assert np.abs(seen.accelerometer - truth.accelerometer).max() > 0.01
+    np.testing.assert_allclose(
+        seen.foot_forces, other.foot_forces(truth.foot_forces)
+    )
+    np.testing.assert_allclose(
+        seen.joint_positions, np.round(truth.joint_positions / 0.01) * 0.01
+    )
+
+
+def test_without_a_generator_nothing_is_spoilt() -> None:
+    physics = PhysicsSettings()
+    world = World({"walker": NAO}, physics)
+    robot = SimulatedRobot(
+        world,
+        "walker",
+        NAO,
+        LegKinematics(NAO, tick=physics.tick),
+        FRAME,
+        BodySettings(gyro_bias=1.0),
+    )
+    mujoco.mj_forward(world.model, world.data)
+    np.testing.assert_allclose(robot.read().gyro, 0.0, atol=1e-9)
+    assert robot.tick == physics.tick
+
+
+def test_feedback_makes_the_imu_average() -> None:
+    robot, scheme = stand(feedback=True)
+    assert scheme.stabiliser is not None
+    data = robot.world.data
+    (average,) = robot.world.before_step
+    for reading in (1.0, 3.0):
+        data.sensor("second/gyro").data[:] = reading
+        data.sensor("second/accelerometer").data[:] = 2.0 * reading
+        average(0.0)
+    measured = robot.read()
+    np.testing.assert_allclose(measured.gyro, 2.0)
+    np.testing.assert_allclose(measured.accelerometer, 4.0)
+    plain, open_loop = stand()
+    assert open_loop.stabiliser is None and plain.world.before_step == []
+
+
+def test_feedback_knows_the_clock_and_the_delay() -> None:
+    _, scheme = stand(feedback=True, delay_cycles=3)
+    stabiliser = scheme.stabiliser
+    late = stabiliser._asked.maxlen
+    assert late == 4
+    assert stabiliser._tick == 0.012
+    _, at_once = stand(feedback=True)
+    assert at_once.stabiliser._asked.maxlen == 1
+
+
+def test_a_scheme_starts_from_what_it_was_told() -> None:
+    robot, scheme = stand()
+    assert scheme._sighting == Sighting(0.0, 0.2, 2.0)
+    assert scheme.phase is Phase.STANDING
+    assert isinstance(scheme.role, Pursuit)
+    assert scheme.perception is None and robot.eyes is None
+
+
+def test_pushes_go_to_the_robots_own_torso() -> None:
+    robot, scheme = stand()
+    robot.push(Push(1.0, 0.0, 0.0))
+    first = robot.pusher
+    robot.push(Push(2.0, 0.0, 0.0), Push(0.5, 0.0, 0.0))
+    assert first is not None and robot.pusher is first
+    world = robot.world
+    assert world.before_step == [first.before_step]
+    world.before_step[0](0.0)
+    torso = world.model.body("second/torso").id
+    expected = np.zeros((world.model.nbody, 6))
+    expected[torso, :2] = 35.0 * np.array([cos(0.9), sin(0.9)])
+    np.testing.assert_allclose(world.data.xfrc_applied, expected, atol=1e-6)
+
+
+def test_sight_and_eyes_are_read_at_the_time_of_the_world() -> None:
+    robot, _ = stand()
+    told: list[float] = []
+
+    class Sense:
+        def read(self, now: float) -> Any:
+            told.append(now)
+            return ("seen",)
+
+        def close(self) -> None:
+            told.append(-1.0)
+
+    sense: Any = Sense()
+    robot.sight = robot.eyes = sense
+    robot.world.ticks = 50
+    measured = robot.read()
+    assert measured.sighting == measured.percepts == ("seen",)  # type: ignore
+    assert told == [pytest.approx(0.6)] * 2 and measured.time == told[0]
+    robot.close()
+    assert told[-1] == -1.0
+
+
+def test_time_passes_when_every_robot_has_asked_for_it() -> None:
+    robot, _ = stand()
+    robot.step()
+    assert robot.world.ticks == 0
+    robot.world.advance()
+    assert robot.world.ticks == 1
+    assert robot.world.data.time == pytest.approx(0.012)
+
+
+def test_settings_of_the_body_reach_the_robot() -> None:
+    robot, _ = stand(stiffness=0.5)
+    ranges = robot.world.model.actuator_forcerange
+    half = ranges.shape[0] // 2
+    np.testing.assert_allclose(ranges[half:], 0.5 * ranges[:half])

@@ -1,0 +1,181 @@
+"""A world of robots: who meets whom, whose time it is, where they stand."""
+
+from math import cos, pi, sin
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.poses import Pose
+from stepaside.robots.description import load_robot
+from stepaside.simulation.body_settings import BodySettings
+from stepaside.simulation.settings import PhysicsSettings
+from stepaside.simulation.world import (
+    COLOURS,
+    World,
+    build_model,
+    place_free_body,
+)
+
+NAO = load_robot("nao")
+TWO = dict.fromkeys(("pursuer", "evader"), NAO)
+SOLE = 0.3  # height of a torso at which soles are in the floor, in [m]
+
+
+def furnish(spec: mujoco.MjSpec) -> None:
+    """A box that stands in the room, and one that is part of the floor."""
+    body = spec.worldbody.add_body(name="box", pos=[5.0, 0.0, 0.5])
+    kind = mujoco.mjtGeom.mjGEOM_BOX
+    body.add_geom(
+        type=kind, size=[0.2, 0.2, 0.5], contype=128, conaffinity=255
+    )
+    spec.worldbody.add_geom(
+        type=kind,
+        size=[0.2, 0.2, 0.5],
+        pos=[-5.0, 0.0, 0.5],
+        contype=1,
+        conaffinity=255,
+    )
+
+
+def placed(world: World, first: float, second: float, height: float) -> None:
+    data = world.data
+    size = world.model.nq // 2
+    for index, x in enumerate((first, second)):
+        at = index * size
+        data.qpos[at : at + 7] = (x, 0, height, 1, 0, 0, 0)
+    mujoco.mj_forward(world.model, data)
+
+
+def test_robots_touch_each_other_and_things_but_not_the_floor() -> None:
+    world = World(TWO, PhysicsSettings(), furnish=furnish)
+    placed(world, 0.0, 2.0, 2.0)
+    assert world.data.ncon == 0 and not world.robots_touch()
+    placed(world, 0.0, 2.0, SOLE)  # both on the floor
+    assert world.data.ncon > 0 and not world.robots_touch()
+    placed(world, -5.0, 2.0, SOLE)  # one in a wall
+    assert world.data.ncon > 0 and not world.robots_touch()
+    for first, second in ((0.0, 0.12), (5.0, 0.0), (0.0, 5.0)):
+        placed(world, first, second, 2.0 if second == 0.12 else 0.6)
+        assert world.data.ncon > 0 and world.robots_touch()
+
+
+@pytest.mark.parametrize("names", [("pursuer", "evader"), ("evader", "x")])
+def test_every_pair_of_robots_collides_once(names: tuple[str, ...]) -> None:
+    """Floor with each, each with the others, none with itself."""
+    robots = dict.fromkeys((*names, "third"), NAO)
+    model = build_model(robots, PhysicsSettings())
+    types, affinities = model.geom_contype, model.geom_conaffinity
+    roots = model.body_rootid[model.geom_bodyid]
+    solid = np.flatnonzero((types > 0) | (affinities > 0))
+    for a in solid:
+        for b in solid:
+            meets = (types[a] & affinities[b]) or (types[b] & affinities[a])
+            assert bool(meets) is bool(roots[a] != roots[b])
+
+
+def test_feet_have_the_friction_of_the_floor() -> None:
+    model = build_model(TWO, PhysicsSettings(friction=0.31))
+    solid = (model.geom_contype > 0) | (model.geom_conaffinity > 0)
+    np.testing.assert_allclose(model.geom_friction[solid, 0], 0.31)
+    assert solid.sum() > 10 and not solid.all()
+
+
+def test_the_physics_is_as_asked_and_as_documented() -> None:
+    option = build_model(TWO, PhysicsSettings(time_step=0.001)).opt
+    assert option.timestep == 0.001
+    assert option.integrator == mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    assert option.solver == mujoco.mjtSolver.mjSOL_NEWTON
+    assert option.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL
+
+
+def test_robots_are_told_apart_by_their_colours() -> None:
+    model = build_model({"evader": NAO, "x": NAO}, PhysicsSettings())
+    accent = model.material(f"evader/{NAO.accent}").rgba
+    np.testing.assert_allclose(accent, COLOURS["evader"])
+    red, _, blue, _ = COLOURS["pursuer"]
+    assert red > 3.0 * blue and accent[2] > 3.0 * accent[0]
+    other = NAO.compile().material(NAO.accent).rgba
+    np.testing.assert_allclose(model.material(f"x/{NAO.accent}").rgba, other)
+
+
+def test_the_world_can_be_drawn_as_large_as_films_are() -> None:
+    model = build_model(TWO, PhysicsSettings())
+    assert model.vis.global_.offwidth >= 1920
+    assert model.vis.global_.offheight >= 1080
+    assert model.stat.extent == 1.0
+
+
+@pytest.mark.parametrize("effect", ["mass_error", "com_error"])
+def test_each_robot_is_misbuilt_in_its_own_way(effect: str) -> None:
+    body = BodySettings(**{effect: 0.05})  # type: ignore[arg-type]
+    right = build_model(TWO, PhysicsSettings(), BodySettings(), 4)
+    wrong = build_model(TWO, PhysicsSettings(), body, 4)
+    name = "body_mass" if effect == "mass_error" else "body_ipos"
+    off = getattr(wrong, name) - getattr(right, name)
+    torsos = [right.body(f"{robot}/{NAO.torso}").id for robot in TWO]
+    assert np.abs(off[torsos[0]]).max() > 0.0
+    assert np.abs(off[torsos[0]] - off[torsos[1]]).max() > 1e-6
+    other = build_model(TWO, PhysicsSettings(), body, 5)
+    change = getattr(other, name) - getattr(wrong, name)
+    assert np.abs(change[torsos[0]]).max() > 1e-6
+
+
+def test_time_passes_when_both_have_asked_and_counts_their_steps() -> None:
+    world = World(TWO, PhysicsSettings(time_step=0.002, tick=0.006))
+    for tick in range(3):
+        world.advance()
+        assert world.ticks == tick
+        world.advance()
+        assert world.ticks == tick + 1
+        assert world.time == pytest.approx(0.006 * (tick + 1))
+        assert world.data.time == pytest.approx(world.time)
+
+
+def test_before_each_step_everyone_is_told_its_time() -> None:
+    world = World({"evader": NAO}, PhysicsSettings(tick=0.006))
+    told: list[float] = []
+    also: list[float] = []
+    world.before_step += [told.append, also.append]
+    for _ in range(2):
+        world.advance()
+    expected = 0.002 * np.arange(6)
+    np.testing.assert_allclose(told, expected, atol=1e-12)
+    assert told == also
+    assert world.data.time == pytest.approx(0.012)
+
+
+def test_steps_are_the_same_one_by_one_and_together() -> None:
+    states = []
+    for calls in ([], [lambda time: None]):
+        world = World({"evader": NAO}, PhysicsSettings(tick=0.006))
+        world.data.qpos[2] = 0.4
+        world.before_step += calls
+        for _ in range(5):
+            world.advance()
+        states.append(world.data.qpos.copy())
+    np.testing.assert_array_equal(*states)
+
+
+def rotation(quaternion: Any) -> np.ndarray:
+    out = np.zeros(9)
+    mujoco.mju_quat2Mat(out, np.array(quaternion, dtype=float))
+    return out.reshape(3, 3)
+
+
+@pytest.mark.parametrize("theta", [0.0, 0.7, -2.1, pi])
+def test_a_placed_body_is_turned_about_the_vertical(theta: float) -> None:
+    """Whatever its own posture: the matrix is the product of both."""
+    own = np.array([0.6, -0.2, 0.5, 0.3])
+    own /= np.linalg.norm(own)
+    pose = Pose(1.0, -2.0, theta)
+    placed_at = place_free_body([0.3, 0.1, 0.4, *own], pose)
+    np.testing.assert_allclose(
+        placed_at[:3], [*pose.transform_points([[0.3, 0.1]])[0], 0.4]
+    )
+    c, s = cos(theta), sin(theta)
+    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    np.testing.assert_allclose(
+        rotation(placed_at[3:]), turn @ rotation(own), atol=1e-12
+    )

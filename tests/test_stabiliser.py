@@ -1,0 +1,226 @@
+"""Test feedback on top of a plan, with a state that is made up."""
+
+from dataclasses import replace
+from math import exp
+from typing import Any
+
+import numpy as np
+import pytest
+
+from made_up_state import (
+    BODY,
+    COM,
+    DCM,
+    ETA,
+    GAINS,
+    GAIT,
+    MEASUREMENT,
+    ROW,
+    SUPPORT,
+    TICK,
+    ZERO,
+    ZMP,
+    same,
+    stabiliser,
+    step,
+)
+from stepaside.control.step import zmp_box
+from stepaside.planning import (
+    Foot,
+)
+
+
+def test_a_body_that_does_as_asked_is_asked_as_planned() -> None:
+    feedback, _ = stabiliser()
+    for _ in range(20):
+        assert feedback.update(MEASUREMENT, ROW, step()) == BODY
+    assert feedback.com_shift == feedback.dcm_shift == ZERO
+    assert feedback.zmp_shift == feedback.step_shift == ZERO
+
+
+def test_who_has_not_stood_still_is_asked_as_planned() -> None:
+    feedback, fake = stabiliser()
+    fake.ready, fake.off_dcm, fake.tilt = False, (0.05, 0.05), (0.1, 0.1)
+    assert not feedback.ready
+    assert feedback.update(MEASUREMENT, ROW, step()) is BODY
+    assert feedback.dcm_shift == ZERO and feedback.state is not None
+    fake.ready = True
+    assert feedback.ready
+    assert feedback.update(MEASUREMENT, ROW, step()) != BODY
+
+
+@pytest.mark.parametrize("angle", [0.0, 2.0, 4.0])
+def test_small_errors_are_left_to_stiff_joints(angle: float) -> None:
+    """15 mm of DCM and half of it of CoM, in any direction."""
+    way = np.array([np.cos(angle), np.sin(angle)])
+    feedback, fake = stabiliser()
+    fake.off_dcm, fake.off_com = tuple(0.0149 * way), tuple(0.0074 * way)
+    feedback.update(MEASUREMENT, ROW, step())
+    assert feedback.error == feedback.com_error == ZERO
+    fake.off_dcm, fake.off_com = tuple(0.0250 * way), tuple(0.0175 * way)
+    feedback.update(MEASUREMENT, ROW, step())
+    same(feedback.error, 0.01 * way)
+    same(feedback.com_error, 0.01 * way)
+
+
+def test_beyond_the_dead_zone_the_reference_gives_way() -> None:
+    """By 5/s of the error, and the pendulum runs on with the ZMP's shift."""
+    feedback, fake = stabiliser()
+    fake.off_dcm, fake.off_com = (0.025, 0.0), (0.0, -0.0175)
+    body = feedback.update(MEASUREMENT, ROW, step())
+    gave = 5.0 * TICK * 0.01
+    zmp = np.array([4.0 * gave, 0.0])
+    same(feedback.zmp_shift, zmp)
+    dcm = zmp + exp(ETA * TICK) * (np.array([gave, 0.0]) - zmp)
+    same(feedback.dcm_shift, dcm)
+    com = np.array([0.0, -gave])
+    com = com + TICK * ETA * (dcm - com)
+    same(feedback.com_shift, com)
+    same(body.com, (COM[0] + com[0], COM[1] + com[1], 0.27))
+
+
+def test_a_shift_is_brought_back_by_the_zmp() -> None:
+    """With xi' = eta (xi - 4 xi) it fades, and the CoM follows."""
+    feedback, fake = stabiliser()
+    feedback.dcm_shift, feedback.com_shift = (0.003, -0.002), (0.001, 0.001)
+    for ticks in range(1, 200):
+        fake.off_dcm, fake.off_com = feedback.dcm_shift, feedback.com_shift
+        feedback.update(MEASUREMENT, ROW, step())
+        if ticks == 25:
+            fade = (4.0 - 3.0 * exp(ETA * TICK)) ** 25
+            same(feedback.dcm_shift, (0.003 * fade, -0.002 * fade))
+            assert fade == pytest.approx(exp(-3.0 * ETA * 25 * TICK), rel=0.1)
+    assert np.abs(feedback.dcm_shift).max() < 1e-6
+    assert np.abs(feedback.com_shift).max() < 1e-4
+
+
+def test_giving_way_is_never_faster_than_the_error() -> None:
+    feedback, fake = stabiliser(gains=replace(GAINS, yielding=1e6))
+    fake.off_com = (0.0, 0.0175)
+    feedback.update(MEASUREMENT, ROW, step())
+    same(feedback.com_shift, (0.0, 0.01 * (1.0 - TICK * ETA)))
+
+
+def test_the_estimator_is_told_what_was_asked() -> None:
+    """CoM and ZMP with their shifts, and the acceleration they mean."""
+    feedback, fake = stabiliser()
+    feedback.com_shift, feedback.zmp_shift = (0.01, -0.02), (0.03, 0.04)
+    feedback.dcm_shift, feedback.step_shift = (0.02, -0.02), (0.008, 0.0)
+    fake.off_com, fake.off_dcm = feedback.com_shift, feedback.dcm_shift
+    feedback.update(MEASUREMENT, ROW, step())
+    feet, acceleration = fake.told[0]
+    same(feet.com, (COM[0] + 0.01, COM[1] - 0.02, 0.27))
+    same(feet.left_foot, np.add(BODY.left_foot, (0.004, 0.0, 0.0, 0.0)))
+    same(feet.right_foot, BODY.right_foot)
+    same(
+        acceleration,
+        (
+            ETA**2 * (COM[0] + 0.01 - ZMP[0] - 0.03),
+            ETA**2 * (COM[1] - 0.02 - ZMP[1] - 0.04),
+        ),
+    )
+    assert feedback.error == feedback.com_error == ZERO
+
+
+@pytest.mark.parametrize("late", [0, 1, 3])
+def test_what_moves_now_was_asked_for_a_delay_ago(late: int) -> None:
+    feedback, fake = stabiliser(delay=late * TICK)
+    for i in range(8):
+        x = COM[0] + 0.1 * i
+        row = ROW._replace(
+            body=BODY._replace(com=(x, COM[1], 0.27)),
+            dcm=(DCM[0] + 0.1 * i, DCM[1]),
+        )
+        seen = 0.1 * max(i - late, 0)
+        fake.off_com = fake.off_dcm = (seen, 0.0)
+        feedback.update(MEASUREMENT, row, step())
+        same(fake.told[i][0].com[0], COM[0] + seen)
+        same(feedback.error, ZERO)
+        same(feedback.com_error, ZERO)
+
+
+def test_feet_tilt_with_the_torso() -> None:
+    feedback, fake = stabiliser()
+    fake.tilt = (0.1, -0.2)
+    body = feedback.update(MEASUREMENT, ROW, step())
+    part = 0.3 * 50.0 * TICK
+    same(body.left_tilt, (0.1 * part, -0.2 * part))
+    same(body.right_tilt, body.left_tilt)
+    feedback, fake = stabiliser()
+    fake.tilt, fake.left_share = (0.1, -0.2), 0.25
+    body = feedback.update(MEASUREMENT, ROW, step())
+    same(body.right_tilt, (0.1 * part, -0.2 * part))
+    same(body.left_tilt, (0.05 * part, -0.1 * part))
+
+
+def test_what_the_sole_cannot_hold_is_stepped_out() -> None:
+    """No faster than a swing foot can follow: 1.5 m/s."""
+    for sign in (1.0, -1.0):
+        feedback, fake = stabiliser()
+        fake.off_dcm = step().from_support(sign * 0.2, sign * 0.2)
+        feedback.update(MEASUREMENT, ROW, step())
+        reach = sign * 1.5 * TICK
+        same(feedback.step_shift, np.clip(feedback.step_shift, -0.006, 0.006))
+        assert np.abs(feedback.step_shift).max() == pytest.approx(abs(reach))
+        for _ in range(100):
+            feedback.update(MEASUREMENT, ROW, step())
+        x, y = step().to_support(*feedback.step_shift)
+        place = (0.08, 0.12) if sign > 0 else (-0.08, 0.082)
+        assert (0.04 + x, 0.1 + y) == pytest.approx(place)
+
+
+def test_a_foot_goes_back_when_it_need_not_step_out() -> None:
+    feedback, _ = stabiliser()
+    feedback.step_shift = (0.01, -0.01)
+    feedback.update(MEASUREMENT, ROW, step())
+    same(feedback.step_shift, (0.01 - 1.5 * TICK, -0.01 + 1.5 * TICK))
+
+
+@pytest.mark.parametrize("rate", [0.0, 0.5])
+def test_an_error_that_joints_have_not_followed_is_stepped_out_too(
+    rate: float,
+) -> None:
+    """The part that the shift has not taken over yet, and the shift."""
+    gains = replace(
+        GAINS, yielding=rate / TICK, step_speed=1e6, reach_forward=1.0
+    )
+    feedback, fake = stabiliser(gains=gains)
+    fake.off_dcm = step().from_support(0.105, 0.0)
+    feedback.update(MEASUREMENT, ROW, step(landing=SUPPORT))
+    edge = zmp_box(Foot.LEFT, GAIT, GAINS.edge)[1][0]
+    zmp = min(4.0 * rate * 0.09, edge)
+    shift = zmp + exp(ETA * TICK) * (rate * 0.09 - zmp)
+    error = shift + (1.0 - rate) * 0.09
+    grow = exp(ETA * 0.2)
+    x, y = step().to_support(*feedback.step_shift)
+    landing = grow * error - (grow - 1.0) * edge
+    assert (x, y) == pytest.approx((landing, 0.0), abs=1e-9)
+    assert step().to_support(*feedback.dcm_shift)[0] == pytest.approx(shift)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"walking": False},
+        {"remaining": 0.0},
+        {"remaining": -0.01},
+        {"progress": 0.95},
+    ],
+)
+def test_a_foot_that_lands_is_left_alone(changes: dict[str, Any]) -> None:
+    feedback, fake = stabiliser()
+    fake.off_dcm = (0.2, 0.2)
+    feedback.update(MEASUREMENT, ROW, step(**changes))
+    assert feedback.step_shift == ZERO
+    assert feedback.dcm_shift != ZERO
+    feedback.update(MEASUREMENT, ROW, step(progress=0.94, remaining=1e-4))
+    assert feedback.step_shift != ZERO
+
+
+def test_the_swing_foot_goes_where_shift_and_stride_lead_it() -> None:
+    feedback, _ = stabiliser(gains=replace(GAINS, step_speed=0.0))
+    feedback.step_shift = (0.02, -0.01)
+    feedback.stride.aim[Foot.LEFT] = np.array([0.0, 0.0, 0.04])
+    body = feedback.update(MEASUREMENT, ROW, step())
+    same(body.left_foot, np.add(BODY.left_foot, (0.01, -0.005, 0.0, 0.02)))
+    assert body.right_foot == BODY.right_foot

@@ -1,0 +1,144 @@
+"""Test footsteps that fall short, learned from the encoders."""
+
+from math import pi
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.control.step import Step, resting_step
+from stepaside.control.stride import BOUNDS, StrideLearning, measured_step
+from stepaside.planning import Foot, GaitSettings
+from stepaside.planning.swing import swing_progress
+from stepaside.poses import Pose
+from stepaside.robots.forward import MeasuredPosture
+from stepaside.robots.head import rotation
+from stepaside.robots.kinematics import BodyReference
+
+GAIT = GaitSettings()
+SUPPORT = Pose(1.0, -2.0, 0.7)
+BODY = BodyReference(
+    (0.0, 0.0, 0.27), (0.1, 0.2, 0.01, 0.3), (0.4, 0.5, 0.02, 0.6)
+)
+
+
+def posture(
+    swing: Foot, stepped: Pose, lean: tuple[float, float, float]
+) -> MeasuredPosture:
+    """Feet in a torso that leans, the swing foot so far from the other."""
+    torso = rotation(*lean).T
+    feet = {swing.other: (0.0, 0.0, 0.0), swing: (*stepped[:2], 0.0)}
+    yaws = {swing.other: 0.0, swing: stepped.theta}
+    order = (Foot.LEFT, Foot.RIGHT)
+    return MeasuredPosture(
+        np.zeros(3),
+        np.array([torso @ feet[f] + (0.1, 0.2, -0.3) for f in order]),
+        np.array([torso @ rotation(0.0, 0.0, yaws[f]) for f in order]),
+    )
+
+
+def step(swing: Foot, planned: Pose, **changes: float) -> Step:
+    values: dict[str, Any] = {
+        "remaining": -GAIT.double_support,
+        "progress": 1.0,
+    } | changes
+    return Step(
+        SUPPORT, swing, SUPPORT.compose(planned), walking=True, **values
+    )
+
+
+def learner() -> StrideLearning:
+    return StrideLearning(GAIT, 0.3)
+
+
+@pytest.mark.parametrize("swing", Foot)
+@pytest.mark.parametrize("lean", [(0.0, 0.0, 0.0), (0.2, -0.3, 1.0)])
+def test_a_step_is_measured_however_the_torso_leans(
+    swing: Foot, lean: tuple[float, float, float]
+) -> None:
+    stepped = Pose(0.04, swing.value * 0.09, -0.2)
+    measured = measured_step(posture(swing, stepped, lean), swing)
+    np.testing.assert_allclose(measured, stepped, atol=1e-12)
+
+
+@pytest.mark.parametrize("swing", Foot)
+def test_a_share_of_what_falls_short_is_aimed_beyond(swing: Foot) -> None:
+    planned = Pose(0.04, swing.value * 0.1, 0.05)
+    made = Pose(0.035, swing.value * 0.1 + 0.01, 0.02)
+    stride = learner()
+    stride.learn(posture(swing, made, (0.1, 0.1, 0.2)), step(swing, planned))
+    expected = 0.3 * np.array([0.005, -0.01, 0.03])
+    np.testing.assert_allclose(stride.aim[swing], expected, atol=1e-12)
+    np.testing.assert_array_equal(stride.aim[swing.other], 0.0)
+
+
+def test_aiming_ends_the_shortfall() -> None:
+    """A foot always 5 mm and 0.03 rad short of where it is sent."""
+    planned = Pose(0.04, 0.1, 0.05)
+    stride = learner()
+    for _ in range(60):
+        x, y, theta = stride.aim[Foot.LEFT].tolist()
+        made = Pose(0.035 + x, 0.1 + y, 0.02 + theta)
+        where = posture(Foot.LEFT, made, (0.0, 0.0, 0.0))
+        stride.learn(where, step(Foot.LEFT, planned))
+    aim = stride.aim[Foot.LEFT]
+    np.testing.assert_allclose(aim, [0.005, 0.0, 0.03], atol=1e-9)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_what_is_learned_has_bounds(sign: float) -> None:
+    planned = Pose(0.0, 0.1, 0.0)
+    made = Pose(-sign * 0.5, 0.1 - sign * 0.5, -sign * 1.0)
+    stride = learner()
+    for _ in range(5):
+        where = posture(Foot.LEFT, made, (0.0, 0.0, 0.0))
+        stride.learn(where, step(Foot.LEFT, planned))
+    np.testing.assert_allclose(stride.aim[Foot.LEFT], sign * BOUNDS)
+    np.testing.assert_array_equal(BOUNDS, [0.015, 0.015, 0.08])
+
+
+def test_a_turn_past_the_half_circle_is_small() -> None:
+    planned = Pose(0.0, 0.1, pi - 0.01)
+    made = Pose(0.0, 0.1, -pi + 0.01)
+    stride = learner()
+    where = posture(Foot.LEFT, made, (0.0, 0.0, 0.0))
+    stride.learn(where, step(Foot.LEFT, planned))
+    assert stride.aim[Foot.LEFT][2] == pytest.approx(-0.3 * 0.02)
+
+
+@pytest.mark.parametrize("swing", Foot)
+def test_the_aim_fades_in_with_the_swing(swing: Foot) -> None:
+    stride = learner()
+    stride.aim[swing] = np.array([0.01, -0.004, 0.05])
+    made = step(swing, Pose(0, 0, 0), remaining=0.3, progress=0.25)
+    body = stride.aimed(BODY, made)
+    x, y = made.from_support(0.0025, -0.001)
+    moved, was = body.left_foot, BODY.left_foot
+    other, stood = body.right_foot, BODY.right_foot
+    if swing is Foot.RIGHT:
+        moved, was, other, stood = other, stood, moved, was
+    np.testing.assert_allclose(np.subtract(moved, was), [x, y, 0.0, 0.0125])
+    assert other == stood and body.com == BODY.com
+
+
+@pytest.mark.parametrize("part", [0.0, 0.25, 0.5, 0.9])
+def test_the_aim_fades_out_while_both_feet_stand(part: float) -> None:
+    stride = learner()
+    stride.aim[Foot.LEFT] = np.array([0.01, 0.0, 0.05])
+    stood = -part * GAIT.double_support - 1e-12
+    body = stride.aimed(
+        BODY, step(Foot.LEFT, Pose(0.0, 0.1, 0.0), remaining=stood)
+    )
+    share = 1.0 - float(swing_progress(part))
+    assert body.left_foot[3] - 0.3 == pytest.approx(share * 0.05)
+
+
+def test_a_foot_that_stands_is_aimed_nowhere() -> None:
+    stride = learner()
+    for foot in Foot:
+        stride.aim[foot] = np.array([0.01, 0.01, 0.05])
+    late = step(Foot.LEFT, Pose(0.0, 0.1, 0.0), remaining=-1.0)
+    assert stride.aimed(BODY, late) is BODY
+    begun = step(Foot.LEFT, Pose(0.0, 0.1, 0.0), remaining=0.4, progress=0.0)
+    assert stride.aimed(BODY, begun) is BODY
+    assert stride.aimed(BODY, resting_step(SUPPORT, Foot.LEFT)) is BODY

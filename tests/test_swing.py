@@ -1,0 +1,79 @@
+"""Test swing-foot trajectories that lift off and touch down at rest."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from stepaside.planning.swing import swing_height, swing_progress
+from stepaside.poses import Array
+
+H = 1e-3
+
+
+def derivative(values: Array, order: int, h: float) -> Array:
+    """Central differences of equally spaced values."""
+    for _ in range(order):
+        values = (values[2:] - values[:-2]) / (2.0 * h)
+    return values
+
+
+def test_progress_is_the_minimum_jerk_polynomial() -> None:
+    """Its sixth derivative vanishes, and so do rates at the ends."""
+    s = np.array([0.1, 0.25, 0.5, 0.8])
+    closed = 10.0 * s**3 - 15.0 * s**4 + 6.0 * s**5
+    np.testing.assert_allclose(swing_progress(s), closed, atol=1e-15)
+    np.testing.assert_array_equal(swing_progress([0.0, 1.0]), [0.0, 1.0])
+
+
+@given(st.floats(-1.0, 2.0))
+def test_progress_mirrors_about_the_middle(phase: float) -> None:
+    there, back = swing_progress([phase, 1.0 - phase])
+    assert there + back == pytest.approx(1.0, abs=1e-12)
+
+
+def test_progress_only_grows() -> None:
+    progress = swing_progress(np.linspace(0.0, 1.0, 101))
+    assert (np.diff(progress) > 0.0).all()
+    # Peak speed of minimum jerk: 15 / 8 of the mean.
+    assert np.diff(progress).max() == pytest.approx(0.01875, rel=1e-3)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("end", [0.0, 1.0])
+def test_speed_and_acceleration_vanish_at_both_ends(
+    end: float, order: int
+) -> None:
+    """A power less in the height, and the foot hits the floor with a jolt.
+
+    What is left of a cubic end at a distance h is of the order
+    h ** (3 - order).
+    """
+    phases = end + H * np.arange(-order, order + 1)
+    for values, third in (
+        (swing_progress(phases), 60.0),
+        (swing_height(phases, 0.02), 0.02 * 6.0 * 64.0),
+    ):
+        rate = derivative(values, order, H)
+        assert np.abs(rate).max() < third * H ** (3 - order)
+
+
+def test_height_peaks_at_its_apex_half_way() -> None:
+    phases = np.linspace(0.0, 1.0, 101)
+    heights = swing_height(phases, 0.03)
+    assert heights.max() == pytest.approx(0.03)
+    assert phases[heights.argmax()] == pytest.approx(0.5)
+    np.testing.assert_allclose(heights, heights[::-1], atol=1e-15)
+    assert (np.diff(heights[:51]) > 0.0).all()
+
+
+def test_height_is_that_of_a_cubed_parabola() -> None:
+    """A quarter of the way: (3/4)^3 of the apex."""
+    heights = swing_height([0.25, 0.75, 0.1], 1.0)
+    np.testing.assert_allclose(heights, [0.421875, 0.421875, 0.36**3])
+
+
+@pytest.mark.parametrize("phase", [-5.0, -1e-9, 0.0, 1.0, 1.0 + 1e-9, 7.0])
+def test_a_foot_stands_before_and_after(phase: float) -> None:
+    assert float(swing_height(phase, 0.02)) == 0.0
+    assert float(swing_progress(phase)) == (0.0 if phase < 0.5 else 1.0)

@@ -1,0 +1,198 @@
+"""Test which of the things seen is the other: gates, merging, memory."""
+
+import pytest
+
+from stepaside.sensing.track import Observation, Track
+from stepaside.sensing.tracker import Tracker
+
+
+def look(
+    time: float,
+    x: float,
+    y: float = 0.0,
+    *,
+    identified: bool = False,
+    along: float = 0.03,
+) -> Observation:
+    """Something seen along the x axis, as sure in x as in y."""
+    return Observation(time, x, y, 0.0, along, along, identified, True)
+
+
+def known(
+    time: float, x: float, y: float = 0.0, *, identified: bool = False
+) -> Track:
+    """A confirmed track."""
+    track = Track(look(time, x, y, identified=identified))
+    track.confirmed = True
+    return track
+
+
+def tracker_of(*tracks: Track) -> Tracker:
+    tracker = Tracker()
+    tracker.tracks = list(tracks)
+    return tracker
+
+
+def test_within_the_gate_it_is_the_same_and_beyond_it_another() -> None:
+    """Four deviations of both together: 0.17 m."""
+    for gap, same in ((0.160, True), (0.179, False)):
+        track = known(0.0, 1.0)
+        tracker = tracker_of(track)
+        (updated,) = tracker.observe([look(0.0, 1.0 + gap)])
+        assert (updated is track) is same
+        assert len(tracker.tracks) == (1 if same else 2)
+
+
+def test_each_takes_what_fits_it_best() -> None:
+    near, far = known(0.0, 1.0), known(0.0, 2.0)
+    tracker = tracker_of(far, near)
+    seen = [look(0.1, 2.02), look(0.1, 1.04), look(0.1, 1.01)]
+    updated = tracker.observe(seen, founds=False)
+    assert len(updated) == 2 and near in updated and far in updated
+    assert near.place_at(0.1)[0] == pytest.approx(1.01, abs=0.005)
+    assert far.place_at(0.1)[0] == pytest.approx(2.02, abs=0.008)
+    assert tracker.tracks == [far, near]
+
+
+def test_who_was_seen_last_takes_first() -> None:
+    """Else a track that was lost would take what belongs to another."""
+    for order in (1, -1):
+        old, new = known(0.0, 1.0), known(0.5, 1.05)
+        tracker = tracker_of(*[old, new][::order])
+        assert tracker.observe([look(0.6, 1.03)]) == [new]
+
+
+def test_what_fits_nothing_begins_a_track_unless_told_otherwise() -> None:
+    tracker = Tracker()
+    assert tracker.observe([look(0.0, 1.0)], founds=False) == []
+    assert tracker.tracks == []
+    begun = tracker.observe([look(0.0, 1.0), look(0.0, 2.0)])
+    assert begun == tracker.tracks and len(begun) == 2
+
+
+def test_an_observation_counts_for_confirmation() -> None:
+    tracker = Tracker()
+    for i in range(3):
+        tracker.observe([look(0.1 * i, 1.0)])
+    assert [track.confirmed for track in tracker.tracks] == [True]
+
+
+@pytest.mark.parametrize(("gap", "one"), [(0.13, True), (0.17, False)])
+def test_two_tracks_at_one_place_become_the_older(
+    gap: float, one: bool
+) -> None:
+    for order in (1, -1):
+        older = known(0.0, 1.0)
+        younger = known(0.1, 1.0, gap, identified=True)
+        tracker = tracker_of(*[older, younger][::order])
+        main = tracker.main(0.2, 0.0, 0.0)
+        assert main is (older if one else younger)
+        assert len(tracker.tracks) == (1 if one else 2)
+        assert older.identified_at == (0.1 if one else float("-inf"))
+
+
+@pytest.mark.parametrize(("late", "one"), [(0.45, True), (0.55, False)])
+def test_who_comes_when_another_has_long_left_is_not_that_one(
+    late: float, one: bool
+) -> None:
+    tracker = tracker_of(known(0.0, 1.0), known(late, 1.0, 0.05))
+    tracker.main(late + 0.01, 0.0, 0.0)
+    assert len(tracker.tracks) == (1 if one else 2)
+
+
+def test_three_tracks_at_one_place_become_one() -> None:
+    tracker = tracker_of(
+        known(0.2, 1.0, 0.05), known(0.0, 1.0), known(0.1, 1.0, -0.05)
+    )
+    tracker.tracks.append(known(0.0, 3.0))
+    main = tracker.main(0.2, 0.0, 0.0)
+    assert main is not None and main.begun_at == 0.0 and main.seen_at == 0.2
+    assert len(tracker.tracks) == 2
+
+
+def test_merging_looks_at_where_things_are_by_now() -> None:
+    moving, resting = known(0.0, 1.0), known(0.01, 1.5)
+    for i in range(1, 7):
+        moving.correct(look(0.1 * i, 1.0 + 0.05 * i))
+        resting.correct(look(0.1 * i, 1.5))
+    tracker = tracker_of(moving, resting)
+    tracker.main(0.61, 0.0, 0.0)
+    assert len(tracker.tracks) == 2
+    tracker.main(0.85, 0.0, 0.0)
+    assert tracker.tracks == [moving]
+
+
+def test_the_nearest_counts_from_where_one_stands() -> None:
+    left, right = known(0.0, 1.0), known(0.0, 4.0)
+    tracker = tracker_of(left, right)
+    assert tracker.main(0.1, 0.0, 0.0) is left
+    assert tracker.main(0.1, 5.0, 0.0) is right
+    assert tracker_of().main(0.1, 0.0, 0.0) is None
+
+
+@pytest.mark.parametrize(("age", "counts"), [(4.8, True), (5.2, False)])
+def test_the_other_is_the_other_for_five_seconds_unrecognised(
+    age: float, counts: bool
+) -> None:
+    other, near = known(0.0, 2.0, identified=True), known(0.0, 1.0)
+    for track, x in ((other, 2.0), (near, 1.0)):
+        track.correct(look(age, x))
+    main = tracker_of(near, other).main(age, 0.0, 0.0)
+    assert main is (other if counts else near)
+
+
+@pytest.mark.parametrize(("lapse", "older"), [(0.45, True), (0.55, False)])
+def test_of_two_recognised_the_one_longer_known_counts(
+    lapse: float, older: bool
+) -> None:
+    """A late one may be a mistake, until the first is recognised no more."""
+    for order in (1, -1):
+        first = known(0.0, 2.0, identified=True)
+        late = known(lapse, 1.0, identified=True)
+        first.correct(look(lapse, 2.0))
+        main = tracker_of(*[first, late][::order]).main(lapse, 0.0, 0.0)
+        assert main is (first if older else late)
+
+
+def test_what_is_not_confirmed_counts_for_nothing() -> None:
+    unsure = Track(look(0.0, 1.0, identified=True))
+    sure = known(0.0, 2.0)
+    assert tracker_of(unsure, sure).main(0.1, 0.0, 0.0) is sure
+
+
+@pytest.mark.parametrize(("age", "kept"), [(0.9, True), (1.1, False)])
+def test_what_is_not_confirmed_is_forgotten_in_a_second(
+    age: float, kept: bool
+) -> None:
+    tracker = tracker_of(Track(look(0.0, 1.0)))
+    tracker.main(age, 0.0, 0.0)
+    assert (len(tracker.tracks) == 1) is kept
+    tracker = tracker_of(known(0.0, 1.0))
+    assert tracker.main(age, 0.0, 0.0) is not None
+
+
+@pytest.mark.parametrize(("age", "kept"), [(0.28, True), (0.32, False)])
+def test_a_vague_sighting_counts_while_it_is_fresh(
+    age: float, kept: bool
+) -> None:
+    vague = Track(look(0.0, 1.0, along=0.7))
+    vague.confirmed = True
+    assert (tracker_of(vague).main(age, 0.0, 0.0) is vague) is kept
+
+
+@pytest.mark.parametrize(("along", "kept"), [(0.54, True), (0.66, False)])
+def test_memory_ends_where_doubt_is_as_large_as_a_step_aside(
+    along: float, kept: bool
+) -> None:
+    vague = Track(look(0.0, 1.0, along=along))
+    vague.confirmed = True
+    assert (tracker_of(vague).main(0.31, 0.0, 0.0) is vague) is kept
+
+
+def test_hopeless_tracks_are_dropped() -> None:
+    track = Track(look(0.0, 1.0))
+    for _ in range(3):
+        track.count(False)
+    tracker = tracker_of(track)
+    tracker.main(0.0, 0.0, 0.0)
+    assert tracker.tracks == []

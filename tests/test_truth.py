@@ -1,0 +1,52 @@
+"""Test what only the simulator knows, on a box that is put anywhere."""
+
+from math import hypot, radians
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.robots.head import rotation
+from stepaside.simulation.truth import TrueState
+
+
+def put(
+    x: float, y: float, roll: float, pitch: float, yaw: float
+) -> TrueState:
+    """A box with its CoM above its origin, its angles in degrees."""
+    model = mujoco.MjModel.from_xml_string(
+        '<mujoco><worldbody><body name="box"><freejoint/>'
+        '<geom type="box" size="0.1 0.1 0.1" pos="0 0 0.2"/>'
+        "</body></worldbody></mujoco>"
+    )
+    data = mujoco.MjData(model)
+    data.qpos[:3] = x, y, 0.4
+    axes = rotation(radians(roll), radians(pitch), radians(yaw))
+    mujoco.mju_mat2Quat(data.qpos[3:7], axes.reshape(-1))
+    mujoco.mj_forward(model, data)
+    return TrueState(model, data, "box")
+
+
+def test_place_heading_and_com_are_those_of_the_torso() -> None:
+    truth = put(1.0, -2.0, 0.0, 0.0, 130.0)
+    assert truth.position == (1.0, -2.0)
+    assert truth.heading == pytest.approx(radians(130.0))
+    np.testing.assert_allclose(truth.com, (1.0, -2.0, 0.6))
+    assert put(0, 0, 20.0, 0.0, -50.0).heading == pytest.approx(radians(-50))
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+@pytest.mark.parametrize("yaw", [0.0, 77.0])
+def test_a_torso_has_fallen_beyond_45_degrees(sign: float, yaw: float) -> None:
+    assert not put(0, 0, 0.0, 0.0, yaw).has_fallen
+    for roll, pitch in ((1.0, 0.0), (0.0, 1.0)):
+        for lean, fallen in ((44.0, False), (46.0, True), (120.0, True)):
+            lean *= sign
+            truth = put(0, 0, roll * lean, pitch * lean, yaw)
+            assert truth.has_fallen is fallen
+
+
+def test_distance_is_horizontal_and_mutual() -> None:
+    one, other = put(1.0, -2.0, 0, 0, 0), put(-0.5, -1.0, 0, 30.0, 9.0)
+    assert one.distance_to(other) == pytest.approx(hypot(1.5, 1.0))
+    assert other.distance_to(one) == one.distance_to(other)

@@ -1,0 +1,329 @@
+"""Test that every circle of a game is found, and nothing else."""
+
+from math import cos, pi, sin
+
+import numpy as np
+import pytest
+
+from stepaside.poses import wrap_angle
+from stepaside.unicycle.basins import find_basins, random_starts
+from stepaside.unicycle.circles import agrees, circles_of, find_circles
+from stepaside.unicycle.circling import Circle, circle_of
+from stepaside.unicycle.equilibria import find_rests, growth_rates
+from stepaside.unicycle.kernel import play_games
+from stepaside.unicycle.laws import Game, TurningLaw, make_game
+from stepaside.unicycle.measure import circle_at, measure, settling_time
+from stepaside.unicycle.ratios import map_ratios
+from stepaside.unicycle.relative import Start
+from stepaside.unicycle.remedies import alternatives, try_remedies
+from stepaside.unicycle.simulate import simulate
+
+FAST = make_game(2.0, 1.0, 1.0, 4.0)
+FAST_6 = make_game(2.0, 1.0, 1.0, 4.0, pi / 2, "saturated")
+
+
+def random_games(count: int, seed: int = 8) -> np.ndarray:
+    """Speeds and gains within a factor of e^0.9 of one, any angle."""
+    rng = np.random.default_rng(seed)
+    values = np.exp(rng.uniform(-0.9, 0.9, (count, 4)))
+    return np.column_stack([values, rng.uniform(0.05, 3.1, count)])
+
+
+def game_of(values: np.ndarray, law: TurningLaw, rule: str) -> Game:
+    """Game of a row of :func:`random_games`."""
+    vp, ve, kp, ke, angle = (float(v) for v in values)
+    return make_game(vp, ve, kp, ke, angle, law, side_rule=rule)
+
+
+def rates(game: Game, state: np.ndarray, evader_turns: float) -> np.ndarray:
+    """Rates of (r, a, psi) under the printed laws, at side +1."""
+    r, a, psi = state
+    vp, ve = game.pursuer.speed, game.evader.speed
+    sight = (vp * sin(a) - ve * sin(psi)) / r
+    closing = ve * cos(psi) - vp * cos(a)
+    turn_p = game.pursuer.gain * wrap_angle(a)
+    return np.array([closing, sight - turn_p, sight - evader_turns])
+
+
+def evader_rate(game: Game, circle: Circle, psi: float) -> float:
+    """Turning rate of the evader near a circle; its own when it slides."""
+    error = wrap_angle(psi + game.angle)
+    if game.law is TurningLaw.PROPORTIONAL:
+        return game.evader.gain * error
+    if circle.sliding:
+        return circle.turning_rate_rad_s
+    return game.evader.gain * float(np.sign(error))
+
+
+def state_of(circle: Circle) -> np.ndarray:
+    return np.array(
+        [circle.distance_m, circle.pursuer_error_rad, circle.bearing_rad]
+    )
+
+
+def test_faster_pursuer_has_a_close_reversed_circle_too() -> None:
+    main, other = find_circles(2.0, 1.0, 1.0, 4.0)
+    assert (main.direction, other.direction) == (1, -1)
+    assert main.distance_m == pytest.approx(2.0805, abs=1e-4)
+    assert other.distance_m == pytest.approx(0.5876, abs=1e-4)
+    assert main.behind and other.behind
+    assert main.stable and other.stable
+    near = find_circles(1.01, 1.0, 1.0, 4.0)[1]
+    assert near.stable and near.distance_m < 0.03
+
+
+@pytest.mark.parametrize("rule", ["behind", "latched"])
+@pytest.mark.parametrize("law", list(TurningLaw))
+def test_every_circle_rests_under_the_printed_law(
+    law: TurningLaw, rule: str
+) -> None:
+    seen = 0
+    for values in random_games(60):
+        game = game_of(values, law, rule)
+        for circle in circles_of(game):
+            seen += 1
+            state = state_of(circle)
+            turn = evader_rate(game, circle, circle.bearing_rad)
+            np.testing.assert_allclose(rates(game, state, turn), 0, atol=1e-9)
+            rate = circle.turning_rate_rad_s
+            assert rate == pytest.approx(turn)
+            assert circle.direction == np.sign(rate)
+            assert abs(rate) <= game.evader.gain * (
+                1.0 + 1e-12 if game.saturated else pi
+            )
+            assert circle.distance_m > 0.0
+            for error in (circle.pursuer_error_rad, circle.evader_error_rad):
+                assert -pi < error <= pi
+            assert circle.radius_evader_m * abs(rate) == pytest.approx(
+                game.evader.speed
+            )
+            if rule == "behind":
+                assert -pi < circle.bearing_rad < 0.0
+            if circle.sliding:
+                assert circle.evader_error_rad == 0.0
+    assert seen > 40
+
+
+def searched(game: Game) -> list[float]:
+    """Turning rates of the rests at side +1, by search over a plain grid."""
+    vp, ve = game.pursuer.speed, game.evader.speed
+    kp, ke, alpha = game.pursuer.gain, game.evader.gain, game.angle
+
+    def crossings(x: np.ndarray, f: np.ndarray) -> list[float]:
+        i = np.flatnonzero((f[1:] > 0) != (f[:-1] > 0))
+        roots = x[i] + (x[i + 1] - x[i]) * f[i] / (f[i] - f[i + 1])
+        return [float(root) for root in roots]
+
+    line = np.linspace(-pi, pi, 40001)
+    if not game.saturated:
+        omega = line * min(kp, ke)
+        f = ve * np.cos(omega / ke - alpha) - vp * np.cos(omega / kp)
+        pairs = [(w, w / ke) for w in crossings(omega, f)]
+    else:
+        f = ve * cos(alpha) - vp * np.cos(line)
+        slid = [kp * a for a in crossings(line, f)]
+        pairs = [(w, 0.0) for w in slid if abs(w) < ke]
+        for way in (-1.0, 1.0):
+            if ke / kp < pi:
+                f = ve * np.cos(line - alpha) - vp * cos(ke / kp)
+                bs = crossings(line, f)
+                pairs += [(way * ke, b) for b in bs if way * b > 0.0]
+    return sorted(
+        w for w, b in pairs if (vp * sin(w / kp) - ve * sin(b - alpha)) / w > 0
+    )
+
+
+@pytest.mark.parametrize("law", list(TurningLaw))
+def test_dense_search_finds_no_other_circle(law: TurningLaw) -> None:
+    for values in random_games(150, seed=9):
+        game = game_of(values, law, "latched")
+        ours = sorted(c.turning_rate_rad_s for c in circles_of(game))
+        assert ours == pytest.approx(searched(game), abs=1e-6), values
+
+
+def test_two_circles_a_hair_apart_are_both_found() -> None:
+    """Up to the speed at which two of one direction meet and are gone."""
+    gaps = []
+    for speed in np.linspace(1.2629, 1.26545, 60):
+        game = make_game(
+            float(speed), 1.2627, 0.8583, 0.503, 0.0792, side_rule="latched"
+        )
+        ours = sorted(c.turning_rate_rad_s for c in circles_of(game))
+        assert ours == pytest.approx(searched(game), abs=1e-5)
+        if len(ours) == 2:
+            gaps.append(ours[1] - ours[0])
+    piece = 2.0 * pi * 0.503 / 96
+    assert min(gaps) < 0.5 * piece < piece < max(gaps)
+
+
+def test_reversed_circle_is_behind_only_where_the_pursuer_is_faster() -> None:
+    """There r = (v_p sin|a| - v_e sin|psi|) / |omega|, cosines equal."""
+    seen = 0
+    for values in random_games(200):
+        for law in TurningLaw:
+            for circle in circles_of(game_of(values, law, "behind")):
+                if circle.direction < 0:
+                    seen += 1
+                    assert values[0] > values[1]
+    assert seen > 20
+
+
+@pytest.mark.parametrize("law", list(TurningLaw))
+def test_eigenvalues_are_those_of_the_printed_law(law: TurningLaw) -> None:
+    """Finite differences of the rates, of the sliding motion if it slides."""
+    h = 1e-6
+    values = random_games(25)
+    rests = find_rests(*values.T, saturated=law is TurningLaw.SATURATED)
+    growth = growth_rates(
+        rests, *values.T, saturated=law is TurningLaw.SATURATED
+    )
+    assert set(np.unique(rests.game)) <= set(range(25))
+    for i, number in enumerate(rests.game):
+        game = game_of(values[number], law, "latched")
+        rate = rests.turning_rate[i]
+        circle = next(
+            c
+            for c in circles_of(game)
+            if c.turning_rate_rad_s == pytest.approx(rate, rel=1e-9)
+            and c.distance_m == pytest.approx(rests.distance[i], rel=1e-6)
+        )
+        rest = state_of(circle)
+        columns = []
+        for j in range(3):
+            step = h * np.eye(3)[j]
+            ends = [
+                rates(game, s, evader_rate(game, circle, s[2]))
+                for s in (rest + step, rest - step)
+            ]
+            columns.append((ends[0] - ends[1]) / (2.0 * h))
+        size = 2 if circle.sliding else 3
+        matrix = np.array(columns).T[:size, :size]
+        expected = np.linalg.eigvals(matrix)
+        np.testing.assert_allclose(
+            np.poly(np.array(circle.eigenvalues)), np.poly(expected), atol=1e-5
+        )
+        slowest = float(expected.real.max())
+        assert growth[i] == pytest.approx(slowest, abs=1e-4)
+        assert circle.stable == (growth[i] < 0.0)
+
+
+def test_main_circle_comes_first_and_only_once() -> None:
+    for values in random_games(80):
+        for law in TurningLaw:
+            for rule in ("behind", "latched"):
+                game = game_of(values, law, rule)
+                main, found = circle_of(game), circles_of(game)
+                if main.exists:
+                    assert found[0] == main
+                states = [state_of(c) for c in found]
+                for i, one in enumerate(states):
+                    for other in states[:i]:
+                        assert np.abs(one - other).max() > 1e-6
+                ways = [c.direction for c in found]
+                assert ways == sorted(ways, reverse=True)
+
+
+def test_hysteresis_lets_circles_beyond_the_axis_stay() -> None:
+    game = make_game(1.3, 1.0, 1.0, 1.0, 1.2, hysteresis=1.0)
+    inside = circle_of(game)
+    assert agrees(game, inside)
+    kept = circles_of(make_game(1.0, 1.0, 0.5, 0.5, 1.2, side_rule="latched"))
+    reversed_one = kept[1]  # at the bearing -pi - 0.6
+    for width, expected in ((0.0, False), (0.59, False), (0.61, True)):
+        behind = make_game(1.0, 1.0, 0.5, 0.5, 1.2, hysteresis=width)
+        assert agrees(behind, reversed_one) == expected
+        assert (reversed_one in circles_of(behind)) == expected
+
+
+@pytest.mark.parametrize("game", [FAST, FAST_6])
+def test_nothing_is_left_unsettled_beside_two_circles(game: Game) -> None:
+    starts = random_starts(game, 150, seed=3)
+    found = find_basins(game, starts)
+    assert found.unsettled == pytest.approx(0.0, abs=1e-12)
+    assert sum(found.shares) + found.captured == pytest.approx(1.0)
+    assert 0.1 < found.shares[1] < 0.35
+    assert found.starts == 150
+    near = np.array([state_of(c) for c in found.circles])
+    mirrored = near * [1.0, -1.0, -1.0]
+    out = play_games(game, [*near, *mirrored], 5.0)
+    assert out.circle.tolist() == [0, 1, 0, 1]
+    assert out.settled_time.max() < 0.1
+    assert out.sides.tolist() == [1, 1, -1, -1]
+    slow = play_games(game, [*near, *mirrored], 5.0, backend="numpy")
+    assert slow.circle.tolist() == out.circle.tolist()
+
+
+def test_random_starts_fill_the_box() -> None:
+    starts = random_starts(FAST, 2000, seed=1)
+    assert starts[:, 0].min() == pytest.approx(0.3, abs=0.01)
+    assert starts[:, 0].max() == pytest.approx(4.0, abs=0.01)
+    assert np.abs(starts[:, 1:]).max() == pytest.approx(pi, abs=0.01)
+    again = random_starts(FAST, 2000, seed=1, nearest=1.0, farthest=1.0)
+    assert np.all(again[:, 0] == 1.0)
+    np.testing.assert_array_equal(again[:, 1:], starts[:, 1:])
+
+
+def test_captured_starts_settle_on_nothing() -> None:
+    found = find_basins(FAST, random_starts(FAST, 60), capture_distance=5.0)
+    assert found.captured == 1.0 and found.shares == (0.0, 0.0)
+    assert found.unsettled == 0.0
+
+
+def test_measured_game_names_its_circle() -> None:
+    main, other = circles_of(FAST)
+    start = Start(0.6, -1.7, -2.1)
+    run = simulate(FAST, start, settling_time(FAST))
+    last = run.states([run.end_time])[0, :3]
+    assert circle_at((main, other), last, run.sides[-1]) == other
+    assert circle_at((main, other), last * [1.1, 1, 1], 1) is None
+    assert circle_at((), last, 1) is None
+    seen = measure(run)
+    assert seen.radius_evader_m == pytest.approx(
+        other.radius_evader_m, abs=1e-4
+    )
+    assert seen.turning_rate_rad_s == pytest.approx(other.turning_rate_rad_s)
+    assert seen.centers_apart_m < 1e-4
+
+
+@pytest.mark.parametrize("law", list(TurningLaw))
+def test_map_over_ratios_agrees_with_the_circles_of_each_game(
+    law: TurningLaw,
+) -> None:
+    speeds, gains = [0.8, 1.5, 2.5], [0.5, 1.7, 6.0]
+    found = map_ratios(1.4, law, speeds, gains)
+    for i, ratio in enumerate(speeds):
+        for j, gain in enumerate(gains):
+            circles = find_circles(ratio, 1.0, 1.0, gain, 1.4, law)
+            onward = [c.distance_m for c in circles if c.direction > 0]
+            back = [c for c in circles if c.direction < 0]
+            firm = [c.distance_m for c in back if c.stable]
+            loose = [c.distance_m for c in back if not c.stable]
+            for values, array in (
+                (onward[:1], found.main),
+                (firm, found.reversed_stable),
+                (loose, found.reversed_unstable),
+            ):
+                expected = min(values) if values else np.nan
+                np.testing.assert_allclose(array[i, j], expected, rtol=1e-9)
+
+
+def test_side_of_the_smaller_error_is_the_side_behind() -> None:
+    for angle in (0.4, pi / 2, 2.9):
+        for psi in np.linspace(-3.1, 3.1, 41):
+            errors = {s: abs(wrap_angle(psi + s * angle)) for s in (-1, 1)}
+            smaller = min(errors, key=lambda s: errors[s])
+            assert smaller == (-1 if psi > 0.0 else 1) or psi == 0.0
+
+
+def test_remedies_are_played_from_the_same_starts() -> None:
+    tried = try_remedies(FAST, random_starts(FAST, 40))
+    assert [r.name for r in tried] == list(alternatives(FAST))
+    as_it_is = tried[0]
+    assert as_it_is.game == FAST
+    assert as_it_is.reversed_share == as_it_is.basins.shares[1] > 0.0
+    assert as_it_is.end_distance_m == as_it_is.basins.circles[1].distance_m
+    slow = next(r for r in tried if r.name == "gain times 0.25")
+    assert slow.game.evader.gain == 1.0 and slow.reversed_share == 0.0
+    assert slow.end_distance_m == slow.basins.circles[0].distance_m
+    games = [remedy.game for remedy in tried]
+    assert len(set(games)) == len(games)

@@ -1,0 +1,135 @@
+"""Test where games between equal players are sure to end, and where not."""
+
+from math import pi
+
+import numpy as np
+import pytest
+
+from stepaside.errors import PlanError
+from stepaside.unicycle.circles import circles_of
+from stepaside.unicycle.diamond import least_distance, stays_unwrapped
+from stepaside.unicycle.kernel import play_games
+from stepaside.unicycle.laws import Game, make_game
+from stepaside.unicycle.measure import circle_at
+from stepaside.unicycle.relative import Start
+from stepaside.unicycle.simulate import simulate
+
+KEPT = make_game(1.0, 1.0, 1.0, 1.0, side_rule="latched")
+
+
+def diamond(count: int, seed: int, near: float, far: float) -> np.ndarray:
+    """Starts with |a| + |psi| < pi, some of them in its corners."""
+    rng = np.random.default_rng(seed)
+    s, t = rng.uniform(-pi, pi, (2, count))
+    s[::4], t[::4] = np.sign(s[::4]) * 3.1415, np.sign(t[::4]) * 3.1415
+    r = np.exp(rng.uniform(np.log(near), np.log(far), count))
+    return np.column_stack([r, (s + t) / 2, (s - t) / 2])
+
+
+@pytest.mark.parametrize("angle", [0.3, pi / 2, 2.4])
+@pytest.mark.parametrize("rule", ["behind", "at random"])
+def test_no_game_leaves_the_diamond_whatever_its_sides(
+    rule: str, angle: float
+) -> None:
+    """The printed law by Runge and Kutta's rule, sides as they please."""
+    v, k, h = 0.7, 0.4, 0.01
+    rng = np.random.default_rng(2)
+    starts = diamond(120, 3, 0.5, 6.0)
+    r, a, psi = starts.T.copy()
+    game = make_game(v, v, k, k, angle)
+    bounds = np.array([least_distance(game, Start(*s), 8.0) for s in starts])
+    x = np.stack([r, a, psi])
+    side = np.where(psi > 0.0, -1.0, 1.0)
+
+    def rates(x: np.ndarray) -> np.ndarray:
+        r, a, psi = x
+        sight = v * (np.sin(a) - np.sin(psi)) / r
+        error = psi + side * angle
+        closing = v * (np.cos(psi) - np.cos(a))
+        return np.stack([closing, sight - k * a, sight - k * error])
+
+    for _ in range(800):
+        if rule == "behind":
+            side = np.where(x[2] > 0.0, -1.0, 1.0)
+        else:
+            side = np.where(rng.random(len(r)) < 0.02, -side, side)
+        k1 = rates(x)
+        k2 = rates(x + h / 2 * k1)
+        k3 = rates(x + h / 2 * k2)
+        k4 = rates(x + h * k3)
+        x = x + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        assert np.all(np.abs(x[1]) + np.abs(x[2]) < pi)
+    assert np.all(x[0] >= bounds)
+    assert bounds.min() > 0.0
+
+
+@pytest.mark.parametrize("angle", [0.8, 1.2, pi / 2])
+def test_kept_side_ends_on_the_main_circle_from_all_of_the_diamond(
+    angle: float,
+) -> None:
+    game = make_game(1.0, 1.0, 1.0, 1.0, angle, side_rule="latched")
+    out = play_games(game, diamond(200, 4, 0.05, 5.0), 150.0, step=0.03)
+    assert np.all(out.circle == 0)
+
+
+def test_unwrapped_motion_can_end_on_the_reversed_circle() -> None:
+    """|x| < pi is no invariant set: x = -3.14, d = 0 leaves it."""
+    error = -3.14 + pi / 4
+    start = Start(0.656, error, error - pi / 2 + 2.0 * pi)
+    run = simulate(KEPT, start, 80.0, side=1)
+    assert run.switches == ()  # nothing wraps
+    last = run.states([run.end_time])[0, :3]
+    circles = circles_of(KEPT)
+    assert circle_at(circles, last, 1) == circles[1]
+    assert circles[1].direction == -1 and not circles[1].behind
+    assert not stays_unwrapped(KEPT, error, start.bearing)
+
+
+def test_wide_angle_spirals_inward_where_the_side_keeps_changing() -> None:
+    """Convergence does not go through changes of side at any angle."""
+    game = make_game(1.0, 1.0, 1.0, 1.0, 2.2)
+    start = Start(0.051, 1.107, 0.932)
+    assert stays_unwrapped(game, -start.pursuer_error, -start.bearing)
+    run = simulate(game, start, 6.0, tolerance=1e-8)
+    assert len(run.switches) > 5 and not run.captured
+    moved = make_game(1.0, 1.0, 1.0, 1.0, pi / 2)
+    ends = [
+        play_games(g, [[0.051, 1.107, 0.932]], 20.0, step=0.02).states[0, 0]
+        for g in (game, moved)
+    ]
+    assert ends[0] < 0.01 < 0.05 < ends[1]  # one shrinks, the other grows
+    assert ends[0] >= least_distance(game, start, 20.0)
+
+
+def test_the_bound_is_refused_outside_its_reach() -> None:
+    inside = Start(1.0, 0.3, -0.3)
+    for game in (
+        make_game(1.0, 1.1, 1.0, 1.0),
+        make_game(1.0, 1.0, 1.0, 1.0, law="saturated"),
+        make_game(1.0, 1.0, 1.0, 1.0, 2.0, side_rule="latched"),
+    ):
+        with pytest.raises(PlanError, match="equal speeds and gains"):
+            least_distance(game, inside, 1.0)
+    with pytest.raises(PlanError, match="< pi"):
+        least_distance(KEPT, Start(1.0, 2.0, -1.2), 1.0)
+    assert least_distance(KEPT, inside, 0.0) == 1.0
+    assert least_distance(KEPT, Start(2.0, 1.0, -0.2), 1.0) == pytest.approx(
+        2.0 * np.cos(0.4) * np.exp(-1.0)
+    )
+
+
+@pytest.mark.parametrize(
+    ("game", "a", "psi", "expected"),
+    [
+        (KEPT, 1.0, -2.1, True),
+        (KEPT, 1.0, -2.2, False),
+        (KEPT, -1.1, 1.5, True),
+        (KEPT, -1.1, 1.6, False),  # its error is beyond pi
+        (make_game(1, 1, 1, 1, 2.0, side_rule="latched"), 0.5, -0.5, False),
+        (make_game(1, 1, 1, 1, 2.0), 0.5, -0.5, True),
+    ],
+)
+def test_what_is_proved_unwrapped(
+    game: Game, a: float, psi: float, expected: bool
+) -> None:
+    assert stays_unwrapped(game, a, psi) == expected

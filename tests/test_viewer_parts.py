@@ -1,0 +1,533 @@
+"""Parts of the page: bodies, lines, words, pictures, without a browser."""
+
+from contextlib import nullcontext
+from math import inf, pi, sqrt
+from types import SimpleNamespace
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from fake_page import Gui, Scene
+from stepaside.control import Phase
+from stepaside.planning import Foot, Sole
+from stepaside.planning.support import sole_corners
+from stepaside.poses import Array, Pose
+from stepaside.report.style import COLOURS, EVADER, THEORY
+from stepaside.report.viewer import drawing
+from stepaside.report.viewer.bodies import (
+    Bodies,
+    colour_of,
+    joined,
+    shape_of,
+)
+from stepaside.report.viewer.camera_panel import FOUND, CameraPanel, picture
+from stepaside.report.viewer.drawing import ZMP_COLOURS, draw_session
+from stepaside.report.viewer.layers import (
+    HEIGHTS,
+    LAYERS,
+    PRINTS,
+    Layers,
+    chain,
+    path_of,
+    prints_of,
+    rgb,
+    ring,
+    safety_of,
+    support_of,
+)
+from stepaside.report.viewer.words import phases_of, words_of
+from stepaside.sensing.images import ColourImage
+from stepaside.simulation.duel import Duel
+from stepaside.simulation.settings import DuelSettings, StartSettings
+
+SHAPES = """
+<mujoco>
+<asset><material name="grass" rgba="0 0.5 2 1"/></asset>
+<worldbody><geom type="plane" size="1 1 1"/>
+<body pos="1 2 3">
+<geom type="capsule" size="0.02 0.1" pos="0.5 0 0" rgba="1 0 0 1"
+quat="0.7071067811865476 0 0.7071067811865476 0"/>
+<geom type="sphere" size="0.3" pos="0 1 0" material="grass"/>
+<geom type="box" size="0.1 0.4 0.025" pos="0 0 1" rgba="1 0 0 1"/>
+<geom type="cylinder" size="0.05 0.2" rgba="0 0 0 1"/>
+<geom type="ellipsoid" size="0.1 0.2 0.3"/>
+<geom type="sphere" size="0.4" group="3"/>
+</body></worldbody></mujoco>
+"""
+
+
+def test_meshes_are_as_large_as_their_shapes_and_in_their_place() -> None:
+    model = mujoco.MjModel.from_xml_string(SHAPES)
+    assert shape_of(model, 0) is None  # a plane
+    for geom, middle, half, close in (
+        (1, (0.5, 0, 0), (0.12, 0.02, 0.02), 1e-3),
+        (2, (0, 1, 0), (0.3, 0.3, 0.3), 2e-2),
+        (3, (0, 0, 1), (0.1, 0.4, 0.025), 1e-9),
+        (4, (0, 0, 0), (0.05, 0.05, 0.2), 2e-3),
+        (5, (0, 0, 0), (0.1, 0.2, 0.3), 2e-2),
+    ):
+        mesh = shape_of(model, geom)
+        assert mesh is not None
+        low, high = mesh.bounds
+        np.testing.assert_allclose(0.5 * (low + high), middle, atol=close)
+        np.testing.assert_allclose(0.5 * (high - low), half, atol=close)
+
+
+def test_colours_are_those_of_the_material_or_the_geom() -> None:
+    model = mujoco.MjModel.from_xml_string(SHAPES)
+    assert colour_of(model, 1) == (255, 0, 0)
+    assert colour_of(model, 2) == (0, 127, 255)
+
+
+def test_every_visible_body_is_on_the_page_once_for_each_colour() -> None:
+    model = mujoco.MjModel.from_xml_string(SHAPES)
+    scene: Any = Scene()
+    bodies = Bodies(scene, model)
+    assert set(scene.items) == {"/bodies/1"} | {
+        f"/bodies/1/{number}" for number in range(4)
+    }
+    meshes = {
+        item.color: item for n, item in scene.items.items() if len(n) > 9
+    }
+    assert set(meshes) >= {(255, 0, 0), (0, 127, 255), (0, 0, 0)}
+    red = meshes[255, 0, 0]
+    # Capsule and box are one mesh; every triangle has its own corners.
+    alone = [shape_of(model, geom) for geom in (1, 3)]
+    assert len(red.corners) == sum(len(m.vertices) for m in alone if m)
+    assert red.faces.max() == len(red.corners) - 1
+    sizes = red.corners.max(axis=0)
+    np.testing.assert_allclose(sizes, [0.62, 0.4, 1.025], atol=1e-3)
+    positions = np.arange(6.0).reshape(2, 3)
+    quaternions = np.arange(8.0).reshape(2, 4)
+    bodies.move(positions, quaternions)
+    frame = scene.items["/bodies/1"]
+    np.testing.assert_array_equal(frame.position, [3, 4, 5])
+    np.testing.assert_array_equal(frame.wxyz, [4, 5, 6, 7])
+
+
+def test_joined_meshes_keep_their_triangles() -> None:
+    model = mujoco.MjModel.from_xml_string(SHAPES)
+    meshes = [m for m in (shape_of(model, 3), shape_of(model, 4)) if m]
+    corners, faces = joined(meshes)
+    triangles = np.concatenate([m.vertices[m.faces] for m in meshes])
+    np.testing.assert_allclose(corners[faces], triangles, atol=1e-6)
+
+
+def test_a_chain_joins_neighbours_at_its_height() -> None:
+    points = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]])
+    open_chain = chain(points, 0.3)
+    np.testing.assert_array_equal(
+        open_chain,
+        [[[0, 0, 0.3], [1, 0, 0.3]], [[1, 0, 0.3], [1, 1, 0.3]]],
+    )
+    closed = chain(points, 0.3, closed=True)
+    np.testing.assert_array_equal(closed[:2], open_chain)
+    np.testing.assert_array_equal(closed[2], [[1, 1, 0.3], [0, 0, 0.3]])
+    assert chain(points[:1], 0.3).shape == (0, 2, 3)
+    assert chain(points[:0], 0.3, closed=True).shape == (0, 2, 3)
+    assert chain(points[:2], 0.3).shape == (1, 2, 3)
+
+
+def test_a_ring_is_round_and_closed() -> None:
+    lines = ring(1.0, -2.0, 0.5, 0.1)
+    away = np.hypot(lines[..., 0] - 1.0, lines[..., 1] + 2.0)
+    np.testing.assert_allclose(away, 0.5)
+    np.testing.assert_array_equal(lines[..., 2], 0.1)
+    np.testing.assert_allclose(lines[1:, 0], lines[:-1, 1])
+    np.testing.assert_allclose(lines[0, 0], lines[-1, 1])
+    assert len(lines) == 72
+    steps = np.hypot(*(lines[:, 1] - lines[:, 0])[:, :2].T)
+    np.testing.assert_allclose(steps, steps[0])
+
+
+def test_the_safety_area_is_a_ring_or_nothing() -> None:
+    lines = safety_of(np.array([1.0, 2.0, 9.0]), 0.8)
+    away = np.hypot(lines[..., 0] - 1.0, lines[..., 1] - 2.0)
+    np.testing.assert_allclose(away, 0.8)
+    assert safety_of(np.zeros(2), inf).shape == (0, 2, 3)
+
+
+def test_lines_are_drawn_when_they_change_and_go_when_hidden() -> None:
+    scene: Any = Scene()
+    layers = Layers(scene)
+    name = "/layers/footsteps/evader"
+    lines = ring(0.0, 0.0, 1.0, 0.0)
+    layers.draw("footsteps", "evader", lines, "#1f5fbf")
+    layers.draw("footsteps", "evader", lines, "#1f5fbf")
+    assert scene.drawn == 1 and set(scene.items) == {name}
+    np.testing.assert_allclose(scene.items[name].points, lines, atol=1e-6)
+    assert scene.items[name].colors == (0x1F, 0x5F, 0xBF)
+    layers.draw("footsteps", "evader", 2.0 * lines, "#1f5fbf")
+    assert scene.drawn == 2
+    layers.shown["footsteps"] = False
+    layers.draw("footsteps", "evader", 2.0 * lines, "#1f5fbf")
+    assert scene.items == {}
+    layers.draw("footsteps", "evader", lines, "#1f5fbf")
+    layers.shown["footsteps"] = True
+    layers.draw("footsteps", "evader", 2.0 * lines, "#1f5fbf")
+    assert set(scene.items) == {name}
+    layers.draw("footsteps", "evader", lines[:0], "#1f5fbf")
+    assert scene.items == {}
+    layers.draw("CoM trace", "evader", lines, "#1f5fbf")
+    layers.clear()
+    assert scene.items == {}
+    layers.draw("CoM trace", "evader", lines, "#1f5fbf")
+    assert len(scene.items) == 1
+
+
+def test_layers_lie_above_each_other() -> None:
+    heights = [HEIGHTS[layer] for layer in LAYERS]
+    assert heights == sorted(heights) and len(set(heights)) == len(LAYERS)
+    assert 0.0 < heights[0] and heights[-1] < 0.02
+    assert rgb("#0a141e") == (10, 20, 30)
+
+
+def playing(time: float, **changes: Any) -> Duel:
+    start = StartSettings(0.75, 0.3, -0.2)
+    duel = Duel(DuelSettings(start=start, **changes))
+    while duel.world.time < time:
+        assert duel.tick() is None
+    return duel
+
+
+@pytest.fixture(scope="module")
+def duel() -> Duel:
+    return playing(2.0)
+
+
+def test_a_plan_is_drawn_in_the_world(duel: Duel) -> None:
+    """Its path runs midway between the footsteps, on the floor's frame."""
+    for scheme, frame in zip(duel.schemes, duel.recorder.frames, strict=True):
+        plan = scheme.plan
+        assert plan is not None
+        path = path_of(scheme, frame)
+        at = frame.compose(scheme.plan_frame)
+        steps = at.transform_points(plan.placements[:, :2])
+        np.testing.assert_allclose(path, 0.5 * (steps[1:-1] + steps[2:]))
+        prints = prints_of(scheme, frame)
+        kept = [
+            (foot, frame.compose(pose)) for _, foot, pose in scheme.landings
+        ]
+        wanted = [
+            (step.foot, at.compose(Pose(step.x, step.y, step.theta)))
+            for step in plan.footsteps
+        ]
+        corners = [
+            sole_corners(np.array(pose), foot, scheme.settings.sole)
+            for foot, pose in (*kept, *wanted)
+        ]
+        np.testing.assert_allclose(prints[:, 0, :2], np.concatenate(corners))
+        np.testing.assert_array_equal(prints[..., 2], HEIGHTS["footsteps"])
+
+
+def test_nothing_is_planned_before_anybody_walks() -> None:
+    duel = playing(0.0)
+    scheme, frame = duel.schemes[1], duel.recorder.frames[1]
+    assert path_of(scheme, frame).shape == (0, 2)
+    assert prints_of(scheme, frame).shape == (0, 2, 3)
+
+
+def test_old_footsteps_are_left_out() -> None:
+    poses = [(0.0, Foot.LEFT, Pose(float(i), 0.0, 0.0)) for i in range(80)]
+    scheme: Any = SimpleNamespace(
+        settings=SimpleNamespace(sole=Sole()), landings=poses, plan=None
+    )
+    prints = prints_of(scheme, Pose(0.0, 0.0, 0.0))
+    assert len(prints) == 4 * PRINTS
+    assert prints[..., 0].min() == pytest.approx(80 - PRINTS - 0.05)
+
+
+@pytest.mark.parametrize(
+    ("remaining", "walking", "swing", "others"),
+    [
+        (0.1, True, Foot.LEFT, None),
+        (0.0, True, Foot.LEFT, "landing"),
+        (-0.1, True, Foot.RIGHT, "landing"),
+        (0.0, False, Foot.LEFT, "left_foot"),
+        (0.0, False, Foot.RIGHT, "right_foot"),
+    ],
+)
+def test_the_support_polygon_is_of_the_feet_that_stand(
+    remaining: float, walking: bool, swing: Foot, others: str | None
+) -> None:
+    feet = {
+        "support": Pose(0.0, -0.05 * swing.value, 0.1),
+        "landing": Pose(0.04, 0.06 * swing.value, 0.2),
+        "left_foot": Pose(0.01, 0.07, 0.0),
+        "right_foot": Pose(0.01, -0.07, 0.0),
+    }
+    step = SimpleNamespace(
+        support=feet["support"],
+        landing=feet["landing"],
+        swing=swing,
+        remaining=remaining,
+        walking=walking,
+    )
+    sole = Sole()
+    scheme: Any = SimpleNamespace(
+        step=lambda now: step,
+        settings=SimpleNamespace(sole=sole),
+        left_foot=feet["left_foot"],
+        right_foot=feet["right_foot"],
+    )
+    frame = Pose(1.0, 2.0, 0.7)
+    outline = support_of(scheme, frame, 0.0)
+    stand = [(feet["support"], swing.other)]
+    if others is not None:
+        stand.append((feet[others], swing))
+    corners = np.concatenate(
+        [
+            sole_corners(np.array(frame.compose(pose)), foot, sole)
+            for pose, foot in stand
+        ]
+    )
+    points = outline[:, 0, :2]
+    # Each corner of the outline is one of a sole, and nothing sticks out.
+    for point in points:
+        assert np.hypot(*(corners - point).T).min() < 1e-9
+    ways = np.roll(points, -1, axis=0) - points
+    for corner in corners:
+        off = corner - points
+        side = ways[:, 0] * off[:, 1] - ways[:, 1] * off[:, 0]
+        assert side.min() > -1e-9 or side.max() < 1e-9
+    assert len(points) == (4 if others is None else len(points)) >= 4
+    assert outline[0, 0, 2] == HEIGHTS["support polygon"]
+
+
+def told(duel: Duel, **changes: Any) -> Any:
+    """A session as the layers need it."""
+    traces = {
+        f"{robot.name}/{what}": [(0.1 * i, 0.2) for i in range(4)]
+        for robot in duel.robots
+        for what in ("CoM", "ZMP")
+    }
+    values = {
+        "lock": nullcontext(),
+        "duel": duel,
+        "traces": traces,
+        "settings": duel.settings,
+        "theory_radius": 0.6,
+        **changes,
+    }
+    return SimpleNamespace(**values)
+
+
+def drawn(session: Any) -> dict[tuple[str, str], tuple[Array, str]]:
+    found: dict[tuple[str, str], tuple[Array, str]] = {}
+
+    def draw(layer: str, owner: str, lines: Array, colour: str) -> None:
+        assert layer in LAYERS and (layer, owner) not in found
+        found[layer, owner] = lines, colour
+
+    layers: Any = SimpleNamespace(draw=draw)
+    draw_session(layers, session)
+    return found
+
+
+def test_every_layer_of_the_present_moment_is_drawn(duel: Duel) -> None:
+    found = drawn(told(duel))
+    places = [robot.truth.position for robot in duel.robots]
+    for number, name in enumerate(COLOURS):
+        scheme, frame = duel.schemes[number], duel.recorder.frames[number]
+        for layer, wanted, colour in (
+            (
+                "planned path",
+                chain(path_of(scheme, frame), HEIGHTS["planned path"]),
+                COLOURS[name],
+            ),
+            ("footsteps", prints_of(scheme, frame), COLOURS[name]),
+            (
+                "support polygon",
+                support_of(scheme, frame, duel.world.time),
+                "#2a9d55",
+            ),
+        ):
+            lines, shade = found[layer, name]
+            np.testing.assert_array_equal(lines, wanted)
+            assert shade == colour
+        trace, shade = found["CoM trace", name]
+        assert trace.shape == (3, 2, 3) and shade == COLOURS[name]
+        np.testing.assert_allclose(trace[:, 0, 0], [0.0, 0.1, 0.2])
+        trace, shade = found["ZMP trace", name]
+        assert trace.shape == (3, 2, 3) and shade == ZMP_COLOURS[name]
+    safety, shade = found["safety area", "evader"]
+    away = np.hypot(*(safety[:, 0, :2] - places[1]).T)
+    np.testing.assert_allclose(away, 0.8)
+    assert shade == EVADER
+    sight, shade = found["line of sight", "both"]
+    np.testing.assert_allclose(sight[0, :, :2], places)
+    np.testing.assert_allclose(sight[0, :, 2], 0.25)
+    assert shade == THEORY
+
+
+@pytest.mark.parametrize("bearing", [0.5, -0.5, 0.0, None])
+def test_the_circle_passes_both_robots_on_the_pursuers_side(
+    bearing: float | None,
+) -> None:
+    plan = None if bearing is None else SimpleNamespace(bearing=bearing)
+    session: Any = SimpleNamespace(
+        theory_radius=0.6,
+        duel=SimpleNamespace(
+            triggered_at=1.0, schemes=[SimpleNamespace(plan=plan)]
+        ),
+    )
+    places = [np.array([1.0, 1.0]), np.array([1.6, 1.6])]
+    lines = drawing._circle(session, places)
+    middle = lines[:, 0, :2].mean(axis=0)
+    for place in places:
+        assert np.hypot(*(place - middle)) == pytest.approx(0.6)
+    away = np.hypot(*(lines[:, 0, :2] - middle).T)
+    np.testing.assert_allclose(away, 0.6)
+    left = (middle - 1.3) @ np.array([-1.0, 1.0])
+    assert left == pytest.approx(
+        (-1.0 if bearing == -0.5 else 1.0) * sqrt(2.0 * (0.36 - 0.18))
+    )
+    np.testing.assert_array_equal(lines[..., 2], HEIGHTS["circle of theory"])
+
+
+def test_a_circle_that_cannot_be_is_not_drawn() -> None:
+    def lines(radius: float | None, apart: float, at: float | None) -> int:
+        session: Any = SimpleNamespace(
+            theory_radius=radius,
+            duel=SimpleNamespace(
+                triggered_at=at, schemes=[SimpleNamespace(plan=None)]
+            ),
+        )
+        places = [np.zeros(2), np.array([apart, 0.0])]
+        return len(drawing._circle(session, places))
+
+    assert lines(0.6, 1.1, 1.0) == 72
+    assert lines(None, 1.1, 1.0) == 0 == lines(0.6, 1.1, None)
+    assert lines(0.6, 1.3, 1.0) == 0 == lines(0.6, 0.0, 1.0)
+
+
+STAND, WALK, HALT, FELL = (
+    Phase.STANDING,
+    Phase.WALKING,
+    Phase.HALTING,
+    Phase.FALLEN,
+)
+
+
+@pytest.mark.parametrize(
+    ("phases", "distance", "angle", "expected"),
+    [
+        ((STAND, STAND), 0.5, 90.0, "both robots are **standing**"),
+        ((WALK, STAND), 0.79, 90.0, "the evader is **triggered**"),
+        ((WALK, STAND), 0.81, 90.0, "the pursuer comes"),
+        ((HALT, STAND), 0.81, 90.0, "the pursuer comes"),
+        ((STAND, HALT), 0.9, 90.0, "the evader comes to rest"),
+        ((WALK, WALK), 0.944, 90.0, "**on the circle**"),
+        ((WALK, WALK), 0.856, 90.0, "**on the circle**"),
+        ((WALK, WALK), 0.946, 90.0, "**evading**"),
+        ((WALK, WALK), 0.854, 90.0, "**evading**"),
+        ((WALK, WALK), 0.9, 94.9, "**on the circle**"),
+        ((WALK, WALK), 0.9, 85.1, "**on the circle**"),
+        ((WALK, WALK), 0.9, 95.1, "**evading**"),
+        ((WALK, WALK), 0.9, 84.9, "**evading**"),
+        ((FELL, STAND), 0.5, 90.0, "**pursuer fell**"),
+        ((WALK, FELL), 0.9, 90.0, "**evader fell**"),
+        ((FELL, FELL), 0.9, 90.0, "**pursuer and evader fell**"),
+    ],
+)
+def test_words_follow_phases_and_bands(
+    phases: tuple[Phase, Phase], distance: float, angle: float, expected: str
+) -> None:
+    words = words_of(phases, distance, angle, 0.8, (0.9, 90.0))
+    assert expected in words
+    if distance == 0.9 and phases == (WALK, WALK):
+        alone = words_of(phases, distance, angle, 0.8, None)
+        assert "**evading**" in alone
+
+
+def test_without_a_safety_area_nobody_is_triggered() -> None:
+    assert "comes" in words_of((WALK, STAND), 0.1, 0.0, inf, None)
+
+
+def test_a_true_fall_counts_as_a_phase() -> None:
+    def robot(fallen: bool) -> Any:
+        return SimpleNamespace(truth=SimpleNamespace(has_fallen=fallen))
+
+    duel: Any = SimpleNamespace(
+        robots=[robot(False), robot(True)],
+        schemes=[SimpleNamespace(phase=WALK), SimpleNamespace(phase=HALT)],
+    )
+    assert phases_of(duel) == (WALK, FELL)
+
+
+def image(azimuths: tuple[float, ...], *, depth: bool = False) -> Any:
+    camera = SimpleNamespace(width=80, height=60, focal_x=60.0)
+    if depth:
+        depths = np.zeros((60, 80))
+        depths[:, 20:40], depths[:, 40:60], depths[:, 60:] = 1.0, 2.0, 9.0
+        shown: Any = SimpleNamespace(camera=camera, depths=depths, far=4.0)
+    else:
+        pixels = np.full((60, 80, 3), 7, dtype=np.uint8)
+        shown = ColourImage(0.0, camera, pixels)  # type: ignore[arg-type]
+    return SimpleNamespace(image=shown, azimuths=azimuths)
+
+
+@pytest.mark.parametrize(
+    ("azimuth", "column"),
+    [(0.0, 40.0), (0.3, 40.0 - 60.0 * np.tan(0.3)), (-0.3, 58.56)],
+)
+def test_a_line_stands_where_something_was_found(
+    azimuth: float, column: float
+) -> None:
+    """Three times as large; what is to the left is left in the picture."""
+    large = picture(image((azimuth,)))
+    assert large.shape == (180, 240, 3)
+    marked = np.flatnonzero((large[0] == FOUND).all(axis=1))
+    at = int(3 * column)
+    np.testing.assert_array_equal(marked, [at - 1, at, at + 1])
+    assert (large[:, marked] == FOUND).all()
+    assert (np.delete(large, marked, axis=1) == 7).all()
+
+
+def test_what_is_out_of_the_picture_gets_no_line() -> None:
+    for azimuth in (0.6, -0.6, 1.5, pi / 2):
+        assert (picture(image((azimuth,))) == 7).all()
+
+
+def test_depth_is_darker_the_farther_and_black_where_nothing_is() -> None:
+    shades = picture(image((), depth=True))[0, ::60]
+    np.testing.assert_array_equal(shades[:, 0], shades[:, 2])
+    nothing, near, far, beyond = shades[:, 0].tolist()
+    assert nothing == 0
+    assert near == int(255.0 * (1.0 - 0.85 * 0.25))
+    assert far == int(255.0 * (1.0 - 0.85 * 0.5))
+    assert beyond == int(255.0 * 0.15)
+
+
+def test_the_panel_shows_the_newest_image_of_each_camera() -> None:
+    gui: Any = Gui()
+    panel = CameraPanel(gui)
+    assert gui.folders["Cameras"].visible is False
+    judged: list[Any] = []
+    perceptions = {
+        name: SimpleNamespace(on_frame=judged.append)
+        for name in ("pursuer", "evader")
+    }
+    seeing = SimpleNamespace(perceptions=perceptions)
+    duel: Any = SimpleNamespace(seeing=seeing)
+    panel.watch(duel)
+    assert gui.folders["Cameras"].visible is True
+    first, second = image(()), image((0.0,))
+    perceptions["pursuer"].on_frame(first)
+    panel.show()
+    handle = gui["pursuer, colour"]
+    assert (handle.image == 7).all()
+    perceptions["pursuer"].on_frame(second)
+    perceptions["evader"].on_frame(image((), depth=True))
+    panel.show()
+    assert gui["pursuer, colour"] is handle and (handle.image != 7).any()
+    assert gui["evader, depth"].image.shape == (180, 240, 3)
+    assert len(judged) == 3 and judged[:2] == [first, second]
+    before = handle.image
+    panel.show()
+    assert handle.image is before
+    blind: Any = SimpleNamespace(seeing=None)
+    panel.watch(blind)
+    assert handle.removed and gui.folders["Cameras"].visible is False

@@ -1,0 +1,195 @@
+"""How a walk begins, is counted and ends."""
+
+from collections.abc import Iterator
+from math import inf, pi
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.control import Phase
+from stepaside.control.settings import STABILISED
+from stepaside.errors import ConfigurationError, ReachError
+from stepaside.planning import Direction
+from stepaside.simulation import walk as module
+from stepaside.simulation.body_settings import BODIES
+from stepaside.simulation.push import Push
+from stepaside.simulation.walk import Walker, WalkSettings, run_walk
+
+
+def way(bearing: float, *, backward: bool = False) -> tuple[float, float]:
+    """How far forward and leftward a robot walks in 3.5 s, in [m]."""
+    walker = Walker(WalkSettings(bearing=bearing, backward=backward))
+    x, y = walker.robot.truth.position
+    while walker.world.time < 3.5:
+        assert walker.tick()
+    u, v = walker.robot.truth.position
+    return u - x, v - y
+
+
+def test_a_robot_walks_where_its_bearing_points() -> None:
+    """The circle to the left and the one to the right are mirror images."""
+    ahead, aside = way(0.0)
+    assert ahead > 0.1 and abs(aside) < 0.02
+    left, right = way(0.8), way(-0.8)
+    assert left[1] > 0.01 and right[1] < -0.01
+    assert left[0] == pytest.approx(right[0], abs=0.02)
+    assert way(0.0, backward=True)[0] < -0.1
+
+
+def test_the_settings_decide_the_role() -> None:
+    for backward in (False, True):
+        settings = WalkSettings(bearing=0.3, backward=backward)
+        role: Any = Walker(settings).scheme.role
+        wanted = Direction.BACKWARD if backward else Direction.FORWARD
+        assert role.direction is wanted
+        assert role.desired_heading(0.0) == 0.3
+    walker = Walker(WalkSettings())
+    sighting = walker.scheme._sighting
+    assert sighting is not None and sighting.distance == inf
+    assert abs(walker.robot.truth.heading) < 1e-9
+    hardware = Walker(WalkSettings(body=BODIES["hardware"], seed=3))
+    assert hardware.world.physics.tick == 0.012
+    other = Walker(WalkSettings(body=BODIES["hardware"], seed=4))
+    masses = [w.world.model.body_mass for w in (hardware, other)]
+    assert np.abs(masses[0] - masses[1]).max() > 1e-4
+
+
+def test_a_fall_is_noticed_by_truth_reach_or_the_robot_itself() -> None:
+    walker = Walker(WalkSettings())
+    assert walker.tick()
+    walker.scheme.phase = Phase.FALLEN
+    scheme: Any = walker.scheme
+    scheme.update = lambda measured: scheme.joint_targets
+    assert not walker.tick()
+    walker.scheme.phase = Phase.WALKING
+    assert walker.tick()
+    data = walker.world.data
+    data.qpos[2:7] = (1.0, 0.5**0.5, 0.5**0.5, 0.0, 0.0)
+    mujoco.mj_forward(walker.world.model, data)
+    assert not walker.tick()
+
+    def out_of_reach(measured: object) -> Any:
+        raise ReachError("too far")
+
+    other = Walker(WalkSettings())
+    scheme = other.scheme
+    scheme.update = out_of_reach
+    assert not other.tick() and other.world.ticks == 0
+
+
+def test_a_walk_that_falls_ends_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    tick = Walker.tick
+
+    def clumsy(walker: Walker) -> bool:
+        tick(walker)
+        return walker.world.ticks < 40
+
+    monkeypatch.setattr(Walker, "tick", clumsy)
+    result = run_walk(WalkSettings(duration=3.0))
+    assert result.outcome == "fall"
+    assert result.duration == pytest.approx(0.16)
+
+
+@pytest.mark.parametrize(
+    ("duration", "ticks"), [(0.1, 25), (0.0999, 25), (0.1001, 26)]
+)
+def test_a_walk_lasts_as_long_as_asked(duration: float, ticks: int) -> None:
+    result = run_walk(WalkSettings(duration=duration))
+    assert result.outcome == "completed"
+    assert result.duration == pytest.approx(0.004 * ticks)
+    np.testing.assert_allclose(
+        result.arrays["time"], 0.02 * np.arange(1, ticks // 5 + 1)
+    )
+    # The footstep that is being made counts.
+    assert result.steps == 1 and result.adapted == 0
+    assert result.answers == [] and result.push_impulse == (0.0, 0.0)
+    assert len(result.margins) == 1
+
+
+def test_without_a_record_nothing_is_kept() -> None:
+    result = run_walk(WalkSettings(duration=0.2), record=False)
+    assert result.arrays["time"].size == 0 and result.margins == []
+
+
+def test_steps_and_pushes_of_a_walk_are_counted() -> None:
+    pushes = (Push(0.1, 0.5, 0.0), Push(0.05, 1.0, pi / 2))
+    settings = WalkSettings(duration=3.0, pushes=pushes)
+    result = run_walk(settings)
+    gait = settings.gait
+    # The first step begins after the start support.
+    steps = (3.0 - gait.start_support) / gait.step_duration
+    assert abs(result.steps - steps) <= 1.0
+    assert result.push_impulse[0] == pytest.approx(0.1, abs=0.01)
+    assert result.push_impulse[1] == pytest.approx(0.05, abs=0.01)
+    assert result.settings is settings
+
+
+def test_what_feedback_did_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    tick = Walker.tick
+
+    def adapted(walker: Walker) -> bool:
+        feedback: Any = walker.scheme.stabiliser
+        feedback.adapted = 7
+        feedback.zmp_feedback.answers = ["answer"]
+        return tick(walker)
+
+    monkeypatch.setattr(Walker, "tick", adapted)
+    result = run_walk(WalkSettings(duration=0.02, control=STABILISED))
+    answers: list[Any] = list(result.answers)
+    assert result.adapted == 7 and answers == ["answer"]
+
+
+def clock(monkeypatch: pytest.MonkeyPatch, step: float) -> None:
+    """A wall clock that moves on whenever somebody looks at it."""
+
+    def ticking() -> Iterator[float]:
+        now = 100.0
+        while True:
+            yield now
+            now += step
+
+    times = ticking()
+    monkeypatch.setattr(module, "perf_counter", lambda: next(times))
+
+
+def test_progress_of_a_walk_is_told_at_most_five_times_a_second(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    clock(monkeypatch, 0.15)
+    told: list[float] = []
+    result = run_walk(WalkSettings(duration=1.0), told.append)
+    np.testing.assert_allclose(told, [0.4, 0.8])
+    assert result.wall_time == pytest.approx(0.15 * 6)
+
+
+def test_an_interrupted_walk_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock(monkeypatch, 1.0)
+
+    def interrupt(time: float) -> None:
+        raise KeyboardInterrupt
+
+    result = run_walk(WalkSettings(duration=3.0), interrupt)
+    assert result.outcome == "interrupted"
+    assert result.duration == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize(
+    ("changes", "name"),
+    [
+        ({"seed": -1}, "seed"),
+        ({"seed": 2**63 + 1025}, "seed"),
+        ({"duration": 0.0}, "duration"),
+        ({"duration": inf}, "duration"),
+        ({"bearing": 3.21}, "bearing"),
+        ({"bearing": -3.21}, "bearing"),
+    ],
+)
+def test_walks_that_nobody_can_walk_are_refused(
+    changes: dict[str, Any], name: str
+) -> None:
+    with pytest.raises(ConfigurationError, match=name):
+        WalkSettings(**changes)
+    WalkSettings(seed=0, duration=1e-3, bearing=-3.2)
+    WalkSettings(bearing=3.2)

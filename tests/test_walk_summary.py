@@ -1,0 +1,265 @@
+"""Figures of a walk, from records whose figures are known."""
+
+from dataclasses import replace
+from math import degrees, pi, sin
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.control.mpc import MpcResult
+from stepaside.poses import Array
+from stepaside.simulation.walk import WalkResult, WalkSettings
+from stepaside.simulation.walk_record import COLUMNS
+from stepaside.simulation.walk_summary import summarise_walk
+
+SETTINGS = WalkSettings(seed=4)
+CYCLE = 2.0 * SETTINGS.gait.step_duration
+STEP = 0.02
+PER_CYCLE = round(CYCLE / STEP)
+PERIOD = PER_CYCLE * STEP  # a cycle, as far as samples tell
+# Whole cycles after the first three seconds, which are left out.
+TIMES: Array = np.arange(round(1.0 / STEP) + 10 * PER_CYCLE + 1, dtype=float)
+TIMES = 2.0 + STEP * TIMES
+
+
+def record(times: Array = TIMES) -> dict[str, Array]:
+    """A robot that stands where it should, on one foot."""
+    arrays = {name: np.zeros(len(times)) for name in COLUMNS}
+    arrays["time"] = times
+    return arrays
+
+
+def result(arrays: dict[str, Array], **changes: Any) -> WalkResult:
+    made = WalkResult(
+        settings=SETTINGS,
+        outcome="completed",
+        duration=12.0,
+        arrays=arrays,
+        steps=20,
+        adapted=3,
+        margins=[0.03, 0.02, 0.04],
+        answers=[],
+        push_impulse=(0.1, 0.2),
+        wall_time=3.0,
+    )
+    return replace(made, **changes)
+
+
+def figures(arrays: dict[str, Array], **changes: Any) -> dict[str, Any]:
+    return summarise_walk(result(arrays, **changes))
+
+
+def test_a_summary_says_what_the_walk_was() -> None:
+    found = figures(record(), duration=12.0 + 1e-12)
+    expected = {
+        "outcome": "completed",
+        "seed": 4,
+        "duration_s": 12.0,
+        "steps": 20,
+        "adapted_steps": 3,
+        "method": "closed-form",
+        "feedback": False,
+        "push_impulse_n_s": [0.1, 0.2],
+        "min_zmp_margin_m": 0.02,
+        "qp": None,
+        "real_time_factor": pytest.approx(4.0),
+    }
+    assert {name: found[name] for name in expected} == expected
+    assert figures(record(), margins=[])["min_zmp_margin_m"] is None
+
+
+PAIRS = [
+    ("tracking", "com_x_m", "com_x", "reference_x"),
+    ("tracking", "com_y_m", "com_y", "reference_y"),
+    ("tracking", "zmp_x_m", "zmp_x", "zmp_reference_x"),
+    ("tracking", "zmp_y_m", "zmp_y", "zmp_reference_y"),
+    ("estimation", "com_x_m", "estimated_com_x", "com_x"),
+    ("estimation", "com_y_m", "estimated_com_y", "com_y"),
+    ("estimation", "velocity_x_m_s", "estimated_velocity_x", "velocity_x"),
+    ("estimation", "velocity_y_m_s", "estimated_velocity_y", "velocity_y"),
+    ("estimation", "zmp_x_m", "estimated_zmp_x", "zmp_x"),
+    ("estimation", "zmp_y_m", "estimated_zmp_y", "zmp_y"),
+    ("estimation", "roll_rad", "estimated_roll", "roll"),
+    ("estimation", "pitch_rad", "estimated_pitch", "pitch"),
+]
+
+
+@pytest.mark.parametrize(("group", "name", "value", "wanted"), PAIRS)
+def test_an_error_is_of_what_is_named_and_after_the_warm_up(
+    group: str, name: str, value: str, wanted: str
+) -> None:
+    """Off by -0.04 and 0.01 in turn; wild before three seconds."""
+    arrays = record()
+    steady = TIMES >= 3.0
+    off = np.where(np.arange(len(TIMES)) % 2 == 0, -0.04, 0.01)
+    off[~steady] = 9.0
+    arrays[value] = 0.5 + off
+    arrays[wanted] = np.full(len(TIMES), 0.5)
+    found = figures(arrays)[group][name]
+    kept = off[steady]
+    assert found["rms"] == pytest.approx(np.sqrt((kept**2).mean()))
+    assert found["mean"] == pytest.approx(kept.mean()) and found["mean"] < 0
+    assert found["max"] == pytest.approx(0.04)
+    touched = {value, wanted}
+    for other_group, other, one, two in PAIRS:
+        if not touched & {one, two}:
+            assert figures(arrays)[other_group][other]["max"] == 0.0
+
+
+def test_what_was_not_measured_is_left_out() -> None:
+    arrays = record()
+    arrays["zmp_x"][100:110] = np.nan
+    arrays["zmp_x"][120:] = 0.3
+    assert figures(arrays)["tracking"]["zmp_x_m"]["max"] == 0.3
+    arrays["estimated_roll"][:] = np.nan
+    assert figures(arrays)["estimation"]["roll_rad"] is None
+    early = {name: values[:20] for name, values in record().items()}
+    found = figures(early)
+    assert found["tracking"]["com_x_m"] is None
+    assert found["tilt_max_deg"] is None and found["slip_per_step_m"] is None
+
+
+def walked(ratio: float = 1.0, turned: float = 1.0) -> dict[str, Array]:
+    """A circle of a metre at 0.05 m/s, swaying within each cycle."""
+    arrays = record()
+    angle = 0.05 * TIMES
+    sway = 0.02 * np.sin(2.0 * pi * (TIMES - 3.0) / PERIOD)
+    size = ratio + sway
+    arrays["world_x"], arrays["world_y"] = (
+        size * np.cos(angle),
+        size * np.sin(angle),
+    )
+    arrays["asked_x"], arrays["asked_y"] = np.sin(angle), np.cos(angle)
+    arrays["asked_heading"] = np.remainder(6.0 + angle, 2.0 * pi)
+    arrays["heading"] = np.remainder(6.1 + turned * angle, 2.0 * pi)
+    return arrays
+
+
+def test_speed_and_turning_are_over_whole_cycles() -> None:
+    """Sway within a cycle is no way; angles may pass their wrap."""
+    found = figures(walked(1.3, 0.9))
+    chord = 2.0 * sin(0.05 * PERIOD / 2.0) / PERIOD
+    assert found["speed_m_s"] == pytest.approx(1.3 * chord, rel=1e-6)
+    assert found["speed_ratio"] == pytest.approx(1.3, rel=1e-6)
+    assert found["yaw_ratio"] == pytest.approx(0.9, rel=1e-6)
+    rate = degrees(0.9 * 0.05)
+    assert found["yaw_rate_deg_s"] == pytest.approx(rate, rel=1e-6)
+    right = walked(1.0, 1.0)
+    for name in ("heading", "asked_heading"):
+        right[name] = -right[name]
+    found = figures(right)
+    assert found["yaw_ratio"] == pytest.approx(1.0)
+    assert found["yaw_rate_deg_s"] == pytest.approx(-degrees(0.05))
+
+
+def test_the_part_of_a_cycle_at_the_end_does_not_count() -> None:
+    arrays = walked()
+    extra = PER_CYCLE - 1
+    later = {
+        name: np.concatenate([values, np.full(extra, values[-1] + 5.0)])
+        for name, values in arrays.items()
+    }
+    later["time"] = np.concatenate(
+        [TIMES, TIMES[-1] + STEP * np.arange(1, extra + 1)]
+    )
+    assert figures(later)["speed_ratio"] == pytest.approx(1.0, rel=1e-6)
+    assert figures(later)["yaw_ratio"] == pytest.approx(1.0, rel=1e-6)
+
+
+def test_without_way_or_turn_there_is_no_ratio() -> None:
+    arrays = record()
+    arrays["world_x"] = 0.1 * TIMES
+    found = figures(arrays)
+    assert found["speed_m_s"] == pytest.approx(0.1)
+    assert found["speed_ratio"] is None and found["yaw_ratio"] is None
+    lasted = 10.0 * PERIOD
+    for way, exists in ((0.011, True), (0.009, False)):
+        arrays["asked_x"] = way / lasted * TIMES
+        assert (figures(arrays)["speed_ratio"] is not None) is exists
+    for turn, exists in ((0.051, True), (0.049, False), (-0.051, True)):
+        arrays["asked_heading"] = turn / lasted * TIMES
+        assert (figures(arrays)["yaw_ratio"] is not None) is exists
+
+
+def test_less_than_two_cycles_tell_no_speed() -> None:
+    steady = np.flatnonzero(TIMES >= 3.0)[0]
+    for extra, exists in ((-1, False), (2, True)):
+        count = 2 * PER_CYCLE + extra
+        cut = {n: v[: steady + count] for n, v in walked().items()}
+        assert (figures(cut)["speed_m_s"] is not None) is exists
+    none = {n: v[: steady + 2] for n, v in walked().items()}
+    assert figures(none)["speed_ratio"] is None
+
+
+def supports(slips: list[float], length: int, land: float) -> Array:
+    """A foot that slips in each single support and jumps between them."""
+    single, x = [0.0] * 60, [0.0] * 60
+    at = 0.0
+    for slip in slips:
+        at += land
+        # It settles as it lands and lifts: neither is slip.
+        way = np.linspace(0.0, slip, length - 2)
+        x += [at - 0.5, *(at + way), at + slip + 0.5]
+        single += [1.0] * length
+        at += slip
+        x += [at] * 10
+        single += [0.0] * 10
+    return np.array([single, x])
+
+
+def test_slip_is_the_way_of_the_foot_that_stands() -> None:
+    single, x = supports([0.003, 0.001, 0.002], 20, 0.05)
+    times: Array = 2.5 + STEP * np.arange(len(x), dtype=float)
+    arrays = record(times)
+    arrays["single"] = single
+    arrays["foot_x"], arrays["foot_y"] = 0.6 * x, -0.8 * x
+    slip = figures(arrays)["slip_per_step_m"]
+    # The first sample and the last are left out.
+    assert slip == pytest.approx(0.002, rel=1e-9)
+
+
+def test_a_foot_that_stands_fast_does_not_slip() -> None:
+    single, x = supports([0.0, 0.0, 0.0], 20, 0.05)
+    times: Array = 2.5 + STEP * np.arange(len(x), dtype=float)
+    arrays = record(times)
+    arrays["single"], arrays["foot_x"] = single, x
+    assert figures(arrays)["slip_per_step_m"] == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(("length", "exists"), [(7, True), (6, False)])
+def test_slip_needs_a_whole_support(length: int, exists: bool) -> None:
+    single, x = supports([0.01, 0.01], length, 0.05)
+    times: Array = 2.5 + STEP * np.arange(len(x), dtype=float)
+    arrays = record(times)
+    arrays["single"], arrays["foot_x"] = single, x
+    assert (figures(arrays)["slip_per_step_m"] is not None) is exists
+
+
+def test_tilt_is_the_greatest_lean_in_any_direction() -> None:
+    arrays = record()
+    arrays["roll"][10], arrays["pitch"][10] = 1.0, 1.0  # warm-up
+    arrays["roll"][200], arrays["pitch"][200] = -0.03, 0.04
+    arrays["roll"][300] = 0.045
+    assert figures(arrays)["tilt_max_deg"] == pytest.approx(degrees(0.05))
+
+
+def answer(time: float, feasible: bool, x: float, y: float) -> MpcResult:
+    values: dict[str, Any] = dict.fromkeys(MpcResult._fields)
+    values |= {"time": time, "feasible": feasible, "excess": (x, y)}
+    values |= {"iterations": round(1e6 * time)}
+    return MpcResult(**values)
+
+
+def test_the_solver_is_told_in_microseconds_and_metres() -> None:
+    answers = [answer(1e-6 * i, i > 2, 0.003, -0.004) for i in range(1, 101)]
+    answers.append(answer(1.01e-4, True, 0.001, 0.0))
+    found = figures(record(), answers=answers)["qp"]
+    assert found == {
+        "solves": 101,
+        "infeasible": 2,
+        "median_us": pytest.approx(51.0),
+        "p99_us": pytest.approx(100.0),
+        "iterations": pytest.approx(51.0),
+        "greatest_excess_m": pytest.approx(0.005),
+    }

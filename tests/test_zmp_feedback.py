@@ -1,0 +1,123 @@
+"""Test how a shift of the ZMP brings a shift of the DCM back."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.control.mpc import IntrinsicallyStableMpc
+from stepaside.control.settings import ControlSettings, StabiliserSettings
+from stepaside.control.step import Step, resting_step, zmp_box
+from stepaside.control.zmp_feedback import (
+    MpcFeedback,
+    ProportionalFeedback,
+    zmp_feedback,
+)
+from stepaside.planning import Direction, Foot, GaitSettings, ManeuverPlanner
+from stepaside.poses import Array, Pose
+
+GAIT = GaitSettings()
+EDGE, TICK = 0.002, 0.004
+SUPPORT = Pose(1.0, -2.0, 0.7)
+RULE = ProportionalFeedback(GAIT, gain=4.0, edge=EDGE)
+
+
+def walking(swing: Foot = Foot.LEFT) -> Step:
+    plan = ManeuverPlanner(GAIT).plan(
+        0.0, Direction.FORWARD, first_foot=swing, standing=True
+    )
+    return Step(SUPPORT, swing, SUPPORT, 0.2, 0.5, True, plan, 1.25)
+
+
+class FakeMpc:
+    """Notes what it is asked, and answers with a given velocity."""
+
+    def __init__(self) -> None:
+        self.asked: list[tuple[Any, ...]] = []
+
+    def solve(self, plan: Any, passed: float, dcm: Array, zmp: Array) -> Any:
+        """Answer with the same velocity, whatever is asked."""
+        self.asked.append((plan, passed, *dcm.tolist(), *zmp.tolist()))
+        return SimpleNamespace(velocity=(0.5, -0.25))
+
+
+def test_a_small_shift_is_answered_by_its_multiple() -> None:
+    """In any direction, and beyond it: only then does the DCM return."""
+    for dcm in ((0.003, 0.0), (-0.002, 0.004), (0.0, -0.005)):
+        p = RULE.shift(walking(), dcm, (0.3, 0.3))
+        assert p == pytest.approx((4.0 * dcm[0], 4.0 * dcm[1]))
+
+
+@pytest.mark.parametrize("swing", Foot)
+def test_the_sole_that_stands_limits_it(swing: Foot) -> None:
+    made = walking(swing)
+    low, high = zmp_box(swing, GAIT, EDGE)
+    for far, corner in ((1.0, high), (-1.0, low)):
+        p = RULE.shift(made, made.from_support(far, far), (0.0, 0.0))
+        assert made.to_support(*p) == pytest.approx(corner)
+
+
+def test_the_mpc_is_asked_in_the_axes_of_its_plan() -> None:
+    fake: Any = FakeMpc()
+    rule = MpcFeedback(fake, RULE, TICK)
+    made = walking()
+    dcm, zmp = made.from_support(0.01, 0.02), made.from_support(0.03, 0.04)
+    p = rule.shift(made, dcm, zmp)
+    (plan, passed, *state) = fake.asked[0]
+    assert plan is made.plan and passed == 1.25
+    np.testing.assert_allclose(state, [0.01, 0.02, 0.03, 0.04])
+    vx, vy = made.from_support(0.5, -0.25)
+    assert p == pytest.approx((zmp[0] + TICK * vx, zmp[1] + TICK * vy))
+    assert len(rule.answers) == 1
+
+
+def test_the_mpc_is_not_asked_for_what_the_plan_answers() -> None:
+    fake: Any = FakeMpc()
+    rule = MpcFeedback(fake, RULE, TICK)
+    assert rule.shift(walking(), (0.0, 0.0), (0.0, 0.0)) == (0.0, 0.0)
+    assert not fake.asked
+    rule.shift(walking(), (0.0, 0.0), (0.01, 0.0))
+    rule.shift(walking(), (0.01, 0.0), (0.0, 0.0))
+    assert len(fake.asked) == 2
+
+
+def test_who_stands_needs_no_mpc() -> None:
+    fake: Any = FakeMpc()
+    rule = MpcFeedback(fake, RULE, TICK)
+    rest = resting_step(SUPPORT, Foot.LEFT)
+    p = rule.shift(rest, (0.003, 0.001), (0.2, 0.2))
+    assert p == pytest.approx((0.012, 0.004))
+    assert not fake.asked and not rule.answers
+
+
+def test_methods_ask_for_their_rule() -> None:
+    gains = StabiliserSettings(feedback=3.0, edge=0.005)
+    for method in ("closed-form", "measured"):
+        settings = ControlSettings(method, True, gains)
+        rule = zmp_feedback(settings, GAIT, TICK)
+        assert isinstance(rule, ProportionalFeedback)
+        p = rule.shift(walking(), (0.001, 0.0), (0.0, 0.0))
+        assert p == pytest.approx((0.003, 0.0))
+        made = walking()
+        far = made.from_support(1.0, 1.0)
+        corner = zmp_box(made.swing, GAIT, 0.005)[1]
+        p = rule.shift(made, far, (0.0, 0.0))
+        assert made.to_support(*p) == pytest.approx(corner)
+
+
+def test_the_mpc_method_asks_a_solver_while_walking() -> None:
+    pytest.importorskip("daqp")
+    gains = StabiliserSettings(feedback=3.0, edge=0.005)
+    rule = zmp_feedback(ControlSettings("mpc", True, gains), GAIT, TICK)
+    assert isinstance(rule, MpcFeedback)
+    assert isinstance(rule._mpc, IntrinsicallyStableMpc)
+    made = walking()
+    rest = resting_step(SUPPORT, Foot.LEFT)
+    assert rule.shift(rest, (0.001, 0.0), (0.0, 0.0)) == pytest.approx(
+        (0.003, 0.0)
+    )
+    dcm = made.from_support(0.005, 0.0)
+    p = rule.shift(made, dcm, (0.0, 0.0))
+    assert made.to_support(*p)[0] > 0.0
+    assert len(rule.answers) == 1 and rule.answers[0].feasible

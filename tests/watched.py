@@ -1,0 +1,121 @@
+"""Watched duels made by hand: two robots that walk as theory says."""
+
+from dataclasses import replace
+from math import pi, radians, sin, sqrt
+from typing import Any
+
+import numpy as np
+
+from stepaside.poses import Array
+from stepaside.simulation.duel import NAMES, Outcome
+from stepaside.simulation.settings import DuelSettings
+from stepaside.studies.watching import WalkedPlan, Watched
+
+RADIUS = 4.0 * 0.1 / (pi * 0.2)
+WEIGHT = 52.0  # of a robot, in [N]
+LATE, AIR = 0.02, 0.36  # lift-off after a plan begins, time off the floor, [s]
+
+
+def walked_duel(
+    duration: float = 30.0,
+    *,
+    radius: float = RADIUS,
+    speed: float = 0.04 / 0.547,
+    slide: float = 0.002,
+    tilt: float = radians(1.0),
+    outcome: Outcome = Outcome.COMPLETED,
+) -> Watched:
+    """Duel on the circle from its first moment on.
+
+    Args:
+        duration: Simulated time, in [s].
+        radius: Of the circle, in [m].
+        speed: Of both robots, in [m/s].
+        slide: Way of a foot on the floor in a step, in [m].
+        tilt: Of both torsos at the end, in [rad].
+        outcome: How it ends.
+    """
+    settings = DuelSettings(duration=duration)
+    times = np.arange(0.0, duration + 1e-9, 0.02)
+    ticks = np.arange(round(duration / 0.004), dtype=np.float64) * 0.004
+    arrays: dict[str, Array] = {"times_s": times}
+    quaternion = np.tile([1.0, 0.0, 0.0, 0.0], (len(times), 1))
+    quaternion[-1, 1] = sin(0.5 * tilt)
+    plans = _plans(settings, duration)
+    loads, feet = _feet(ticks, plans, slide)
+    along = speed / radius * times
+    for name, ahead, heading in (
+        ("pursuer", 0.0, pi / 2),
+        ("evader", pi / 2, 0.0),  # it walks backward
+    ):
+        angle = along + ahead
+        place = radius * np.column_stack([np.cos(angle), np.sin(angle)])
+        arrays[f"{name}_torso"] = np.column_stack([place, along + heading])
+        arrays[f"{name}_com"] = np.column_stack([place, 0.268 + 0.0 * along])
+        arrays[f"{name}_qpos"] = np.column_stack(
+            [place, 0.33 + 0.0 * along, quaternion]
+        )
+    sway = np.column_stack([0.07 * ticks, 0.03 * np.sin(5.0 * ticks)])
+    return Watched(
+        settings=settings,
+        outcome=outcome,
+        duration=duration,
+        arrays=arrays,
+        ticks=ticks,
+        loads={name: loads.copy() for name in NAMES},
+        feet={name: feet.copy() for name in NAMES},
+        references={name: sway.copy() for name in NAMES},
+        plans=dict.fromkeys(NAMES, plans),
+    )
+
+
+def _plans(settings: DuelSettings, duration: float) -> tuple[WalkedPlan, ...]:
+    """One plan a step, the first from rest."""
+    gait = settings.gait
+    begins = gait.start_support + gait.step_duration * np.arange(1.0, 1e3)
+    walked = begins[begins < duration - gait.step_duration].tolist()
+    return (
+        WalkedPlan(0.0, 0.0, True),
+        *(WalkedPlan(t, 0.004 * np.ceil(t / 0.004), False) for t in walked),
+    )
+
+
+def _feet(
+    ticks: Array, plans: tuple[WalkedPlan, ...], slide: float
+) -> tuple[Array, Array]:
+    """Loads and places of the feet, left foot first."""
+    loads = np.full((len(ticks), 2), 0.5 * WEIGHT)
+    feet = np.zeros((len(ticks), 2, 2))
+    for number, plan in enumerate(plans):
+        lift = plan.started + LATE + (0.8 if plan.from_rest else 0.0)
+        air = (ticks >= lift) & (ticks < lift + AIR)
+        side = number % 2
+        loads[air, side], loads[air, 1 - side] = 0.0, WEIGHT
+        # It swings on for 40 mm; the other one slides meanwhile.
+        feet[ticks >= lift + AIR, side, 0] += 0.04
+        feet[ticks >= lift + 0.5 * AIR, 1 - side, 0] += slide
+    return loads, feet
+
+
+def changed(duel: Watched, **arrays: Any) -> Watched:
+    """Duel with other arrays of its record; a function maps the old one."""
+    record = dict(duel.arrays)
+    for name, change in arrays.items():
+        record[name] = change(record[name].copy())
+    return replace(duel, arrays=record)
+
+
+def standing_duel() -> Watched:
+    """Two robots that never move a foot."""
+    still = walked_duel(speed=0.0)
+    loads = np.full_like(still.loads["pursuer"], 0.5 * WEIGHT)
+    return replace(
+        still,
+        loads=dict.fromkeys(NAMES, loads),
+        plans=dict.fromkeys(NAMES, ()),
+    )
+
+
+def apart(radius: float) -> float:
+    """Distance of the robots on a circle, in [m]."""
+    return sqrt(2.0) * radius
