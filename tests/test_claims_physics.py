@@ -38,12 +38,12 @@ def far_until_late(duel: Watched) -> Watched:
 
 
 def later_plans(by: float) -> Fault:
+    """Let the evader replace its plans at another time."""
+
     def fault(duel: Watched) -> Watched:
-        plans = {
-            name: tuple(p._replace(sent=p.sent + by) for p in walked)
-            for name, walked in duel.plans.items()
-        }
-        return replace(duel, plans=plans)
+        walked = duel.plans["evader"]
+        later = tuple(plan._replace(sent=plan.sent + by) for plan in walked)
+        return replace(duel, plans={**duel.plans, "evader": later})
 
     return fault
 
@@ -285,6 +285,13 @@ def test_watching_changes_nothing() -> None:
     assert set(watched.arrays) == set(duel.arrays)
     for name, values in duel.arrays.items():
         np.testing.assert_array_equal(watched.arrays[name], values)
+    for name in NAMES:  # one stands on its left foot as on its right one
+        weight = watched.loads[name].sum(axis=1)[50:100].mean()
+        assert weight == pytest.approx(5.3 * 9.81, rel=0.05)
+        left, right = watched.feet[name][0]
+        facing = duel.arrays[f"{name}_torso"][0, 2]
+        across = np.array([-np.sin(facing), np.cos(facing)])
+        assert (left - right) @ across == pytest.approx(0.1, abs=1e-3)
 
 
 def shortly(seconds: float) -> Callable[..., DuelSettings]:

@@ -145,6 +145,16 @@ def drifting(path: UnicycleTrajectory, times: Array, poses: Array) -> Array:
     return poses
 
 
+def clockwise(path: UnicycleTrajectory, _: Array, poses: Array) -> Array:
+    """Turn the paths to the left a little to the right."""
+    if path.bearing < 0.0:
+        return poses
+    x, y = poses[..., 0].copy(), poses[..., 1].copy()
+    poses[..., 0] += 1e-3 * y
+    poses[..., 1] -= 1e-3 * x
+    return poses
+
+
 def all_left(steps: Array) -> Array:
     """Put the right feet on the left of the path, too."""
     steps[1::2, 0] -= 0.1 * np.sin(steps[1::2, 2])
@@ -168,6 +178,14 @@ def scaled(poses: Array, by: float) -> Array:
 def as_at(end: float, poses: Array) -> Array:
     """Stand where one was at the first time asked for."""
     return np.repeat(poses[:1], len(poses), axis=0) * end
+
+
+def aslant(times: Array, poses: Array, speed: float) -> Array:
+    """Drift aside, in [m/s], from where one is going."""
+    way = poses[-1, :2] - poses[0, :2]
+    aside = np.array([-way[1], way[0]]) / np.hypot(*way)
+    shift = speed * (times - times[0])[:, None] * aside
+    return np.column_stack([poses[:, :2] + shift, poses[:, 2]])
 
 
 FAULTS: dict[str, tuple[Patch, ...]] = {
@@ -226,7 +244,9 @@ FAULTS: dict[str, tuple[Patch, ...]] = {
     "strategies.back": (
         seen_as(lambda g, t, p, e: (p, scaled(e, -1.0))),
         seen_as(lambda g, t, p, e: (p, as_at(1.0, e))),
-        seen_as(lambda g, t, p, e: (p, e + 0.01 * t[:, None])),
+        seen_as(lambda g, t, p, e: (p, e[:1] + 0.1 * (e - e[:1]))),
+        seen_as(lambda g, t, p, e: (p, aslant(t, e, 0.01))),
+        seen_as(lambda g, t, p, e: (p, aslant(t, e, -0.01))),
     ),
     "sampled.radius": (
         sampled_as(lambda p, e: (scaled(p, 1.01), e)),
@@ -254,6 +274,7 @@ FAULTS: dict[str, tuple[Patch, ...]] = {
     ),
     "path.line": (
         poses_as(drifting),
+        poses_as(clockwise),
         poses_as(lambda path, t, p: scaled(p, -1.0)),
         poses_as(lambda path, t, p: 0.0 * p),
     ),

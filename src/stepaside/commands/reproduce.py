@@ -42,8 +42,8 @@ def reproduce(
 ) -> None:
     """Measure every claim of the paper and write a page about it.
 
-    Takes TIME. When stopped, it keeps
-    what is done and goes on there the next time.
+    Takes five and a half minutes of processor time, so about three on two
+    cores. When stopped, it keeps what is done and goes on there next time.
     """
     from ..report.claims_page import write_page
     from ..studies.paper_figures import paper_figures

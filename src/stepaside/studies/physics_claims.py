@@ -65,8 +65,8 @@ CIRCLE = tuple(
 REPLANNING = (
     Claim(
         "settled",
-        "they are within 5 % and 5 deg of it for good before the last third "
-        "(time)",
+        "they are on it before the last third (time from which distance and "
+        "orientation stay within 5 % and 5 deg of theory)",
         "IV, Fig. 5",
         LEVEL,
         80.0,
