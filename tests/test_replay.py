@@ -20,6 +20,9 @@ needs_graphics = pytest.mark.skipif(
 )
 
 
+pytestmark = pytest.mark.xdist_group("replay")
+
+
 @pytest.fixture(scope="module")
 def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("runs") / "short"

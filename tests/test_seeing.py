@@ -10,6 +10,7 @@ import pytest
 
 from stepaside.control.perception import FrameReport
 from stepaside.errors import ConfigurationError
+from stepaside.sensing.gaze import REACH, SCAN_SPEED
 from stepaside.sensing.images import ColourImage, SonarEcho
 from stepaside.simulation import DuelResult, DuelSettings, Outcome, run_duel
 from stepaside.simulation.camera_settings import (
@@ -71,12 +72,25 @@ def test_the_pursuer_finds_who_is_behind_its_view() -> None:
     """It begins with its back half turned, scans and halts nowhere."""
     start = StartSettings(1.3, radians(-88.0), 0.0)
     settings = replace(SEEING, start=start, duration=5.0)
-    result = run_duel(settings)
-    sight = result.arrays["pursuer_sight"]
-    assert np.isnan(sight[5, 1])
-    assert np.isfinite(sight[-1, 1])
-    assert abs(degrees(sight[-1, 1] - sight[-1, 3])) < 3.0
-    assert result.arrays["pursuer_landings"].shape[0] > 2
+    arrays = run_duel(settings).arrays
+    times, bearing, distance, true_bearing, true_distance, _ = arrays[
+        "pursuer_sight"
+    ].T
+    # Out of view at first, found by half a sweep of the head, never lost.
+    assert true_bearing[0] > radians(85.0)
+    found = int(np.argmax(np.isfinite(bearing)))
+    assert 0.3 < times[found] < REACH / SCAN_SPEED
+    assert np.isnan(bearing[:found]).all()
+    assert np.isfinite(bearing[found:]).all()
+    off = np.abs(bearing - true_bearing)[found:]
+    assert np.degrees(np.median(off)) < 1.0 and np.degrees(off.max()) < 5.0
+    assert np.median(np.abs(distance - true_distance)[found:]) < 0.1
+    # From then on it walks step by step, and turns to the other.
+    landings = arrays["pursuer_landings"][:, 0]
+    assert landings[0] < times[found] + 1.5
+    np.testing.assert_allclose(np.diff(landings), 0.547, atol=1e-6)
+    assert times[-1] - landings[-1] < 0.547
+    assert true_bearing[-1] < true_bearing[found] - radians(20.0)
 
 
 @pytest.mark.parametrize("distance", [0.5, 0.65, 0.8])
@@ -107,8 +121,8 @@ def test_the_evader_is_not_blind_below_the_near_limit(
         pursuer.step()
     seen = perception.sighting
     assert seen is not None
-    assert degrees(seen.bearing) == pytest.approx(-15.0, abs=4.0)
-    assert seen.distance == pytest.approx(distance, abs=0.15)
+    assert degrees(seen.bearing) == pytest.approx(-15.0, abs=1.5)
+    assert seen.distance == pytest.approx(duel.distance, abs=0.06)
 
 
 def test_belief_about_the_own_body_is_true_while_walking() -> None:

@@ -1,14 +1,15 @@
 """A live duel behind a page, without a browser."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import inf, pi
-from time import monotonic, sleep
+from threading import Event
 
 import pytest
 
 from stepaside.control import Phase
 from stepaside.control.driving import TURN, Driven
 from stepaside.errors import ConfigurationError
+from stepaside.report.viewer import session as live
 from stepaside.report.viewer.session import Session
 from stepaside.report.viewer.words import words_of
 from stepaside.simulation.duel import Duel
@@ -16,6 +17,7 @@ from stepaside.simulation.settings import DuelSettings, StartSettings
 
 START = StartSettings(distance=1.0, pursuer_offset=0.0, evader_offset=0.0)
 SETTINGS = DuelSettings(start=START)
+LONG = 60.0  # [s]; no event of a loop that runs comes as late as this
 
 
 @pytest.fixture
@@ -26,37 +28,125 @@ def session() -> Iterator[Session]:
     made.close()
 
 
+def settle(session: Session, rounds: int = 1) -> None:
+    """Wait until the loop has done what was asked, and begins a round."""
+    for _ in range(rounds):
+        served = Event()
+        session.change(_setter(served))
+        assert served.wait(LONG), session.error
+
+
+def _setter(event: Event) -> Callable[[Duel], None]:
+    return lambda duel: event.set()
+
+
 def run_until(session: Session, time: float) -> None:
+    """Let time pass up to a tick, and stop there."""
+    reached, before = Event(), session.on_tick
+
+    def look(duel: Duel) -> None:
+        if before is not None:
+            before(duel)
+        if duel.world.time >= time - 1e-9:
+            session.running = False
+            reached.set()
+
+    session.on_tick = look
     session.running = True
-    deadline = monotonic() + 30.0
-    while session.duel.world.time < time and monotonic() < deadline:
-        sleep(0.005)
-    session.running = False
-    sleep(0.05)
+    assert reached.wait(LONG), session.error
+    settle(session)
+    session.on_tick = before
 
 
 def test_time_passes_only_while_it_runs(session: Session) -> None:
-    sleep(0.1)
+    settle(session, rounds=5)
     assert session.duel.world.time == 0.0
     run_until(session, 1.0)
+    assert session.duel.world.time == pytest.approx(1.0)
+    settle(session, rounds=5)
+    assert session.duel.world.time == pytest.approx(1.0)
+
+
+def test_a_pause_from_outside_holds_at_once(session: Session) -> None:
+    ticked = Event()
+    session.on_tick = lambda duel: ticked.set()
+    session.running = True
+    assert ticked.wait(LONG)
+    session.running = False
+    settle(session)
     stopped = session.duel.world.time
-    assert stopped >= 1.0
-    sleep(0.1)
-    assert session.duel.world.time == stopped
+    settle(session, rounds=5)
+    assert session.duel.world.time == stopped > 0.0
 
 
 def test_a_step_is_as_long_as_asked(session: Session) -> None:
     session.step(0.1)
-    sleep(0.3)
+    settle(session, rounds=3)
     assert session.duel.world.time == pytest.approx(0.1)
 
 
-def test_real_time_is_kept() -> None:
+class Clock:
+    """Time that passes only by sleeping, and by what a tick costs."""
+
+    def __init__(self) -> None:
+        self.now = 100.0
+
+    def sleep(self, duration: float) -> None:
+        """Let time pass."""
+        self.now += duration
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
+    made = Clock()
+    monkeypatch.setattr(live, "perf_counter", lambda: made.now)
+    monkeypatch.setattr(live, "sleep", made.sleep)
+    return made
+
+
+def time_for(
+    clock: Clock,
+    speed: float,
+    cost: Callable[[float], float] = lambda time: 0.0,
+) -> tuple[float, Session]:
+    """Time of the clock that 1.5 s of a duel take."""
     made = Session(SETTINGS)
-    made.running = True
-    sleep(1.5)
+    made.speed = speed
+    times = []
+
+    def pay(duel: Duel) -> None:
+        times.append(clock.now)
+        clock.now += cost(duel.world.time)
+
+    made.on_tick = pay
+    run_until(made, 1.5)
     made.close()
-    assert made.duel.world.time == pytest.approx(1.5, abs=0.4)
+    assert made.duel.world.time == pytest.approx(1.5)
+    return times[-1] - times[0], made
+
+
+@pytest.mark.parametrize("speed", [0.5, 1.0, 2.0])
+def test_time_passes_at_the_speed_asked_for(
+    clock: Clock, speed: float
+) -> None:
+    took, made = time_for(clock, speed)
+    assert took * speed == pytest.approx(1.5, abs=0.015)
+    assert made.factor == pytest.approx(speed, rel=0.05)
+
+
+def test_a_short_delay_is_made_up_and_a_long_one_is_not(clock: Clock) -> None:
+    def hitch(length: float) -> Callable[[float], float]:
+        return lambda time: length if abs(time - 0.5) < 1e-9 else 0.0
+
+    assert time_for(clock, 1.0, hitch(0.1))[0] == pytest.approx(1.5, abs=0.02)
+    assert 0.1 < live.BEHIND < 3.0
+    assert time_for(clock, 1.0, hitch(3.0))[0] == pytest.approx(4.5, abs=0.02)
+
+
+def test_a_slow_machine_is_told_by_the_factor(clock: Clock) -> None:
+    took, made = time_for(clock, 1.0, lambda time: 0.008)
+    assert took == pytest.approx(3.0, abs=0.02)
+    assert made.factor == pytest.approx(0.5, rel=0.05)
 
 
 def test_a_push_changes_the_run() -> None:
@@ -100,7 +190,7 @@ def test_errors_in_the_loop_are_told(session: Session) -> None:
         raise RuntimeError("a bolt came loose")
 
     session.change(fail)
-    sleep(0.3)
+    settle(session)
     assert session.error is not None
     assert "a bolt came loose" in session.error
 
@@ -120,9 +210,19 @@ def test_the_hand_steers_the_same_planner(session: Session) -> None:
     assert session.duel.schemes[0].phase is Phase.STANDING
 
 
-def test_history_is_bounded(session: Session) -> None:
-    assert session.history.maxlen is not None
-    assert all(trace.maxlen for trace in session.traces.values())
+def test_history_is_bounded(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What is full forgets its oldest, so that a page can stay open."""
+    assert session.history.maxlen == live.HISTORY
+    monkeypatch.setattr(live, "HISTORY", 4)
+    monkeypatch.setattr(live, "TRACE", 3)
+    session.reset()
+    run_until(session, 1.0)
+    times = [row[0] for row in session.history]
+    assert times == pytest.approx([0.7, 0.8, 0.9, 1.0])
+    assert len(session.traces) == 4
+    assert all(len(trace) == 3 for trace in session.traces.values())
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import pytest
 from stepaside.errors import ConfigurationError
 from stepaside.poses import Pose
 from stepaside.robots.description import load_robot
-from stepaside.simulation.duel import Duel
+from stepaside.simulation.duel import Duel, Outcome
 from stepaside.simulation.settings import (
     DuelSettings,
     PhysicsSettings,
@@ -128,8 +128,7 @@ def test_servo_obeys_the_speed_limits_of_the_joints() -> None:
     np.testing.assert_allclose(robot.servos._target - before, expected)
 
 
-def test_robots_that_touch_end_the_duel() -> None:
-    """Placed within each other's arms."""
+def test_robots_touch_within_each_others_arms() -> None:
     robots = dict.fromkeys(("pursuer", "evader"), load_robot("nao"))
     world = World(robots, PhysicsSettings())
     data = world.data
@@ -141,6 +140,23 @@ def test_robots_that_touch_end_the_duel() -> None:
     data.qpos[size] = 1.5
     mujoco.mj_forward(world.model, data)
     assert not world.robots_touch()
+
+
+@pytest.mark.parametrize(
+    ("distance", "expected"), [(0.12, Outcome.CONTACT), (1.5, None)]
+)
+def test_robots_that_touch_end_the_duel(
+    distance: float, expected: Outcome | None
+) -> None:
+    """One is put down at a distance from the other, both still upright."""
+    duel = standing()
+    assert duel.tick() is None
+    pursuer, evader = (robot.qpos_slice.start for robot in duel.robots)
+    qpos = duel.world.data.qpos
+    qpos[evader : evader + 7] = qpos[pursuer : pursuer + 7]
+    qpos[evader] += distance
+    assert duel.tick() is expected
+    assert duel.distance == pytest.approx(distance, abs=0.02)
 
 
 def test_a_robot_does_not_collide_with_itself() -> None:

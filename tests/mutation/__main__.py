@@ -116,7 +116,7 @@ def _try(
     options: argparse.Namespace,
 ) -> None:
     """Try the faults that have no record yet."""
-    warm_up()
+    warm_up(root)
     rows.parent.mkdir(parents=True, exist_ok=True)
     known = {row["key"] for row in rows_of(rows)}
     todo = [fault for fault in faults if fault.key not in known]

@@ -1,6 +1,7 @@
 """What a forked process does: run tests in a scratch copy of the tree."""
 
 import os
+import re
 import sys
 from collections.abc import Callable, Iterable
 from contextlib import suppress
@@ -16,13 +17,12 @@ from resource import (
 )
 
 import pytest
-from hypothesis import Phase, settings
+from hypothesis import HealthCheck, Phase, settings
 
 PROFILE = "mutation"
-# Imported once, before forking: what tests import from elsewhere.
+# Imported once, before forking, where a tree imports them at all.
 WARM = (
     "click.testing",
-    "coverage",
     "cv2",
     "dacite",
     "daqp",
@@ -42,16 +42,25 @@ WARM = (
 )
 
 
-def warm_up() -> None:
-    """Import the libraries that every child uses; nothing of the package."""
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+def warm_up(root: Path) -> None:
+    """Import the libraries that a tree uses; nothing of the tree itself."""
+    for name in ("OPENBLAS", "OMP", "NUMBA"):
+        os.environ.setdefault(f"{name}_NUM_THREADS", "1")
     os.environ.setdefault("MPLBACKEND", "Agg")
+    text = "\n".join(
+        file.read_text(encoding="utf-8")
+        for part in ("src", "tests")
+        for file in sorted((root / part).rglob("*.py"))
+    )
     for name in WARM:
-        with suppress(ImportError):
-            import_module(name)
+        top = name.partition(".")[0]
+        if re.search(rf"\b(import|from) {top}\b", text):
+            with suppress(ImportError):
+                import_module(name)
     settings.register_profile(
         PROFILE,
         deadline=None,
+        suppress_health_check=[HealthCheck.too_slow],
         derandomize=True,
         database=None,
         phases=(Phase.explicit, Phase.generate),
