@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: setup duel test mutate bench clean constraints
+.PHONY: setup duel test bench figures clean constraints
 
 setup: $(STAMP)
 
@@ -30,8 +30,13 @@ mutate: setup
 bench: setup
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check \
 		--constraint constraints.txt --editable ".[bench]"
-	OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/run.py
-	NUMBA_NUM_THREADS=1 $(BIN)/python benchmarks/kernel.py
+	$(BIN)/python benchmarks/run.py
+	$(BIN)/python benchmarks/kernel.py
+	$(BIN)/python -m documents
+
+# Tables, numbers and figures of README and docs/, from docs/results/.
+figures: setup
+	$(BIN)/python -m documents
 
 constraints:
 	uv pip compile --universal --python-version 3.11 --all-extras \

@@ -1,0 +1,71 @@
+"""Tables, lists and fences that are made whole, between two comments.
+
+``<!-- made: NAME.TABLE -->`` and ``<!-- /made -->``: TABLE is one of
+``documents.tables.TABLES``, NAME the result that it is made from; several
+results are joined by ``+``, and ``all`` stands for every one.
+"""
+
+import re
+from collections.abc import Iterator
+
+from .parts import Part
+from .store import DocumentError, Store
+from .tables import TABLES
+
+BEGIN, END = "<!-- made:", "<!-- /made -->"
+BLOCK = re.compile(
+    r"<!-- made: (?P<source>(?P<names>[\w+-]+)\.(?P<table>[\w-]+)) -->\n"
+    r"(?P<body>(?:(?!<!-- made:).)*?)<!-- /made -->",
+    re.DOTALL,
+)
+
+
+def block_parts(text: str, store: Store) -> Iterator[Part]:
+    """Every made block of a document.
+
+    Args:
+        text: Of the document.
+        store: Results that the blocks name.
+    """
+    read = set()
+    for match in BLOCK.finditer(text):
+        read |= {match.start(), match.end() - len(END)}
+        wanted, problem = None, ""
+        try:
+            made = make(match["names"], match["table"], store)
+            wanted = f"\n{made.strip()}\n\n"
+        except DocumentError as error:
+            problem = str(error)
+        start = match.start("body")
+        yield Part(start, match["body"], wanted, match["source"], problem)
+    for match in re.finditer(f"{BEGIN}|{END}", text):
+        if match.start() not in read:
+            problem = f"a block must read {BEGIN} NAME.TABLE -->, {END}"
+            yield Part(match.start(), "", None, match[0], problem)
+
+
+def make(names: str, table: str, store: Store) -> str:
+    """Text of one block.
+
+    Args:
+        names: Results, joined by ``+``; or ``all``.
+        table: Kind of the table.
+        store: Results.
+
+    Raises:
+        DocumentError: If there is no such table or result, or if the result
+            lacks what the table shows.
+    """
+    if table not in TABLES:
+        known = ", ".join(sorted(TABLES))
+        raise DocumentError(f"no table {table!r}; there are {known}")
+    if names == "all":
+        every = {name: store.result(name) for name in store.names()}
+        return TABLES[table](every)
+    results = [store.result(name) for name in names.split("+")]
+    try:
+        return TABLES[table](*results)
+    except (KeyError, IndexError, TypeError, ValueError) as error:
+        raise DocumentError(
+            f"{names} does not hold what {table!r} shows: {error!r}"
+        ) from error

@@ -1,0 +1,34 @@
+"""What each picture shows."""
+
+from pathlib import Path
+
+import numpy as np
+
+from .store import Store
+
+
+def duel(store: Store, file: Path) -> None:
+    """The duel of the README, from its committed trajectories."""
+    from stepaside.report.duel_figure import draw_duel
+    from stepaside.simulation.settings import DuelSettings
+
+    result = store.result("duel-seed7")
+    with np.load(store.folder / result["trajectories"]["file"]) as arrays:
+        tracks = {name: arrays[name] for name in arrays.files}
+    settings = DuelSettings(seed=result["settings"]["seed"])
+    draw_duel(tracks, result["summary"], settings, file)
+
+
+def push_limits(store: Store, file: Path) -> None:
+    """Largest push survived over the phase, beside the pendulum's bound."""
+    from stepaside.report.robustness_figure import draw_limits
+
+    draw_limits(store.result("pushes")["limits"], file)
+
+
+def survival_on_hardware(store: Store, file: Path) -> None:
+    """Survival over the strength of each disturbance."""
+    from stepaside.report.robustness_figure import draw_survival
+    from stepaside.studies.robustness import UNITS
+
+    draw_survival(store.result("survival-hardware")["survival"], UNITS, file)

@@ -1,0 +1,86 @@
+"""Pictures that are drawn from results, and say from which.
+
+Each carries, as text inside the PNG, a fingerprint of the results that it
+shows; so it can be told without drawing whether it is out of date, and is
+drawn again only then.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from hashlib import sha256
+from json import dumps
+from pathlib import Path
+
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
+
+from . import drawings
+from .store import ROOT, Store
+
+IMAGES = ROOT / "docs" / "images"
+FIELD = "Source"  # a text that PNG knows by this name
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A picture of results.
+
+    Attributes:
+        results: Names of what it shows.
+        draw: Draws the store's results into a file.
+    """
+
+    results: tuple[str, ...]
+    draw: Callable[[Store, Path], None]
+
+    def source(self, store: Store) -> str:
+        """What the picture says of where it is from."""
+        digest = sha256()
+        for name in self.results:
+            digest.update(dumps(store.result(name), sort_keys=True).encode())
+        names = ", ".join(f"{name}.json" for name in self.results)
+        return f"{names} {digest.hexdigest()[:12]}"
+
+
+PICTURES = {
+    "duel.png": Picture(("duel-seed7",), drawings.duel),
+    "push-limits.png": Picture(("pushes",), drawings.push_limits),
+    "survival-hardware.png": Picture(
+        ("survival-hardware",), drawings.survival_on_hardware
+    ),
+}
+
+
+def drawn_from(file: Path) -> str:
+    """What a picture says of where it is from; empty if it does not."""
+    with Image.open(file) as image:
+        return str(image.info.get(FIELD, ""))
+
+
+def draw_picture(name: str, store: Store, folder: Path = IMAGES) -> bool:
+    """Draw a picture unless it shows the results already.
+
+    Args:
+        name: One of ``PICTURES``.
+        store: Results.
+        folder: Where pictures lie.
+
+    Returns:
+        Whether it was drawn.
+    """
+    picture, file = PICTURES[name], folder / name
+    source = picture.source(store)
+    if file.exists() and drawn_from(file) == source:
+        return False
+    draft = file.with_name(f".draft-{name}")
+    try:
+        picture.draw(store, draft)
+        info = PngInfo()
+        info.add_text(FIELD, source)
+        with Image.open(draft) as image:
+            image.load()
+            image.save(draft, pnginfo=info, optimize=True)
+        draft.replace(file)
+    finally:
+        draft.unlink(missing_ok=True)
+    return True

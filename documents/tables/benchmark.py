@@ -1,0 +1,107 @@
+"""Times of planner, MPC, control tick and duel."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from .markdown import number, table
+
+ROWS = {
+    "replan_5_steps_us": ("replan of 5 steps", "us", "<= 50"),
+    "plan_20_steps_us": ("plan of 20 steps", "us", ""),
+    "plan_20_steps_with_samples_us": (
+        "plan of 20 steps with feet, ZMP, DCM and CoM every 10 ms",
+        "us",
+        "<= 100",
+    ),
+    "drake_zmp_planner_us": ("Drake's ZmpPlanner on the same ZMP", "us", ""),
+    "drake_with_samples_us": (
+        "the same, with CoM and its velocity every 10 ms",
+        "us",
+        "",
+    ),
+    "drake_over_plan": (
+        "Drake's plan over our plan of 20 steps",
+        "times",
+        ">= 10",
+    ),
+    "drake_over_plan_with_samples": (
+        "Drake's plan with samples over ours with samples",
+        "times",
+        "",
+    ),
+    "com_difference_to_drake_m": (
+        "greatest difference of the two CoM trajectories",
+        "m",
+        "<= 1e-6",
+    ),
+    "mpc_tick_us": (
+        "tick of the MPC, horizon of two steps, no constraint active",
+        "us",
+        "<= 1000",
+    ),
+    "mpc_tick_pushed_us": ("the same, after a push", "us", "<= 1000"),
+    "mpc_closed_form_us": ("closed form beside it: a replan", "us", ""),
+    "control_tick_us": ("control tick of one robot", "us", "<= 150"),
+    "real_time_factor": ("whole duel", "x real time", ">= 8"),
+    "bare_physics_real_time_factor": (
+        "bare mj_step, same model and motion",
+        "x real time",
+        "",
+    ),
+    "duel_over_bare_physics": (
+        "cost of the duel over bare mj_step",
+        "times",
+        "<= 2.5",
+    ),
+}
+
+
+def all_rows(result: Mapping[str, Any]) -> str:
+    """Every figure beside what is asked of it; what is absent is left out."""
+    figures = result["figures"]
+    return table(
+        ("what", "measured", "unit", "asked"),
+        [
+            (what, f"{figures[key]:.3g}", unit, asked)
+            for key, (what, unit, asked) in ROWS.items()
+            if key in figures
+        ],
+    )
+
+
+def headlines(result: Mapping[str, Any]) -> str:
+    """The figures that the README shows."""
+    figures = result["figures"]
+    tick, pushed = (
+        number(1e-3 * figures[key], 2)
+        for key in ("mpc_tick_us", "mpc_tick_pushed_us")
+    )
+    drake = figures.get("drake_over_plan")
+    return table(
+        ("what", "measured"),
+        [
+            ("replan of 5 steps", f"{figures['replan_5_steps_us']:.0f} µs"),
+            (
+                ROWS["plan_20_steps_with_samples_us"][0],
+                f"{figures['plan_20_steps_with_samples_us']:.0f} µs",
+            ),
+            (
+                "Drake's `ZmpPlanner` on the same ZMP, over our whole plan "
+                "of 20 steps",
+                number(drake, 1),
+            ),
+            (
+                "control tick of one robot",
+                f"{figures['control_tick_us']:.0f} µs",
+            ),
+            (
+                "tick of the MPC, horizon of two steps",
+                f"{tick} ms, {pushed} ms after a push",
+            ),
+            ("whole duel", f"{figures['real_time_factor']:.1f} × real time"),
+            (
+                "cost of the duel over bare `mj_step` of the same motion",
+                number(figures["duel_over_bare_physics"], 2),
+            ),
+        ],
+    )

@@ -1,0 +1,91 @@
+"""Many duels: outcomes, figures with their spread, and the worst seeds."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from .markdown import interval, number, table
+
+# Words and decimals for the figures of a duel; others stand by their keys.
+WORDS = {
+    "pursuer_radius_m": ("pursuer radius [m]", 3),
+    "evader_radius_m": ("evader radius [m]", 3),
+    "distance_m": ("distance [m]", 3),
+    "relative_orientation_deg": ("between headings [deg]", 1),
+    "converged_at_s": ("on the circle since [s]", 1),
+    "min_distance_m": ("closest approach [m]", 3),
+    "min_zmp_margin_m": ("ZMP margin [m]", 3),
+    "speed_ratio": ("speed over planned", 3),
+}
+
+
+def words_of(key: str) -> tuple[str, int]:
+    """Words and decimals of a figure."""
+    return WORDS.get(key, (key.replace("_", " "), 3))
+
+
+def figures(result: Mapping[str, Any]) -> str:
+    """Each figure of ``summary`` with mean, its interval, least, greatest."""
+    rows = []
+    for key, spread in result["summary"].items():
+        if not isinstance(spread, Mapping) or "mean" not in spread:
+            continue
+        words, digits = words_of(key)
+        low, high = spread["ci"]
+        rows.append(
+            (
+                words,
+                number(spread["mean"], digits),
+                interval(low, high, digits),
+                number(spread["least"], digits),
+                number(spread["greatest"], digits),
+            )
+        )
+    return table(("what", "mean", "95 % of it", "least", "greatest"), rows)
+
+
+def worst(result: Mapping[str, Any]) -> str:
+    """The seeds that come worst, by figure: ``{figure: [[seed, value]]}``."""
+    rows = []
+    for key, found in result["worst"].items():
+        words, digits = words_of(key)
+        seeds = ", ".join(
+            f"{number(value, digits)} (seed {seed})" for seed, value in found
+        )
+        rows.append((words, seeds))
+    return table(("what", "worst"), rows)
+
+
+def floors(result: Mapping[str, Any]) -> str:
+    """Duels on each floor: how many stood, and what the circle was."""
+    head = (
+        "floor",
+        "duels of 120 s",
+        "falls",
+        "contacts",
+        "radius [m]",
+        "distance [m]",
+        "between headings [deg]",
+    )
+    rows = []
+    for floor, found in result["floors"].items():
+        radius, away, angle = (
+            found[key]
+            for key in ("radius_m", "distance_m", "relative_orientation_deg")
+        )
+        rows.append(
+            (
+                floor,
+                str(found["number"]),
+                str(found["falls"]),
+                str(found["contacts"]),
+                interval(radius["least"], radius["greatest"]),
+                interval(away["least"], away["greatest"]),
+                interval(angle["least"], angle["greatest"], 1),
+            )
+        )
+    return table(head, rows)
+
+
+def printed(result: Mapping[str, Any]) -> str:
+    """What a command printed, as a fence."""
+    return f"```\n{result['printed'].rstrip()}\n```"

@@ -1,0 +1,40 @@
+"""What the live page, the offline page and films cost."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from .markdown import table
+
+
+def figures(viewer: Mapping[str, Any], replay: Mapping[str, Any]) -> str:
+    """Speed of the live duel, time of a film, sizes of files."""
+    live, files = viewer["live"], replay["files"]
+
+    def speed(name: str) -> str:
+        found = live[name]
+        text = f"{found['real_time_factor']:.3g} x real time"
+        if found["updates_per_s"] is None:
+            return text
+        return f"{text}, {found['updates_per_s']:.0f} updates a second"
+
+    return table(
+        ("what", "measured"),
+        [
+            ("duel as fast as it goes, no page open", speed("alone")),
+            ("the same, one page open", speed("one_page")),
+            ("at speed 1, one page open", speed("real_time")),
+            (
+                "film of 60 s, 640x480, 30 pictures a second",
+                f"{files['video']['wall_s']:.0f} s, "
+                f"{files['video']['bytes'] / 1e6:.1f} MB",
+            ),
+            (
+                "page from disk, 120 s",
+                f"{files['html']['bytes'] / 1e6:.1f} MB",
+            ),
+            (
+                "GIF above, 16 s of a run",
+                f"{files['gif']['bytes'] / 1e6:.1f} MB",
+            ),
+        ],
+    )

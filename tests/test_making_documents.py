@@ -1,0 +1,224 @@
+"""Test how documents are made, on small ones."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from documents.blocks import make
+from documents.document import complaints, remade
+from documents.numbers import show
+from documents.pictures import PICTURES, draw_picture, drawn_from
+from documents.store import DocumentError, Store
+from documents.tables.markdown import interval, number, table
+from stepaside.studies.results import header, write_result
+
+FOUND: dict[str, Any] = {
+    "ratio": 0.98765,
+    "loss": -0.00456,
+    "starts": 4000,
+    "falls": 0,
+    "by": {"0": {"falls": 9}, "0.8": {"falls": 2}},
+    "list": [1.5, 2.5],
+    "word": "none",
+    "truth": True,
+    "printed": "a  1\n",
+}
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Store:
+    write_result(tmp_path / "run.json", header({}, command="none"), **FOUND)
+    return Store(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("old", "mark", "new"),
+    [
+        ("0.500", "ratio", "0.988"),
+        ("1", "ratio * 100", "99"),
+        ("1.0", "list.1 / 2", "1.2"),
+        ("9,999", "starts", "4,000"),
+        ("-1.0", "loss * 1000", "-4.6"),
+        ("−1.0", "loss * 1000", "−4.6"),
+        ("+1.00", "ratio", "+0.99"),
+        ("no", "falls", "no"),
+        ("No", "by.0.8.falls", "2"),
+        ("3", "falls", "0"),
+    ],
+)
+def test_a_marked_number_becomes_that_of_the_result(
+    store: Store, old: str, mark: str, new: str
+) -> None:
+    text = f"| It is {old}<!--= run:{mark}--> m |"
+    assert remade(text, store) == f"| It is {new}<!--= run:{mark}--> m |"
+
+
+def test_a_range_is_two_numbers_and_not_a_minus(store: Store) -> None:
+    text = "0.1<!--= run:list.0-->-0.2<!--= run:list.1--> m"
+    wanted = "1.5<!--= run:list.0-->-2.5<!--= run:list.1--> m"
+    assert remade(text, store) == wanted
+
+
+def test_what_is_not_marked_stays(store: Store) -> None:
+    text = "A <!-- note --> 0.5 of 3\n\n| 1 |\n|---|\n"
+    assert remade(text, store) == text
+
+
+def test_remaking_twice_changes_nothing_more(store: Store) -> None:
+    text = "1.0<!--= run:ratio-->\n<!-- made: run.printed -->\nold\n"
+    once = remade(f"{text}<!-- /made -->\n", store)
+    assert "```\na  1\n```" in once and "old" not in once
+    assert remade(once, store) == once
+
+
+@pytest.mark.parametrize(
+    ("line", "complaint"),
+    [
+        ("0.98<!--= run:ratio-->", "2: wanted '0.99', got '0.98' (run:ratio)"),
+        ("1<!--= run:raito-->", "2: run:raito: no 'raito' among command"),
+        ("1<!--= run:list.2-->", "2: run:list.2: no '2' among 2 entries"),
+        ("1<!--= run:word-->", "2: run:word is no number, got 'none'"),
+        ("1<!--= run:truth-->", "2: run:truth is no number, got True"),
+        ("1<!--= other:ratio-->", "2: no result other.json"),
+        ("one<!--= run:ratio-->", "2: a mark must follow a number"),
+        ("1<!--= run:ratio +-->", "2: a mark must read <!--= name:path"),
+        (
+            "<!-- made: run.nothing -->\n<!-- /made -->",
+            "3: no table 'nothing'",
+        ),
+        ("<!-- made: run.rms -->\n<!-- /made -->", "3: run does not hold"),
+        ("<!-- made: run.printed -->\n", "2: a block must read"),
+        ("<!-- /made -->", "2: a block must read"),
+        (
+            "<!-- made: run.printed -->\n\n```\na  2\n```\n\n<!-- /made -->",
+            "5: wanted 'a  1', got 'a  2' (run.printed)",
+        ),
+    ],
+)
+def test_a_complaint_names_line_wanted_and_got(
+    store: Store, tmp_path: Path, line: str, complaint: str
+) -> None:
+    file = tmp_path / "page.md"
+    file.write_text(f"# Page\n{line}\n", encoding="utf-8")
+    found = complaints(file, store)
+    assert len(found) == 1
+    assert found[0].startswith(f"page.md:{complaint}")
+
+
+def test_a_page_that_is_right_has_no_complaints(
+    store: Store, tmp_path: Path
+) -> None:
+    file = tmp_path / "page.md"
+    file.write_text("0.99<!--= run:ratio-->\n", encoding="utf-8")
+    assert complaints(file, store) == []
+
+
+def test_numbers_inside_a_block_belong_to_the_block(
+    store: Store, tmp_path: Path
+) -> None:
+    file = tmp_path / "page.md"
+    file.write_text(
+        "<!-- made: run.printed -->\n3<!--= run:starts-->\n<!-- /made -->\n"
+    )
+    assert len(complaints(file, store)) == 1
+    made = "<!-- made: run.printed -->\n\n```\na  1\n```\n\n<!-- /made -->\n"
+    assert remade(file.read_text(), store) == made
+
+
+def test_parts_of_other_lengths_are_all_put_in_their_places(
+    store: Store,
+) -> None:
+    text = "1<!--= run:starts--> of 2<!--= run:starts--> and no more"
+    assert remade(text, store).split("<!--= run:starts-->") == [
+        "4000",
+        " of 4000",
+        " and no more",
+    ]
+
+
+def test_zero_stays_a_word_only_while_it_is_zero() -> None:
+    assert show(0, "no") == "no"
+    assert show(1, "no") == "1"
+
+
+def test_a_table_refuses_a_row_that_does_not_fit() -> None:
+    assert table(("a", "b"), [("1", "2")]).splitlines()[1] == "|---|---|"
+    with pytest.raises(ValueError, match="want 2 cells"):
+        table(("a", "b"), [("1",)])
+
+
+def test_an_interval_without_width_is_one_number() -> None:
+    assert interval(0.5, 0.75, 2) == "0.50-0.75"
+    assert interval(0.5, 0.5001, 2) == "0.50"
+    assert number(None) == "-"
+
+
+def test_a_picture_is_drawn_again_only_when_results_change(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rows = [
+        {"method": "mpc", "direction": "left", "phase": phase}
+        | {"limit_n_s": 1.0, "bound_n_s": 2.0}
+        for phase in (0.0, 0.5)
+    ]
+    head = header({}, command="none")
+    write_result(tmp_path / "pushes.json", head, limits=rows)
+    name = "push-limits.png"
+    assert draw_picture(name, Store(tmp_path), tmp_path)
+    assert not draw_picture(name, Store(tmp_path), tmp_path)
+    assert drawn_from(tmp_path / name).startswith("pushes.json ")
+    rows[0]["limit_n_s"] = 1.5
+    write_result(tmp_path / "pushes.json", head, limits=rows)
+    store = Store(tmp_path)
+    assert drawn_from(tmp_path / name) != PICTURES[name].source(store)
+    assert draw_picture(name, store, tmp_path)
+    assert drawn_from(tmp_path / name) == PICTURES[name].source(store)
+    assert sorted(f.suffix for f in tmp_path.iterdir()) == [".json", ".png"]
+
+
+def test_the_figure_of_the_duel_is_drawn_from_its_tracks() -> None:
+    """What the committed tracks hold is what a summary was made of."""
+    store = Store()
+    result = store.result("duel-seed7")
+    with np.load(store.folder / result["trajectories"]["file"]) as tracks:
+        apart = tracks["evader_torso"] - tracks["pursuer_torso"]
+        times = tracks["times_s"]
+    last = times >= times[-1] * 2.0 / 3.0
+    distance = np.hypot(apart[last, 0], apart[last, 1]).mean()
+    assert distance == pytest.approx(result["summary"]["distance_m"], abs=2e-4)
+
+
+def test_the_store_reads_a_file_once(store: Store) -> None:
+    first = store.result("run")
+    (store.folder / "run.json").write_text(json.dumps({}))
+    assert store.result("run") is first
+    with pytest.raises(DocumentError, match="lacks command"):
+        Store(store.folder).result("run")
+
+
+def test_many_duels_become_a_table_of_figures_and_one_of_seeds(
+    tmp_path: Path,
+) -> None:
+    spread = {"mean": 0.9, "least": 0.85, "greatest": 1.0, "ci": [0.89, 0.91]}
+    write_result(
+        tmp_path / "duels.json",
+        header({}, command="none"),
+        summary={"number": 3, "distance_m": spread, "way_m": spread},
+        worst={"distance_m": [[12, 1.0], [7, 0.85]]},
+    )
+    store = Store(tmp_path)
+    assert make("duels", "figures", store).splitlines()[2:] == [
+        "| distance [m] | 0.900 | 0.890-0.910 | 0.850 | 1.000 |",
+        "| way m | 0.900 | 0.890-0.910 | 0.850 | 1.000 |",
+    ]
+    assert make("duels", "worst", store).splitlines()[2:] == [
+        "| distance [m] | 1.000 (seed 12), 0.850 (seed 7) |"
+    ]
+
+
+def test_all_results_stand_in_the_index(store: Store) -> None:
+    row = make("all", "index", store).splitlines()[2]
+    assert row.startswith("| [run](run.json) | `none` | ")
