@@ -67,10 +67,16 @@ def asked(reference: BodyReference) -> Array:
     return np.array([*rows, *reference.com, 0.0, 0.0])
 
 
-def test_a_stance_with_turned_feet_is_taken_in_every_row() -> None:
+@pytest.mark.parametrize("x", [-0.02, 0.03])
+@pytest.mark.parametrize("y", [-0.03, 0.02])
+@pytest.mark.parametrize("z", [0.24, 0.26])
+def test_a_stance_with_turned_feet_is_taken_in_every_row(
+    x: float, y: float, z: float
+) -> None:
+    stance = STANCE._replace(com=(x, y, z))
     kinematics = stood()
-    kinematics.stand(STANCE)
-    np.testing.assert_allclose(reached(kinematics), asked(STANCE), atol=1e-4)
+    kinematics.stand(stance)
+    np.testing.assert_allclose(reached(kinematics), asked(stance), atol=1e-4)
 
 
 def moved(row: int, size: float) -> BodyReference:

@@ -73,18 +73,18 @@ def recorded(folder: Path, lines: str) -> Path:
 def test_a_recorded_walk_is_where_and_heads_as_recorded(
     tmp_path: Path,
 ) -> None:
-    file = recorded(tmp_path, "1,0,0\n3,-1,-1\n5,-1,-2\n")
+    file = recorded(tmp_path, "1,0,0\n3,-1,-1\n5,-1.5,-2\n")
     person = PersonSettings(str(file))
     motion = Motion(person, Pose(9.0, 9.0, 1.0), EVADER)
-    aslant = -0.75 * pi
+    aslant, down = -0.75 * pi, atan2(-1.0, -0.5)
     assert motion.pose == pytest.approx((0.0, 0.0, 0.0))  # not begun yet
     for time, pose in (
         (1.5, (-0.25, -0.25, aslant)),
         (2.0, (-0.5, -0.5, aslant)),
-        (2.95, (-0.975, -0.975, atan2(-0.05, -0.025))),  # 0.1 s ahead
-        (4.0, (-1.0, -1.5, -pi / 2)),
-        (4.99, (-1.0, -1.995, -pi / 2)),
-        (8.0, (-1.0, -2.0, -pi / 2)),  # there it stands
+        (2.95, (-0.975, -0.975, atan2(-0.05, -0.0375))),  # 0.1 s ahead
+        (4.0, (-1.25, -1.5, down)),
+        (4.99, (-1.4975, -1.995, down)),
+        (8.0, (-1.5, -2.0, down)),  # there it stands
     ):
         motion.advance(time, 0.004, EVADER)
         assert motion.pose == pytest.approx(pose)

@@ -164,20 +164,21 @@ def test_what_is_not_confirmed_counts_for_nothing() -> None:
 def test_what_is_not_confirmed_is_forgotten_in_a_second(
     age: float, kept: bool
 ) -> None:
-    tracker = tracker_of(Track(look(0.0, 1.0)))
-    tracker.main(age, 0.0, 0.0)
+    tracker = tracker_of(Track(look(9.0, 1.0)))
+    tracker.main(9.0 + age, 0.0, 0.0)
     assert (len(tracker.tracks) == 1) is kept
-    tracker = tracker_of(known(0.0, 1.0))
-    assert tracker.main(age, 0.0, 0.0) is not None
+    tracker = tracker_of(known(9.0, 1.0))
+    assert tracker.main(9.0 + age, 0.0, 0.0) is not None
 
 
 @pytest.mark.parametrize(("age", "kept"), [(0.28, True), (0.32, False)])
 def test_a_vague_sighting_counts_while_it_is_fresh(
     age: float, kept: bool
 ) -> None:
-    vague = Track(look(0.0, 1.0, along=0.7))
+    vague = Track(look(9.0, 1.0, along=0.7))
     vague.confirmed = True
-    assert (tracker_of(vague).main(age, 0.0, 0.0) is vague) is kept
+    main = tracker_of(vague).main(9.0 + age, 0.0, 0.0)
+    assert (main is vague) is kept
 
 
 @pytest.mark.parametrize(("along", "kept"), [(0.54, True), (0.66, False)])
