@@ -224,15 +224,15 @@ def clock(monkeypatch: pytest.MonkeyPatch, step: float) -> None:
 def test_progress_is_told_at_most_five_times_a_second(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    clock(monkeypatch, 0.15)
+    clock(monkeypatch, 0.11)
     told: list[Progress] = []
     result = run_duel(DuelSettings(start=START, duration=0.5), told.append)
-    # Looked at every 0.1 s of the duel; every other time 0.3 s have passed.
+    # Looked at every 0.1 s of the duel; every other time 0.22 s have passed.
     np.testing.assert_allclose([p.time for p in told], [0.2, 0.4])
-    assert told[0].real_time_factor == pytest.approx(0.2 / 0.3)
-    assert told[1].real_time_factor == pytest.approx(0.4 / 0.6)
+    assert told[0].real_time_factor == pytest.approx(0.2 / 0.22)
+    assert told[1].real_time_factor == pytest.approx(0.4 / 0.44)
     assert told[0].distance == pytest.approx(1.3, abs=0.03)
-    assert result.wall_time == pytest.approx(0.15 * 6)
+    assert result.wall_time == pytest.approx(0.11 * 6)
 
 
 def test_an_interrupted_duel_is_kept_and_its_robots_closed(

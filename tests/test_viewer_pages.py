@@ -505,6 +505,7 @@ def test_a_replay_shows_the_sample_of_its_time(
     places = [torso[index, :2] for torso in torsos]
     sight = items["/layers/line of sight/both"].points[0]
     np.testing.assert_allclose(sight[:, :2], places, atol=1e-6)
+    np.testing.assert_allclose(sight[:, 2], 0.25)
     safety = items["/layers/safety area/evader"].points[..., :2]
     away = np.hypot(*(safety[:, 0] - places[1]).T)
     np.testing.assert_allclose(away, 0.8, atol=1e-5)
@@ -603,5 +604,6 @@ def test_a_replay_that_cannot_be_shown_goes_on(
     page.start()
     page._thread.join(timeout=60.0)
     assert len(tried) == 2
+    page._closing.clear()
     page.close()
-    assert server.stopped
+    assert server.stopped and page._closing.is_set()

@@ -356,6 +356,9 @@ def test_every_layer_of_the_present_moment_is_drawn(duel: Duel) -> None:
     away = np.hypot(*(safety[:, 0, :2] - places[1]).T)
     np.testing.assert_allclose(away, 0.8)
     assert shade == EVADER
+    circle, shade = found["circle of theory", "both"]
+    assert circle.shape == (72, 2, 3) and shade == THEORY
+    assert duel.triggered_at is not None and len(found) == 13
     sight, shade = found["line of sight", "both"]
     np.testing.assert_allclose(sight[0, :, :2], places)
     np.testing.assert_allclose(sight[0, :, 2], 0.25)

@@ -56,6 +56,12 @@ def test_the_settings_decide_the_role() -> None:
     assert np.abs(masses[0] - masses[1]).max() > 1e-4
 
 
+def test_by_default_a_robot_walks_straight_ahead() -> None:
+    walk = WalkSettings()
+    assert (walk.seed, walk.duration, walk.robot) == (1, 20.0, "nao")
+    assert walk.bearing == 0.0 and not walk.backward and walk.pushes == ()
+
+
 def test_a_fall_is_noticed_by_truth_reach_or_the_robot_itself() -> None:
     walker = Walker(WalkSettings())
     assert walker.tick()
@@ -157,11 +163,11 @@ def clock(monkeypatch: pytest.MonkeyPatch, step: float) -> None:
 def test_progress_of_a_walk_is_told_at_most_five_times_a_second(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    clock(monkeypatch, 0.15)
+    clock(monkeypatch, 0.11)
     told: list[float] = []
     result = run_walk(WalkSettings(duration=1.0), told.append)
     np.testing.assert_allclose(told, [0.4, 0.8])
-    assert result.wall_time == pytest.approx(0.15 * 6)
+    assert result.wall_time == pytest.approx(0.11 * 6)
 
 
 def test_an_interrupted_walk_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
