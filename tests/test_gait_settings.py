@@ -30,7 +30,8 @@ def test_soles_are_those_of_the_nao_model() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "value"), [("back", 0.0), ("front", -0.1), ("inner", 0.0)]
+    ("name", "value"),
+    [("back", 0.0), ("front", -0.1), ("inner", 0.0), ("outer", -0.1)],
 )
 def test_a_sole_that_does_not_hold_its_frame_is_refused(
     name: str, value: float

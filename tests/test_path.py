@@ -57,6 +57,31 @@ def test_arc_has_the_radius_of_the_paper() -> None:
     np.testing.assert_allclose(radius, centre[1], rtol=1e-12)
 
 
+@given(ANGLES, st.booleans())
+def test_backward_goes_the_other_way_with_the_same_heading(
+    bearing: float, saturated: bool
+) -> None:
+    times = np.linspace(0.0, 12.0, 9)
+    ahead = make(bearing, saturated).poses(times)
+    back = UnicycleTrajectory(
+        bearing, SPEED, GAIN, Direction.BACKWARD, saturated
+    ).poses(times)
+    np.testing.assert_allclose(back, ahead * [-1.0, -1.0, 1.0], atol=1e-12)
+
+
+def test_the_template_turns_by_8_unless_told_otherwise() -> None:
+    path = UnicycleTrajectory(0.5, SPEED, GAIN, Direction.FORWARD)
+    assert path.poses([1.0])[0, 2] == pytest.approx(0.5 * GAIN)
+
+
+@pytest.mark.parametrize("bad", [0.0, -0.1, float("nan"), float("inf")])
+def test_a_template_that_does_not_move_or_turn_is_refused(bad: float) -> None:
+    with pytest.raises(PlanError, match="speed must be"):
+        UnicycleTrajectory(0.1, bad, GAIN, Direction.FORWARD)
+    with pytest.raises(PlanError, match="gain must be"):
+        UnicycleTrajectory(0.1, SPEED, bad, Direction.FORWARD)
+
+
 @pytest.mark.parametrize("bearing", [1e-300, 1e-12, 1e-6])
 def test_no_singularity_at_zero_bearing(bearing: float) -> None:
     times = np.linspace(0.0, 10.0, 11)

@@ -205,6 +205,10 @@ def test_a_saturated_template_turns_at_full_rate() -> None:
     interval = GAIT.path_interval
     assert turns[False] == pytest.approx(0.2 * 0.5 * interval)
     assert turns[True] == pytest.approx(0.2 * interval)
+    usual = PLANNER.plan(
+        0.5, Direction.FORWARD, first_foot=Foot.LEFT, standing=True
+    )
+    assert usual.placements[2, 2] == turns[False]
 
 
 @pytest.mark.parametrize("foot", Foot)

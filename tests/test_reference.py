@@ -91,6 +91,16 @@ def test_a_table_ends_before_its_duration(
     assert table.at((last - 1) * TICK) is not table.at(last * TICK)
 
 
+@pytest.mark.parametrize("started", [0.0, 0.0013, 7.3001])
+def test_a_table_has_a_row_for_each_tick_and_no_more(started: float) -> None:
+    """However durations of whole ticks are rounded, and however late."""
+    table = ReferenceTable(TICK)
+    until_tick = np.ceil(started / TICK - 1e-6) * TICK - started
+    for ticks in range(1, 60):
+        table.load(plan(), FRAME, started, until_tick + ticks * TICK)
+        assert len(table._rows) == ticks
+
+
 def test_a_part_shorter_than_a_tick_has_one_row() -> None:
     made = plan()
     table = ReferenceTable(TICK)

@@ -64,7 +64,9 @@ def test_feedback_fits_all_plans_but_the_first() -> None:
     assert feedback.fits == 2
 
 
-@pytest.mark.parametrize("jump", [(0.1, -0.3), (-0.3, 0.1)])
+@pytest.mark.parametrize(
+    "jump", [(0.1, -0.3), (-0.3, 0.1), (-0.1, 0.3), (0.3, -0.1)]
+)
 def test_a_velocity_that_jumps_is_noted(jump: tuple[float, float]) -> None:
     run, feedback = feeding()
     feedback.jump = jump
