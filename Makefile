@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: setup duel test bench figures clean constraints
+.PHONY: setup duel test mutate bench figures clean constraints
 
 setup: $(STAMP)
 

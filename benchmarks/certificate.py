@@ -5,11 +5,10 @@ Writes ``docs/results/certificate.json``::
     python benchmarks/certificate.py
 """
 
-import json
 from math import pi, radians
-from pathlib import Path
 
 import numpy as np
+from asking import ask
 
 from stepaside.studies.results import header, write_result
 from stepaside.studies.version import UNICYCLES
@@ -28,12 +27,11 @@ BOXES = {
     "the same, 0.8-1.2 m": (0.8, 1.2, radians(30.0), radians(30.5)),
 }
 COUNT, SEED = 4000, 1
-COMMAND = "python benchmarks/certificate.py"
-FILE = Path(__file__).parents[1] / "docs" / "results" / "certificate.json"
 
 
 def main() -> None:
     """Certify random starts under the parameters of Sec. IV."""
+    output = ask(__doc__, "certificate.json").parse_args().output
     rows = []
     for name, (low, high, aim, facing) in BOXES.items():
         rng = np.random.default_rng(SEED)
@@ -56,8 +54,8 @@ def main() -> None:
         "starts": COUNT,
         "seed": SEED,
     }
-    head = header(settings, rooms=UNICYCLES, command=COMMAND)
-    print(json.dumps(write_result(FILE, head, rows=rows), indent=1))
+    head = header(settings, rooms=UNICYCLES, libraries=("numpy",))
+    write_result(output, head, rows=rows)
 
 
 if __name__ == "__main__":

@@ -1,58 +1,84 @@
-"""Play many random duels on all cores and write docs/duels.md's table.
+"""Play many duels of one kind for docs/duels.md.
 
-Usage: python benchmarks/duels.py [first seed] [number]
+As ``stepaside duels``, with the records beside the file of results, so that
+more seeds can be added to those that are there::
+
+    python benchmarks/duels.py ideal --seeds 0:1000
+    python benchmarks/duels.py hardware --seeds 0:200
+    python benchmarks/duels.py cameras --seeds 0:100
+
+``--verify N`` first takes over what an older version of the code played, if
+N duels that are played again come out the same, to the bit.
 """
 
-import os
+from hashlib import sha256
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-
-import sys
-from concurrent.futures import ProcessPoolExecutor
-from typing import Any
-
+from asking import ask, seeds_of
 from tqdm import tqdm
 
-from stepaside.simulation import DuelSettings, run_duel
-from stepaside.simulation.summary import summarise
+from stepaside.control.settings import ControlSettings
+from stepaside.simulation.body_settings import BODIES
+from stepaside.simulation.configuration import spelled_settings
+from stepaside.simulation.settings import DuelSettings
+from stepaside.studies.duel_statistics import summarise_duels
+from stepaside.studies.duels import (
+    run_duels,
+    settings_hash,
+    stamps_of,
+    verify_duels,
+)
+from stepaside.studies.records import RecordFile
+from stepaside.studies.results import header, write_result
+from stepaside.studies.workers import worker_pool
 
-ROWS = {
-    "pursuer radius [m]": ("pursuer", "radius_m"),
-    "evader radius [m]": ("evader", "radius_m"),
-    "distance [m]": ("distance_m",),
-    "between headings [deg]": ("relative_orientation_deg",),
-    "on the circle since [s]": ("converged_at_s",),
-    "closest approach [m]": ("min_distance_m",),
-    "ZMP margin [m]": ("min_zmp_margin_m",),
+KINDS = {
+    "ideal": DuelSettings(),
+    "hardware": DuelSettings(
+        body=BODIES["hardware"],
+        control=ControlSettings(method="measured", feedback=True),
+    ),
+    "cameras": DuelSettings(sensing="cameras"),
 }
 
 
-def play(seed: int) -> dict[str, Any]:
-    """Summary of one duel of 120 s."""
-    return summarise(run_duel(DuelSettings(seed=seed)))
+def main() -> None:
+    """Play, and write what came out."""
+    parser = ask(__doc__, ".")
+    parser.add_argument("kind", choices=list(KINDS))
+    parser.add_argument("--seeds", type=seeds_of, default=range(0, 40))
+    parser.add_argument("--verify", type=int)
+    parser.add_argument("--workers", type=int)
+    asked = parser.parse_args()
+    output = asked.output / f"duels-{asked.kind}.json"
+    settings, seeds = KINDS[asked.kind], asked.seeds
+    file = RecordFile(output.with_suffix(".jsonl"))
+    with (
+        worker_pool(asked.workers) as executor,
+        tqdm(total=len(seeds), unit="duel", disable=None) as bar,
+    ):
+        if asked.verify is not None:
+            _, differ = verify_duels(settings, file, asked.verify, executor)
+            print(f"came out otherwise: seeds {differ}")
 
+        def report(number: int) -> None:
+            bar.n = number
+            bar.refresh()
 
-def main(first: int = 100, number: int = 40) -> None:
-    """Print outcomes and the range of each figure as a table."""
-    seeds = range(first, first + number)
-    with ProcessPoolExecutor() as pool:
-        found = list(tqdm(pool.map(play, seeds), total=number))
-    outcomes = [summary["outcome"] for summary in found]
-    for outcome in sorted(set(outcomes)):
-        print(f"{outcome}: {outcomes.count(outcome)} of {number}")
-    print("\n| what | least | mean | greatest |\n|---|---|---|---|")
-    for what, keys in ROWS.items():
-        values = []
-        for summary in found:
-            value: Any = summary
-            for key in keys:
-                value = value[key]
-            values.append(float("nan") if value is None else value)
-        mean = sum(values) / number
-        print(
-            f"| {what} | {min(values):.3f} | {mean:.3f} | {max(values):.3f} |"
-        )
+        found = run_duels(settings, seeds, file, executor, report)
+    records = list(found.values())
+    digests = " ".join(record["digest"] for record in records)
+    entries = spelled_settings(settings) | {"seeds": [seeds.start, seeds.stop]}
+    write_result(
+        output,
+        header(entries) | stamps_of(records),
+        records={
+            "file": file.path.name,
+            "settings": settings_hash(settings),
+            "digest": sha256(digests.encode()).hexdigest()[:12],
+        },
+        summary=summarise_duels(settings, records),
+    )
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:]))
+    main()

@@ -1,26 +1,18 @@
 """Many runs on several processes, which go on where they were stopped."""
 
 import json
-import os
 import sys
-
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import (
-    Executor,
-    Future,
-    ProcessPoolExecutor,
-    ThreadPoolExecutor,
-    as_completed,
-)
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from hashlib import sha256
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
 from tqdm import tqdm
+
+from stepaside.studies.records import RecordFile
+from stepaside.studies.workers import give_up, worker_pool
 
 Row = dict[str, Any]
 Job = TypeVar("Job")
@@ -38,10 +30,10 @@ def gather(
     Args:
         output: File of results that is being made. What is done stands in
             a file of the same name that ends in ``.part``; it is taken up
-            again if version, libraries and the command's own code are the
-            same, and deleted by :func:`finished`.
+            again if the job, version, libraries and the command's own code
+            are the same, and deleted by :func:`finished`.
         head: Of the results.
-        jobs: What to do, by name.
+        jobs: What to do, by name; values whose ``repr`` tells all of them.
         do: Does one; a function of a module, as it runs in other processes.
         workers: Processes; all cores by default, 0 for a thread of this
             one.
@@ -49,38 +41,43 @@ def gather(
     Returns:
         What each gave, in the order of the jobs.
     """
-    part = part_of(output)
+    file = RecordFile(part_of(output))
     mark = {key: head[key] for key in ("version", "libraries")}
     mark["script"] = sha256(Path(sys.argv[0]).read_bytes()).hexdigest()
-    done = _taken_up(part, mark)
-    missing = [name for name in jobs if name not in done]
-    part.parent.mkdir(parents=True, exist_ok=True)
-    # Without the line that was cut off when the last run stopped.
-    lines = [json.dumps(line) for line in (mark, *done.items())]
-    part.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    with _executor(workers) as executor:
-        futures = {executor.submit(do, jobs[name]): name for name in missing}
+    own = json.dumps(mark, sort_keys=True)
+    keys = {
+        f"{name}/{sha256(f'{job!r}{own}'.encode()).hexdigest()[:12]}": name
+        for name, job in jobs.items()
+    }
+    done = {keys[key]: row for key, row in file.read().items() if key in keys}
+    missing = {key: name for key, name in keys.items() if name not in done}
+    with (
+        tqdm(total=len(missing), disable=None) as bar,
+        ThreadPoolExecutor(1)
+        if workers == 0
+        else worker_pool(workers) as pool,
+    ):
+        futures = {
+            pool.submit(do, jobs[name]): key for key, name in missing.items()
+        }
 
         def keep(future: Future[Row]) -> None:
-            name, row = futures[future], future.result()
-            done[name] = row
-            with part.open("a", encoding="utf-8") as file:
-                file.write(json.dumps([name, row]) + "\n")
+            key, row = futures[future], future.result()
+            done[keys[key]] = row
+            file.append(key, row)
 
-        bar = tqdm(total=len(missing), disable=None)
         try:
             for future in as_completed(futures):
                 keep(future)
                 bar.update()
         except BaseException:
-            for future, name in futures.items():
-                future.cancel()
+            give_up(pool, futures)
+            for future, key in futures.items():
                 over = future.done() and not future.cancelled()
-                if over and name not in done and not future.exception():
+                new = keys[key] not in done
+                if over and new and not future.exception():
                     keep(future)
             raise
-        finally:
-            bar.close()
     return {name: done[name] for name in jobs}
 
 
@@ -105,26 +102,3 @@ def spread(values: Sequence[float | None]) -> dict[str, float | int | None]:
         "mean": float(np.mean(found)),
         "greatest": max(found),
     }
-
-
-def _executor(workers: int | None) -> Executor:
-    if workers == 0:
-        return ThreadPoolExecutor(1)
-    return ProcessPoolExecutor(workers, get_context("spawn"))
-
-
-def _taken_up(part: Path, mark: Mapping[str, Any]) -> dict[str, Row]:
-    """What an earlier run left, if it ran the same code."""
-    if not part.exists():
-        return {}
-    first, *lines = part.read_text(encoding="utf-8").splitlines() or [""]
-    done: dict[str, Row] = {}
-    try:
-        if json.loads(first) != mark:
-            return {}
-        for line in lines:
-            name, row = json.loads(line)
-            done[name] = row
-    except ValueError:
-        pass  # a line that was cut off
-    return done

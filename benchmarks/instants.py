@@ -12,6 +12,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from math import cos, sin
 from typing import Any, NamedTuple
+from unittest.mock import patch
 
 import numpy as np
 from asking import ask, seeds_of
@@ -89,13 +90,12 @@ def play(job: Job) -> dict[str, Any]:
             seen = seen._replace(bearing=wrap_angle(bearing))
         replan(scheme, started, support, state, seen, **more)
 
-    IdealLineOfSight._look = look_behind  # type: ignore[method-assign]
-    ControlScheme._replan = replan_from_both  # type: ignore[method-assign]
-    try:
-        result = run_duel(DuelSettings(seed=job.seed, duration=DURATION))
-    finally:
-        IdealLineOfSight._look = look  # type: ignore[method-assign]
-        ControlScheme._replan = replan  # type: ignore[method-assign]
+    settings = DuelSettings(seed=job.seed, duration=DURATION)
+    with (
+        patch.object(IdealLineOfSight, "_look", look_behind),
+        patch.object(ControlScheme, "_replan", replan_from_both),
+    ):
+        result = run_duel(settings)
     found = summarise(result)
     return {
         "heading": job.heading,
@@ -114,9 +114,7 @@ def _distance(result: DuelResult, behind: float) -> float:
     points = []
     for name in ("pursuer", "evader"):
         x, y, theta = arrays[f"{name}_torso"][last].T
-        points.append(
-            (x - behind * np.cos(theta), y - behind * np.sin(theta))
-        )
+        points.append((x - behind * np.cos(theta), y - behind * np.sin(theta)))
     (x, y), (u, v) = points
     return float(np.hypot(u - x, v - y).mean())
 

@@ -7,8 +7,6 @@ body gets there by turning, ``m g`` times its distance from the ZMP being the
 rate of the angular momentum about the CoM.
 """
 
-import argparse
-import json
 from dataclasses import replace
 from math import cos, radians, sin
 from pathlib import Path
@@ -16,6 +14,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
+from asking import RESULTS, ask
 
 from stepaside.planning import (
     CenterState,
@@ -28,9 +27,10 @@ from stepaside.planning.capture import push_bound
 from stepaside.planning.steady import steady_plan
 from stepaside.poses import Array
 from stepaside.simulation.walk import NAME, Walker
+from stepaside.studies.pushes import ROOMS
+from stepaside.studies.results import header, read_result, write_result
 from stepaside.studies.robustness import DIRECTIONS, Trial, settings_of
 from stepaside.studies.survival import PUSH, bound_at, walking_reach
-from stepaside.studies.version import PHYSICS, code_version, library_versions
 
 GAIT = GaitSettings()
 
@@ -161,7 +161,7 @@ def follow(trial: Trial) -> dict[str, float | str | bool]:
 
 def trials_above(file: Path) -> list[Trial]:
     """Largest pushes survived that lie above their bound, from a result."""
-    made = json.loads(file.read_text(encoding="utf-8"))
+    made = read_result(file)
     body, seed = made["settings"]["body"], made["settings"]["seed"]
     return [
         Trial(
@@ -173,19 +173,16 @@ def trials_above(file: Path) -> list[Trial]:
     ]
 
 
-if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("pushes", type=Path, help="docs/results/pushes.json")
-    parser.add_argument("output", type=Path, nargs="?", help="JSON to write")
+def main() -> None:
+    """Follow them, and write what happened."""
+    parser = ask(__doc__, "push-moments.json")
+    parser.add_argument("--pushes", type=Path, default=RESULTS / "pushes.json")
     asked = parser.parse_args()
-    answer = {
-        "command": f"python benchmarks/push_moments.py {asked.pushes}",
-        "version": code_version(PHYSICS),
-        "libraries": library_versions(),
-        "rows": [follow(trial) for trial in trials_above(asked.pushes)],
-    }
-    printed = json.dumps(answer, indent=1) + "\n"
-    if asked.output is None:
-        print(printed, end="")
-    else:
-        asked.output.write_text(printed, encoding="utf-8")
+    trials = trials_above(asked.pushes)
+    head = header({"walks": len(trials)}, rooms=ROOMS)
+    rows = [follow(trial) for trial in trials]
+    write_result(asked.output, head, rows=rows)
+
+
+if __name__ == "__main__":
+    main()

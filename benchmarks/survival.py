@@ -6,24 +6,25 @@ As ``stepaside robustness --body hardware``, into a file of results::
 """
 
 from asking import ask
-from gathering import Row, finished, gather
+from gathering import Row, finished, part_of
 
+from stepaside.studies.limits import push_cases, search_limits
+from stepaside.studies.pushes import ROOMS
 from stepaside.studies.results import header, write_result
 from stepaside.studies.robustness import (
     METHODS,
     STRENGTHS,
-    Trial,
-    run_trial,
+    run_campaign,
     trials,
 )
-from stepaside.studies.survival import survival_rows
+from stepaside.studies.survival import (
+    limit_rows,
+    push_survival_rows,
+    survival_rows,
+)
+from stepaside.studies.workers import worker_pool
 
 BODY = "hardware"
-
-
-def walk(trial: Trial) -> Row:
-    """Whether a walk was survived."""
-    return {"survived": run_trial(trial)[1]}
 
 
 def by_strength(rows: list[Row]) -> dict[str, dict[str, Row]]:
@@ -47,32 +48,29 @@ def main() -> None:
     asked.add_argument("--method", choices=METHODS, default="measured")
     asked.add_argument("--workers", type=int)
     arguments = asked.parse_args()
-    grid = list(
-        trials(
-            tuple(STRENGTHS),
-            (arguments.method,),
-            BODY,
-            phases=arguments.phases,
-            seeds=arguments.seeds,
-        )
-    )
+    methods = (arguments.method,)
+    grid = list(trials(STRENGTHS, methods, BODY, seeds=arguments.seeds))
+    cases = list(push_cases(methods, BODY, phases=arguments.phases))
     settings = {
         "body": BODY,
         "method": arguments.method,
         "seeds": arguments.seeds,
         "phases": arguments.phases,
     }
-    head = header(settings)
-    jobs = {trial.key: trial for trial in grid}
-    found = gather(arguments.output, head, jobs, walk, arguments.workers)
-    results = {key: row["survived"] for key, row in found.items()}
-    rows = survival_rows(grid, results)
+    head = header(settings, rooms=ROOMS)
+    part = part_of(arguments.output)
+    with worker_pool(arguments.workers) as executor:
+        results = run_campaign(grid, part, executor)
+        results = results | search_limits(cases, part, executor)
+    limits = limit_rows(cases, results)
+    rows = survival_rows(grid, results) + push_survival_rows(limits)
     write_result(
         arguments.output,
         head,
-        trials=len(grid),
+        trials=len(results),
         by=by_strength(rows),
         survival=rows,
+        limits=limits,
     )
     finished(arguments.output)
 

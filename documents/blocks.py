@@ -60,9 +60,9 @@ def make(names: str, table: str, store: Store) -> str:
         known = ", ".join(sorted(TABLES))
         raise DocumentError(f"no table {table!r}; there are {known}")
     if names == "all":
-        every = {name: store.result(name) for name in store.names()}
-        return TABLES[table](every)
-    results = [store.result(name) for name in names.split("+")]
+        results = [{name: store.result(name) for name in store.names()}]
+    else:
+        results = [store.result(name) for name in names.split("+")]
     try:
         return TABLES[table](*results)
     except (KeyError, IndexError, TypeError, ValueError) as error:

@@ -23,7 +23,7 @@ def push_limits(store: Store, file: Path) -> None:
     """Largest push survived over the phase, beside the pendulum's bound."""
     from stepaside.report.robustness_figure import draw_limits
 
-    draw_limits(store.result("pushes")["limits"], file)
+    draw_limits(store.result("pushes")["rows"], file)
 
 
 def survival_on_hardware(store: Store, file: Path) -> None:
@@ -32,3 +32,22 @@ def survival_on_hardware(store: Store, file: Path) -> None:
     from stepaside.studies.robustness import UNITS
 
     draw_survival(store.result("survival-hardware")["survival"], UNITS, file)
+
+
+def many_duels(store: Store, file: Path) -> None:
+    """How the figures of many duels are distributed, kind by kind."""
+    from stepaside.report.duels_figure import draw_duels
+    from stepaside.studies.records import RecordFile
+
+    groups = {}
+    for kind in ("ideal", "hardware", "cameras"):
+        result = store.result(f"duels-{kind}")
+        seeds = range(*result["settings"]["seeds"])
+        own = "/" + result["records"]["settings"]
+        records = RecordFile(store.folder / result["records"]["file"]).read()
+        groups[kind] = [
+            record
+            for key, record in records.items()
+            if key.endswith(own) and record["seed"] in seeds
+        ]
+    draw_duels(groups, store.result("duels-ideal")["summary"], file)

@@ -44,6 +44,10 @@ class Picture:
 
 PICTURES = {
     "duel.png": Picture(("duel-seed7",), drawings.duel),
+    "duels.png": Picture(
+        ("duels-ideal", "duels-hardware", "duels-cameras"),
+        drawings.many_duels,
+    ),
     "push-limits.png": Picture(("pushes",), drawings.push_limits),
     "survival-hardware.png": Picture(
         ("survival-hardware",), drawings.survival_on_hardware

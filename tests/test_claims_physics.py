@@ -359,6 +359,12 @@ def test_settings_of_the_studies_are_what_they_say() -> None:
     assert set(NAMES) == {"pursuer", "evader"}
 
 
+def test_they_have_settled_before_what_is_measured_of_them() -> None:
+    """Radii and distance are those of the last third."""
+    third = read.circle_settings(1).duration * 2.0 / 3.0
+    assert claims("humanoids")["settled"].expected == third
+
+
 def test_no_claim_in_physics_is_without_a_fault() -> None:
     faults: dict[str, Mapping[str, Sized]] = {
         "humanoids": CIRCLE,

@@ -52,7 +52,11 @@ def seen_as(change: Callable[[Game, Array, Array, Array], Pair]) -> Patch:
                 return change(game, np.asarray(times), *pair)
 
             return SimpleNamespace(
-                game=game, end_time=run.end_time, poses=poses
+                game=game,
+                end_time=run.end_time,
+                states=run.states,
+                sides=run.sides,
+                poses=poses,
             )
 
         monkeypatch.setattr(unicycle_claims, "play", false)

@@ -30,6 +30,13 @@ def test_every_command_explains_itself(command: str) -> None:
     assert "Usage" in result.stdout
 
 
+def test_help_says_what_holds_by_default() -> None:
+    for command in ("duel", "duels"):
+        told = " ".join(run(command, "--help").stdout.split())
+        assert "Distance [m] at which evasion ends; never by default." in told
+        assert "Friction of the soles [1]; 0.8 by default." in told
+
+
 def test_plan_prints_footsteps_and_a_10_ms_grid() -> None:
     plan = run_json(
         "plan", "--role", "pursuer", "--bearing", "40deg", "--steps", "20"

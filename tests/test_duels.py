@@ -1,6 +1,7 @@
 """Test the study of many duels on made records and on short duels."""
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -14,6 +15,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from stepaside.cli import main
 from stepaside.commands.duels import duels
 from stepaside.simulation.settings import (
     DuelSettings,
@@ -21,6 +23,7 @@ from stepaside.simulation.settings import (
     StrategySettings,
 )
 from stepaside.studies import duels as study
+from stepaside.studies import workers
 from stepaside.studies.duel_statistics import (
     certificate_row,
     figure_row,
@@ -181,6 +184,19 @@ def test_records_that_play_otherwise_are_not_taken_over(
     assert all("verified" not in r for r in file.read().values())
 
 
+def test_only_older_records_can_vouch_for_older_ones(
+    quick: Here, tmp_path: Path
+) -> None:
+    """Current records come out the same; that says nothing of the others."""
+    file = RecordFile(tmp_path / "r.jsonl")
+    for seed in range(12):
+        one = replace(SETTINGS, seed=seed)
+        wrong = {"version": "old", "digest": "wrong"} if seed < 2 else {}
+        file.append(key_of(one), made(seed, **wrong))
+    played, differ = verify_duels(SETTINGS, file, 3, quick)
+    assert sorted(played) == differ == [0, 1]
+
+
 def test_any_executor_serves(quick: Here) -> None:
     with ThreadPoolExecutor(2) as pool:
         found = run_duels(SETTINGS, range(7), None, pool)
@@ -198,6 +214,7 @@ def test_mean_interval_and_worst_seed_are_known_ones() -> None:
     assert row["mean_low"] == pytest.approx(1.0 - half)
     assert (row["least"], row["median"], row["greatest"]) == (0.8, 0.9, 1.3)
     assert row["worst_seed"] == 2  # farthest from theory
+    assert row["worst"] == 1.3
     low = figure_row("distance_m", records, 0.9, -1)
     assert low is not None and low["worst_seed"] == 0
     high = figure_row("distance_m", records[:2], None, 1)
@@ -218,6 +235,7 @@ def test_outcomes_and_convergence_are_counted() -> None:
     summary = summarise_duels(SETTINGS, records)
     assert summary["outcomes"]["completed"]["number"] == 2
     assert summary["outcomes"]["fall"]["of"] == 3
+    assert summary["outcomes"]["contact"]["number"] == 0
     assert summary["on_the_circle"]["number"] == 1
     assert summary["not_on_the_circle"] == [2]
     assert summary["not_completed"] == [
@@ -283,43 +301,102 @@ def test_verifying_nothing_is_refused(tmp_path: Path) -> None:
     assert answer.exit_code == 2 and "records" in answer.output
 
 
+def test_nothing_is_played_when_verified_duels_differ(
+    quick: Here, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = RecordFile(tmp_path / "duels.jsonl")
+    for seed in range(3):
+        one = replace(SETTINGS, seed=seed)
+        digest = "another" if seed else "d0"
+        file.append(key_of(one), made(seed, version="old", digest=digest))
+    monkeypatch.setattr(workers, "worker_pool", lambda _: quick)
+    line = ["duels", "--seeds", "0:9", "--verify", "3", "--json"]
+    line += ["--duration", "120", "--output", str(tmp_path)]
+    answer = CliRunner().invoke(main, line)
+    assert answer.exit_code == 1, answer.output
+    assert "1 of 3 duels came out the same" in answer.stderr
+    assert "seeds 1, 2" in answer.stderr
+    assert answer.stdout == "" and len(quick.seeds) == 3
+    assert [f.name for f in tmp_path.iterdir()] == ["duels.jsonl"]
+
+
 CHILD = """
-import sys, time
-from stepaside.studies.workers import worker_pool
+import os, sys, time
+from concurrent.futures import as_completed
+from stepaside.studies.workers import give_up, worker_pool
 
 def stay(number):
-    import os
     print(os.getpid(), flush=True)
     time.sleep(300)
 
 if __name__ == "__main__":
-    with worker_pool(1) as pool:
-        pool.submit(stay, 0).result()
+    try:
+        with worker_pool(1) as pool:
+            futures = [pool.submit(stay, number) for number in range(20)]
+            try:
+                list(as_completed(futures))
+            except BaseException:
+                give_up(pool, futures)
+                raise
+    except KeyboardInterrupt:
+        sys.exit(130)
 """
 
 
-@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT])
+@pytest.mark.parametrize(
+    ("how", "everyone"),
+    [(signal.SIGKILL, False), (signal.SIGINT, False), (signal.SIGINT, True)],
+)
 def test_workers_end_with_their_parent(
-    tmp_path: Path, how: signal.Signals
+    tmp_path: Path, how: signal.Signals, everyone: bool
 ) -> None:
-    """However it ends; their output is at its end when all are gone."""
+    """However it ends; their output is at its end when all are gone.
+
+    A terminal's Ctrl-C reaches the workers, too; either way nothing of the
+    twenty that were waiting begins, and nothing is complained of.
+    """
     script = tmp_path / "child.py"
     script.write_text(CHILD)
     with subprocess.Popen(
         [sys.executable, str(script)],
         stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
         start_new_session=True,
         text=True,
     ) as parent:
-        assert parent.stdout is not None
-        worker = int(parent.stdout.readline())
-        if how is signal.SIGINT:  # as a terminal does: to all of them
-            import os
-
+        assert parent.stdout is not None and parent.stderr is not None
+        assert int(parent.stdout.readline()) > 0
+        if everyone:
             os.killpg(parent.pid, how)
         else:
             parent.send_signal(how)
-        parent.wait(60)
-        assert parent.stdout.read() == ""  # the worker closed it, too
-        assert worker > 0
+        assert parent.stdout.read() == ""
+        complaints = parent.stderr.read()
+    if how is signal.SIGINT:
+        assert parent.returncode == 130
+        assert complaints == ""
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "worst"),
+    [
+        ("pursuer_radius_m", [0.60, 0.64, 0.66], 0),
+        ("evader_radius_m", [0.63, 0.64, 0.70], 2),
+        ("distance_m", [0.80, 0.90, 0.95], 0),
+        ("relative_orientation_deg", [90.0, 89.0, 92.0], 2),
+        ("converged_at_s", [20.0, 50.0, 30.0], 1),
+        ("min_distance_m", [0.5, 0.4, 0.6], 1),
+        ("triggered_at_distance_m", [0.8, 0.7, 0.75], 1),
+        ("min_zmp_margin_m", [0.03, 0.02, 0.04], 1),
+        ("misled_s", [0.0, 2.0, 1.0], 1),
+        ("lost_s", [0.0, 2.0, 1.0], 1),
+        ("detection_rate", [1.0, 0.9, 0.95], 1),
+        ("false_detections", [0.0, 3.0, 1.0], 1),
+    ],
+)
+def test_the_worst_of_each_figure_is_at_its_bad_end(
+    name: str, values: list[float], worst: int
+) -> None:
+    records = [made(seed, **{name: v}) for seed, v in enumerate(values)]
+    row = summarise_duels(SETTINGS, records)["figures"][name]
+    assert row["worst_seed"] == worst and row["worst"] == values[worst]

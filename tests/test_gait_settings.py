@@ -40,11 +40,12 @@ def test_a_sole_that_does_not_hold_its_frame_is_refused(
         replace(Sole(), **{name: value})
 
 
-def test_horizons_from_one_to_a_thousand_are_allowed() -> None:
-    for horizon in (1, 1000):
+def test_horizons_from_two_to_a_thousand_are_allowed() -> None:
+    for horizon in (2, 1000):
         assert replace(GaitSettings(), horizon=horizon).horizon == horizon
-    with pytest.raises(PlanError, match="horizon"):
-        replace(GaitSettings(), horizon=1001)
+    for horizon in (1, 1001):
+        with pytest.raises(PlanError, match="horizon must be 2 to 1000"):
+            replace(GaitSettings(), horizon=horizon)
     with pytest.raises(PlanError, match="horizon"):
         replace(GaitSettings(), horizon=2.5)  # type: ignore[arg-type]
 

@@ -79,11 +79,20 @@ def test_another_script_begins_anew(tmp_path: Path, script: Path) -> None:
     assert work.done == [1, 2, 3]
 
 
+def test_other_jobs_of_the_same_names_are_done(tmp_path: Path) -> None:
+    """Sixty minutes are not three, though both are called forward."""
+    output, work = tmp_path / "x.json", Work()
+    run(output, Work())
+    others = {name: 10 * number for name, number in JOBS.items()}
+    found = gather(output, HEAD, others, work, workers=0)
+    assert work.done == [10, 20, 30] and found["c"] == {"twice": 60}
+
+
 def test_a_line_that_was_cut_off_is_done_again(tmp_path: Path) -> None:
     output, work = tmp_path / "x.json", Work()
     whole = run(output, Work())
     text = part_of(output).read_text()
-    lost = JOBS[json.loads(text.splitlines()[-1])[0]]
+    lost = JOBS[json.loads(text.splitlines()[-1])["key"][0]]
     part_of(output).write_text(text[:-5])
     assert run(output, work) == whole
     assert work.done == [lost]

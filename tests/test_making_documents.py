@@ -161,17 +161,17 @@ def test_a_picture_is_drawn_again_only_when_results_change(
 ) -> None:
     rows = [
         {"method": "mpc", "direction": "left", "phase": phase}
-        | {"limit_n_s": 1.0, "bound_n_s": 2.0}
+        | {"limit_n_s": 1.0, "bound_n_s": 2.0, "impulse_bound_n_s": 2.5}
         for phase in (0.0, 0.5)
     ]
     head = header({}, command="none")
-    write_result(tmp_path / "pushes.json", head, limits=rows)
+    write_result(tmp_path / "pushes.json", head, rows=rows)
     name = "push-limits.png"
     assert draw_picture(name, Store(tmp_path), tmp_path)
     assert not draw_picture(name, Store(tmp_path), tmp_path)
     assert drawn_from(tmp_path / name).startswith("pushes.json ")
     rows[0]["limit_n_s"] = 1.5
-    write_result(tmp_path / "pushes.json", head, limits=rows)
+    write_result(tmp_path / "pushes.json", head, rows=rows)
     store = Store(tmp_path)
     assert drawn_from(tmp_path / name) != PICTURES[name].source(store)
     assert draw_picture(name, store, tmp_path)
@@ -199,24 +199,56 @@ def test_the_store_reads_a_file_once(store: Store) -> None:
         Store(store.folder).result("run")
 
 
-def test_many_duels_become_a_table_of_figures_and_one_of_seeds(
-    tmp_path: Path,
-) -> None:
-    spread = {"mean": 0.9, "least": 0.85, "greatest": 1.0, "ci": [0.89, 0.91]}
+def test_many_duels_become_tables(tmp_path: Path) -> None:
+    share = {"number": 2, "of": 3, "low": 0.2, "high": 0.94}
+    figure = {
+        **{"theory": 0.9, "mean": 0.91, "mean_low": 0.9, "mean_high": 0.92},
+        **{"least": 0.85, "greatest": 1.0, "worst": 1.0, "worst_seed": 12},
+    }
+    certificate = {
+        **{"certified": share, "nearer_than_certified": share},
+        **{"median_excess_m": 0.1, "least_excess_m": -0.02, "worst_seed": 7},
+    }
     write_result(
-        tmp_path / "duels.json",
-        header({}, command="none"),
-        summary={"number": 3, "distance_m": spread, "way_m": spread},
-        worst={"distance_m": [[12, 1.0], [7, 0.85]]},
+        tmp_path / "duels-hardware.json",
+        header({"seeds": [0, 3]}, command="none"),
+        summary={
+            "duels": 3,
+            "outcomes": {"completed": share},
+            "on_the_circle": share,
+            "figures": {"distance_m": figure},
+            "certificate": certificate,
+        },
     )
     store = Store(tmp_path)
-    assert make("duels", "figures", store).splitlines()[2:] == [
-        "| distance [m] | 0.900 | 0.890-0.910 | 0.850 | 1.000 |",
-        "| way m | 0.900 | 0.890-0.910 | 0.850 | 1.000 |",
+    two = "2 of 3 (20.0-94.0 %)"
+    assert make("all", "outcomes", store).splitlines()[2:] == [
+        f"| hardware-like | 0:3 | 3 | {two} | {two} |"
     ]
-    assert make("duels", "worst", store).splitlines()[2:] == [
-        "| distance [m] | 1.000 (seed 12), 0.850 (seed 7) |"
+    assert make("duels-hardware", "spreads", store).splitlines()[2:] == [
+        "| distance [m] | 0.900 | 0.910 | 0.900-0.920 | 0.850 | 1.000 |"
     ]
+    assert make("all", "worst-seeds", store).splitlines()[2:] == [
+        "| hardware-like | distance [m] | 1.000 | "
+        "`stepaside duel --seed 12 --body hardware` |"
+    ]
+    assert make("all", "certified", store).splitlines()[2:] == [
+        f"| hardware-like | {two} | {two} | 0.100 | -0.020 | 7 |"
+    ]
+
+
+def test_choices_of_heading_and_point_become_means(tmp_path: Path) -> None:
+    rows = [
+        {"heading": "both feet", "behind_m": 0.02, "seed": seed}
+        | {"pursuer_radius_m": 0.6, "evader_radius_m": 0.7, "distance_m": d}
+        for seed, d in enumerate([0.8, 1.0])
+    ]
+    head = header({}, command="none")
+    write_result(tmp_path / "instants.json", head, rows=rows)
+    assert make("instants", "instants", Store(tmp_path)).endswith(
+        "| both feet | 20 mm behind the torso | 2 | 0.600 | 0.700 | 0.900 "
+        "| 0.800-1.000 |"
+    )
 
 
 def test_all_results_stand_in_the_index(store: Store) -> None:

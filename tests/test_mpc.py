@@ -264,3 +264,29 @@ def test_nonsense_is_refused() -> None:
         MpcSettings(steps=0)
     with pytest.raises(ConfigurationError, match="needs feedback"):
         ControlSettings("mpc")
+
+
+def test_tails_assume_what_their_names_say() -> None:
+    """Nothing after the horizon, or its velocities again and again.
+
+    Boundedness asks the velocities of the ZMP, weighted by e^(-eta t), for
+    the DCM less the ZMP; what the plan's own contribute inside the horizon
+    is found by quadrature.
+    """
+    p, passed = plan(0.4), 0.1
+    mpc = solver(tail="truncated")
+    span = mpc.settings.steps * GAIT.step_duration
+    edges = np.linspace(0.0, span, 40_001)
+    zmp = p.sample(passed + edges).zmp
+    middle = 0.5 * (edges[1:] + edges[:-1])
+    inside = np.exp(-GAIT.eta * middle) @ np.diff(zmp, axis=0)
+    now = p.sample([passed])
+    lead = (now.dcm - now.zmp)[0]
+    share = 1.0 - np.exp(-GAIT.eta * span)
+    truncated = mpc._wanted(p, passed, ZERO, ZERO)
+    np.testing.assert_allclose(truncated, lead - inside, atol=1e-6)
+    repeated = solver(tail="periodic")._wanted(p, passed, ZERO, ZERO)
+    np.testing.assert_allclose(repeated, share * lead - inside, atol=1e-6)
+    shift = np.array([0.002, -0.001])
+    moved = mpc._wanted(p, passed, shift, ZERO)
+    np.testing.assert_allclose(moved - truncated, shift, atol=1e-12)

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-import stepaside
+from documents.store import Store
+from documents.tables.mutation import score, survivors
 from mutation.faults import Fault, draw, faults_of
-from mutation.page import markdown, summary
 from mutation.places import optional_keywords
-from mutation.runner import append, rows_of
+from mutation.score import head, summary, write
 from mutation.source import Source
 from mutation.trial import choose
 
@@ -105,22 +105,13 @@ def test_a_draw_hangs_on_the_seed_and_on_the_faults_own_text_only() -> None:
     assert [key for key in more if "MORE" not in key] == one
 
 
-def test_a_torn_record_is_left_out(tmp_path: Path) -> None:
-    path = tmp_path / "rows.jsonl"
-    append(path, {"key": "one"})
-    path.write_bytes(path.read_bytes() + b'{"key": "tw')
-    assert [row["key"] for row in rows_of(path)] == ["one"]
-    append(path, {"key": "two"})
-    assert [row["key"] for row in rows_of(path)] == ["one", "two"]
-
-
 def test_quick_tests_come_first_and_the_cap_holds() -> None:
     times = {"b::slow": 9.0, "b::quick": 0.01, "a::slow": 8.0}
-    assert choose(times, times, 10.0) == ["b::quick", "a::slow"]
-    assert choose(["b::slow"], times, 1.0) == ["b::slow"]
+    assert choose(times, times, 10.0, set()) == ["b::quick", "a::slow"]
+    assert choose(["b::slow"], times, 1.0, set()) == ["b::slow"]
 
 
-def test_the_score_counts_what_was_noticed() -> None:
+def test_the_score_counts_what_was_noticed(tmp_path: Path) -> None:
     rows = [
         {"key": str(i), "outcome": outcome, "test": "", "file": FILE}
         | {"line": i, "operator": "sign", "before": "a | b", "after": "b"}
@@ -128,30 +119,30 @@ def test_the_score_counts_what_was_noticed() -> None:
             ["killed", "timeout", "survived", "unreached"]
         )
     ]
-    found = summary(
-        rows, sample=4, seed=1, cap=1.0, version="v", reasons={"2": "same"}
-    )
+    found = summary(rows, {"2": "same"})
     assert found["score"] == 0.5
     assert [row["reason"] for row in found["survivors"]] == ["same", ""]
-    page = markdown(found)
-    assert "2 of 4 faults noticed (50.0 %)" in page
-    assert "| planning/toy.py:2 | `a \\| b` | `b` | same |" in page
+    path = tmp_path / "mutation.json"
+    write(path, head(sample=4, seed=1, cap=1.0), found)
+    with pytest.raises(ValueError, match="want 5 faults tried, got 4"):
+        write(path, head(sample=5, seed=1, cap=1.0), found)
+    result = Store(tmp_path).result("mutation")
+    assert result["command"] == "make mutate"
+    assert result["settings"] == {"sample": 4, "seed": 1, "cap_s": 1.0}
+    assert "2 of 4 faults noticed (50.0 %)" in score(result)
+    assert "| planning | 4 | 2 | 50 % |" in score(result)
+    table = survivors(result)
+    assert "| planning/toy.py:2 | `a \\| b` | `b` | same |" in table
+    assert "| `b` | no test reaches |" in table
 
 
 @pytest.fixture
 def root(tmp_path: Path) -> Path:
     """Tree with a small package, one function of which is not tested."""
     package = tmp_path / "src" / "stepaside"
-    studies = Path(stepaside.__file__).parent / "studies"
-    for room in "planning control unicycle sensing robots simulation".split():
-        (package / room).mkdir(parents=True)
-        (package / room / "__init__.py").touch()
-    (package / "studies").mkdir()
+    (package / "planning").mkdir(parents=True)
+    (package / "planning" / "__init__.py").touch()
     (package / "__init__.py").touch()
-    (package / "studies" / "__init__.py").touch()
-    (package / "studies" / "version.py").write_text(
-        (studies / "version.py").read_text()
-    )
     (tmp_path / FILE).write_text(TEXT)
     (tmp_path / "tests").mkdir()
     (tmp_path / "tests" / "test_toy.py").write_text(TESTS)
@@ -181,9 +172,18 @@ def test_a_run_cut_short_ends_with_the_same_table(root: Path) -> None:
     assert (root / FILE).read_text() == TEXT
     (rows,) = (root / "runs" / "mutation").glob("trials-*.jsonl")
     lines = rows.read_text().splitlines(keepends=True)
-    rows.write_text("".join(lines[: len(lines) // 2]) + lines[-1][:9])
+    half = "".join(lines[: len(lines) // 2])
+    altered = half.replace('"killed"', '"survived"', 1)
+    assert altered != half
+    rows.write_text(altered + lines[-1][:9])
     again = run(root)
     assert again.splitlines()[-1] == listed.splitlines()[-1]
     assert run(root, "--list-survivors") == listed
     keys = [json.loads(line)["key"] for line in rows.read_text().splitlines()]
     assert len(keys) == len(set(keys)) == len(lines)
+
+
+def test_only_the_run_of_make_mutate_is_written(root: Path) -> None:
+    with pytest.raises(subprocess.CalledProcessError) as caught:
+        run(root, "--write", "--list-survivors")
+    assert "--write is for the run of make mutate" in caught.value.stderr

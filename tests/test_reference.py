@@ -8,7 +8,6 @@ import pytest
 from stepaside.control.reference import (
     ReferenceTable,
     Row,
-    landing_center,
     standing_reference,
 )
 from stepaside.planning import (
@@ -19,6 +18,7 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
+from stepaside.planning.steady import landing_state
 from stepaside.poses import Array, Pose
 
 GAIT = GaitSettings()
@@ -146,7 +146,7 @@ def test_com_at_the_end_of_a_step_is_that_of_the_plan(foot: Foot) -> None:
     """In the frame of the foot that landed."""
     made = plan(foot)
     frame = Pose(*made.placements[2].tolist())
-    position, velocity = landing_center(frame, made)
+    position, velocity = landing_state(made)
     end = made.sample([made.schedule.first_step_duration])
     back = np.array(
         [

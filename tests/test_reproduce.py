@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
@@ -14,7 +14,7 @@ from click.testing import CliRunner
 from stepaside.cli import main
 from stepaside.commands import reproduce_figures
 from stepaside.report.claims_page import markdown_page
-from stepaside.studies import reproduce
+from stepaside.studies import reproduce, workers
 from stepaside.studies.claims import Claim, Job, Row
 from stepaside.studies.jobs import JOBS
 from stepaside.studies.paper_figures import paper_figures
@@ -178,7 +178,7 @@ def test_other_settings_or_libraries_are_measured_again(
         lambda text: "",
         lambda text: text.replace('"it": 1.01', '"it": "1.01"'),
         lambda text: text.replace('"it": 1.01', '"other": 1.01'),
-        lambda text: text.replace('"seed": 1', '"seed": 2'),
+        lambda text: text.replace('"key"', '"lock"'),
     ],
 )
 def test_a_torn_or_foreign_file_is_set_aside(
@@ -192,6 +192,28 @@ def test_a_torn_or_foreign_file_is_set_aside(
     assert again(bench, tmp_path, 1, 2) == [("seeded", 1)]
     assert (tmp_path / "seeded-seed1.json.aside").read_text() == spoilt
     assert again(bench, tmp_path, 1, 2) == []
+
+
+@pytest.mark.parametrize(
+    ("ours", "others"),
+    [
+        ('"seed": 1', '"seed": 2'),
+        ('"version": "', '"version": "0'),
+        ('"settings": "as they are"', '"settings": "as they were"'),
+    ],
+)
+def test_what_another_version_made_is_replaced_without_a_copy(
+    bench: Bench, tmp_path: Path, ours: str, others: str
+) -> None:
+    again(bench, tmp_path, 1, 2)
+    file = tmp_path / "seeded-seed1.json"
+    whole = file.read_text()
+    older = whole.replace(ours, others).replace('"it"', '"it_was"')
+    assert whole.replace(ours, others) != whole
+    file.write_text(older)
+    assert again(bench, tmp_path, 1, 2) == [("seeded", 1)]
+    assert file.read_text() == whole
+    assert not list(tmp_path.glob("*.aside"))
 
 
 def test_who_stops_it_keeps_what_is_done(bench: Bench, tmp_path: Path) -> None:
@@ -286,6 +308,10 @@ def test_figures_of_the_paper_stand_beside_what_was_measured() -> None:
     assert found["2", "number of turns"].ours.startswith("1.50 of")
     assert "0.90 times" in found["6", "circle"].ours
     assert found["5", "relative orientation"].ours == "not measured"
+    assert found["5", "circle"].ours == "not measured"
+    one = [{"name": "humanoids.pursuer_radius", "measured": 0.65}]
+    part = {(f.figure, f.what): f for f in paper_figures(one, 1.5, 36.0)}
+    assert part["5", "circle"].ours == "not measured"  # one of three is not
     assert {figure for figure, _ in found} == {"2", "5", "6"}
 
 
@@ -293,6 +319,7 @@ def test_command_prints_rows_and_writes_the_page(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(reproduce, "JOBS", {"path": JOBS["path"]})
+    monkeypatch.setattr(workers, "worker_pool", ThreadPoolExecutor)
     monkeypatch.setattr(reproduce_figures, "draw_figures", lambda *_: [])
     call = ["reproduce", "--workers", "1", "--output", str(tmp_path)]
     result = CliRunner().invoke(main, [*call, "--json"])
@@ -317,6 +344,50 @@ def test_command_prints_rows_and_writes_the_page(
     assert "|theta*|" in html
     told = CliRunner().invoke(main, call)
     assert f"{len(rows)} of {len(rows)} hold" in told.stdout
+
+
+@pytest.mark.parametrize(
+    ("value", "status"), [(1.0, 0), (NAN, 1)], ids=["holds", "fails"]
+)
+@pytest.mark.parametrize("json_asked", [True, False])
+def test_the_exit_status_says_whether_every_claim_holds(
+    bench: Bench,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    value: float,
+    status: int,
+    json_asked: bool,
+) -> None:
+    job = replace(bench.jobs["once"], measure=lambda _: {"it": value})
+    bench.jobs["once"] = job
+    monkeypatch.setattr(workers, "worker_pool", ThreadPoolExecutor)
+    monkeypatch.setattr(reproduce_figures, "draw_figures", lambda *_: [])
+    call = ["reproduce", "--runs", "1", "--output", str(tmp_path)]
+    result = CliRunner().invoke(main, [*call, *["--json"] * json_asked])
+    assert result.exit_code == status, result.output
+    if json_asked:
+        assert len(json.loads(result.stdout)) == 2
+    else:
+        assert f"{2 - status} of 2 hold" in result.stdout
+    assert (tmp_path / "claims.html").exists()
+
+
+def test_ctrl_c_ends_processes_with_status_130(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Even one works in a process: a duel cut short here would be kept."""
+    asked: list[int | None] = []
+
+    def pool(number: int | None) -> ThreadPoolExecutor:
+        asked.append(number)
+        return ThreadPoolExecutor(number)
+
+    bench.stop_at = 1
+    monkeypatch.setattr(workers, "worker_pool", pool)
+    call = ["reproduce", "--workers", "1", "--output", str(tmp_path)]
+    result = CliRunner().invoke(main, call)
+    assert (result.exit_code, asked) == (130, [1])
+    assert not (tmp_path / "claims.json").exists()
 
 
 def test_figures_are_drawn_and_drawn_again_when_they_must_be(

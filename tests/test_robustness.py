@@ -1,6 +1,5 @@
 """Campaigns: what each trial asks for, and results that are not made twice."""
 
-import json
 from collections.abc import Callable
 from concurrent.futures import Executor, Future
 from dataclasses import replace
@@ -15,7 +14,7 @@ from stepaside.errors import ConfigurationError
 from stepaside.planning import GaitSettings
 from stepaside.simulation.body_settings import BODIES
 from stepaside.simulation.settings import PhysicsSettings
-from stepaside.studies import limits, results, robustness
+from stepaside.studies import limits, robustness, trial_results
 from stepaside.studies.limits import (
     limit_of,
     next_strength,
@@ -33,6 +32,7 @@ from stepaside.studies.robustness import (
     settings_of,
     trials,
 )
+from stepaside.studies.version import code_version
 
 TRIAL = Trial("friction", 0.3, "", 0.0, 5, "measured", "hardware")
 PUSH = Trial("push", 1.2, "left", 0.25, 5, "closed-form", "ideal")
@@ -183,11 +183,39 @@ def test_results_of_other_code_are_made_again(
     run_campaign([TRIAL], file, Inline())
     run_campaign([TRIAL], file, Inline())
     assert len(asked) == 1
-    monkeypatch.setattr(results, "code_version", lambda rooms: "other")
+    monkeypatch.setattr(trial_results, "code_version", lambda rooms: "other")
     run_campaign([TRIAL], file, Inline())
     assert len(asked) == 2
-    versions = [json.loads(line)[2] for line in file.read_text().splitlines()]
-    assert len(set(versions)) == 2
+    assert list(trial_results.read_results(file)) == [TRIAL.key]
+
+
+@pytest.mark.parametrize(
+    ("name", "other"),
+    [
+        ("library_versions", lambda: {"mujoco": "0", "numpy": "0"}),
+        (
+            "code_version",
+            lambda rooms: (
+                "edited"
+                if "studies/robustness" in rooms
+                else code_version(rooms)
+            ),
+        ),
+    ],
+)
+def test_libraries_and_what_sets_up_the_walk_date_a_result(
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    name: str,
+    other: Callable[..., object],
+) -> None:
+    file = tmp_path / "trials.jsonl"
+    trial_results.note_result(file, TRIAL.key, True)
+    assert trial_results.read_results(file) == {TRIAL.key: True}
+    monkeypatch.setattr(trial_results, name, other, raising=False)
+    assert trial_results.read_results(file) == {}
+    trial_results.note_result(file, TRIAL.key, False)
+    assert trial_results.read_results(file) == {TRIAL.key: False}
 
 
 @pytest.mark.parametrize(
@@ -230,6 +258,30 @@ def test_search_finds_every_limit_to_a_tenth_with_few_walks(
     assert number == len(found) < 8 * len(cases)
     assert search_limits(cases, file, Inline()) == found
     assert len(asked) == number  # nothing was walked again
+
+
+def test_a_search_gives_back_what_it_was_asked_for_alone(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """One folder holds other methods, seeds and kinds beside it."""
+    survives(monkeypatch, lambda t: t.strength < 1.0)
+    file = tmp_path / "trials.jsonl"
+    cases = list(push_cases(["mpc"], "ideal", phases=1))
+    alone = search_limits(cases, None, Inline())
+    search_limits(
+        [
+            *push_cases(["measured"], "ideal", phases=1),
+            *push_cases(["mpc"], "ideal", phases=2, seed=2),
+        ],
+        file,
+        Inline(),
+    )
+    run_campaign([TRIAL], file, Inline())
+    assert search_limits(cases, file, Inline()) == alone
+    assert search_limits(cases, file, Inline()) == alone
+    done = {TRIAL.key: True}
+    found = search_limits(cases, file, Inline(), None, done)
+    assert found == alone | {TRIAL.key: True}
 
 
 def test_a_search_that_was_stopped_ends_as_one_that_was_not(

@@ -11,7 +11,11 @@ from click.testing import CliRunner
 from stepaside.cli import main
 from stepaside.commands import robustness as command
 from stepaside.studies.limits import next_strength, outcomes_of
+from stepaside.studies.results import read_result
 from stepaside.studies.survival import bound_at
+from stepaside.studies.trial_results import ROOMS
+
+ASKED = "--kind play --kind push --method mpc --seeds 3 --phases 1".split()
 
 
 def survive_a_newton_second(
@@ -44,17 +48,78 @@ def test_pushes_are_printed_over_their_bound(tmp_path: Path) -> None:
     cells = " ".join(f"1.0/{bound_at('left', x):.1f}" for x in (0.0, 0.5))
     assert f"left      {cells}" in printed
     assert "0 of 8" in printed
-    made = json.loads((tmp_path / "pushes.json").read_text())
+    made = read_result(tmp_path / "pushes.json")
     assert len(made["rows"]) == 8 and made["summary"]["mpc"]["cases"] == 8
     assert {row["limit_n_s"] for row in made["rows"]} == {1.0}
     for name in ("limits.png", "survival.png"):
         assert (tmp_path / name).read_bytes()[:4] == b"\x89PNG"
 
 
+def test_survival_says_what_made_it(tmp_path: Path) -> None:
+    run(*ASKED, "--seed", "4", "--output", str(tmp_path))
+    made = read_result(tmp_path / "survival.json")
+    assert made["rooms"] == list(ROOMS)
+    assert made["settings"] == {
+        "kinds": ["play", "push"],
+        "methods": ["mpc"],
+        "body": "ideal",
+        "phases": 1,
+        "seeds": 3,
+        "seed": 4,
+    }
+    assert {row["method"] for row in made["survival"]} == {"mpc"}
+
+
 def test_other_kinds_are_counted_over_their_seeds() -> None:
     answer = json.loads(
         run(*("--kind", "play", "--method", "mpc", "--seeds", "3", "--json"))
     )
-    assert answer["limits"] == [] and answer["push_cases"] == 0
+    assert answer["limits"] == []
     assert {row["trials"] for row in answer["survival"]} == {3}
-    assert answer["trials"] == answer["planned"] == 15
+    assert answer["planned"] == {"trials": 15, "push_limits": 0}
+    assert answer["done"] == {"trials": 15, "push_limits": 0, "push_walks": 0}
+
+
+def test_what_is_asked_twice_is_planned_once() -> None:
+    answer = json.loads(run(*ASKED, *ASKED, "--json"))
+    assert answer["planned"] == {"trials": 15, "push_limits": 4}
+
+
+def test_trials_and_pushes_are_counted_each_on_their_own() -> None:
+    answer = json.loads(run(*ASKED, "--json"))
+    assert answer["planned"] == {"trials": 15, "push_limits": 4}
+    walks = 4 * len((0.4, 0.8, 1.2, 1.0, 1.1))
+    assert answer["done"] == {
+        "trials": 15,
+        "push_limits": 4,
+        "push_walks": walks,
+    }
+
+
+def test_a_stopped_campaign_writes_no_result_over_another(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run(*ASKED, "--output", str(tmp_path))
+    before = {file: file.read_bytes() for file in tmp_path.iterdir()}
+    assert {f.name for f in before} > {"pushes.json", "survival.json"}
+
+    def stopped(
+        grid: list[Any], cases: list[Any], *_: Any
+    ) -> tuple[dict[str, bool], bool]:
+        return survive_a_newton_second(grid[:7], cases[:1])[0], True
+
+    monkeypatch.setattr(command, "_run", stopped)
+    asked = ("robustness", *ASKED, "--output", str(tmp_path))
+    result = CliRunner().invoke(main, asked)
+    assert result.exit_code == 130
+    assert "stopped after 7 of 15 trials, 1 of 4 limits" in result.stderr
+    assert before == {file: file.read_bytes() for file in tmp_path.iterdir()}
+
+
+def test_the_help_says_which_walks_have_which_seed() -> None:
+    told = " ".join(run("--help").split())
+    assert (
+        "Of the first walk; the others follow it. Pushes have only this one. "
+        "[default: 1" in told
+    )
+    assert "How far the body is from an ideal one. [default: ideal]" in told

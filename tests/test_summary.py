@@ -265,6 +265,14 @@ def test_a_cycle_that_the_end_cuts_is_not_judged() -> None:
     assert found is not None and found < CYCLE
 
 
+def test_the_last_whole_cycle_is_judged() -> None:
+    """Who leaves the circle 0.8 of a cycle before the end is seen to."""
+    left = 60.0 - 0.8 * CYCLE
+    far = 1.12 * THEORY.distance_m
+    gone = record(stepped(left, THEORY.distance_m, far))
+    assert converged_at(gone, SETTINGS, THEORY) is None
+
+
 def test_nothing_converges_without_a_circle_or_a_record() -> None:
     back = replace(SETTINGS, strategy=StrategySettings(angle=0.0))
     assert converged_at(record(), back, theory_of(back)) is None

@@ -9,6 +9,7 @@ import pytest
 from stepaside.planning import GaitSettings
 from stepaside.studies.limits import push_cases
 from stepaside.studies.pushes import pushes_result
+from stepaside.studies.results import HEADER
 from stepaside.studies.robustness import DIRECTIONS, STRENGTHS, Trial
 from stepaside.studies.survival import (
     PUSH,
@@ -156,8 +157,6 @@ def test_result_says_what_made_it() -> None:
         "stepaside robustness --kind push --method mpc --body ideal "
         "--phases 4 --seed 2"
     )
-    assert set(made) == {
-        *("command", "version", "libraries", "settings", "summary", "rows")
-    }
+    assert set(made) == {*HEADER, "summary", "rows"}
     assert made["settings"]["reach_m"]["forward"] == 0.08
     assert made["rows"] == [row(1.0)]

@@ -175,3 +175,21 @@ def test_dulac_function_has_a_divergence_of_one_sign() -> None:
 def test_other_games_are_refused() -> None:
     with pytest.raises(PlanError, match="equal speeds and gains"):
         certify(make_game(1.0, 1.1, 1.0, 1.0), Start(1.0))
+
+
+def test_tail_of_the_upper_sum_is_speed_times_error_over_gain() -> None:
+    for d in (8e-7, -8e-7, 0.0):
+        upper = _largest_spread(0.25, d, 1.1, 3.0, 0.5, 4.0)
+        assert upper - 0.25 == pytest.approx(6.0 * abs(d), rel=1e-6)
+
+
+def test_plain_bound_has_the_units_of_the_game() -> None:
+    """Speed v and gain k scale lengths by v / k."""
+    unit, start = 0.7 / 0.4, Start(1.57, 0.31, -1.05)
+    scaled = make_game(0.7, 0.7, 0.4, 0.4)
+    big = Start(1.57 * unit, 0.31, -1.05)
+    one, other = certify(ASIDE, start), certify(scaled, big)
+    assert one.distance_m is not None and other.distance_m is not None
+    assert one.plain_distance_m is not None
+    assert other.distance_m / unit == pytest.approx(one.distance_m)
+    assert other.plain_distance_m == pytest.approx(one.plain_distance_m * unit)

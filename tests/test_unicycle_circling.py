@@ -126,7 +126,8 @@ def test_every_circle_balances() -> None:
                 assert omega == pytest.approx(ke * b)
             else:
                 assert omega <= ke * (1 + 1e-12)
-                assert circle.sliding == (omega < ke)
+                # Equal to rounding is the full rate, not sliding.
+                assert circle.sliding == (omega < ke * (1 - 1e-12))
     assert found > 300
 
 

@@ -9,8 +9,10 @@ import pytest
 from click.testing import CliRunner, Result
 
 from stepaside.commands.circle import circle
+from stepaside.commands.circles import print_circles
 from stepaside.commands.map import map as map_command
 from stepaside.commands.unicycles import unicycles
+from stepaside.report import unicycle_ratios, unicycle_sweep
 
 COMPARED = (
     "radius_m",
@@ -103,6 +105,44 @@ def test_figures_are_written(tmp_path: Path) -> None:
         result = run(command, f"{words} {tmp_path / name}")
         assert result.exit_code == 0, result.output
         assert (tmp_path / name).stat().st_size > 10_000
+
+
+def test_circle_names_each_figure_after_its_option(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for module, name in (
+        (unicycle_ratios, "draw_ratios"),
+        (unicycle_sweep, "draw_sweep"),
+    ):
+        monkeypatch.setattr(module, name, lambda game, file: None)
+    figure, sweep = str(tmp_path / "f.png"), str(tmp_path / "s.png")
+    words = f"--starts 0 --figure {figure} --sweep {sweep}"
+    found = loads(circle, words)
+    assert (found["figure"], found["sweep"]) == (figure, sweep)
+    assert "map" not in found
+
+
+MAIN = {
+    **{"direction": 1, "side_rule": "behind", "distance_m": 1.0},
+    **{"radius_evader_m": 1.0, "stable": True, "time_constant_s": 4.0},
+    "share": 0.25,
+}
+
+
+@pytest.mark.parametrize("circles", [[], [MAIN]])
+def test_table_says_what_ended_on_no_circle(
+    capsys: pytest.CaptureFixture[str], circles: list[dict[str, Any]]
+) -> None:
+    starts = {"captured_share": 0.625, "unsettled_share": 0.125}
+    found = {"exists": False, "circles": circles, "starts": starts}
+    print_circles(found)
+    printed = capsys.readouterr().out.splitlines()
+    assert printed[-2].split() == ["captured", "0.625"]
+    assert printed[-1].split() == ["unsettled", "0.125"]
+    other_way = "that turns the main way round." in printed
+    assert other_way is bool(circles)
+    print_circles(found | {"starts": None})
+    assert "captured" not in capsys.readouterr().out
 
 
 def test_map_names_the_worst_start() -> None:

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from typing import Any
 
 import numpy as np
 import pytest
@@ -40,6 +41,9 @@ def test_every_game_agrees_with_the_adaptive_integrator(game: Game) -> None:
         assert many.closest_distance[i] == pytest.approx(
             one.closest_distance, abs=1e-6
         )
+        then = one.states([many.closest_time[i]])[0, 0]
+        assert then == pytest.approx(one.closest_distance, abs=1e-6)
+        assert many.sides[i] == one.sides[-1]
         if one.captured:
             assert many.capture_time[i] == pytest.approx(one.end_time)
         last = one.states([one.end_time])[0, :2]
@@ -105,3 +109,102 @@ def test_settled_time_is_when_the_circle_is_reached_for_good() -> None:
 def test_bad_starts_are_refused(start: list[float]) -> None:
     with pytest.raises(PlanError, match="starts must be finite"):
         play_games(GAMES[0], [start], 1.0)
+
+
+BACKENDS = ["numpy", *(["numba"] if AVAILABLE else [])]
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("game", [GAMES[0], GAMES[2], GAMES[3]])
+def test_whole_turns_of_a_start_change_nothing(
+    game: Game, backend: str
+) -> None:
+    """Nor where the game is over at once: its state is wrapped too."""
+    starts = np.array([[2.0, 0.5, 2.0], [1.0, -2.0, -3.0], [0.04, 1, -1]])
+    turns = 2.0 * np.pi * np.array([[0, 1, -1], [0, -1, 2], [0, 2, 1]])
+    plain, turned = (
+        play_games(game, s, 2.0, capture_distance=0.05, backend=backend)
+        for s in (starts, starts + turns)
+    )
+    np.testing.assert_allclose(turned.states, plain.states, atol=1e-9)
+    np.testing.assert_allclose(
+        turned.closest_distance, plain.closest_distance, atol=1e-12
+    )
+    assert turned.sides.tolist() == plain.sides.tolist()
+    assert np.abs(turned.states[2, 1:]).max() <= np.pi
+
+
+def test_pursuer_straight_behind_is_not_turned_round() -> None:
+    """At pi the side is -1, at -pi it is +1."""
+    out = play_games(GAMES[3], [[1.0, 0, np.pi], [1.0, 0, -np.pi]], 0.01)
+    assert out.sides.tolist() == [-1, 1]
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_start_within_the_capture_distance_is_captured_at_once(
+    backend: str,
+) -> None:
+    """Also where it would be out of reach after one step."""
+    starts = [
+        [0.399, 3.0, 0.0],
+        [0.3, 1.0, -1.0],
+        [0.4, 0.0, 0.0],
+        [3.6012652646, 0, 0],
+    ]
+    out = play_games(
+        GAMES[0], starts, 1.0, capture_distance=0.4, backend=backend
+    )
+    assert out.captured.tolist() == [True, True, True, False]
+    assert out.closest_distance[:3].tolist() == [0.399, 0.3, 0.4]
+    np.testing.assert_array_equal(out.capture_time, [0.0, 0.0, 0.0, np.nan])
+    np.testing.assert_array_equal(out.states[:3], starts[:3])
+    assert np.isinf(out.settled_time).all()
+    assert out.circle.tolist() == [-1, -1, -1, -1]
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_duration_is_rounded_up_to_whole_steps(backend: str) -> None:
+    """Straight on at two speeds, the distance tells the time."""
+    game = make_game(2.0, 1.0, 0.5, 0.5, 0.0)
+    for duration, step, expected in (
+        (0.3, 0.1, 0.3),
+        (0.31, 0.1, 0.4),
+        (0.05, 0.1, 0.1),
+    ):
+        out = play_games(
+            game, [[5.0, 0.0, 0.0]], duration, step=step, backend=backend
+        )
+        assert out.states[0, 0] == pytest.approx(5.0 - expected)
+        assert out.closest_time[0] == pytest.approx(expected)
+
+
+def test_progress_tells_every_chunk_and_chunks_change_nothing() -> None:
+    starts = random_starts(7, seed=4)
+    counts: list[int] = []
+    some = play_games(GAMES[1], starts, 0.5, chunk=3, progress=counts.append)
+    assert counts == [3, 3, 1]
+    whole = play_games(GAMES[1], starts, 0.5)
+    np.testing.assert_array_equal(some.states, whole.states)
+    np.testing.assert_array_equal(some.sides, whole.sides)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_side_asked_for_is_kept_where_the_rule_keeps_it(side: int) -> None:
+    out = play_games(GAMES[3], random_starts(5), 0.5, side=side)
+    assert out.sides.tolist() == [side] * 5
+
+
+@pytest.mark.parametrize(
+    ("name", "options"),
+    [
+        ("duration", {"duration": 0.0}),
+        ("step", {"duration": 1.0, "step": -0.1}),
+        ("capture_distance", {"duration": 1.0, "capture_distance": 0.0}),
+        ("backend", {"duration": 1.0, "backend": "fortran"}),
+    ],
+)
+def test_values_out_of_range_are_refused_by_name(
+    name: str, options: dict[str, Any]
+) -> None:
+    with pytest.raises(PlanError, match=f"^{name} must"):
+        play_games(GAMES[0], [[1.0, 0.0, 0.0]], **options)

@@ -1,6 +1,8 @@
 """Test maps over starts and the search of the worst one."""
 
 from math import radians
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,6 +16,7 @@ from stepaside.unicycle.simulate import simulate
 
 FACING = StartBox(0.8, 2.0, radians(30), radians(30.5))
 NAO = make_game(0.1, 0.1, 0.2, 0.2)
+FAST = make_game(2.0, 1.0, 1.0, 4.0)
 
 
 def test_map_is_symmetric_under_mirroring() -> None:
@@ -75,3 +78,74 @@ def test_bad_boxes_are_refused() -> None:
         StartBox(1.0, 0.5)
     with pytest.raises(PlanError, match="facing must lie in"):
         StartBox(1.0, 2.0, facing=4.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("nearest", (0.0, 1.0)),
+        ("farthest", (1.0, float("inf"))),
+        ("farthest", (1.0, float("nan"))),
+        ("aim", (1.0, 2.0, 3.2)),
+        ("aim", (1.0, 2.0, -0.1)),
+        ("facing", (1.0, 2.0, 1.0, -0.1)),
+    ],
+)
+def test_boxes_name_the_value_they_refuse(
+    name: str, values: tuple[float, ...]
+) -> None:
+    with pytest.raises(PlanError, match=f"^{name} must"):
+        StartBox(*values)
+
+
+def test_map_covers_its_box_from_corner_to_corner() -> None:
+    box = StartBox(0.8, 2.0, 0.4, 1.5)
+    counts: list[int] = []
+    found = map_starts(FAST, box, 0.1, shape=(2, 3, 5), progress=counts.append)
+    assert found.shape == (2, 3, 5) and sum(counts) == 30
+    assert found.distances == pytest.approx([0.8, 2.0])
+    assert found.pursuer_errors == pytest.approx([-0.4, 0.0, 0.4])
+    assert found.bearings == pytest.approx([-1.5, -0.75, 0.0, 0.75, 1.5])
+    values = found.grid("closest_distance")
+    one = simulate(FAST, Start(2.0, -0.4, 0.75), 0.1)
+    assert values[1, 0, 3] == pytest.approx(one.closest_distance, abs=1e-6)
+
+
+def test_captured_point_of_a_grid_ends_the_search() -> None:
+    box = StartBox(0.8, 1.2)
+    options = {"step": 0.05, "capture_distance": 0.5}
+    found = map_starts(FAST, box, 5.0, shape=(2, 7, 7), **options)  # type: ignore[arg-type]
+    caught = found.outcomes.captured
+    assert 0 < caught.sum() < caught.size
+    worst = find_worst_start(FAST, found, box, 5.0, **options)
+    assert worst.captured and worst.games == caught.size
+    assert worst.closest_distance == pytest.approx(0.5)
+
+
+def test_search_plays_whole_cells_and_finds_the_lowest_point(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of a made-up bowl with an edge, between the points of the grid."""
+    from stepaside.unicycle import maps
+
+    box, lowest = StartBox(1.0, 3.0, 0.5, 1.0), np.array([2.2, -0.1, 0.3])
+    played: list[np.ndarray] = []
+
+    def bowl(game: Game, starts: np.ndarray, *_: float, **__: object) -> Any:
+        played.append(np.asarray(starts))
+        off = np.abs(played[-1] - lowest).sum(axis=1)
+        return SimpleNamespace(closest_distance=0.5 + off)
+
+    monkeypatch.setattr(maps, "play_games", bowl)
+    found = map_starts(FAST, box, 1.0, shape=(3, 3, 3))
+    worst = find_worst_start(FAST, found, box, 1.0)
+    cell = np.unique(played[1], axis=0)  # around (2, 0, 0), the best point
+    assert len(played[1]) == len(cell) == 125
+    np.testing.assert_allclose(cell.min(axis=0), [1.0, -0.5, -1.0])
+    np.testing.assert_allclose(cell.max(axis=0), [3.0, 0.5, 1.0])
+    start = worst.start
+    got = [start.distance, start.pursuer_error, start.bearing]
+    np.testing.assert_allclose(got, lowest, atol=2e-3)
+    assert worst.closest_distance == pytest.approx(0.5, abs=4e-3)
+    assert not worst.captured
+    assert worst.games == sum(len(starts) for starts in played)

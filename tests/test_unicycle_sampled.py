@@ -4,10 +4,15 @@ import numpy as np
 import pytest
 
 from stepaside.errors import PlanError
+from stepaside.poses import Pose
 from stepaside.unicycle.circling import circle_of
 from stepaside.unicycle.laws import Game, make_game
 from stepaside.unicycle.relative import Start
-from stepaside.unicycle.sampled import choose_turning, simulate_sampled
+from stepaside.unicycle.sampled import (
+    choose_turning,
+    simulate_sampled,
+    walk_arc,
+)
 from stepaside.unicycle.sampled_stability import (
     delayed_eigenvalues,
     largest_stable_delay,
@@ -143,3 +148,110 @@ def test_equal_players_bear_1_7_of_sampling_and_1_1_of_delay() -> None:
         1.70, abs=0.005
     )
     assert 0.2 * largest_stable_delay(NAO) == pytest.approx(1.10, abs=0.005)
+
+
+# The saturated evader outruns the line of sight on an unstable circle.
+UNSTABLE = make_game(1.4, 1.75, 0.9, 2.8, 2.65, "saturated")
+
+
+def test_unstable_circle_bears_no_sampling_and_no_delay() -> None:
+    assert not circle_of(UNSTABLE).stable
+    assert largest_stable_sample_time(UNSTABLE) == 0.0
+    assert largest_stable_delay(UNSTABLE) == 0.0
+    assert largest_stable_delay(UNSTABLE, 0.1) == 0.0
+
+
+def test_delay_past_the_largest_leaves_no_sample_time() -> None:
+    quick = make_game(1.0, 1.0, 4.0, 4.0)
+    limit = largest_stable_delay(quick)
+    assert limit == pytest.approx(0.275, abs=0.001)
+    assert largest_stable_sample_time(quick, 1.01 * limit) == 0.0
+    assert largest_stable_sample_time(quick, 0.5 * limit) > 0.0
+
+
+@pytest.mark.parametrize("delay", [0.0, 1.0])
+def test_step_map_is_on_the_edge_at_the_largest_sample_time(
+    delay: float,
+) -> None:
+    limit = largest_stable_sample_time(NAO, delay)
+    assert abs(step_eigenvalues(NAO, limit, delay)[0]) == pytest.approx(1.0)
+    most = largest_stable_delay(NAO, 0.5)
+    assert abs(step_eigenvalues(NAO, 0.5, most)[0]) == pytest.approx(1.0)
+
+
+def test_samples_are_evenly_spaced_and_fill_the_duration() -> None:
+    run = simulate_sampled(NAO, Start(2.0, 0.1, 0.2), 1.1, 0.4)
+    assert run.times.tolist() == pytest.approx([0.0, 0.4, 0.8, 1.2])
+    assert run.turning_rates.shape == (3, 2) and run.sides.shape == (3,)
+    exact = simulate_sampled(NAO, Start(2.0, 0.1, 0.2), 1.2, 0.4)
+    assert len(exact.times) == 4
+
+
+def test_game_ends_with_the_period_of_its_capture() -> None:
+    """They drive head on: at speeds of 2 and 1 forward and away."""
+    game = make_game(2.0, 1.0, 0.5, 0.5, 0.0)
+    run = simulate_sampled(game, Start(1.0), 10.0, 0.32, capture_distance=0.5)
+    assert run.captured and len(run.times) == 3
+    assert run.closest_distance == pytest.approx(0.36)
+    at_once = simulate_sampled(game, Start(0.5), 1.0, 0.1, capture_distance=1)
+    assert at_once.captured and at_once.times.tolist() == [0.0]
+    assert at_once.turning_rates.shape == (0, 2)
+
+
+def test_perception_takes_effect_when_its_delay_is_over() -> None:
+    """Until then both drive straight on, and so does a late first rate."""
+    start = Start(3.0, 0.5, -0.2)
+    for delay in (0.3, 0.4, 1.1):
+        run = simulate_sampled(NAO, start, 4.0, 0.4, delay=delay)
+        rate_p, rate_e = run.turning_rates[0]
+        done = int(delay / 0.4 + 1e-9)
+        assert run.pursuer[done, 2] == run.evader[done, 2] - run.evader[0, 2]
+        turned = 0.4 * (done + 1) - delay
+        heading = run.pursuer[done + 1, 2] - run.pursuer[0, 2]
+        assert heading == pytest.approx(rate_p * turned)
+        heading = run.evader[done + 1, 2] - run.evader[0, 2]
+        assert heading == pytest.approx(rate_e * turned)
+
+
+def test_arc_has_the_radius_speed_over_turning_rate() -> None:
+    arc = walk_arc(Pose(1.0, 2.0, np.pi / 2), 0.6, -0.3, np.pi / 0.6)
+    np.testing.assert_allclose(arc, (3.0, 4.0, 0.0), atol=1e-12)
+    back = walk_arc(arc, -0.6, 0.3, np.pi / 0.6)
+    np.testing.assert_allclose(back, (1.0, 2.0, np.pi / 2), atol=1e-12)
+    np.testing.assert_allclose(
+        walk_arc(Pose(0, 0, 0), 0.5, 0.0, 2.0), (1.0, 0.0, 0.0)
+    )
+
+
+def test_held_rates_are_those_of_the_laws() -> None:
+    game = make_game(1.0, 1.0, 0.5, 0.7, 1.1)
+    got = choose_turning(game, Start(1.0, 0.3, -0.4), 0)
+    assert got == pytest.approx((0.15, 0.7 * 0.7, 1))
+    hard = make_game(1.0, 1.0, 0.5, 0.7, 1.1, "saturated")
+    got = choose_turning(hard, Start(1.0, -0.3, 1.2), 0)
+    assert got == pytest.approx((-0.15, 0.7, -1))
+    wide = make_game(1.0, 1.0, 0.5, 0.7, 2.0, side_rule="latched")
+    rate = choose_turning(wide, Start(1.0, 0.0, 3.0), 1)[1]
+    assert rate == pytest.approx(0.7 * (5.0 - 2.0 * np.pi))
+
+
+@pytest.mark.parametrize(
+    ("name", "options"),
+    [
+        ("duration", {"duration": 0.0}),
+        ("sample_time", {"sample_time": 0.0}),
+        ("delay", {"delay": -0.1}),
+        ("capture_distance", {"capture_distance": 0.0}),
+    ],
+)
+def test_values_out_of_range_are_refused_by_name(
+    name: str, options: dict[str, float]
+) -> None:
+    values = {"duration": 1.0, "sample_time": 0.1} | options
+    with pytest.raises(PlanError, match=f"^{name} must"):
+        simulate_sampled(NAO, Start(1.0), **values)  # type: ignore[arg-type]
+    if name in ("sample_time", "delay"):
+        with pytest.raises(PlanError, match=f"^{name} must"):
+            step_map(NAO, values["sample_time"], values.get("delay", 0.0))
+    with pytest.raises(PlanError, match="^delay must"):
+        delayed_eigenvalues(NAO, 0.0)

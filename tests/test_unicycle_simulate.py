@@ -20,6 +20,7 @@ GAMES = [
     make_game(1.2, 1.0, 0.5, 0.7, 1.2),
     make_game(1.1, 1.0, 0.4, 0.7, 0.8, "saturated"),
 ]
+LATCHED = make_game(1.0, 1.0, 0.5, 0.5, side_rule="latched")
 
 
 def last_state(run: Run) -> np.ndarray:
@@ -159,8 +160,70 @@ def test_hysteresis_delays_the_change_of_side() -> None:
 def test_bad_values_are_refused(value: float) -> None:
     with pytest.raises(PlanError, match="duration must"):
         simulate(GAMES[0], Start(1.0), value)
-    with pytest.raises(PlanError, match="distance must"):
+    with pytest.raises(PlanError, match="capture_distance must"):
+        simulate(GAMES[0], Start(1.0), 1.0, capture_distance=value)
+    with pytest.raises(PlanError, match="^distance must"):
         Start(value)
+
+
+def test_start_names_the_angle_that_it_refuses() -> None:
+    for value in (float("nan"), float("inf")):
+        with pytest.raises(PlanError, match="^pursuer_error must"):
+            Start(1.0, value)
+        with pytest.raises(PlanError, match="^bearing must"):
+            Start(1.0, 0.0, value)
+
+
+def test_whole_turns_of_a_start_change_nothing() -> None:
+    one = simulate(GAMES[0], Start(3.0, 0.5, -1.1), 5.0)
+    other = simulate(GAMES[0], Start(3.0, 0.5 - tau, tau - 1.1), 5.0)
+    np.testing.assert_allclose(
+        last_state(other)[:3], last_state(one)[:3], atol=1e-9
+    )
+    wrapped = Start(3.0, 0.5 - tau, tau - 1.1).wrapped()
+    assert wrapped == pytest.approx((3.0, 0.5, -1.1))
+
+
+def test_side_asked_for_is_the_first() -> None:
+    for side in (1, -1):
+        run = simulate(LATCHED, Start(3.0, 0.5, -1.1), 1.0, side=side)
+        assert run.sides == (side,) and run.switches == ()
+    behind = simulate(LATCHED, Start(3.0, 0.5, 1.1), 1.0)
+    assert behind.sides == (-1,)
+
+
+def test_distance_that_only_grows_is_least_at_the_start() -> None:
+    run = simulate(LATCHED, Start(2.0, pi - 0.1, 0.0), 0.5)
+    assert (run.closest_distance, run.closest_time) == (2.0, 0.0)
+    assert run.states([0.0, 0.5])[1, 0] > 2.5
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_evader_that_crosses_behind_is_turned_to_from_the_other_side(
+    sign: int,
+) -> None:
+    """Its error wraps where it points straight away."""
+    game = make_game(1.0, 1.0, 0.1, 1e-6, side_rule="latched")
+    run = simulate(game, Start(1.0, sign * 3.0, -sign * pi / 2), 0.5)
+    (switch,) = run.switches
+    before, after = run.states([switch - 1e-9, switch + 1e-9])
+    assert before[1] == pytest.approx(sign * pi, abs=1e-6)
+    assert after[1] == pytest.approx(-sign * pi, abs=1e-6)
+    turning = np.diff(run.poses([switch - 0.01, switch, switch + 0.01])[0].T)
+    assert sign * turning[2, 0] > 0.0 > sign * turning[2, 1]
+
+
+def test_plan_of_the_world_is_carried_by_the_pursuers_pose() -> None:
+    pursuer = Pose(0.3, -0.2, 0.4)
+    plain = simulate(GAMES[0], Start(2.0, 0.3, -0.4), 3.0)
+    moved = simulate(GAMES[0], Start(2.0, 0.3, -0.4), 3.0, pursuer=pursuer)
+    for here, there in zip(
+        plain.poses([3.0]), moved.poses([3.0]), strict=True
+    ):
+        x, y, theta = here[0].tolist()
+        np.testing.assert_allclose(
+            there[0], pursuer.compose(Pose(x, y, theta)), atol=1e-8
+        )
 
 
 def test_circle_fit_finds_a_circle() -> None:
@@ -170,3 +233,35 @@ def test_circle_fit_finds_a_circle() -> None:
     points = np.column_stack([3 + 2 * np.cos(turn), -1 + 2 * np.sin(turn)])
     center, radius = fit_circle(points)
     np.testing.assert_allclose([*center, radius], (3.0, -1.0, 2.0))
+
+
+def test_distance_that_only_falls_is_least_at_the_end() -> None:
+    """Straight on, at a speed of 2 behind one of 1."""
+    run = simulate(make_game(2.0, 1.0, 0.5, 0.5, 0.0), Start(5.0), 3.0)
+    assert run.closest_distance == pytest.approx(2.0)
+    assert run.closest_time == run.end_time == 3.0
+
+
+def test_evader_starts_with_the_heading_of_its_pose() -> None:
+    """Not a turn away from it: headings are continuous, not wrapped."""
+    pursuer, start = Pose(0.3, -0.2, 0.4), Start(2.0, 0.3, -0.4)
+    run = simulate(GAMES[0], start, 0.1, pursuer=pursuer)
+    np.testing.assert_allclose(
+        run.poses([0.0])[1][0], start.evader_pose(pursuer), atol=1e-12
+    )
+
+
+def test_side_is_kept_where_both_sides_are_one_direction() -> None:
+    for angle, kept in ((0.0, True), (pi, True), (1.0, False)):
+        assert make_game(1, 1, 1, 1, angle).keeps_side is kept
+        assert make_game(1, 1, 1, 1, angle, side_rule="latched").keeps_side
+
+
+@pytest.mark.parametrize(("angle", "widest"), [(0.7, 0.7), (pi - 0.7, 0.7)])
+def test_hysteresis_is_bounded_by_the_nearer_end_of_the_angle(
+    angle: float, widest: float
+) -> None:
+    make_game(1, 1, 1, 1, angle, hysteresis=widest - 1e-9)
+    for value in (widest + 1e-6, -0.1, float("nan")):
+        with pytest.raises(PlanError, match="^hysteresis must"):
+            make_game(1, 1, 1, 1, angle, hysteresis=value)

@@ -5,23 +5,44 @@ Each is a function of one or more results that gives Markdown.
 
 from collections.abc import Callable
 
-from . import benchmark, duels, index, persons, seeing, viewer, walking
+from . import (
+    benchmark,
+    duels,
+    index,
+    instants,
+    many_duels,
+    mutation,
+    persons,
+    pushes,
+    seeing,
+    unicycles,
+    viewer,
+    walking,
+)
 
 TABLES: dict[str, Callable[..., str]] = {
     "benchmark": benchmark.all_rows,
+    "certified": many_duels.certified,
+    "certified-starts": unicycles.certified_starts,
     "each": persons.each,
-    "figures": duels.figures,
     "floors": duels.floors,
     "headlines": benchmark.headlines,
     "index": index.index,
+    "instants": instants.instants,
     "long-walks": walking.long_walks,
+    "outcomes": many_duels.outcomes,
     "pace": walking.pace,
     "printed": duels.printed,
+    "push-methods": pushes.methods,
     "ranges": persons.ranges,
+    "remedies": unicycles.remedies,
     "rms": walking.rms,
+    "score": mutation.score,
     "seeing": seeing.figures,
+    "spreads": many_duels.spreads,
+    "survivors": mutation.survivors,
     "viewer": viewer.figures,
-    "worst": duels.worst,
+    "worst-seeds": many_duels.worst_seeds,
 }
 
 __all__ = ["TABLES"]

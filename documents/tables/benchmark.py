@@ -57,10 +57,10 @@ ROWS = {
 
 
 def all_rows(result: Mapping[str, Any]) -> str:
-    """Every figure beside what is asked of it; what is absent is left out."""
+    """Every figure beside its limit; what is absent is left out."""
     figures = result["figures"]
     return table(
-        ("what", "measured", "unit", "asked"),
+        ("what", "measured", "unit", "limit"),
         [
             (what, f"{figures[key]:.3g}", unit, asked)
             for key, (what, unit, asked) in ROWS.items()

@@ -1,9 +1,9 @@
-"""Many duels: outcomes, figures with their spread, and the worst seeds."""
+"""Words for figures of duels; duels on floors; what a command printed."""
 
 from collections.abc import Mapping
 from typing import Any
 
-from .markdown import interval, number, table
+from .markdown import interval, table
 
 # Words and decimals for the figures of a duel; others stand by their keys.
 WORDS = {
@@ -13,7 +13,12 @@ WORDS = {
     "relative_orientation_deg": ("between headings [deg]", 1),
     "converged_at_s": ("on the circle since [s]", 1),
     "min_distance_m": ("closest approach [m]", 3),
-    "min_zmp_margin_m": ("ZMP margin [m]", 3),
+    "min_zmp_margin_m": ("ZMP margin [m]", 4),
+    "triggered_at_distance_m": ("evasion begins at [m]", 3),
+    "misled_s": ("misled [s]", 2),
+    "lost_s": ("lost [s]", 2),
+    "detection_rate": ("detection rate", 3),
+    "false_detections": ("false detections", 1),
     "speed_ratio": ("speed over planned", 3),
 }
 
@@ -21,38 +26,6 @@ WORDS = {
 def words_of(key: str) -> tuple[str, int]:
     """Words and decimals of a figure."""
     return WORDS.get(key, (key.replace("_", " "), 3))
-
-
-def figures(result: Mapping[str, Any]) -> str:
-    """Each figure of ``summary`` with mean, its interval, least, greatest."""
-    rows = []
-    for key, spread in result["summary"].items():
-        if not isinstance(spread, Mapping) or "mean" not in spread:
-            continue
-        words, digits = words_of(key)
-        low, high = spread["ci"]
-        rows.append(
-            (
-                words,
-                number(spread["mean"], digits),
-                interval(low, high, digits),
-                number(spread["least"], digits),
-                number(spread["greatest"], digits),
-            )
-        )
-    return table(("what", "mean", "95 % of it", "least", "greatest"), rows)
-
-
-def worst(result: Mapping[str, Any]) -> str:
-    """The seeds that come worst, by figure: ``{figure: [[seed, value]]}``."""
-    rows = []
-    for key, found in result["worst"].items():
-        words, digits = words_of(key)
-        seeds = ", ".join(
-            f"{number(value, digits)} (seed {seed})" for seed, value in found
-        )
-        rows.append((words, seeds))
-    return table(("what", "worst"), rows)
 
 
 def floors(result: Mapping[str, Any]) -> str:

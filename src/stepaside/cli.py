@@ -19,7 +19,7 @@ COMMANDS = {
     "robustness": "Walk under disturbances, on all cores, and tabulate.",
     "plan": "Plan one maneuver: footsteps, ZMP and CoM.",
     "unicycles": "Play one game of two unicycles (Sec. II).",
-    "circle": "Find the circle of a game in closed form.",
+    "circle": "Find all circles of a game, and which starts end on which.",
     "map": "Map games over their starts: closest approach, worst start.",
     "reproduce": "Measure every claim of the paper and write a page.",
     "robot": "Show a robot, or write its model.",

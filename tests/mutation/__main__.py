@@ -2,31 +2,33 @@
 
 import argparse
 import os
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from . import page
+from stepaside.studies.records import RecordFile
+
 from .campaign import record_reach, try_faults
 from .child import warm_up
 from .faults import Fault, draw, faults_of, modules_of
 from .mention import Index
 from .places import optional_keywords
-from .runner import append, rows_of
-from .source import Source
-from .tree import Tree, code_version, digest, files_of
-
-ROOMS = (
-    "planning",
-    "control",
-    "unicycle",
-    "sensing",
-    "robots",
-    "simulation",
-    "studies",
+from .score import (
+    REASONS,
+    RESULTS,
+    ROOMS,
+    head,
+    read_reasons,
+    score_line,
+    summary,
+    write,
 )
+from .source import Source
+from .tree import Tree, digest, files_of
+
 PACKAGES = [f"src/stepaside/{room}" for room in ROOMS]
 WORK = Path("runs/mutation")
-OWN = "test_mutation.py"  # tests of these files are about no fault
+OWN = "test_mutation*.py"  # tests of these files are about no fault
 
 
 def main() -> None:
@@ -46,28 +48,29 @@ def main() -> None:
     chosen = options.tests or [
         file.as_posix()
         for file in files
-        if file.match("tests/test_*.py") and file.name != OWN
+        if file.match("tests/test_*.py") and not file.match(OWN)
     ]
     name = "-".join(["trials", version, f"{options.cap:g}"])
     if options.tests:
-        name += "-" + "-".join(Path(file).stem for file in chosen)
-    rows = root / WORK / f"{name}.jsonl"
-    if not options.list_survivors:
-        _try(root, rows, faults, texts, chosen, options)
-    found = {row["key"]: row for row in rows_of(rows)}
-    summary = page.summary(
-        [found[fault.key] for fault in faults if fault.key in found],
-        sample=count,
-        seed=options.seed,
-        cap=options.cap,
-        version=code_version(root, PACKAGES),
-        reasons=page.read_reasons(root / page.REASONS),
+        own = sha256(" ".join(chosen).encode()).hexdigest()[:12]
+        name += f"-{own}"
+    records = RecordFile(root / WORK / f"{name}.jsonl")
+    # Of the code that is tried, not of what it may be when that has ended.
+    where_from = head(
+        sample=options.sample, seed=options.seed, cap=options.cap
     )
-    for row in summary["survivors"]:
+    if not options.list_survivors:
+        _try(root, records, faults, texts, chosen, options)
+    rows = records.read()
+    found = summary(
+        [rows[fault.key] for fault in faults if fault.key in rows],
+        read_reasons(root / REASONS),
+    )
+    for row in found["survivors"]:
         print(f"{row['file']}:{row['line']} {row['before']} => {row['after']}")
-    print(page.score_line(summary))
+    print(score_line(found))
     if options.write:
-        page.write(root, summary)
+        write(root / RESULTS, where_from, found)
 
 
 def _options() -> argparse.Namespace:
@@ -87,9 +90,19 @@ def _options() -> argparse.Namespace:
         help="processor time of the tests that one fault may take",
     )
     add("--list-survivors", action="store_true", help="of earlier runs")
-    add("--write", action="store_true", help="write results and page of docs")
+    add("--write", action="store_true", help="write the file of results")
     add("--root", type=Path, default=Path(__file__).parents[2])
-    return parser.parse_args()
+    options = parser.parse_args()
+    given = [
+        f"--{name}"
+        for name in ("only", "tests", "sample", "all", "seed", "cap", "root")
+        if getattr(options, name) != parser.get_default(name)
+    ]
+    if options.write and given:
+        parser.error(
+            f"--write is for the run of make mutate, not for {given[0]}"
+        )
+    return options
 
 
 def _drawn(
@@ -109,7 +122,7 @@ def _drawn(
 
 def _try(
     root: Path,
-    rows: Path,
+    records: RecordFile,
     faults: list[Fault],
     texts: dict[str, str],
     tests: list[str],
@@ -117,19 +130,20 @@ def _try(
 ) -> None:
     """Try the faults that have no record yet."""
     warm_up(root)
-    rows.parent.mkdir(parents=True, exist_ok=True)
-    known = {row["key"] for row in rows_of(rows)}
+    work = records.path.parent
+    work.mkdir(parents=True, exist_ok=True)
+    known = records.read()
     todo = [fault for fault in faults if fault.key not in known]
     if not todo:
         return
     trees = [
-        Tree(root, rows.parent / f"tree-{number}", set(texts))
+        Tree(root, work / f"tree-{number}", set(texts))
         for number in range(options.jobs)
     ]
-    index = Index(root, record_reach(root, trees, tests, rows.parent))
+    index = Index(root, record_reach(root, trees, tests, work))
     trials = try_faults(todo, texts, index, trees, options.cap)
     for number, row in enumerate(trials, 1):
-        append(rows, row)
+        records.append(row["key"], row)
         print(f"{number}/{len(todo)} {_told(row)}", flush=True)
 
 

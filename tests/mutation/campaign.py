@@ -80,7 +80,9 @@ def try_faults(
         A record of each fault as its trial ends.
     """
     chosen = {
-        fault.key: trial.choose(index.tests(fault), index.times, cap)
+        fault.key: trial.choose(
+            index.tests(fault), index.times, cap, index.near(fault)
+        )
         for fault in faults
     }
     by_key = {fault.key: fault for fault in faults}
@@ -91,15 +93,29 @@ def try_faults(
     def jobs() -> Iterator[Job]:
         for fault in faults:
             if chosen[fault.key]:
-                yield _job(fault, texts[fault.file], index, chosen[fault.key])
+                yield job_of(
+                    fault, texts[fault.file], index, chosen[fault.key]
+                )
 
     for job, tree, status in run_jobs(jobs(), trees):
         note = tree.path.with_suffix(".note").read_text(encoding="utf-8")
-        yield _row(by_key[job.name], *_verdict(note, status))
+        yield _row(by_key[job.name], *verdict(note, status))
 
 
-def _job(fault: Fault, text: str, index: Index, chosen: list[str]) -> Job:
+def job_of(fault: Fault, text: str, index: Index, chosen: list[str]) -> Job:
+    """Work that tries one fault.
+
+    Args:
+        fault: What to change.
+        text: Text of its file.
+        index: Which test reaches what.
+        chosen: Tests to run.
+    """
+
     def prepare(tree: Tree) -> None:
+        # A process that ends at once must not leave the verdict before it.
+        note = tree.path.with_suffix(".note")
+        note.write_text("before the first test", encoding="utf-8")
         tree.change(fault.file, Source(text).apply(fault.edit))
 
     def work(tree: Tree) -> None:
@@ -110,10 +126,20 @@ def _job(fault: Fault, text: str, index: Index, chosen: list[str]) -> Job:
     return Job(fault.key, prepare, work)
 
 
-def _verdict(note: str, status: int) -> tuple[str, str]:
+def verdict(note: str, status: int) -> tuple[str, str]:
+    """Outcome of a trial, and the test that noticed the fault.
+
+    Args:
+        note: What :func:`.trial.run` has written.
+        status: Wait status of its process.
+    """
     if note.startswith("{"):
-        red = json.loads(note)["red"]
-        return ("killed", red) if red else ("survived", "")
+        found = json.loads(note)
+        if found["red"]:
+            return "killed", found["red"]
+        if found["status"] not in trial.RAN:
+            return "killed", f"pytest ended with {found['status']}"
+        return "survived", ""
     if os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGXCPU:
         return "timeout", note
     return "killed", f"{note} (the process ended)"

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from .faults import Fault
+from .imports import Imports
 from .places import Place, walk
 from .reach import Reach
 
@@ -43,10 +44,17 @@ class Index:
             self._read(path.relative_to(root).as_posix(), path)
         for file, reach in reaches.items():
             self._read_tests(root / file, set(reach.times))
+        self._near = Imports(root, reaches)
+        self._of_file = {f: set(reach.times) for f, reach in reaches.items()}
 
     def tests(self, fault: Fault) -> set[str]:
         """Tests that a fault can act on."""
         return self._tests(fault.file, fault.scope, fault.lines, fault.names)
+
+    def near(self, fault: Fault) -> set[str]:
+        """Tests of the files that import the module of a fault."""
+        files = self._near.of(fault.file)
+        return set().union(*(self._of_file[file] for file in files))
 
     def _tests(
         self,

@@ -36,14 +36,15 @@ class Recorder:
         self._measured = measured
         self.times: dict[str, float] = {}
         self.red: set[str] = set()
+        self._test = ""  # that is running
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_protocol(
         self, item: pytest.Item
     ) -> Iterator[None]:  # pragma: no cover
         """Note what one test reaches, and its time."""
-        began = cpu_time()
-        self._measured.switch_context(item.nodeid)
+        began, self._test = cpu_time(), item.nodeid
+        self._measured.switch_context(self._test)
         try:
             return (yield)
         finally:
@@ -54,7 +55,6 @@ class Recorder:
     def pytest_fixture_setup(
         self,
         fixturedef: pytest.FixtureDef[Any],
-        request: pytest.FixtureRequest,
     ) -> Iterator[None]:
         """Note what a fixture of several tests reaches for all of them."""
         if fixturedef.scope == "function":
@@ -63,7 +63,9 @@ class Recorder:
         try:
             return (yield)
         finally:
-            self._measured.switch_context(request.node.nodeid)
+            # Not the node of the request: that of a shared fixture is no
+            # test, and what the first one reaches would be lost.
+            self._measured.switch_context(self._test)
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         """Note a test that does not pass."""

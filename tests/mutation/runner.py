@@ -1,6 +1,5 @@
 """Many trials at once, each in a process of its own."""
 
-import json
 import os
 import shutil
 import signal
@@ -116,28 +115,6 @@ def _ticks(child: int) -> int:
         return 0
     fields = stat.rpartition(")")[2].split()
     return sum(map(int, fields[11:15])) // 10
-
-
-def append(path: Path, row: dict[str, object]) -> None:
-    """Add one whole record to a file, at once."""
-    line = (json.dumps(row, ensure_ascii=False) + "\n").encode()
-    file = os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o644)
-    try:
-        os.write(file, line)
-    finally:
-        os.close(file)
-
-
-def rows_of(path: Path) -> Iterator[dict[str, str]]:
-    """Whole records of a file; a torn one, of a run cut short, is left."""
-    if not path.exists():
-        return
-    data = path.read_bytes()
-    whole = data[: data.rfind(b"\n") + 1]
-    if whole != data:
-        path.write_bytes(whole)
-    for line in whole.splitlines():
-        yield json.loads(line)
 
 
 def numba_cache(tree: Tree, *, fresh: bool) -> None:

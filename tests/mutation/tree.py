@@ -2,8 +2,6 @@
 
 import os
 import shutil
-import subprocess
-import sys
 from hashlib import sha256
 from pathlib import Path
 
@@ -33,23 +31,6 @@ def digest(root: Path, files: list[Path]) -> str:
         total.update(f"{file.as_posix()}\n".encode())
         total.update((root / file).read_bytes())
     return total.hexdigest()[:12]
-
-
-def code_version(root: Path, packages: list[str]) -> str:
-    """The package's own fingerprint of some of its rooms."""
-    rooms = sorted(Path(package).stem for package in packages)
-    command = (
-        "import sys; from stepaside.studies.version import code_version;"
-        "print(code_version(tuple(sys.argv[1:])))"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", command, *rooms],
-        env={**os.environ, "PYTHONPATH": str(root / "src")},
-        check=True,
-        capture_output=True,
-        text=True,
-    )
-    return done.stdout.strip()
 
 
 class Tree:

@@ -3,8 +3,7 @@
 import json
 import os
 import sys
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 
 import pytest
@@ -12,20 +11,8 @@ import pytest
 from .child import allow, cpu_time, run_tests
 
 QUICK = 0.5  # [s]; slower tests run only when these have noticed nothing
+RAN = (0, 1)  # exit status of pytest when tests ran, all green or not
 START = 60.0  # [s] of processor time to import and collect
-
-
-@dataclass(frozen=True, slots=True)
-class Verdict:
-    """How a trial ended.
-
-    Attributes:
-        outcome: "killed", "survived", "timeout" or "unreached".
-        test: Test that noticed the fault; empty if none did.
-    """
-
-    outcome: str
-    test: str
 
 
 class Judge:
@@ -37,12 +24,25 @@ class Judge:
     """
 
     def __init__(self, times: Mapping[str, float], note: Path) -> None:
-        self._times = times
+        self._times = dict(times)
         self._note = note
         self.red = ""
 
     def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
-        """Keep the chosen tests, the quick ones first."""
+        """Keep the chosen tests, the quick ones first.
+
+        A fault may change the parameters in the name of a test: of a
+        function whose test is gone, the tests with other names stand in.
+        """
+        gone = {
+            _function(test): time
+            for test, time in self._times.items()
+            if test not in {item.nodeid for item in items}
+        }
+        for item in items:
+            if _function(item.nodeid) in gone:
+                time = gone[_function(item.nodeid)]
+                self._times.setdefault(item.nodeid, time)
         items[:] = [item for item in items if item.nodeid in self._times]
         items.sort(key=lambda item: rank(item.nodeid, self._times))
 
@@ -62,6 +62,11 @@ class Judge:
             self.red = report.nodeid
 
 
+def _function(test: str) -> str:
+    """Name of a test without its parameters."""
+    return test.partition("[")[0]
+
+
 def rank(test: str, times: Mapping[str, float]) -> tuple[int, str, float]:
     """Order of a test: by size, then together with those of its file."""
     size = sum(times[test] > limit for limit in (0.05, QUICK, 3.0))
@@ -69,23 +74,30 @@ def rank(test: str, times: Mapping[str, float]) -> tuple[int, str, float]:
 
 
 def choose(
-    tests: Iterable[str], times: Mapping[str, float], cap: float
+    tests: Iterable[str],
+    times: Mapping[str, float],
+    cap: float,
+    near: Collection[str],
 ) -> list[str]:
     """Tests to run, in order, as far as they fit into a time.
+
+    A common name is read by many tests that have nothing to do with the
+    fault, so those that are near it are the first to get a place.
 
     Args:
         tests: Tests that reach a fault.
         times: Usual processor time of each test, in [s].
         cap: Most time for all of them, in [s]; one test always fits.
+        near: Tests of files that import the module of the fault.
     """
     chosen: list[str] = []
     total = 0.0
-    for test in sorted(tests, key=lambda test: rank(test, times)):
-        total += times[test]
-        if chosen and total > cap:
-            break
-        chosen.append(test)
-    return chosen
+    by_rank = sorted(tests, key=lambda test: rank(test, times))
+    for test in sorted(by_rank, key=lambda test: test not in near):
+        if not chosen or total + times[test] <= cap:
+            total += times[test]
+            chosen.append(test)
+    return sorted(chosen, key=lambda test: rank(test, times))
 
 
 def run(tree: Path, chosen: Mapping[str, float], note: Path) -> None:
@@ -102,14 +114,14 @@ def run(tree: Path, chosen: Mapping[str, float], note: Path) -> None:
     allow(START)
     quick = {test: s for test, s in chosen.items() if s <= QUICK}
     slow = {test: s for test, s in chosen.items() if s > QUICK}
-    red = ""
+    red, status = "", 0
     for part in (quick, slow):
-        if part and not red:
+        if part and status == 0:
             files = sorted({test.partition("::")[0] for test in part})
             note.write_text(f"start of {files[0]}", encoding="utf-8")
             allow(START)
             judge = Judge(part, note)
-            run_tests(tree, files, judge, "--exitfirst")
+            status = run_tests(tree, files, judge, "--exitfirst")
             red = judge.red
-    verdict = {"red": red, "cpu": round(cpu_time(), 2)}
+    verdict = {"red": red, "status": status, "cpu": round(cpu_time(), 2)}
     note.write_text(json.dumps(verdict), encoding="utf-8")

@@ -47,7 +47,9 @@ def floor_options(command: F) -> F:
     """Add the options of the floor."""
     for option in (
         click.option(
-            "--friction", type=NumberType("1"), help="Of the soles; 0.8."
+            "--friction",
+            type=NumberType("1"),
+            help="Friction of the soles [1]; 0.8 by default.",
         ),
         click.option(
             "--unevenness",

@@ -93,12 +93,12 @@ def circle(
         from ..report.unicycle_ratios import draw_ratios
 
         draw_ratios(game, figure)
-        result["map"] = figure
+        result["figure"] = figure
     if sweep is not None:
         from ..report.unicycle_sweep import draw_sweep
 
         draw_sweep(game, sweep)
-        result["figure"] = sweep
+        result["sweep"] = sweep
     if as_json:
         print_json(result)
         return

@@ -118,10 +118,28 @@ def print_circles(result: dict[str, Any]) -> None:
         rows = [(k, _text(v)) for k, v in result.items() if k not in lists]
         print_table(rows)
     else:
-        click.echo("There is no circle for these speeds, gains and angle")
-        click.echo("that turns the main way round.")
+        others = bool(result["circles"])
+        end = "" if others else "."
+        click.echo(
+            f"There is no circle for these speeds, gains and angle{end}"
+        )
+        if others:
+            click.echo("that turns the main way round.")
     _print_rows(result["circles"], _COLUMNS)
+    if result["starts"] is not None:
+        _print_ends(result["starts"])
     _print_rows(result.get("remedies", []), _REMEDIES)
+
+
+def _print_ends(starts: dict[str, Any]) -> None:
+    """Print the shares of starts that ended on none of the circles."""
+    click.echo("\n  share of starts that ended on none")
+    print_table(
+        [
+            ("captured", _text(starts["captured_share"])),
+            ("unsettled", _text(starts["unsettled_share"])),
+        ]
+    )
 
 
 def _print_rows(rows: list[dict[str, Any]], columns: dict[str, str]) -> None:

@@ -44,7 +44,9 @@ _OPTIONS: list[Callable[[Any], Any]] = [
         "--saturated", is_flag=True, help="The evader turns by (6), not (4)."
     ),
     click.option(
-        "--release-distance", type=METERS, help="Evasion ends at it; never."
+        "--release-distance",
+        type=METERS,
+        help="Distance [m] at which evasion ends; never by default.",
     ),
     click.option(
         "--preset",

@@ -3,7 +3,6 @@
 import json
 import re
 import sys
-from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -69,7 +68,8 @@ class SeedsType(click.ParamType[range]):
     type=click.IntRange(1),
     metavar="N",
     help="Play N recorded duels again; if all come out the same, take over "
-    "the records that an older version of the code made.",
+    "the records that an older version of the code made, else end with exit "
+    "status 1.",
 )
 @click.option(
     "--output",
@@ -128,7 +128,7 @@ def _verify(
     number: int,
     workers: int | None,
 ) -> None:
-    """Take over older records, or say which came out otherwise."""
+    """Take over older records, or end and say which came out otherwise."""
     from ..studies.duels import verify_duels
     from ..studies.workers import worker_pool
 
@@ -141,11 +141,14 @@ def _verify(
             settings, _file(output), number, executor
         )
     same = len(played) - len(differ)
-    click.echo(
-        f"{same} of {len(played)} duels came out the same"
-        + (f"; otherwise: seeds {differ}" if differ else ""),
-        err=True,
-    )
+    click.echo(f"{same} of {len(played)} duels came out the same", err=True)
+    if differ:
+        click.echo(
+            f"stepaside: seeds {', '.join(map(str, differ))} came out "
+            "otherwise; nothing was taken over or played",
+            err=True,
+        )
+        raise SystemExit(1)
 
 
 def _play(
@@ -188,32 +191,25 @@ def _play(
 def _answer(
     settings: "DuelSettings", seeds: range, records: list[dict[str, Any]]
 ) -> dict[str, Any]:
-    from ..simulation.configuration import plain_settings
+    from ..simulation.configuration import spelled_settings
     from ..studies.duel_statistics import summarise_duels
     from ..studies.duels import stamps_of
+    from ..studies.results import header
 
-    entries = plain_settings(settings)
+    entries = spelled_settings(settings)
     del entries["seed"]  # the seeds stand above
     return {
-        "command": " ".join(["stepaside", *sys.argv[1:]]),
-        "seeds": f"{seeds.start}:{seeds.stop}",
+        **header(entries),
         **stamps_of(records),
-        "settings": _spelled(entries),
+        "seeds": f"{seeds.start}:{seeds.stop}",
         "summary": summarise_duels(settings, records),
     }
 
 
-def _spelled(value: Any) -> Any:
-    """Value with what JSON has no number for spelled out."""
-    if isinstance(value, dict):
-        return {key: _spelled(entry) for key, entry in value.items()}
-    endless = isinstance(value, float) and not isfinite(value)
-    return str(value) if endless else value
-
-
 def _print(summary: dict[str, Any]) -> None:
     for name, share in summary["outcomes"].items():
-        click.echo(_share(name, share))
+        if share["number"]:
+            click.echo(_share(name, share))
     click.echo(_share("on the circle", summary["on_the_circle"]))
     click.echo(
         f"\n{'':<26}{'theory':>9}{'mean':>9}{'+-95 %':>9}"

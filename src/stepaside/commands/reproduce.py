@@ -1,7 +1,6 @@
 """``stepaside reproduce``: every claim of the paper, measured."""
 
 import json
-import os
 from pathlib import Path
 from typing import Any
 
@@ -42,8 +41,8 @@ def reproduce(
 ) -> None:
     """Measure every claim of the paper and write a page about it.
 
-    Takes five and a half minutes of processor time, so about three on two
-    cores. When stopped, it keeps what is done and goes on there next time.
+    Takes some minutes. When stopped, it keeps what is done and goes on there
+    next time. The exit status is 1 if a claim fails, else 0.
     """
     from ..report.claims_page import write_page
     from ..studies.paper_figures import paper_figures
@@ -59,45 +58,40 @@ def reproduce(
     )
     beside = paper_figures(rows, *turns_shown())
     page = write_page(output, rows, beside, figures, made)
+    failed = sum(row["verdict"] != "holds" for row in rows)
     if as_json:
         print_json(rows)
-        return
-    for row in rows:
-        click.echo(
-            f"  {row['verdict']:<6} {row['section']:<13} {row['claim']}"
-        )
-    failed = sum(row["verdict"] != "holds" for row in rows)
-    click.echo(f"\n{len(rows) - failed} of {len(rows)} hold\npage: {page}")
+    else:
+        for row in rows:
+            click.echo(
+                f"  {row['verdict']:<6} {row['section']:<13} {row['claim']}"
+            )
+        held = len(rows) - failed
+        click.echo(f"\n{held} of {len(rows)} hold\npage: {page}")
+    if failed:
+        raise SystemExit(1)
 
 
 def _measure(
     folder: Path, seeds: range, workers: int | None
 ) -> list[dict[str, Any]]:
-    """Measure on all cores, with a progress bar."""
-    from concurrent.futures import ProcessPoolExecutor
-    from multiprocessing import get_context
+    """Measure on all cores, with a progress bar.
 
+    One worker is a process, too: a duel that Ctrl-C cuts short in this one
+    would be kept as though it were whole.
+    """
     from tqdm import tqdm
 
     from ..studies.reproduce import reproduce as measure
+    from ..studies.workers import worker_pool
 
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    with tqdm(desc="claims", unit="run", disable=None) as bar:
+    with (
+        tqdm(desc="claims", unit="run", disable=None) as bar,
+        worker_pool(workers) as executor,
+    ):
 
         def report(number: int, total: int) -> None:
             bar.total, bar.n = total, number
             bar.refresh()
 
-        if workers == 1:
-            return measure(folder, seeds, None, report)
-        with ProcessPoolExecutor(
-            workers, get_context("spawn"), initializer=_stop_at_once
-        ) as executor:
-            return measure(folder, seeds, executor, report)
-
-
-def _stop_at_once() -> None:
-    """Let Ctrl-C end a worker without a word; what is done is kept."""
-    import signal
-
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+        return measure(folder, seeds, executor, report)

@@ -42,15 +42,18 @@ def draw_duels(
         squeeze=False,
         sharex="col",
     )
+    *_, last = groups
     for row, (name, records) in zip(axes, groups.items(), strict=True):
         played = [r for r in records if r["outcome"] == "completed"]
         for axis, (keys, label) in zip(row, PANELS, strict=True):
             _draw_panel(axis, keys, played, summary)
             axis.set_yticks([])
-            if row is axes[-1]:
+            if name == last:
                 axis.set_xlabel(label)
         row[0].set_ylabel(f"{name}\n{len(played)} duels".strip())
-    axes[0][0].legend(fontsize=7)
+    for axis in axes[0][:2]:  # the others draw what the second does
+        if axis.get_legend_handles_labels()[0]:
+            axis.legend(fontsize=7)
     figure.savefig(file)
     plt.close(figure)
 
@@ -75,11 +78,17 @@ def _draw_panel(
             color=colour,
             alpha=0.6,
             hatch=hatch,
-            label=key.split("_")[0],
+            label=key.split("_")[0] if len(keys) > 1 else None,
         )
-        theory = summary["figures"].get(key, {}).get("theory")
-        if theory is not None:
-            axis.axvline(theory, color=THEORY, linestyle="--", linewidth=1.2)
+    figures = [summary["figures"].get(key, {}) for key in keys]
+    for theory in {f.get("theory") for f in figures} - {None}:
+        axis.axvline(
+            theory,
+            color=THEORY,
+            linestyle="--",
+            linewidth=1.2,
+            label="theory",
+        )
     if len(keys) == 1:
         axis.axvline(
             float(np.mean(every)), color=RIGHT, linewidth=1.2, label="mean"

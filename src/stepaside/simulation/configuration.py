@@ -4,6 +4,7 @@ import tomllib
 from collections.abc import Callable
 from dataclasses import asdict
 from enum import Enum
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -68,6 +69,19 @@ def plain_settings(settings: DuelSettings) -> dict[str, Any]:
     """Nested entries of settings, as a configuration has them."""
     entries: dict[str, Any] = _plain(asdict(settings))
     return entries
+
+
+def spelled_settings(settings: DuelSettings) -> dict[str, Any]:
+    """Settings for JSON, with what it has no number for spelled out."""
+    entries: dict[str, Any] = _spelled(plain_settings(settings))
+    return entries
+
+
+def _spelled(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _spelled(entry) for key, entry in value.items()}
+    endless = isinstance(value, float) and not isfinite(value)
+    return str(value) if endless else value
 
 
 def _as_float(value: Any) -> Any:

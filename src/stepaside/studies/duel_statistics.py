@@ -11,6 +11,7 @@ from ..simulation.summary import theory_of
 from .survival import CONFIDENCE, wilson
 
 Record = dict[str, Any]
+OUTCOMES = ("completed", "fall", "contact")  # counted also where there is none
 # Figure of a record, the theory that it stands beside, and which end of its
 # range is bad: farthest from theory (0), largest (1), smallest (-1).
 FIGURES: dict[str, tuple[str | None, int]] = {
@@ -44,7 +45,7 @@ def summarise_duels(
     """
     theory = _theory(settings)
     played = [r for r in records if r["outcome"] == "completed"]
-    outcomes = dict.fromkeys(["completed", *(r["outcome"] for r in records)])
+    outcomes = dict.fromkeys([*OUTCOMES, *(r["outcome"] for r in records)])
     figures = {}
     for name, (beside, bad) in FIGURES.items():
         found = figure_row(name, played, theory.get(beside or ""), bad)
@@ -99,6 +100,7 @@ def figure_row(
     if bad == 0:
         middle = values.mean() if theory is None else theory
         badness = np.abs(values - middle)
+    worst = int(np.argmax(badness))
     sigma = float(values.std(ddof=1)) if len(values) > 1 else 0.0
     half = CONFIDENCE * sigma / sqrt(len(values))
     mean = float(values.mean())
@@ -112,7 +114,8 @@ def figure_row(
         "least": float(values.min()),
         "median": float(np.median(values)),
         "greatest": float(values.max()),
-        "worst_seed": int(having[int(np.argmax(badness))]["seed"]),
+        "worst": float(values[worst]),
+        "worst_seed": int(having[worst]["seed"]),
     }
 
 

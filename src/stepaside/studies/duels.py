@@ -22,6 +22,7 @@ from ..unicycle.laws import make_game
 from ..unicycle.relative import Start
 from .records import RecordFile
 from .version import PHYSICS, code_version, library_versions
+from .workers import give_up
 
 Record = dict[str, Any]
 # Of a record, what depends on the machine and not on the duel alone.
@@ -177,8 +178,7 @@ def run_duels(
             if report is not None:
                 report(len(results))
     except BaseException:
-        for future in futures:
-            future.cancel()
+        give_up(executor, futures)
         raise
     return {key: results[key] for key in wanted}
 
@@ -216,7 +216,11 @@ def verify_duels(
     """
     own = settings_hash(settings)
     records = file.read()
-    old = [key for key in records if key.endswith("/" + own)]
+    old = [
+        key
+        for key, record in records.items()
+        if key.endswith("/" + own) and not is_current(record)
+    ]
     drawn = named_generator(0, "verify").permutation(len(old))[:number]
     keys = [old[i] for i in sorted(drawn.tolist())]
     tasks = [replace(settings, seed=records[key]["seed"]) for key in keys]

@@ -14,8 +14,8 @@ Key = dict[str, Any]
 class Kept:
     """Readings by name in a folder; one file each, written at one stroke.
 
-    A file that is torn, is not ours or was made from another key is set
-    aside, as ``NAME.json.aside``, and its readings are not used.
+    A file that was made from another key is not used, and is replaced. One
+    that is torn or not ours is set aside, as ``NAME.json.aside``.
     """
 
     def __init__(self, folder: Path | None) -> None:
@@ -35,10 +35,13 @@ class Kept:
         file = self._file(name)
         if file is None or not file.exists():
             return None
-        readings = _parse(file, key, wanted)
-        if readings is None:
+        found = _parse(file)
+        if found is not None and found[0] != key:
+            return None
+        if found is None or set(found[1]) != set(wanted):
             file.replace(file.with_name(file.name + ".aside"))
-        return readings
+            return None
+        return found[1]
 
     def store(
         self, name: str, key: Key, readings: Mapping[str, float]
@@ -58,16 +61,16 @@ class Kept:
         return None if self.folder is None else self.folder / f"{name}.json"
 
 
-def _parse(file: Path, key: Key, wanted: Collection[str]) -> Readings | None:
-    """Readings of a file; None unless it is whole, ours and of the key."""
+def _parse(file: Path) -> tuple[Key, Readings] | None:
+    """Key and readings of a file; None unless it is whole and ours."""
     try:
         found = json.loads(file.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
-    if not isinstance(found, dict) or found.get("key") != key:
+    if not isinstance(found, dict):
         return None
-    values = found.get("readings")
-    if not isinstance(values, dict) or set(values) != set(wanted):
+    key, values = found.get("key"), found.get("readings")
+    if not isinstance(key, dict) or not isinstance(values, dict):
         return None
     readings: Readings = {}
     for name, value in values.items():
@@ -77,4 +80,4 @@ def _parse(file: Path, key: Key, wanted: Collection[str]) -> Readings | None:
             readings[name] = float(value)
         else:
             return None
-    return readings
+    return key, readings

@@ -6,8 +6,9 @@ from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from dataclasses import replace
 from pathlib import Path
 
-from .results import note_result, read_results
 from .robustness import DIRECTIONS, Trial, run_trial
+from .trial_results import note_result, read_results
+from .workers import give_up
 
 RESOLUTION = 0.1  # to which a limit is found, in [N s]
 STRIDE = 0.4  # between the first pushes tried, in [N s]
@@ -62,11 +63,16 @@ def outcomes_of(
     """Whether each strength that was tried was survived, by case."""
     outcomes: dict[Trial, dict[float, bool]] = {case: {} for case in cases}
     for key, survived in results.items():
-        trial = Trial(*json.loads(key))
-        case = replace(trial, strength=0.0)
+        case, strength = _case_of(key)
         if case in outcomes:
-            outcomes[case][trial.strength] = survived
+            outcomes[case][strength] = survived
     return outcomes
+
+
+def _case_of(key: str) -> tuple[Trial, float]:
+    """Trial of no strength that a key belongs to, and its strength."""
+    trial = Trial(*json.loads(key))
+    return replace(trial, strength=0.0), trial.strength
 
 
 def search_limits(
@@ -80,16 +86,23 @@ def search_limits(
 
     Args:
         cases: Trials of no strength.
-        file: Results that are done, which grows; None keeps nothing.
+        file: Results that are done, which grows; None keeps nothing. Those
+            of other cases are left out.
         executor: Any executor of ``concurrent.futures``.
         report: Called with the number of cases that are done.
         done: Filled with the results as they come, for whoever stops it.
 
     Returns:
-        Whether each trial was survived, by key.
+        Whether each trial of the cases was survived, by key, beside what
+        was in ``done``.
     """
     results: dict[str, bool] = {} if done is None else done
-    results.update(read_results(file))
+    asked = set(cases)
+    results.update(
+        (key, survived)
+        for key, survived in read_results(file).items()
+        if _case_of(key)[0] in asked
+    )
     outcomes = outcomes_of(cases, results)
     running: dict[Future[tuple[str, bool]], tuple[Trial, float]] = {}
 
@@ -112,8 +125,7 @@ def search_limits(
                 note_result(file, key, survived)
                 start(case)
     except BaseException:
-        for future in running:
-            future.cancel()
+        give_up(executor, running)
         raise
     if report is not None:
         report(len(cases))

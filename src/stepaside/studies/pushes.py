@@ -6,8 +6,12 @@ from typing import Any
 
 from ..planning import GaitSettings
 from .limits import RESOLUTION
+from .results import header
 from .survival import PUSH, summarise_limits, walking_reach
-from .version import PHYSICS, code_version, library_versions
+from .trial_results import ROOMS as WALKS
+
+# The walks, what is tried of them, and the bounds beside it.
+ROOMS = (*WALKS, "studies/limits", "studies/survival")
 
 
 def pushes_result(
@@ -31,20 +35,20 @@ def pushes_result(
         What can be written as JSON.
     """
     asked = " ".join(f"--method {method}" for method in methods)
-    return {
-        "command": f"stepaside robustness --kind push {asked} "
-        f"--body {body} --phases {phases} --seed {seed}",
-        "version": code_version(PHYSICS),
-        "libraries": library_versions(),
-        "settings": {
-            "body": body,
-            "phases": phases,
-            "seed": seed,
-            "push_duration_s": PUSH,
-            "resolution_n_s": RESOLUTION,
-            "reach_m": walking_reach()._asdict(),
-            "gait": asdict(GaitSettings()),
-        },
+    settings = {
+        "body": body,
+        "phases": phases,
+        "seed": seed,
+        "push_duration_s": PUSH,
+        "resolution_n_s": RESOLUTION,
+        "reach_m": walking_reach()._asdict(),
+        "gait": asdict(GaitSettings()),
+    }
+    command = (
+        f"stepaside robustness --kind push {asked} "
+        f"--body {body} --phases {phases} --seed {seed}"
+    )
+    return header(settings, rooms=ROOMS, command=command) | {
         "summary": summarise_limits(rows),
         "rows": list(rows),
     }

@@ -10,6 +10,7 @@ from .jobs import JOBS
 from .kept import Kept, Key
 from .readings import Readings
 from .version import code_version, library_versions
+from .workers import give_up
 
 
 class Trial(NamedTuple):
@@ -125,8 +126,7 @@ def _run(
         for future in as_completed(futures):
             done(futures[future], future.result())
     except BaseException:
-        for future in futures:
-            future.cancel()
+        give_up(executor, futures)
         raise
 
 

@@ -1,7 +1,7 @@
 """Campaigns: what a walk survives, over disturbance, strength and method."""
 
 import json
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Executor, as_completed
 from dataclasses import asdict, dataclass, replace
 from math import pi, radians
@@ -14,7 +14,8 @@ from ..simulation.body_settings import BODIES, BodySettings
 from ..simulation.push import Push
 from ..simulation.settings import PhysicsSettings
 from ..simulation.walk import WalkSettings, run_walk
-from .results import note_result, read_results
+from .trial_results import note_result, read_results
+from .workers import give_up
 
 DIRECTIONS = {"left": 90.0, "right": -90.0, "forward": 0.0, "backward": 180.0}
 STRENGTHS: dict[str, tuple[float, ...]] = {
@@ -153,7 +154,7 @@ def run_trial(trial: Trial) -> tuple[str, bool]:
 
 
 def trials(
-    kinds: Sequence[str],
+    kinds: Iterable[str],
     methods: Sequence[str],
     body: str,
     *,
@@ -208,7 +209,6 @@ def run_campaign(
             if report is not None:
                 report(number)
     except BaseException:
-        for future in futures:
-            future.cancel()
+        give_up(executor, futures)
         raise
     return results

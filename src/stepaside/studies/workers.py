@@ -2,12 +2,35 @@
 
 import os
 import signal
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Iterable
+from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from multiprocessing import connection, get_context, parent_process
 from threading import Thread
+from typing import Any
 
 
-def worker_pool(workers: int | None = None) -> ProcessPoolExecutor:
+class WorkerPool(ProcessPoolExecutor):
+    """Pool of processes that does not outlive its ``with`` block."""
+
+    def __exit__(self, *error: Any) -> None:
+        """End the workers: what is not done by now was given up."""
+        for process in list((self._processes or {}).values()):
+            process.terminate()
+        super().__exit__(*error)
+
+
+def give_up(executor: Executor, futures: Iterable[Future[Any]]) -> None:
+    """Cancel what has not begun.
+
+    A pool of processes is left alone. It drops all work with its workers,
+    and, where they are gone, trips over a future that was cancelled.
+    """
+    if not isinstance(executor, ProcessPoolExecutor):
+        for future in futures:
+            future.cancel()
+
+
+def worker_pool(workers: int | None = None) -> WorkerPool:
     """Pool of processes, one thread of linear algebra each.
 
     A Ctrl-C ends the workers at once, so that none hands in a result that
@@ -17,9 +40,7 @@ def worker_pool(workers: int | None = None) -> ProcessPoolExecutor:
         workers: How many; as many as there are cores by default.
     """
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    return ProcessPoolExecutor(
-        workers, get_context("spawn"), initializer=_begin
-    )
+    return WorkerPool(workers, get_context("spawn"), initializer=_begin)
 
 
 def _begin() -> None:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from math import pi
 
-from ..errors import check_finite, check_positive, check_within
+from ..errors import check_positive, check_within
 
 MOVE_BACK = 0.0
 """Evasion angle of "move back", in [rad]."""
@@ -80,7 +80,6 @@ class Game:
         check_positive(self.evader.speed, "evader_speed", "m/s")
         check_positive(self.pursuer.gain, "pursuer_gain", "1/s")
         check_positive(self.evader.gain, "evader_gain", "1/s")
-        check_finite(self.angle, "angle", "rad")
         check_within(self.angle, 0.0, pi, "angle", "rad")
         largest = min(self.angle, pi - self.angle)
         check_within(self.hysteresis, 0.0, largest, "hysteresis", "rad")

@@ -142,7 +142,8 @@ def largest_stable_sample_time(game: Game, delay: float = 0.0) -> float:
     """Sampling time at which the circle first loses stability, in [s].
 
     Returns:
-        The time; 0 where no sampling time is stable with this delay.
+        The time; 0 where none is found to be stable with this delay: with
+        a delay the search starts at a twentieth of it.
     """
     gain = max(game.pursuer.gain, game.evader.gain)
 

@@ -1,0 +1,43 @@
+"""What an evader can do about a close reversed circle, as docs/unicycles.md.
+
+As ``stepaside circle --remedies``, into a file of results::
+
+    python benchmarks/remedies.py
+"""
+
+from asking import ask
+
+from stepaside.commands.circles import describe_circles, describe_remedies
+from stepaside.commands.game_options import describe_game
+from stepaside.studies.results import header, write_result
+from stepaside.studies.version import UNICYCLES
+from stepaside.unicycle.laws import make_game
+
+GAME = make_game(2.0, 1.0, 1.0, 4.0)  # twice as fast, turning a quarter
+
+
+def main() -> None:
+    """Play the same starts with every remedy."""
+    parser = ask(__doc__, "circle-remedies.json")
+    parser.add_argument("--starts", type=int, default=1000)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--body", type=float, default=0.1, help="[m]")
+    asked = parser.parse_args()
+    settings = {
+        "game": describe_game(GAME),
+        "starts": asked.starts,
+        "seed": asked.seed,
+        "body_m": asked.body,
+    }
+    drawn = asked.starts, asked.seed, asked.body
+    rooms = (*UNICYCLES, "commands/circles")
+    write_result(
+        asked.output,
+        header(settings, rooms=rooms, libraries=("numpy", "numba")),
+        starts=describe_circles(GAME, *drawn)["starts"],
+        rows=describe_remedies(GAME, *drawn),
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,116 @@
+"""Many duels: what came out, figures with intervals, the worst seeds."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from .duels import words_of
+from .markdown import interval, number, table
+
+Result = Mapping[str, Any]
+KINDS = {
+    "duels-ideal": "ideal",
+    "duels-hardware": "hardware-like",
+    "duels-cameras": "ideal, with cameras",
+}
+OPTIONS = {
+    "duels-ideal": "",
+    "duels-hardware": " --body hardware",
+    "duels-cameras": " --sensing cameras",
+}
+
+
+def outcomes(results: Mapping[str, Result]) -> str:
+    """Shares of each kind of duel, with their 95 % intervals."""
+    head = ("body", "seeds", "duels", "played to the end", "on the circle")
+    rows = []
+    for name, words in KINDS.items():
+        if name not in results:
+            continue
+        result = results[name]
+        summary, seeds = result["summary"], result["settings"]["seeds"]
+        rows.append(
+            (
+                words,
+                f"{seeds[0]}:{seeds[1]}",
+                str(summary["duels"]),
+                _share(summary["outcomes"]["completed"]),
+                _share(summary["on_the_circle"]),
+            )
+        )
+    return table(head, rows)
+
+
+def spreads(result: Result) -> str:
+    """Figures of the duels of one kind: mean, interval, range, worst."""
+    head = ("what", "theory", "mean", "95 % of it", "least", "greatest")
+    rows = []
+    for key, row in result["summary"]["figures"].items():
+        words, digits = words_of(key)
+        rows.append(
+            (
+                words,
+                number(row["theory"], digits),
+                number(row["mean"], digits),
+                interval(row["mean_low"], row["mean_high"], digits),
+                number(row["least"], digits),
+                f"{number(row['greatest'], digits)}",
+            )
+        )
+    return table(head, rows)
+
+
+def worst_seeds(results: Mapping[str, Result]) -> str:
+    """Seeds that come worst, and how to see them again."""
+    head = ("body", "what", "value", "again")
+    rows = []
+    for name, words in KINDS.items():
+        if name not in results:
+            continue
+        figures = results[name]["summary"]["figures"]
+        for key, row in figures.items():
+            if row["least"] == row["greatest"]:
+                continue
+            label, digits = words_of(key)
+            rows.append(
+                (
+                    words,
+                    label,
+                    number(row["worst"], digits),
+                    f"`stepaside duel --seed {row['worst_seed']}"
+                    f"{OPTIONS[name]}`",
+                )
+            )
+    return table(head, rows)
+
+
+def certified(results: Mapping[str, Result]) -> str:
+    """Closest approaches beside the template's certificate."""
+    head = (
+        "body",
+        "starts certified",
+        "nearer than certified",
+        "median excess [m]",
+        "least excess [m]",
+        "its seed",
+    )
+    rows = []
+    for name, words in KINDS.items():
+        if name not in results:
+            continue
+        row = results[name]["summary"]["certificate"]
+        rows.append(
+            (
+                words,
+                _share(row["certified"]),
+                _share(row["nearer_than_certified"]),
+                number(row["median_excess_m"]),
+                number(row["least_excess_m"]),
+                str(row["worst_seed"]),
+            )
+        )
+    return table(head, rows)
+
+
+def _share(found: Mapping[str, Any]) -> str:
+    ends = 100.0 * found["low"], 100.0 * found["high"]
+    return f"{found['number']} of {found['of']} ({interval(*ends, 1)} %)"

@@ -1,0 +1,50 @@
+"""Faults put into the package, and those that no test noticed."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from .markdown import number, table
+
+PACKAGE = "src/stepaside/"
+
+
+def score(result: Mapping[str, Any]) -> str:
+    """How many faults were noticed, in all and by package."""
+    outcomes = result["outcomes"]
+    rows = [
+        (
+            name,
+            str(found["faults"]),
+            str(found["noticed"]),
+            f"{number(100.0 * found['noticed'] / found['faults'], 0)} %",
+        )
+        for name, found in result["packages"].items()
+    ]
+    return (
+        f"**{result['noticed']} of {result['faults']} faults noticed "
+        f"({number(100.0 * result['score'], 1)} %)**; drawn by seed "
+        f"{result['settings']['seed']}, on code version "
+        f"`{result['version']}`. {outcomes.get('timeout', 0)} were noticed "
+        f"by a time limit; {outcomes.get('unreached', 0)} are reached by no "
+        f"test.\n\n{table(('package', 'faults', 'noticed', 'share'), rows)}"
+    )
+
+
+def survivors(result: Mapping[str, Any]) -> str:
+    """Each fault that no test noticed, with the reason."""
+    if not result["survivors"]:
+        return "None."
+    rows = [
+        (
+            f"{row['file'].removeprefix(PACKAGE)}:{row['line']}",
+            _code(row["before"]),
+            _code(row["after"]),
+            row["reason"] or ("" if row["reached"] else "no test reaches"),
+        )
+        for row in result["survivors"]
+    ]
+    return table(("where", "before", "after", "reason"), rows)
+
+
+def _code(text: str) -> str:
+    return f"`{text}`" if text else "nothing"

@@ -1,0 +1,37 @@
+"""Which trials of a campaign were survived, for the code that played them."""
+
+from pathlib import Path
+from typing import Any
+
+from .records import RecordFile
+from .version import PHYSICS, code_version, library_versions
+
+# What a walk depends on, and the file that sets up the walk of a trial.
+ROOMS = (*PHYSICS, "studies/robustness")
+
+
+def read_results(file: Path | None) -> dict[str, bool]:
+    """Results of this version of the code and libraries, by key of the trial.
+
+    Args:
+        file: Of :class:`RecordFile`; those of another version, and lines
+            that are not whole, are left out. None holds nothing.
+    """
+    if file is None:
+        return {}
+    now = _stamp()
+    return {
+        key: bool(record["survived"])
+        for key, record in RecordFile(file).read().items()
+        if all(record.get(name) == now[name] for name in now)
+    }
+
+
+def note_result(file: Path | None, key: str, survived: bool) -> None:
+    """Add a result, at once, so that a campaign can be stopped any time."""
+    if file is not None:
+        RecordFile(file).append(key, {"survived": survived} | _stamp())
+
+
+def _stamp() -> dict[str, Any]:
+    return {"version": code_version(ROOMS), "libraries": library_versions()}

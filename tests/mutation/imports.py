@@ -1,0 +1,61 @@
+"""Which files import a module, by its name or from its package."""
+
+import ast
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+
+class Imports:
+    """What some files import.
+
+    Args:
+        root: Tree with the package and the files.
+        files: Files that import, relative to it.
+    """
+
+    def __init__(self, root: Path, files: Iterable[str]) -> None:
+        self._root = root
+        self._names = {
+            file: set(_imported(_tree(root / file))) for file in files
+        }
+
+    def of(self, module: str) -> set[str]:
+        """Files that import a module, or from its package what it defines.
+
+        Args:
+            module: File below ``src/``, relative to the tree.
+        """
+        parts = Path(module).relative_to("src").with_suffix("").parts
+        if parts[-1] == "__init__":
+            parts = parts[:-1]
+        package = ".".join(parts[:-1])
+        wanted = {".".join(parts)} | {
+            f"{package}.{name}"
+            for name in _defined(_tree(self._root / module))
+        }
+        return {file for file, names in self._names.items() if names & wanted}
+
+
+def _tree(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+def _imported(tree: ast.Module) -> Iterator[str]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            yield node.module
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+
+
+def _defined(tree: ast.Module) -> Iterator[str]:
+    """Names of functions, classes and constants of a module."""
+    for node in tree.body:
+        match node:
+            case ast.FunctionDef(name=name) | ast.ClassDef(name=name):
+                yield name
+            case ast.Assign(targets=[ast.Name(id=name)]):
+                yield name
+            case ast.AnnAssign(target=ast.Name(id=name)):
+                yield name

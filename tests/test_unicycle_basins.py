@@ -1,0 +1,139 @@
+"""Test how long games are played, and what an evader can change."""
+
+from dataclasses import replace
+from math import inf, pi, radians
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.unicycle.basins import (
+    Basins,
+    find_basins,
+    random_starts,
+    shares_of,
+)
+from stepaside.unicycle.circles import circles_of
+from stepaside.unicycle.kernel import Outcomes, play_games
+from stepaside.unicycle.laws import Game, TurningLaw, make_game
+from stepaside.unicycle.relative import Start
+from stepaside.unicycle.remedies import Remedy, alternatives
+from stepaside.unicycle.simulate import simulate
+
+FAST = make_game(2.0, 1.0, 1.0, 4.0)
+SLOW_EVADER = make_game(1.0, 1.0, 2.0, 0.5)
+NO_CIRCLE = make_game(1.0, 1.0, 0.5, 2.0, 0.0)
+STARTS = [[1.0, 0.3, 0.2], [2.0, -0.4, 0.5]]
+
+
+def slowest(game: Game) -> float:
+    return max(c.time_constant_s for c in circles_of(game) if c.stable)
+
+
+@pytest.mark.parametrize("game", [FAST, SLOW_EVADER])
+def test_games_last_until_the_slower_player_has_settled(game: Game) -> None:
+    slow = min(game.pursuer.gain, game.evader.gain)
+    found = find_basins(game, np.array(STARTS))
+    assert found.duration == pytest.approx(40.0 / slow + 8.0 * slowest(game))
+    unit = game.evader.speed / slow
+    drawn = random_starts(game, 500)
+    assert 0.3 * unit <= drawn[:, 0].min() < 0.4 * unit
+    assert 3.9 * unit < drawn[:, 0].max() <= 4.0 * unit
+
+
+def test_wait_is_bounded_and_needs_no_circle() -> None:
+    starts = np.array(STARTS)
+    assert find_basins(NO_CIRCLE, starts).duration == pytest.approx(80.0)
+    wide = make_game(1.0, 1.0, 0.5, 2.0, 0.02)
+    assert slowest(wide) > 100.0
+    assert find_basins(wide, starts).duration == pytest.approx(800.0)
+    asked = find_basins(FAST, starts, duration=0.5)
+    assert asked.duration == 0.5 and asked.unsettled == 1.0
+    assert asked.captured == 0.0 and asked.shares == (0.0, 0.0)
+
+
+def test_shares_count_games_per_circle() -> None:
+    out = play_games(FAST, STARTS, 0.1)
+    some = replace(out, circle=np.array([1, -1, 1, 0]))
+    assert shares_of(some, 3) == (0.25, 0.5, 0.0)
+
+
+def test_mean_closest_approach_is_that_of_the_games() -> None:
+    starts = np.array(STARTS)
+    found = find_basins(FAST, starts, duration=5.0)
+    runs = [simulate(FAST, Start(*start), 5.0) for start in STARTS]
+    expected = sum(run.closest_distance for run in runs) / 2.0
+    assert found.closest_distance == pytest.approx(expected, abs=1e-5)
+
+
+def test_alternatives_change_one_thing_each() -> None:
+    game = make_game(2.0, 1.0, 1.0, 4.0, 2.0, hysteresis=0.3)
+    found = alternatives(game)
+    slower, half, double = (
+        replace(game, evader=replace(game.evader, gain=gain))
+        for gain in (1.0, 2.0, 8.0)
+    )
+    tried = {
+        f"angle {degrees} deg": replace(
+            game, angle=radians(degrees), hysteresis=0.0
+        )
+        for degrees in (30, 60, 120, 150)
+    }
+    expected = {
+        "as it is": game,
+        "keeps its side": make_game(
+            2, 1, 1, 4, 2.0, side_rule="latched", hysteresis=0.3
+        ),
+        "widest hysteresis": replace(game, hysteresis=pi - 2.0),
+        **tried,
+        "saturated law": replace(game, law=TurningLaw.SATURATED),
+        "gain times 0.25": slower,
+        "gain times 0.5": half,
+        "gain times 2": double,
+    }
+    assert found == expected
+    saturated = replace(game, law=TurningLaw.SATURATED)
+    back = alternatives(saturated)["proportional law"]
+    assert back == game
+
+
+@pytest.mark.parametrize(
+    ("gain", "step"), [(1.0, 0.02), (4.0, 0.02), (10.0, 0.01), (0.1, 0.1)]
+)
+def test_step_is_short_for_both_players(
+    gain: float, step: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from stepaside.unicycle import basins
+
+    asked: list[dict[str, float]] = []
+
+    def watched(
+        game: Game, starts: Any, duration: float, **options: float
+    ) -> Outcomes:
+        asked.append(options)
+        return play_games(game, starts, duration, **options)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(basins, "play_games", watched)
+    game = make_game(2.0, 1.0, 1.0, gain)
+    starts = np.array(STARTS)
+    find_basins(game, starts, duration=0.1, capture_distance=0.2)
+    assert asked[0] == pytest.approx({"step": step, "capture_distance": 0.2})
+
+
+def test_seed_decides_the_random_starts() -> None:
+    one, other = (random_starts(FAST, 5, seed=seed) for seed in (1, 2))
+    np.testing.assert_array_equal(one, random_starts(FAST, 5, seed=1))
+    assert np.all(one != other)
+
+
+def test_end_distance_counts_only_circles_that_are_reached() -> None:
+    circles = circles_of(FAST)
+    for shares, turned, distance in (
+        ((0.75, 0.0), 0.0, circles[0].distance_m),
+        ((0.5, 0.25), 0.25, circles[1].distance_m),
+        ((0.0, 0.0), 0.0, inf),
+    ):
+        basins = Basins(circles, shares, 0.0, 0.0, 1.0, 4, 1.0)
+        remedy = Remedy("as it is", FAST, basins)
+        assert remedy.reversed_share == turned
+        assert remedy.end_distance_m == distance
