@@ -70,7 +70,8 @@ def main() -> None:
     entries = spelled_settings(settings) | {"seeds": [seeds.start, seeds.stop]}
     write_result(
         output,
-        header(entries) | stamps_of(records),
+        header(entries),
+        played_by=stamps_of(records),
         records={
             "file": file.path.name,
             "settings": settings_hash(settings),

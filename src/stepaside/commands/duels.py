@@ -200,7 +200,7 @@ def _answer(
     del entries["seed"]  # the seeds stand above
     return {
         **header(entries),
-        **stamps_of(records),
+        "played_by": stamps_of(records),
         "seeds": f"{seeds.start}:{seeds.stop}",
         "summary": summarise_duels(settings, records),
     }
