@@ -1,6 +1,5 @@
 """``stepaside duels``: many duels from many starts, on all cores."""
 
-import json
 import re
 import sys
 from pathlib import Path
@@ -103,9 +102,9 @@ def duels(
     answer = _answer(settings, seeds, records)
     if output is not None and records:
         from ..report.duels_figure import draw_duels
+        from ..studies.results import write_result
 
-        text = json.dumps(answer, indent=1, allow_nan=False) + "\n"
-        (output / SUMMARY).write_text(text, encoding="utf-8")
+        answer = write_result(output / SUMMARY, answer)
         draw_duels({"": records}, answer["summary"], output / FIGURE)
     if as_json:
         print_json(answer)
