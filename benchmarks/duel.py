@@ -5,8 +5,8 @@ from time import process_time
 import mujoco
 import numpy as np
 
-from stepaside.simulation.duel import Duel
-from stepaside.simulation.settings import DuelSettings
+from stepaside.games.duel import Duel
+from stepaside.games.settings import DuelSettings
 
 
 def measure_duel(duration: float = 60.0) -> dict[str, float]:

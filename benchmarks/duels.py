@@ -16,10 +16,9 @@ from hashlib import sha256
 from asking import ask, seeds_of
 from tqdm import tqdm
 
-from stepaside.control.settings import ControlSettings
-from stepaside.simulation.body_settings import BODIES
-from stepaside.simulation.configuration import spelled_settings
-from stepaside.simulation.settings import DuelSettings
+from stepaside.control.balance.settings import ControlSettings
+from stepaside.games.configuration import spelled_settings
+from stepaside.games.settings import DuelSettings
 from stepaside.studies.duel_statistics import summarise_duels
 from stepaside.studies.duels import (
     run_duels,
@@ -30,6 +29,7 @@ from stepaside.studies.duels import (
 from stepaside.studies.records import RecordFile
 from stepaside.studies.results import header, write_result
 from stepaside.studies.workers import worker_pool
+from stepaside.world.body_settings import BODIES
 
 KINDS = {
     "ideal": DuelSettings(),

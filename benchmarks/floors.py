@@ -10,12 +10,12 @@ from typing import NamedTuple
 from asking import ask, seeds_of
 from gathering import Row, finished, gather, spread
 
-from stepaside.control.settings import STABILISED
-from stepaside.simulation import DuelSettings, run_duel
-from stepaside.simulation.body_settings import BODIES
-from stepaside.simulation.settings import PhysicsSettings
-from stepaside.simulation.summary import summarise
+from stepaside.control.balance.settings import STABILISED
+from stepaside.games import DuelSettings, run_duel
+from stepaside.games.summary import summarise
 from stepaside.studies.results import header, write_result
+from stepaside.world.body_settings import BODIES
+from stepaside.world.settings import PhysicsSettings
 
 FLOORS = {
     "as it is": PhysicsSettings(),

@@ -19,13 +19,13 @@ from asking import ask, seeds_of
 from gathering import finished, gather
 
 from stepaside.control import ControlScheme
+from stepaside.games.configuration import plain_settings
+from stepaside.games.duel import DuelResult, run_duel
+from stepaside.games.settings import DuelSettings
+from stepaside.games.summary import summarise, theory_of
 from stepaside.poses import wrap_angle
-from stepaside.simulation.configuration import plain_settings
-from stepaside.simulation.duel import DuelResult, run_duel
-from stepaside.simulation.settings import DuelSettings
-from stepaside.simulation.sight import IdealLineOfSight
-from stepaside.simulation.summary import summarise, theory_of
 from stepaside.studies.results import header, write_result
+from stepaside.world.sight import IdealLineOfSight
 
 DURATION = 90.0  # of a duel, in [s]
 

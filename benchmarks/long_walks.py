@@ -11,11 +11,11 @@ from math import radians
 from asking import ask
 from gathering import Row, finished, gather
 
-from stepaside.control.settings import STABILISED
-from stepaside.simulation.body_settings import BODIES
-from stepaside.simulation.walk import WalkSettings, run_walk
-from stepaside.simulation.walk_summary import summarise_walk
+from stepaside.control.balance.settings import STABILISED
+from stepaside.games.walk import WalkSettings, run_walk
+from stepaside.games.walk_summary import summarise_walk
 from stepaside.studies.results import header, write_result
+from stepaside.world.body_settings import BODIES
 
 KEPT = ("outcome", "duration_s", "steps", "speed_ratio", "yaw_ratio")
 

@@ -11,10 +11,10 @@ from typing import NamedTuple
 from asking import RESULTS, ask, seeds_of
 from gathering import Row, finished, gather, spread
 
-from stepaside.simulation import DuelSettings, run_duel
-from stepaside.simulation.person_settings import PersonSettings
-from stepaside.simulation.summary import summarise
+from stepaside.games import DuelSettings, run_duel
+from stepaside.games.summary import summarise
 from stepaside.studies.results import header, write_result
+from stepaside.world.person_settings import PersonSettings
 
 DURATION = 90.0  # of each, in [s]
 WALKS = {

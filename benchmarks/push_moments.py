@@ -16,6 +16,7 @@ import mujoco
 import numpy as np
 from asking import RESULTS, ask
 
+from stepaside.games.walk import NAME, Walker
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -26,7 +27,6 @@ from stepaside.planning import (
 from stepaside.planning.capture import push_bound
 from stepaside.planning.steady import steady_plan
 from stepaside.poses import Array
-from stepaside.simulation.walk import NAME, Walker
 from stepaside.studies.pushes import ROOMS
 from stepaside.studies.results import header, read_result, write_result
 from stepaside.studies.robustness import DIRECTIONS, Trial, settings_of

@@ -12,14 +12,14 @@ from typing import NamedTuple
 from asking import RESULTS, ask, machine, seeds_of
 from gathering import Row, finished, gather, spread
 
-from stepaside.simulation import DuelSettings, run_duel
-from stepaside.simulation.camera_settings import (
+from stepaside.games import DuelSettings, run_duel
+from stepaside.games.summary import summarise
+from stepaside.studies.results import header, write_result
+from stepaside.world.camera_settings import (
     CLUTTER,
     CameraSettings,
     RoomSettings,
 )
-from stepaside.simulation.summary import summarise
-from stepaside.studies.results import header, write_result
 
 BEYOND = 0.85  # start distance beyond which the trigger tells something, [m]
 LIBRARIES = ("mujoco", "numpy", "opencv-python-headless")

@@ -10,8 +10,8 @@ from math import degrees, radians
 from asking import ask
 from gathering import Row, finished, gather, spread
 
-from stepaside.simulation.walk import WalkSettings, run_walk
-from stepaside.simulation.walk_summary import summarise_walk
+from stepaside.games.walk import WalkSettings, run_walk
+from stepaside.games.walk_summary import summarise_walk
 from stepaside.studies.results import header, write_result
 
 DURATION = 40.0  # [s]

@@ -19,8 +19,8 @@ from typing import Any
 from asking import ask, machine
 from playwright.sync_api import sync_playwright
 
+from stepaside.games import DuelSettings
 from stepaside.report.viewer.page import Page
-from stepaside.simulation import DuelSettings
 from stepaside.studies.results import header, write_result
 from stepaside.studies.version import PHYSICS
 

@@ -13,11 +13,11 @@ from typing import Any
 from asking import ask, seeds_of
 from gathering import Row, finished, gather, spread
 
-from stepaside.control.settings import STABILISED, StabiliserSettings
-from stepaside.simulation.body_settings import BODIES, BodySettings
-from stepaside.simulation.walk import WalkSettings, run_walk
-from stepaside.simulation.walk_summary import summarise_walk
+from stepaside.control.balance.settings import STABILISED, StabiliserSettings
+from stepaside.games.walk import WalkSettings, run_walk
+from stepaside.games.walk_summary import summarise_walk
 from stepaside.studies.results import header, write_result
+from stepaside.world.body_settings import BODIES, BodySettings
 
 BEARING = 0.3  # desired heading at every step, in [rad]
 ESTIMATED = 30.0  # duration of the walks whose estimates are judged, in [s]
@@ -32,7 +32,7 @@ QUIET = {
 }
 VARIANTS: dict[str, BodySettings] = {
     "hardware": HARDWARE,
-    "no-play": replace(HARDWARE, play=0.0),
+    "no-play": replace(HARDWARE, backlash=0.0),
     "no-delay": replace(HARDWARE, delay_cycles=0, imu_delay_cycles=0),
     "ideal-torque": replace(
         HARDWARE, torque_speed=False, efficiency=1.0, servo_gain=1.0

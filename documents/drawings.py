@@ -9,8 +9,8 @@ from .store import Store
 
 def duel(store: Store, file: Path) -> None:
     """The duel of the README, from its committed trajectories."""
+    from stepaside.games.settings import DuelSettings
     from stepaside.report.duel_figure import draw_duel
-    from stepaside.simulation.settings import DuelSettings
 
     result = store.result("duel-seed7")
     with np.load(store.folder / result["trajectories"]["file"]) as arrays:

@@ -6,12 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.control import perception as module
-from stepaside.control.body import Measurement
-from stepaside.control.perception import (
-    FrameReport,
-    Perception,
-)
+from stepaside.perception import perception as module
+from stepaside.perception.perception import FrameReport, Perception
 from stepaside.poses import Pose, wrap_angle
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
@@ -19,6 +15,7 @@ from stepaside.sensing.camera_model import CameraModel
 from stepaside.sensing.colour_detector import RED, ColourDetection
 from stepaside.sensing.depth_detector import DepthScene, Obstacle, Shadow
 from stepaside.sensing.images import ColourImage, DepthImage
+from stepaside.sensing.measurement import Measurement
 from stepaside.sensing.track import Observation, Track
 
 TICK = 0.02

@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from stepaside.control.body import Measurement, Sighting
 from stepaside.control.phase import Phase
 from stepaside.control.scheme import ControlScheme
 from stepaside.planning import Direction, GaitSettings
 from stepaside.poses import Array, Pose
 from stepaside.robots.kinematics import BodyReference
+from stepaside.sensing.measurement import Measurement, Sighting
 
 GAIT = GaitSettings()
 
@@ -72,7 +72,7 @@ class FakeFeedback:
         self.landed: list[Any] = []
         self.fits = 0
         self.joints = SimpleNamespace(update=lambda angles, t: t + angles)
-        self.lead = SimpleNamespace(ahead=lambda time, d: d + self.turn)
+        self.prediction = SimpleNamespace(ahead=lambda time, d: d + self.turn)
 
     def update(self, _: Any, row: Any, step: Any) -> BodyReference:
         """Pass the reference on, lifted."""

@@ -4,19 +4,19 @@ from typing import Any
 
 import numpy as np
 
-from stepaside.control.body import Measurement
-from stepaside.control.estimation import BodyState
-from stepaside.control.reference import Row
-from stepaside.control.settings import ControlSettings, StabiliserSettings
-from stepaside.control.stabiliser import Stabiliser
-from stepaside.control.step import Step
-from stepaside.planning import (
-    Foot,
-    GaitSettings,
+from stepaside.control.balance.estimation import BodyState
+from stepaside.control.balance.settings import (
+    ControlSettings,
+    StabiliserSettings,
 )
+from stepaside.control.balance.stabiliser import Stabiliser
+from stepaside.control.balance.step import Step
+from stepaside.control.reference import ReferenceSample
+from stepaside.planning import Foot, GaitSettings
 from stepaside.poses import Pose
 from stepaside.robots.forward import MeasuredPosture
 from stepaside.robots.kinematics import BodyReference
+from stepaside.sensing.measurement import Measurement
 
 GAIT = GaitSettings()
 
@@ -46,7 +46,7 @@ BODY = BodyReference(
 )
 
 
-ROW = Row(BODY, ZMP, DCM)
+ROW = ReferenceSample(BODY, ZMP, DCM)
 
 
 class FakeEstimator:

@@ -4,9 +4,9 @@ from typing import Any
 
 import pytest
 
-from stepaside.control.ankles import Ankles, Tilt
-from stepaside.control.estimation import BodyState
-from stepaside.control.settings import StabiliserSettings
+from stepaside.control.balance.ankles import Ankles, Tilt
+from stepaside.control.balance.estimation import BodyState
+from stepaside.control.balance.settings import StabiliserSettings
 
 GAINS = StabiliserSettings(ankle=0.5, ankle_rate=0.04, ankle_bandwidth=50.0)
 TICK = 0.004

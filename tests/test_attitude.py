@@ -5,7 +5,7 @@ from math import hypot
 import numpy as np
 import pytest
 
-from stepaside.control.attitude import CALIBRATION, AttitudeFilter
+from stepaside.control.balance.attitude import CALIBRATION, AttitudeFilter
 from stepaside.planning.settings import GRAVITY
 from stepaside.poses import Array
 from stepaside.robots.head import rotation

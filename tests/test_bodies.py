@@ -9,18 +9,18 @@ import pytest
 
 from stepaside.control import ControlScheme
 from stepaside.errors import ConfigurationError
+from stepaside.games.walk import Walker, WalkSettings
 from stepaside.planning import GaitSettings
 from stepaside.poses import Array, Pose
+from stepaside.randomness import named_generator
 from stepaside.robots.description import load_robot
 from stepaside.robots.kinematics import LegKinematics
-from stepaside.simulation.body_settings import BODIES, BodySettings
-from stepaside.simulation.push import Push
-from stepaside.simulation.randomness import named_generator
-from stepaside.simulation.robot import SimulatedRobot
-from stepaside.simulation.settings import PhysicsSettings
-from stepaside.simulation.spoilt import SpoiltSensors
-from stepaside.simulation.walk import Walker, WalkSettings
-from stepaside.simulation.world import World, build_model
+from stepaside.world.body_settings import BODIES, BodySettings
+from stepaside.world.push import Push
+from stepaside.world.robot import SimulatedRobot
+from stepaside.world.sensor_errors import SensorErrors
+from stepaside.world.settings import PhysicsSettings
+from stepaside.world.world import World, build_model
 
 
 def standing(
@@ -55,7 +55,7 @@ def test_a_request_moves_the_joint_after_the_delay() -> None:
 
 def test_within_its_play_a_motor_pulls_at_nothing() -> None:
     """Only legs have play; half of its width lies on either side."""
-    robot, scheme = standing(BodySettings(play=radians(2.0)))
+    robot, scheme = standing(BodySettings(backlash=radians(2.0)))
     names = scheme.kinematics.joint_names
     hip, head = names.index("LHipPitch"), names.index("HeadYaw")
     world = robot.world
@@ -103,7 +103,7 @@ def test_sensors_are_quantised_biased_noisy_and_late() -> None:
         imu_delay_cycles=2,
         force_gain_error=0.2,
     )
-    sensors = SpoiltSensors(body, named_generator(1, "sensors"))
+    sensors = SensorErrors(body, named_generator(1, "sensors"))
     angles = sensors.encoders(np.array([0.0149, -0.0151]))
     np.testing.assert_allclose(angles, [0.01, -0.02])
     zero = np.zeros(3)
@@ -189,7 +189,7 @@ def test_bodies_refuse_nonsense(name: str) -> None:
 
 def test_presets_go_from_ideal_to_hardware() -> None:
     assert BODIES["ideal"].has_ideal_servos
-    assert not BODIES["ideal"].spoils_sensors
+    assert not BODIES["ideal"].has_sensor_errors
     hardware = BODIES["hardware"]
     assert hardware.delay_cycles * hardware.cycle == pytest.approx(0.036)
-    assert not hardware.has_ideal_servos and hardware.spoils_sensors
+    assert not hardware.has_ideal_servos and hardware.has_sensor_errors

@@ -2,7 +2,7 @@
 
 import pytest
 
-from stepaside.control.estimation import BodyState
+from stepaside.control.balance.estimation import BodyState
 
 ZERO = (0.0, 0.0)
 

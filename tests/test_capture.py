@@ -17,11 +17,7 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.planning.capture import (
-    Reach,
-    held_regions,
-    push_bound,
-)
+from stepaside.planning.capture import Reach, held_regions, push_bound
 from stepaside.planning.steady import steady_plan
 from stepaside.planning.support import half_planes
 

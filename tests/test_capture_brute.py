@@ -17,11 +17,7 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.planning.capture import (
-    Reach,
-    push_bound,
-    ray_interval,
-)
+from stepaside.planning.capture import Reach, push_bound, ray_interval
 from stepaside.planning.steady import steady_plan
 from stepaside.poses import Array
 

@@ -7,9 +7,9 @@ from math import isnan, radians
 import numpy as np
 import pytest
 
+from stepaside.games import DuelSettings, run_duel
+from stepaside.games.duel import NAMES, Outcome
 from stepaside.poses import Array
-from stepaside.simulation import DuelSettings, run_duel
-from stepaside.simulation.duel import NAMES, Outcome
 from stepaside.studies import physics_readings as read
 from stepaside.studies import walk_measures
 from stepaside.studies.claims import Claim

@@ -195,7 +195,7 @@ def test_robot_writes_a_model_that_mujoco_opens(tmp_path: Path) -> None:
 def test_interrupted_duel_reports_what_was_done(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    from stepaside.simulation.duel import Duel
+    from stepaside.games.duel import Duel
 
     tick = Duel.tick
 

@@ -8,25 +8,24 @@ from typing import Any
 
 import pytest
 
-from stepaside.control.settings import ControlSettings
+from stepaside.control.balance.settings import ControlSettings
 from stepaside.errors import ConfigurationError
-from stepaside.simulation.assembly import with_cycle
-from stepaside.simulation.body_settings import BODIES, BodySettings
-from stepaside.simulation.configuration import (
+from stepaside.games.assembly import with_cycle
+from stepaside.games.configuration import (
     dump_configuration,
     load_configuration,
     parse_configuration,
 )
-from stepaside.simulation.push import Push
-from stepaside.simulation.settings import (
+from stepaside.games.settings import (
     DuelSettings,
-    PhysicsSettings,
-    SightSettings,
     StartSettings,
     StrategySettings,
 )
-from stepaside.simulation.start import draw_start
-from stepaside.simulation.walk import WalkSettings
+from stepaside.games.start import draw_start
+from stepaside.games.walk import WalkSettings
+from stepaside.world.body_settings import BODIES, BodySettings
+from stepaside.world.push import Push
+from stepaside.world.settings import PhysicsSettings, SightSettings
 
 # The edges of every range: both are allowed, what lies beyond is not.
 RANGES: list[tuple[Callable[..., Any], str, float, float]] = [
@@ -49,7 +48,7 @@ RANGES: list[tuple[Callable[..., Any], str, float, float]] = [
     (BodySettings, "efficiency", 0.01, 1.0),
     (BodySettings, "stiffness", 0.0, 1.0),
     (BodySettings, "servo_gain", 0.01, 10.0),
-    (BodySettings, "play", 0.0, 0.2),
+    (BodySettings, "backlash", 0.0, 0.2),
     (BodySettings, "encoder_step", 0.0, 1e9),
     (BodySettings, "gyro_noise", 0.0, 1e9),
     (BodySettings, "gyro_bias", 0.0, 1e9),
@@ -180,7 +179,7 @@ def test_a_body_may_ask_for_its_own_control_period() -> None:
         ("efficiency", 0.99),
         ("stiffness", 0.99),
         ("servo_gain", 1.01),
-        ("play", 0.001),
+        ("backlash", 0.001),
     ],
 )
 def test_any_effect_on_servos_makes_them_honest(
@@ -188,7 +187,7 @@ def test_any_effect_on_servos_makes_them_honest(
 ) -> None:
     effects: dict[str, Any] = {name: value}
     body = replace(BodySettings(), **effects)
-    assert not body.has_ideal_servos and not body.spoils_sensors
+    assert not body.has_ideal_servos and not body.has_sensor_errors
 
 
 @pytest.mark.parametrize(
@@ -207,12 +206,12 @@ def test_any_effect_on_servos_makes_them_honest(
 def test_any_error_of_a_sensor_spoils_them(name: str) -> None:
     effects: dict[str, Any] = {name: 1}
     body = replace(BodySettings(), **effects)
-    assert body.spoils_sensors and body.has_ideal_servos
+    assert body.has_sensor_errors and body.has_ideal_servos
 
 
 def test_wrong_masses_leave_servos_and_sensors_alone() -> None:
     body = BodySettings(mass_error=0.1, com_error=0.01, cycle=0.012)
-    assert body.has_ideal_servos and not body.spoils_sensors
+    assert body.has_ideal_servos and not body.has_sensor_errors
 
 
 def test_presets_are_those_of_the_documents() -> None:
@@ -231,7 +230,7 @@ def test_presets_are_those_of_the_documents() -> None:
         "efficiency": 0.6,
         "stiffness": 1.0,
         "servo_gain": 0.75,
-        "play": pytest.approx(pi / 180.0),
+        "backlash": pytest.approx(pi / 180.0),
         "encoder_step": pytest.approx(2.0 * pi / 4096),
         "gyro_noise": 0.01,
         "gyro_bias": 0.01,

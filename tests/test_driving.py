@@ -4,8 +4,8 @@ from math import radians
 
 import pytest
 
-from stepaside.control.driving import Driven
 from stepaside.planning import Direction
+from stepaside.strategies.driving import Driven
 
 
 @pytest.mark.parametrize("turn", [-1.0, -0.5, 0.0, 1.0])

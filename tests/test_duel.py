@@ -7,17 +7,14 @@ import mujoco
 import numpy as np
 import pytest
 
+from stepaside.games import DuelResult, DuelSettings, Outcome, run_duel
+from stepaside.games.settings import StartSettings, StrategySettings
+from stepaside.games.summary import summarise, theory_of
 from stepaside.planning import PRESETS
 from stepaside.poses import Array
 from stepaside.robots.description import load_robot
-from stepaside.simulation import DuelResult, DuelSettings, Outcome, run_duel
-from stepaside.simulation.settings import (
-    PhysicsSettings,
-    StartSettings,
-    StrategySettings,
-)
-from stepaside.simulation.summary import summarise, theory_of
-from stepaside.simulation.world import build_model
+from stepaside.world.settings import PhysicsSettings
+from stepaside.world.world import build_model
 
 
 @cache

@@ -10,25 +10,19 @@ import numpy as np
 import pytest
 
 from stepaside.control import ControlScheme, Phase
-from stepaside.control.settings import STABILISED
-from stepaside.simulation import duel as module
-from stepaside.simulation.body_settings import BODIES
-from stepaside.simulation.camera_settings import RoomSettings, Thing
-from stepaside.simulation.duel import (
-    Duel,
-    DuelResult,
-    Outcome,
-    Progress,
-    run_duel,
-)
-from stepaside.simulation.robot import SimulatedRobot
-from stepaside.simulation.servos import HonestServos
-from stepaside.simulation.settings import (
+from stepaside.control.balance.settings import STABILISED
+from stepaside.games import duel as module
+from stepaside.games.duel import Duel, DuelResult, Outcome, Progress, run_duel
+from stepaside.games.settings import (
     DuelSettings,
-    SightSettings,
     StartSettings,
     StrategySettings,
 )
+from stepaside.world.body_settings import BODIES
+from stepaside.world.camera_settings import RoomSettings, Thing
+from stepaside.world.robot import SimulatedRobot
+from stepaside.world.servos import HonestServos
+from stepaside.world.settings import SightSettings
 
 START = StartSettings(1.3, 0.4, -0.2)
 

@@ -17,7 +17,7 @@ from click.testing import CliRunner
 
 from stepaside.cli import main
 from stepaside.commands.duels import duels
-from stepaside.simulation.settings import (
+from stepaside.games.settings import (
     DuelSettings,
     StartSettings,
     StrategySettings,

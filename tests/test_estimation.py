@@ -6,12 +6,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.control.body import Measurement
-from stepaside.control.estimation import BodyState, StateEstimator, _level
+from stepaside.control.balance.estimation import (
+    BodyState,
+    StateEstimator,
+    _level,
+)
 from stepaside.poses import Array
 from stepaside.robots.forward import MeasuredPosture
 from stepaside.robots.head import rotation
 from stepaside.robots.kinematics import BodyReference
+from stepaside.sensing.measurement import Measurement
 
 ETA, TICK = 6.0, 0.004
 GRAVITY = np.array([0.0, 0.0, 9.81])

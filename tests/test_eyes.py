@@ -19,14 +19,14 @@ from stepaside.sensing.images import (
     Percept,
     SonarEcho,
 )
-from stepaside.simulation import eyes as eyes_module
-from stepaside.simulation.camera_settings import (
+from stepaside.world import eyes as eyes_module
+from stepaside.world.camera_settings import (
     CameraSettings,
     ColourSettings,
     DepthSettings,
     SonarSettings,
 )
-from stepaside.simulation.eyes import Eyes, Grain, Stream, _size_for
+from stepaside.world.eyes import Eyes, Grain, Stream, _size_for
 
 TICK = 0.004
 HEAD = load_head(load_robot("nao"))

@@ -13,6 +13,8 @@ import pytest
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
+from stepaside.games.settings import DuelSettings
+from stepaside.games.summary import cycle_mean, theory_of
 from stepaside.planning import (
     Direction,
     Foot,
@@ -26,8 +28,6 @@ from stepaside.report import compare_figure, duel_figure, plan_figure
 from stepaside.report.replay import Run
 from stepaside.report.soles import draw_heading, draw_soles
 from stepaside.report.style import COLOURS, EVADER, PURSUER, THEORY, plt
-from stepaside.simulation.settings import DuelSettings
-from stepaside.simulation.summary import cycle_mean, theory_of
 
 TIMES = np.linspace(0.0, 18.0, 901)
 SETTINGS = DuelSettings(seed=7)

@@ -5,15 +5,15 @@ from math import atan2, degrees, hypot, pi, radians
 import numpy as np
 import pytest
 
-from stepaside.robots.description import load_robot
-from stepaside.robots.head import load_head
-from stepaside.sensing.gaze import (
+from stepaside.perception.gaze import (
     REACH,
     SCAN_PITCH,
     SCAN_SPEED,
     SPEED,
     Gaze,
 )
+from stepaside.robots.description import load_robot
+from stepaside.robots.head import load_head
 
 TICK = 0.004
 COUPLING = load_head(load_robot("nao")).coupling

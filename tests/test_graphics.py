@@ -11,13 +11,8 @@ import numpy as np
 import pytest
 
 from stepaside.errors import ConfigurationError
-from stepaside.simulation import graphics
-from stepaside.simulation.graphics import (
-    BACKENDS,
-    Screen,
-    _works,
-    choose_renderer,
-)
+from stepaside.world import graphics
+from stepaside.world.graphics import BACKENDS, Screen, _works, choose_renderer
 
 
 @pytest.fixture

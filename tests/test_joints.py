@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.control.joints import JointCorrection
+from stepaside.control.balance.joints import JointCorrection
 from stepaside.poses import Array
 
 TICK = 0.01

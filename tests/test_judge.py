@@ -8,12 +8,12 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.control.body import Sighting
-from stepaside.control.perception import FrameReport
+from stepaside.games.judge import Judge, Tally
+from stepaside.perception.perception import FrameReport
 from stepaside.robots.head import Mount, rotation
 from stepaside.sensing.camera_model import CameraModel
 from stepaside.sensing.images import ColourImage, DepthImage, SonarEcho
-from stepaside.simulation.judge import Judge, Tally
+from stepaside.sensing.measurement import Sighting
 
 CAMERA = CameraModel.of_field_of_view(80, 60, radians(60.0), radians(45.0))
 PERIOD = 0.1

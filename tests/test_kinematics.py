@@ -5,12 +5,7 @@ import numpy as np
 import pytest
 
 from stepaside.errors import ReachError
-from stepaside.planning import (
-    Direction,
-    Foot,
-    GaitSettings,
-    ManeuverPlanner,
-)
+from stepaside.planning import Direction, Foot, GaitSettings, ManeuverPlanner
 from stepaside.robots.description import load_robot
 from stepaside.robots.kinematics import BodyReference, LegKinematics
 

@@ -10,9 +10,15 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 from by_hand import KINDS, corners_by_hand, plan_of
-from stepaside.control.mpc import IntrinsicallyStableMpc, MpcResult
-from stepaside.control.settings import STABILISED, ControlSettings, MpcSettings
+from stepaside.control.balance.mpc import IntrinsicallyStableMpc, MpcResult
+from stepaside.control.balance.settings import (
+    STABILISED,
+    ControlSettings,
+    MpcSettings,
+)
 from stepaside.errors import ConfigurationError
+from stepaside.games.walk import WalkSettings, run_walk
+from stepaside.games.walk_summary import summarise_walk
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -22,9 +28,7 @@ from stepaside.planning import (
     ManeuverPlanner,
 )
 from stepaside.poses import Array
-from stepaside.simulation.push import Push
-from stepaside.simulation.walk import WalkSettings, run_walk
-from stepaside.simulation.walk_summary import summarise_walk
+from stepaside.world.push import Push
 
 GAIT = GaitSettings()
 EDGE = 0.002

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from by_hand import KINDS, plan_of
-from stepaside.control.mpc import IntrinsicallyStableMpc
-from stepaside.control.settings import MpcSettings
+from stepaside.control.balance.mpc import IntrinsicallyStableMpc
+from stepaside.control.balance.settings import MpcSettings
 from stepaside.planning import GaitSettings, ManeuverPlan
 from stepaside.poses import Array
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.control.observing import (
+from stepaside.perception.observing import (
     CLOSEST,
     GUESS,
     NEARBY,

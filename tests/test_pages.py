@@ -10,11 +10,11 @@ import pytest
 from click.testing import CliRunner
 
 from stepaside.cli import main
+from stepaside.games.duel import Duel
+from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.report.replay import load_run
 from stepaside.report.replay_page import write_page
 from stepaside.report.viewer.session import Session
-from stepaside.simulation.duel import Duel
-from stepaside.simulation.settings import DuelSettings, StartSettings
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 ARTEFACTS = Path(__file__).parent.parent / "artefacts"

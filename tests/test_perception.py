@@ -16,12 +16,10 @@ from made_up_eyes import (
     colour,
     trim,
 )
-from stepaside.control.body import Measurement
-from stepaside.control.perception import (
-    Perception,
-)
+from stepaside.perception.perception import Perception
 from stepaside.poses import Pose, wrap_angle
 from stepaside.sensing.colour_detector import RED
+from stepaside.sensing.measurement import Measurement
 
 
 @pytest.fixture

@@ -6,12 +6,9 @@ from typing import Any
 import pytest
 
 from made_up_eyes import Eyes
-from stepaside.control.body import Sighting
-from stepaside.control.perception import (
-    STARE,
-    UNSEEN,
-)
+from stepaside.perception.perception import STARE, UNSEEN
 from stepaside.poses import Pose
+from stepaside.sensing.measurement import Sighting
 
 
 @pytest.fixture

@@ -19,12 +19,7 @@ from made_up_eyes import (
     show,
     trim,
 )
-from stepaside.control.perception import (
-    BROAD,
-    CHEST,
-    EAR,
-    FRESH,
-)
+from stepaside.perception.perception import BROAD, CHEST, EAR, FRESH
 from stepaside.poses import Pose, wrap_angle
 from stepaside.sensing.depth_detector import Shadow
 from stepaside.sensing.images import SonarEcho

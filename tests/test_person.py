@@ -10,16 +10,12 @@ from click.testing import CliRunner
 
 from stepaside.cli import main
 from stepaside.errors import ConfigurationError
+from stepaside.games.duel import Duel, run_duel
+from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.summary import summarise
 from stepaside.poses import Pose
-from stepaside.simulation.duel import Duel, run_duel
-from stepaside.simulation.person_motion import (
-    Motion,
-    read_path,
-    template_approach,
-)
-from stepaside.simulation.person_settings import PersonSettings
-from stepaside.simulation.settings import DuelSettings, StartSettings
-from stepaside.simulation.summary import summarise
+from stepaside.world.person_motion import Motion, read_path, template_approach
+from stepaside.world.person_settings import PersonSettings
 
 START = StartSettings(distance=1.5, pursuer_offset=0.0, evader_offset=0.0)
 

@@ -9,16 +9,12 @@ import numpy as np
 import pytest
 
 from stepaside.control import Phase
+from stepaside.games.people import furnisher_of, meet, stand_person, walkers_of
+from stepaside.games.settings import DuelSettings
 from stepaside.planning import GaitSettings
 from stepaside.poses import Array, Pose
 from stepaside.robots.head import rotation
-from stepaside.simulation.people import (
-    furnisher_of,
-    meet,
-    stand_person,
-    walkers_of,
-)
-from stepaside.simulation.person import (
+from stepaside.world.person import (
     HIP,
     PARTS,
     STEP,
@@ -28,9 +24,8 @@ from stepaside.simulation.person import (
     parts_of,
     pose_figure,
 )
-from stepaside.simulation.person_motion import Motion
-from stepaside.simulation.person_settings import PersonSettings
-from stepaside.simulation.settings import DuelSettings
+from stepaside.world.person_motion import Motion
+from stepaside.world.person_settings import PersonSettings
 
 TICK = 0.05
 

@@ -9,13 +9,13 @@ from scipy.integrate import solve_ivp
 
 from stepaside.errors import ConfigurationError
 from stepaside.poses import Pose, wrap_angle
-from stepaside.simulation.person_motion import (
+from stepaside.world.person_motion import (
     Motion,
     Place,
     read_path,
     template_approach,
 )
-from stepaside.simulation.person_settings import PersonSettings
+from stepaside.world.person_settings import PersonSettings
 
 EVADER = (1.0, -2.0)
 

@@ -8,7 +8,7 @@ import pytest
 
 from stepaside.errors import ConfigurationError
 from stepaside.poses import Array
-from stepaside.simulation.push import Push, Pusher
+from stepaside.world.push import Push, Pusher
 
 STEP = 0.002
 MODEL = f"""

@@ -8,14 +8,14 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.control.estimation import BodyState
-from stepaside.control.settings import STABILISED
+from stepaside.control.balance.estimation import BodyState
+from stepaside.control.balance.settings import STABILISED
+from stepaside.games.record import Recorder
+from stepaside.games.walk import Walker, WalkSettings
+from stepaside.games.walk_record import COLUMNS, WalkRecorder
 from stepaside.planning import Foot
 from stepaside.poses import Array, Pose
-from stepaside.simulation.record import Recorder
-from stepaside.simulation.settings import PhysicsSettings
-from stepaside.simulation.walk import Walker, WalkSettings
-from stepaside.simulation.walk_record import COLUMNS, WalkRecorder
+from stepaside.world.settings import PhysicsSettings
 
 
 def fake(number: int, qpos: Array, world: Any) -> tuple[Any, Any]:

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from stepaside.control.reference import (
+    ReferenceSample,
     ReferenceTable,
-    Row,
     standing_reference,
 )
 from stepaside.planning import (
@@ -46,7 +46,7 @@ def in_odometry(points: Array) -> Array:
     return np.concatenate([turned, points[2:] + FRAME.theta])
 
 
-def check(row: Row, made: ManeuverPlan, passed: float) -> None:
+def check(row: ReferenceSample, made: ManeuverPlan, passed: float) -> None:
     """Compare a row with the plan at a time since it began."""
     at = made.sample([passed])
     np.testing.assert_allclose(row.body.com[:2], in_odometry(at.com[0]))

@@ -12,7 +12,7 @@ from stepaside.errors import ConfigurationError
 from stepaside.report.film import Shot
 from stepaside.report.replay import load_run
 from stepaside.report.replay_page import write_page
-from stepaside.simulation.graphics import RAYCAST, choose_renderer
+from stepaside.world.graphics import RAYCAST, choose_renderer
 
 needs_graphics = pytest.mark.skipif(
     choose_renderer() == RAYCAST,

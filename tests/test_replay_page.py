@@ -14,16 +14,16 @@ import numpy as np
 import pytest
 
 from stepaside.errors import ConfigurationError
+from stepaside.games.duel import run_duel
+from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.summary import summarise
 from stepaside.poses import Array
 from stepaside.report import film, film_layers
 from stepaside.report.film import Cinema, Shot
 from stepaside.report.replay import Run, Stage
 from stepaside.report.replay_page import shapes_of, write_page
 from stepaside.report.style import COLOURS, THEORY
-from stepaside.simulation.duel import run_duel
-from stepaside.simulation.graphics import RAYCAST
-from stepaside.simulation.settings import DuelSettings, StartSettings
-from stepaside.simulation.summary import summarise
+from stepaside.world.graphics import RAYCAST
 
 TIMES: Array = 0.02 * np.arange(102, dtype=float)  # 2.02 s
 

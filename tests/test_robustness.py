@@ -9,11 +9,9 @@ from typing import Any
 
 import pytest
 
-from stepaside.control.settings import ControlSettings
+from stepaside.control.balance.settings import ControlSettings
 from stepaside.errors import ConfigurationError
 from stepaside.planning import GaitSettings
-from stepaside.simulation.body_settings import BODIES
-from stepaside.simulation.settings import PhysicsSettings
 from stepaside.studies import limits, robustness, trial_results
 from stepaside.studies.limits import (
     limit_of,
@@ -33,6 +31,8 @@ from stepaside.studies.robustness import (
     trials,
 )
 from stepaside.studies.version import code_version
+from stepaside.world.body_settings import BODIES
+from stepaside.world.settings import PhysicsSettings
 
 TRIAL = Trial("friction", 0.3, "", 0.0, 5, "measured", "hardware")
 PUSH = Trial("push", 1.2, "left", 0.25, 5, "closed-form", "ideal")
@@ -86,7 +86,7 @@ def test_each_kind_changes_what_it_is_named_after_and_nothing_else() -> None:
             {"cycle": 0.012, "delay_cycles": 4, "imu_delay_cycles": 1},
             {},
         ),
-        ("play", 2.0, {"play": pi / 90.0}, {}),
+        ("backlash", 2.0, {"backlash": pi / 90.0}, {}),
         ("model", 0.06, {"mass_error": 0.06, "com_error": 0.006}, {}),
     ):
         walk = settings_of(replace(TRIAL, kind=kind, strength=x))
@@ -104,7 +104,7 @@ def test_noise_is_a_multiple_of_the_hardwares_on_any_body() -> None:
     hardware, ideal = BODIES["hardware"], BODIES["ideal"]
     assert walk.body.gyro_noise == 2.0 * hardware.gyro_noise
     assert walk.body.force_gain_error == 2.0 * hardware.force_gain_error
-    assert walk.body.play == ideal.play
+    assert walk.body.backlash == ideal.backlash
     silent = louder(hardware, 0.0)
     assert silent.accelerometer_bias == silent.gyro_bias == 0.0
 
@@ -138,13 +138,17 @@ def test_an_unknown_kind_is_refused() -> None:
 def test_grid_has_each_strength_with_each_seed_and_no_pushes() -> None:
     grid = list(
         trials(
-            ["push", "play", "noise"], ["mpc"], "ideal", seeds=3, first_seed=7
+            ["push", "backlash", "noise"],
+            ["mpc"],
+            "ideal",
+            seeds=3,
+            first_seed=7,
         )
     )
-    number = len(STRENGTHS["play"]) + len(STRENGTHS["noise"])
+    number = len(STRENGTHS["backlash"]) + len(STRENGTHS["noise"])
     assert len(grid) == 3 * number == len({trial.key for trial in grid})
     assert {trial.seed for trial in grid} == {7, 8, 9}
-    assert {trial.kind for trial in grid} == {"play", "noise"}
+    assert {trial.kind for trial in grid} == {"backlash", "noise"}
 
 
 def test_cases_cover_methods_directions_and_phases() -> None:
@@ -158,7 +162,7 @@ def test_a_campaign_goes_on_where_it_was(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     asked = survives(monkeypatch, lambda trial: trial.strength < 1.5)
-    grid = list(trials(["play"], ["mpc"], "ideal", seeds=2))
+    grid = list(trials(["backlash"], ["mpc"], "ideal", seeds=2))
     file, told = tmp_path / "trials.jsonl", list[int]()
     first = run_campaign(grid[:4], file, Inline())
     assert asked == grid[:4]

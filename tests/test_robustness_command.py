@@ -15,7 +15,7 @@ from stepaside.studies.results import read_result
 from stepaside.studies.survival import bound_at
 from stepaside.studies.trial_results import ROOMS
 
-ASKED = "--kind play --kind push --method mpc --seeds 3 --phases 1".split()
+ASKED = "--kind backlash --kind push --method mpc --seeds 3 --phases 1".split()
 
 
 def survive_a_newton_second(
@@ -60,7 +60,7 @@ def test_survival_says_what_made_it(tmp_path: Path) -> None:
     made = read_result(tmp_path / "survival.json")
     assert made["rooms"] == list(ROOMS)
     assert made["settings"] == {
-        "kinds": ["play", "push"],
+        "kinds": ["backlash", "push"],
         "methods": ["mpc"],
         "body": "ideal",
         "phases": 1,
@@ -72,7 +72,17 @@ def test_survival_says_what_made_it(tmp_path: Path) -> None:
 
 def test_other_kinds_are_counted_over_their_seeds() -> None:
     answer = json.loads(
-        run(*("--kind", "play", "--method", "mpc", "--seeds", "3", "--json"))
+        run(
+            *(
+                "--kind",
+                "backlash",
+                "--method",
+                "mpc",
+                "--seeds",
+                "3",
+                "--json",
+            )
+        )
     )
     assert answer["limits"] == []
     assert {row["trials"] for row in answer["survival"]} == {3}

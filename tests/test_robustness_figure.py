@@ -58,23 +58,26 @@ def test_survival_is_drawn_in_percent_over_strength(
     drawn: list[Any], tmp_path: Path
 ) -> None:
     rows = [
-        survival("play", "mpc", 2.0, 1),
-        survival("play", "mpc", 1.0, 3),
-        survival("play", "measured", 1.0, 4),
+        survival("backlash", "mpc", 2.0, 1),
+        survival("backlash", "mpc", 1.0, 3),
+        survival("backlash", "measured", 1.0, 4),
         survival("push", "mpc", 0.4, 2),
     ]
     file = tmp_path / "survival.png"
-    draw_survival(rows, {"play": "deg", "push": "N s"}, file)
+    draw_survival(rows, {"backlash": "deg", "push": "N s"}, file)
     assert file.read_bytes()[:4] == b"\x89PNG"
-    play, push = drawn[0].axes
-    assert (play.get_title(), push.get_title()) == ("play", "push left")
-    assert play.get_xlabel() == "play [deg]"
-    lines = lines_of(play)
+    backlash, push = drawn[0].axes
+    assert (backlash.get_title(), push.get_title()) == (
+        "backlash",
+        "push left",
+    )
+    assert backlash.get_xlabel() == "backlash [deg]"
+    lines = lines_of(backlash)
     assert set(lines) == {"mpc", "measured"}
     np.testing.assert_allclose(
         lines["mpc"].get_xydata(), [[1.0, 75.0], [2.0, 25.0]]
     )
-    band = play.collections[0].get_paths()[0].vertices
+    band = backlash.collections[0].get_paths()[0].vertices
     assert {(1.0, 30.0), (1.0, 60.0), (2.0, 10.0), (2.0, 20.0)} <= {
         (round(x, 9), round(y, 9)) for x, y in band.tolist()
     }

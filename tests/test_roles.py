@@ -6,11 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stepaside.control import Evasion, Pursuit
-from stepaside.control.roles import Walk
 from stepaside.errors import ConfigurationError
 from stepaside.planning import Direction
 from stepaside.poses import wrap_angle
+from stepaside.strategies.roles import Evasion, Pursuit, Walk
 
 
 def test_pursuer_heads_for_the_other_wherever_it_is() -> None:

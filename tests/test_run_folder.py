@@ -11,17 +11,17 @@ import numpy as np
 import pytest
 
 from stepaside.errors import ConfigurationError
-from stepaside.poses import Array
-from stepaside.report import run_folder, sight_figure
-from stepaside.report.replay import Run, Stage, load_run
-from stepaside.report.run_folder import check_output, free_folder, write_run
-from stepaside.simulation.duel import DuelResult, run_duel
-from stepaside.simulation.settings import (
+from stepaside.games.duel import DuelResult, run_duel
+from stepaside.games.settings import (
     DuelSettings,
     StartSettings,
     StrategySettings,
 )
-from stepaside.simulation.summary import summarise, theory_of
+from stepaside.games.summary import summarise, theory_of
+from stepaside.poses import Array
+from stepaside.report import run_folder, sight_figure
+from stepaside.report.replay import Run, Stage, load_run
+from stepaside.report.run_folder import check_output, free_folder, write_run
 
 SETTINGS = DuelSettings(
     seed=3, duration=0.4, start=StartSettings(1.3, 0.4, -0.2)

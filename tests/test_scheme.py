@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from made_up_robot import FIRST, GAIT, STEP, TICK, FakeRole, Run, measure
-from stepaside.control.body import Sighting
 from stepaside.control.phase import Phase
 from stepaside.control.scheme import SETTLING
 from stepaside.planning import Direction, Foot
 from stepaside.poses import Pose
+from stepaside.sensing.measurement import Sighting
 
 
 def test_it_stands_midway_until_the_other_is_a_reason() -> None:

@@ -16,9 +16,9 @@ from made_up_robot import (
     feeding,
     measure,
 )
-from stepaside.control.body import Sighting
 from stepaside.control.phase import Phase
 from stepaside.planning import Foot
+from stepaside.sensing.measurement import Sighting
 
 
 def test_it_waits_until_feedback_is_ready() -> None:

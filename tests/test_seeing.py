@@ -8,12 +8,19 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.control.perception import FrameReport
 from stepaside.errors import ConfigurationError
-from stepaside.sensing.gaze import REACH, SCAN_SPEED
+from stepaside.games import DuelResult, DuelSettings, Outcome, run_duel
+from stepaside.games.configuration import (
+    dump_configuration,
+    parse_configuration,
+)
+from stepaside.games.duel import Duel
+from stepaside.games.settings import StartSettings
+from stepaside.games.summary import summarise
+from stepaside.perception.gaze import REACH, SCAN_SPEED
+from stepaside.perception.perception import FrameReport
 from stepaside.sensing.images import ColourImage, SonarEcho
-from stepaside.simulation import DuelResult, DuelSettings, Outcome, run_duel
-from stepaside.simulation.camera_settings import (
+from stepaside.world.camera_settings import (
     CLUTTER,
     CameraSettings,
     ColourSettings,
@@ -21,14 +28,7 @@ from stepaside.simulation.camera_settings import (
     RoomSettings,
     Thing,
 )
-from stepaside.simulation.configuration import (
-    dump_configuration,
-    parse_configuration,
-)
-from stepaside.simulation.duel import Duel
-from stepaside.simulation.graphics import BACKENDS, choose_renderer
-from stepaside.simulation.settings import StartSettings
-from stepaside.simulation.summary import summarise
+from stepaside.world.graphics import BACKENDS, choose_renderer
 
 RAYS = CameraSettings(colour=ColourSettings(renderer="raycast"))
 SEEING = DuelSettings(

@@ -7,17 +7,17 @@ import cv2
 import numpy as np
 import pytest
 
+from stepaside.games import seeing
+from stepaside.games.judge import Tally
+from stepaside.games.seeing import Seeing
+from stepaside.games.settings import DuelSettings
 from stepaside.robots.description import load_robot
-from stepaside.simulation import seeing
-from stepaside.simulation.camera_settings import (
+from stepaside.world.camera_settings import (
     CameraSettings,
     ColourSettings,
     RoomSettings,
     Thing,
 )
-from stepaside.simulation.judge import Tally
-from stepaside.simulation.seeing import Seeing
-from stepaside.simulation.settings import DuelSettings
 
 RAYS = CameraSettings(colour=ColourSettings(renderer="raycast"))
 SETTINGS = DuelSettings(

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from stepaside.poses import Array
-from stepaside.simulation.body_settings import BodySettings
-from stepaside.simulation.servos import HonestServos, IdealServos
+from stepaside.world.body_settings import BodySettings
+from stepaside.world.servos import HonestServos, IdealServos
 
 KP, KV, STALL = 20.0, 0.5, 1.5
 STEP, CYCLE = 0.002, 0.012

@@ -7,13 +7,13 @@ from threading import Event
 import pytest
 
 from stepaside.control import Phase
-from stepaside.control.driving import TURN, Driven
 from stepaside.errors import ConfigurationError
+from stepaside.games.duel import Duel
+from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.report.viewer import session as live
 from stepaside.report.viewer.session import Session
 from stepaside.report.viewer.words import words_of
-from stepaside.simulation.duel import Duel
-from stepaside.simulation.settings import DuelSettings, StartSettings
+from stepaside.strategies.driving import TURN, Driven
 
 START = StartSettings(distance=1.0, pursuer_offset=0.0, evader_offset=0.0)
 SETTINGS = DuelSettings(start=START)

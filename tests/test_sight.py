@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.control.body import Sighting
-from stepaside.simulation.settings import SightSettings
-from stepaside.simulation.sight import IdealLineOfSight
+from stepaside.sensing.measurement import Sighting
+from stepaside.world.settings import SightSettings
+from stepaside.world.sight import IdealLineOfSight
 
 OWN: Any = SimpleNamespace(position=(1.0, 2.0), heading=2.5)
 OTHER: Any = SimpleNamespace(position=(-0.5, 1.6), heading=0.0)

@@ -10,12 +10,12 @@ import pytest
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
+from stepaside.games.judge import Still
 from stepaside.poses import Array
 from stepaside.report.sight_figure import FOUND, TRUE, draw_sight, picture
 from stepaside.report.style import COLOURS, THEORY, plt
 from stepaside.sensing.camera_model import CameraModel
 from stepaside.sensing.images import ColourImage, DepthImage
-from stepaside.simulation.judge import Still
 
 CAMERA = CameraModel(160, 120, 140.0, 140.0)
 

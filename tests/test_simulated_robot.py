@@ -7,23 +7,25 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.control import Phase, Pursuit, Sighting
-from stepaside.control.settings import OPEN_LOOP, STABILISED
+from stepaside.control import Phase
+from stepaside.control.balance.settings import OPEN_LOOP, STABILISED
+from stepaside.games.assembly import assemble
 from stepaside.planning import GaitSettings
 from stepaside.poses import Array, Pose
+from stepaside.randomness import named_generator
 from stepaside.robots.description import load_robot
 from stepaside.robots.forward import FOOT_FORCES
 from stepaside.robots.kinematics import LegKinematics
-from stepaside.simulation.assembly import assemble
-from stepaside.simulation.body_settings import BodySettings
-from stepaside.simulation.push import Push
-from stepaside.simulation.randomness import named_generator
-from stepaside.simulation.robot import SimulatedRobot
-from stepaside.simulation.servos import HonestServos
-from stepaside.simulation.settings import PhysicsSettings
-from stepaside.simulation.spoilt import SpoiltSensors
-from stepaside.simulation.truth import TrueState
-from stepaside.simulation.world import World
+from stepaside.sensing.measurement import Sighting
+from stepaside.strategies.roles import Pursuit
+from stepaside.world.body_settings import BodySettings
+from stepaside.world.push import Push
+from stepaside.world.robot import SimulatedRobot
+from stepaside.world.sensor_errors import SensorErrors
+from stepaside.world.servos import HonestServos
+from stepaside.world.settings import PhysicsSettings
+from stepaside.world.truth import TrueState
+from stepaside.world.world import World
 
 NAO = load_robot("nao")
 FRAME = Pose(1.2, -0.7, 0.9)
@@ -154,7 +156,7 @@ def test_truth_is_the_robots_own() -> None:
 
 
 @pytest.mark.parametrize(
-    ("effect", "value"), [("efficiency", 0.9), ("play", 0.01)]
+    ("effect", "value"), [("efficiency", 0.9), ("backlash", 0.01)]
 )
 def test_servos_are_honest_where_the_body_is_not_ideal(
     effect: str, value: float
@@ -168,8 +170,8 @@ def test_servos_are_honest_where_the_body_is_not_ideal(
     assert robot.world.before_step == [robot.servos.before_step]
     legs = np.array([n in NAO.legs for n in scheme.kinematics.joint_names])
     assert 10 <= legs.sum() < legs.size
-    play = 0.5 * value if effect == "play" else 0.0
-    np.testing.assert_allclose(robot.servos._half_play, play * legs)
+    play = 0.5 * value if effect == "backlash" else 0.0
+    np.testing.assert_allclose(robot.servos._half_backlash, play * legs)
 
 
 def test_speed_limits_belong_to_their_joints() -> None:
@@ -194,7 +196,7 @@ def test_sensors_are_spoilt_by_the_robots_own_draws() -> None:
     plain, _ = stand()
     # A real spoilt robot measures what another with the same draws does.
     body = BodySettings(**effects)
-    other = SpoiltSensors(body, named_generator(5, "sensors/second"))
+    other = SensorErrors(body, named_generator(5, "sensors/second"))
     truth, seen = plain.read(), robot.read()
     turn, force = other.imu(truth.gyro, truth.accelerometer)
     np.testing.assert_allclose(seen.gyro, turn)

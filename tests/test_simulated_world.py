@@ -10,14 +10,9 @@ import pytest
 
 from stepaside.poses import Pose
 from stepaside.robots.description import load_robot
-from stepaside.simulation.body_settings import BodySettings
-from stepaside.simulation.settings import PhysicsSettings
-from stepaside.simulation.world import (
-    COLOURS,
-    World,
-    build_model,
-    place_free_body,
-)
+from stepaside.world.body_settings import BodySettings
+from stepaside.world.settings import PhysicsSettings
+from stepaside.world.world import COLOURS, World, build_model, place_free_body
 
 NAO = load_robot("nao")
 TWO = dict.fromkeys(("pursuer", "evader"), NAO)

@@ -9,8 +9,8 @@ import pytest
 
 from stepaside.poses import Array
 from stepaside.robots.head import Mount
-from stepaside.simulation.camera_settings import SonarSettings
-from stepaside.simulation.rays import RayCaster, SonarCaster, cone
+from stepaside.world.camera_settings import SonarSettings
+from stepaside.world.rays import RayCaster, SonarCaster, cone
 
 AHEAD = Mount(np.array([0.1, 0.0, 0.0]), np.eye(3))
 QUIET = SonarSettings(noise=0.0)

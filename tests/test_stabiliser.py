@@ -24,10 +24,8 @@ from made_up_state import (
     stabiliser,
     step,
 )
-from stepaside.control.step import zmp_box
-from stepaside.planning import (
-    Foot,
-)
+from stepaside.control.balance.step import zmp_box
+from stepaside.planning import Foot
 
 
 def test_a_body_that_does_as_asked_is_asked_as_planned() -> None:

@@ -16,8 +16,8 @@ from made_up_state import (
     stabiliser,
     step,
 )
-from stepaside.control.stabiliser import Stabiliser
-from stepaside.control.step import zmp_box
+from stepaside.control.balance.stabiliser import Stabiliser
+from stepaside.control.balance.step import zmp_box
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -129,8 +129,8 @@ def test_a_correction_stays_in_the_sole_and_the_rest_is_a_shift(
 
 def test_it_looks_ahead_by_half_a_step_and_the_delay() -> None:
     feedback, _ = stabiliser(delay=0.036)
-    feedback.lead.ahead(0.0, 0.0)
-    ahead = feedback.lead.ahead(0.5, 0.1)
+    feedback.prediction.ahead(0.0, 0.0)
+    ahead = feedback.prediction.ahead(0.5, 0.1)
     lead = 0.5 * GAIT.step_duration + 0.036
     assert ahead == pytest.approx(0.1 + 0.3 * 0.2 * lead)
 

@@ -4,12 +4,7 @@ import numpy as np
 import pytest
 
 from by_hand import plan_of
-from stepaside.planning import (
-    Direction,
-    Foot,
-    GaitSettings,
-    ManeuverPlanner,
-)
+from stepaside.planning import Direction, Foot, GaitSettings, ManeuverPlanner
 from stepaside.planning.steady import landing_state, steady_plan
 
 GAIT = GaitSettings()

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stepaside.control.settings import StabiliserSettings
-from stepaside.control.step import (
+from stepaside.control.balance.settings import StabiliserSettings
+from stepaside.control.balance.step import (
     Box,
     Step,
     adapted_landing,

@@ -6,8 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.control.step import Step, resting_step
-from stepaside.control.stride import BOUNDS, StrideLearning, measured_step
+from stepaside.control.balance.step import Step, resting_step
+from stepaside.control.balance.stride import (
+    BOUNDS,
+    StrideLearning,
+    measured_step,
+)
 from stepaside.planning import Foot, GaitSettings
 from stepaside.planning.swing import swing_progress
 from stepaside.poses import Pose

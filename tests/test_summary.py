@@ -8,16 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.poses import Array, Pose
-from stepaside.simulation import summary
-from stepaside.simulation.duel import DuelResult, Outcome
-from stepaside.simulation.person_settings import PersonSettings
-from stepaside.simulation.settings import (
+from stepaside.games import summary
+from stepaside.games.duel import DuelResult, Outcome
+from stepaside.games.settings import (
     DuelSettings,
     StartSettings,
     StrategySettings,
 )
-from stepaside.simulation.summary import (
+from stepaside.games.summary import (
     converged_at,
     cycle_mean,
     distance_over_time,
@@ -25,6 +23,8 @@ from stepaside.simulation.summary import (
     summarise,
     theory_of,
 )
+from stepaside.poses import Array, Pose
+from stepaside.world.person_settings import PersonSettings
 
 SETTINGS = DuelSettings(start=StartSettings(1.0, 0.1, -0.2))
 THEORY = theory_of(SETTINGS)

@@ -21,7 +21,7 @@ from stepaside.studies.survival import (
     wilson,
 )
 
-TRIAL = Trial("play", 1.0, "", 0.0, 1, "mpc", "ideal")
+TRIAL = Trial("backlash", 1.0, "", 0.0, 1, "mpc", "ideal")
 MIRRORED = {"left": "right", "right": "left"}
 
 

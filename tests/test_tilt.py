@@ -5,7 +5,7 @@ from math import cos, exp, sin
 import numpy as np
 import pytest
 
-from stepaside.control.tilt import TRUST, TiltFilter
+from stepaside.perception.tilt import TRUST, TiltFilter
 from stepaside.planning.settings import GRAVITY
 from stepaside.poses import Array
 from stepaside.robots.head import rotation

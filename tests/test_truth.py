@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stepaside.robots.head import rotation
-from stepaside.simulation.truth import TrueState
+from stepaside.world.truth import TrueState
 
 
 def put(

@@ -14,7 +14,7 @@ from stepaside.unicycle.certificate import (
 from stepaside.unicycle.circling import circle_of
 from stepaside.unicycle.kernel import play_games
 from stepaside.unicycle.laws import Game, make_game
-from stepaside.unicycle.plain import rates
+from stepaside.unicycle.numpy_batch import rates
 from stepaside.unicycle.relative import Start
 
 ASIDE = make_game(1.0, 1.0, 1.0, 1.0)

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from stepaside.errors import PlanError
-from stepaside.unicycle.blocks import sine_cosine
 from stepaside.unicycle.compiled import AVAILABLE
+from stepaside.unicycle.compiled_batch import sine_cosine
 from stepaside.unicycle.kernel import play_games
 from stepaside.unicycle.laws import Game, make_game
 from stepaside.unicycle.relative import Start

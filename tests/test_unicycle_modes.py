@@ -5,7 +5,7 @@ from math import inf, pi, remainder, sin, tau
 import numpy as np
 import pytest
 
-from stepaside.unicycle.careful import careful_step, margin
+from stepaside.unicycle.event_located import careful_step, margin
 from stepaside.unicycle.modes import SLIDING, enter, leave, piece
 
 ANGLE, WIDTH, GAIN = 1.1, 0.2, 0.6

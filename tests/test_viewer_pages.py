@@ -10,10 +10,15 @@ import numpy as np
 import pytest
 
 from fake_page import Gui, Server
-from stepaside.control import Pursuit
-from stepaside.control.driving import Driven
-from stepaside.control.settings import OPEN_LOOP, STABILISED
+from stepaside.control.balance.settings import OPEN_LOOP, STABILISED
 from stepaside.errors import ConfigurationError, StepAsideError
+from stepaside.games.duel import Duel, Outcome, run_duel
+from stepaside.games.settings import (
+    DuelSettings,
+    StartSettings,
+    StrategySettings,
+)
+from stepaside.games.summary import summarise
 from stepaside.poses import Array, wrap_angle
 from stepaside.report.replay import Run, Stage
 from stepaside.report.style import EVADER, PURSUER
@@ -25,14 +30,9 @@ from stepaside.report.viewer.plots import Plots
 from stepaside.report.viewer.push_panel import add_push
 from stepaside.report.viewer.replaying import ReplayPage
 from stepaside.report.viewer.session import Session
-from stepaside.simulation.body_settings import BODIES
-from stepaside.simulation.duel import Duel, Outcome, run_duel
-from stepaside.simulation.settings import (
-    DuelSettings,
-    StartSettings,
-    StrategySettings,
-)
-from stepaside.simulation.summary import summarise
+from stepaside.strategies.driving import Driven
+from stepaside.strategies.roles import Pursuit
+from stepaside.world.body_settings import BODIES
 
 START = StartSettings(distance=1.0, pursuer_offset=0.3, evader_offset=-0.2)
 SETTINGS = DuelSettings(start=START)

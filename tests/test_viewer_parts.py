@@ -11,17 +11,14 @@ import pytest
 
 from fake_page import Gui, Scene
 from stepaside.control import Phase
+from stepaside.games.duel import Duel
+from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.planning import Foot, Sole
 from stepaside.planning.support import sole_corners
 from stepaside.poses import Array, Pose
 from stepaside.report.style import COLOURS, EVADER, THEORY
 from stepaside.report.viewer import drawing
-from stepaside.report.viewer.bodies import (
-    Bodies,
-    colour_of,
-    joined,
-    shape_of,
-)
+from stepaside.report.viewer.bodies import Bodies, colour_of, joined, shape_of
 from stepaside.report.viewer.camera_panel import FOUND, CameraPanel, picture
 from stepaside.report.viewer.drawing import ZMP_COLOURS, draw_session
 from stepaside.report.viewer.layers import (
@@ -39,8 +36,6 @@ from stepaside.report.viewer.layers import (
 )
 from stepaside.report.viewer.words import phases_of, words_of
 from stepaside.sensing.images import ColourImage
-from stepaside.simulation.duel import Duel
-from stepaside.simulation.settings import DuelSettings, StartSettings
 
 SHAPES = """
 <mujoco>

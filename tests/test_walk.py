@@ -10,13 +10,13 @@ import pytest
 from click.testing import CliRunner
 
 from stepaside.cli import main
-from stepaside.control.settings import OPEN_LOOP, STABILISED
+from stepaside.control.balance.settings import OPEN_LOOP, STABILISED
+from stepaside.games.walk import WalkResult, WalkSettings, run_walk
+from stepaside.games.walk_summary import summarise_walk
 from stepaside.planning import GaitSettings
-from stepaside.simulation.body_settings import BODIES
-from stepaside.simulation.push import Push
-from stepaside.simulation.settings import PhysicsSettings
-from stepaside.simulation.walk import WalkResult, WalkSettings, run_walk
-from stepaside.simulation.walk_summary import summarise_walk
+from stepaside.world.body_settings import BODIES
+from stepaside.world.push import Push
+from stepaside.world.settings import PhysicsSettings
 
 GAIT = GaitSettings()
 CYCLE = 2.0 * GAIT.step_duration

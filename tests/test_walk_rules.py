@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from stepaside.control import Phase
-from stepaside.control.settings import STABILISED
+from stepaside.control.balance.settings import STABILISED
 from stepaside.errors import ConfigurationError, ReachError
+from stepaside.games import walk as module
+from stepaside.games.walk import Walker, WalkSettings, run_walk
 from stepaside.planning import Direction
-from stepaside.simulation import walk as module
-from stepaside.simulation.body_settings import BODIES
-from stepaside.simulation.push import Push
-from stepaside.simulation.walk import Walker, WalkSettings, run_walk
+from stepaside.world.body_settings import BODIES
+from stepaside.world.push import Push
 
 
 def way(bearing: float, *, backward: bool = False) -> tuple[float, float]:

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.control.mpc import MpcResult
+from stepaside.control.balance.mpc import MpcResult
+from stepaside.games.walk import WalkResult, WalkSettings
+from stepaside.games.walk_record import COLUMNS
+from stepaside.games.walk_summary import summarise_walk
 from stepaside.poses import Array
-from stepaside.simulation.walk import WalkResult, WalkSettings
-from stepaside.simulation.walk_record import COLUMNS
-from stepaside.simulation.walk_summary import summarise_walk
 
 SETTINGS = WalkSettings(seed=4)
 CYCLE = 2.0 * SETTINGS.gait.step_duration

@@ -5,16 +5,12 @@ import numpy as np
 import pytest
 
 from stepaside.errors import ConfigurationError
+from stepaside.games.duel import Duel, Outcome
+from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.poses import Pose
 from stepaside.robots.description import load_robot
-from stepaside.simulation.duel import Duel, Outcome
-from stepaside.simulation.settings import (
-    DuelSettings,
-    PhysicsSettings,
-    SightSettings,
-    StartSettings,
-)
-from stepaside.simulation.world import World, build_model, place_free_body
+from stepaside.world.settings import PhysicsSettings, SightSettings
+from stepaside.world.world import World, build_model, place_free_body
 
 
 def standing(distance: float = 2.0, **changes: object) -> Duel:

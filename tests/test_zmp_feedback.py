@@ -6,10 +6,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.control.mpc import IntrinsicallyStableMpc
-from stepaside.control.settings import ControlSettings, StabiliserSettings
-from stepaside.control.step import Step, resting_step, zmp_box
-from stepaside.control.zmp_feedback import (
+from stepaside.control.balance.mpc import IntrinsicallyStableMpc
+from stepaside.control.balance.settings import (
+    ControlSettings,
+    StabiliserSettings,
+)
+from stepaside.control.balance.step import Step, resting_step, zmp_box
+from stepaside.control.balance.zmp_feedback import (
     MpcFeedback,
     ProportionalFeedback,
     zmp_feedback,

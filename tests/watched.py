@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from stepaside.games.duel import NAMES, Outcome
+from stepaside.games.settings import DuelSettings
 from stepaside.poses import Array
-from stepaside.simulation.duel import NAMES, Outcome
-from stepaside.simulation.settings import DuelSettings
 from stepaside.studies.watching import WalkedPlan, Watched
 
 RADIUS = 4.0 * 0.1 / (pi * 0.2)

@@ -16,7 +16,10 @@ ROOMS = (
     "unicycle",
     "sensing",
     "robots",
-    "simulation",
+    "perception",
+    "strategies",
+    "world",
+    "games",
     "studies",
 )
 REASONS = Path("tests/mutation/reasons.toml")

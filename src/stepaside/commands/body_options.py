@@ -9,9 +9,9 @@ import click
 from .options import ANGLE, NumberType
 
 if TYPE_CHECKING:
-    from ..control.settings import ControlSettings, Method
-    from ..simulation.body_settings import BodySettings
-    from ..simulation.settings import PhysicsSettings
+    from ..control.balance.settings import ControlSettings, Method
+    from ..world.body_settings import BodySettings
+    from ..world.settings import PhysicsSettings
 
 F = TypeVar("F", bound=Callable[..., Any])
 FLOORS = ("friction", "unevenness", "slope", "slope_direction")
@@ -83,8 +83,8 @@ def body_settings(
     Raises:
         ConfigurationError: If method and feedback do not go together.
     """
-    from ..control.settings import ControlSettings
-    from ..simulation.body_settings import BODIES
+    from ..control.balance.settings import ControlSettings
+    from ..world.body_settings import BODIES
 
     if settings is None:
         settings = BODIES["ideal"], ControlSettings()
@@ -116,7 +116,7 @@ def floor_settings(
         options: All options; those of the floor are removed.
         physics: What holds for options that were not given.
     """
-    from ..simulation.settings import PhysicsSettings
+    from ..world.settings import PhysicsSettings
 
     given = {name: options.pop(name, None) for name in FLOORS}
     changes = {name: v for name, v in given.items() if v is not None}

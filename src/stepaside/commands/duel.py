@@ -9,8 +9,8 @@ from .duel_options import duel_options, duel_settings
 from .options import json_option, print_json, print_table
 
 if TYPE_CHECKING:
-    from ..simulation.duel import DuelResult
-    from ..simulation.settings import DuelSettings
+    from ..games.duel import DuelResult
+    from ..games.settings import DuelSettings
 
 
 @click.command("duel")
@@ -32,9 +32,9 @@ def duel(
     trajectories and a figure.
     """
     settings = duel_settings(config, options)
+    from ..games.duel import Outcome
+    from ..games.summary import summarise
     from ..report.run_folder import check_output, free_folder
-    from ..simulation.duel import Outcome
-    from ..simulation.summary import summarise
 
     if output is None and not as_json:
         output = free_folder(Path("runs"), f"duel-seed{settings.seed}")
@@ -61,7 +61,7 @@ def _play(settings: "DuelSettings") -> "DuelResult":
     """Play with a progress bar on standard error."""
     from tqdm import tqdm
 
-    from ..simulation.duel import Progress, run_duel
+    from ..games.duel import Progress, run_duel
 
     with tqdm(
         total=settings.duration,

@@ -16,7 +16,7 @@ from .options import ANGLE, METERS, SECONDS, NumberType
 from .person_options import person_options, with_person
 
 if TYPE_CHECKING:
-    from ..simulation.settings import DuelSettings
+    from ..games.settings import DuelSettings
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -113,10 +113,10 @@ def duel_settings(
     """
     from dataclasses import replace
 
+    from ..games.configuration import load_configuration
+    from ..games.settings import DuelSettings
     from ..planning import PRESETS
-    from ..simulation.camera_settings import CLUTTER, RoomSettings
-    from ..simulation.configuration import load_configuration
-    from ..simulation.settings import DuelSettings
+    from ..world.camera_settings import CLUTTER, RoomSettings
 
     settings = DuelSettings() if config is None else load_configuration(config)
     body, control = body_settings(

@@ -11,7 +11,7 @@ from .duel_options import duel_options, duel_settings
 from .options import json_option, print_json
 
 if TYPE_CHECKING:
-    from ..simulation.settings import DuelSettings
+    from ..games.settings import DuelSettings
 
 LARGEST = 100_000  # duels of one call
 RECORDS, SUMMARY, FIGURE = "duels.jsonl", "summary.json", "duels.png"
@@ -190,7 +190,7 @@ def _play(
 def _answer(
     settings: "DuelSettings", seeds: range, records: list[dict[str, Any]]
 ) -> dict[str, Any]:
-    from ..simulation.configuration import spelled_settings
+    from ..games.configuration import spelled_settings
     from ..studies.duel_statistics import summarise_duels
     from ..studies.duels import stamps_of
     from ..studies.results import header

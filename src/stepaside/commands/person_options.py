@@ -8,7 +8,7 @@ import click
 from .options import NumberType
 
 if TYPE_CHECKING:
-    from ..simulation.settings import DuelSettings
+    from ..games.settings import DuelSettings
 
 F = TypeVar("F", bound=Callable[..., Any])
 PREFIX = "person_"

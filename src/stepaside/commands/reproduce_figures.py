@@ -105,10 +105,10 @@ def _draw_sweep(file: Path, marks: int) -> None:
 
 
 def _draw_duel(file: Path, seed: int, duration: float) -> None:
+    from ..games.duel import Outcome, run_duel
+    from ..games.settings import DuelSettings
+    from ..games.summary import summarise
     from ..report.duel_figure import draw_duel
-    from ..simulation.duel import Outcome, run_duel
-    from ..simulation.settings import DuelSettings
-    from ..simulation.summary import summarise
 
     result = run_duel(DuelSettings(seed=seed, duration=duration))
     if result.outcome is Outcome.INTERRUPTED:

@@ -7,7 +7,15 @@ import click
 
 from .options import json_option, print_json
 
-KINDS = ("push", "friction", "unevenness", "delay", "play", "noise", "model")
+KINDS = (
+    "push",
+    "friction",
+    "unevenness",
+    "delay",
+    "backlash",
+    "noise",
+    "model",
+)
 METHODS = ("open-loop", "closed-form", "measured", "mpc")
 
 

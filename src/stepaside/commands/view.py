@@ -50,9 +50,9 @@ def view(
     """Serve a page with two robots that chase each other."""
     from dataclasses import replace
 
+    from ..games.configuration import load_configuration
+    from ..games.settings import DuelSettings
     from ..report.viewer.page import Page
-    from ..simulation.configuration import load_configuration
-    from ..simulation.settings import DuelSettings
 
     settings = DuelSettings() if config is None else load_configuration(config)
     if seed is not None:

@@ -15,8 +15,8 @@ from .body_options import (
 from .options import ANGLE, SECONDS, json_option, print_json, print_table
 
 if TYPE_CHECKING:
-    from ..simulation.push import Push
-    from ..simulation.walk import WalkResult
+    from ..games.walk import WalkResult
+    from ..world.push import Push
 
 PUSH = re.compile(r"^(?P<impulse>[^@]+)@(?P<time>[^:]+):(?P<direction>.+)$")
 
@@ -34,7 +34,7 @@ class PushType(click.ParamType["Push"]):
     ) -> "Push":
         """Parse a push."""
         from ..errors import StepAsideError
-        from ..simulation.push import Push
+        from ..world.push import Push
 
         parts = PUSH.match(str(value))
         if parts is None:
@@ -93,8 +93,8 @@ def walk(as_json: bool, **options: Any) -> None:
     Speed, turning, slip, tracking and estimation are those after the first
     three seconds, in the frame of the support foot.
     """
-    from ..simulation.walk import WalkSettings
-    from ..simulation.walk_summary import summarise_walk
+    from ..games.walk import WalkSettings
+    from ..games.walk_summary import summarise_walk
 
     body, control = body_settings(
         options.pop("body"), options.pop("method"), options.pop("feedback")
@@ -117,7 +117,7 @@ def _walk(settings: Any) -> "WalkResult":
     """Walk with a progress bar on standard error."""
     from tqdm import tqdm
 
-    from ..simulation.walk import run_walk
+    from ..games.walk import run_walk
 
     with tqdm(
         total=settings.duration,

@@ -1,17 +1,7 @@
 """Control of one robot (paper, Fig. 4): perceive, plan, move."""
 
-from .body import Body, Measurement, Sighting
+from .body import Body
 from .phase import Phase
-from .roles import Evasion, Pursuit, Role
 from .scheme import ControlScheme
 
-__all__ = [
-    "Body",
-    "ControlScheme",
-    "Evasion",
-    "Measurement",
-    "Phase",
-    "Pursuit",
-    "Role",
-    "Sighting",
-]
+__all__ = ["Body", "ControlScheme", "Phase"]

@@ -1,53 +1,9 @@
 """What stands between control and a body, simulated or real."""
 
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import Protocol
 
 from ..poses import Array
-
-if TYPE_CHECKING:
-    from ..sensing.images import Percept
-
-
-class Sighting(NamedTuple):
-    """The other robot, as a sensor of this one saw it.
-
-    Attributes:
-        time: When it was seen, in [s].
-        bearing: Direction of the other in the horizontal plane, from the
-            heading of this robot's torso, in [rad], positive leftward.
-        distance: Horizontal distance to the other, in [m].
-    """
-
-    time: float
-    bearing: float
-    distance: float
-
-
-class Measurement(NamedTuple):
-    """What a robot's own sensors give at one control tick.
-
-    Attributes:
-        time: Time of the tick, in [s].
-        joint_positions: Encoders, in [rad], in the order of the joint
-            targets. Shape (joints,).
-        gyro: Angular velocity of the torso in its frame, in [rad/s].
-            Shape (3,).
-        accelerometer: Specific force at the torso in its frame, in [m/s^2].
-            Shape (3,).
-        foot_forces: Pressing force at the corners of the soles, in [N]:
-            left front-left, front-right, rear-left, rear-right, then right.
-            Shape (8,).
-        sighting: Newest sighting of the other robot, if there is any.
-        percepts: Images and echoes that have arrived since the last tick.
-    """
-
-    time: float
-    joint_positions: Array
-    gyro: Array
-    accelerometer: Array
-    foot_forces: Array
-    sighting: Sighting | None
-    percepts: tuple["Percept", ...] = ()
+from ..sensing.measurement import Measurement
 
 
 class Body(Protocol):

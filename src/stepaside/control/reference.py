@@ -13,7 +13,7 @@ from ..robots.kinematics import BodyReference
 CACHED = 4096  # samplers kept; rational durations need a handful
 
 
-class Row(NamedTuple):
+class ReferenceSample(NamedTuple):
     """What a plan asks for at one tick, in odometry.
 
     Attributes:
@@ -55,7 +55,7 @@ class ReferenceTable:
         """Begin empty, for a clock with a given tick, in [s]."""
         self._tick = tick
         self._first = 0
-        self._rows: list[Row] = []
+        self._rows: list[ReferenceSample] = []
         self._samplers: dict[tuple[Schedule, int, int], Sampler] = {}
 
     def load(
@@ -99,7 +99,7 @@ class ReferenceTable:
         left_height = samples.left_height.tolist()
         right_height = samples.right_height.tolist()
         self._rows = [
-            Row(
+            ReferenceSample(
                 BodyReference(
                     (com[i][0], com[i][1], height),
                     (left[i][0], left[i][1], left_height[i], left_yaw[i]),
@@ -111,7 +111,7 @@ class ReferenceTable:
             for i in range(count)
         ]
 
-    def at(self, now: float) -> Row:
+    def at(self, now: float) -> ReferenceSample:
         """What is asked for at a tick; after the last one, the last."""
         index = round(now / self._tick) - self._first
         return self._rows[min(index, len(self._rows) - 1)]

@@ -13,20 +13,16 @@ from ..planning import (
 from ..planning.steady import landing_state
 from ..poses import Array, Pose, wrap_angle
 from ..robots.kinematics import BodyReference, LegKinematics
-from .body import Measurement, Sighting
+from ..sensing.measurement import Measurement, Sighting
+from ..strategies.roles import Role
+from .balance.stabiliser import Stabiliser
+from .balance.step import Step, resting_step, step_of
 from .headings import HeadingMemory
 from .phase import Phase
-from .reference import (
-    ReferenceTable,
-    Row,
-    standing_reference,
-)
-from .roles import Role
-from .stabiliser import Stabiliser
-from .step import Step, resting_step, step_of
+from .reference import ReferenceSample, ReferenceTable, standing_reference
 
 if TYPE_CHECKING:
-    from .perception import Perception
+    from ..perception.perception import Perception
 
 SETTLING = 1.0  # how long a halted robot takes to come to rest, in [s]
 
@@ -90,7 +86,7 @@ class ControlScheme:
         self.kinematics = kinematics
         self.phase = Phase.STANDING
         self.reference: BodyReference
-        self._resting: Row
+        self._resting: ReferenceSample
         self.plan: ManeuverPlan | None = None
         self.plan_frame = Pose(0.0, 0.0, 0.0)
         self.plan_started = 0.0
@@ -173,7 +169,7 @@ class ControlScheme:
             self.left_foot, self.right_foot, self.settings
         )
         self.zmp_reference = rest = self.reference.com[:2]
-        self._resting = Row(self.reference, rest, rest)
+        self._resting = ReferenceSample(self.reference, rest, rest)
 
     def _wait(self, now: float) -> None:
         """Stand until the other is a reason to move."""
@@ -226,7 +222,7 @@ class ControlScheme:
         clock = process_time()
         heading = self._headings.at(seen.time) + seen.bearing
         if self.stabiliser is not None:
-            heading = self.stabiliser.lead.ahead(seen.time, heading)
+            heading = self.stabiliser.prediction.ahead(seen.time, heading)
         heading -= support.theta
         aim = self.role.desired_heading(wrap_angle(heading))
 

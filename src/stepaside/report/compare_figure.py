@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..simulation.summary import cycle_mean
+from ..games.summary import cycle_mean
 from .replay import Run
 from .style import EVADER, PURSUER, THEORY, plt
 

@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from ..poses import Array
-from ..simulation.settings import DuelSettings
-from ..simulation.summary import (
+from ..games.settings import DuelSettings
+from ..games.summary import (
     cycle_mean,
     distance_over_time,
     orientation_over_time,
 )
+from ..poses import Array
 from .soles import draw_heading, draw_soles
 from .style import COLOURS, THEORY, plt
 

@@ -14,9 +14,9 @@ import mujoco
 import numpy as np
 
 from ..errors import ConfigurationError
+from ..games.duel import NAMES
 from ..sensing.images import Pixels
-from ..simulation.duel import NAMES
-from ..simulation.graphics import RAYCAST, Screen, choose_renderer
+from ..world.graphics import RAYCAST, Screen, choose_renderer
 from .film_layers import decorate
 from .replay import Run, Stage, load_run
 

@@ -3,8 +3,8 @@
 import mujoco
 import numpy as np
 
+from ..games.duel import NAMES
 from ..poses import Array
-from ..simulation.duel import NAMES
 from .replay import Run
 from .style import COLOURS, EVADER, THEORY
 

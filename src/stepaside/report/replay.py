@@ -10,19 +10,19 @@ import mujoco
 import numpy as np
 
 from ..errors import ConfigurationError
-from ..poses import Array, Pose
-from ..robots.description import load_robot
-from ..simulation.configuration import load_configuration
-from ..simulation.duel import NAMES
-from ..simulation.people import furnisher_of, walkers_of
-from ..simulation.person import parts_of, pose_figure
-from ..simulation.settings import DuelSettings
-from ..simulation.summary import (
+from ..games.configuration import load_configuration
+from ..games.duel import NAMES
+from ..games.people import furnisher_of, walkers_of
+from ..games.settings import DuelSettings
+from ..games.summary import (
     distance_over_time,
     orientation_over_time,
     theory_of,
 )
-from ..simulation.world import build_model
+from ..poses import Array, Pose
+from ..robots.description import load_robot
+from ..world.person import parts_of, pose_figure
+from ..world.world import build_model
 from .run_folder import CONFIGURATION, SUMMARY, TRAJECTORIES
 
 

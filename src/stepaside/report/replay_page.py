@@ -10,10 +10,10 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from ..games.duel import NAMES
+from ..games.people import walkers_of
 from ..poses import Array
 from ..robots.description import load_robot
-from ..simulation.duel import NAMES
-from ..simulation.people import walkers_of
 from .replay import Run, Stage
 from .style import COLOURS
 

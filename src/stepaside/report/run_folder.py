@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import ConfigurationError
-from ..simulation.configuration import dump_configuration
-from ..simulation.duel import DuelResult
+from ..games.configuration import dump_configuration
+from ..games.duel import DuelResult
 from .duel_figure import draw_duel
 
 CONFIGURATION = "configuration.toml"

@@ -7,10 +7,10 @@ from typing import Any
 import cv2
 import numpy as np
 
+from ..games.duel import DuelResult
+from ..games.judge import Still
 from ..poses import Array, wrap_angles
 from ..sensing.images import ColourImage, DepthImage, Pixels
-from ..simulation.duel import DuelResult
-from ..simulation.judge import Still
 from .soles import draw_heading
 from .style import COLOURS, THEORY, plt
 

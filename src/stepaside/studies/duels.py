@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 
 from ..errors import PlanError
+from ..games.duel import DuelResult, run_duel
+from ..games.settings import DuelSettings
+from ..games.summary import distance_over_time, summarise
 from ..poses import Pose
-from ..simulation.duel import DuelResult, run_duel
-from ..simulation.randomness import named_generator
-from ..simulation.settings import DuelSettings
-from ..simulation.summary import distance_over_time, summarise
+from ..randomness import named_generator
 from ..unicycle.certificate import certify
 from ..unicycle.laws import make_game
 from ..unicycle.relative import Start

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from ..simulation.settings import DuelSettings
+from ..games.settings import DuelSettings
 from . import balance_claims as balance
 from . import physics_claims as physics
 from . import physics_readings as read

@@ -5,15 +5,15 @@ from math import degrees, nan
 
 import numpy as np
 
-from ..planning import PRESETS
-from ..simulation.duel import NAMES, Outcome
-from ..simulation.settings import DuelSettings, StartSettings
-from ..simulation.summary import (
+from ..games.duel import NAMES, Outcome
+from ..games.settings import DuelSettings, StartSettings
+from ..games.summary import (
     converged_at,
     distance_over_time,
     orientation_over_time,
     theory_of,
 )
+from ..planning import PRESETS
 from ..unicycle.measure import fit_circle
 from .readings import Readings, farthest
 from .walk_measures import (

@@ -7,13 +7,13 @@ from dataclasses import asdict, dataclass, replace
 from math import pi, radians
 from pathlib import Path
 
-from ..control.settings import ControlSettings, Method
+from ..control.balance.settings import ControlSettings, Method
 from ..errors import ConfigurationError
+from ..games.walk import WalkSettings, run_walk
 from ..planning import GaitSettings
-from ..simulation.body_settings import BODIES, BodySettings
-from ..simulation.push import Push
-from ..simulation.settings import PhysicsSettings
-from ..simulation.walk import WalkSettings, run_walk
+from ..world.body_settings import BODIES, BodySettings
+from ..world.push import Push
+from ..world.settings import PhysicsSettings
 from .trial_results import note_result, read_results
 from .workers import give_up
 
@@ -23,7 +23,7 @@ STRENGTHS: dict[str, tuple[float, ...]] = {
     "friction": (0.05, 0.1, 0.2, 0.3, 0.5, 0.8),
     "unevenness": (0.0, 0.002, 0.003, 0.005, 0.008),
     "delay": (0.0, 2.0, 3.0, 4.0, 6.0),
-    "play": (0.0, 0.5, 1.0, 2.0, 3.0),
+    "backlash": (0.0, 0.5, 1.0, 2.0, 3.0),
     "noise": (0.0, 1.0, 2.0, 4.0, 8.0),
     "model": (0.0, 0.03, 0.06, 0.1, 0.2),
 }
@@ -32,7 +32,7 @@ UNITS = {
     "friction": "1",
     "unevenness": "m",
     "delay": "cycles",
-    "play": "deg",
+    "backlash": "deg",
     "noise": "times the preset",
     "model": "relative mass error",
 }
@@ -116,8 +116,8 @@ def settings_of(trial: Trial) -> WalkSettings:
         body = replace(
             body, cycle=0.012, delay_cycles=round(x), imu_delay_cycles=1
         )
-    elif trial.kind == "play":
-        body = replace(body, play=x * pi / 180.0)
+    elif trial.kind == "backlash":
+        body = replace(body, backlash=x * pi / 180.0)
     elif trial.kind == "noise":
         body = louder(body, x)
     elif trial.kind == "model":

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..control.settings import StabiliserSettings
+from ..control.balance.settings import StabiliserSettings
 from ..planning import Direction, Foot, GaitSettings, ManeuverPlanner
 from ..planning.capture import Reach, push_bound
 from ..planning.steady import steady_plan

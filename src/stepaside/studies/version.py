@@ -12,7 +12,11 @@ GROUND = ("errors", "poses")
 PLANNER = (*GROUND, "planning")
 UNICYCLES = (*GROUND, "unicycle")
 # What moves a robot, and what measures how it moved.
-PHYSICS = (*PLANNER, "unicycle", "robots", "sensing", "control", "simulation")
+PHYSICS = (
+    *PLANNER,
+    *("unicycle", "robots", "sensing", "perception", "strategies"),
+    *("control", "world", "games", "randomness"),
+)
 LIBRARIES = ("mujoco", "numpy")
 DIGITS = 12
 

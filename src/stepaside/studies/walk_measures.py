@@ -5,9 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..games.duel import NAMES
 from ..planning import GaitSettings
 from ..poses import Array
-from ..simulation.duel import NAMES
 from .watching import WalkedPlan, Watched
 
 BEARS = 1.0  # load from which a foot counts as on the floor, in [N]

@@ -8,12 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ..control import ControlScheme
+from ..games.duel import NAMES, Duel, Outcome
+from ..games.settings import DuelSettings
 from ..planning import ManeuverPlan
 from ..poses import Array
 from ..robots.description import load_robot
 from ..robots.forward import FOOT_FORCES
-from ..simulation.duel import NAMES, Duel, Outcome
-from ..simulation.settings import DuelSettings
 
 
 class WalkedPlan(NamedTuple):
@@ -38,7 +38,7 @@ class Watched:
         settings: What decided it, with the start that was drawn.
         outcome: How it ended.
         duration: Simulated time, in [s].
-        arrays: The record; see :class:`~stepaside.simulation.record.Recorder`.
+        arrays: The record; see :class:`~stepaside.games.record.Recorder`.
         ticks: Times of the control ticks, in [s]. Shape (n,).
         loads: By robot, what the sensors of left and right foot bear at the
             end of each tick, in [N]. Shape (n, 2).

@@ -75,7 +75,10 @@ def play_games(
     Raises:
         PlanError: If a value is out of its range, or a backend is not there.
     """
-    from . import blocks, careful, compiled, plain
+    from . import compiled
+    from . import compiled_batch as blocks
+    from . import event_located as careful
+    from . import numpy_batch as plain
 
     check_positive(duration, "duration", "s")
     check_positive(step, "step", "s")

@@ -11,7 +11,7 @@ from .circles import circles_of
 from .circling import Circle
 from .kernel import NEAR
 from .laws import Game
-from .plain import distances_off
+from .numpy_batch import distances_off
 from .simulate import Run
 
 Array = NDArray[np.float64]

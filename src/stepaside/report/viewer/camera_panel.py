@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import viser
 
+from ...games.duel import Duel
 from ...sensing.images import ColourImage, Pixels
-from ...simulation.duel import Duel
 
 WIDTH = 240  # of a picture on the page, in [pixels]
 FOUND = (40, 200, 90)

@@ -4,8 +4,8 @@ from math import inf
 
 import viser
 
-from ...control import Pursuit
-from ...control.driving import Driven
+from ...strategies.driving import Driven
+from ...strategies.roles import Pursuit
 from .session import Session
 
 TURNS = {"left": 1.0, "straight": 0.0, "right": -1.0}

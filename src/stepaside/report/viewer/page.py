@@ -8,11 +8,11 @@ from time import perf_counter, sleep
 
 import viser
 
-from ...control.settings import OPEN_LOOP, STABILISED
+from ...control.balance.settings import OPEN_LOOP, STABILISED
 from ...errors import StepAsideError
-from ...simulation.body_settings import BODIES
-from ...simulation.duel import Duel
-from ...simulation.settings import SENSING, DuelSettings
+from ...games.duel import Duel
+from ...games.settings import SENSING, DuelSettings
+from ...world.body_settings import BODIES
 from .bodies import Bodies
 from .camera_panel import CameraPanel
 from .drawing import draw_session

@@ -8,7 +8,7 @@ import numpy as np
 import viser
 from viser import uplot
 
-from ...simulation.duel import NAMES
+from ...games.duel import NAMES
 from ..replay import Run, Stage
 from ..style import COLOURS, EVADER, PURSUER, THEORY
 from .bodies import Bodies

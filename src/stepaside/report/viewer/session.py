@@ -11,11 +11,11 @@ from time import perf_counter, sleep
 import numpy as np
 
 from ...errors import StepAsideError
+from ...games.duel import Duel, Outcome
+from ...games.settings import DuelSettings
+from ...games.summary import theory_of
 from ...poses import Array, wrap_angle
-from ...simulation.duel import Duel, Outcome
-from ...simulation.push import Push
-from ...simulation.settings import DuelSettings
-from ...simulation.summary import theory_of
+from ...world.push import Push
 
 LOG = logging.getLogger(__name__)
 HISTORY = 6000  # samples of the plots that are kept, 0.1 s apart

@@ -3,7 +3,7 @@
 from math import inf
 
 from ...control import Phase
-from ...simulation.duel import Duel
+from ...games.duel import Duel
 
 NEAR_DISTANCE = 0.05  # of theory's distance, on the circle
 NEAR_ANGLE = 5.0  # of theory's angle, on the circle, in [deg]

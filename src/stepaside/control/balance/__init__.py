@@ -1,0 +1,1 @@
+"""Feedback that keeps a walking robot up."""

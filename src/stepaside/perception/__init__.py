@@ -1,0 +1,1 @@
+"""From percepts to sightings, and where the head looks."""

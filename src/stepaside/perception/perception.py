@@ -1,0 +1,260 @@
+"""From percepts to a line of sight, and from it to where the head looks."""
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import atan2, cos, hypot, radians, sin
+
+from ..poses import Array, Pose, wrap_angle
+from ..robots.body_pose import BodyKinematics, BodyPose
+from ..robots.description import RobotDescription
+from ..robots.head import HeadDescription, Mount
+from ..sensing.colour_detector import (
+    Appearance,
+    ColourDetection,
+    ColourDetector,
+)
+from ..sensing.depth_detector import DepthScene, detect_obstacles
+from ..sensing.images import ColourImage, DepthImage, Percept, SonarEcho
+from ..sensing.measurement import Measurement, Sighting
+from ..sensing.track import Observation, Track
+from ..sensing.tracker import Tracker
+from .gaze import Gaze
+from .observing import angle_of, observe_obstacle, observe_shadow, observe_trim
+from .tilt import TiltFilter
+
+MEMORY = 1.0  # how long past poses are kept, in [s]
+FRESH = 0.25  # age at which a distance is worth hearing again, in [s]
+UNSEEN = 1.0  # after which the head searches, in [s]
+STARE = 1.2  # unknown things that rest are looked at up to here, in [m]
+MOVING = 0.08  # speed from which a thing moves, in [m/s]
+BROAD = 0.12  # shadow of somebody who was not seen before, in [rad]
+CHEST = 0.10  # from a sonar to the own axis and into the other, in [m]
+EAR = radians(50.0)  # how far aside a sonar hears
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FrameReport:
+    """What one image was found to show.
+
+    Attributes:
+        image: The image.
+        azimuths: Directions in which something was found, from the
+            camera's axis, in [rad], positive leftward.
+        colour: What a colour image shows.
+        depth: What a depth image shows.
+    """
+
+    image: ColourImage | DepthImage
+    azimuths: tuple[float, ...]
+    colour: ColourDetection | None = None
+    depth: DepthScene | None = None
+
+
+class Perception:
+    """Sees the other, follows it in odometry and keeps looking at it.
+
+    Attributes:
+        body: Where the body is by its own measurements; None before the
+            first.
+        sighting: The other as it is believed to be now; None if lost.
+        searching: Whether it is lost and looked for.
+        on_frame: Called with what each image shows.
+    """
+
+    def __init__(
+        self,
+        description: RobotDescription,
+        head: HeadDescription,
+        appearance: Appearance,
+        *,
+        tick: float,
+    ) -> None:
+        """Know the own body and what the other looks like.
+
+        Args:
+            description: The robot.
+            head: Its head.
+            appearance: The other's look, if it is the one that is known.
+            tick: Control period, in [s].
+        """
+        self._head = head
+        self._kinematics = BodyKinematics(description, head)
+        self._tilt = TiltFilter()
+        self._detector = ColourDetector(appearance)
+        self._gaze = Gaze(head.coupling, tick)
+        self._tracker = Tracker()
+        self._poses: deque[BodyPose] = deque(maxlen=round(MEMORY / tick))
+        self.body: BodyPose | None = None
+        self.sighting: Sighting | None = None
+        self.searching = True
+        self.on_frame: Callable[[FrameReport], None] = lambda report: None
+
+    def see(
+        self, measurement: Measurement, support: Pose, left_supports: bool
+    ) -> Sighting | None:
+        """Take in what the sensors give at one tick.
+
+        Args:
+            measurement: What they give.
+            support: Pose of the standing foot in odometry.
+            left_supports: Whether that is the left one.
+
+        Returns:
+            Where the other is now, as far as is known.
+        """
+        now = measurement.time
+        tilt = self._tilt.update(
+            now, measurement.gyro, measurement.accelerometer
+        )
+        self.body = body = self._kinematics.pose(
+            now, measurement.joint_positions, support, left_supports, tilt
+        )
+        self._poses.append(body)
+        for percept in measurement.percepts:
+            self._take(percept, self._pose_at(percept.time), now)
+        track = self._tracker.main(now, *body.torso[:2])
+        self._look(now, body, track)
+        self.sighting = None
+        if track is not None:
+            x, y, heading = body.torso
+            bearing = wrap_angle(track.turned_to(x, y, now) - heading)
+            self.sighting = Sighting(now, bearing, track.away_from(x, y, now))
+        return self.sighting
+
+    def aim(self, joint_targets: Array) -> None:
+        """Write where the head turns into joint targets, in [rad]."""
+        joint_targets[self._kinematics.yaw] = self._gaze.yaw
+        joint_targets[self._kinematics.pitch] = self._gaze.pitch
+
+    def _look(self, now: float, body: BodyPose, track: Track | None) -> None:
+        """Look at what counts, at what may come to count, or about."""
+        x, y, heading = body.torso
+        candidates = [] if track is None else [track]
+        candidates += [t for t in self._tracker.tracks if t is not track]
+        for candidate in candidates:
+            if now - candidate.seen_at > UNSEEN:
+                continue
+            distance = candidate.away_from(x, y, now)
+            named = now - candidate.identified_at < UNSEEN
+            moves = hypot(*candidate.velocity) > MOVING
+            moves = moves and candidate.confirmed
+            if named or distance < STARE or moves:
+                bearing = candidate.turned_to(x, y, now) - heading
+                self._gaze.follow(bearing, distance)
+                self.searching = False
+                return
+        self.searching = True
+        self._gaze.search()
+
+    def _pose_at(self, time: float) -> BodyPose:
+        for pose in reversed(self._poses):
+            if pose.time <= time + 1e-9:
+                return pose
+        return self._poses[0]
+
+    def _take(self, percept: Percept, body: BodyPose, now: float) -> None:
+        if isinstance(percept, ColourImage):
+            self._take_colour(percept, body, now)
+        elif isinstance(percept, DepthImage):
+            self._take_depth(percept, body, now)
+        else:
+            self._hear(percept, body, now)
+
+    def _take_colour(
+        self, image: ColourImage, body: BodyPose, now: float
+    ) -> None:
+        place, axes = _camera(body, self._head.top)
+        found = self._detector.detect(image)
+        azimuths: tuple[float, ...] = ()
+        seen: list[Observation] = []
+        if found is not None:
+            azimuths = (-angle_of(image, found.column),)
+            look, tracks = self._detector.appearance, self._tracker.tracks
+            seen = [observe_trim(image, found, place, axes, look, tracks)]
+        self.on_frame(FrameReport(image, azimuths, colour=found))
+        self._observe(seen, image, place, axes, named=True)
+
+    def _take_depth(
+        self, image: DepthImage, body: BodyPose, now: float
+    ) -> None:
+        place, axes = _camera(body, self._head.depth)
+        own = body.torso.x, body.torso.y
+        scene = detect_obstacles(image, place, axes, own)
+        azimuths = tuple(o.azimuth for o in scene.obstacles)
+        azimuths += tuple(s.azimuth for s in scene.shadows)
+        self.on_frame(FrameReport(image, azimuths, depth=scene))
+        seen = [observe_obstacle(image, o) for o in scene.obstacles]
+        self._observe(seen, image, place, axes, named=False)
+        for shadow in scene.shadows:
+            tracks = self._tracker.tracks
+            # Something that came so near unseen is somebody too.
+            founds = shadow.width > BROAD and not any(
+                track.confirmed for track in tracks
+            )
+            near = observe_shadow(image, shadow, place, tracks)
+            self._tracker.observe([near], founds=founds)
+
+    def _hear(self, echo: SonarEcho, body: BodyPose, now: float) -> None:
+        """Hear how far away is what no camera measures any more."""
+        if echo.distance is None:
+            return
+        mount = self._head.sonars[echo.sonar]
+        x, y, heading = body.torso
+        axis = body.torso_axes @ mount.axes[:, 0]
+        facing = atan2(axis[1], axis[0])
+        away = echo.distance + CHEST
+        track = self._tracker.main(now, x, y)
+        if track is None:
+            if echo.distance > 0.6:
+                return
+            bearing, across, founds = facing, 0.25, True
+        else:
+            bearing = track.turned_to(x, y, now)
+            if now - track.ranged_at < FRESH:
+                return
+            if abs(wrap_angle(bearing - facing)) > EAR - abs(
+                wrap_angle(facing - heading)
+            ):
+                return
+            across, founds = 0.4, False
+        seen = Observation(
+            echo.time,
+            x + away * cos(bearing),
+            y + away * sin(bearing),
+            bearing,
+            0.06,
+            across,
+            False,
+            True,
+        )
+        self._tracker.observe([seen], founds=founds)
+
+    def _observe(
+        self,
+        seen: list[Observation],
+        image: ColourImage | DepthImage,
+        place: Array,
+        axes: Array,
+        *,
+        named: bool,
+    ) -> None:
+        """Update tracks, and count those that a frame should have shown."""
+        updated = self._tracker.observe(seen)
+        ahead = atan2(axes[1, 0], axes[0, 0])
+        half = 0.85 * abs(angle_of(image, 0.0))
+        x, y = float(place[0]), float(place[1])
+        for track in self._tracker.tracks:
+            if track in updated:
+                continue
+            if named and image.time - track.identified_at > UNSEEN:
+                continue
+            off = wrap_angle(track.turned_to(x, y, image.time) - ahead)
+            if abs(off) < half:
+                track.count(False)
+
+
+def _camera(body: BodyPose, mount: Mount) -> tuple[Array, Array]:
+    """Place and axes of a camera on the head, in odometry."""
+    place = body.head_place + body.head_axes @ mount.place
+    return place, body.head_axes @ mount.axes

@@ -1,0 +1,1 @@
+"""From what a player knows to where it wants to go."""

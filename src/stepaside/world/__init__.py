@@ -1,0 +1,1 @@
+"""The MuJoCo world: floor, rooms, persons, robots and their sensors."""

@@ -1,0 +1,172 @@
+"""A simulated robot behind the interface that control moves."""
+
+from __future__ import annotations
+
+from math import nan
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..poses import Array, Pose
+from ..robots.description import RobotDescription
+from ..robots.forward import FOOT_FORCES
+from ..robots.kinematics import LegKinematics
+from ..sensing.measurement import Measurement
+from .body_settings import BodySettings
+from .push import Push, Pusher
+from .sensor_errors import AveragedImu, SensorErrors
+from .servos import HonestServos, IdealServos
+from .sight import IdealLineOfSight
+from .truth import TrueState
+from .world import World, place_free_body
+
+if TYPE_CHECKING:
+    from .eyes import Eyes
+
+
+class SimulatedRobot:
+    """One robot of a world, through its own sensors and servos.
+
+    Attributes:
+        name: Its name in the world.
+        tick: Control period, in [s].
+        sight: Sensor of the other robot, once there is one.
+        eyes: Cameras and sonars, if it sees with those.
+        truth: Its true state, for sensors that say so and for the record.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        name: str,
+        description: RobotDescription,
+        kinematics: LegKinematics,
+        pose: Pose,
+        body: BodySettings | None = None,
+        generator: np.random.Generator | None = None,
+    ) -> None:
+        """Stand a robot in the posture of its kinematics.
+
+        Args:
+            world: World that has it.
+            name: Its name there.
+            description: Its description.
+            kinematics: Kinematics in standing posture.
+            pose: Pose of the robot's odometry in the world.
+            body: How far it is from an ideal one; not at all by default.
+            generator: Of its errors and noise.
+        """
+        body = body or BodySettings()
+        self.world = world
+        self.name = name
+        self.tick = world.physics.tick
+        self.sight: IdealLineOfSight | None = None
+        self.eyes: Eyes | None = None
+        model, data = world.model, world.data
+        names = kinematics.joint_names
+        joints = [model.joint(f"{name}/{n}") for n in names]
+        self._qpos = np.array([j.qposadr[0] for j in joints])
+        ids = np.array([model.actuator(f"{name}/{n}").id for n in names])
+        speeds = np.array([description.speed_limits[n] for n in names])
+        self.servos: IdealServos
+        if body.has_ideal_servos:
+            self.servos = IdealServos(model, data, ids, speeds, self.tick)
+        else:
+            legs = np.array([n in description.legs for n in names])
+            servos = HonestServos(
+                model, data, ids, speeds, self.tick, body, body.backlash * legs
+            )
+            world.before_step.append(servos.before_step)
+            self.servos = servos
+        self._imu: AveragedImu | None = None
+        self._errors: SensorErrors | None = None
+        if generator is not None and body.has_sensor_errors:
+            self._errors = SensorErrors(body, generator)
+        self._gyro = self._sensor("gyro")
+        self._accelerometer = self._sensor("accelerometer")
+        first, last = (
+            self._sensor(FOOT_FORCES[0]),
+            self._sensor(FOOT_FORCES[-1]),
+        )
+        self._forces = slice(first.start, last.stop)
+        sites = [model.site(f"{name}/{f}").id for f in FOOT_FORCES]
+        self._corners = np.array(sites)
+        root = model.body(f"{name}/{description.torso}")
+        self._place(kinematics, pose, int(model.jnt_qposadr[root.jntadr[0]]))
+        self.servos.reset(kinematics.joint_targets)
+        self._torso = root.id
+        self.pusher: Pusher | None = None
+        self.truth = TrueState(model, data, f"{name}/{description.torso}")
+
+    def _sensor(self, sensor: str) -> slice:
+        found = self.world.model.sensor(f"{self.name}/{sensor}")
+        return slice(int(found.adr[0]), int(found.adr[0] + found.dim[0]))
+
+    def _place(self, kinematics: LegKinematics, pose: Pose, at: int) -> None:
+        posture = kinematics.posture
+        qpos = self.world.data.qpos
+        self.qpos_slice = slice(at, at + posture.size)
+        qpos[self.qpos_slice] = posture
+        qpos[at : at + 7] = place_free_body(posture[:7].tolist(), pose)
+
+    def read(self) -> Measurement:
+        """Read the sensors."""
+        data = self.world.data
+        sensors = data.sensordata
+        now = self.world.time
+        sighting = None if self.sight is None else self.sight.read(now)
+        angles = data.qpos[self._qpos]
+        if self._imu is None:
+            gyro = sensors[self._gyro].copy()
+            force = sensors[self._accelerometer].copy()
+        else:
+            gyro, force = self._imu.read()
+        forces = sensors[self._forces].copy()
+        if self._errors is not None:
+            angles = self._errors.encoders(angles)
+            gyro, force = self._errors.imu(gyro, force)
+            forces = self._errors.foot_forces(forces)
+        percepts = () if self.eyes is None else self.eyes.read(now)
+        return Measurement(
+            now, angles, gyro, force, forces, sighting, percepts
+        )
+
+    def write(self, joint_targets: Array) -> None:
+        """Send joint targets, in [rad], to the servos. Shape (joints,)."""
+        self.servos.write(joint_targets)
+
+    def average_imu(self) -> None:
+        """Let the IMU average between readings, as real ones do."""
+        self._imu = AveragedImu(
+            self.world.data, self._gyro, self._accelerometer
+        )
+        self.world.before_step.append(self._imu.before_step)
+
+    def push(self, *pushes: Push) -> None:
+        """Let somebody push the torso, now or later."""
+        if self.pusher is None:
+            world = self.world
+            self.pusher = Pusher(world.model, world.data, self._torso)
+            world.before_step.append(self.pusher.before_step)
+        for push in pushes:
+            self.pusher.add(push)
+
+    def step(self) -> None:
+        """Let time pass until the next control tick."""
+        self.world.advance()
+
+    def measured_zmp(self) -> tuple[float, float]:
+        """Center of the foot forces in the world, in [m]; NaN in flight."""
+        data = self.world.data
+        forces = data.sensordata[self._forces]
+        total = float(forces.sum())
+        if total <= 0.0:
+            return nan, nan
+        corners = data.site_xpos[self._corners]
+        x, y, _ = (forces @ corners / total).tolist()
+        return x, y
+
+    def close(self) -> None:
+        """Let go of the eyes."""
+        if self.eyes is not None:
+            self.eyes.close()

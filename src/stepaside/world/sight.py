@@ -1,0 +1,59 @@
+"""The ideal line of sight: a sensor that knows the truth and says so."""
+
+from collections import deque
+from math import atan2, hypot
+
+import numpy as np
+
+from ..poses import wrap_angle
+from ..sensing.measurement import Sighting
+from .settings import SightSettings
+from .truth import TrueState
+
+
+class IdealLineOfSight:
+    """Bearing and distance of the other robot's torso, from the truth.
+
+    It stands in for cameras: noise, delay and rate are the only ways in
+    which it is not ideal.
+    """
+
+    def __init__(
+        self,
+        own: TrueState,
+        other: TrueState,
+        settings: SightSettings,
+        generator: np.random.Generator,
+    ) -> None:
+        """Look from one robot at another."""
+        self._own, self._other = own, other
+        self._settings = settings
+        self._generator = generator
+        self._pending: deque[Sighting] = deque()
+        self._newest: Sighting | None = None
+        self._taken = 0
+
+    def read(self, now: float) -> Sighting | None:
+        """Newest sighting that has arrived by ``now``, in [s]."""
+        settings = self._settings
+        if now * settings.rate >= self._taken - 1e-9 or now == 0.0:
+            self._taken = 1 if now == 0.0 else self._taken + 1
+            self._pending.append(self._look(now))
+        while (
+            self._pending
+            and self._pending[0].time <= now - settings.delay + 1e-9
+        ):
+            self._newest = self._pending.popleft()
+        return self._newest
+
+    def _look(self, now: float) -> Sighting:
+        x, y = self._own.position
+        u, v = self._other.position
+        bearing = atan2(v - y, u - x) - self._own.heading
+        distance = hypot(u - x, v - y)
+        settings = self._settings
+        if settings.bearing_noise > 0.0:
+            bearing += settings.bearing_noise * self._generator.normal()
+        if settings.distance_noise > 0.0:
+            distance += settings.distance_noise * self._generator.normal()
+        return Sighting(now, wrap_angle(bearing), max(distance, 0.0))

@@ -1,0 +1,233 @@
+"""Sensors and links that are off: each error has its size and its place."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.randomness import named_generator
+from stepaside.world.body_settings import BodySettings
+from stepaside.world.sensor_errors import (
+    AveragedImu,
+    SensorErrors,
+    perturb_masses,
+)
+
+TURN = np.array([0.3, -0.2, 0.1])
+FORCE = np.array([1.0, 2.0, 9.0])
+
+
+def spoilt(seed: int = 1, **effects: Any) -> SensorErrors:
+    return SensorErrors(BodySettings(**effects), named_generator(seed, "s"))
+
+
+def test_without_errors_sensors_tell_the_truth() -> None:
+    sensors = spoilt()
+    angles, forces = np.array([0.1234, -2.0]), np.arange(8.0)
+    np.testing.assert_array_equal(sensors.encoders(angles), angles)
+    np.testing.assert_array_equal(sensors.foot_forces(forces), forces)
+    turn, force = sensors.imu(TURN, FORCE)
+    np.testing.assert_array_equal(turn, TURN)
+    np.testing.assert_array_equal(force, FORCE)
+
+
+@pytest.mark.parametrize(
+    ("name", "which", "size"),
+    [("gyro_bias", 0, 0.1), ("accelerometer_bias", 1, 0.5)],
+)
+def test_a_bias_is_constant_and_as_great_as_asked(
+    name: str, which: int, size: float
+) -> None:
+    """Over many robots it fills minus to plus its size on every axis."""
+    truth = (TURN, FORCE)
+    drawn = []
+    for seed in range(300):
+        effects: dict[str, Any] = {name: size}
+        sensors = spoilt(seed, **effects)
+        first, second = sensors.imu(*truth), sensors.imu(*truth)
+        np.testing.assert_array_equal(first[which], second[which])
+        np.testing.assert_array_equal(first[1 - which], truth[1 - which])
+        drawn.append(first[which] - truth[which])
+    biases = np.array(drawn) / size
+    assert np.abs(biases).max() <= 1.0 + 1e-12
+    assert biases.min(axis=0).max() < -0.95
+    assert biases.max(axis=0).min() > 0.95
+    np.testing.assert_allclose(biases.std(axis=0), 3**-0.5, rtol=0.1)
+
+
+@pytest.mark.parametrize(
+    ("name", "which", "size"),
+    [("gyro_noise", 0, 0.02), ("accelerometer_noise", 1, 0.3)],
+)
+def test_imu_noise_is_centred_and_as_great_as_asked(
+    name: str, which: int, size: float
+) -> None:
+    effects: dict[str, Any] = {name: size}
+    sensors = spoilt(**effects)
+    truth = (TURN, FORCE)
+    readings = [sensors.imu(*truth) for _ in range(4000)]
+    off = np.array([r[which] for r in readings]) - truth[which]
+    np.testing.assert_allclose(off.std(axis=0), size, rtol=0.05)
+    np.testing.assert_allclose(off.mean(axis=0), 0.0, atol=0.06 * size)
+    exact = np.array([r[1 - which] for r in readings]) - truth[1 - which]
+    np.testing.assert_array_equal(exact, 0.0)
+
+
+@pytest.mark.parametrize("delay", [0, 1, 3])
+def test_the_imu_is_late_by_whole_cycles(delay: int) -> None:
+    sensors = spoilt(imu_delay_cycles=delay)
+    for number in range(8):
+        turn, force = sensors.imu(TURN * number, FORCE * number)
+        then = max(number - delay, 0)
+        np.testing.assert_array_equal(turn, TURN * then)
+        np.testing.assert_array_equal(force, FORCE * then)
+
+
+def test_the_greatest_draws_give_the_greatest_errors() -> None:
+    body = BodySettings(
+        gyro_bias=0.1,
+        gyro_noise=0.02,
+        accelerometer_bias=0.5,
+        accelerometer_noise=0.3,
+        force_gain_error=0.2,
+        force_noise=0.4,
+    )
+    generator: Any = SimpleNamespace(
+        uniform=lambda low, high, size: np.full(size, high),
+        standard_normal=np.ones,
+    )
+    sensors = SensorErrors(body, generator)
+    turn, force = sensors.imu(TURN, FORCE)
+    np.testing.assert_allclose(turn, TURN + 0.12)
+    np.testing.assert_allclose(force, FORCE + 0.8)
+    np.testing.assert_allclose(sensors.foot_forces(np.full(8, 5.0)), 6.4)
+
+
+def test_what_was_read_is_not_changed() -> None:
+    turn, force = TURN.copy(), FORCE.copy()
+    spoilt(gyro_bias=1.0, accelerometer_bias=1.0).imu(turn, force)
+    np.testing.assert_array_equal(turn, TURN)
+    np.testing.assert_array_equal(force, FORCE)
+
+
+def test_encoders_round_to_their_nearest_step() -> None:
+    angles = np.linspace(-0.1, 0.1, 1001)
+    encoded = spoilt(encoder_step=0.01).encoders(angles)
+    np.testing.assert_allclose(np.round(encoded / 0.01), encoded / 0.01)
+    assert np.abs(encoded - angles).max() <= 0.005 + 1e-12
+
+
+def test_foot_sensors_have_a_constant_gain_each() -> None:
+    drawn = []
+    for seed in range(100):
+        sensors = spoilt(seed, force_gain_error=0.2)
+        gains = sensors.foot_forces(np.ones(8))
+        np.testing.assert_allclose(
+            sensors.foot_forces(np.full(8, 7.0)), 7.0 * gains
+        )
+        drawn.append(gains)
+    gains = np.array(drawn)
+    assert 0.8 <= gains.min() < 0.81 and 1.19 < gains.max() <= 1.2
+    assert gains.std(axis=1).min() > 0.02
+    np.testing.assert_allclose(gains.mean(), 1.0, atol=0.02)
+
+
+def test_foot_noise_is_as_great_as_asked_and_never_pulls() -> None:
+    sensors = spoilt(force_noise=0.4)
+    nine = np.full(8, 9.0)
+    pressed = np.array([sensors.foot_forces(nine) for _ in range(999)])
+    np.testing.assert_allclose(pressed.std(), 0.4, rtol=0.05)
+    np.testing.assert_allclose(pressed.mean(), 9.0, atol=0.03)
+    free = np.array([sensors.foot_forces(np.zeros(8)) for _ in range(999)])
+    assert free.min() == 0.0
+    np.testing.assert_allclose((free == 0.0).mean(), 0.5, atol=0.03)
+
+
+def test_an_averaged_imu_gives_the_mean_since_its_last_reading() -> None:
+    values = np.zeros(9)
+    data: Any = SimpleNamespace(sensordata=values)
+    imu = AveragedImu(data, slice(1, 4), slice(5, 8))
+
+    def step(turn: float, force: float) -> None:
+        values[1:4], values[5:8] = turn, force
+        imu.before_step(0.0)
+
+    step(1.0, 10.0)
+    step(3.0, 14.0)
+    turn, force = imu.read()
+    np.testing.assert_allclose(turn, 2.0)
+    np.testing.assert_allclose(force, 12.0)
+    step(5.0, 20.0)
+    turn, force = imu.read()
+    np.testing.assert_allclose(turn, 5.0)
+    np.testing.assert_allclose(force, 20.0)
+    values[1:4], values[5:8] = 7.0, 8.0
+    turn, force = imu.read()  # no step since: the present moment
+    np.testing.assert_allclose(turn, 7.0)
+    np.testing.assert_allclose(force, 8.0)
+    step(1.0, 2.0)
+    np.testing.assert_allclose(imu.read()[0], 1.0)
+
+
+def part(name: str, mass: float = 2.0) -> SimpleNamespace:
+    return SimpleNamespace(
+        name=name,
+        mass=mass,
+        fullinertia=np.arange(1.0, 7.0),
+        inertia=np.ones(3),
+        ipos=np.array([0.1, 0.2, 0.3]),
+    )
+
+
+def test_inertia_is_as_far_off_as_the_mass() -> None:
+    factors = []
+    for seed in range(300):
+        parts = [part("torso"), part("leg"), part("frame", 0.0)]
+        body = BodySettings(mass_error=0.2)
+        perturb_masses(parts, body, "torso", named_generator(seed, "m"))
+        for one in parts[:2]:
+            factor = one.mass / 2.0
+            np.testing.assert_allclose(
+                one.fullinertia, factor * np.arange(1.0, 7.0)
+            )
+            np.testing.assert_allclose(one.inertia, factor)
+            factors.append(factor)
+        assert parts[2].mass == 0.0
+        np.testing.assert_array_equal(parts[2].inertia, 1.0)
+        np.testing.assert_array_equal(parts[0].ipos, [0.1, 0.2, 0.3])
+    assert 0.8 <= min(factors) < 0.805 and 1.195 < max(factors) <= 1.2
+    assert factors[0] != factors[1]
+
+
+def test_only_the_torso_has_its_com_shifted_and_level() -> None:
+    shifts = []
+    for seed in range(300):
+        parts = [part("torso"), part("leg")]
+        body = BodySettings(com_error=0.01)
+        perturb_masses(parts, body, "torso", named_generator(seed, "m"))
+        shifts.append(parts[0].ipos - [0.1, 0.2, 0.3])
+        np.testing.assert_array_equal(parts[1].ipos, [0.1, 0.2, 0.3])
+        assert parts[0].mass == 2.0
+    found = np.array(shifts) / 0.01
+    np.testing.assert_array_equal(found[:, 2], 0.0)
+    assert found[:, :2].min(axis=0).max() < -0.95
+    assert 0.95 < found[:, :2].max(axis=0).min()
+    assert np.abs(found).max() <= 1.0 + 1e-12
+    assert abs(np.corrcoef(found[:, 0], found[:, 1])[0, 1]) < 0.2
+
+
+def test_a_specification_of_mujoco_takes_the_errors() -> None:
+    spec = mujoco.MjSpec.from_string(
+        "<mujoco><worldbody><body name='torso'><freejoint/>"
+        "<inertial pos='0 0 0' mass='2' diaginertia='1 1 1'/>"
+        "</body></worldbody></mujoco>"
+    )
+    body = BodySettings(mass_error=0.2, com_error=0.01)
+    perturb_masses(spec.bodies, body, "torso", named_generator(3, "m"))
+    model = spec.compile()
+    assert model.body_mass[1] != 2.0
+    ratio = model.body_inertia[1] / model.body_mass[1]
+    np.testing.assert_allclose(ratio, 0.5)
+    assert np.abs(model.body_ipos[1][:2]).min() > 0.0
