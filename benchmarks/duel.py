@@ -50,10 +50,9 @@ def _control_tick(settings: DuelSettings) -> float:
     spent, count = 0.0, 0
     for _ in range(5000):
         start = process_time()
-        for robot, scheme in zip(duel.robots, duel.schemes, strict=True):
-            robot.write(scheme.update(robot.read()))
+        for player in duel.players:
+            player.tick()
         spent += process_time() - start
         count += 2
-        for robot in duel.robots:
-            robot.step()
+        duel.world.step()
     return spent / count

@@ -12,7 +12,6 @@ from gathering import Row, finished, gather, spread
 
 from stepaside.control.balance.settings import STABILISED
 from stepaside.games import DuelSettings, run_duel
-from stepaside.games.summary import summarise
 from stepaside.studies.results import header, write_result
 from stepaside.world.body_settings import BODIES
 from stepaside.world.settings import PhysicsSettings
@@ -41,7 +40,7 @@ def play(played: Played) -> Row:
         body=BODIES["hardware"],
         control=STABILISED,
     )
-    found = summarise(run_duel(settings))
+    found = run_duel(settings).summary.to_json()
     return {
         "floor": played.floor,
         "seed": played.seed,

@@ -19,10 +19,10 @@ from asking import ask, seeds_of
 from gathering import finished, gather
 
 from stepaside.control import ControlScheme
+from stepaside.games import Run, run_duel
+from stepaside.games.circle import theory_of
 from stepaside.games.configuration import plain_settings
-from stepaside.games.duel import DuelResult, run_duel
 from stepaside.games.settings import DuelSettings
-from stepaside.games.summary import summarise, theory_of
 from stepaside.poses import wrap_angle
 from stepaside.studies.results import header, write_result
 from stepaside.world.sight import IdealLineOfSight
@@ -95,25 +95,24 @@ def play(job: Job) -> dict[str, Any]:
         patch.object(IdealLineOfSight, "_look", look_behind),
         patch.object(ControlScheme, "_replan", replan_from_both),
     ):
-        result = run_duel(settings)
-    found = summarise(result)
+        run = run_duel(settings)
+    found = run.summary
     return {
         "heading": job.heading,
         "behind_m": job.behind,
         "seed": job.seed,
-        "pursuer_radius_m": found["pursuer"]["radius_m"],
-        "evader_radius_m": found["evader"]["radius_m"],
-        "distance_m": _distance(result, job.behind),
+        "pursuer_radius_m": found.pursuer.radius_m,
+        "evader_radius_m": found.evader.radius_m,
+        "distance_m": _distance(run, job.behind),
     }
 
 
-def _distance(result: DuelResult, behind: float) -> float:
+def _distance(run: Run, behind: float) -> float:
     """Mean distance of the sighted points in the last third, in [m]."""
-    arrays = result.arrays
-    last = arrays["times_s"] >= arrays["times_s"][-1] * 2.0 / 3.0
+    last = run.times >= run.times[-1] * 2.0 / 3.0
     points = []
-    for name in ("pursuer", "evader"):
-        x, y, theta = arrays[f"{name}_torso"][last].T
+    for track in (run.pursuer, run.evader):
+        x, y, theta = track.torso[last].T
         points.append((x - behind * np.cos(theta), y - behind * np.sin(theta)))
     (x, y), (u, v) = points
     return float(np.hypot(u - x, v - y).mean())

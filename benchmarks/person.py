@@ -12,7 +12,6 @@ from asking import RESULTS, ask, seeds_of
 from gathering import Row, finished, gather, spread
 
 from stepaside.games import DuelSettings, run_duel
-from stepaside.games.summary import summarise
 from stepaside.studies.results import header, write_result
 from stepaside.world.person_settings import PersonSettings
 
@@ -43,7 +42,7 @@ def play(walk: Walk) -> Row:
         person=WALKS[walk.name],
         sensing=walk.sensing,
     )
-    found = summarise(run_duel(settings))
+    found = run_duel(settings).summary.to_json()
     return {
         "walk": walk.name,
         "seed": walk.seed,

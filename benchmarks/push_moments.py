@@ -16,7 +16,7 @@ import mujoco
 import numpy as np
 from asking import RESULTS, ask
 
-from stepaside.games.walk import NAME, Walker
+from stepaside.games.walk import NAME, Walking
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -77,18 +77,19 @@ def follow(trial: Trial) -> dict[str, float | str | bool]:
     count for the DCM. Lengths are from the ankle of the foot that stands, in
     the direction of the push, in [mm].
     """
-    walker = Walker(settings_of(trial))
-    world, robot, scheme = walker.world, walker.robot, walker.scheme
+    walking = Walking(settings_of(trial), recorded=False)
+    world, walker = walking.world, walking.walker
+    robot, scheme = walker.robot, walker.scheme
     model, data = world.model, world.data
     torso = model.body(f"{NAME}/torso").id
-    [push] = walker.settings.pushes
+    [push] = walking.settings.pushes
     heading = np.array([cos(push.direction), sin(push.direction)])
     mass = float(model.body_subtreemass[torso])
     rows: list[tuple[float, ...]] = []
     landing, stood, before = np.inf, True, np.zeros(3)
     edge = 0.0
-    while stood and world.time < walker.settings.duration:
-        stood = walker.tick()
+    while stood and world.time < walking.settings.duration:
+        stood = walking.tick() is None
         mujoco.mj_subtreeVel(model, data)
         velocity = data.subtree_linvel[torso].copy()
         now = world.time

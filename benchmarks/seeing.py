@@ -13,7 +13,6 @@ from asking import RESULTS, ask, machine, seeds_of
 from gathering import Row, finished, gather, spread
 
 from stepaside.games import DuelSettings, run_duel
-from stepaside.games.summary import summarise
 from stepaside.studies.results import header, write_result
 from stepaside.world.camera_settings import (
     CLUTTER,
@@ -51,7 +50,7 @@ def play(seen: Seen) -> Row:
             cameras=CameraSettings(drop_frames=0.3, added_latency=0.1),
             room=RoomSettings(things=list(CLUTTER)),
         )
-    found = summarise(run_duel(settings))
+    found = run_duel(settings).summary.to_json()
     row = {key: found[key] for key in PLAIN}
     for name in ("pursuer", "evader"):
         row[f"{name}_misled_s"] = found[name]["misled_s"]

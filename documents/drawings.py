@@ -9,6 +9,7 @@ from .store import Store
 
 def duel(store: Store, file: Path) -> None:
     """The duel of the README, from its committed trajectories."""
+    from stepaside.games.folder import read_record
     from stepaside.games.settings import DuelSettings
     from stepaside.report.duel_figure import draw_duel
 
@@ -16,7 +17,8 @@ def duel(store: Store, file: Path) -> None:
     with np.load(store.folder / result["trajectories"]["file"]) as arrays:
         tracks = {name: arrays[name] for name in arrays.files}
     settings = DuelSettings(seed=result["settings"]["seed"])
-    draw_duel(tracks, result["summary"], settings, file)
+    run = read_record("duel-seed7", settings, result["summary"], tracks)
+    draw_duel(run, file)
 
 
 def push_limits(store: Store, file: Path) -> None:

@@ -78,8 +78,7 @@ class Eyes:
         gaze: Any = FakeGaze()
         self.detector = self.perception._detector = detector
         self.gaze = self.perception._gaze = gaze
-        self.reports: list[FrameReport] = []
-        self.perception.on_frame = self.reports.append
+        self.reports: list[FrameReport] = []  # of all ticks so far
         self.support = SUPPORT
 
     @property
@@ -93,16 +92,22 @@ class Eyes:
         assert self.perception.body is not None
         return self.perception.body.torso
 
-    def see(self, time: float, *percepts: Any) -> Any:
+    def see(
+        self,
+        time: float,
+        *percepts: Any,
+        tilt: tuple[float, float] = (0.0, 0.0),
+    ) -> Any:
         """Take in one tick."""
-        angles = np.zeros(JOINTS)
-        return self.perception.see(
-            Measurement(
-                time, angles, np.zeros(3), UP, np.zeros(8), None, percepts
-            ),
+        angles, still = np.zeros(JOINTS), np.zeros(3)
+        seen = self.perception.see(
+            Measurement(time, angles, still, UP, np.zeros(8), None, percepts),
             self.support,
             True,
+            tilt,
         )
+        self.reports += self.perception.reports
+        return seen
 
     def know(self, x: float, y: float, **changes: Any) -> Track:
         """Follow something at a place in odometry."""

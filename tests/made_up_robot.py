@@ -1,17 +1,20 @@
 """A robot that is made up, to test what controls it."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
+from stepaside.control.balance.loop import ClosedLoop
 from stepaside.control.phase import Phase
 from stepaside.control.scheme import ControlScheme
-from stepaside.planning import Direction, GaitSettings
+from stepaside.control.walking import StepBegun
+from stepaside.planning import Direction, Foot, GaitSettings
 from stepaside.poses import Array, Pose
 from stepaside.robots.kinematics import BodyReference
 from stepaside.sensing.measurement import Measurement, Sighting
+from stepaside.strategies import Intent, Knowledge
 
 GAIT = GaitSettings()
 
@@ -40,23 +43,26 @@ class FakeLegs:
 
 
 @dataclass
-class FakeRole:
-    """Notes what it is asked, heads where it is told."""
+class FakeStrategy:
+    """Remembers the bearings that it saw, heads where it is told."""
 
     going: bool = True
     heading: float = 0.0
     direction: Direction = Direction.FORWARD
     saturated: bool = False
-    asked: list[float] = field(default_factory=list)
+    speed_factor: float = 1.0
 
-    def is_triggered(self, distance: float) -> bool:
-        """Go when told, and not too far."""
-        return self.going and distance < 2.0
+    def begin(self) -> tuple[Knowledge, ...]:
+        """Nothing was known yet."""
+        return ()
 
-    def desired_heading(self, bearing: float) -> float:
-        """Note what is seen, and head where told."""
-        self.asked.append(bearing)
-        return self.heading
+    def decide(
+        self, knowledge: Knowledge, memory: tuple[Knowledge, ...]
+    ) -> tuple[Intent, tuple[Knowledge, ...]]:
+        """Go when told, and not too far, and head where told."""
+        going = self.going and knowledge.distance < 2.0
+        intent = Intent(self.heading, self.speed_factor, going)
+        return intent, (*memory, knowledge) if going else memory
 
 
 class FakeFeedback:
@@ -64,7 +70,9 @@ class FakeFeedback:
 
     def __init__(self) -> None:
         self.ready = True
-        self.estimator = SimpleNamespace(torso_heading=0.0)
+        self.estimator = SimpleNamespace(torso_heading=0.0, tilt=(0.0, 0.0))
+        self.zmp_feedback = SimpleNamespace(solved=None)
+        self.adapted = 0
         self.state: Any = None
         self.lift = self.shift = self.turn = 0.0
         self.jump = (0.0, 0.0)
@@ -103,18 +111,34 @@ def measure(
 
 
 class Run:
-    """A scheme on its clock."""
+    """A scheme on its clock, and the steps that it began."""
 
     def __init__(
-        self, role: Any = None, gait: GaitSettings = GAIT, **changes: Any
+        self, strategy: Any = None, gait: GaitSettings = GAIT, **changes: Any
     ) -> None:
         legs: Any = FakeLegs()
         self.legs = legs
-        self.role = role or FakeRole()
+        self.strategy = strategy or FakeStrategy()
         self.scheme = ControlScheme(
-            self.role, gait, legs, tick=TICK, **changes
+            self.strategy, gait, legs, tick=TICK, **changes
         )
         self.ticks = 0
+        self.steps: list[StepBegun] = []
+
+    @property
+    def replans(self) -> int:
+        """Maneuvers planned so far; a halt is none."""
+        return sum(step.planning_time is not None for step in self.steps)
+
+    @property
+    def landings(self) -> list[tuple[float, Foot, Pose]]:
+        """When each foot that has begun to swing lands, and where."""
+        return [(s.landing_time, s.foot, s.landing) for s in self.steps]
+
+    @property
+    def asked(self) -> list[float]:
+        """Bearings from which it planned, in [rad]."""
+        return [known.bearing for known in self.scheme.decisions.memory]
 
     def phase(self) -> Phase:
         """What the robot is doing by now."""
@@ -127,6 +151,8 @@ class Run:
         while self.ticks * TICK < time - 1e-9:
             now = self.ticks * TICK
             self.scheme.update(measure(now, distance, bearing))
+            if self.scheme.begun is not None:
+                self.steps.append(self.scheme.begun)
             self.ticks += 1
         return self.scheme
 
@@ -134,9 +160,9 @@ class Run:
 FIRST = GAIT.start_support + STEP  # duration of the first maneuver walked
 
 
-def feeding(role: Any = None) -> tuple[Run, FakeFeedback]:
+def feeding(strategy: Any = None) -> tuple[Run, FakeFeedback]:
     feedback: Any = FakeFeedback()
-    return Run(role, stabiliser=feedback), feedback
+    return Run(strategy, balance=ClosedLoop(feedback)), feedback
 
 
 class FakePerception:
@@ -145,12 +171,18 @@ class FakePerception:
     def __init__(self) -> None:
         self.seen: Sighting | None = None
         self.stood: list[tuple[Pose, bool]] = []
+        self.tilts: list[tuple[float, float]] = []
 
     def see(
-        self, measurement: Measurement, support: Pose, left_supports: bool
+        self,
+        measurement: Measurement,
+        support: Pose,
+        left_supports: bool,
+        tilt: tuple[float, float],
     ) -> Sighting | None:
         """See what was told."""
         self.stood.append((support, left_supports))
+        self.tilts.append(tilt)
         return self.seen
 
     def aim(self, targets: Array) -> None:

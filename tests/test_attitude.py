@@ -1,14 +1,14 @@
 """Test roll and pitch from gyro and accelerometer."""
 
-from math import hypot
+from math import cos, hypot, sin
 
 import numpy as np
 import pytest
 
-from stepaside.control.balance.attitude import CALIBRATION, AttitudeFilter
-from stepaside.planning.settings import GRAVITY
+from stepaside.constants import GRAVITY
 from stepaside.poses import Array
 from stepaside.robots.head import rotation
+from stepaside.sensing.attitude import CALIBRATION, AttitudeFilter
 
 TICK = 0.004
 GAIN, BIAS_GAIN = 0.5, 0.06  # [1/s], [1/s^2]
@@ -164,3 +164,51 @@ def test_free_fall_corrects_nothing() -> None:
     assert (attitude.roll, attitude.pitch) == pytest.approx((0.1, 0.1))
     attitude.update(np.zeros(3), np.array([0.6, 0.6, 0.6]), REST, TICK)
     assert attitude.roll != 0.1
+
+
+def test_who_does_not_stand_first_begins_upright() -> None:
+    """Whatever the accelerometer says: what it says counts from then on."""
+    attitude = AttitudeFilter(GAIN, 0.0, calibration=0.0)
+    assert attitude.ready and (attitude.roll, attitude.pitch) == REST
+    attitude.update(np.zeros(3), force(0.3, 0.2), REST, TICK)
+    assert hypot(attitude.roll, attitude.pitch) < GAIN * TICK * hypot(0.3, 0.2)
+    run(attitude, np.zeros(3), force(0.03, -0.02), 40.0)
+    assert (attitude.roll, attitude.pitch) == pytest.approx(
+        (0.03, -0.02), abs=1e-5
+    )
+
+
+def test_without_calibration_it_is_the_filter_of_one_that_stood_upright() -> (
+    None
+):
+    """To the bit, through spins, tilts and shocks."""
+    attitude = AttitudeFilter(GAIN, BIAS_GAIN, calibration=0.0)
+    other = stood()
+    generator = np.random.default_rng(1)
+    for _ in range(200):
+        gyro = generator.normal(0.0, 0.5, 3)
+        felt = force(0.1, -0.2) + generator.normal(0.0, 2.0, 3)
+        for each in (attitude, other):
+            each.update(gyro, felt, (0.3, -0.1), TICK)
+        assert (attitude.roll, attitude.pitch) == (other.roll, other.pitch)
+        assert attitude.rate == other.rate
+    assert abs(attitude.roll) > 0.01
+
+
+def test_yaw_of_an_upright_torso_is_no_tilt() -> None:
+    attitude = AttitudeFilter(GAIN, 0.0, calibration=0.0)
+    run(attitude, np.array([0.0, 0.0, 2.0]), force(0.0, 0.0), 0.4)
+    assert (attitude.roll, attitude.pitch) == pytest.approx(REST, abs=1e-12)
+
+
+def test_a_level_rotation_about_a_tilted_axis_leaves_the_tilt_alone() -> None:
+    """Turning about the vertical changes neither roll nor pitch."""
+    attitude = stood(0.2, 0.3, bias_correction=0.0)
+    gyro = rotation(0.2, 0.3, 0.0).T @ np.array([0.0, 0.0, 1.5])
+    assert gyro == pytest.approx(
+        1.5 * np.array([-sin(0.3), cos(0.3) * sin(0.2), cos(0.3) * cos(0.2)])
+    )
+    run(attitude, gyro, force(0.2, 0.3), 0.2)
+    assert (attitude.roll, attitude.pitch) == pytest.approx(
+        (0.2, 0.3), abs=1e-9
+    )

@@ -9,12 +9,13 @@ import pytest
 
 from stepaside.control import ControlScheme
 from stepaside.errors import ConfigurationError
-from stepaside.games.walk import Walker, WalkSettings
+from stepaside.games.walk import Walking, WalkSettings
 from stepaside.planning import GaitSettings
 from stepaside.poses import Array, Pose
 from stepaside.randomness import named_generator
 from stepaside.robots.description import load_robot
 from stepaside.robots.kinematics import LegKinematics
+from stepaside.strategies import Walk
 from stepaside.world.body_settings import BODIES, BodySettings
 from stepaside.world.push import Push
 from stepaside.world.robot import SimulatedRobot
@@ -26,9 +27,9 @@ from stepaside.world.world import World, build_model
 def standing(
     body: BodySettings, tick: float = 0.004
 ) -> tuple[SimulatedRobot, ControlScheme]:
-    walker = Walker(
+    walker = Walking(
         WalkSettings(body=body, physics=PhysicsSettings(tick=tick))
-    )
+    ).walker
     return walker.robot, walker.scheme
 
 
@@ -156,7 +157,7 @@ def test_a_push_gives_its_impulse_in_the_robots_own_frame() -> None:
     kinematics = LegKinematics(description, tick=0.004)
     world = World({"walker": description}, PhysicsSettings())
     scheme = ControlScheme(
-        Walker(WalkSettings()).scheme.role,
+        Walk(),
         GaitSettings(),
         kinematics,
         tick=0.004,

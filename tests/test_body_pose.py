@@ -120,7 +120,33 @@ def test_force_sensors_sit_at_the_corners_of_the_soles() -> None:
 def test_force_sensors_are_placed_from_the_frame_of_the_foot() -> None:
     """A sole whose frame is elsewhere has its corners elsewhere."""
     moved = ForwardKinematics(NAO)
-    moved._model.site(NAO.left_foot).pos += (0.01, 0.02, 0.03)
+    foot = moved._feet[0]
+    x, y, z = foot.place
+    moved._feet[0] = foot._replace(place=(x + 0.01, y + 0.02, z + 0.03))
     shift = moved.force_sensors() - forward().force_sensors()
     np.testing.assert_allclose(shift[:4], 4 * [(-0.01, -0.02)], atol=1e-12)
     np.testing.assert_allclose(shift[4:], 0.0, atol=1e-12)
+    aside = ((0.0, -1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    moved._feet[0] = foot._replace(axes=aside)
+    x, y = forward().force_sensors()[0]
+    assert moved.force_sensors()[0] == pytest.approx((y, -x))
+
+
+def test_a_posture_is_that_of_the_angles_as_they_are_by_now() -> None:
+    """Also where a driver writes all of its readings into one array."""
+    _, _, angles = bent()
+    first = forward().posture(angles)
+    assert forward().posture(angles.copy()) is first
+    angles *= 0.5
+    assert np.abs(forward().posture(angles).com - first.com).max() > 1e-3
+
+
+def test_balance_and_sight_share_one_body() -> None:
+    head = load_head(NAO)
+    one = ForwardKinematics(NAO, head.body)
+    _, _, angles = bent()
+    shared = BodyKinematics(NAO, head, one)
+    ours = shared.pose(0.0, angles, Pose(0.1, 0.2, 0.3), True, TILT)
+    own = kinematics().pose(0.0, angles, Pose(0.1, 0.2, 0.3), True, TILT)
+    np.testing.assert_array_equal(ours.head_place, own.head_place)
+    assert one.posture(angles) is one.posture(angles)

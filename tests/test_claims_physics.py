@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from stepaside.games import DuelSettings, run_duel
-from stepaside.games.duel import NAMES, Outcome
+from stepaside.games.outcome import Outcome
+from stepaside.games.settings import PLAYERS
 from stepaside.poses import Array
 from stepaside.studies import physics_readings as read
 from stepaside.studies import walk_measures
@@ -31,7 +32,7 @@ def claims(job: str) -> dict[str, Claim]:
 
 def far_until_late(duel: Watched) -> Watched:
     """They come to the circle at the very end only."""
-    late = duel.arrays["times_s"] < 27.0
+    late = duel.times < 27.0
     return changed(
         duel, evader_torso=lambda t: t * np.where(late, 2, 1)[:, None]
     )
@@ -173,18 +174,19 @@ def test_who_falls_or_touches_is_on_no_circle(outcome: Outcome) -> None:
 # --- the durations --------------------------------------------------------
 
 
+def tosses(tilt: float = radians(6.0), slide: float = 0.02) -> Watched:
+    """Feet that are dragged, and a torso that tosses."""
+    return walked_duel(tilt=tilt, slide=slide)
+
+
 def falls(tilt: float = radians(50.0), duration: float = 4.0) -> Watched:
     return walked_duel(duration, outcome=Outcome.FALL, tilt=tilt)
 
 
 Duels = tuple[Watched, ...]
-FALLS: dict[str, Duels] = {
-    "fall": (
-        walked_duel(4.0, outcome=Outcome.CONTACT),
-        walked_duel(),
-        falls(duration=31.0),
-    ),
-    "fall_tilt": (walked_duel(4.0, outcome=Outcome.CONTACT), falls(0.7)),
+TOSSES: dict[str, Duels] = {
+    "printed_slide": (walked_duel(), tosses(slide=0.0015)),
+    "printed_tilt": (walked_duel(), tosses(tilt=radians(2.9))),
 }
 WALKS: dict[str, Duels] = {
     "upright_for": (walked_duel(29.0), falls()),
@@ -209,13 +211,13 @@ def test_every_claim_on_the_durations_holds_and_fails(key: str) -> None:
     def reading(printed: Watched, walked: Watched) -> float:
         return read.read_durations(printed, walked)[key]
 
-    assert claim.holds([reading(falls(), walked_duel())])
-    faults = FALLS.get(key, ()) + WALKS.get(key, ())
+    assert claim.holds([reading(tosses(), walked_duel())])
+    faults = TOSSES.get(key, ()) + WALKS.get(key, ())
     assert faults
-    for printed in FALLS.get(key, ()):
+    for printed in TOSSES.get(key, ()):
         assert not claim.holds([reading(printed, walked_duel())])
     for walked in WALKS.get(key, ()):
-        assert not claim.holds([reading(falls(), walked)])
+        assert not claim.holds([reading(tosses(), walked)])
 
 
 # --- the slippery floor ---------------------------------------------------
@@ -282,14 +284,19 @@ def test_watching_changes_nothing() -> None:
     duel, watched = run_duel(settings), watch(settings)
     assert watched.outcome is duel.outcome
     assert watched.duration == duel.duration
-    assert set(watched.arrays) == set(duel.arrays)
-    for name, values in duel.arrays.items():
-        np.testing.assert_array_equal(watched.arrays[name], values)
-    for name in NAMES:  # one stands on its left foot as on its right one
+    np.testing.assert_array_equal(watched.times, duel.times)
+    assert set(watched.tracks) == set(duel.tracks) == set(PLAYERS)
+    for name in PLAYERS:
+        arrays = duel.tracks[name].arrays(name)
+        found = watched.tracks[name].arrays(name)
+        assert set(found) == set(arrays)
+        for key, values in arrays.items():
+            np.testing.assert_array_equal(found[key], values)
+    for name in PLAYERS:  # one stands on its left foot as on its right one
         weight = watched.loads[name].sum(axis=1)[50:100].mean()
         assert weight == pytest.approx(5.3 * 9.81, rel=0.05)
         left, right = watched.feet[name][0]
-        facing = duel.arrays[f"{name}_torso"][0, 2]
+        facing = duel.tracks[name].torso[0, 2]
         across = np.array([-np.sin(facing), np.cos(facing)])
         assert (left - right) @ across == pytest.approx(0.1, abs=1e-3)
 
@@ -324,7 +331,7 @@ def test_humanoids_walk_as_their_forces_and_references_tell(
     assert replanning <= holding("humanoids", found)
 
 
-def test_as_printed_they_fall_and_exchanged_they_walk(
+def test_as_printed_feet_are_dragged_and_exchanged_they_walk(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     right = read.walk_settings
@@ -334,7 +341,9 @@ def test_as_printed_they_fall_and_exchanged_they_walk(
 
     monkeypatch.setattr(read, "walk_settings", settings)
     found = read.measure_durations(1)
-    assert {"fall", "fall_tilt", "tilt"} <= holding("durations", found)
+    assert {"printed_slide", "printed_tilt", "tilt"} <= holding(
+        "durations", found
+    )
     assert found["upright_for"] == pytest.approx(4.0)
 
 
@@ -356,7 +365,7 @@ def test_settings_of_the_studies_are_what_they_say() -> None:
     )
     assert (printed.single_support, printed.double_support) == (0.122, 0.425)
     assert (walks.single_support, walks.double_support) == (0.425, 0.122)
-    assert set(NAMES) == {"pursuer", "evader"}
+    assert set(PLAYERS) == {"pursuer", "evader"}
 
 
 def test_they_have_settled_before_what_is_measured_of_them() -> None:
@@ -368,7 +377,7 @@ def test_they_have_settled_before_what_is_measured_of_them() -> None:
 def test_no_claim_in_physics_is_without_a_fault() -> None:
     faults: dict[str, Mapping[str, Sized]] = {
         "humanoids": CIRCLE,
-        "durations": FALLS | WALKS,
+        "durations": TOSSES | WALKS,
         "slip": NO_SLIP,
     }
     assert set(faults) == {name for name, job in JOBS.items() if job.seeded}

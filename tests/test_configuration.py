@@ -10,7 +10,6 @@ import pytest
 
 from stepaside.control.balance.settings import ControlSettings
 from stepaside.errors import ConfigurationError
-from stepaside.games.assembly import with_cycle
 from stepaside.games.configuration import (
     dump_configuration,
     load_configuration,
@@ -19,11 +18,11 @@ from stepaside.games.configuration import (
 from stepaside.games.settings import (
     DuelSettings,
     StartSettings,
-    StrategySettings,
 )
 from stepaside.games.start import draw_start
 from stepaside.games.walk import WalkSettings
-from stepaside.world.body_settings import BODIES, BodySettings
+from stepaside.strategies import Evasion
+from stepaside.world.body_settings import BODIES, BodySettings, with_cycle
 from stepaside.world.push import Push
 from stepaside.world.settings import PhysicsSettings, SightSettings
 
@@ -79,7 +78,7 @@ def test_a_range_holds_its_edges_and_nothing_beyond(
     "value",
     [
         StartSettings(),
-        StrategySettings(),
+        Evasion(),
         SightSettings(),
         PhysicsSettings(),
         DuelSettings(),
@@ -145,21 +144,20 @@ def test_rates_below_zero_are_refused_even_without_end() -> None:
             SightSettings(rate=rate)
 
 
-def test_a_strategy_becomes_a_role_value_by_value() -> None:
-    strategy = StrategySettings(0.4, True, 0.7, 1.3, 0.2)
-    role = strategy.role()
-    assert role.angle == 0.4 and role.saturated
-    assert role.safety_radius == 0.7 and role.release_distance == 1.3
-    assert role.side_hysteresis == 0.2
-    usual = StrategySettings().role()
+def test_a_strategy_is_its_own_setting() -> None:
+    strategy = Evasion(0.4, True, 0.7, 1.3, 0.2)
+    assert strategy.angle == 0.4 and strategy.saturated
+    assert strategy.safety_radius == 0.7 and strategy.release_distance == 1.3
+    assert strategy.side_hysteresis == 0.2
+    usual = Evasion()
     assert usual.angle == pi / 2 and not usual.saturated
     assert usual.safety_radius == 0.8 and usual.release_distance == inf
     assert usual.side_hysteresis == pytest.approx(radians(20.0))
 
 
-def test_a_strategy_that_no_role_takes_is_refused_at_once() -> None:
+def test_a_strategy_that_no_evader_takes_is_refused_at_once() -> None:
     with pytest.raises(ValueError, match="safety"):
-        StrategySettings(safety_radius=-1.0)
+        Evasion(safety_radius=-1.0)
 
 
 def test_a_body_may_ask_for_its_own_control_period() -> None:
@@ -273,7 +271,7 @@ def test_a_configuration_comes_back_as_it_was(tmp_path: Path) -> None:
         seed=9,
         duration=33.0,
         start=StartSettings(distance=0.9),
-        strategy=StrategySettings(angle=0.4, saturated=True),
+        strategy=Evasion(angle=0.4, saturated=True),
         body=BODIES["hardware"],
         control=ControlSettings(method="measured", feedback=True),
     )

@@ -1,7 +1,5 @@
-"""How a duel begins, is counted and ends; and one with honest bodies."""
+"""How a duel begins, is counted and ends."""
 
-from collections.abc import Iterator
-from functools import cache
 from math import pi
 from typing import Any
 
@@ -9,19 +7,21 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.control import ControlScheme, Phase
-from stepaside.control.balance.settings import STABILISED
-from stepaside.games import duel as module
-from stepaside.games.duel import Duel, DuelResult, Outcome, Progress, run_duel
+from made_up_players import clock, raising
+from stepaside.errors import ReachError
+from stepaside.games.duel import Duel, run_duel
+from stepaside.games.match import Progress
+from stepaside.games.outcome import Outcome
+from stepaside.games.record import Recorder
 from stepaside.games.settings import (
     DuelSettings,
     StartSettings,
-    StrategySettings,
 )
-from stepaside.world.body_settings import BODIES
+from stepaside.games.track import Planning
+from stepaside.games.walker import Walker
+from stepaside.strategies import Evasion, Pursuit
 from stepaside.world.camera_settings import RoomSettings, Thing
 from stepaside.world.robot import SimulatedRobot
-from stepaside.world.servos import HonestServos
 from stepaside.world.settings import SightSettings
 
 START = StartSettings(1.3, 0.4, -0.2)
@@ -31,10 +31,15 @@ def begun(**changes: Any) -> Duel:
     return Duel(DuelSettings(**{"start": START, **changes}))
 
 
+def walkers(duel: Duel) -> list[Walker]:
+    return [player for player in duel.players if isinstance(player, Walker)]
+
+
 def test_robots_stand_where_the_start_says() -> None:
     duel = begun()
-    pursuer, evader = (robot.truth for robot in duel.robots)
-    assert [robot.name for robot in duel.robots] == ["pursuer", "evader"]
+    pursuer, evader = (player.truth for player in duel.players)
+    assert [player.name for player in duel.players] == ["pursuer", "evader"]
+    assert duel.player("evader") is duel.players[1]
     assert duel.distance == pytest.approx(1.3, abs=0.03)
     assert pursuer.heading == pytest.approx(0.4)
     assert abs(evader.heading) == pytest.approx(pi - 0.2)
@@ -45,23 +50,23 @@ def test_robots_stand_where_the_start_says() -> None:
     assert duel.triggered_at is None and duel.triggered_distance is None
 
 
-def test_roles_and_sight_belong_to_their_robots() -> None:
-    strategy = StrategySettings(angle=0.4, safety_radius=0.7)
-    duel = begun(strategy=strategy)
-    assert duel.schemes[1].role == strategy.role()
-    assert type(duel.schemes[0].role).__name__ == "Pursuit"
-    for own, bearing in ((0, -0.4), (1, 0.2)):
-        sighting = duel.robots[own].read().sighting
+def test_strategies_and_sight_belong_to_their_robots() -> None:
+    strategy = Evasion(angle=0.4, safety_radius=0.7)
+    pursuer, evader = walkers(begun(strategy=strategy))
+    assert evader.scheme.decisions.strategy == strategy
+    assert pursuer.scheme.decisions.strategy == Pursuit()
+    for own, bearing in ((pursuer, -0.4), (evader, 0.2)):
+        sighting = own.robot.read().sighting
         assert sighting is not None
         assert sighting.bearing == pytest.approx(bearing, abs=0.02)
     noisy = begun(sight=SightSettings(bearing_noise=0.1))
-    seen = [robot.read().sighting for robot in noisy.robots]
+    seen = [walker.robot.read().sighting for walker in walkers(noisy)]
     offs = [s.bearing - b for s, b in zip(seen, (-0.4, 0.2), strict=True) if s]
     assert abs(offs[0] - offs[1]) > 1e-3  # draws of their own
 
 
 def lay_down(duel: Duel, number: int) -> None:
-    robot = duel.robots[number]
+    robot = walkers(duel)[number].robot
     at = robot.qpos_slice.start
     duel.world.data.qpos[at + 2] = 1.0
     duel.world.data.qpos[at + 3 : at + 7] = (0.5**0.5, 0.5**0.5, 0.0, 0.0)
@@ -91,34 +96,30 @@ def test_a_fall_ends_a_duel_and_is_told(
     result = run_duel(DuelSettings(start=START, duration=1.0))
     assert result.outcome is Outcome.FALL and result.message == message
     assert result.duration == pytest.approx(0.02)
-    assert result.arrays["times_s"][-1] == result.duration
+    assert result.times[-1] == result.duration
 
 
-def touching(distance: float, **changes: Any) -> tuple[Any, str]:
+def touching(distance: float, *names: str, **changes: Any) -> tuple[Any, str]:
     """Outcome where bodies are in contact at a distance, and its words."""
     duel = begun(start=StartSettings(distance, 0.0, 0.0), **changes)
     world: Any = duel.world
     world.robots_touch = lambda: True
-    outcome = duel.tick()
-    return outcome, "" if outcome is None else module._message(duel, outcome)
+    world.touching = lambda: names
+    return duel.tick(), duel.message
 
 
 def test_contact_is_looked_for_where_there_can_be_any() -> None:
     """Robots two arm spans apart cannot touch each other, only things."""
-    assert touching(0.6) == (
-        Outcome.CONTACT,
-        "the robots touched at 0.00 s",
-    )
-    assert touching(0.9)[0] is None
+    both = ("evader", "pursuer")
+    words = "evader and pursuer touched at 0.00 s"
+    assert touching(0.6, *both) == (Outcome.CONTACT, words)
+    assert touching(0.9, *both) == (None, "")
     room = RoomSettings(things=[Thing("red box", 3.0, 0.0)])
-    assert touching(0.9, room=room) == (
+    assert touching(0.9, "evader", "thing 0", room=room) == (
         Outcome.CONTACT,
-        "robot, thing touched at 0.00 s",
+        "evader and thing 0 touched at 0.00 s",
     )
-    assert touching(0.6, pursuer="person") == (
-        Outcome.CONTACT,
-        "person and robot touched at 0.00 s",
-    )
+    assert touching(0.6, *both, pursuer="person") == (Outcome.CONTACT, words)
 
 
 def test_without_contact_a_near_duel_goes_on() -> None:
@@ -126,25 +127,22 @@ def test_without_contact_a_near_duel_goes_on() -> None:
     assert duel.tick() is None
 
 
-def test_a_duel_notes_its_closest_and_when_the_evader_began() -> None:
+def test_a_duel_notes_its_closest_and_when_the_evader_began(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The evader is who plays last; that the pursuer walks is no trigger."""
     duel = begun()
+    pursuer, evader = walkers(duel)
     ways = iter((1.0, 0.9, 0.95, 0.85))
-    kind = type(duel)
-    phases = iter((Phase.STANDING, Phase.STANDING, Phase.WALKING, None))
+    moves = {pursuer: True, evader: False}
 
-    class Told(kind):  # type: ignore[valid-type, misc]
-        @property
-        def distance(self) -> float:
-            scheme = self.schemes[1]
-            phase = next(phases)
-            if phase is not None:
-                scheme.phase = phase
-            return next(ways)
+    def distance(duel: Duel) -> float:
+        moves[evader] = duel.world.ticks >= 3
+        return next(ways)
 
-    duel.__class__ = Told
-    for robot, scheme in zip(duel.robots, duel.schemes, strict=True):
-        robot.step = robot.world.advance  # type: ignore[method-assign]
-        scheme.update = lambda measured, s=scheme: s.joint_targets  # type: ignore
+    monkeypatch.setattr(Duel, "distance", property(distance))
+    monkeypatch.setattr(Walker, "is_moving", property(moves.get))
+    monkeypatch.setattr(Walker, "tick", lambda walker: None)
     duel.min_distance = 5.0
     closest = []
     for _ in range(4):
@@ -164,55 +162,63 @@ def test_a_duel_lasts_as_long_as_asked(duration: float, ticks: int) -> None:
     assert result.duration == pytest.approx(0.004 * ticks)
     assert result.message == f"played {0.004 * ticks:.2f} s"
     samples = [*0.02 * np.arange((ticks - 1) // 5 + 1), 0.004 * ticks]
-    np.testing.assert_allclose(result.arrays["times_s"], samples)
+    np.testing.assert_allclose(result.times, samples)
     # The pursuer plans at once; its first ZMP is midway between its feet.
-    assert result.replans == 1 and result.planning_times.size == 1
-    assert result.velocity_jump == 0.0
-    assert result.sight is None and result.stills == {}
-    assert result.min_distance == pytest.approx(1.3, abs=0.03)
+    summary = result.summary
+    assert summary.replans == 1 and summary.plan_time_us.median is not None
+    assert summary.plan_time_us.median == summary.plan_time_us.p99
+    assert summary.max_com_velocity_jump_m_s == 0.0
+    assert summary.sight == summary.evader.sight == {} == result.stills
+    assert result.evader.sight is None
+    assert summary.min_distance_m == pytest.approx(1.3, abs=0.03)
+    assert summary.outcome == "completed"
+    assert summary.message == result.message
+    assert summary.duration_s == pytest.approx(result.duration)
 
 
 def test_figures_of_both_robots_are_put_together(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(
-        ControlScheme, "margins", property(lambda scheme: scheme.told)
-    )
+    """Of the players' planning, as the recorder has it."""
+    told = {
+        "pursuer": Planning(2, np.array([0.1, 0.2]), 0.2, 0.02),
+        "evader": Planning(3, np.array([0.2, 0.2]), 0.1, 0.03),
+    }
+    monkeypatch.setattr(Recorder, "planning", lambda recorder: told)
+    summary = run_duel(DuelSettings(start=START, duration=0.02)).summary
+    assert summary.replans == 4
+    assert summary.plan_time_us.median == pytest.approx(2e5)
+    assert summary.max_com_velocity_jump_m_s == pytest.approx(0.2)
+    assert summary.min_zmp_margin_m == 0.02
 
-    def note(duel: Duel) -> Outcome:
-        for number, scheme in enumerate(duel.schemes, start=1):
-            told: Any = scheme
-            told.replans = 10 * number
-            told.planning_times = [0.1 * number, 0.2]
-            told.velocity_jumps = [0.1, 0.3 - 0.1 * number, 0.0]
-            told.told = [0.02 * number, 0.03]
-        return Outcome.COMPLETED
 
-    monkeypatch.setattr(Duel, "tick", note)
+def test_legs_that_lose_their_reference_end_a_duel_and_it_is_kept(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    tick = Walker.tick
+
+    def clumsy(walker: Walker) -> None:
+        if walker.name == "evader" and walker.robot.world.ticks == 12:
+            raising(ReachError("a leg is too short"))()
+        tick(walker)
+
+    monkeypatch.setattr(Walker, "tick", clumsy)
     result = run_duel(DuelSettings(start=START, duration=1.0))
-    assert result.replans == 30
-    np.testing.assert_allclose(result.planning_times, [0.1, 0.2, 0.2, 0.2])
-    assert result.velocity_jump == pytest.approx(0.2)
-    assert result.zmp_margin == 0.02
+    assert result.outcome is Outcome.UNREACHABLE
+    said = "evader lost its footing at 0.05 s: a leg is too short"
+    assert result.message == result.summary.message == said
+    assert result.duration == pytest.approx(0.048)
+    np.testing.assert_allclose(result.times, [0.0, 0.02, 0.04, 0.048])
+    assert len(result.evader.com) == len(result.pursuer.com) == 4
+    assert result.summary.replans == 1
 
 
-def test_who_never_walked_has_no_margin() -> None:
-    result = run_duel(hardware(duration=0.1))
-    assert result.zmp_margin is None and result.velocity_jump == 0.0
-    assert result.replans == 0 and result.planning_times.size == 0
-
-
-def clock(monkeypatch: pytest.MonkeyPatch, step: float) -> None:
-    """A wall clock that moves on whenever somebody looks at it."""
-
-    def ticking() -> Iterator[float]:
-        now = 100.0
-        while True:
-            yield now
-            now += step
-
-    times = ticking()
-    monkeypatch.setattr(module, "perf_counter", lambda: next(times))
+def test_a_duel_without_a_record_grows_by_nothing() -> None:
+    duel = Duel(DuelSettings(start=START), recorded=False)
+    assert duel.observers == () and duel.witness is None
+    for _ in range(11):
+        duel.tick()
+    assert duel.recorder.times.size == 0
 
 
 def test_progress_is_told_at_most_five_times_a_second(
@@ -226,7 +232,8 @@ def test_progress_is_told_at_most_five_times_a_second(
     assert told[0].real_time_factor == pytest.approx(0.2 / 0.22)
     assert told[1].real_time_factor == pytest.approx(0.4 / 0.44)
     assert told[0].distance == pytest.approx(1.3, abs=0.03)
-    assert result.wall_time == pytest.approx(0.11 * 6)
+    factor = result.summary.real_time_factor
+    assert factor == pytest.approx(0.5 / (0.11 * 6))
 
 
 def test_an_interrupted_duel_is_kept_and_its_robots_closed(
@@ -263,103 +270,3 @@ def test_an_error_closes_the_robots_too(
     with pytest.raises(RuntimeError, match="bolt"):
         run_duel(DuelSettings(start=START, duration=1.0))
     assert closed == ["pursuer", "evader"]
-
-
-def hardware(**changes: Any) -> DuelSettings:
-    return DuelSettings(
-        **{
-            "seed": 3,
-            "duration": 12.0,
-            "start": StartSettings(0.95, 0.3, -0.2),
-            "body": BODIES["hardware"],
-            "control": STABILISED,
-            **changes,
-        }
-    )
-
-
-def test_both_robots_of_a_hardware_duel_have_honest_bodies() -> None:
-    duel = Duel(hardware())
-    assert duel.world.physics.tick == 0.012
-    masses = []
-    for robot, scheme in zip(duel.robots, duel.schemes, strict=True):
-        assert isinstance(robot.servos, HonestServos)
-        assert scheme.stabiliser is not None
-        assert scheme.stabiliser.settings == STABILISED
-        torso = duel.world.model.body(f"{robot.name}/torso").id
-        masses.append(duel.world.model.body_mass[torso])
-        readings = [robot.read() for _ in range(3)]
-        # Noise differs from reading to reading, encoders are coarse.
-        assert np.abs(readings[0].gyro - readings[2].gyro).max() > 0.0
-        steps = readings[0].joint_positions / (2.0 * pi / 4096)
-        np.testing.assert_allclose(steps, np.round(steps), atol=1e-6)
-    assert masses[0] != masses[1]
-
-
-@cache
-def hardware_duel() -> DuelResult:
-    return run_duel(hardware())
-
-
-def test_hardware_robots_play_the_game_with_feedback() -> None:
-    """One comes, the other steps aside and turns away; nobody falls."""
-    result = hardware_duel()
-    assert result.outcome is Outcome.COMPLETED
-    assert result.duration == pytest.approx(12.0)
-    arrays = result.arrays
-    times = arrays["times_s"]
-    np.testing.assert_allclose(np.diff(times)[:-1], 0.024)
-    for name, values in arrays.items():
-        # Only the ZMP is not there at times, before the first step.
-        assert np.isfinite(values).mean() > 0.99, name
-    apart = arrays["evader_torso"] - arrays["pursuer_torso"]
-    distance = np.hypot(apart[:, 0], apart[:, 1])
-    at, began = result.triggered_at, result.triggered_distance
-    assert at is not None and began is not None
-    assert 0.78 < began < 0.8
-    assert distance[times < at - 0.02].min() > 0.8 - 1e-3
-    assert result.min_distance == pytest.approx(distance.min(), abs=2e-3)
-    assert 0.5 < result.min_distance < 0.8
-    stood = arrays["evader_com"][times < at - 0.02, :2]
-    assert np.abs(stood - stood[0]).max() < 0.01
-    heights = np.concatenate(
-        [arrays["pursuer_com"][:, 2], arrays["evader_com"][:, 2]]
-    )
-    assert heights.min() > 0.26 and heights.max() < 0.275
-    fled = arrays["evader_torso"][-1] - arrays["evader_torso"][0]
-    assert np.hypot(*fled[:2]) > 0.2 and abs(fled[2]) > 0.4
-    assert result.velocity_jump < 1e-9
-    assert result.zmp_margin is not None and result.zmp_margin > 0.02
-
-
-@pytest.mark.parametrize("name", ["pursuer", "evader"])
-def test_hardware_robots_walk_where_their_footsteps_are(name: str) -> None:
-    """Torso against the middle of the last two footsteps, in the world."""
-    result = hardware_duel()
-    arrays = result.arrays
-    landings = arrays[f"{name}_landings"]
-    done = landings[landings[:, 0] < 12.0]
-    assert len(done) > 8
-    # Feet land in turn, one gait apart.
-    np.testing.assert_array_equal(done[1:, 1], -done[:-1, 1])
-    step = result.settings.gait.step_duration
-    np.testing.assert_allclose(np.diff(done[1:, 0]), step, atol=0.013)
-    middle = 0.5 * (done[1:, 2:4] + done[:-1, 2:4])
-    walked = np.array(
-        [
-            np.interp(done[1:, 0], arrays["times_s"], column)
-            for column in arrays[f"{name}_torso"][:, :2].T
-        ]
-    ).T
-    assert np.hypot(*(middle[-1] - middle[0])) > 0.15
-    assert np.hypot(*(walked - middle).T).max() < 0.05
-
-
-def test_hardware_bodies_and_their_errors_come_from_the_seed() -> None:
-    first = run_duel(hardware(duration=1.5)).arrays
-    again = run_duel(hardware(duration=1.5)).arrays
-    other = run_duel(hardware(duration=1.5, seed=4)).arrays
-    for name, values in first.items():
-        np.testing.assert_array_equal(values, again[name])
-    off = first["pursuer_qpos"][-1] - other["pursuer_qpos"][-1]
-    assert np.abs(off).max() > 1e-4

@@ -20,8 +20,8 @@ from stepaside.commands.duels import duels
 from stepaside.games.settings import (
     DuelSettings,
     StartSettings,
-    StrategySettings,
 )
+from stepaside.strategies import Evasion
 from stepaside.studies import duels as study
 from stepaside.studies import workers
 from stepaside.studies.duel_statistics import (
@@ -109,8 +109,8 @@ def test_only_a_certified_start_has_a_certified_distance() -> None:
     assert 0.3 < play_record(settings)["certified_m"] < 0.75
     for changes in (
         {"start": blind},
-        {"strategy": StrategySettings(saturated=True)},
-        {"strategy": StrategySettings(angle=0.0)},
+        {"strategy": Evasion(saturated=True)},
+        {"strategy": Evasion(angle=0.0)},
     ):
         record = play_record(replace(settings, **changes))
         assert record["certified_m"] is None
@@ -321,7 +321,7 @@ def test_nothing_is_played_when_verified_duels_differ(
 
 
 CHILD = """
-import os, sys, time
+import os, signal, sys, time
 from concurrent.futures import as_completed
 from stepaside.studies.workers import give_up, worker_pool
 
@@ -330,6 +330,8 @@ def stay(number):
     time.sleep(300)
 
 if __name__ == "__main__":
+    # Whoever runs this in the background ignores Ctrl-C, and so would it.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         with worker_pool(1) as pool:
             futures = [pool.submit(stay, number) for number in range(20)]

@@ -53,7 +53,7 @@ def watch(sensor: Stream, ticks: int) -> tuple[list[float], list[float]]:
     ages, taken = [], []
     for tick in range(ticks):
         now = tick * TICK
-        for percept in sensor.read(now, noted.append):
+        for percept in sensor.read(now, noted):
             taken.append(percept.time)
             ages.append(now - percept.time)
     assert [p.time for p in noted][: len(taken)] == taken
@@ -157,10 +157,8 @@ def test_only_who_wears_the_depth_camera_listens_too() -> None:
 
 def test_images_are_taken_from_where_the_sensors_sit() -> None:
     eyes = eyes_of()
-    noted: list[Percept] = []
-    eyes.on_exposure = noted.append
     arrivals(eyes, 1)
-    colour, depth, left, right = noted
+    colour, depth, left, right = eyes.exposed
     assert isinstance(colour, ColourImage) and isinstance(depth, DepthImage)
     assert (depth.near, depth.far) == (0.8, 3.5)
     # The face of the box, from the depth camera that looks down by 8 deg.
@@ -176,6 +174,20 @@ def test_images_are_taken_from_where_the_sensors_sit() -> None:
     for echo in (left, right):
         assert isinstance(echo, SonarEcho) and echo.distance is not None
         assert echo.distance == pytest.approx(0.6, abs=0.03)
+
+
+def test_what_is_exposed_is_told_at_its_tick_though_it_arrives_later() -> None:
+    settings = replace(PLAIN, added_latency=2 * TICK)
+    eyes = eyes_of(settings, depth=False)
+    exposed, arrived = [], []
+    for tick in range(30):
+        now = tick * TICK
+        arrived += [(p, now) for p in eyes.read(now)]
+        exposed += [(p, now) for p in eyes.exposed]
+        assert all(p.time == now for p in eyes.exposed)
+    assert len(exposed) == 2 and exposed[0][0] is arrived[0][0]
+    late = PLAIN.colour.latency + 2 * TICK
+    assert late <= arrived[0][1] - exposed[0][1] < late + TICK
 
 
 def test_what_is_drawn_by_chance_depends_on_the_seed_alone() -> None:

@@ -13,8 +13,12 @@ import pytest
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
+from invented_run import run_of
+from stepaside.games.circle import cycle_mean, theory_of
+from stepaside.games.figures import TheoryFigures
+from stepaside.games.run import Run
 from stepaside.games.settings import DuelSettings
-from stepaside.games.summary import cycle_mean, theory_of
+from stepaside.games.track import Track
 from stepaside.planning import (
     Direction,
     Foot,
@@ -25,33 +29,38 @@ from stepaside.planning import (
 from stepaside.planning.support import sole_corners
 from stepaside.poses import Array
 from stepaside.report import compare_figure, duel_figure, plan_figure
-from stepaside.report.replay import Run
 from stepaside.report.soles import draw_heading, draw_soles
 from stepaside.report.style import COLOURS, EVADER, PURSUER, THEORY, plt
 
 TIMES = np.linspace(0.0, 18.0, 901)
 SETTINGS = DuelSettings(seed=7)
+FIELDS = ("com", "torso", "com_reference", "zmp_reference", "zmp")
 CYCLE = 2.0 * SETTINGS.gait.step_duration
 
 
 @cache
-def record() -> dict[str, Array]:
+def record() -> dict[str, Track]:
     """Robots that walk along, one behind the other, with some sway."""
     sway = 0.02 * np.sin(2.0 * pi * TIMES / CYCLE)
-    arrays = {"times_s": TIMES}
+    tracks = {}
     for name, ahead, heading in (("pursuer", 0.0, 0.4), ("evader", 1.0, 1.4)):
         c, s = cos(heading), sin(heading)
         x, y = ahead + 0.1 * TIMES - s * sway, 0.2 * ahead + c * sway
         turn = np.full_like(TIMES, heading)
-        arrays[f"{name}_torso"] = np.column_stack([x, y, turn])
-        arrays[f"{name}_com"] = np.column_stack([x + 0.01, y, 0.27 + 0 * x])
-        arrays[f"{name}_zmp"] = np.column_stack([x, y]) * 1.0
-        arrays[f"{name}_zmp_reference"] = np.column_stack([x - 3.0, y + 1.0])
-        arrays[f"{name}_com_reference"] = np.column_stack([x - 3.0, y + 1.0])
-        arrays[f"{name}_landings"] = np.array(
-            [[1.0, 1.0, ahead, 0.05, 0.2], [1.5, -1.0, ahead, -0.05, 0.0]]
+        tracks[name] = Track(
+            com=np.column_stack([x + 0.01, y, 0.27 + 0 * x]),
+            torso=np.column_stack([x, y, turn]),
+            com_reference=np.column_stack([x - 3.0, y + 1.0]),
+            zmp_reference=np.column_stack([x - 3.0, y + 1.0]),
+            zmp=np.column_stack([x, y]),
+            landings=np.array(
+                [
+                    [1.0, 1.0, ahead, 0.05, 0.2],
+                    [1.5, -1.0, ahead, -0.05, 0.0],
+                ]
+            ),
         )
-    return arrays
+    return tracks
 
 
 @pytest.fixture
@@ -100,16 +109,13 @@ def levels(axes: Any) -> dict[float, str]:
     }
 
 
-SUMMARY = {
-    "seed": 7,
-    "message": "played 18.00 s",
-    "theory": {"distance_m": 0.9, "relative_orientation_deg": 90.0},
-}
+THEORY_OF_IT = TheoryFigures(None, True, 0.64, 0.9, 90.0)
 
 
 def duel(kept: list[Figure], **theory: Any) -> Figure:
-    summary = SUMMARY | {"theory": SUMMARY["theory"] | theory}  # type: ignore[operator]
-    duel_figure.draw_duel(record(), summary, SETTINGS, Path("figure.png"))
+    told = replace(THEORY_OF_IT, **theory)
+    made = run_of(TIMES, record(), settings=SETTINGS, theory=told)
+    duel_figure.draw_duel(made, Path("figure.png"))
     return kept[-1]
 
 
@@ -123,16 +129,14 @@ def test_a_duel_is_shown_at_four_times_with_the_way_so_far(
         count = round(50 * time) + 1
         for drawn, name in zip(axes.lines, COLOURS, strict=True):
             way = points_of(drawn)
-            np.testing.assert_allclose(
-                way, record()[f"{name}_com"][:count, :2]
-            )
+            np.testing.assert_allclose(way, record()[name].com[:count, :2])
             assert to_hex(drawn.get_color()) == COLOURS[name]
         for wedge, name in zip(axes.patches, COLOURS, strict=True):
-            place = record()[f"{name}_torso"][count - 1, :2]
+            place = record()[name].torso[count - 1, :2]
             off = np.hypot(*(corners_of(wedge) - place).T)
             assert off.max() < 0.2
         every = np.concatenate(
-            [record()["pursuer_com"][:, :2], record()["evader_com"][:, :2]]
+            [track.com[:, :2] for track in record().values()]
         )
         for axis, limits in enumerate((axes.get_xlim(), axes.get_ylim())):
             low, high = every[:, axis].min(), every[:, axis].max()
@@ -147,7 +151,7 @@ def test_paths_have_their_starts_ends_and_footsteps(
 ) -> None:
     axes = duel(kept).axes[4]
     for name in COLOURS:
-        com = record()[f"{name}_com"]
+        com = record()[name].com
         np.testing.assert_allclose(line(axes, f"{name}, CoM"), com[:, :2])
         starts = [
             points_of(one)[0] for one in axes.lines if one.get_marker() == "o"
@@ -156,7 +160,7 @@ def test_paths_have_their_starts_ends_and_footsteps(
     # Two soles and a wedge for each.
     assert len(axes.patches) == 6
     wedge = corners_of(axes.patches[2])
-    end = record()["pursuer_torso"][-1, :2]
+    end = record()["pursuer"].torso[-1, :2]
     assert np.hypot(*(wedge - end).T).max() < 0.2
 
 
@@ -165,8 +169,8 @@ def test_distance_and_angle_are_drawn_beside_theory(
 ) -> None:
     figure = duel(kept)
     distance, angle = figure.axes[5:7]
-    arrays = record()
-    apart = arrays["evader_torso"] - arrays["pursuer_torso"]
+    tracks = record()
+    apart = tracks["evader"].torso - tracks["pursuer"].torso
     raw = np.hypot(apart[:, 0], apart[:, 1])
     for axes, values in (
         (distance, raw),
@@ -213,6 +217,52 @@ def test_balance_is_leftward_of_each_robot_over_six_steps(
             np.testing.assert_allclose(
                 found[:, 1], expected - shift, atol=1e-6
             )
+
+
+def test_a_person_has_a_way_but_neither_footsteps_nor_balance(
+    kept: list[Figure],
+) -> None:
+    """What a robot has is drawn as ever, and its balance takes the row."""
+    walked = record()["pursuer"]
+    tracks = record() | {"pursuer": Track(walked.com, walked.torso)}
+    made = run_of(TIMES, tracks, settings=SETTINGS, theory=THEORY_OF_IT)
+    duel_figure.draw_duel(made, Path("figure.png"))
+    both, figure = duel(kept), kept[0]
+    assert (len(figure.axes), len(both.axes)) == (8, 9)
+    balance = figure.axes[-1]
+    assert balance.get_title() == "evader: last steps"
+    assert len(balance.lines) == 4
+    spans = [axes.get_subplotspec() for axes in (balance, both.axes[-1])]
+    wide, half = (spec.colspan for spec in spans if spec is not None)
+    assert (wide.start, wide.stop) == (0, 4)
+    assert (half.start, half.stop) == (2, 4)
+    for ours, theirs in zip(balance.lines, both.axes[-1].lines, strict=True):
+        np.testing.assert_array_equal(points_of(ours), points_of(theirs))
+    paths = figure.axes[4]
+    np.testing.assert_allclose(line(paths, "pursuer, CoM"), walked.com[:, :2])
+    # Two soles of the evader, and the wedges of both.
+    assert len(paths.patches) == 4
+
+
+def test_a_duel_that_was_over_at_once_is_drawn_too(
+    kept: list[Figure],
+) -> None:
+    """Interrupted before the first tick: one sample, and no step."""
+    first = {
+        name: Track(
+            **{field: getattr(track, field)[:1] for field in FIELDS},
+            **{"landings": np.zeros((0, 5))},
+        )
+        for name, track in record().items()
+    }
+    made = run_of(TIMES[:1], first, settings=SETTINGS, theory=THEORY_OF_IT)
+    duel_figure.draw_duel(made, Path("figure.png"))
+    axes = kept[0].axes
+    assert [one.get_title() for one in axes[:4]] == 4 * ["0.0 s"]
+    assert len(line(axes[4], "evader, CoM")) == 1
+    assert points_of(axes[5].lines[0]).tolist() == [
+        [0.0, pytest.approx(made.distance[0])]
+    ]
 
 
 @pytest.mark.parametrize("pose", [(1.0, 2.0, 0.5), (-1.0, 0.0, -2.0)])
@@ -296,7 +346,7 @@ def test_a_plan_is_drawn_from_above_and_over_time(kept: list[Figure]) -> None:
 
 
 def run(name: str, settings: DuelSettings = SETTINGS) -> Run:
-    return Run(name, settings, {}, record())
+    return run_of(TIMES, record(), settings=settings, name=name)
 
 
 def test_a_comparison_has_every_run_and_the_first_ones_theory(
@@ -309,7 +359,7 @@ def test_a_comparison_has_every_run_and_the_first_ones_theory(
     for number, drawn in enumerate(path.lines):
         name = ("pursuer", "evader")[number % 2]
         way = points_of(drawn)
-        np.testing.assert_allclose(way, record()[f"{name}_torso"][:, :2])
+        np.testing.assert_allclose(way, record()[name].torso[:, :2])
         assert to_hex(drawn.get_color()) == COLOURS[name]
         styles = compare_figure.LINES
         assert drawn.get_linestyle() == styles[number // 2 % 4]

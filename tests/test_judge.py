@@ -37,14 +37,17 @@ class Truth:
 
 def thoughtless() -> Any:
     """What stands for a perception: it believes what a test says."""
-    return SimpleNamespace(sighting=None, searching=False, on_frame=None)
+    return SimpleNamespace(sighting=None, searching=False, reports=[])
 
 
 class Scene:
     """A judge of a robot whose head a test turns and moves."""
 
     def __init__(
-        self, yaw: float = 0.0, things: list[tuple[float, float]] | None = None
+        self,
+        yaw: float = 0.0,
+        things: list[tuple[float, float]] | None = None,
+        still_times: tuple[float, ...] = (),
     ) -> None:
         quaternion = f"{cos(0.5 * yaw)} 0 0 {sin(0.5 * yaw)}"
         model = mujoco.MjModel.from_xml_string(
@@ -60,10 +63,15 @@ class Scene:
         self.other = Truth(1.5, 0.0, 0.0, 0.3)
         self.mind = thoughtless()
         world = SimpleNamespace(model=model, data=data)
-        own: Any = SimpleNamespace(world=world, name="me", truth=self.own)
-        other: Any = SimpleNamespace(truth=self.other)
+        self.eyes = SimpleNamespace(exposed=[])
+        own: Any = SimpleNamespace(
+            world=world, name="me", truth=self.own, eyes=self.eyes
+        )
+        other: Any = self.other
         head: Any = HEAD
-        self.judge = Judge(own, other, self.mind, head, things or [])
+        self.judge = Judge(
+            own, other, self.mind, head, things or [], still_times
+        )
 
     def stand(self, mount: Mount, azimuth: float, away: float) -> None:
         """Put the other where a camera sees it, at the camera's height."""
@@ -271,7 +279,6 @@ def test_things_are_no_false_detections_of_the_depth_camera() -> None:
 def test_what_was_not_noted_is_not_judged_nor_twice() -> None:
     scene = Scene()
     image = colour()
-    assert scene.mind.on_frame == scene.judge.judge
     scene.judge.judge(FrameReport(image, (1.0,)))
     assert scene.judge.colour == Tally()
     scene.stand(TOP, 0.0, 1.0)
@@ -281,9 +288,36 @@ def test_what_was_not_noted_is_not_judged_nor_twice() -> None:
     scene.judge.note(SonarEcho(0.0, "left", 0.5))
 
 
-def test_stills_are_the_first_images_at_their_times() -> None:
+def test_a_look_notes_what_is_exposed_and_judges_what_is_reported() -> None:
+    """What is exposed and reported at one tick too; each tick once."""
     scene = Scene()
-    scene.judge.still_times = 0.5, 1.0
+    scene.stand(TOP, 0.0, 1.0)
+    one, late = colour(), colour(0.1)
+    scene.eyes.exposed = [one, late, SonarEcho(0.0, "left", 0.5)]
+    scene.mind.reports = [FrameReport(one, (0.0,))]
+    scene.judge.look()
+    assert scene.judge.colour == Tally(1, 1, 0)
+    scene.stand(TOP, radians(50.0), 1.0)  # the truth counts of then
+    scene.eyes.exposed = []
+    scene.mind.reports = [FrameReport(late, (0.0,))]
+    scene.judge.look()
+    assert scene.judge.colour == Tally(2, 2, 0)
+    scene.eyes.exposed, scene.mind.reports = [], []
+    scene.judge.look()
+    assert scene.judge.colour == Tally(2, 2, 0)
+
+
+def test_without_eyes_there_is_nothing_to_note() -> None:
+    scene = Scene()
+    blind: Any = scene.judge._robot
+    blind.eyes = None
+    scene.mind.reports = [FrameReport(colour(), (0.0,))]
+    scene.judge.look()
+    assert scene.judge.colour == Tally()
+
+
+def test_stills_are_the_first_images_at_their_times() -> None:
+    scene = Scene(still_times=(0.5, 1.0))
     scene.stand(TOP, radians(12.0), 1.0)
     images = [colour(t) for t in (0.4, 0.5, 0.6, 1.1, inf)]
     for image in images:

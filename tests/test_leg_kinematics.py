@@ -10,13 +10,8 @@ from stepaside.errors import ReachError
 from stepaside.poses import Array
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import rotation
-from stepaside.robots.kinematics import (
-    ROWS,
-    BodyReference,
-    LegKinematics,
-    _lean,
-    _turn,
-)
+from stepaside.robots.kinematics import ROWS, BodyReference, LegKinematics
+from stepaside.robots.leg_rows import _turn
 
 NAO = load_robot("nao")
 TICK = 0.004
@@ -117,19 +112,12 @@ def test_one_step_closes_a_small_gap_in_every_row(
     assert gap < 6e-6
 
 
-@pytest.mark.parametrize("tilt", [(1e-3, 0.0), (0.0, 1e-3), (-1e-3, 2e-3)])
-def test_one_step_levels_a_torso_that_leans(
-    tilt: tuple[float, float],
-) -> None:
+def test_the_torso_stays_level() -> None:
     kinematics = stood()
     kinematics.stand(STANCE)
-    kinematics.track(STANCE)
-    axes = rotation(*tilt, kinematics.torso_heading)
-    mujoco.mju_mat2Quat(kinematics._qpos[3:7], axes.reshape(-1))
-    assert np.abs(reached(kinematics)[15:]).max() > 0.9e-3
-    kinematics.track(STANCE)
-    gap = np.abs(asked(STANCE) - reached(kinematics)).max()
-    assert gap < 2e-5
+    for row in (0, 5, 9, 12, 14):
+        kinematics.track(moved(row, 0.01))
+        assert np.abs(reached(kinematics)[15:]).max() < 1e-15
 
 
 def test_no_joint_moves_faster_than_its_motor() -> None:
@@ -159,13 +147,50 @@ def limited(kinematics: LegKinematics, joint: str) -> list[float]:
     return ends[joint]
 
 
-def test_knees_stay_bent_where_they_are_asked_to_straighten() -> None:
+def test_a_com_out_of_reach_leaves_a_little_and_lifts_no_heel() -> None:
+    """The first knee at its limit stops the rise; feet stay where they are."""
     kinematics = stood()
     kinematics.stand(STANCE)
+    request = STANCE._replace(com=(*STANCE.com[:2], 0.28))
     for _ in range(100):
-        kinematics.track(STANCE._replace(com=(*STANCE.com[:2], 0.28)))
-    assert limited(kinematics, "LKneePitch")[0] == pytest.approx(0.0)
-    assert limited(kinematics, "RKneePitch")[0] == pytest.approx(0.0)
+        kinematics.track(request)
+    knees = [limited(kinematics, f"{side}KneePitch")[0] for side in "LR"]
+    assert min(knees) == pytest.approx(0.0)
+    assert max(knees) < 0.05
+    off = np.abs(asked(request) - reached(kinematics))
+    assert 1e-3 < off.max() < 3e-3
+    turned = off[[3, 4, 5, 9, 10, 11]]
+    assert turned.max() < 1e-3
+
+
+def test_limits_are_kept_wherever_a_stance_was_taken() -> None:
+    """Room to a limit in one posture is none in the next."""
+    kinematics = LegKinematics(NAO, tick=TICK)
+    x, y, _ = STANCE.com
+    high = kinematics.highest_com(STANCE)
+    kinematics.stand(STANCE)
+    for _ in range(5):
+        kinematics.track(STANCE)
+    kinematics.stand(STANCE._replace(com=(x, y, high - 1e-3)))
+    for z in np.linspace(high - 1e-3, high + 1e-3, 100).tolist():
+        kinematics.track(STANCE._replace(com=(x, y, z)))
+        limited(kinematics, "LKneePitch")
+
+
+def test_a_torso_waits_for_joints_that_are_too_slow() -> None:
+    """A jump of 2 cm from straight knees: soles stay flat, the CoM comes."""
+    kinematics = stood()
+    high = kinematics.highest_com(STANCE)
+    kinematics.stand(STANCE._replace(com=(*STANCE.com[:2], high)))
+    request = STANCE._replace(com=(*STANCE.com[:2], high - 0.02))
+    before = 0.02
+    for _ in range(60):
+        kinematics.track(request)
+        off = np.abs(asked(request) - reached(kinematics))
+        assert off.max() < max(before, 1e-5)
+        assert off[[3, 4, 5, 9, 10, 11]].max() < 1e-3
+        before = off.max()
+    assert before < 1e-5
 
 
 @pytest.mark.parametrize(("sign", "end"), [(-1.0, 0), (1.0, 1)])
@@ -239,9 +264,24 @@ def test_the_greatest_height_is_the_last_that_is_reached() -> None:
     assert kinematics.highest_com(above) == pytest.approx(greatest, abs=4e-4)
 
 
+def test_a_com_asked_too_low_is_told_both_ends_of_its_reach() -> None:
+    kinematics = stood()
+    least = kinematics.lowest_com(STANCE)
+    greatest = kinematics.highest_com(STANCE)
+    assert 0.15 < least < 0.22
+    low = STANCE._replace(com=(*STANCE.com[:2], least + 1e-6))
+    kinematics.stand(low)
+    below = STANCE._replace(com=(*STANCE.com[:2], least - 1e-3))
+    words = f"reaches {least:.3f} m to {greatest:.3f} m in this stance"
+    with pytest.raises(ReachError, match=words):
+        kinematics.stand(below)
+
+
 def test_feet_too_far_apart_leave_no_height_at_all() -> None:
     wide = STANCE._replace(left_foot=(0.0, 0.9, 0.0, 0.0))
-    assert stood().highest_com(wide) == 0.0
+    assert stood().highest_com(wide) == stood().lowest_com(wide) == 0.0
+    with pytest.raises(ReachError, match="it reaches no height at all"):
+        stood().stand(wide)
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.7, -2.0])
@@ -253,15 +293,22 @@ def test_the_turn_that_levels_a_frame_is_its_small_rotation(
         vector[axis] = 1e-5
         turn = rotation(*vector)
         frame = turn @ rotation(0.0, 0.0, yaw)
-        back = _turn(frame.reshape(-1), yaw)
-        np.testing.assert_allclose(back, -vector, atol=1e-9)
+        back = _turn(frame.tolist(), (np.cos(yaw), np.sin(yaw)))
+        assert back == pytest.approx((-vector).tolist(), abs=1e-9)
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.7, -2.0])
 def test_a_lean_is_about_the_own_heading(yaw: float) -> None:
-    roll, pitch = _lean((1e-5, -2e-5), yaw)
-    turned = rotation(0.0, 0.0, yaw) @ rotation(1e-5, -2e-5, 0.0)
-    level = rotation(0.0, 0.0, yaw)
-    small = turned @ level.T
-    assert roll == pytest.approx(small[2, 1], abs=1e-9)
-    assert pitch == pytest.approx(-small[2, 0], abs=1e-9)
+    """However the feet are turned in odometry."""
+    c, s = np.cos(yaw), np.sin(yaw)
+    stance = BodyReference(
+        (0.01 * c, 0.01 * s, 0.26),
+        (-0.05 * s, 0.05 * c, 0.0, yaw),
+        (0.05 * s, -0.05 * c, 0.0, yaw),
+    )
+    kinematics = stood()
+    kinematics.stand(stance)
+    kinematics.track(stance)
+    leaning = stance._replace(left_tilt=(3e-4, -5e-4), right_tilt=(2e-4, 4e-4))
+    kinematics.track(leaning)
+    np.testing.assert_allclose(reached(kinematics), asked(leaning), atol=2e-6)

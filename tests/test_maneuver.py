@@ -272,7 +272,7 @@ def test_planning_imports_numpy_and_nothing_else() -> None:
     """It must run on the robot, where there is no simulator."""
     code = (
         "import sys; import numpy; before = set(sys.modules);"
-        "import stepaside.planning;"
+        "from stepaside.planning import ManeuverPlanner;"
         "new = {m.split('.')[0] for m in set(sys.modules) - before};"
         "print(sorted(new - set(sys.stdlib_module_names)))"
     )
@@ -283,3 +283,59 @@ def test_planning_imports_numpy_and_nothing_else() -> None:
         text=True,
     )
     assert out.stdout.strip() == "['numpy', 'stepaside']"
+
+
+@pytest.mark.parametrize("direction", Direction)
+@pytest.mark.parametrize("saturated", [False, True])
+@given(BEARINGS, st.floats(0.05, 1.0))
+def test_a_share_of_the_speed_shortens_the_way_and_turns_as_far(
+    direction: Direction, saturated: bool, bearing: float, factor: float
+) -> None:
+    """Of the template: the soles stand half a spacing beside it."""
+
+    def path(factor: float) -> tuple[np.ndarray, np.ndarray]:
+        plan = PLANNER.plan(
+            bearing,
+            direction,
+            first_foot=Foot.LEFT,
+            standing=True,
+            saturated=saturated,
+            speed_factor=factor,
+        )
+        x, y, theta = plan.placements[2:].T
+        side = np.where(np.arange(len(x)) % 2, -0.05, 0.05)
+        middle = (x + side * np.sin(theta), y - side * np.cos(theta))
+        return np.stack(middle) - [[0.0], [0.05]], theta
+
+    way, turn = path(factor)
+    whole, full = path(1.0)
+    np.testing.assert_allclose(way, factor * whole, atol=1e-12)
+    np.testing.assert_allclose(turn, full, atol=1e-12)
+
+
+def test_the_whole_speed_is_the_plan_as_it_was() -> None:
+    plain = PLANNER.plan(
+        0.7, Direction.BACKWARD, first_foot=Foot.LEFT, standing=True
+    )
+    whole = PLANNER.plan(
+        0.7,
+        Direction.BACKWARD,
+        first_foot=Foot.LEFT,
+        standing=True,
+        speed_factor=1.0,
+    )
+    assert plain.placements.tobytes() == whole.placements.tobytes()
+    assert plain.inputs.tobytes() == whole.inputs.tobytes()
+
+
+@pytest.mark.parametrize("factor", [-0.5, 0.0, 1.001, 2.0, float("nan")])
+def test_a_share_of_the_speed_that_is_none_is_refused(factor: float) -> None:
+    """Standing still is a halt, which is another plan."""
+    with pytest.raises(PlanError, match=f"speed_factor must .*, got {factor}"):
+        PLANNER.plan(
+            0.3,
+            Direction.FORWARD,
+            first_foot=Foot.LEFT,
+            standing=True,
+            speed_factor=factor,
+        )

@@ -258,7 +258,7 @@ def test_a_pushed_walk_reports_what_the_solver_said() -> None:
 def test_an_undisturbed_walk_never_asks_the_solver() -> None:
     control = replace(STABILISED, method="mpc")
     result = run_walk(WalkSettings(duration=3.0, control=control))
-    assert result.answers == [] and summarise_walk(result)["qp"] is None
+    assert result.answers == () and summarise_walk(result)["qp"] is None
 
 
 def test_nonsense_is_refused() -> None:

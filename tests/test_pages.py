@@ -9,10 +9,12 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
+from onlooker import look_away, look_on
 from stepaside.cli import main
 from stepaside.games.duel import Duel
+from stepaside.games.folder import load_run
 from stepaside.games.settings import DuelSettings, StartSettings
-from stepaside.report.replay import load_run
+from stepaside.games.walker import Walker
 from stepaside.report.replay_page import write_page
 from stepaside.report.viewer.session import Session
 
@@ -62,7 +64,9 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
         if duel.world.time > 1.0:
             session.speed = SLOW
 
-    session.on_tick = slow_down
+    slowing = look_on(session.duel, slow_down)
+    pursuer = session.duel.players[0]
+    assert isinstance(pursuer, Walker)
     try:
         page = open_page(browser)
         page.goto(f"http://127.0.0.1:{live.server.get_port()}")
@@ -84,22 +88,23 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
 
         press(page, "Push")
         page.get_by_text("pushed the pursuer left").wait_for()
-        until(page, lambda: session.duel.robots[0].pusher is not None)
-        session.on_tick, session.speed = None, 1.0
+        until(page, lambda: pursuer.robot.pusher is not None)
+        look_away(session.duel, slowing)
+        session.speed = 1.0
         press(page, "Start")
-        pusher = session.duel.robots[0].pusher
+        pusher = pursuer.robot.pusher
         assert pusher is not None
         until(page, lambda: abs(pusher.impulse[1]) > 0.1)
 
         press(page, "left")
-        role = session.duel.schemes[0]
-        until(page, lambda: (p := role.plan) is not None and p.bearing > 0.8)
+        mind = pursuer.scheme
+        until(page, lambda: (p := mind.plan) is not None and p.bearing > 0.8)
         page.get_by_text("the evader survived").wait_for()
 
         field = page.get_by_label("Distance [m]").first
         field.fill("0.1")
         field.press("Enter")
-        until(page, lambda: live._distance.value == 0.1)
+        until(page, lambda: live._duel._distance.value == 0.1)
         press(page, "Reset")
         page.get_by_text("distance must lie in").first.wait_for()
         page.screenshot(path=ARTEFACTS / "refused.png")

@@ -18,6 +18,7 @@ from made_up_eyes import (
 )
 from stepaside.perception.perception import Perception
 from stepaside.poses import Pose, wrap_angle
+from stepaside.robots.head import rotation
 from stepaside.sensing.colour_detector import RED
 from stepaside.sensing.measurement import Measurement
 
@@ -46,29 +47,23 @@ def test_the_body_is_placed_on_the_foot_that_stands(eyes: Eyes) -> None:
         Measurement(0.1, np.zeros(JOINTS), np.zeros(3), UP, np.zeros(8), None),
         SUPPORT,
         False,
+        (0.0, 0.0),
     )
     right = SUPPORT.inverse().compose(eyes.torso)
     assert right.y == pytest.approx(-y, abs=1e-6)
     assert right.x == pytest.approx(x, abs=1e-6)
 
 
-def test_tilt_of_the_torso_is_taken_from_gravity(eyes: Eyes) -> None:
-    lean = np.array([0.0, 1.0, 9.81])
-    for i in range(1, 50):
-        eyes.perception.see(
-            Measurement(
-                TICK * i,
-                np.zeros(JOINTS),
-                np.zeros(3),
-                lean,
-                np.zeros(8),
-                None,
-            ),
-            SUPPORT,
-            True,
-        )
+@pytest.mark.parametrize("tilt", [(0.1, 0.0), (0.0, -0.2), (-0.15, 0.1)])
+def test_the_torso_is_tilted_as_it_is_told(
+    eyes: Eyes, tilt: tuple[float, float]
+) -> None:
+    """Roll and pitch after the heading of the standing foot."""
+    eyes.see(TICK, tilt=tilt)
     body = eyes.perception.body
-    assert body is not None and body.torso_axes[2, 1] > 0.02
+    assert body is not None
+    expected = rotation(*tilt, SUPPORT.theta)
+    np.testing.assert_allclose(body.torso_axes, expected, atol=1e-6)
 
 
 @pytest.mark.parametrize("column", [40.0, 80.0, 130.0])
@@ -116,6 +111,14 @@ def test_frames_are_reported_with_azimuths_to_the_left(eyes: Eyes) -> None:
     eyes.detector.found = None
     eyes.see(2 * TICK, colour(2 * TICK))
     assert eyes.reports[1].azimuths == () and not eyes.reports[1].colour
+
+
+def test_reports_are_of_the_last_tick(eyes: Eyes) -> None:
+    images = [colour(TICK), colour(1.5 * TICK)]
+    eyes.see(2 * TICK, *images)
+    assert [r.image for r in eyes.perception.reports] == images
+    eyes.see(3 * TICK)
+    assert eyes.perception.reports == []
 
 
 def test_a_late_image_is_of_where_the_eyes_were_then() -> None:

@@ -12,7 +12,6 @@ from stepaside.cli import main
 from stepaside.errors import ConfigurationError
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.settings import DuelSettings, StartSettings
-from stepaside.games.summary import summarise
 from stepaside.poses import Pose
 from stepaside.world.person_motion import Motion, read_path, template_approach
 from stepaside.world.person_settings import PersonSettings
@@ -82,24 +81,26 @@ def test_bad_paths_are_refused(
 def test_a_person_who_passes_outside_triggers_nothing() -> None:
     person = PersonSettings("straight", 0.5, miss=1.3)
     result = run_duel(duel_with(person, 6.0))
-    summary = summarise(result)
-    assert summary["triggered_at_s"] is None and summary["replans"] == 0
+    summary = result.summary
+    assert summary.triggered_at_s is None and summary.replans == 0
     assert result.outcome.value == "completed"
-    theory = summary["theory"]["closest_approach_m"]
-    assert summary["min_distance_m"] == pytest.approx(theory, abs=0.05)
+    theory = summary.theory.closest_approach_m
+    assert summary.min_distance_m == pytest.approx(theory, abs=0.05)
 
 
 def test_a_slow_person_is_evaded_and_keeps_near_to_theory() -> None:
     """The robot loses what the person walks before its first step lands."""
     result = run_duel(duel_with(PersonSettings("steer", 0.073, 0.146), 40.0))
-    summary = summarise(result)
-    assert summary["outcome"] == "completed"
-    assert summary["triggered_at_distance_m"] == pytest.approx(0.8, abs=0.02)
-    assert result.triggered_at is not None
-    late = result.arrays["evader_landings"][0, 0] - result.triggered_at
+    summary = result.summary
+    assert summary.outcome == "completed"
+    assert summary.triggered_at_distance_m == pytest.approx(0.8, abs=0.02)
+    assert summary.triggered_at_s is not None
+    assert result.evader.landings is not None
+    late = result.evader.landings[0, 0] - summary.triggered_at_s
     assert 1.0 < late < 1.5
-    theory = summary["theory"]["closest_approach_m"]
-    assert summary["min_distance_m"] == pytest.approx(
+    theory = summary.theory.closest_approach_m
+    assert theory is not None
+    assert summary.min_distance_m == pytest.approx(
         theory - 0.073 * late, abs=0.03
     )
 
@@ -107,7 +108,7 @@ def test_a_slow_person_is_evaded_and_keeps_near_to_theory() -> None:
 def test_touching_a_person_ends_the_duel() -> None:
     result = run_duel(duel_with(PersonSettings("straight", 0.6), 10.0))
     assert result.outcome.value == "contact"
-    assert "person" in result.message
+    assert result.message.startswith("evader and pursuer touched at ")
 
 
 def test_a_robots_duel_has_no_person_in_it() -> None:

@@ -1,6 +1,6 @@
 """Test the figure of a person: its size, its walk and its place in a duel."""
 
-from math import isnan, pi, sin
+from math import pi, sin
 from types import SimpleNamespace
 from typing import Any
 
@@ -8,10 +8,11 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.control import Phase
-from stepaside.games.people import furnisher_of, meet, stand_person, walkers_of
-from stepaside.games.settings import DuelSettings
-from stepaside.planning import GaitSettings
+from stepaside.errors import ConfigurationError
+from stepaside.games.duel import Duel, furnisher_of, walkers_of
+from stepaside.games.pedestrian import Pedestrian
+from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.walker import Walker
 from stepaside.poses import Array, Pose
 from stepaside.robots.head import rotation
 from stepaside.world.person import (
@@ -19,13 +20,13 @@ from stepaside.world.person import (
     PARTS,
     STEP,
     Person,
-    PersonMind,
     add_person,
     parts_of,
     pose_figure,
 )
 from stepaside.world.person_motion import Motion
 from stepaside.world.person_settings import PersonSettings
+from stepaside.world.push import Push
 
 TICK = 0.05
 
@@ -186,15 +187,13 @@ def test_a_person_walks_leg_by_leg_towards_the_evader() -> None:
     world = world_of(model, data)
     motion = Motion(PersonSettings("steer", 0.5), Pose(1.03, 2, 0), (4, 2))
     person = Person(world, "her", motion)
-    assert (person.name, person.tick, person.world) == ("her", TICK, world)
+    assert (person.name, person.world) == ("her", world)
     trunk = int(model.body("her/trunk").mocapid[0])
     leg = int(model.body("her/left leg").mocapid[0])
     assert data.mocap_pos[trunk, :2].tolist() == [1.03, 2.0]
-    other: Any = SimpleNamespace(position=(4.0, 2.0))
-    person.meet(other)
     for i in range(5):
         world.time = i * TICK
-        person.step()
+        person.step((4.0, 2.0))
     way = 5 * TICK * 0.5
     assert way == pytest.approx(0.5 * STEP)
     assert data.mocap_pos[trunk, :2] == pytest.approx((1.03 + way, 2.0))
@@ -211,10 +210,8 @@ def test_a_recorded_person_is_where_the_end_of_the_tick_says(
     world = world_of(model, data)
     motion = Motion(PersonSettings(str(file)), STANDING, (4.0, 0.0))
     person = Person(world, "her", motion)
-    other: Any = SimpleNamespace(position=(4.0, 0.0))
-    person.meet(other)
     world.time = 2.0
-    person.step()
+    person.step((4.0, 0.0))
     assert person.truth.position == pytest.approx((2.0 + TICK, 0.0))
 
 
@@ -229,30 +226,48 @@ def test_truth_of_a_person_is_that_of_the_walk() -> None:
     assert truth.distance_to(other) == 5.0
 
 
-def test_nothing_is_read_from_a_person_or_planned_for_one() -> None:
+def test_nothing_is_known_of_a_person_but_where_it_is() -> None:
+    """What only a robot has is None, and a walk is no plan of ours."""
+    model, data = figure()
+    motion = Motion(PersonSettings("steer"), Pose(1, 2, 0.7), (4.0, 2.0))
+    world = world_of(model, data)
+    world.time = 1.5
+    person = Person(world, "her", motion)
+    other: Any = SimpleNamespace(position=(4.0, 2.0))
+    player = Pedestrian(person, other)
+    seen = player.snapshot()
+    assert (seen.name, seen.time) == ("her", 1.5)
+    assert seen.torso == (1.0, 2.0, 0.7) and seen.com == (1.0, 2.0, 1.0)
+    unknown = (seen.frame, seen.walk, seen.zmp, seen.posture)
+    assert unknown == (None,) * 4
+    assert player.truth is person.truth
+    assert player.begun is None and player.reports == ()
+    assert player.is_moving is True and player.has_fallen is False
+    before = data.mocap_pos.copy()
+    player.close()
+    np.testing.assert_array_equal(data.mocap_pos, before)
+
+
+def test_nobody_pushes_a_person() -> None:
     model, data = figure()
     motion = Motion(PersonSettings("steer"), STANDING, (4.0, 2.0))
-    person = Person(world_of(model, data), "her", motion)
-    measured = person.read()
-    assert measured.time == 0.0 and measured.sighting is None
-    assert all(values.size == 0 for values in measured[1:5])
-    before = data.mocap_pos.copy()
-    person.write(np.ones(3))
-    person.close()
-    np.testing.assert_array_equal(data.mocap_pos, before)
-    assert all(isnan(value) for value in person.measured_zmp())
-    assert person.qpos_slice == slice(0, 0) and person.pusher is None
-    gait = GaitSettings()
-    mind = PersonMind(gait)
-    assert mind.settings is gait and mind.phase is Phase.WALKING
-    assert mind.update(measured).size == 0
-    assert (mind.plan, mind.stabiliser, mind.replans) == (None, None, 0)
-    assert mind.landings == mind.planning_times == []
-    assert mind.velocity_jumps == mind.margins == []
-    assert np.isnan(mind.zmp_reference).all()
-    assert np.isnan(mind.reference.com).all()
-    assert np.isnan(mind.reference.left_foot).all()
-    assert np.isnan(mind.reference.right_foot).all()
+    other: Any = SimpleNamespace(position=(4.0, 2.0))
+    player = Pedestrian(Person(world_of(model, data), "her", motion), other)
+    with pytest.raises(ConfigurationError, match="robot, got her, who is a"):
+        player.push(Push(1.0, 0.0, 0.0))
+
+
+def test_a_person_walks_to_where_the_other_is_by_then() -> None:
+    model, data = figure()
+    world = world_of(model, data)
+    motion = Motion(PersonSettings("steer", 0.5, 2.0), STANDING, (4.0, 0.0))
+    other: Any = SimpleNamespace(position=(0.0, 4.0))
+    player = Pedestrian(Person(world, "her", motion), other)
+    for side in (1.0, -1.0):
+        other.position = (0.0, 4.0 * side)
+        before = player.truth.heading
+        player.tick()
+        assert side * (player.truth.heading - before) > 0.01
 
 
 WITH = DuelSettings(pursuer="person")
@@ -265,31 +280,39 @@ def test_only_robots_walk_by_control() -> None:
 
 def test_a_world_is_furnished_with_all_that_there_is() -> None:
     put: list[mujoco.MjSpec] = []
-    seeing: Any = SimpleNamespace(furnish=put.append)
-    assert furnisher_of(DuelSettings(), None) is None
-    assert furnisher_of(DuelSettings(), seeing) == seeing.furnish
-    for sense, times in ((None, 0), (seeing, 1)):
+    sense: Any = put.append
+    assert furnisher_of(DuelSettings()) is None
+    assert furnisher_of(DuelSettings(), sense) is sense
+    for given, times in ((None, 0), (sense, 1)):
         spec = mujoco.MjSpec()
-        furnish = furnisher_of(WITH, sense)
+        furnish = furnisher_of(WITH, given)
         assert furnish is not None
         furnish(spec)
         assert put == times * [spec]
         assert spec.compile().body("pursuer/trunk").mocapid[0] >= 0
 
 
-def test_a_person_stands_where_the_pursuer_would_and_meets_the_evader() -> (
+def test_a_person_stands_where_the_pursuer_would_and_knows_the_evader() -> (
     None
 ):
-    model, data = figure()
-    frames = [Pose(1.0, 2.0, 0.5), Pose(3.0, 2.0, 3.0)]
-    straight = DuelSettings(
-        pursuer="person", person=PersonSettings("straight", miss=-0.5)
-    )
-    person, mind = stand_person(world_of(model, data), "her", straight, frames)
-    assert isinstance(person, Person) and isinstance(mind, PersonMind)
-    assert person.truth.position == (1.0, 2.0)
-    assert person.truth.heading == pytest.approx(np.arctan2(-0.5, 2.0))
-    evader: Any = SimpleNamespace(truth=SimpleNamespace(position=(3, 2)))
-    meet([person, evader])
-    person.step()
-    meet([evader, evader])
+    """A straight walk looks once, at the middle or beside it."""
+    start = StartSettings(2.0, 0.5, -0.3)
+    for miss in (0.0, -0.5):
+        settings = DuelSettings(
+            pursuer="person",
+            start=start,
+            person=PersonSettings("straight", miss=miss),
+        )
+        duel = Duel(settings)
+        person, evader = duel.players
+        assert isinstance(person, Pedestrian) and isinstance(evader, Walker)
+        assert (person.name, evader.name) == ("pursuer", "evader")
+        assert person.truth.position == (0.0, 0.0)
+        aside = np.arctan2(miss, 2.0)
+        assert person.truth.heading == pytest.approx(aside, abs=1e-6)
+        assert person._other.position == evader.truth.position
+        sighting = evader.robot.read().sighting
+        assert sighting is not None  # and the evader knows the person
+        assert sighting.distance == pytest.approx(duel.distance)
+        assert duel.tick() is None
+        assert person.truth.position[0] > 0.0

@@ -215,10 +215,10 @@ def test_mirrored_persons_come_as_near() -> None:
 def test_the_side_is_kept_from_the_first_on(sign: float) -> None:
     """A person who walks past the heading does not turn the evader."""
     evader = Pose(0.0, 0.0, 0.0)
-    walk = PersonSettings("straight", 0.15, miss=0.3 * sign)
-    start = Pose(1.2, sign * 0.05, 0.0)
-    least = approach(start, evader, 0.6, walk)
-    expected = computed(start, evader, 0.6, 0.3 * sign)
+    walk = PersonSettings("straight", 0.15, miss=0.1 * sign)
+    start = Pose(1.2, sign * 0.2, 0.0)
+    least = approach(start, evader, 0.1, walk)
+    expected = computed(start, evader, 0.1, 0.1 * sign)
     assert least == pytest.approx(expected, abs=3e-3)
 
 

@@ -2,71 +2,72 @@
 
 from math import pi
 from types import SimpleNamespace
-from typing import Any
 
-import mujoco
 import numpy as np
 import pytest
 
-from stepaside.control.balance.estimation import BodyState
-from stepaside.control.balance.settings import STABILISED
+from made_up_players import FakePlayer, FakeWorld, begun, game
+from stepaside.games.match import Match
+from stepaside.games.outcome import Outcome
 from stepaside.games.record import Recorder
-from stepaside.games.walk import Walker, WalkSettings
-from stepaside.games.walk_record import COLUMNS, WalkRecorder
+from stepaside.games.track import Track
 from stepaside.planning import Foot
 from stepaside.poses import Array, Pose
-from stepaside.world.settings import PhysicsSettings
+
+FRAMES = (Pose(0.0, 0.0, 0.0), Pose(1.0, 2.0, pi / 2))
+NAMES = ("a", "b")
 
 
-def fake(number: int, qpos: Array, world: Any) -> tuple[Any, Any]:
-    """Robot and scheme whose every quantity tells whose and what it is."""
+def tell(player: FakePlayer, number: int, row: int = 0) -> None:
+    """Let a player show values that tell whose and what they are."""
     base = 100.0 * number
-    truth = SimpleNamespace(
-        com=base + np.array([1.0, 2.0, 3.0]),
-        position=(base + 4.0, base + 5.0),
-        heading=0.5 * number,
-    )
-    robot = SimpleNamespace(
-        name=("pursuer", "evader")[number],
-        world=world,
-        truth=truth,
-        measured_zmp=lambda: (base + 6.0, base + 7.0),
-        qpos_slice=slice(3 * number, 3 * number + 3),
-    )
-    scheme = SimpleNamespace(
+    walk = SimpleNamespace(
         reference=SimpleNamespace(com=(base + 8.0, base + 9.0, 0.3)),
         zmp_reference=(base + 10.0, base + 11.0),
-        landings=[
-            (1.0, Foot.LEFT, Pose(0.3, 0.1, 0.2)),
-            (1.4, Foot.RIGHT, Pose(0.4, -0.1, 0.3)),
-        ],
     )
-    return robot, scheme
+    player.seen = {
+        "com": (base + 1.0, base + 2.0, base + 3.0),
+        "torso": Pose(base + 4.0, base + 5.0, 0.5 * number),
+        "frame": FRAMES[number],
+        "walk": walk,
+        "zmp": (base + 6.0, base + 7.0),
+        "posture": np.arange(3.0) + 3.0 * number + 0.5 * row,
+    }
 
 
-def recorder(tick: float = 0.004) -> tuple[Recorder, Any, list[Any]]:
-    qpos = np.arange(6.0)
-    world = SimpleNamespace(
-        data=SimpleNamespace(qpos=qpos),
-        time=0.0,
-        physics=SimpleNamespace(tick=tick),
-    )
-    robots, schemes = zip(*(fake(i, qpos, world) for i in (0, 1)), strict=True)
-    frames = (Pose(0.0, 0.0, 0.0), Pose(1.0, 2.0, pi / 2))
-    made: Recorder = Recorder(robots, schemes, frames)
-    return made, world, list(robots)
+def recorder(
+    tick: float = 0.004,
+) -> tuple[Recorder, Match, FakeWorld, list[FakePlayer]]:
+    match, world, players = game(0.0, 2.0)
+    world.physics.tick = tick
+    for number, player in enumerate(players):
+        tell(player, number)
+    return Recorder(players, tick=tick), match, world, players
+
+
+def sample(made: Recorder, match: Match) -> None:
+    """Take one sample, whatever the clock says."""
+    made._sample(match)
+
+
+def arrays_of(made: Recorder) -> dict[str, Array]:
+    found = {"times_s": made.times}
+    for name, track in made.tracks().items():
+        found |= track.arrays(name)
+    return found
 
 
 def test_a_record_holds_each_quantity_under_its_name() -> None:
-    """References are in odometry, which the evader's frame turns."""
-    made, world, robots = recorder()
-    made.sample()
-    world.time = 0.02
-    world.data.qpos += 0.5
-    made.sample()
-    arrays = made.arrays()
+    """References are in odometry, which the frame of the second turns."""
+    made, match, world, players = recorder()
+    made.before(match)
+    world.ticks = 5
+    for number, player in enumerate(players):
+        tell(player, number, row=1)
+    made.before(match)
+    arrays = arrays_of(made)
     np.testing.assert_array_equal(arrays["times_s"], [0.0, 0.02])
-    for number, name in enumerate(("pursuer", "evader")):
+    for number, name in enumerate(NAMES):
         base = 100.0 * number
         for row in (0, 1):
             np.testing.assert_allclose(
@@ -81,18 +82,18 @@ def test_a_record_holds_each_quantity_under_its_name() -> None:
             )
             posture = np.arange(3.0) + 3.0 * number + 0.5 * row
             np.testing.assert_array_equal(arrays[f"{name}_qpos"][row], posture)
-    np.testing.assert_allclose(arrays["pursuer_com_reference"][0], [8, 9])
-    np.testing.assert_allclose(arrays["pursuer_zmp_reference"][0], [10, 11])
+    np.testing.assert_allclose(arrays["a_com_reference"][0], [8, 9])
+    np.testing.assert_allclose(arrays["a_zmp_reference"][0], [10, 11])
     np.testing.assert_allclose(
-        arrays["evader_com_reference"][0], [1 - 109, 2 + 108]
+        arrays["b_com_reference"][0], [1 - 109, 2 + 108]
     )
     np.testing.assert_allclose(
-        arrays["evader_zmp_reference"][0], [1 - 111, 2 + 110]
+        arrays["b_zmp_reference"][0], [1 - 111, 2 + 110]
     )
-    assert arrays["pursuer_qpos"].dtype == np.float32
+    assert arrays["a_qpos"].dtype == np.float32
     assert set(arrays) == {"times_s"} | {
-        f"{robot.name}_{key}"
-        for robot in robots
+        f"{name}_{key}"
+        for name in NAMES
         for key in (
             *("com", "torso", "com_reference", "zmp_reference", "zmp"),
             *("qpos", "landings"),
@@ -101,15 +102,23 @@ def test_a_record_holds_each_quantity_under_its_name() -> None:
 
 
 def test_landings_are_in_the_world_with_their_side() -> None:
-    made, _, _ = recorder()
-    made.sample()
-    arrays = made.arrays()
+    made, match, _, players = recorder()
+    sample(made, match)
+    first = begun()
+    other = begun(
+        landing_time=1.4, foot=Foot.RIGHT, landing=Pose(0.4, -0.1, 0.3)
+    )
+    for step in (first, None, other, None):
+        for player in players:
+            player.begun = step
+        made.acted(match)
+    arrays = arrays_of(made)
     np.testing.assert_allclose(
-        arrays["pursuer_landings"],
+        arrays["a_landings"],
         [[1.0, 1.0, 0.3, 0.1, 0.2], [1.4, -1.0, 0.4, -0.1, 0.3]],
     )
     np.testing.assert_allclose(
-        arrays["evader_landings"],
+        arrays["b_landings"],
         [
             [1.0, 1.0, 1.0 - 0.1, 2.0 + 0.3, 0.2 + pi / 2],
             [1.4, -1.0, 1.0 + 0.1, 2.0 + 0.4, 0.3 + pi / 2],
@@ -117,22 +126,114 @@ def test_landings_are_in_the_world_with_their_side() -> None:
     )
 
 
+def test_planning_is_told_of_each_player() -> None:
+    """A halt is a step, but no maneuver that was planned."""
+    made, match, _, players = recorder()
+    steps = (
+        begun(velocity_jump=1e-3),
+        begun(planning_time=4e-4, velocity_jump=3e-3),
+        begun(planning_time=None, velocity_jump=2e-3),
+    )
+    for step in steps:
+        players[1].begun = step
+        made.acted(match)
+    nothing, planned = (made.planning()[name] for name in NAMES)
+    assert planned.steps == 3
+    np.testing.assert_allclose(planned.times, [2e-4, 4e-4])
+    assert planned.velocity_jump == 3e-3
+    assert planned.zmp_margin == pytest.approx(0.02)
+    assert nothing.steps == 0 and nothing.times.shape == (0,)
+    assert nothing.velocity_jump == 0.0 and nothing.zmp_margin is None
+
+
 def test_headings_pass_their_wrap_without_a_jump() -> None:
-    made, _, robots = recorder()
+    made, match, _, players = recorder()
     for heading in (3.0, -3.1, -2.9):
-        robots[0].truth.heading = heading
-        made.sample()
-    headings = made.arrays()["pursuer_torso"][:, 2]
+        players[0].seen["torso"] = Pose(0.0, 0.0, heading)
+        sample(made, match)
+    headings = arrays_of(made)["a_torso"][:, 2]
     expected = [3.0, 2 * pi - 3.1, 2 * pi - 2.9]
     np.testing.assert_allclose(headings, expected)
 
 
 def test_an_empty_record_keeps_its_shapes() -> None:
-    made, _, _ = recorder()
-    made._schemes[0].landings.clear()
-    made.sample()
-    arrays = made.arrays()
-    assert arrays["pursuer_landings"].shape == (0, 5)
+    made, match, _, _ = recorder()
+    assert made.times.shape == (0,)
+    for track in made.tracks().values():
+        assert track.com.shape == track.torso.shape == (0, 3)
+        assert track.com_reference is None and track.landings is None
+    sample(made, match)
+    assert arrays_of(made)["a_landings"].shape == (0, 5)
+
+
+def test_what_a_player_lacks_is_none_in_its_track() -> None:
+    """A person walks by no plan of ours; NaN fills no gaps."""
+    made, match, _, players = recorder()
+    players[0].seen = {}
+    for _ in range(3):
+        sample(made, match)
+    person, robot = (made.tracks()[name] for name in NAMES)
+    assert set(person.arrays("a")) == {"a_com", "a_torso"}
+    np.testing.assert_array_equal(person.com, [[0.0, 0.0, 0.3]] * 3)
+    np.testing.assert_array_equal(person.torso, np.zeros((3, 3)))
+    assert robot.qpos is not None and robot.qpos.shape == (3, 3)
+
+
+@pytest.mark.parametrize(
+    ("lacking", "arrays"),
+    [
+        ("posture", {"qpos"}),
+        ("zmp", {"zmp"}),
+        ("walk", {"com_reference", "zmp_reference"}),
+        ("frame", {"landings"}),
+    ],
+)
+def test_a_robot_of_which_less_is_known_lacks_that_alone(
+    lacking: str, arrays: set[str]
+) -> None:
+    made, match, _, players = recorder()
+    del players[1].seen[lacking]
+    for _ in range(2):
+        sample(made, match)
+    whole, part = (made.tracks()[name] for name in NAMES)
+    missing = whole.arrays("").keys() - part.arrays("").keys()
+    assert missing == {f"_{name}" for name in arrays}
+    for name in ("zmp", "com_reference"):
+        value = getattr(part, name)
+        assert value is None or value.shape == (2, 2)
+
+
+def test_a_foot_force_that_is_none_in_flight_is_nan_in_the_record() -> None:
+    made, match, _, players = recorder()
+    sample(made, match)
+    players[0].seen["zmp"] = (np.nan, np.nan)
+    sample(made, match)
+    zmp = arrays_of(made)["a_zmp"]
+    assert np.isfinite(zmp[0]).all() and np.isnan(zmp[1]).all()
+
+
+def test_tracks_that_were_handed_out_stay_as_they_were() -> None:
+    made, match, _, players = recorder()
+    sample(made, match)
+    first = made.tracks()["a"]
+    tell(players[0], 1)
+    sample(made, match)
+    assert isinstance(first, Track) and first.com.shape == (1, 3)
+    np.testing.assert_array_equal(first.com, [[1.0, 2.0, 3.0]])
+    assert made.tracks()["a"].com.shape == (2, 3)
+
+
+def test_samples_are_taken_when_due_and_at_the_end() -> None:
+    """The last one once only."""
+    for ticks, expected in ((12, [0.0, 0.02, 0.04, 0.048]), (10, None)):
+        made, match, world, _ = recorder()
+        for _ in range(ticks):
+            made.before(match)
+            world.step()
+        for _ in range(2):
+            made.ended(match, Outcome.COMPLETED)
+        found = [0.0, 0.02, 0.04] if expected is None else expected
+        np.testing.assert_allclose(made.times, found)
 
 
 @pytest.mark.parametrize(
@@ -140,166 +241,3 @@ def test_an_empty_record_keeps_its_shapes() -> None:
 )
 def test_samples_are_about_20_ms_apart(tick: float, every: int) -> None:
     assert recorder(tick)[0].every == every
-
-
-@pytest.fixture(scope="module")
-def walker() -> Walker:
-    """A robot that has walked a few steps in a circle, with feedback."""
-    made = Walker(WalkSettings(bearing=0.6, control=STABILISED))
-    for _ in range(1100):
-        assert made.tick()
-    return made
-
-
-def last(walker: Walker) -> dict[str, float]:
-    made = WalkRecorder(walker.robot, walker.scheme)
-    made.sample()
-    arrays = made.arrays()
-    assert tuple(arrays) == COLUMNS
-    return {name: float(values[0]) for name, values in arrays.items()}
-
-
-def test_a_walk_is_seen_from_the_foot_that_stands(walker: Walker) -> None:
-    """Truth, wish and estimate agree in a frame that all three share."""
-    seen = last(walker)
-    assert seen["time"] == walker.world.time
-    foot = walker.scheme.step(walker.world.time).swing.other
-    assert seen["support"] == foot.value
-    truth = walker.robot.truth
-    heading = truth.heading
-    assert abs(heading) > 0.2
-    assert seen["heading"] == pytest.approx(heading)
-    assert seen["asked_heading"] == pytest.approx(
-        walker.scheme.kinematics.torso_heading
-    )
-    assert seen["asked_heading"] == pytest.approx(heading, abs=0.05)
-    np.testing.assert_allclose(
-        [seen["world_x"], seen["world_y"]], truth.com[:2]
-    )
-    np.testing.assert_allclose(
-        [seen["asked_x"], seen["asked_y"]], walker.scheme.reference.com[:2]
-    )
-    for name, tolerance in (("com_x", 0.004), ("com_y", 0.004)):
-        wanted = seen[name.replace("com", "reference")]
-        assert seen[name] == pytest.approx(wanted, abs=0.01)
-        assert seen[name] == pytest.approx(
-            seen[f"estimated_{name}"], abs=tolerance
-        )
-    # The CoM is nearer the middle than the foot is: on its other side.
-    assert -0.1 < foot.value * seen["com_y"] < 0.0
-    assert abs(seen["com_x"]) < 0.06
-
-
-def test_vectors_turn_with_the_foot_and_points_move_too(
-    walker: Walker,
-) -> None:
-    """The foot's place and heading, found again from the columns."""
-    seen = last(walker)
-    foot = walker.scheme.step(walker.world.time).swing.other
-    description = walker.scheme.kinematics.description
-    name = {
-        Foot.LEFT: description.left_foot,
-        Foot.RIGHT: description.right_foot,
-    }[foot]
-    data = walker.world.data
-    place = data.site(f"walker/{name}")
-    heading = np.arctan2(place.xmat[3], place.xmat[0])
-    frame = Pose(place.xpos[0], place.xpos[1], float(heading))
-    assert (seen["foot_x"], seen["foot_y"]) == (frame.x, frame.y)
-    com = frame.transform_points([[seen["com_x"], seen["com_y"]]])[0]
-    np.testing.assert_allclose(com, walker.robot.truth.com[:2])
-    zmp = frame.transform_points([[seen["zmp_x"], seen["zmp_y"]]])[0]
-    np.testing.assert_allclose(zmp, walker.robot.measured_zmp())
-    model = walker.world.model
-    torso = model.body(f"walker/{description.torso}").id
-    slopes = np.zeros((3, model.nv))
-    mujoco.mj_jacSubtreeCom(model, data, slopes, torso)
-    speed = slopes @ data.qvel
-    assert np.hypot(*speed[:2]) > 0.01
-    turned = Pose(0.0, 0.0, float(heading))
-    velocity = [[seen["velocity_x"], seen["velocity_y"]]]
-    np.testing.assert_allclose(
-        turned.transform_points(velocity)[0],
-        speed[:2],
-        atol=2e-3,  # places and speeds are one physics step apart
-    )
-    support = walker.scheme.step(walker.world.time).support
-    for column, point in (
-        ("reference", walker.scheme.reference.com[:2]),
-        ("zmp_reference", walker.scheme.zmp_reference),
-    ):
-        there = [[seen[f"{column}_x"], seen[f"{column}_y"]]]
-        np.testing.assert_allclose(
-            support.transform_points(there)[0], point, atol=1e-12
-        )
-
-
-def test_the_torsos_lean_is_roll_and_pitch(walker: Walker) -> None:
-    data = walker.world.data
-    before = data.qpos.copy()
-    for roll, pitch in ((0.2, 0.1), (-0.3, 0.05)):
-        yaw = np.zeros(4)
-        mujoco.mju_euler2Quat(yaw, [roll, pitch, 0.8], "XYZ")
-        data.qpos[3:7] = yaw
-        mujoco.mj_forward(walker.world.model, data)
-        seen = last(walker)
-        assert seen["roll"] == pytest.approx(roll)
-        assert seen["pitch"] == pytest.approx(pitch)
-    data.qpos[:] = before
-    mujoco.mj_forward(walker.world.model, data)
-
-
-def test_what_was_estimated_is_seen_from_the_foot_too(walker: Walker) -> None:
-    stabiliser = walker.scheme.stabiliser
-    assert stabiliser is not None
-    state = BodyState(
-        *((1.0, 2.0), (0.3, 0.4), (9.0, 9.0), (1.5, 2.5), (0.01, 0.02)),
-        *((0.0, 0.0, 0.0), 0.5, 50.0),
-    )
-    before, stabiliser.state = stabiliser.state, state
-    seen = last(walker)
-    support = walker.scheme.step(walker.world.time).support
-    turned = Pose(0.0, 0.0, support.theta)
-    for name, frame, value in (
-        ("com", support, state.com),
-        ("velocity", turned, state.velocity),
-        ("zmp", support, state.zmp),
-    ):
-        there = [[seen[f"estimated_{name}_x"], seen[f"estimated_{name}_y"]]]
-        found = frame.transform_points(there)[0]
-        np.testing.assert_allclose(found, value, atol=1e-12)
-    assert (seen["estimated_roll"], seen["estimated_pitch"]) == state.tilt
-    stabiliser.state = None
-    estimates = [v for n, v in last(walker).items() if "estimated" in n]
-    assert len(estimates) == 8 and np.isnan(estimates).all()
-    stabiliser.state = before
-
-
-def test_single_support_lasts_while_a_foot_swings() -> None:
-    """Not before the walk, and not while both feet stand."""
-    walker = Walker(WalkSettings())
-    assert last(walker)["single"] == 0.0
-    gait = walker.settings.gait
-    singles, heights = [], []
-    while walker.world.time < 3.0:
-        assert walker.tick()
-        singles.append(last(walker)["single"])
-        feet = walker.scheme.reference
-        heights.append(max(feet.left_foot[2], feet.right_foot[2]))
-    single, lifted = np.array(singles) > 0.5, np.array(heights) > 1e-3
-    assert single[lifted].mean() > 0.97
-    cycle = round(2.0 * gait.step_duration / 0.004)
-    share = gait.single_support / gait.step_duration
-    assert single[-cycle:].mean() == pytest.approx(share, abs=0.01)
-
-
-@pytest.mark.parametrize(
-    ("tick", "every"), [(0.004, 5), (0.012, 2), (0.002, 10), (0.06, 1)]
-)
-def test_samples_of_a_walk_are_about_20_ms_apart(
-    tick: float, every: int
-) -> None:
-    walker = Walker(WalkSettings(physics=PhysicsSettings(tick=tick)))
-    made = WalkRecorder(walker.robot, walker.scheme)
-    assert made.every == every
-    assert made.arrays()["time"].shape == (0,)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from stepaside.control.reference import (
+    CACHED,
     ReferenceSample,
     ReferenceTable,
     standing_reference,
@@ -139,6 +140,21 @@ def test_the_same_timing_is_sampled_once() -> None:
     assert table._sampler(schedule, 0.0011, 10) is not one
     other = planner.schedule(4, standing=False)
     assert table._sampler(other, 0.001, 10) is not one
+
+
+def test_maps_of_offsets_that_drift_are_not_kept_for_ever() -> None:
+    """A day of sums of 0.547 s drifts by a microsecond, in nanoseconds."""
+    schedule = ManeuverPlanner(GAIT).schedule(5, standing=False)
+    table = ReferenceTable(TICK)
+    first = table._sampler(schedule, 0.0, 2)
+    for i in range(1, CACHED):
+        table._sampler(schedule, 1e-9 * i, 2)
+    assert table._sampler(schedule, 0.0, 2) is first
+    last = table._sampler(schedule, 1e-9 * CACHED, 2)
+    assert len(table._samplers) == CACHED
+    assert table._sampler(schedule, 1e-9 * CACHED, 2) is last
+    assert table._sampler(schedule, 0.0, 2) is not first
+    assert len(table._samplers) == CACHED
 
 
 @pytest.mark.parametrize("foot", Foot)

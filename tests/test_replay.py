@@ -9,8 +9,8 @@ from click.testing import CliRunner
 
 from stepaside.cli import main
 from stepaside.errors import ConfigurationError
+from stepaside.games.folder import load_run
 from stepaside.report.film import Shot
-from stepaside.report.replay import load_run
 from stepaside.report.replay_page import write_page
 from stepaside.world.graphics import RAYCAST, choose_renderer
 

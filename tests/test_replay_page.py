@@ -13,15 +13,17 @@ import mujoco
 import numpy as np
 import pytest
 
+from invented_run import changed, drifted
 from stepaside.errors import ConfigurationError
 from stepaside.games.duel import run_duel
+from stepaside.games.run import Run
 from stepaside.games.settings import DuelSettings, StartSettings
-from stepaside.games.summary import summarise
+from stepaside.games.track import Track
 from stepaside.poses import Array
 from stepaside.report import film, film_layers
 from stepaside.report.film import Cinema, Shot
-from stepaside.report.replay import Run, Stage
 from stepaside.report.replay_page import shapes_of, write_page
+from stepaside.report.stage import Stage
 from stepaside.report.style import COLOURS, THEORY
 from stepaside.world.graphics import RAYCAST
 
@@ -34,21 +36,25 @@ def made() -> Run:
     settings = DuelSettings(
         seed=3, duration=2.01, start=StartSettings(1.2, 0.4, -0.2)
     )
-    result = run_duel(settings)
-    arrays = {name: values.copy() for name, values in result.arrays.items()}
-    assert len(arrays["times_s"]) == len(TIMES)
-    arrays["times_s"] = TIMES
-    for name, side in (("pursuer", 1.0), ("evader", -1.0)):
-        way = side * np.column_stack([TIMES, -0.5 * TIMES])
-        arrays[f"{name}_torso"][:, :2] += way
-        arrays[f"{name}_com"][:, :2] += way
-        arrays[f"{name}_qpos"][:, :2] += way.astype(np.float32)
-    arrays["evader_landings"] = np.array([[0.5, -1.0, 1.1, 0.2, 0.3]])
-    summary = summarise(result) | {
-        "triggered_at_s": 0.5,
-        "converged_at_s": 1.8,
-    }
-    return Run("a </b> run", result.settings, summary, arrays)
+    played = run_duel(settings)
+    assert len(played.times) == len(TIMES)
+    run = drifted(played, TIMES)
+    run = changed(run, triggered_at_s=0.5, converged_at_s=1.8)
+    landings = np.array([[0.5, -1.0, 1.1, 0.2, 0.3]])
+    evader = replace(run.evader, landings=landings)
+    tracks = {**run.tracks, "evader": evader}
+    return replace(run, name="a </b> run", tracks=tracks)
+
+
+def thinned(track: Track, every: int) -> Track:
+    """Track with some of its samples."""
+    assert track.qpos is not None
+    return replace(
+        track,
+        com=track.com[::every],
+        torso=track.torso[::every],
+        qpos=track.qpos[::every],
+    )
 
 
 def content(run: Run, folder: Path) -> Any:
@@ -74,11 +80,9 @@ def test_a_page_without_frequent_samples_shows_them_all(
     tmp_path: Path,
 ) -> None:
     run = made()
-    thin = {
-        name: values[::25] if len(values) == len(TIMES) else values
-        for name, values in run.arrays.items()
-    }
-    shown = content(replace(run, arrays=thin), tmp_path)
+    tracks = {n: thinned(track, 25) for n, track in run.tracks.items()}
+    thin = replace(run, times=TIMES[::25], tracks=tracks)
+    shown = content(thin, tmp_path)
     np.testing.assert_allclose(shown["times"], TIMES[::25], atol=1e-9)
 
 
@@ -117,7 +121,7 @@ def test_a_page_tells_what_the_run_tells(tmp_path: Path) -> None:
     np.testing.assert_allclose(shown["circle"], run.circle, atol=6e-4)
     assert shown["safety"] == 0.8
     both = np.concatenate(
-        [run.arrays[f"{n}_torso"][:, :2] for n in ("pursuer", "evader")]
+        [track.torso[:, :2] for track in run.tracks.values()]
     )
     middle = 0.5 * (both.min(axis=0) + both.max(axis=0))
     np.testing.assert_allclose(shown["middle"], middle, atol=6e-4)
@@ -130,15 +134,44 @@ def test_a_page_tells_what_the_run_tells(tmp_path: Path) -> None:
         assert robot["name"] == name and robot["colour"] == COLOURS[name]
         assert stage.model.body(robot["torso"]).name == f"{name}/torso"
         np.testing.assert_allclose(
-            robot["trace"], run.arrays[f"{name}_com"][chosen, :2], atol=6e-4
+            robot["trace"], run.tracks[name].com[chosen, :2], atol=6e-4
         )
         np.testing.assert_allclose(
-            robot["landings"], run.arrays[f"{name}_landings"], atol=6e-4
+            robot["landings"], _landings(run, name), atol=6e-4
         )
-    never = replace(run, summary=run.summary | {"converged_at_s": None})
+    never = changed(run, converged_at_s=None)
     other = tmp_path / "never"
     other.mkdir()
     assert content(never, other)["circle"] is None
+
+
+def _landings(run: Run, name: str) -> Array:
+    """Footsteps of a robot."""
+    landings = run.tracks[name].landings
+    assert landings is not None and len(landings)
+    return landings
+
+
+def test_a_page_of_a_person_has_its_way_but_no_footsteps(
+    tmp_path: Path,
+) -> None:
+    settings = DuelSettings(
+        duration=0.1, pursuer="person", start=StartSettings(2.5, 0.0, 0.0)
+    )
+    run = replace(run_duel(settings), name="a </b> run")
+    shown = content(run, tmp_path)
+    person, robot = shown["robots"]
+    assert (person["name"], robot["name"]) == ("pursuer", "evader")
+    model = Stage(run).model
+    assert model.body(person["torso"]).name == "pursuer/trunk"
+    assert model.body(robot["torso"]).name == "evader/torso"
+    assert person["landings"] == []
+    chosen = [0, 2, 4, 5]
+    np.testing.assert_allclose(
+        person["trace"], run.pursuer.com[chosen, :2], atol=6e-4
+    )
+    bodies = {shape["body"] for shape in shown["shapes"]}
+    assert {person["torso"], robot["torso"]} <= bodies
 
 
 SHAPES = """
@@ -246,7 +279,7 @@ def test_a_picture_is_of_the_time_asked_for(time: float, index: int) -> None:
 @pytest.mark.usefixtures("screened")
 def test_the_camera_sees_the_whole_way_or_follows() -> None:
     run = made()
-    torsos = [run.arrays[f"{n}_torso"][:, :2] for n in ("pursuer", "evader")]
+    torsos = [run.tracks[n].torso[:, :2] for n in ("pursuer", "evader")]
     both = np.concatenate(torsos)
     low, high = both.min(axis=0), both.max(axis=0)
     _, camera, _ = filmed(Shot(), 1.0)
@@ -286,7 +319,7 @@ def test_lines_of_a_film_lie_where_the_run_was() -> None:
     drawn = scene()
     film_layers.decorate(drawn, run=run, index=index, trail=0.8)
     (sight, *circle) = lines_of(drawn, THEORY)
-    places = [run.arrays[f"{n}_torso"][index, :2] for n in COLOURS]
+    places = [run.tracks[n].torso[index, :2] for n in COLOURS]
     np.testing.assert_allclose(
         np.sort(ends(sight), axis=0),
         np.sort([[*p, 0.25] for p in places], axis=0),
@@ -320,7 +353,7 @@ def test_lines_of_a_film_lie_where_the_run_was() -> None:
     trace = [e for e in rest if abs(e[0, 2] - 0.004) < 1e-6]
     # 0.8 s before the sample, one line for each sample.
     assert len(trace) == 40
-    com = run.arrays["evader_com"][20:61, :2]
+    com = run.evader.com[20:61, :2]
     ways = np.concatenate(trace)[:, :2]
     np.testing.assert_allclose(ways.min(axis=0), com.min(axis=0), atol=1e-5)
     np.testing.assert_allclose(ways.max(axis=0), com.max(axis=0), atol=1e-5)

@@ -133,3 +133,38 @@ def test_the_help_says_which_walks_have_which_seed() -> None:
         "[default: 1" in told
     )
     assert "How far the body is from an ideal one. [default: ideal]" in told
+
+
+def test_another_gait_and_robot_make_other_trials(tmp_path: Path) -> None:
+    """They share a folder: none is taken for the other."""
+    asked = ("--kind", "push", "--method", "mpc", "--phases", "1")
+    usual, low = (
+        json.loads(run(*asked, *more, "--json"))
+        for more in ((), ("--com-height", "0.2"))
+    )
+    assert usual["limits"][0]["limit_n_s"] == low["limits"][0]["limit_n_s"]
+    bounds = [found["limits"][0]["bound_n_s"] for found in (usual, low)]
+    assert bounds[1] != pytest.approx(bounds[0], rel=1e-3)
+    run(*asked, "--com-height", "0.2", "--output", str(tmp_path))
+    made = read_result(tmp_path / "survival.json")
+    changes = json.loads(made["settings"]["changes"])
+    assert changes == {"gait": {"com_height": 0.2}}
+    pushes = read_result(tmp_path / "pushes.json")
+    assert pushes["settings"]["gait"]["com_height"] == 0.2
+    assert pushes["settings"]["robot"] == "nao"
+
+
+def test_a_kind_goes_by_its_former_name_too() -> None:
+    asked = ("--method", "mpc", "--seeds", "1", "--json")
+    old, new = (
+        json.loads(run("--kind", kind, *asked))
+        for kind in ("play", "backlash")
+    )
+    assert old == new and old["planned"]["trials"] > 0
+
+
+def test_a_body_that_is_no_preset_is_called_its_own() -> None:
+    asked = ("--kind", "backlash", "--method", "mpc", "--seeds", "1", "--json")
+    own = json.loads(run(*asked, "--stiffness", "0.5"))
+    assert own["body"] == "own"
+    assert json.loads(run(*asked, "--body", "hardware"))["body"] == "hardware"

@@ -10,18 +10,24 @@ from typing import Any
 import numpy as np
 import pytest
 
+from invented_run import check_same, run_of
 from stepaside.errors import ConfigurationError
-from stepaside.games.duel import DuelResult, run_duel
+from stepaside.games.circle import theory_of
+from stepaside.games.duel import run_duel
+from stepaside.games.folder import FORMAT, load_run
+from stepaside.games.outcome import Outcome
+from stepaside.games.run import Run
 from stepaside.games.settings import (
     DuelSettings,
     StartSettings,
-    StrategySettings,
 )
-from stepaside.games.summary import summarise, theory_of
+from stepaside.games.track import Track
 from stepaside.poses import Array
 from stepaside.report import run_folder, sight_figure
-from stepaside.report.replay import Run, Stage, load_run
 from stepaside.report.run_folder import check_output, free_folder, write_run
+from stepaside.report.stage import Stage
+from stepaside.strategies import Evasion
+from stepaside.world.body_settings import BODIES
 
 SETTINGS = DuelSettings(
     seed=3, duration=0.4, start=StartSettings(1.3, 0.4, -0.2)
@@ -29,7 +35,7 @@ SETTINGS = DuelSettings(
 
 
 @pytest.fixture(scope="module")
-def result() -> DuelResult:
+def result() -> Run:
     return run_duel(SETTINGS)
 
 
@@ -42,12 +48,9 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(run_folder, "draw_duel", draw_nothing)
 
 
-def test_a_run_comes_back_as_it_was(
-    tmp_path: Path, result: DuelResult
-) -> None:
+def test_a_run_comes_back_as_it_was(tmp_path: Path, result: Run) -> None:
     folder = tmp_path / "runs" / "first"
-    summary = summarise(result)
-    figure = write_run(folder, result, summary)
+    figure = write_run(folder, result)
     assert figure == folder / "duel.png" and figure.is_file()
     assert sorted(p.name for p in folder.iterdir()) == [
         *("configuration.toml", "duel.png"),
@@ -57,25 +60,34 @@ def test_a_run_comes_back_as_it_was(
     assert list(folder.parent.iterdir()) == [folder]
     run = load_run(folder)
     assert run.name == "first"
-    assert run.settings == result.settings
-    assert run.summary == json.loads(json.dumps(summary))
-    assert run.arrays.keys() == result.arrays.keys()
-    for name, values in result.arrays.items():
-        np.testing.assert_array_equal(run.arrays[name], values)
+    check_same(run, result)
 
 
-def test_an_empty_folder_is_taken(tmp_path: Path, result: DuelResult) -> None:
+def test_a_duration_of_many_cycles_comes_back_to_the_last_digit(
+    tmp_path: Path,
+) -> None:
+    """17 cycles of 0.012 s are not 0.204 s, but what is told is."""
+    body = BODIES["hardware"]
+    run = run_duel(replace(SETTINGS, duration=0.2, body=body))
+    assert run.duration == run.summary.duration_s == 0.204 != 17 * body.cycle
+    write_run(tmp_path / "run", run)
+    check_same(load_run(tmp_path / "run"), run)
+
+
+def test_an_empty_folder_is_taken(tmp_path: Path, result: Run) -> None:
     folder = tmp_path / "empty"
     folder.mkdir()
-    write_run(folder, result, {})
-    assert (folder / "summary.json").read_text(encoding="utf-8") == "{}\n"
+    write_run(folder, result)
+    text = (folder / "summary.json").read_text(encoding="utf-8")
+    told = {"format": FORMAT, **result.summary.to_json()}
+    assert text == json.dumps(told, indent=2) + "\n"
 
 
 @pytest.mark.parametrize("error", [RuntimeError("ink"), KeyboardInterrupt()])
 def test_an_error_leaves_nothing_behind(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
-    result: DuelResult,
+    result: Run,
     error: BaseException,
 ) -> None:
     def fail(*arguments: Any) -> None:
@@ -84,16 +96,16 @@ def test_an_error_leaves_nothing_behind(
 
     monkeypatch.setattr(run_folder, "draw_duel", fail)
     with pytest.raises(type(error)):
-        write_run(tmp_path / "run", result, {})
+        write_run(tmp_path / "run", result)
     assert list(tmp_path.iterdir()) == []
 
 
 def test_a_film_strip_is_there_if_they_saw(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, result: DuelResult
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, result: Run
 ) -> None:
     monkeypatch.setattr(sight_figure, "draw_sight", draw_nothing)
     seen = replace(result, stills={"pursuer": {}})
-    write_run(tmp_path / "run", seen, {})
+    write_run(tmp_path / "run", seen)
     assert (tmp_path / "run" / "sight.png").read_bytes() == b"picture"
 
 
@@ -130,10 +142,10 @@ def test_the_next_free_name_is_counted_from_two(tmp_path: Path) -> None:
     "name", ["configuration.toml", "summary.json", "trajectories.npz"]
 )
 def test_a_folder_that_lacks_a_file_is_no_run(
-    tmp_path: Path, result: DuelResult, name: str
+    tmp_path: Path, result: Run, name: str
 ) -> None:
     folder = tmp_path / "run"
-    write_run(folder, result, {})
+    write_run(folder, result)
     (folder / name).unlink()
     with pytest.raises(ConfigurationError, match=f"has no {name}"):
         load_run(folder)
@@ -141,10 +153,10 @@ def test_a_folder_that_lacks_a_file_is_no_run(
 
 @pytest.mark.parametrize("name", ["summary.json", "trajectories.npz"])
 def test_a_broken_file_is_refused(
-    tmp_path: Path, result: DuelResult, name: str
+    tmp_path: Path, result: Run, name: str
 ) -> None:
     folder = tmp_path / "run"
-    write_run(folder, result, {})
+    write_run(folder, result)
     (folder / name).write_bytes(b"{ broken")
     with pytest.raises(ConfigurationError, match="cannot be read"):
         load_run(folder)
@@ -153,7 +165,7 @@ def test_a_broken_file_is_refused(
 TIMES = np.linspace(0.0, 40.0, 401)
 
 
-def invented(**summary: Any) -> Run:
+def invented(**told: Any) -> Run:
     """Robots that wander, and then go round (3, -2) by halves."""
     angle = 0.5 * TIMES
     away = np.where(TIMES < 20.0, 5.0, 0.0)[:, None]
@@ -161,13 +173,11 @@ def invented(**summary: Any) -> Run:
     middle = np.array([3.0, -2.0, 0.0]) + away
     pursuer, evader = middle + 0.6 * ring, middle - 0.6 * ring
     pursuer[:, 2], evader[:, 2] = angle, angle + 1.2
-    told = {"outcome": "completed", "message": "played 40 s", **summary}
-    arrays: dict[str, Array] = {
-        "times_s": TIMES,
-        "pursuer_torso": pursuer,
-        "evader_torso": evader,
+    tracks = {
+        name: Track(torso.copy(), torso)
+        for name, torso in (("pursuer", pursuer), ("evader", evader))
     }
-    return Run("invented", DuelSettings(), told, arrays)
+    return run_of(TIMES, tracks, **told)
 
 
 def test_a_run_tells_its_distance_and_angle_in_degrees() -> None:
@@ -182,7 +192,7 @@ def test_theory_is_radius_distance_and_degrees() -> None:
     assert invented().theory == pytest.approx(
         (circle.radius_evader_m, circle.distance_m, 90.0)
     )
-    back = DuelSettings(strategy=StrategySettings(angle=0.0))
+    back = DuelSettings(strategy=Evasion(angle=0.0))
     assert replace(invented(), settings=back).theory is None
 
 
@@ -231,9 +241,10 @@ def test_words_change_with_the_time(time: float, words: str) -> None:
         ({}, COMING),
         ({"triggered_at_s": 5.0}, EVADING),
         ({"triggered_at_s": 39.5}, TRIGGERED),
-        ({"outcome": "fall", "message": "evader fell"}, "evader fell"),
-        ({"outcome": "contact", "message": "touched"}, "touched"),
-        ({"outcome": "interrupted", "message": "stopped"}, COMING),
+        ({"outcome": Outcome.FALL, "message": "evader fell"}, "evader fell"),
+        ({"outcome": Outcome.CONTACT, "message": "touched"}, "touched"),
+        ({"outcome": Outcome.UNREACHABLE, "message": "lost"}, "lost"),
+        ({"outcome": Outcome.INTERRUPTED, "message": "stopped"}, COMING),
     ],
 )
 def test_the_last_words_are_how_it_ended(
@@ -246,20 +257,26 @@ def test_the_last_words_are_how_it_ended(
 
 
 def test_the_stage_puts_the_bodies_where_they_were(
-    result: DuelResult,
+    result: Run,
 ) -> None:
     """At every sample: torsos, CoMs and the cameras of the bodies."""
-    arrays = dict(result.arrays)
+    tracks = {}
     for name in ("pursuer", "evader"):
-        moved = arrays[f"{name}_qpos"].copy()
+        track = result.tracks[name]
+        assert track.qpos is not None
+        moved = track.qpos.copy()
         moved[:, 0] += np.linspace(0.0, 1.0, len(moved))
         moved[:, 9] += np.linspace(0.0, 0.3, len(moved))
-        arrays[f"{name}_qpos"] = moved
-    stage = Stage(Run("run", result.settings, {}, arrays))
+        tracks[name] = replace(track, qpos=moved)
+    stage = Stage(replace(result, tracks=tracks))
     torsos = [stage.model.body(f"{n}/torso").id for n in ("pursuer", "evader")]
-    for index in (0, 7, len(arrays["times_s"]) - 1, 3):
+    for index in (0, 7, len(result.times) - 1, 3):
         stage.put(index)
-        postures = [arrays[f"{n}_qpos"][index] for n in ("pursuer", "evader")]
+        postures = [
+            track.qpos[index]
+            for track in tracks.values()
+            if track.qpos is not None
+        ]
         np.testing.assert_allclose(stage.data.qpos, np.concatenate(postures))
         for torso, posture in zip(torsos, postures, strict=True):
             np.testing.assert_allclose(
@@ -272,14 +289,17 @@ def test_a_person_is_put_where_it_walked() -> None:
         duration=0.4, pursuer="person", start=StartSettings(2.5, 0.0, 0.0)
     )
     result = run_duel(settings)
-    arrays = dict(result.arrays)
-    walked = arrays["pursuer_torso"].copy()
-    count = len(walked)
-    walked[:, 0] = np.linspace(0.0, 0.5, count)
-    walked[:, 1] = np.linspace(0.0, -0.3, count)
-    walked[:, 2] = np.linspace(0.0, 1.0, count)
-    arrays["pursuer_torso"] = walked
-    stage = Stage(Run("run", result.settings, {}, arrays))
+    count = len(result.times)
+    walked = np.column_stack(
+        [
+            np.linspace(0.0, 0.5, count),
+            np.linspace(0.0, -0.3, count),
+            np.linspace(0.0, 1.0, count),
+        ]
+    )
+    person = replace(result.pursuer, torso=walked)
+    tracks = {**result.tracks, "pursuer": person}
+    stage = Stage(replace(result, tracks=tracks))
     trunk = stage.model.body("pursuer/trunk").id
     legs = []
     for index in (0, count // 2, count - 1):

@@ -6,9 +6,10 @@ from time import process_time
 import numpy as np
 import pytest
 
-from made_up_robot import FIRST, GAIT, STEP, TICK, FakeRole, Run, measure
+from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run, measure
 from stepaside.control.phase import Phase
 from stepaside.control.scheme import SETTLING
+from stepaside.control.senses import GivenSight
 from stepaside.planning import Direction, Foot
 from stepaside.poses import Pose
 from stepaside.sensing.measurement import Sighting
@@ -27,25 +28,25 @@ def test_it_stands_midway_until_the_other_is_a_reason() -> None:
     run.until(1.0, distance=None)
     run.until(2.0, distance=2.1)
     assert run.phase() is Phase.STANDING and scheme.plan is None
-    assert scheme.replans == 0 and not scheme.landings
+    assert run.steps == [] and scheme.begun is None
     assert scheme.reference.com == pytest.approx(com, abs=1e-15)
     assert scheme.zmp_reference == pytest.approx(com[:2], abs=1e-15)
     run.until(2.0 + TICK, distance=1.9)
-    assert run.phase() is Phase.WALKING and scheme.replans == 1
+    assert run.phase() is Phase.WALKING and run.replans == 1
 
 
 def test_what_was_known_before_anything_is_seen_counts() -> None:
-    run = Run(sighting=Sighting(0.0, 0.3, 1.0))
+    run = Run(senses=GivenSight(Sighting(0.0, 0.3, 1.0)))
     run.until(TICK, distance=None)
     assert run.phase() is Phase.WALKING
-    assert run.role.asked == pytest.approx([0.3])
+    assert run.asked == pytest.approx([0.3])
 
 
 @pytest.mark.parametrize("foot", Foot)
 def test_the_first_foot_lands_first_and_then_the_other(foot: Foot) -> None:
     run = Run(first_foot=foot)
-    scheme = run.until(FIRST + 2.5 * STEP)
-    times, feet, poses = zip(*scheme.landings, strict=True)
+    run.until(FIRST + 2.5 * STEP)
+    times, feet, poses = zip(*run.landings, strict=True)
     assert feet == (foot, foot.other, foot, foot.other)
     landed = FIRST - GAIT.double_support + STEP * np.arange(4)
     np.testing.assert_allclose(times, landed)
@@ -56,16 +57,21 @@ def test_the_first_foot_lands_first_and_then_the_other(foot: Foot) -> None:
 
 
 def test_gait_time_is_exact_though_steps_end_between_ticks() -> None:
-    scheme = Run().until(FIRST + 4.2 * STEP)
+    run = Run()
+    scheme = run.until(FIRST + 4.2 * STEP)
     assert scheme.plan_started == pytest.approx(FIRST + 4.0 * STEP, abs=1e-9)
-    assert scheme.replans == 6
+    assert run.replans == 6
+    begins = [0.0, *(FIRST + STEP * np.arange(5))]
+    np.testing.assert_allclose([s.started for s in run.steps], begins)
 
 
 def test_a_plan_follows_at_the_tick_at_which_a_step_ends() -> None:
     run = Run()
     last = round(np.ceil(FIRST / TICK - 1e-6))
-    assert run.until(last * TICK).replans == 1
-    assert run.until((last + 1) * TICK).replans == 2
+    run.until(last * TICK)
+    assert run.replans == 1
+    run.until((last + 1) * TICK)
+    assert run.replans == 2
 
 
 def test_steps_of_whole_ticks_end_on_their_ticks() -> None:
@@ -74,31 +80,35 @@ def test_steps_of_whole_ticks_end_on_their_ticks() -> None:
     run = Run(gait=gait)
     for steps in range(1, 25):
         last = round((gait.start_support + 0.52 * steps) / TICK)
-        assert run.until(last * TICK).replans == steps
-        assert run.until((last + 1) * TICK).replans == steps + 1
+        run.until(last * TICK)
+        assert run.replans == steps
+        run.until((last + 1) * TICK)
+        assert run.replans == steps + 1
 
 
 def test_a_maneuver_turns_the_robot_as_the_template() -> None:
     """Each plan is made in the frame of its support foot."""
-    run = Run(FakeRole(heading=0.5))
+    run = Run(FakeStrategy(heading=0.5))
     scheme = run.until(FIRST + 3.5 * STEP)
     turn = GAIT.gain * 0.5 * GAIT.path_interval
-    headings = [pose.theta for _, _, pose in scheme.landings]
+    headings = [pose.theta for _, _, pose in run.landings]
     np.testing.assert_allclose(headings, turn * np.arange(1, 6))
     assert scheme.plan is not None and scheme.plan.bearing == 0.5
     assert scheme.plan_frame.theta == pytest.approx(headings[3])
 
 
-def test_roles_choose_direction_and_template() -> None:
-    back = Run(FakeRole(direction=Direction.BACKWARD)).until(FIRST + STEP)
+def test_strategies_choose_direction_and_template() -> None:
+    back = Run(FakeStrategy(direction=Direction.BACKWARD))
+    back.until(FIRST + STEP)
     assert back.landings[1][2].x == pytest.approx(-2.0 * GAIT.stride)
-    sharp = Run(FakeRole(heading=0.5, saturated=True)).until(0.1)
+    sharp = Run(FakeStrategy(heading=0.5, saturated=True))
+    sharp.until(0.1)
     turn = GAIT.gain * GAIT.path_interval
     assert sharp.landings[0][2].theta == pytest.approx(turn)
 
 
 def test_the_reference_is_continuous_through_all_plans() -> None:
-    run = Run(FakeRole(heading=0.8))
+    run = Run(FakeStrategy(heading=0.8))
     coms, zmps = [], []
     while run.ticks * TICK < FIRST + 3.0 * STEP:
         scheme = run.until((run.ticks + 1) * TICK)
@@ -108,20 +118,20 @@ def test_the_reference_is_continuous_through_all_plans() -> None:
     assert np.abs(speed).max() < 0.4
     assert np.abs(np.diff(speed, axis=0)).max() < 0.03
     assert np.abs(np.diff(zmps, axis=0)).max() < 0.006
-    assert len(scheme.velocity_jumps) == scheme.replans == 4
-    assert max(scheme.velocity_jumps) < 1e-12
+    assert len(run.steps) == run.replans == 4
+    assert max(step.velocity_jump for step in run.steps) < 1e-12
     assert len(run.legs.tracked) == run.ticks
 
 
 def test_the_bearing_is_taken_from_the_support_foot() -> None:
     """Seen from the torso, when it had the heading of that time."""
-    run = Run(FakeRole(heading=0.5))
+    run = Run(FakeStrategy(heading=0.5))
     run.legs.torso_heading = 0.2
     run.until(TICK, bearing=0.1)
-    assert run.role.asked == pytest.approx([0.3])
+    assert run.asked == pytest.approx([0.3])
     run.until(FIRST + 0.1, bearing=-0.3)
-    landed = run.scheme.landings[0][2].theta
-    assert run.role.asked[1] == pytest.approx(-0.3 + 0.2 - landed)
+    landed = run.landings[0][2].theta
+    assert run.asked[1] == pytest.approx(-0.3 + 0.2 - landed)
 
 
 def test_a_late_sighting_counts_for_when_it_was_seen() -> None:
@@ -131,20 +141,20 @@ def test_a_late_sighting_counts_for_when_it_was_seen() -> None:
         run.until((i + 1) * TICK, distance=None)
     seen = Sighting(40 * TICK, 0.1, 1.0)
     run.scheme.update(measure(100 * TICK)._replace(sighting=seen))
-    assert run.role.asked == pytest.approx([0.1 + 0.40])
+    assert run.asked == pytest.approx([0.1 + 0.40])
 
 
 def test_a_bearing_behind_wraps() -> None:
     run = Run()
     run.legs.torso_heading = 3.0
     run.until(TICK, bearing=1.0)
-    assert run.role.asked == pytest.approx([4.0 - 2.0 * np.pi])
+    assert run.asked == pytest.approx([4.0 - 2.0 * np.pi])
 
 
 def test_without_a_reason_it_brings_its_feet_abreast_and_rests() -> None:
-    run = Run(FakeRole(heading=0.5))
+    run = Run(FakeStrategy(heading=0.5))
     run.until(FIRST - 0.1)
-    run.role.going = False
+    run.strategy.going = False
     scheme = run.until(FIRST + 0.1)
     assert run.phase() is Phase.HALTING
     ends = FIRST + STEP + SETTLING
@@ -156,8 +166,9 @@ def test_without_a_reason_it_brings_its_feet_abreast_and_rests() -> None:
     apart = scheme.right_foot.inverse().compose(scheme.left_foot)
     expected = (0.0, GAIT.foot_spacing, 0.0)
     assert apart == pytest.approx(expected, abs=1e-12)
-    assert scheme.left_foot == scheme.landings[0][2]
-    assert scheme.right_foot == scheme.landings[1][2]
+    assert scheme.left_foot == run.landings[0][2]
+    assert scheme.right_foot == run.landings[1][2]
+    assert len(run.steps) == 2 and run.replans == 1  # a halt is no maneuver
     before = run.legs.tracked[-3].com
     assert scheme.reference.com == pytest.approx(before, abs=1e-3)
     assert scheme.zmp_reference == scheme.reference.com[:2]
@@ -166,23 +177,23 @@ def test_without_a_reason_it_brings_its_feet_abreast_and_rests() -> None:
 
 
 def test_it_walks_again_after_a_halt() -> None:
-    run = Run(FakeRole(heading=0.5))
+    run = Run(FakeStrategy(heading=0.5))
     run.until(FIRST - 0.1)
-    run.role.going = False
+    run.strategy.going = False
     run.until(FIRST + STEP + SETTLING + 0.1)
-    run.role.going = True
-    scheme = run.until(FIRST + STEP + SETTLING + 0.5)
+    run.strategy.going = True
+    run.until(FIRST + STEP + SETTLING + 0.5)
     assert run.phase() is Phase.WALKING
-    feet = [foot for _, foot, _ in scheme.landings]
+    feet = [foot for _, foot, _ in run.landings]
     assert feet == [Foot.LEFT, Foot.RIGHT, Foot.RIGHT]
-    assert max(scheme.velocity_jumps) < 1e-12
+    assert max(step.velocity_jump for step in run.steps) < 1e-12
 
 
 def test_a_sighting_is_kept_until_the_next() -> None:
     run = Run()
     run.until(TICK)
-    scheme = run.until(FIRST + 0.1, distance=None)
-    assert run.phase() is Phase.WALKING and scheme.replans == 2
+    run.until(FIRST + 0.1, distance=None)
+    assert run.phase() is Phase.WALKING and run.replans == 2
 
 
 def test_steps_are_told_as_they_are_made() -> None:
@@ -198,13 +209,62 @@ def test_steps_are_told_as_they_are_made() -> None:
     assert made.remaining == pytest.approx(GAIT.single_support - 0.1)
 
 
-def test_margins_are_those_of_the_part_that_was_walked() -> None:
-    begun = process_time()
-    scheme = Run(FakeRole(heading=0.5)).until(FIRST + 2.0 * STEP)
-    assert len(scheme.margins) == len(scheme.walked) == scheme.replans
-    for plan, margin in zip(scheme.walked, scheme.margins, strict=True):
-        walked = plan.schedule.first_step_duration
-        assert margin == pytest.approx(plan.margin(walked))
-    assert len(scheme.planning_times) == scheme.replans
-    assert min(scheme.planning_times) >= 0.0
-    assert sum(scheme.planning_times) < process_time() - begun
+def test_a_step_that_begins_tells_its_plan_and_what_it_cost() -> None:
+    clock = process_time()
+    run = Run(FakeStrategy(heading=0.5))
+    plans = []
+    while run.ticks * TICK < FIRST + 2.0 * STEP:
+        scheme = run.until((run.ticks + 1) * TICK)
+        if scheme.begun is not None:
+            assert scheme.begun.plan is scheme.plan
+            assert scheme.begun.started == scheme.plan_started
+            plans.append(scheme.plan)
+    times = [s.planning_time for s in run.steps if s.planning_time is not None]
+    assert len(plans) == len(times) == run.replans == 3
+    assert min(times) >= 0.0
+    assert sum(times) < process_time() - clock
+
+
+def test_a_step_is_told_at_the_tick_at_which_it_begins_and_no_other() -> None:
+    """A halt is a step too; its time of rest begins none."""
+    run = Run(FakeStrategy(heading=0.5))
+    told, replaced = [], []
+    plan = None
+    while run.ticks * TICK < FIRST + 2.0 * STEP + SETTLING + 0.5:
+        run.strategy.going = run.ticks * TICK < FIRST + 0.1
+        scheme = run.until((run.ticks + 1) * TICK)
+        if scheme.begun is not None:
+            told.append(run.ticks)
+        if scheme.plan is not plan and scheme.plan is not None:
+            replaced.append(run.ticks)
+        plan = scheme.plan
+    ends = FIRST + STEP * np.arange(2)
+    expected = [1, *(np.ceil(ends / TICK - 1e-6) + 1)]
+    assert told == replaced == expected
+    assert run.phase() is Phase.STANDING
+    assert [s.planning_time is None for s in run.steps] == [
+        *(False, False, True)
+    ]
+
+
+def test_the_state_is_what_the_scheme_has() -> None:
+    """A value: what comes after does not change it."""
+    run = Run(FakeStrategy(heading=0.5))
+    scheme = run.until(FIRST + 0.1)
+    state = scheme.state
+    for name in (
+        *("phase", "plan", "plan_frame", "plan_started", "left_foot"),
+        *("right_foot", "reference", "zmp_reference", "sighting"),
+    ):
+        assert getattr(state, name) is getattr(scheme, name), name
+    assert state.gait is GAIT and state.first_foot is Foot.RIGHT
+    assert state.torso_heading == run.legs.torso_heading
+    assert (state.estimate, state.solved, state.adapted) == (None, None, 0)
+    now = FIRST + 0.1
+    assert state.step(now) == scheme.step(now)
+    before = state.step(now)
+    run.until(FIRST + STEP + 0.1)
+    assert state.step(now) == before != scheme.step(now)
+    rest = Run(first_foot=Foot.RIGHT).scheme
+    assert rest.state.step(3.0) == rest.step(3.0)
+    assert rest.state.step(3.0).support == rest.left_foot

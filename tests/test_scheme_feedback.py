@@ -17,6 +17,7 @@ from made_up_robot import (
     measure,
 )
 from stepaside.control.phase import Phase
+from stepaside.control.senses import CameraSight
 from stepaside.planning import Foot
 from stepaside.sensing.measurement import Sighting
 
@@ -70,8 +71,9 @@ def test_feedback_fits_all_plans_but_the_first() -> None:
 def test_a_velocity_that_jumps_is_noted(jump: tuple[float, float]) -> None:
     run, feedback = feeding()
     feedback.jump = jump
-    scheme = run.until(FIRST + 0.1)
-    assert scheme.velocity_jumps == pytest.approx([0.0, 0.3], abs=1e-9)
+    run.until(FIRST + 0.1)
+    jumps = [step.velocity_jump for step in run.steps]
+    assert jumps == pytest.approx([0.0, 0.3], abs=1e-9)
 
 
 def test_feedback_knows_the_heading_and_looks_ahead() -> None:
@@ -79,7 +81,7 @@ def test_feedback_knows_the_heading_and_looks_ahead() -> None:
     run.legs.torso_heading = 9.0
     feedback.estimator.torso_heading, feedback.turn = 0.2, 0.05
     run.until(TICK, bearing=0.1)
-    assert run.role.asked == pytest.approx([0.35])
+    assert run.asked == pytest.approx([0.35])
 
 
 def test_who_has_fallen_lies_still() -> None:
@@ -95,17 +97,19 @@ def test_who_has_fallen_lies_still() -> None:
     feedback.state = SimpleNamespace(has_fallen=False)
     run.until(FIRST + 2.0)
     assert run.phase() is Phase.FALLEN and len(feedback.steps) == steps
+    assert scheme.begun is None and len(run.steps) == 2
 
 
 @pytest.mark.parametrize("foot", Foot)
 def test_perception_stands_on_the_support_foot(foot: Foot) -> None:
     eyes: Any = FakePerception()
-    run = Run(perception=eyes, first_foot=foot)
+    run = Run(senses=CameraSight(eyes, tick=TICK), first_foot=foot)
     scheme = run.until(0.1, distance=1.0)
     assert run.phase() is Phase.STANDING  # only what is seen counts
     eyes.seen = Sighting(0.1, 0.2, 1.0)
     run.until(0.1 + TICK, bearing=9.0)
-    assert run.role.asked == pytest.approx([0.2])
+    assert run.asked == pytest.approx([0.2])
+    assert scheme.sighting == scheme.state.sighting == eyes.seen
     assert scheme.joint_targets[0] == 0.75
     run.until(0.1 + FIRST + 0.1)
     left = foot is Foot.RIGHT  # the left one stands while the right swings
@@ -115,3 +119,22 @@ def test_perception_stands_on_the_support_foot(foot: Foot) -> None:
     eyes.seen = None
     run.until(0.1 + FIRST + STEP + 0.1)
     assert run.phase() is Phase.HALTING
+
+
+def test_eyes_are_told_the_tilt_that_feedback_estimates() -> None:
+    eyes: Any = FakePerception()
+    run, feedback = feeding()
+    run.scheme.senses = CameraSight(eyes, tick=TICK)
+    feedback.estimator.tilt = (0.03, -0.02)
+    run.until(2 * TICK)
+    assert eyes.tilts == [(0.03, -0.02)] * 2
+
+
+def test_the_state_tells_what_feedback_estimates_and_does() -> None:
+    run, feedback = feeding()
+    feedback.state = SimpleNamespace(has_fallen=False)
+    feedback.zmp_feedback.solved = answer = object()
+    feedback.adapted = 3
+    state = run.until(0.1).state
+    assert state.estimate is feedback.state
+    assert state.solved is answer and state.adapted == 3

@@ -8,17 +8,18 @@ import mujoco
 import numpy as np
 import pytest
 
+from stepaside.control.senses import CameraSight
 from stepaside.errors import ConfigurationError
-from stepaside.games import DuelResult, DuelSettings, Outcome, run_duel
+from stepaside.games import DuelSettings, Outcome, Run, run_duel
 from stepaside.games.configuration import (
     dump_configuration,
     parse_configuration,
 )
 from stepaside.games.duel import Duel
 from stepaside.games.settings import StartSettings
-from stepaside.games.summary import summarise
+from stepaside.games.walker import Walker
 from stepaside.perception.gaze import REACH, SCAN_SPEED
-from stepaside.perception.perception import FrameReport
+from stepaside.perception.perception import Perception
 from stepaside.sensing.images import ColourImage, SonarEcho
 from stepaside.world.camera_settings import (
     CLUTTER,
@@ -41,15 +42,25 @@ SEEING = DuelSettings(
 
 
 @cache
-def play() -> DuelResult:
+def play() -> Run:
     return run_duel(SEEING)
+
+
+def walkers(duel: Duel) -> list[Walker]:
+    return [player for player in duel.players if isinstance(player, Walker)]
+
+
+def perception_of(walker: Walker) -> Perception:
+    assert isinstance(walker.scheme.senses, CameraSight)
+    return walker.scheme.senses.perception
 
 
 def test_robots_that_see_begin_as_those_that_know() -> None:
     result = play()
     assert result.outcome is Outcome.COMPLETED
-    assert result.triggered_distance == pytest.approx(0.8, abs=0.05)
-    summary = summarise(result)
+    summary = result.summary.to_json()
+    triggered = summary["triggered_at_distance_m"]
+    assert triggered == pytest.approx(0.8, abs=0.05)
     assert summary["camera"] == "raycast"
     assert summary["detection_rate"] > 0.97
     assert summary["false_detections"] <= 2
@@ -63,19 +74,19 @@ def test_robots_that_see_begin_as_those_that_know() -> None:
 
 def test_the_same_seed_sees_the_same() -> None:
     settings = replace(SEEING, duration=2.0)
-    one, other = run_duel(settings), run_duel(settings)
-    for name, values in one.arrays.items():
-        np.testing.assert_array_equal(values, other.arrays[name])
+    one, other = run_duel(settings).arrays(), run_duel(settings).arrays()
+    assert {"pursuer_sight", "evader_sight"} <= one.keys() == other.keys()
+    for name, values in one.items():
+        np.testing.assert_array_equal(values, other[name])
 
 
 def test_the_pursuer_finds_who_is_behind_its_view() -> None:
     """It begins with its back half turned, scans and halts nowhere."""
     start = StartSettings(1.3, radians(-88.0), 0.0)
     settings = replace(SEEING, start=start, duration=5.0)
-    arrays = run_duel(settings).arrays
-    times, bearing, distance, true_bearing, true_distance, _ = arrays[
-        "pursuer_sight"
-    ].T
+    pursuer = run_duel(settings).pursuer
+    assert pursuer.sight is not None and pursuer.landings is not None
+    times, bearing, distance, true_bearing, true_distance, _ = pursuer.sight.T
     # Out of view at first, found by half a sweep of the head, never lost.
     assert true_bearing[0] > radians(85.0)
     found = int(np.argmax(np.isfinite(bearing)))
@@ -86,7 +97,7 @@ def test_the_pursuer_finds_who_is_behind_its_view() -> None:
     assert np.degrees(np.median(off)) < 1.0 and np.degrees(off.max()) < 5.0
     assert np.median(np.abs(distance - true_distance)[found:]) < 0.1
     # From then on it walks step by step, and turns to the other.
-    landings = arrays["pursuer_landings"][:, 0]
+    landings = pursuer.landings[:, 0]
     assert landings[0] < times[found] + 1.5
     np.testing.assert_allclose(np.diff(landings), 0.547, atol=1e-6)
     assert times[-1] - landings[-1] < 0.547
@@ -100,22 +111,18 @@ def test_the_evader_is_not_blind_below_the_near_limit(
     """Depth camera and sonars alone still tell bearing and distance."""
     start = StartSettings(distance, 0.0, radians(15.0))
     duel = Duel(replace(SEEING, start=start))
-    pursuer, evader = duel.robots
-    perception = duel.seeing.perceptions["evader"] if duel.seeing else None
-    assert perception is not None
-    scheme = duel.schemes[1]
-    eyes = evader.eyes
-    assert eyes is not None
+    pursuer, evader = (walker.robot for walker in walkers(duel))
+    scheme = walkers(duel)[1].scheme
+    senses = scheme.senses
+    perception = perception_of(walkers(duel)[1])
     for _ in range(200):
         measurement = evader.read()
         kept = tuple(
             p for p in measurement.percepts if not isinstance(p, ColourImage)
         )
-        perception.see(
-            measurement._replace(percepts=kept), scheme.left_foot, True
-        )
+        senses.see(measurement._replace(percepts=kept), scheme.step, None)
         targets = scheme.joint_targets.copy()
-        perception.aim(targets)
+        senses.aim(targets)
         evader.write(targets)
         evader.step()
         pursuer.step()
@@ -128,9 +135,8 @@ def test_the_evader_is_not_blind_below_the_near_limit(
 def test_belief_about_the_own_body_is_true_while_walking() -> None:
     """Encoders and tilt place the eyes within a centimeter or so."""
     duel = Duel(replace(SEEING, duration=4.0))
-    assert duel.seeing is not None
-    perception = duel.seeing.perceptions["pursuer"]
-    truth = duel.robots[0].truth
+    pursuer = walkers(duel)[0]
+    perception, truth = perception_of(pursuer), pursuer.truth
     head = duel.world.model.body("pursuer/head").id
     heights, headings = [], []
     start = None
@@ -152,16 +158,14 @@ def test_belief_about_the_own_body_is_true_while_walking() -> None:
 def test_dropped_and_late_images_are_dropped_and_late() -> None:
     cameras = replace(RAYS, drop_frames=0.5, added_latency=0.2)
     duel = Duel(replace(SEEING, cameras=cameras, duration=4.0))
-    assert duel.seeing is not None
+    pursuer = walkers(duel)[0]
     ages: list[float] = []
-
-    def note(report: FrameReport) -> None:
-        if isinstance(report.image, ColourImage):
-            ages.append(duel.world.time - report.image.time)
-
-    duel.seeing.perceptions["pursuer"].on_frame = note
     while duel.world.time < 4.0:
+        now = duel.world.time
         duel.tick()
+        for report in pursuer.reports:
+            assert isinstance(report.image, ColourImage)
+            ages.append(now - report.image.time)
     assert min(ages) == pytest.approx(0.25, abs=0.005)
     assert max(ages) == pytest.approx(0.25, abs=0.005)
     assert 15 < len(ages) < 45  # of 60
@@ -169,7 +173,7 @@ def test_dropped_and_late_images_are_dropped_and_late() -> None:
 
 def test_depth_images_keep_to_their_limits() -> None:
     duel = Duel(replace(SEEING, room=RoomSettings(things=list(CLUTTER))))
-    eyes = duel.robots[1].eyes
+    eyes = walkers(duel)[1].robot.eyes
     assert eyes is not None
     depth = DepthSettings()
     images = []
@@ -233,17 +237,12 @@ def test_rendering_and_rays_see_the_same() -> None:
         cameras = CameraSettings(colour=ColourSettings(renderer=kind))
         start = StartSettings(1.0, radians(10.0), radians(-10.0))
         duel = Duel(replace(SEEING, cameras=cameras, start=start))
-        assert duel.seeing is not None
         found: list[float] = []
-
-        def note(report: FrameReport, found: list[float] = found) -> None:
-            found.extend(report.azimuths)
-
-        duel.seeing.perceptions["pursuer"].on_frame = note
         while duel.world.time < 0.1:
             duel.tick()
-        for robot in duel.robots:
-            robot.close()
+            for report in duel.players[0].reports:
+                found.extend(report.azimuths)
+        duel.close()
         azimuths[kind] = degrees(found[0])
     assert azimuths[renderer] == pytest.approx(azimuths["raycast"], abs=0.8)
     assert azimuths[renderer] == pytest.approx(-10.0, abs=1.5)
@@ -252,11 +251,11 @@ def test_rendering_and_rays_see_the_same() -> None:
 def test_sonars_hear_what_stands_before_the_chest() -> None:
     duel = Duel(replace(SEEING, start=StartSettings(0.6, 0.0, 0.0)))
     mujoco.mj_forward(duel.world.model, duel.world.data)
-    eyes = duel.robots[1].eyes
+    eyes = walkers(duel)[1].robot.eyes
     assert eyes is not None
     echoes = [p for p in eyes.read(0.0) if isinstance(p, SonarEcho)]
     assert {e.sonar for e in echoes} == {"left", "right"}
     for echo in echoes:
         assert echo.distance is not None
         assert 0.4 < echo.distance < 0.62
-    assert hypot(*duel.robots[0].truth.position) < 0.05
+    assert hypot(*duel.players[0].truth.position) < 0.05

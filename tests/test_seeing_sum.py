@@ -1,5 +1,6 @@
 """Test what a duel with cameras says of both who see."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -7,10 +8,15 @@ import cv2
 import numpy as np
 import pytest
 
+from stepaside.control.senses import CameraSight
 from stepaside.games import seeing
+from stepaside.games.duel import Duel
 from stepaside.games.judge import Tally
-from stepaside.games.seeing import Seeing
-from stepaside.games.settings import DuelSettings
+from stepaside.games.outcome import Outcome
+from stepaside.games.pedestrian import Pedestrian
+from stepaside.games.seeing import Seeing, Witness
+from stepaside.games.settings import PLAYERS, DuelSettings
+from stepaside.games.walker import Walker
 from stepaside.robots.description import load_robot
 from stepaside.world.camera_settings import (
     CameraSettings,
@@ -40,28 +46,37 @@ def judged(colour: Tally, depth: Tally, lost: float) -> Any:
     )
 
 
-def prepared(**changes: Any) -> Seeing:
+def prepared(*names: str, **changes: Any) -> Seeing:
     settings = SETTINGS if not changes else DuelSettings(**changes)
-    return Seeing(settings, load_robot("nao"))
+    return Seeing(settings, load_robot("nao"), names or PLAYERS, tick=0.004)
+
+
+def at(ticks: int) -> Any:
+    """A game at one of its ticks."""
+    return SimpleNamespace(
+        world=SimpleNamespace(ticks=ticks, time=0.004 * ticks)
+    )
 
 
 def test_figures_are_of_both_robots_and_both_cameras() -> None:
-    both = prepared()
-    both.judges = {
+    judges = {
         "pursuer": judged(Tally(10, 9, 1), Tally(), 0.5),
         "evader": judged(Tally(20, 12, 3), Tally(10, 3, 5), 1.25),
     }
+    both = Witness(judges, "raycast", every=5)
     figures = both.figures()
     assert figures["camera"] == "raycast"
     assert figures["detection_rate"] == pytest.approx(24 / 40)
     assert figures["false_detections"] == 9
     assert figures["lost_s"] == 1.75
     assert figures["evader"] == {"lost_s": 1.25}
-    assert set(both.arrays()) == {"pursuer_sight", "evader_sight"}
-    assert both.arrays()["evader_sight"][0, 0] == 1.25
-    assert both.stills()["pursuer"] is both.judges["pursuer"].stills
-    both.judges = {"evader": judged(Tally(), Tally(), 0.0)}
-    assert both.figures()["detection_rate"] is None
+    assert set(both.sight()) == {"pursuer", "evader"}
+    assert both.sight()["evader"][0, 0] == 1.25
+    assert both.stills()["pursuer"] is judges["pursuer"].stills
+    blind = {"evader": judged(Tally(), Tally(), 0.0)}
+    nothing = Witness(blind, "raycast", every=5).figures()
+    assert nothing["detection_rate"] is None
+    assert list(nothing)[-1] == "evader" and "pursuer" not in nothing
 
 
 def test_seeing_takes_one_core() -> None:
@@ -70,11 +85,11 @@ def test_seeing_takes_one_core() -> None:
     assert cv2.getNumThreads() == 1
 
 
-def test_a_person_sees_without_cameras() -> None:
-    cameras = {"sensing": "cameras", "cameras": RAYS}
-    assert list(prepared(**cameras).perceptions) == ["pursuer", "evader"]
-    alone = prepared(**cameras, pursuer="person")
-    assert list(alone.perceptions) == ["evader"]
+def test_who_is_prepared_has_a_perception_of_its_own() -> None:
+    both = prepared().perceptions
+    assert list(both) == ["pursuer", "evader"]
+    assert both["pursuer"] is not both["evader"]
+    assert list(prepared("evader").perceptions) == ["evader"]
 
 
 def test_each_looks_for_the_trim_of_the_other() -> None:
@@ -86,40 +101,38 @@ def test_each_looks_for_the_trim_of_the_other() -> None:
     assert hues["evader"] == 0  # red, of the pursuer
 
 
-def test_who_opens_eyes_is_judged_and_only_the_evader_feels_depth(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_only_the_evader_feels_depth(monkeypatch: pytest.MonkeyPatch) -> None:
     opened: list[tuple[Any, ...]] = []
-    judged: list[tuple[Any, ...]] = []
 
     def open_eyes(*arguments: Any, with_depth: bool) -> Any:
         opened.append((*arguments, with_depth))
-        return SimpleNamespace(on_exposure=None)
-
-    def judge(*arguments: Any) -> Any:
-        judged.append(arguments)
-        return SimpleNamespace(still_times=(), note=arguments[0].name)
+        return f"eyes {len(opened)}"
 
     monkeypatch.setattr(seeing, "Eyes", open_eyes)
-    monkeypatch.setattr(seeing, "Judge", judge)
-    pursuer: Any = SimpleNamespace(name="pursuer", world="world", eyes=None)
-    evader: Any = SimpleNamespace(name="evader", world="world", eyes=None)
-    both = prepared()
-    both.open([pursuer, evader])
-    assert [(a[1], a[-1]) for a in opened] == [
-        ("pursuer", False),
-        ("evader", True),
+    both, world = prepared(), object()
+    eyes: list[Any] = [both.eyes(world, name) for name in PLAYERS]  # type: ignore[arg-type]
+    assert eyes == ["eyes 1", "eyes 2"]
+    assert [(a[0], a[1], a[-1]) for a in opened] == [
+        (world, "pursuer", False),
+        (world, "evader", True),
     ]
     assert all(a[2] == "torso" and a[5:7] == ("raycast", 5) for a in opened)
-    assert [(a[0].name, a[1].name) for a in judged] == [
-        ("pursuer", "evader"),
-        ("evader", "pursuer"),
-    ]
-    assert judged[0][2] is both.perceptions["pursuer"]
-    assert judged[0][4] == [(1.0, 2.0)]
-    assert pursuer.eyes.on_exposure == "pursuer"
-    # Five stills within the duel, at square times from near its begin.
-    times = both.judges["evader"].still_times
+
+
+def test_each_is_judged_by_the_truth_of_the_other(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Five stills within the duel, at square times from near its begin."""
+    made: list[tuple[Any, ...]] = []
+    monkeypatch.setattr(seeing, "Judge", lambda *a: made.append(a))
+    both = prepared()
+    robot: Any = SimpleNamespace(name="pursuer")
+    truth: Any = object()
+    both.judge(robot, truth)
+    ((own, other, mind, _, things, times),) = made
+    assert own is robot and other is truth
+    assert mind is both.perceptions["pursuer"]
+    assert things == [(1.0, 2.0)]
     assert len(times) == 5
     assert times[0] == pytest.approx(0.98 * 20.0 / 81)
     assert times[-1] == pytest.approx(0.98 * 20.0)
@@ -128,23 +141,60 @@ def test_who_opens_eyes_is_judged_and_only_the_evader_feels_depth(
     assert roots[0] == pytest.approx(0.5 * np.diff(roots)[0])
 
 
-def test_a_person_opens_no_eyes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(
-        seeing, "Eyes", lambda *a, **k: SimpleNamespace(on_exposure=None)
-    )
-    monkeypatch.setattr(seeing, "Judge", lambda *a: SimpleNamespace(note=None))
-    alone = prepared(sensing="cameras", cameras=RAYS, pursuer="person")
-    person: Any = SimpleNamespace(name="pursuer", world=None)
-    evader: Any = SimpleNamespace(name="evader", world=None)
-    alone.open([person, evader])
-    assert list(alone.judges) == ["evader"]
-    assert not hasattr(person, "eyes")
+def test_who_opens_eyes_in_a_duel_is_judged() -> None:
+    duel = Duel(replace(SETTINGS, duration=1.0))
+    witness = duel.witness
+    assert witness is not None and list(witness.judges) == list(PLAYERS)
+    assert duel.observers == (duel.recorder, witness)
+    for own, other in (duel.players, duel.players[::-1]):
+        assert isinstance(own, Walker)
+        assert own.robot.eyes is not None and own.robot.sight is None
+        assert isinstance(own.scheme.senses, CameraSight)
+        judge = witness.judges[own.name]
+        assert judge._robot is own.robot
+        assert judge._perception is own.scheme.senses.perception
+        assert judge._other.position == other.truth.position
+        assert own.truth.position != other.truth.position
+    duel.close()
 
 
-def test_both_judges_sample_at_one_instant() -> None:
-    both = prepared()
+def test_a_person_opens_no_eyes() -> None:
+    duel = Duel(replace(SETTINGS, duration=1.0, pursuer="person"))
+    witness = duel.witness
+    assert witness is not None and list(witness.judges) == ["evader"]
+    person = duel.players[0]
+    assert isinstance(person, Pedestrian)
+    assert witness.judges["evader"]._other is person.truth
+    assert duel.tick() is None
+    run = duel.run(Outcome.COMPLETED, 1.0)
+    assert run.evader.sight is not None and run.pursuer.sight is None
+    assert run.summary.pursuer.sight == {}
+    assert run.summary.evader.sight["lost_s"] >= 0.0
+    duel.close()
+
+
+def test_an_ideal_duel_has_no_witness() -> None:
+    duel = Duel(DuelSettings(seed=5))
+    assert duel.witness is None and duel.observers == (duel.recorder,)
+
+
+def test_both_judges_sample_at_one_instant_when_it_is_due() -> None:
     times: list[float] = []
     one: Any = SimpleNamespace(sample=times.append)
-    both.judges = {"pursuer": one, "evader": one}
-    both.sample(1.5)
-    assert times == [1.5, 1.5]
+    both = Witness({"pursuer": one, "evader": one}, "raycast", every=5)
+    for ticks in range(11):
+        both.before(at(ticks))
+    assert times == pytest.approx([0.0, 0.0, 0.02, 0.02, 0.04, 0.04])
+
+
+def test_both_judges_look_at_every_tick() -> None:
+    looked: list[str] = []
+    judges: dict[str, Any] = {
+        name: SimpleNamespace(look=lambda name=name: looked.append(name))
+        for name in PLAYERS
+    }
+    both = Witness(judges, "raycast", every=5)
+    for ticks in range(3):
+        both.acted(at(ticks))
+    both.ended(at(3), Outcome.COMPLETED)
+    assert looked == 3 * ["pursuer", "evader"]

@@ -2,18 +2,21 @@
 
 from collections.abc import Callable, Iterator
 from math import inf, pi
-from threading import Event
+from threading import Event, Thread, current_thread
 
 import pytest
 
+from onlooker import look_away, look_on
 from stepaside.control import Phase
 from stepaside.errors import ConfigurationError
 from stepaside.games.duel import Duel
 from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.walker import Walker
 from stepaside.report.viewer import session as live
+from stepaside.report.viewer import trail as trails
 from stepaside.report.viewer.session import Session
 from stepaside.report.viewer.words import words_of
-from stepaside.strategies.driving import TURN, Driven
+from stepaside.strategies.driven import TURN, Driven
 
 START = StartSettings(distance=1.0, pursuer_offset=0.0, evader_offset=0.0)
 SETTINGS = DuelSettings(start=START)
@@ -42,20 +45,26 @@ def _setter(event: Event) -> Callable[[Duel], None]:
 
 def run_until(session: Session, time: float) -> None:
     """Let time pass up to a tick, and stop there."""
-    reached, before = Event(), session.on_tick
+    reached, duel = Event(), session.duel
+    tick = duel.world.physics.tick
 
     def look(duel: Duel) -> None:
-        if before is not None:
-            before(duel)
-        if duel.world.time >= time - 1e-9:
+        if duel.world.time + tick >= time - 1e-9:
             session.running = False
             reached.set()
 
-    session.on_tick = look
+    looking = look_on(duel, look)
     session.running = True
     assert reached.wait(LONG), session.error
     settle(session)
-    session.on_tick = before
+    look_away(duel, looking)
+
+
+def walker(session: Session, number: int = 0) -> Walker:
+    """Player who is a robot."""
+    player = session.duel.players[number]
+    assert isinstance(player, Walker)
+    return player
 
 
 def test_time_passes_only_while_it_runs(session: Session) -> None:
@@ -69,7 +78,7 @@ def test_time_passes_only_while_it_runs(session: Session) -> None:
 
 def test_a_pause_from_outside_holds_at_once(session: Session) -> None:
     ticked = Event()
-    session.on_tick = lambda duel: ticked.set()
+    look_on(session.duel, lambda duel: ticked.set())
     session.running = True
     assert ticked.wait(LONG)
     session.running = False
@@ -118,7 +127,7 @@ def time_for(
         times.append(clock.now)
         clock.now += cost(duel.world.time)
 
-    made.on_tick = pay
+    look_on(made.duel, pay)
     run_until(made, 1.5)
     made.close()
     assert made.duel.world.time == pytest.approx(1.5)
@@ -157,9 +166,9 @@ def test_a_push_changes_the_run() -> None:
         way: list[float] = []
 
         def note(duel: Duel, way: list[float] = way) -> None:
-            way.append(float(duel.robots[0].truth.com[1]))
+            way.append(float(duel.players[0].truth.com[1]))
 
-        made.on_tick = note
+        look_on(made.duel, note)
         made.push(0, impulse, pi / 2)
         run_until(made, 1.0)
         made.close()
@@ -182,7 +191,31 @@ def test_a_reset_begins_again(session: Session) -> None:
     run_until(session, 0.5)
     session.reset()
     assert session.duel.world.time == 0.0
-    assert not session.history
+    assert not session.trail.history and not session.trail.steps
+
+
+def test_a_duel_is_let_go_by_the_thread_that_drew_for_it() -> None:
+    """When another one has begun, and at the end; each of them once."""
+    made = Session(SETTINGS)
+    closed: list[tuple[Duel, Thread]] = []
+
+    def watch() -> Duel:
+        duel = made.duel
+        duel.close = lambda: closed.append(  # type: ignore[method-assign]
+            (duel, current_thread())
+        )
+        return duel
+
+    first = watch()
+    with pytest.raises(ConfigurationError, match="distance"):
+        made.reset(DuelSettings(start=StartSettings(distance=0.1)))
+    assert closed == []
+    made.reset()
+    assert [duel for duel, _ in closed] == [first]
+    second = watch()
+    made.close()
+    assert [duel for duel, _ in closed] == [first, second]
+    assert {thread for _, thread in closed} == {made._thread}
 
 
 def test_errors_in_the_loop_are_told(session: Session) -> None:
@@ -196,33 +229,39 @@ def test_errors_in_the_loop_are_told(session: Session) -> None:
 
 
 def test_the_hand_steers_the_same_planner(session: Session) -> None:
-    hand = Driven(turn=1.0, going=True)
-    session.change(lambda duel: setattr(duel.schemes[0], "role", hand))
+    scheme = walker(session).scheme
+
+    def hold(hand: Driven) -> None:
+        session.change(lambda duel: scheme.decisions.adopt(hand))
+
+    hold(Driven(turn=1.0, going=True))
     run_until(session, 3.0)
-    plan = session.duel.schemes[0].plan
+    plan = scheme.plan
     assert plan is not None and plan.bearing == pytest.approx(TURN)
-    hand.turn = -0.5
+    hold(Driven(turn=-0.5, going=True))
     run_until(session, 4.5)
-    plan = session.duel.schemes[0].plan
+    plan = scheme.plan
     assert plan is not None and plan.bearing == pytest.approx(-0.5 * TURN)
-    hand.going = False
+    hold(Driven(turn=-0.5, going=False))
     run_until(session, 8.0)
-    assert session.duel.schemes[0].phase is Phase.STANDING
+    assert scheme.phase is Phase.STANDING
 
 
 def test_history_is_bounded(
     session: Session, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """What is full forgets its oldest, so that a page can stay open."""
-    assert session.history.maxlen == live.HISTORY
-    monkeypatch.setattr(live, "HISTORY", 4)
-    monkeypatch.setattr(live, "TRACE", 3)
+    assert session.trail.history.maxlen == trails.HISTORY
+    monkeypatch.setattr(trails, "HISTORY", 4)
+    monkeypatch.setattr(trails, "TRACE", 3)
     session.reset()
-    run_until(session, 1.0)
-    times = [row[0] for row in session.history]
+    # What is true at 1.0 s is noted by the tick that begins then.
+    run_until(session, 1.004)
+    trail = session.trail
+    times = [row[0] for row in trail.history]
     assert times == pytest.approx([0.7, 0.8, 0.9, 1.0])
-    assert len(session.traces) == 4
-    assert all(len(trace) == 3 for trace in session.traces.values())
+    assert len(trail.traces) == 4
+    assert all(len(trace) == 3 for trace in trail.traces.values())
 
 
 @pytest.mark.parametrize(
@@ -245,5 +284,8 @@ def test_words_say_what_goes_on(
 
 def test_a_live_duel_keeps_no_record_that_grows(session: Session) -> None:
     run_until(session, 2.0)
-    assert session.duel.world.time >= 2.0
-    assert len(session.duel.recorder.arrays()["times_s"]) == 1
+    duel = session.duel
+    assert duel.world.time >= 2.0
+    assert len(duel.recorder.times) == 0
+    assert all(len(t.com) == 0 for t in duel.recorder.tracks().values())
+    assert duel.observers == (session.trail,) and duel.witness is None

@@ -10,12 +10,17 @@ import pytest
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
+from invented_run import run_of
 from stepaside.games.judge import Still
+from stepaside.games.run import Run
+from stepaside.games.settings import DuelSettings
+from stepaside.games.track import Track
 from stepaside.poses import Array
 from stepaside.report.sight_figure import FOUND, TRUE, draw_sight, picture
 from stepaside.report.style import COLOURS, THEORY, plt
 from stepaside.sensing.camera_model import CameraModel
 from stepaside.sensing.images import ColourImage, DepthImage
+from stepaside.world.camera_settings import RoomSettings, Thing
 
 CAMERA = CameraModel(160, 120, 140.0, 140.0)
 
@@ -64,15 +69,19 @@ def test_a_detection_is_a_box_with_its_axis() -> None:
 
 
 def depth(scene: Any, azimuth: float = 3.0) -> Any:
+    return picture(depth_still(scene, azimuth))
+
+
+def depth_still(scene: Any, azimuth: float = 3.0, time: float = 0.0) -> Still:
     camera = CameraModel(80, 60, 70.0, 70.0)
     depths = np.zeros((60, 80), dtype=np.float32)
     depths[:, 20:40], depths[:, 40:60], depths[:, 60:] = 1.0, 2.0, 9.0
     report: Any = SimpleNamespace(
-        image=DepthImage(0.0, camera, depths, 0.4, 4.0),
+        image=DepthImage(time, camera, depths, 0.4, 4.0),
         colour=None,
         depth=scene,
     )
-    return picture(Still(report, azimuth))
+    return Still(report, azimuth)
 
 
 def test_depth_is_brightness_three_times_as_large() -> None:
@@ -110,40 +119,44 @@ def test_obstacles_are_boxes_and_shadows_are_brackets() -> None:
     assert np.all(np.abs(ends[:, 1:] - sides).min(axis=1) <= 3.0)
 
 
-TIMES = 0.1 * np.arange(101)
+TIMES: Array = 0.1 * np.arange(101, dtype=float)
 
 
-def result(**changes: Any) -> Any:
+SETTINGS = DuelSettings(
+    seed=7, room=RoomSettings(things=[Thing("red box", 3.0, -1.0)])
+)
+
+
+def result(**changes: Any) -> Run:
     """A duel with three moments of which pictures were kept."""
-    arrays = {"times_s": TIMES}
+    tracks = {}
     for name, x, heading in (("pursuer", 0.0, 0.3), ("evader", 2.0, 2.0)):
         turn = np.full_like(TIMES, heading)
-        arrays[f"{name}_torso"] = np.column_stack(
-            [x + 0.05 * TIMES, 0.1 * TIMES, turn]
-        )
         belief = np.full_like(TIMES, 0.5)
         belief[TIMES < 2.0] = np.nan
-        arrays[f"{name}_sight"] = np.column_stack(
-            [TIMES, belief, 1.5 + 0 * TIMES, belief - 6.2, 1.4 + 0 * TIMES]
+        zero = 0.0 * TIMES
+        tracks[name] = Track(
+            com=np.zeros((len(TIMES), 3)),
+            torso=np.column_stack([x + 0.05 * TIMES, 0.1 * TIMES, turn]),
+            sight=np.column_stack(
+                [TIMES, belief, 1.5 + zero, belief - 6.2, 1.4 + zero, zero]
+            ),
         )
-    stills = {
-        name: {
-            "colour": [colour(0.1, time=time) for time in (1.0, 5.0, 10.0)],
-            "depth": [],
-        }
-        for name in COLOURS
-    }
-    values = {
-        "arrays": arrays,
-        "stills": stills,
-        "settings": SimpleNamespace(
-            seed=7,
-            room=SimpleNamespace(things=[SimpleNamespace(x=3.0, y=-1.0)]),
-        ),
-        "triggered_at": 4.0,
+    values: dict[str, Any] = {
+        "tracks": tracks,
+        "stills": {name: seen() for name in COLOURS},
+        "settings": SETTINGS,
+        "triggered_at_s": 4.0,
         **changes,
     }
-    return SimpleNamespace(**values)
+    return run_of(TIMES, **values)
+
+
+def seen(*, depths: int = 0) -> dict[str, list[Still]]:
+    """Images of one robot, by camera."""
+    deep = [depth_still(None, time=time) for time in (1.0, 5.0, 10.0)[:depths]]
+    shown = [colour(0.1, time=time) for time in (1.0, 5.0, 10.0)]
+    return {"colour": shown, "depth": deep}
 
 
 @pytest.fixture
@@ -167,18 +180,18 @@ def test_a_film_strip_has_its_pictures_top_views_and_errors(
     labels = [axes.get_ylabel() for axes in shown]
     assert labels == ["pursuer sees", "", "", "evader sees", "", ""]
     tops = figure.axes[6:9]
-    arrays = result().arrays
+    tracks = result().tracks
     for axes, time, index in zip(
         tops, (1.0, 5.0, 10.0), (10, 50, 100), strict=True
     ):
         ways = [line for line in axes.lines if len(line.get_xdata()) > 2]
         for way, name in zip(ways, COLOURS, strict=True):
-            torso = arrays[f"{name}_torso"][: index + 1]
+            torso = tracks[name].torso[: index + 1]
             np.testing.assert_allclose(way.get_data(), torso[:, :2].T)
         beliefs = [line for line in axes.lines if line.get_linestyle() == "--"]
         assert len(beliefs) == (0 if time < 2.0 else 2)
         for line, name in zip(beliefs, COLOURS, strict=False):
-            x, y, heading = arrays[f"{name}_torso"][index]
+            x, y, heading = tracks[name].torso[index]
             angle = heading + 0.5
             np.testing.assert_allclose(
                 line.get_data(),
@@ -215,7 +228,7 @@ def test_errors_are_wrapped_and_beside_the_trigger(
         ]
         assert zeros[0].get_ydata()[0] == 0.0
     assert lower.get_xlabel() == "time [s]"
-    draw_sight(result(triggered_at=None), Path("sight.png"))
+    draw_sight(result(triggered_at_s=None), Path("sight.png"))
     upper = kept[1].axes[-2]
     assert not [one for one in upper.lines if one.get_linestyle() == ":"]
 
@@ -228,3 +241,33 @@ def test_a_duel_without_pictures_still_has_its_errors(
     }
     draw_sight(result(stills=empty), Path("sight.png"))
     assert len(kept[0].axes) == 2
+
+
+def test_of_a_duel_with_a_person_the_robots_sight_is_shown(
+    kept: list[Figure],
+) -> None:
+    """Both are seen from above, but only the robot believes something."""
+    both = result().tracks
+    person = Track(both["pursuer"].com, both["pursuer"].torso)
+    duel = result(
+        tracks={**both, "pursuer": person}, stills={"evader": seen(depths=2)}
+    )
+    draw_sight(duel, Path("sight.png"))
+    figure: Any = kept[0]
+    shown = [axes for axes in figure.axes if axes.images]
+    assert [axes.get_ylabel() for axes in shown] == [
+        *("evader sees", "", "", "its depth", "")
+    ]
+    assert [a.get_title() for a in shown[:3]] == ["1.0 s", "5.0 s", "10.0 s"]
+    tops = figure.axes[5:8]
+    for axes, index in zip(tops, (10, 50, 100), strict=True):
+        ways = [line for line in axes.lines if len(line.get_xdata()) > 2]
+        for way, name in zip(ways, COLOURS, strict=True):
+            torso = both[name].torso[: index + 1]
+            np.testing.assert_allclose(way.get_data(), torso[:, :2].T)
+        beliefs = [line for line in axes.lines if line.get_linestyle() == "--"]
+        colours = [to_hex(line.get_color()) for line in beliefs]
+        assert colours == ([] if index == 10 else [COLOURS["evader"]])
+    for axes in figure.axes[-2:]:
+        labels = {line.get_label() for line in axes.lines}
+        assert "evader" in labels and "pursuer" not in labels

@@ -1,15 +1,20 @@
 """A robot behind its own sensors and servos, its fall, its place."""
 
 from math import cos, pi, radians, sin
+from types import SimpleNamespace
 from typing import Any
 
 import mujoco
 import numpy as np
 import pytest
 
-from stepaside.control import Phase
+from stepaside.control import ControlScheme, Phase
+from stepaside.control.balance.loop import ClosedLoop, OpenLoop
 from stepaside.control.balance.settings import OPEN_LOOP, STABILISED
-from stepaside.games.assembly import assemble
+from stepaside.control.balance.stabiliser import Stabiliser
+from stepaside.control.senses import CameraSight, GivenSight
+from stepaside.games.standing import stand_walker
+from stepaside.games.walker import Walker
 from stepaside.planning import GaitSettings
 from stepaside.poses import Array, Pose
 from stepaside.randomness import named_generator
@@ -17,7 +22,7 @@ from stepaside.robots.description import load_robot
 from stepaside.robots.forward import FOOT_FORCES
 from stepaside.robots.kinematics import LegKinematics
 from stepaside.sensing.measurement import Sighting
-from stepaside.strategies.roles import Pursuit
+from stepaside.strategies import Pursuit
 from stepaside.world.body_settings import BodySettings
 from stepaside.world.push import Push
 from stepaside.world.robot import SimulatedRobot
@@ -31,15 +36,20 @@ NAO = load_robot("nao")
 FRAME = Pose(1.2, -0.7, 0.9)
 
 
-def stand(
-    frame: Pose = FRAME, *, feedback: bool = False, **effects: Any
-) -> tuple[SimulatedRobot, Any]:
+def walker(
+    frame: Pose = FRAME,
+    *,
+    feedback: bool = False,
+    sight: Any = None,
+    eyes: Any = None,
+    **effects: Any,
+) -> Walker:
     """The second of two robots in a world."""
     body = BodySettings(**effects)
     physics = PhysicsSettings(tick=0.012)
     world = World({"first": NAO, "second": NAO}, physics, body)
     world.data.qpos[:3] = (-9.0, 0.0, 0.33)  # out of the way
-    robot, scheme = assemble(
+    made = stand_walker(
         world,
         "second",
         NAO,
@@ -50,9 +60,24 @@ def stand(
         body=body,
         seed=5,
         sighting=Sighting(0.0, 0.2, 2.0),
+        sight=sight,
+        eyes=eyes,
     )
     mujoco.mj_forward(world.model, world.data)
-    return robot, scheme
+    return made
+
+
+def stand(
+    frame: Pose = FRAME, *, feedback: bool = False, **effects: Any
+) -> tuple[SimulatedRobot, ControlScheme]:
+    """Its body and its control."""
+    made = walker(frame, feedback=feedback, **effects)
+    return made.robot, made.scheme
+
+
+def stabiliser_of(scheme: ControlScheme) -> Stabiliser:
+    assert isinstance(scheme.balance, ClosedLoop)
+    return scheme.balance.stabiliser
 
 
 def test_a_robot_stands_where_its_odometry_begins() -> None:
@@ -65,6 +90,11 @@ def test_a_robot_stands_where_its_odometry_begins() -> None:
     wanted = scheme.kinematics.posture
     assert robot.qpos_slice.stop - robot.qpos_slice.start == wanted.size
     np.testing.assert_array_equal(data.qpos[robot.qpos_slice][7:], wanted[7:])
+    kept = robot.posture
+    np.testing.assert_array_equal(kept, data.qpos[robot.qpos_slice])
+    data.qpos[robot.qpos_slice][7] += 1.0
+    assert robot.posture[7] == kept[7] + 1.0  # a copy, of its instant
+    data.qpos[robot.qpos_slice][7] = kept[7]
     measured = robot.read()
     np.testing.assert_allclose(
         measured.joint_positions, scheme.joint_targets, atol=1e-12
@@ -228,7 +258,7 @@ def test_without_a_generator_nothing_is_spoilt() -> None:
 
 def test_feedback_makes_the_imu_average() -> None:
     robot, scheme = stand(feedback=True)
-    assert scheme.stabiliser is not None
+    assert isinstance(scheme.balance, ClosedLoop)
     data = robot.world.data
     (average,) = robot.world.before_step
     for reading in (1.0, 3.0):
@@ -239,25 +269,28 @@ def test_feedback_makes_the_imu_average() -> None:
     np.testing.assert_allclose(measured.gyro, 2.0)
     np.testing.assert_allclose(measured.accelerometer, 4.0)
     plain, open_loop = stand()
-    assert open_loop.stabiliser is None and plain.world.before_step == []
+    assert isinstance(open_loop.balance, OpenLoop)
+    assert plain.world.before_step == []
 
 
 def test_feedback_knows_the_clock_and_the_delay() -> None:
     _, scheme = stand(feedback=True, delay_cycles=3)
-    stabiliser = scheme.stabiliser
+    stabiliser = stabiliser_of(scheme)
     late = stabiliser._asked.maxlen
     assert late == 4
     assert stabiliser._tick == 0.012
     _, at_once = stand(feedback=True)
-    assert at_once.stabiliser._asked.maxlen == 1
+    assert stabiliser_of(at_once)._asked.maxlen == 1
 
 
 def test_a_scheme_starts_from_what_it_was_told() -> None:
     robot, scheme = stand()
-    assert scheme._sighting == Sighting(0.0, 0.2, 2.0)
     assert scheme.phase is Phase.STANDING
-    assert isinstance(scheme.role, Pursuit)
-    assert scheme.perception is None and robot.eyes is None
+    assert isinstance(scheme.decisions.strategy, Pursuit)
+    assert isinstance(scheme.senses, GivenSight) and robot.eyes is None
+    assert robot.sight is None
+    scheme.update(robot.read())
+    assert scheme.sighting == Sighting(0.0, 0.2, 2.0)
 
 
 def test_pushes_go_to_the_robots_own_torso() -> None:
@@ -276,7 +309,6 @@ def test_pushes_go_to_the_robots_own_torso() -> None:
 
 
 def test_sight_and_eyes_are_read_at_the_time_of_the_world() -> None:
-    robot, _ = stand()
     told: list[float] = []
 
     class Sense:
@@ -287,14 +319,16 @@ def test_sight_and_eyes_are_read_at_the_time_of_the_world() -> None:
         def close(self) -> None:
             told.append(-1.0)
 
-    sense: Any = Sense()
-    robot.sight = robot.eyes = sense
+    sense = Sense()
+    made = walker(sight=sense, eyes=sense)
+    robot = made.robot
     robot.world.ticks = 50
     measured = robot.read()
     assert measured.sighting == measured.percepts == ("seen",)  # type: ignore
     assert told == [pytest.approx(0.6)] * 2 and measured.time == told[0]
-    robot.close()
-    assert told[-1] == -1.0
+    made.close()
+    assert told[2:] == [-1.0]
+    walker().close()  # who has no eyes has nothing to let go of
 
 
 def test_time_passes_when_every_robot_has_asked_for_it() -> None:
@@ -304,6 +338,9 @@ def test_time_passes_when_every_robot_has_asked_for_it() -> None:
     robot.world.advance()
     assert robot.world.ticks == 1
     assert robot.world.data.time == pytest.approx(0.012)
+    robot.world.step()  # or for all at once
+    assert robot.world.ticks == 2
+    assert robot.world.data.time == pytest.approx(0.024)
 
 
 def test_settings_of_the_body_reach_the_robot() -> None:
@@ -311,3 +348,60 @@ def test_settings_of_the_body_reach_the_robot() -> None:
     ranges = robot.world.model.actuator_forcerange
     half = ranges.shape[0] // 2
     np.testing.assert_allclose(ranges[half:], 0.5 * ranges[:half])
+
+
+def test_a_walker_is_a_body_and_what_moves_it() -> None:
+    """It reads, decides and sends; time passes by others."""
+    made = walker()
+    robot, scheme = made.robot, made.scheme
+    assert made.name == "second" and made.frame == FRAME
+    assert made.truth is robot.truth
+    assert not made.is_moving and made.begun is None and made.reports == ()
+    made.tick()
+    assert robot.world.ticks == 0
+    assert made.is_moving and made.begun is scheme.begun is not None
+    np.testing.assert_allclose(robot.servos._target, scheme.joint_targets)
+    robot.world.step()
+    made.tick()
+    assert made.begun is None
+    made.push(Push(1.0, 0.0, 0.0))
+    assert robot.pusher is not None
+
+
+def test_a_walker_has_fallen_by_truth_or_by_its_own_feeling() -> None:
+    made = walker()
+    assert not made.has_fallen
+    made.scheme.phase = Phase.FALLEN
+    assert made.has_fallen
+    made.scheme.phase = Phase.WALKING
+    at, data = made.robot.qpos_slice.start, made.robot.world.data
+    data.qpos[at + 3 : at + 7] = (0.5**0.5, 0.5**0.5, 0.0, 0.0)
+    mujoco.mj_kinematics(made.robot.world.model, data)
+    assert made.has_fallen
+
+
+def test_a_snapshot_holds_an_instant_of_a_walker() -> None:
+    made = walker()
+    made.tick()
+    robot, scheme = made.robot, made.scheme
+    seen = made.snapshot()
+    truth = robot.truth
+    assert (seen.name, seen.time, seen.frame) == ("second", 0.0, FRAME)
+    assert seen.torso == (*truth.position, truth.heading)
+    assert seen.com == tuple(truth.com.tolist())
+    assert seen.zmp == robot.measured_zmp()
+    assert seen.walk is not None and seen.walk.plan is scheme.plan
+    assert seen.posture is not None
+    np.testing.assert_array_equal(seen.posture, robot.posture)
+    robot.world.step()
+    later = made.snapshot()
+    assert later.time == 0.012 and later.com != seen.com
+    assert later.posture is not None
+    assert np.abs(later.posture - seen.posture).max() > 0.0
+
+
+def test_a_walker_with_eyes_hands_on_what_its_images_show() -> None:
+    made = walker()
+    perception: Any = SimpleNamespace(reports=["a frame"])
+    made.scheme.senses = CameraSight(perception, tick=0.012)
+    assert made.reports is perception.reports

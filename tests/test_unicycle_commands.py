@@ -252,3 +252,34 @@ def test_game_says_which_circle_it_ended_on() -> None:
     words = f"{FAST} --distance 0.6 --aim -1.7 --bearing -2.1"
     assert loads(unicycles, words)["circle"]["direction"] == -1
     assert "the reversed circle" in run(unicycles, words).output
+
+
+def test_strategies_of_the_paper_play_the_same_game_by_name() -> None:
+    words = "--speed 0.1 --gain 0.2 --sample-time 0.4 --duration 60"
+    held = loads(unicycles, words)
+    named = loads(unicycles, f"{words} --evader-strategy evasion")
+    for name in ("closest_distance_m", "distance_m"):
+        assert named[name] == pytest.approx(held[name], abs=1e-3)
+    assert named["pursuer_strategy"] == "pursuit"
+    assert named["floor_used_evader_m"] > 1.0
+    short = loads(unicycles, "--duration 20 --pursuer-strategy pursuit")
+    free = loads(unicycles, "--duration 20")
+    assert short["closest_distance_m"] == pytest.approx(
+        free["closest_distance_m"], abs=0.01
+    )
+
+
+def test_who_stands_is_captured() -> None:
+    words = "--evader-strategy stand --aim 0 --capture-distance 0.1"
+    assert loads(unicycles, words)["captured"]
+
+
+def test_a_strategy_that_is_none_is_refused() -> None:
+    for words, message in (
+        ("--evader-strategy dance", "strategy must be one of evasion"),
+        ("--evader-strategy no.py:Nobody", "no file"),
+        ("--evader-strategy stand --figure x.png", "games of the paper"),
+    ):
+        result = CliRunner().invoke(unicycles, words.split())
+        assert result.exit_code != 0
+        assert message in result.output + str(result.exception)

@@ -1,7 +1,7 @@
 """The live page and the replay behind a page that is none."""
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import fields, replace
 from math import degrees, inf, pi, radians
 from types import SimpleNamespace
 from typing import Any
@@ -10,28 +10,34 @@ import numpy as np
 import pytest
 
 from fake_page import Gui, Server
+from invented_run import changed, drifted
+from onlooker import look_on
 from stepaside.control.balance.settings import OPEN_LOOP, STABILISED
+from stepaside.control.deciding import Decisions
 from stepaside.errors import ConfigurationError, StepAsideError
-from stepaside.games.duel import Duel, Outcome, run_duel
+from stepaside.games.duel import Duel, run_duel
+from stepaside.games.outcome import Outcome
+from stepaside.games.run import Run
 from stepaside.games.settings import (
     DuelSettings,
     StartSettings,
-    StrategySettings,
 )
-from stepaside.games.summary import summarise
+from stepaside.games.walker import Walker
+from stepaside.planning import GaitSettings
 from stepaside.poses import Array, wrap_angle
-from stepaside.report.replay import Run, Stage
+from stepaside.report.stage import Stage
 from stepaside.report.style import EVADER, PURSUER
 from stepaside.report.viewer import replaying
-from stepaside.report.viewer import session as session_module
+from stepaside.report.viewer import trail as trails
 from stepaside.report.viewer.drive_panel import DrivePanel
 from stepaside.report.viewer.page import Page
 from stepaside.report.viewer.plots import Plots
 from stepaside.report.viewer.push_panel import add_push
 from stepaside.report.viewer.replaying import ReplayPage
 from stepaside.report.viewer.session import Session
-from stepaside.strategies.driving import Driven
-from stepaside.strategies.roles import Pursuit
+from stepaside.report.viewer.trail import Trail
+from stepaside.sensing.images import ColourImage, DepthImage
+from stepaside.strategies import Driven, Evasion, EvasionMemory, Pursuit
 from stepaside.world.body_settings import BODIES
 
 START = StartSettings(distance=1.0, pursuer_offset=0.3, evader_offset=-0.2)
@@ -50,51 +56,122 @@ def played(session: Session, ticks: int) -> None:
     session._in_loop(lambda: session._advance(ticks))
 
 
+def walker(session: Session, number: int) -> Walker:
+    """Player who is a robot."""
+    player = session.duel.players[number]
+    assert isinstance(player, Walker)
+    return player
+
+
 def test_a_session_notes_every_tenth_of_a_second(session: Session) -> None:
-    played(session, 124)
-    duel = session.duel
-    times = [row[0] for row in session.history]
+    """Of each, what is true then; the tick that begins then notes it."""
+    duel, trail = session.duel, session.trail
+    played(session, 125)
+    times = [row[0] for row in trail.history]
     np.testing.assert_allclose(times, [0.1, 0.2, 0.3, 0.4])
-    played(session, 1)
-    time, distance, angle = session.history[-1]
-    pursuer, evader = (robot.truth for robot in duel.robots)
-    assert time == pytest.approx(0.5) == duel.world.time
-    assert distance == duel.distance
+    assert duel.world.time == pytest.approx(0.5)
+    robots = [walker(session, number).robot for number in (0, 1)]
+    pursuer, evader = (robot.truth for robot in robots)
     apart = abs(wrap_angle(evader.heading - pursuer.heading))
-    assert angle == pytest.approx(degrees(apart))
-    assert degrees(2.5) < angle < degrees(pi)
-    for robot in duel.robots:
-        com = session.traces[f"{robot.name}/CoM"]
-        assert len(com) == 5
-        assert com[-1] == tuple(robot.truth.com[:2])
-        zmp = session.traces[f"{robot.name}/ZMP"]
-        assert zmp[-1] == pytest.approx(robot.measured_zmp())
+    distance = duel.distance
+    coms = [tuple(robot.truth.com[:2]) for robot in robots]
+    zmps = [robot.measured_zmp() for robot in robots]
+    played(session, 1)
+    assert len(trail.history) == 5
+    assert trail.history[-1] == pytest.approx((0.5, distance, degrees(apart)))
+    assert degrees(2.5) < trail.history[-1][2] < degrees(pi)
+    for robot, com, zmp in zip(robots, coms, zmps, strict=True):
+        trace = trail.traces[f"{robot.name}/CoM"]
+        assert len(trace) == 5 and trace[-1] == com
+        assert trail.traces[f"{robot.name}/ZMP"][-1] == pytest.approx(zmp)
 
 
 def test_a_zmp_in_flight_is_left_out(session: Session) -> None:
-    for robot in session.duel.robots:
-        robot.measured_zmp = lambda: (np.nan, np.nan)  # type: ignore
-    played(session, 25)
-    assert len(session.traces["pursuer/CoM"]) == 1
-    assert len(session.traces["pursuer/ZMP"]) == 0
+    nowhere: Any = lambda: (np.nan, np.nan)  # noqa: E731
+    for number in (0, 1):
+        walker(session, number).robot.measured_zmp = nowhere  # type: ignore[method-assign]
+    played(session, 26)
+    assert len(session.trail.traces["pursuer/CoM"]) == 1
+    assert "pursuer/ZMP" not in session.trail.traces
 
 
-def test_what_grows_is_cut(
-    session: Session, monkeypatch: pytest.MonkeyPatch
+def test_what_grows_is_cut() -> None:
+    """Steps, plots and traces: the newest stay, of each player its own."""
+    trail = Trail()
+    assert trail.history.maxlen == trails.HISTORY
+    now = SimpleNamespace(time=0.0, ticks=0, physics=SimpleNamespace(tick=0.1))
+    for number in range(130):
+        players = [
+            SimpleNamespace(
+                name=name, begun=(name, number), reports=(), snapshot=seen
+            )
+            for name, seen in (("pursuer", _seen), ("evader", _seen))
+        ]
+        match: Any = SimpleNamespace(players=players, world=now, distance=1.0)
+        now.ticks = number
+        trail.before(match)
+        trail.acted(match)
+    for name in ("pursuer", "evader"):
+        kept: list[Any] = [(name, number) for number in range(30, 130)]
+        assert list(trail.steps[name]) == kept
+    assert len(trail.steps) == 2 and trails.KEPT == 100
+    assert {t.maxlen for t in trail.traces.values()} == {trails.TRACE}
+    assert len(trail.history) == 129
+
+
+def _seen() -> Any:
+    """What is seen of a player who stands still."""
+    return SimpleNamespace(
+        name="any", torso=(0.0, 0.0, 0.0), com=(0.0, 0.0, 0.3), zmp=(0.0, 0.0)
+    )
+
+
+def test_a_step_is_kept_only_when_it_begins(session: Session) -> None:
+    """With its maneuver and landing, as the scheme said at that tick."""
+    begun: list[Any] = []
+    look_on(session.duel, lambda duel: begun.append(duel.players[0].begun))
+    played(session, 600)
+    told = [step for step in begun if step is not None]
+    assert list(session.trail.steps["pursuer"]) == told
+    assert 2 <= len(told) <= 5
+    last = told[-1]
+    assert last.plan is walker(session, 0).scheme.plan
+
+
+def test_the_newest_image_of_each_camera_is_handed_out_once(
+    session: Session,
 ) -> None:
-    for scheme in session.duel.schemes:
-        for name in ("walked", "landings", "planning_times"):
-            getattr(scheme, name)[:] = range(130)
-        scheme.velocity_jumps[:] = range(130)
-    session._note(session.duel)
-    for scheme in session.duel.schemes:
-        for name in (
-            *("walked", "landings"),
-            *("planning_times", "velocity_jumps"),
-        ):
-            assert getattr(scheme, name) == list(range(30, 130))
-    assert session.history.maxlen == session_module.HISTORY
-    assert session.traces["evader/ZMP"].maxlen == session_module.TRACE
+    trail = session.trail
+
+    nothing: Any = None
+
+    def report(kind: type[ColourImage] | type[DepthImage]) -> Any:
+        values = [nothing] * len(fields(kind))
+        return SimpleNamespace(image=kind(*values))
+
+    def act(**reports: Any) -> None:
+        players = [
+            SimpleNamespace(name=name, begun=None, reports=each)
+            for name, each in reports.items()
+        ]
+        match: Any = SimpleNamespace(players=players)
+        trail.acted(match)
+
+    old, new, other, deep = (
+        report(kind)
+        for kind in (ColourImage, ColourImage, ColourImage, DepthImage)
+    )
+    act(pursuer=[old], evader=[])
+    act(pursuer=[new], evader=[other, deep])
+    act(pursuer=[], evader=[])
+    assert session.new_frames() == {
+        "pursuer, colour": new,
+        "evader, colour": other,
+        "evader, depth": deep,
+    }
+    assert session.new_frames() == {}
+    act(pursuer=[old], evader=[])
+    assert session.new_frames() == {"pursuer, colour": old}
 
 
 def test_a_session_knows_its_theory(session: Session) -> None:
@@ -103,7 +180,7 @@ def test_a_session_knows_its_theory(session: Session) -> None:
     assert session.theory[0] == pytest.approx(2**0.5 * radius)
     assert session.theory[1] == pytest.approx(90.0)
     assert session.theory_radius == pytest.approx(radius)
-    back = replace(SETTINGS, strategy=StrategySettings(angle=0.0))
+    back = replace(SETTINGS, strategy=Evasion(angle=0.0))
     generation = session.generation
     session.reset(back)
     assert session.theory is None and session.theory_radius is None
@@ -121,13 +198,17 @@ def test_a_step_has_whole_ticks_and_at_least_one(session: Session) -> None:
 
 def test_a_duel_that_is_over_stays_over(session: Session) -> None:
     duel = session.duel
-    duel.tick = lambda: Outcome.FALL  # type: ignore[method-assign]
+    ticked: list[Duel] = []
+
+    def tick() -> Outcome:
+        ticked.append(duel)
+        return Outcome.FALL
+
+    duel.tick = tick  # type: ignore[method-assign]
     played(session, 5)
-    assert session.outcome is Outcome.FALL
-    told: list[Duel] = []
-    session.on_tick = told.append
+    assert session.outcome is Outcome.FALL and len(ticked) == 1
     played(session, 5)
-    assert told == []
+    assert len(ticked) == 1
     session.reset()
     assert session.outcome is None and session.error is None
 
@@ -136,7 +217,7 @@ def test_a_push_acts_now_on_the_robot_that_is_meant(session: Session) -> None:
     played(session, 30)
     session.push(1, 0.4, pi / 2)
     played(session, 40)
-    pursuer, evader = session.duel.robots
+    pursuer, evader = (walker(session, number).robot for number in (0, 1))
     assert pursuer.pusher is None and evader.pusher is not None
     heading = evader.truth.heading + pi / 2
     np.testing.assert_allclose(
@@ -171,12 +252,15 @@ class FakeSession:
 
     def __init__(self) -> None:
         """Begin with a duel of which only the time is known."""
-        self.scheme = SimpleNamespace(role=None)
-        self.duel = SimpleNamespace(
-            world=SimpleNamespace(time=5.0), schemes=[self.scheme, None]
+        decisions = Decisions(Pursuit(), GaitSettings(), 0.004)
+        self.scheme: Any = SimpleNamespace(decisions=decisions)
+        pursuer: Any = Walker.__new__(Walker)
+        pursuer.scheme = self.scheme
+        self.duel: Any = SimpleNamespace(
+            world=SimpleNamespace(time=5.0), players=(pursuer, None)
         )
         self.pushes: list[tuple[int, float, float]] = []
-        self.history: list[tuple[float, float, float]] = []
+        self.trail: Any = SimpleNamespace(history=[])
         self.theory: tuple[float, float] | None = (0.9, 90.0)
 
     def change(self, request: Any) -> None:
@@ -222,24 +306,27 @@ def test_a_hand_takes_the_pursuer_over_and_gives_it_back() -> None:
     panel.show(6.0, 0.4)
     assert score.content == ""
     gui["Turn"].press("right")
-    hand = session.scheme.role
-    assert isinstance(hand, Driven) and hand.going and hand.turn == -1.0
+
+    def hand() -> Any:
+        return session.scheme.decisions.strategy
+
+    assert hand() == Driven(turn=-1.0, going=True)
     for label, turn in (
         ("Drive left", 1.0),
         ("Drive right", -1.0),
         ("Drive straight", 0.0),
     ):
         gui[label].press()
-        assert hand.turn == turn
+        assert hand() == Driven(turn, going=True)
     for label, going in (("Drive: halt", False), ("Drive: go", True)):
         gui[label].press()
-        assert hand.going is going and hand.turn == 0.0
+        assert hand() == Driven(0.0, going)
     gui["Walk"].press("stop")
-    assert hand.going is False
+    assert hand() == Driven(0.0, going=False)
     gui["Walk"].press("go")
-    assert hand.going is True
+    assert hand() == Driven(0.0, going=True)
     gui["Turn"].press("left")
-    assert hand.turn == 1.0 and session.scheme.role is hand
+    assert hand() == Driven(1.0, going=True)
     for time, distance, closest in ((6.0, 0.9, 0.9), (7.5, 0.5, 0.5)):
         panel.show(time, distance)
         assert score.content == (
@@ -249,7 +336,7 @@ def test_a_hand_takes_the_pursuer_over_and_gives_it_back() -> None:
     panel.show(8.0, 0.8)
     assert "0.50 m" in score.content
     gui["Let it pursue by itself"].press()
-    assert isinstance(session.scheme.role, Pursuit)
+    assert hand() == Pursuit()
     session.duel.world.time = 20.0
     gui["Drive straight"].press()
     panel.show(21.0, 0.7)
@@ -268,11 +355,11 @@ def test_plots_show_the_history_beside_theory() -> None:
     assert angle.label == "Angle between the headings [deg]"
     colours = [plot.series[1]["stroke"] for plot in gui.plots]
     assert colours == [PURSUER, EVADER]
-    session.history = [(0.1, 1.0, 170.0)]
+    session.trail.history = [(0.1, 1.0, 170.0)]
     before = distance.data
     plots.show(session)
     assert distance.data is before
-    session.history += [(0.2, 0.9, 160.0)]
+    session.trail.history += [(0.2, 0.9, 160.0)]
     plots.show(session)
     np.testing.assert_allclose(
         distance.data, [[0.1, 0.2], [1.0, 0.9], [0.9, 0.9]]
@@ -394,19 +481,20 @@ def test_a_strategy_reaches_the_evader_while_it_evades(
 ) -> None:
     page, server = live
     session, gui = page.session, server.gui
-    old: Any = session.duel.schemes[1].role
-    old.evading = True
+    decisions = walker(session, 1).scheme.decisions
+    decisions.memory = EvasionMemory(True, -1)
     gui["Angle [deg]"].press(60.0)
     gui["Law"].press("saturated (6)")
     played(session, 0)
-    role: Any = session.duel.schemes[1].role
-    assert role.angle == pytest.approx(radians(60.0)) and role.saturated
-    assert role.evading is True and role is not old
+    strategy: Any = decisions.strategy
+    assert strategy.angle == pytest.approx(radians(60.0))
+    assert strategy.saturated
+    assert decisions.memory == EvasionMemory(True, -1)
     assert session.settings.strategy.angle == pytest.approx(radians(60.0))
     gui["Angle [deg]"].press(1e6)
     message = gui.texts[1]
     assert message.visible and "angle" in message.content
-    assert session.duel.schemes[1].role is role
+    assert decisions.strategy is strategy
     gui["Angle [deg]"].press(80.0)
     assert not message.visible and message.content == ""
 
@@ -435,7 +523,8 @@ def test_a_reset_takes_what_the_controls_say(live: tuple[Page, Any]) -> None:
     assert settings.gait.speed == 0.08 and settings.gait.gain == 0.25
     assert settings.body == BODIES["hardware"]
     assert settings.control == STABILISED
-    assert isinstance(session.duel.schemes[0].role, Pursuit)
+    decisions = walker(session, 0).scheme.decisions
+    assert decisions.strategy == Pursuit()
     assert page._drive._hand is None
     gui["Body"].value = "ideal"
     gui["Reset"].press()
@@ -450,20 +539,10 @@ def test_a_reset_takes_what_the_controls_say(live: tuple[Page, Any]) -> None:
 @pytest.fixture(scope="module")
 def run() -> Run:
     """A short run whose robots then are moved by hand."""
-    result = run_duel(replace(SETTINGS, duration=2.0))
-    arrays = {name: values.copy() for name, values in result.arrays.items()}
-    times: Array = 0.02 * np.arange(len(arrays["times_s"]), dtype=float)
-    arrays["times_s"] = times
-    for name, side in (("pursuer", 1.0), ("evader", -1.0)):
-        way = side * np.column_stack([times, -0.5 * times])
-        arrays[f"{name}_torso"][:, :2] += way
-        arrays[f"{name}_com"][:, :2] += way
-        arrays[f"{name}_qpos"][:, :2] += way.astype(np.float32)
-    summary = summarise(result) | {
-        "triggered_at_s": 0.5,
-        "converged_at_s": 1.6,
-    }
-    return Run("short", result.settings, summary, arrays)
+    run = run_duel(replace(SETTINGS, duration=2.0))
+    times: Array = 0.02 * np.arange(len(run.times), dtype=float)
+    run = changed(drifted(run, times), triggered_at_s=0.5, converged_at_s=1.6)
+    return replace(run, name="short")
 
 
 @pytest.fixture
@@ -501,7 +580,7 @@ def test_a_replay_shows_the_sample_of_its_time(
         f"{run.orientation[index]:.0f}°"
     )
     items = server.scene.items
-    torsos = [run.arrays[f"{n}_torso"] for n in ("pursuer", "evader")]
+    torsos = [run.tracks[name].torso for name in ("pursuer", "evader")]
     places = [torso[index, :2] for torso in torsos]
     sight = items["/layers/line of sight/both"].points[0]
     np.testing.assert_allclose(sight[:, :2], places, atol=1e-6)
@@ -514,7 +593,7 @@ def test_a_replay_shows_the_sample_of_its_time(
     middle = circle[:, 0].mean(axis=0)
     np.testing.assert_allclose(middle, run.circle[:2], atol=1e-5)
     for name in ("pursuer", "evader"):
-        way = run.arrays[f"{name}_com"][: index + 1 : 5, :2]
+        way = run.tracks[name].com[: index + 1 : 5, :2]
         drawn = items.get(f"/layers/CoM trace/{name}")
         if len(way) < 2:
             assert drawn is None
@@ -546,7 +625,7 @@ def test_a_replay_has_its_slider_plots_and_layers(
         np.testing.assert_allclose(plot.data[0], run.times)
         np.testing.assert_allclose(plot.data[1], values)
         np.testing.assert_allclose(plot.data[2], level)
-    place = run.arrays["evader_torso"][0]
+    place = run.evader.torso[0]
     camera = server.initial_camera
     np.testing.assert_allclose(
         camera.position, [place[0] - 1.5, place[1] - 1.6, 1.3]

@@ -11,8 +11,10 @@ import pytest
 
 from fake_page import Gui, Scene
 from stepaside.control import Phase
+from stepaside.control.walking import StepBegun, WalkState
 from stepaside.games.duel import Duel
 from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.walker import Walker
 from stepaside.planning import Foot, Sole
 from stepaside.planning.support import sole_corners
 from stepaside.poses import Array, Pose
@@ -34,6 +36,7 @@ from stepaside.report.viewer.layers import (
     safety_of,
     support_of,
 )
+from stepaside.report.viewer.trail import Trail
 from stepaside.report.viewer.words import phases_of, words_of
 from stepaside.sensing.images import ColourImage
 
@@ -179,38 +182,51 @@ def test_layers_lie_above_each_other() -> None:
     assert rgb("#0a141e") == (10, 20, 30)
 
 
-def playing(time: float, **changes: Any) -> Duel:
-    start = StartSettings(0.75, 0.3, -0.2)
-    duel = Duel(DuelSettings(start=start, **changes))
+def playing(time: float, **changes: Any) -> tuple[Duel, Trail]:
+    start, trail = StartSettings(0.75, 0.3, -0.2), Trail()
+    duel = Duel(DuelSettings(start=start, **changes), (trail,))
     while duel.world.time < time:
         assert duel.tick() is None
-    return duel
+    return duel, trail
 
 
 @pytest.fixture(scope="module")
-def duel() -> Duel:
+def played() -> tuple[Duel, Trail]:
     return playing(2.0)
 
 
-def test_a_plan_is_drawn_in_the_world(duel: Duel) -> None:
+def walks(duel: Duel) -> list[tuple[str, WalkState, Pose]]:
+    """Name, state and odometry frame of both robots."""
+    found = []
+    for seen in (player.snapshot() for player in duel.players):
+        assert seen.walk is not None and seen.frame is not None
+        found.append((seen.name, seen.walk, seen.frame))
+    return found
+
+
+def test_a_plan_is_drawn_in_the_world(played: tuple[Duel, Trail]) -> None:
     """Its path runs midway between the footsteps, on the floor's frame."""
-    for scheme, frame in zip(duel.schemes, duel.recorder.frames, strict=True):
-        plan = scheme.plan
+    duel, trail = played
+    for (name, walk, frame), wanted_frame in zip(
+        walks(duel), duel.frames, strict=True
+    ):
+        assert frame == wanted_frame
+        plan = walk.plan
         assert plan is not None
-        path = path_of(scheme, frame)
-        at = frame.compose(scheme.plan_frame)
-        steps = at.transform_points(plan.placements[:, :2])
-        np.testing.assert_allclose(path, 0.5 * (steps[1:-1] + steps[2:]))
-        prints = prints_of(scheme, frame)
-        kept = [
-            (foot, frame.compose(pose)) for _, foot, pose in scheme.landings
-        ]
+        path = path_of(walk, frame)
+        at = frame.compose(walk.plan_frame)
+        placed = at.transform_points(plan.placements[:, :2])
+        np.testing.assert_allclose(path, 0.5 * (placed[1:-1] + placed[2:]))
+        begun = trail.steps[name]
+        assert len(begun) >= 2
+        prints = prints_of(walk, begun, frame)
+        kept = [(step.foot, frame.compose(step.landing)) for step in begun]
         wanted = [
             (step.foot, at.compose(Pose(step.x, step.y, step.theta)))
             for step in plan.footsteps
         ]
         corners = [
-            sole_corners(np.array(pose), foot, scheme.settings.sole)
+            sole_corners(np.array(pose), foot, walk.gait.sole)
             for foot, pose in (*kept, *wanted)
         ]
         np.testing.assert_allclose(prints[:, 0, :2], np.concatenate(corners))
@@ -218,20 +234,29 @@ def test_a_plan_is_drawn_in_the_world(duel: Duel) -> None:
 
 
 def test_nothing_is_planned_before_anybody_walks() -> None:
-    duel = playing(0.0)
-    scheme, frame = duel.schemes[1], duel.recorder.frames[1]
-    assert path_of(scheme, frame).shape == (0, 2)
-    assert prints_of(scheme, frame).shape == (0, 2, 3)
+    duel, trail = playing(0.0)
+    for name, walk, frame in walks(duel):
+        assert path_of(walk, frame).shape == (0, 2)
+        assert prints_of(walk, (), frame).shape == (0, 2, 3)
+        assert name not in trail.steps
 
 
-def test_old_footsteps_are_left_out() -> None:
-    poses = [(0.0, Foot.LEFT, Pose(float(i), 0.0, 0.0)) for i in range(80)]
-    scheme: Any = SimpleNamespace(
-        settings=SimpleNamespace(sole=Sole()), landings=poses, plan=None
-    )
-    prints = prints_of(scheme, Pose(0.0, 0.0, 0.0))
-    assert len(prints) == 4 * PRINTS
-    assert prints[..., 0].min() == pytest.approx(80 - PRINTS - 0.05)
+def test_old_footsteps_are_left_out(played: tuple[Duel, Trail]) -> None:
+    """The last ones are drawn, however many are kept."""
+    duel, trail = played
+    name, walk, frame = walks(duel)[0]
+    step = trail.steps[name][-1]
+    many: list[StepBegun] = [
+        step._replace(landing=Pose(100.0 + i, 0.0, 0.0)) for i in range(80)
+    ]
+    session = told(duel, trail)
+    session.trail.steps = {name: many}
+    lines, _ = drawn(session)["footsteps", name]
+    plan = walk.plan
+    assert plan is not None
+    assert len(lines) == 4 * (PRINTS + len(plan.footsteps))
+    wanted = prints_of(walk, many[-PRINTS:], frame)
+    np.testing.assert_array_equal(lines, wanted)
 
 
 @pytest.mark.parametrize(
@@ -261,14 +286,14 @@ def test_the_support_polygon_is_of_the_feet_that_stand(
         walking=walking,
     )
     sole = Sole()
-    scheme: Any = SimpleNamespace(
+    walk: Any = SimpleNamespace(
         step=lambda now: step,
-        settings=SimpleNamespace(sole=sole),
+        gait=SimpleNamespace(sole=sole),
         left_foot=feet["left_foot"],
         right_foot=feet["right_foot"],
     )
     frame = Pose(1.0, 2.0, 0.7)
-    outline = support_of(scheme, frame, 0.0)
+    outline = support_of(walk, frame, 0.0)
     stand = [(feet["support"], swing.other)]
     if others is not None:
         stand.append((feet[others], swing))
@@ -291,17 +316,17 @@ def test_the_support_polygon_is_of_the_feet_that_stand(
     assert outline[0, 0, 2] == HEIGHTS["support polygon"]
 
 
-def told(duel: Duel, **changes: Any) -> Any:
+def told(duel: Duel, trail: Trail, **changes: Any) -> Any:
     """A session as the layers need it."""
     traces = {
-        f"{robot.name}/{what}": [(0.1 * i, 0.2) for i in range(4)]
-        for robot in duel.robots
+        f"{player.name}/{what}": [(0.1 * i, 0.2) for i in range(4)]
+        for player in duel.players
         for what in ("CoM", "ZMP")
     }
     values = {
         "lock": nullcontext(),
         "duel": duel,
-        "traces": traces,
+        "trail": SimpleNamespace(traces=traces, steps=trail.steps),
         "settings": duel.settings,
         "theory_radius": 0.6,
         **changes,
@@ -321,21 +346,28 @@ def drawn(session: Any) -> dict[tuple[str, str], tuple[Array, str]]:
     return found
 
 
-def test_every_layer_of_the_present_moment_is_drawn(duel: Duel) -> None:
-    found = drawn(told(duel))
-    places = [robot.truth.position for robot in duel.robots]
-    for number, name in enumerate(COLOURS):
-        scheme, frame = duel.schemes[number], duel.recorder.frames[number]
+def test_every_layer_of_the_present_moment_is_drawn(
+    played: tuple[Duel, Trail],
+) -> None:
+    duel, trail = played
+    found = drawn(told(duel, trail))
+    places = [player.truth.position for player in duel.players]
+    assert [name for name, _, _ in walks(duel)] == list(COLOURS)
+    for name, walk, frame in walks(duel):
         for layer, wanted, colour in (
             (
                 "planned path",
-                chain(path_of(scheme, frame), HEIGHTS["planned path"]),
+                chain(path_of(walk, frame), HEIGHTS["planned path"]),
                 COLOURS[name],
             ),
-            ("footsteps", prints_of(scheme, frame), COLOURS[name]),
+            (
+                "footsteps",
+                prints_of(walk, trail.steps[name], frame),
+                COLOURS[name],
+            ),
             (
                 "support polygon",
-                support_of(scheme, frame, duel.world.time),
+                support_of(walk, frame, duel.world.time),
                 "#2a9d55",
             ),
         ):
@@ -360,6 +392,12 @@ def test_every_layer_of_the_present_moment_is_drawn(duel: Duel) -> None:
     assert shade == THEORY
 
 
+def walking(plan: Any) -> Any:
+    """A player with a plan, or without."""
+    walk = SimpleNamespace(plan=plan)
+    return SimpleNamespace(snapshot=lambda: SimpleNamespace(walk=walk))
+
+
 @pytest.mark.parametrize("bearing", [0.5, -0.5, 0.0, None])
 def test_the_circle_passes_both_robots_on_the_pursuers_side(
     bearing: float | None,
@@ -367,9 +405,7 @@ def test_the_circle_passes_both_robots_on_the_pursuers_side(
     plan = None if bearing is None else SimpleNamespace(bearing=bearing)
     session: Any = SimpleNamespace(
         theory_radius=0.6,
-        duel=SimpleNamespace(
-            triggered_at=1.0, schemes=[SimpleNamespace(plan=plan)]
-        ),
+        duel=SimpleNamespace(triggered_at=1.0, players=[walking(plan)]),
     )
     places = [np.array([1.0, 1.0]), np.array([1.6, 1.6])]
     lines = drawing._circle(session, places)
@@ -389,9 +425,7 @@ def test_a_circle_that_cannot_be_is_not_drawn() -> None:
     def lines(radius: float | None, apart: float, at: float | None) -> int:
         session: Any = SimpleNamespace(
             theory_radius=radius,
-            duel=SimpleNamespace(
-                triggered_at=at, schemes=[SimpleNamespace(plan=None)]
-            ),
+            duel=SimpleNamespace(triggered_at=at, players=[walking(None)]),
         )
         places = [np.zeros(2), np.array([apart, 0.0])]
         return len(drawing._circle(session, places))
@@ -445,14 +479,34 @@ def test_without_a_safety_area_nobody_is_triggered() -> None:
 
 
 def test_a_true_fall_counts_as_a_phase() -> None:
-    def robot(fallen: bool) -> Any:
-        return SimpleNamespace(truth=SimpleNamespace(has_fallen=fallen))
+    def player(phase: Phase, fallen: bool) -> Any:
+        walk = SimpleNamespace(phase=phase)
+        seen = SimpleNamespace(walk=walk)
+        return SimpleNamespace(has_fallen=fallen, snapshot=lambda: seen)
 
-    duel: Any = SimpleNamespace(
-        robots=[robot(False), robot(True)],
-        schemes=[SimpleNamespace(phase=WALK), SimpleNamespace(phase=HALT)],
-    )
-    assert phases_of(duel) == (WALK, FELL)
+    for fallen in (False, True):
+        duel: Any = SimpleNamespace(
+            players=[player(WALK, False), player(HALT, fallen)]
+        )
+        assert phases_of(duel) == (WALK, FELL if fallen else HALT)
+
+
+@pytest.mark.parametrize("lies", [False, True])
+@pytest.mark.parametrize("phase", Phase)
+def test_a_robot_has_fallen_that_lies_or_feels_it(
+    lies: bool, phase: Phase
+) -> None:
+    robot: Any = Walker.__new__(Walker)
+    robot.truth = SimpleNamespace(has_fallen=lies)
+    robot.scheme = SimpleNamespace(phase=phase)
+    assert robot.has_fallen is (lies or phase is FELL)
+
+
+def test_who_has_no_phases_of_its_own_walks() -> None:
+    seen = SimpleNamespace(walk=None)
+    person: Any = SimpleNamespace(has_fallen=False, snapshot=lambda: seen)
+    duel: Any = SimpleNamespace(players=[person, person])
+    assert phases_of(duel) == (WALK, WALK)
 
 
 def image(azimuths: tuple[float, ...], *, depth: bool = False) -> Any:
@@ -502,30 +556,28 @@ def test_depth_is_darker_the_farther_and_black_where_nothing_is() -> None:
 def test_the_panel_shows_the_newest_image_of_each_camera() -> None:
     gui: Any = Gui()
     panel = CameraPanel(gui)
-    assert gui.folders["Cameras"].visible is False
-    judged: list[Any] = []
-    perceptions = {
-        name: SimpleNamespace(on_frame=judged.append)
-        for name in ("pursuer", "evader")
-    }
-    seeing = SimpleNamespace(perceptions=perceptions)
-    duel: Any = SimpleNamespace(seeing=seeing)
-    panel.watch(duel)
-    assert gui.folders["Cameras"].visible is True
+    folder = gui.folders["Cameras"]
+    assert folder.visible is False
+    panel.forget(visible=True)
+    assert folder.visible is True
     first, second = image(()), image((0.0,))
-    perceptions["pursuer"].on_frame(first)
-    panel.show()
+    panel.show({"pursuer, colour": first})
     handle = gui["pursuer, colour"]
-    assert (handle.image == 7).all()
-    perceptions["pursuer"].on_frame(second)
-    perceptions["evader"].on_frame(image((), depth=True))
-    panel.show()
-    assert gui["pursuer, colour"] is handle and (handle.image != 7).any()
+    np.testing.assert_array_equal(handle.image, picture(first))
+    deep = image((), depth=True)
+    panel.show({"pursuer, colour": second, "evader, depth": deep})
+    assert gui["pursuer, colour"] is handle
+    np.testing.assert_array_equal(handle.image, picture(second))
+    assert (handle.image != 7).any()
     assert gui["evader, depth"].image.shape == (180, 240, 3)
-    assert len(judged) == 3 and judged[:2] == [first, second]
     before = handle.image
-    panel.show()
+    panel.show({})
     assert handle.image is before
-    blind: Any = SimpleNamespace(seeing=None)
-    panel.watch(blind)
-    assert handle.removed and gui.folders["Cameras"].visible is False
+    panel.forget(visible=False)
+    assert handle.removed and gui["evader, depth"].removed
+    assert folder.visible is False
+    # Another duel: its pictures are put up anew.
+    del gui.items["pursuer, colour"]
+    panel.forget(visible=True)
+    panel.show({"pursuer, colour": first})
+    assert gui["pursuer, colour"] is not handle

@@ -11,7 +11,8 @@ from click.testing import CliRunner
 
 from stepaside.cli import main
 from stepaside.control.balance.settings import OPEN_LOOP, STABILISED
-from stepaside.games.walk import WalkResult, WalkSettings, run_walk
+from stepaside.games.outcome import Outcome
+from stepaside.games.walk import WalkRun, WalkSettings, run_walk
 from stepaside.games.walk_summary import summarise_walk
 from stepaside.planning import GaitSettings
 from stepaside.world.body_settings import BODIES
@@ -36,7 +37,7 @@ def check_rms(errors: dict[str, Any], **limits: float) -> None:
 
 def pushed(
     impulse: float, direction: float, phase: float, *, feedback: bool
-) -> WalkResult:
+) -> WalkRun:
     """Straight walk, pushed at a phase of its fourth cycle, and 4 s more."""
     begins = GAIT.start_support + (READY if feedback else 0.0)
     time = begins + (3.0 + phase) * CYCLE
@@ -48,14 +49,14 @@ def pushed(
     return run_walk(settings)
 
 
-def check_recovery(result: WalkResult, heading: float) -> None:
+def check_recovery(result: WalkRun, heading: float) -> None:
     """Check that a walk goes on as if nothing had happened.
 
     Args:
         result: Of a walk that was pushed four seconds before its end.
         heading: Greatest turn that the push may have left, in [rad].
     """
-    assert result.outcome == "completed"
+    assert result.outcome is Outcome.COMPLETED
     arrays = result.arrays
     late = arrays["time"] > arrays["time"][-1] - CYCLE
     for axis in "xy":
@@ -122,7 +123,7 @@ def test_without_feedback_a_hardware_like_body_falls() -> None:
     """So that the other tests show what feedback does."""
     settings = WalkSettings(duration=20.0, body=BODIES["hardware"])
     result = run_walk(settings, record=False)
-    assert result.outcome == "fall" and result.duration < 10.0
+    assert result.outcome is Outcome.FALL and result.duration < 10.0
 
 
 @pytest.mark.parametrize(("phase", "side"), SIDEWAYS)
@@ -139,7 +140,7 @@ def test_the_same_pushes_fell_the_open_loop() -> None:
         pushed(1.2, side * pi / 2, phase, feedback=False).outcome
         for phase, side in SIDEWAYS
     ]
-    assert survived.count("fall") == 3
+    assert survived.count(Outcome.FALL) == 3
 
 
 @pytest.mark.parametrize("direction", [0.0, pi])

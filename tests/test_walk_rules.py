@@ -1,6 +1,5 @@
 """How a walk begins, is counted and ends."""
 
-from collections.abc import Iterator
 from math import inf, pi
 from typing import Any
 
@@ -8,23 +7,25 @@ import mujoco
 import numpy as np
 import pytest
 
+from made_up_players import clock
 from stepaside.control import Phase
 from stepaside.control.balance.settings import STABILISED
 from stepaside.errors import ConfigurationError, ReachError
-from stepaside.games import walk as module
-from stepaside.games.walk import Walker, WalkSettings, run_walk
+from stepaside.games.outcome import Outcome
+from stepaside.games.walk import Walking, WalkSettings, run_walk
 from stepaside.planning import Direction
+from stepaside.strategies import Walk
 from stepaside.world.body_settings import BODIES
 from stepaside.world.push import Push
 
 
 def way(bearing: float, *, backward: bool = False) -> tuple[float, float]:
     """How far forward and leftward a robot walks in 3.5 s, in [m]."""
-    walker = Walker(WalkSettings(bearing=bearing, backward=backward))
-    x, y = walker.robot.truth.position
-    while walker.world.time < 3.5:
-        assert walker.tick()
-    u, v = walker.robot.truth.position
+    walking = Walking(WalkSettings(bearing=bearing, backward=backward))
+    x, y = walking.walker.truth.position
+    while walking.world.time < 3.5:
+        assert walking.tick() is None
+    u, v = walking.walker.truth.position
     return u - x, v - y
 
 
@@ -41,17 +42,19 @@ def test_a_robot_walks_where_its_bearing_points() -> None:
 def test_the_settings_decide_the_role() -> None:
     for backward in (False, True):
         settings = WalkSettings(bearing=0.3, backward=backward)
-        role: Any = Walker(settings).scheme.role
+        walker = Walking(settings).walker
+        strategy: Any = walker.scheme.decisions.strategy
         wanted = Direction.BACKWARD if backward else Direction.FORWARD
-        assert role.direction is wanted
-        assert role.desired_heading(0.0) == 0.3
-    walker = Walker(WalkSettings())
-    sighting = walker.scheme._sighting
+        assert strategy == Walk(0.3, wanted)
+    walking = Walking(WalkSettings())
+    assert abs(walking.walker.truth.heading) < 1e-9
+    walking.tick()
+    sighting = walking.walker.scheme.sighting
     assert sighting is not None and sighting.distance == inf
-    assert abs(walker.robot.truth.heading) < 1e-9
-    hardware = Walker(WalkSettings(body=BODIES["hardware"], seed=3))
+    assert walking.walker.is_moving
+    hardware = Walking(WalkSettings(body=BODIES["hardware"], seed=3))
     assert hardware.world.physics.tick == 0.012
-    other = Walker(WalkSettings(body=BODIES["hardware"], seed=4))
+    other = Walking(WalkSettings(body=BODIES["hardware"], seed=4))
     masses = [w.world.model.body_mass for w in (hardware, other)]
     assert np.abs(masses[0] - masses[1]).max() > 1e-4
 
@@ -63,39 +66,45 @@ def test_by_default_a_robot_walks_straight_ahead() -> None:
 
 
 def test_a_fall_is_noticed_by_truth_reach_or_the_robot_itself() -> None:
-    walker = Walker(WalkSettings())
-    assert walker.tick()
-    walker.scheme.phase = Phase.FALLEN
-    scheme: Any = walker.scheme
+    walking = Walking(WalkSettings())
+    assert walking.tick() is None
+    scheme: Any = walking.walker.scheme
+    scheme.phase = Phase.FALLEN
     scheme.update = lambda measured: scheme.joint_targets
-    assert not walker.tick()
-    walker.scheme.phase = Phase.WALKING
-    assert walker.tick()
-    data = walker.world.data
+    assert walking.tick() is Outcome.FALL
+    assert walking.message == "walker fell at 0.01 s"
+    scheme.phase = Phase.WALKING
+    assert walking.tick() is None
+    data = walking.world.data
     data.qpos[2:7] = (1.0, 0.5**0.5, 0.5**0.5, 0.0, 0.0)
-    mujoco.mj_forward(walker.world.model, data)
-    assert not walker.tick()
+    mujoco.mj_forward(walking.world.model, data)
+    assert walking.tick() is Outcome.FALL
 
     def out_of_reach(measured: object) -> Any:
         raise ReachError("too far")
 
-    other = Walker(WalkSettings())
-    scheme = other.scheme
+    other = Walking(WalkSettings())
+    scheme = other.walker.scheme
     scheme.update = out_of_reach
-    assert not other.tick() and other.world.ticks == 0
+    assert other.tick() is Outcome.UNREACHABLE and other.world.ticks == 0
+    assert other.message == "walker lost its footing at 0.00 s: too far"
 
 
 def test_a_walk_that_falls_ends_there(monkeypatch: pytest.MonkeyPatch) -> None:
-    tick = Walker.tick
+    tick = Walking.tick
 
-    def clumsy(walker: Walker) -> bool:
-        tick(walker)
-        return walker.world.ticks < 40
+    def clumsy(walking: Walking) -> Outcome | None:
+        tick(walking)
+        return None if walking.world.ticks < 40 else Outcome.FALL
 
-    monkeypatch.setattr(Walker, "tick", clumsy)
+    monkeypatch.setattr(Walking, "tick", clumsy)
     result = run_walk(WalkSettings(duration=3.0))
-    assert result.outcome == "fall"
+    assert result.outcome is Outcome.FALL
     assert result.duration == pytest.approx(0.16)
+    # A robot that lies is not sampled any more.
+    np.testing.assert_allclose(
+        result.arrays["time"], 0.02 * np.arange(1, 8), atol=1e-12
+    )
 
 
 @pytest.mark.parametrize(
@@ -103,20 +112,23 @@ def test_a_walk_that_falls_ends_there(monkeypatch: pytest.MonkeyPatch) -> None:
 )
 def test_a_walk_lasts_as_long_as_asked(duration: float, ticks: int) -> None:
     result = run_walk(WalkSettings(duration=duration))
-    assert result.outcome == "completed"
+    assert result.outcome is Outcome.COMPLETED
+    assert result.message == f"played {0.004 * ticks:.2f} s"
     assert result.duration == pytest.approx(0.004 * ticks)
     np.testing.assert_allclose(
         result.arrays["time"], 0.02 * np.arange(1, ticks // 5 + 1)
     )
     # The footstep that is being made counts.
     assert result.steps == 1 and result.adapted == 0
-    assert result.answers == [] and result.push_impulse == (0.0, 0.0)
-    assert len(result.margins) == 1
+    assert result.answers == () and result.push_impulse == (0.0, 0.0)
+    assert result.zmp_margin is not None and result.zmp_margin > 0.02
 
 
 def test_without_a_record_nothing_is_kept() -> None:
     result = run_walk(WalkSettings(duration=0.2), record=False)
-    assert result.arrays["time"].size == 0 and result.margins == []
+    assert result.arrays["time"].size == 0 and result.zmp_margin is None
+    assert result.outcome is Outcome.COMPLETED
+    assert Walking(WalkSettings(), recorded=False).observers == ()
 
 
 def test_steps_and_pushes_of_a_walk_are_counted() -> None:
@@ -133,31 +145,20 @@ def test_steps_and_pushes_of_a_walk_are_counted() -> None:
 
 
 def test_what_feedback_did_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    tick = Walker.tick
+    tick = Walking.tick
 
-    def adapted(walker: Walker) -> bool:
-        feedback: Any = walker.scheme.stabiliser
-        feedback.adapted = 7
-        feedback.zmp_feedback.answers = ["answer"]
-        return tick(walker)
+    def adapted(walking: Walking) -> Outcome | None:
+        balance: Any = walking.walker.scheme.balance
+        balance.stabiliser.adapted = 7
+        answer = f"answer {walking.world.ticks}"
+        balance.stabiliser.zmp_feedback.solved = answer
+        return tick(walking)
 
-    monkeypatch.setattr(Walker, "tick", adapted)
-    result = run_walk(WalkSettings(duration=0.02, control=STABILISED))
+    monkeypatch.setattr(Walking, "tick", adapted)
+    result = run_walk(WalkSettings(duration=0.012, control=STABILISED))
     answers: list[Any] = list(result.answers)
-    assert result.adapted == 7 and answers == ["answer"]
-
-
-def clock(monkeypatch: pytest.MonkeyPatch, step: float) -> None:
-    """A wall clock that moves on whenever somebody looks at it."""
-
-    def ticking() -> Iterator[float]:
-        now = 100.0
-        while True:
-            yield now
-            now += step
-
-    times = ticking()
-    monkeypatch.setattr(module, "perf_counter", lambda: next(times))
+    assert result.adapted == 7
+    assert answers == ["answer 0", "answer 1", "answer 2"]
 
 
 def test_progress_of_a_walk_is_told_at_most_five_times_a_second(
@@ -166,8 +167,8 @@ def test_progress_of_a_walk_is_told_at_most_five_times_a_second(
     clock(monkeypatch, 0.11)
     told: list[float] = []
     result = run_walk(WalkSettings(duration=1.0), told.append)
-    np.testing.assert_allclose(told, [0.4, 0.8])
-    assert result.wall_time == pytest.approx(0.11 * 6)
+    np.testing.assert_allclose(told, [0.2, 0.4, 0.6, 0.8, 1.0])
+    assert result.wall_time == pytest.approx(0.11 * 11)
 
 
 def test_an_interrupted_walk_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -177,8 +178,12 @@ def test_an_interrupted_walk_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
         raise KeyboardInterrupt
 
     result = run_walk(WalkSettings(duration=3.0), interrupt)
-    assert result.outcome == "interrupted"
-    assert result.duration == pytest.approx(0.2)
+    assert result.outcome is Outcome.INTERRUPTED
+    assert result.message == "interrupted at 0.10 s"
+    assert result.duration == pytest.approx(0.1)
+    np.testing.assert_allclose(
+        result.arrays["time"], 0.02 * np.arange(1, 6), atol=1e-12
+    )
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from stepaside.control.balance.mpc import MpcResult
-from stepaside.games.walk import WalkResult, WalkSettings
+from stepaside.games.outcome import Outcome
+from stepaside.games.walk import WalkRun, WalkSettings
 from stepaside.games.walk_record import COLUMNS
 from stepaside.games.walk_summary import summarise_walk
 from stepaside.poses import Array
@@ -30,16 +31,17 @@ def record(times: Array = TIMES) -> dict[str, Array]:
     return arrays
 
 
-def result(arrays: dict[str, Array], **changes: Any) -> WalkResult:
-    made = WalkResult(
+def result(arrays: dict[str, Array], **changes: Any) -> WalkRun:
+    made = WalkRun(
         settings=SETTINGS,
-        outcome="completed",
+        outcome=Outcome.COMPLETED,
+        message="played 12.00 s",
         duration=12.0,
         arrays=arrays,
         steps=20,
         adapted=3,
-        margins=[0.03, 0.02, 0.04],
-        answers=[],
+        zmp_margin=0.02,
+        answers=(),
         push_impulse=(0.1, 0.2),
         wall_time=3.0,
     )
@@ -54,6 +56,7 @@ def test_a_summary_says_what_the_walk_was() -> None:
     found = figures(record(), duration=12.0 + 1e-12)
     expected = {
         "outcome": "completed",
+        "message": "played 12.00 s",
         "seed": 4,
         "duration_s": 12.0,
         "steps": 20,
@@ -66,7 +69,7 @@ def test_a_summary_says_what_the_walk_was() -> None:
         "real_time_factor": pytest.approx(4.0),
     }
     assert {name: found[name] for name in expected} == expected
-    assert figures(record(), margins=[])["min_zmp_margin_m"] is None
+    assert figures(record(), zmp_margin=None)["min_zmp_margin_m"] is None
 
 
 PAIRS = [
@@ -254,7 +257,7 @@ def answer(time: float, feasible: bool, x: float, y: float) -> MpcResult:
 def test_the_solver_is_told_in_microseconds_and_metres() -> None:
     answers = [answer(1e-6 * i, i > 2, 0.003, -0.004) for i in range(1, 101)]
     answers.append(answer(1.01e-4, True, 0.001, 0.0))
-    found = figures(record(), answers=answers)["qp"]
+    found = figures(record(), answers=tuple(answers))["qp"]
     assert found == {
         "solves": 101,
         "infeasible": 2,

@@ -5,8 +5,10 @@ import numpy as np
 import pytest
 
 from stepaside.errors import ConfigurationError
-from stepaside.games.duel import Duel, Outcome
+from stepaside.games.duel import Duel
+from stepaside.games.outcome import Outcome
 from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.walker import Walker
 from stepaside.poses import Pose
 from stepaside.robots.description import load_robot
 from stepaside.world.settings import PhysicsSettings, SightSettings
@@ -16,6 +18,10 @@ from stepaside.world.world import World, build_model, place_free_body
 def standing(distance: float = 2.0, **changes: object) -> Duel:
     start = StartSettings(distance, 0.3, -0.2)
     return Duel(DuelSettings(start=start, **changes))  # type: ignore[arg-type]
+
+
+def walkers(duel: Duel) -> list[Walker]:
+    return [player for player in duel.players if isinstance(player, Walker)]
 
 
 def test_dense_and_sparse_solvers_agree_in_contact() -> None:
@@ -62,23 +68,25 @@ def test_standing_robots_weigh_what_their_feet_feel() -> None:
     duel = standing()
     for _ in range(200):
         duel.tick()
-    measured = duel.robots[1].read()
+    evader = walkers(duel)[1]
+    measured = evader.robot.read()
     weight = 5.305 * 9.81
     assert measured.foot_forces.sum() == pytest.approx(weight, rel=0.03)
     upward = measured.accelerometer[2]
     assert upward == pytest.approx(9.81, rel=0.02)
     np.testing.assert_allclose(measured.gyro, 0.0, atol=0.05)
-    targets = duel.schemes[1].joint_targets
+    targets = evader.scheme.joint_targets
     np.testing.assert_allclose(measured.joint_positions, targets, atol=0.03)
 
 
 def test_sight_is_the_direction_and_distance_of_the_other() -> None:
     duel = standing(1.7)
-    sighting = duel.robots[0].read().sighting
+    pursuer, evader = walkers(duel)
+    sighting = pursuer.robot.read().sighting
     assert sighting is not None
     assert sighting.distance == pytest.approx(1.7, abs=0.05)
     assert sighting.bearing == pytest.approx(-0.3, abs=0.02)
-    back = duel.robots[1].read().sighting
+    back = evader.robot.read().sighting
     assert back is not None
     assert back.bearing == pytest.approx(0.2, abs=0.02)
 
@@ -86,10 +94,11 @@ def test_sight_is_the_direction_and_distance_of_the_other() -> None:
 def test_delay_and_rate_make_sight_old() -> None:
     sight = SightSettings(delay=0.1, rate=10.0)
     duel = standing(sight=sight)
+    pursuer = walkers(duel)[0]
     ages = []
     for _ in range(250):
         duel.tick()
-        seen = duel.schemes[0]._sighting
+        seen = pursuer.scheme.sighting
         if seen is not None:
             ages.append(duel.world.time - seen.time)
     assert min(ages) >= 0.1 - 1e-9
@@ -99,9 +108,10 @@ def test_delay_and_rate_make_sight_old() -> None:
 def test_sight_noise_has_the_size_asked_for_and_repeats() -> None:
     def bearings() -> np.ndarray:
         duel = standing(sight=SightSettings(bearing_noise=0.05))
+        evader = walkers(duel)[1].robot
         found = []
         for _ in range(200):
-            sighting = duel.robots[1].read().sighting
+            sighting = evader.read().sighting
             assert sighting is not None
             found.append(sighting.bearing)
             duel.world.ticks += 1  # only the clock moves
@@ -114,12 +124,13 @@ def test_sight_noise_has_the_size_asked_for_and_repeats() -> None:
 
 def test_servo_obeys_the_speed_limits_of_the_joints() -> None:
     duel = standing()
-    robot = duel.robots[0]
+    walker = walkers(duel)[0]
+    robot = walker.robot
     robot.read()
     before = robot.servos._target.copy()
     robot.write(before + 1.0)
     limits = load_robot("nao").speed_limits
-    names = duel.schemes[0].kinematics.joint_names
+    names = walker.scheme.kinematics.joint_names
     expected = [limits[name] * 0.004 for name in names]
     np.testing.assert_allclose(robot.servos._target - before, expected)
 
@@ -133,9 +144,26 @@ def test_robots_touch_within_each_others_arms() -> None:
         data.qpos[index * size : index * size + 7] = (x, 0, 0.33, 1, 0, 0, 0)
     mujoco.mj_forward(world.model, data)
     assert world.robots_touch()
+    assert world.touching() == ("evader", "pursuer")
     data.qpos[size] = 1.5
     mujoco.mj_forward(world.model, data)
-    assert not world.robots_touch()
+    assert not world.robots_touch() and world.touching() == ()
+
+
+def test_a_robot_in_a_thing_touches_a_thing() -> None:
+    """A box of nobody; the floor on which both stand is none."""
+
+    def furnish(spec: mujoco.MjSpec) -> None:
+        box = spec.worldbody.add_body(pos=[0.0, 0.0, 0.1])
+        box.add_geom(size=[0.1, 0.1, 0.1], type=mujoco.mjtGeom.mjGEOM_BOX)
+
+    robots = {"pursuer": load_robot("nao")}
+    world = World(robots, PhysicsSettings(), furnish=furnish)
+    for x, names in ((0.12, ("a thing", "pursuer")), (2.0, ())):
+        world.data.qpos[:7] = (x, 0, 0.33, 1, 0, 0, 0)
+        mujoco.mj_forward(world.model, world.data)
+        assert world.touching() == names
+        assert world.robots_touch() is bool(names)
 
 
 @pytest.mark.parametrize(
@@ -147,7 +175,7 @@ def test_robots_that_touch_end_the_duel(
     """One is put down at a distance from the other, both still upright."""
     duel = standing()
     assert duel.tick() is None
-    pursuer, evader = (robot.qpos_slice.start for robot in duel.robots)
+    pursuer, evader = (w.robot.qpos_slice.start for w in walkers(duel))
     qpos = duel.world.data.qpos
     qpos[evader : evader + 7] = qpos[pursuer : pursuer + 7]
     qpos[evader] += distance

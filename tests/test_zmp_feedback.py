@@ -42,7 +42,8 @@ class FakeMpc:
     def solve(self, plan: Any, passed: float, dcm: Array, zmp: Array) -> Any:
         """Answer with the same velocity, whatever is asked."""
         self.asked.append((plan, passed, *dcm.tolist(), *zmp.tolist()))
-        return SimpleNamespace(velocity=(0.5, -0.25))
+        self.answer = SimpleNamespace(velocity=(0.5, -0.25))
+        return self.answer
 
 
 def test_a_small_shift_is_answered_by_its_multiple() -> None:
@@ -72,17 +73,21 @@ def test_the_mpc_is_asked_in_the_axes_of_its_plan() -> None:
     np.testing.assert_allclose(state, [0.01, 0.02, 0.03, 0.04])
     vx, vy = made.from_support(0.5, -0.25)
     assert p == pytest.approx((zmp[0] + TICK * vx, zmp[1] + TICK * vy))
-    assert len(rule.answers) == 1
+    assert rule.solved is fake.answer
 
 
 def test_the_mpc_is_not_asked_for_what_the_plan_answers() -> None:
     fake: Any = FakeMpc()
     rule = MpcFeedback(fake, RULE, TICK)
     assert rule.shift(walking(), (0.0, 0.0), (0.0, 0.0)) == (0.0, 0.0)
-    assert not fake.asked
+    assert not fake.asked and rule.solved is None
     rule.shift(walking(), (0.0, 0.0), (0.01, 0.0))
+    one = rule.solved
     rule.shift(walking(), (0.01, 0.0), (0.0, 0.0))
     assert len(fake.asked) == 2
+    assert one is not rule.solved is fake.answer
+    rule.shift(walking(), (0.0, 0.0), (0.0, 0.0))
+    assert rule.solved is None  # an answer is of its tick
 
 
 def test_who_stands_needs_no_mpc() -> None:
@@ -91,7 +96,11 @@ def test_who_stands_needs_no_mpc() -> None:
     rest = resting_step(SUPPORT, Foot.LEFT)
     p = rule.shift(rest, (0.003, 0.001), (0.2, 0.2))
     assert p == pytest.approx((0.012, 0.004))
-    assert not fake.asked and not rule.answers
+    assert not fake.asked and rule.solved is None
+    rule.shift(walking(), (0.01, 0.0), (0.0, 0.0))
+    assert rule.solved is fake.answer
+    rule.shift(rest, (0.003, 0.001), (0.2, 0.2))
+    assert rule.solved is None and RULE.solved is None
 
 
 def test_methods_ask_for_their_rule() -> None:
@@ -123,4 +132,4 @@ def test_the_mpc_method_asks_a_solver_while_walking() -> None:
     dcm = made.from_support(0.005, 0.0)
     p = rule.shift(made, dcm, (0.0, 0.0))
     assert made.to_support(*p)[0] > 0.0
-    assert len(rule.answers) == 1 and rule.answers[0].feasible
+    assert rule.solved is not None and rule.solved.feasible

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from stepaside.games.duel import NAMES, Outcome
-from stepaside.games.settings import DuelSettings
+from stepaside.games.outcome import Outcome
+from stepaside.games.settings import PLAYERS, DuelSettings
+from stepaside.games.track import Track
 from stepaside.poses import Array
 from stepaside.studies.watching import WalkedPlan, Watched
 
@@ -38,7 +39,7 @@ def walked_duel(
     settings = DuelSettings(duration=duration)
     times = np.arange(0.0, duration + 1e-9, 0.02)
     ticks = np.arange(round(duration / 0.004), dtype=np.float64) * 0.004
-    arrays: dict[str, Array] = {"times_s": times}
+    tracks: dict[str, Track] = {}
     quaternion = np.tile([1.0, 0.0, 0.0, 0.0], (len(times), 1))
     quaternion[-1, 1] = sin(0.5 * tilt)
     plans = _plans(settings, duration)
@@ -50,22 +51,24 @@ def walked_duel(
     ):
         angle = along + ahead
         place = radius * np.column_stack([np.cos(angle), np.sin(angle)])
-        arrays[f"{name}_torso"] = np.column_stack([place, along + heading])
-        arrays[f"{name}_com"] = np.column_stack([place, 0.268 + 0.0 * along])
-        arrays[f"{name}_qpos"] = np.column_stack(
-            [place, 0.33 + 0.0 * along, quaternion]
+        level = 0.0 * along
+        tracks[name] = Track(
+            com=np.column_stack([place, 0.268 + level]),
+            torso=np.column_stack([place, along + heading]),
+            qpos=np.column_stack([place, 0.33 + level, quaternion]),
         )
     sway = np.column_stack([0.07 * ticks, 0.03 * np.sin(5.0 * ticks)])
     return Watched(
         settings=settings,
         outcome=outcome,
         duration=duration,
-        arrays=arrays,
+        times=times,
+        tracks=tracks,
         ticks=ticks,
-        loads={name: loads.copy() for name in NAMES},
-        feet={name: feet.copy() for name in NAMES},
-        references={name: sway.copy() for name in NAMES},
-        plans=dict.fromkeys(NAMES, plans),
+        loads={name: loads.copy() for name in PLAYERS},
+        feet={name: feet.copy() for name in PLAYERS},
+        references={name: sway.copy() for name in PLAYERS},
+        plans=dict.fromkeys(PLAYERS, plans),
     )
 
 
@@ -98,11 +101,19 @@ def _feet(
 
 
 def changed(duel: Watched, **arrays: Any) -> Watched:
-    """Duel with other arrays of its record; a function maps the old one."""
-    record = dict(duel.arrays)
-    for name, change in arrays.items():
-        record[name] = change(record[name].copy())
-    return replace(duel, arrays=record)
+    """Duel with other arrays of its record; a function maps the old one.
+
+    Args:
+        duel: The duel.
+        arrays: Changes by player and array, as in ``evader_torso``.
+    """
+    tracks = dict(duel.tracks)
+    for full_name, change in arrays.items():
+        player, name = full_name.split("_", 1)
+        track = tracks[player]
+        values = change(getattr(track, name).copy())
+        tracks[player] = replace(track, **{name: values})
+    return replace(duel, tracks=tracks)
 
 
 def standing_duel() -> Watched:
@@ -111,8 +122,8 @@ def standing_duel() -> Watched:
     loads = np.full_like(still.loads["pursuer"], 0.5 * WEIGHT)
     return replace(
         still,
-        loads=dict.fromkeys(NAMES, loads),
-        plans=dict.fromkeys(NAMES, ()),
+        loads=dict.fromkeys(PLAYERS, loads),
+        plans=dict.fromkeys(PLAYERS, ()),
     )
 
 

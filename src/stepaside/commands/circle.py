@@ -6,43 +6,33 @@ import click
 
 from ..unicycle.laws import Game
 from .circles import describe_circles, describe_remedies, print_circles
+from .declared.common import (
+    CAPTURE,
+    DELAY,
+    FIGURE,
+    FIRST_SEED,
+    SAMPLE_TIME,
+    json_option,
+)
 from .game_options import (
     check_figure_folder,
     describe_game,
     finite,
     game_options,
 )
-from .options import METERS, NumberType, json_option, print_json
-
-TIME = NumberType("s", allow_zero=True)
+from .options import print_json
 
 
 @click.command("circle")
 @game_options
-@click.option(
-    "--sample-time",
-    type=TIME,
-    default=0.0,
-    show_default=True,
-    help="Time for which turning rates are held, in [s].",
-)
-@click.option(
-    "--delay",
-    type=TIME,
-    default=0.0,
-    show_default=True,
-    help="Age of a perception when it takes effect, in [s].",
-)
+@SAMPLE_TIME.option(default=0.0, show_default=True)
+@DELAY.option(default=0.0, show_default=True)
 @click.option(
     "--sweep",
     type=click.Path(dir_okay=False),
     help="Write a figure over angle and ratios of gains and speeds.",
 )
-@click.option(
-    "--figure",
-    type=click.Path(dir_okay=False),
-    help="Write a map of the reversed circle over both ratios.",
-)
+@FIGURE.option(help="Write a map of the reversed circle over both ratios.")
 @click.option(
     "--starts",
     type=click.IntRange(0, 1_000_000),
@@ -50,22 +40,12 @@ TIME = NumberType("s", allow_zero=True)
     show_default=True,
     help="Random starts that are played to see which circle they end on.",
 )
+@FIRST_SEED.option(default=0, show_default=True, help="Of the random starts.")
+@CAPTURE.option(default=1e-6, show_default=True)
 @click.option(
-    "--seed",
-    type=click.IntRange(0),
-    default=0,
-    show_default=True,
-    help="Of the random starts.",
-)
-@click.option(
-    "--body",
-    type=METERS,
-    default=1e-6,
-    show_default=True,
-    help="Distance that counts as capture, in [m].",
-)
-@click.option(
-    "--remedies", is_flag=True, help="Try what else the evader could do."
+    "--remedies/--no-remedies",
+    default=False,
+    help="Try what else the evader could do.",
 )
 @json_option
 def circle(

@@ -1,67 +1,66 @@
 """``stepaside duel``: two humanoids chase each other in physics."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from .duel_options import duel_options, duel_settings
-from .options import json_option, print_json, print_table
+from .declared.common import FOLDER, json_option
+from .declared.take import SettingsCommand
+from .duel_options import duel_options
+from .options import print_json, print_table
 
 if TYPE_CHECKING:
-    from ..games.duel import DuelResult
+    from ..games.run import Run
     from ..games.settings import DuelSettings
 
 
-@click.command("duel")
-@click.option("--seed", type=click.IntRange(0), help="Of every random draw.")
-@duel_options
-@click.option(
-    "--output",
-    type=click.Path(file_okay=False, path_type=Path),
-    help="Run folder; a new one in runs/ by default, none with --json.",
+@click.command("duel", cls=SettingsCommand)
+@duel_options()
+@FOLDER.option(
+    help="Run folder; a new one in runs/ by default, none with --json."
 )
 @json_option
-def duel(
-    config: Path | None, output: Path | None, as_json: bool, **options: Any
-) -> None:
+def duel(settings: "DuelSettings", output: Path | None, as_json: bool) -> None:
     """Let two humanoids chase each other until they walk the circle.
 
     Prints the figures of the last third of the duel beside theory's, and
     writes a run folder with the configuration that repeats it, the
     trajectories and a figure.
     """
-    settings = duel_settings(config, options)
-    from ..games.duel import Outcome
-    from ..games.summary import summarise
+    from ..games.outcome import Outcome
     from ..report.run_folder import check_output, free_folder
 
     if output is None and not as_json:
         output = free_folder(Path("runs"), f"duel-seed{settings.seed}")
     if output is not None:
         check_output(output)
-    result = _play(settings)
-    summary = summarise(result)
+    run = _play(settings)
     figure = None
     if output is not None:
         from ..report.run_folder import write_run
 
-        figure = write_run(output, result, summary)
-        summary["run_folder"] = str(output)
+        figure = write_run(output, run)
+        run = replace(
+            run, summary=replace(run.summary, run_folder=str(output))
+        )
+    summary = run.summary.to_json()
     if as_json:
         print_json(summary)
     else:
         _print(summary)
         click.echo(f"\nfigure:     {figure}\nrun folder: {output}")
-    if result.outcome is Outcome.INTERRUPTED:
+    if run.outcome is Outcome.INTERRUPTED:
         raise SystemExit(130)
 
 
-def _play(settings: "DuelSettings") -> "DuelResult":
+def _play(settings: "DuelSettings") -> "Run":
     """Play with a progress bar on standard error."""
     from tqdm import tqdm
 
-    from ..games.duel import Progress, run_duel
+    from ..games.duel import run_duel
+    from ..games.match import Progress
 
     with tqdm(
         total=settings.duration,
@@ -142,8 +141,9 @@ def _sight_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
     """How well the robots saw."""
     rows = [("camera", summary["camera"])]
     for name in ("pursuer", "evader"):
-        error = summary[name]["bearing_error_deg"]
-        if error["median"] is not None:
+        error = summary[name].get("bearing_error_deg")
+        # A person tells nobody what it sees.
+        if error is not None and error["median"] is not None:
             text = f"{error['median']:.2f} deg median, {error['p95']:.2f} p95"
             rows.append((f"{name}'s bearing error", text))
     away = summary["evader"]["distance_error_m"]["median"]

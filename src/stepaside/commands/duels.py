@@ -7,8 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .duel_options import duel_options, duel_settings
-from .options import json_option, print_json
+from .declared.common import FOLDER, WORKERS, json_option
+from .declared.game import SEED
+from .declared.take import SettingsCommand
+from .duel_options import duel_options
+from .options import print_json
 
 if TYPE_CHECKING:
     from ..games.settings import DuelSettings
@@ -50,7 +53,7 @@ class SeedsType(click.ParamType[range]):
         return range(first, end)
 
 
-@click.command("duels")
+@click.command("duels", cls=SettingsCommand)
 @click.option(
     "--seeds",
     type=SeedsType(),
@@ -58,10 +61,8 @@ class SeedsType(click.ParamType[range]):
     show_default=True,
     help="One duel each; the end is not among them.",
 )
-@duel_options
-@click.option(
-    "--workers", type=click.IntRange(1), help="Processes; all cores."
-)
+@duel_options(SEED)
+@WORKERS.option()
 @click.option(
     "--verify",
     type=click.IntRange(1),
@@ -70,21 +71,18 @@ class SeedsType(click.ParamType[range]):
     "the records that an older version of the code made, else end with exit "
     "status 1.",
 )
-@click.option(
-    "--output",
-    type=click.Path(file_okay=False, path_type=Path),
+@FOLDER.option(
     help="Folder of results, which goes on with what it holds; runs/duels "
-    "by default, none with --json.",
+    "by default, none with --json."
 )
 @json_option
 def duels(
+    settings: "DuelSettings",
     seeds: range,
-    config: Path | None,
     workers: int | None,
     verify: int | None,
     output: Path | None,
     as_json: bool,
-    **options: Any,
 ) -> None:
     """Play many duels and say what came out, how surely, what was worst.
 
@@ -93,7 +91,6 @@ def duels(
     `stepaside duel --seed` replays. A study that was stopped goes on where it
     was when it is started again with the same folder.
     """
-    settings = duel_settings(config, options)
     if output is None and not as_json:
         output = Path("runs") / "duels"
     if verify is not None:

@@ -8,62 +8,54 @@ from typing import Any
 import click
 
 from ..unicycle.laws import Game, SideRule, TurningLaw, make_game
-from .options import ANGLE, NumberType
+from .declared.kinds import NameType
+from .declared.option import Declaration
+from .options import NumberType
 
-SPEED = NumberType("m/s")
-GAIN = NumberType("1/s")
 STRATEGIES = {"move-aside": pi / 2, "move-back": 0.0}
 
+
+def _number(name: str, help_text: str, unit: str) -> Declaration:
+    return Declaration(name, help_text, unit=unit, kind=NumberType(unit))
+
+
 _OPTIONS = [
-    click.option(
-        "--speed",
-        type=SPEED,
-        default=1.0,
-        show_default=True,
-        help="Speed of both, in [m/s].",
+    _number("--speed", "Speed of both", "m/s").option(
+        default=1.0, show_default=True
     ),
-    click.option(
-        "--gain",
-        type=GAIN,
-        default=0.5,
-        show_default=True,
-        help="Steering gain of both, in [1/s].",
+    _number("--gain", "Steering gain of both", "1/s").option(
+        default=0.5, show_default=True
     ),
-    click.option("--pursuer-speed", type=SPEED, help="Instead of --speed."),
-    click.option("--evader-speed", type=SPEED, help="Instead of --speed."),
-    click.option("--pursuer-gain", type=GAIN, help="Instead of --gain."),
-    click.option("--evader-gain", type=GAIN, help="Instead of --gain."),
-    click.option(
+    _number("--pursuer-speed", "Instead of --speed", "m/s").option(),
+    _number("--evader-speed", "Instead of --speed", "m/s").option(),
+    _number("--pursuer-gain", "Instead of --gain", "1/s").option(),
+    _number("--evader-gain", "Instead of --gain", "1/s").option(),
+    Declaration(
         "--angle",
-        type=ANGLE,
-        help="Evasion angle, like 1.2, 1.2rad or 70deg. [default: 90deg]",
-    ),
-    click.option(
+        "Evasion angle {unit}, like 1.2, 1.2rad or 70deg. [default: 90deg]",
+        unit="rad",
+    ).option(),
+    Declaration(
         "--strategy",
-        type=click.Choice(list(STRATEGIES)),
-        help="Evasion angle by name: 90deg or 0.",
-    ),
-    click.option(
+        "Evasion angle by name: 90deg or 0.",
+        kind=NameType(lambda: tuple(STRATEGIES)),
+    ).option(),
+    Declaration(
         "--law",
-        type=click.Choice([law.value for law in TurningLaw]),
-        default="proportional",
-        show_default=True,
-        help="Turning law of the evader: eq. (4) or eq. (6).",
-    ),
-    click.option(
+        "Turning law of the evader: eq. (4) or eq. (6).",
+        kind=NameType(lambda: [law.value for law in TurningLaw]),
+    ).option(default=TurningLaw.PROPORTIONAL.value, show_default=True),
+    Declaration(
         "--side-rule",
-        type=click.Choice([rule.value for rule in SideRule]),
-        default="behind",
-        show_default=True,
-        help="Side behind the evader at every instant, or kept.",
-    ),
-    click.option(
+        "Side behind the evader at every instant, or kept.",
+        kind=NameType(lambda: [rule.value for rule in SideRule]),
+    ).option(default=SideRule.BEHIND.value, show_default=True),
+    Declaration(
         "--hysteresis",
-        type=ANGLE,
-        default=0.0,
-        show_default=True,
-        help="Angle beyond its axis at which the evader changes side.",
-    ),
+        "Angle {unit} beyond its axis at which the evader changes side.",
+        unit="rad",
+        more_names=("--side-hysteresis", "hysteresis"),
+    ).option(default=0.0, show_default=True),
 ]
 
 
@@ -75,9 +67,10 @@ def game_options(function: Callable[..., Any]) -> Callable[..., Any]:
         game = _take_game(values)
         return function(game=game, **values)
 
+    taken: Callable[..., Any] = command
     for option in reversed(_OPTIONS):
-        command = option(command)
-    return command
+        taken = option(taken)
+    return taken
 
 
 def _take_game(values: dict[str, Any]) -> Game:

@@ -6,6 +6,7 @@ from typing import Any
 import click
 
 from ..unicycle.laws import Game
+from .declared.common import CAPTURE, FIGURE, GAME_TIME, json_option
 from .game_options import (
     check_figure_folder,
     describe_game,
@@ -16,7 +17,6 @@ from .options import (
     ANGLE,
     METERS,
     NumberType,
-    json_option,
     print_json,
     print_table,
 )
@@ -36,18 +36,18 @@ TIME = NumberType("s")
     "--aim",
     type=ANGLE,
     default=pi,
-    help="Largest bearing of the evader seen by the pursuer. [default: pi]",
+    help="Largest bearing [rad] of the evader seen by the pursuer. "
+    "[default: pi]",
 )
 @click.option(
     "--facing",
     type=ANGLE,
     default=pi,
-    help="Largest bearing of the pursuer seen by the evader. [default: pi]",
+    help="Largest bearing [rad] of the pursuer seen by the evader. "
+    "[default: pi]",
 )
-@click.option(
-    "--body",
-    type=METERS,
-    help="Distance that counts as capture [m]. [default: 0.1 v/k]",
+@CAPTURE.option(
+    help="Distance {unit} that counts as capture. [default: 0.1 v/k]"
 )
 @click.option(
     "--grid",
@@ -63,15 +63,11 @@ TIME = NumberType("s")
     show_default=True,
     help="Points along the distance.",
 )
-@click.option(
-    "--duration", type=TIME, help="Of each game, in [s]. [default: 30/k]"
-)
+@GAME_TIME.option(help="Length {unit} of each game. [default: 30/k]")
 @click.option(
     "--step", type=TIME, help="Of the integration, in [s]. [default: .01/k]"
 )
-@click.option(
-    "--figure", type=click.Path(dir_okay=False), help="Write a figure."
-)
+@FIGURE.option()
 @json_option
 def map(  # noqa: A001 (the command's name)
     game: Game,

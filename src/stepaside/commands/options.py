@@ -1,13 +1,11 @@
 """Types and habits that all commands share."""
 
 import json
-from collections.abc import Callable
 from math import isfinite, radians
-from typing import Any, TypeVar
+from typing import Any
 
 import click
 
-F = TypeVar("F", bound=Callable[..., Any])
 UNITS = {"rad": 1.0, "deg": radians(1.0)}
 
 
@@ -77,10 +75,6 @@ ANGLE = AngleType()
 METERS = NumberType("m")
 SECONDS = NumberType("s")
 POSITIVE = NumberType("1")
-
-json_option = click.option(
-    "--json", "as_json", is_flag=True, help="Print one JSON object."
-)
 
 
 def print_json(value: Any) -> None:

@@ -1,85 +1,98 @@
 """``stepaside plan``: one maneuver, as a table, a figure and JSON."""
 
+from collections.abc import Collection
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from .options import ANGLE, json_option, print_json
+from .declared.common import FIGURE, json_option
+from .declared.gait import BEARING, GAIT, HORIZON
+from .declared.option import Declaration, Group
+from .declared.take import SettingsCommand, takes_settings
+from .options import print_json
+
+if TYPE_CHECKING:
+    from .plan_settings import PlanSettings
 
 
-@click.command("plan")
-@click.option(
-    "--role",
-    type=click.Choice(["pursuer", "evader"]),
-    required=True,
-    help="The pursuer walks forward, the evader backward.",
+def _plan_settings() -> "type[PlanSettings]":
+    from .plan_settings import PlanSettings
+
+    return PlanSettings
+
+
+def _roles() -> Collection[str]:
+    from .plan_settings import ROLES
+
+    return tuple(ROLES)
+
+
+def _feet() -> Collection[str]:
+    from .plan_settings import FEET
+
+    return tuple(FEET)
+
+
+def _others() -> Collection[str]:
+    from .plan_settings import entries_of_others
+
+    return entries_of_others()
+
+
+MANEUVER = Group(
+    "Maneuver",
+    (
+        Declaration(
+            "--role",
+            "The pursuer walks forward, the evader backward.",
+            "role",
+            registry=_roles,
+        ),
+        BEARING,
+        Declaration("--steps", "Footsteps.", "steps", kind=click.INT),
+        Declaration(
+            "--first-foot",
+            "Foot that lands first.",
+            "first_foot",
+            registry=_feet,
+        ),
+        Declaration(
+            "--saturated/--no-saturated",
+            "Turn by (6) instead of (8).",
+            "saturated",
+        ),
+    ),
 )
-@click.option(
-    "--bearing",
-    type=ANGLE,
-    required=True,
-    help="Desired heading in the frame of the support foot.",
-)
-@click.option(
-    "--steps", type=click.IntRange(1, 200), default=20, show_default=True
-)
-@click.option(
-    "--first-foot",
-    type=click.Choice(["left", "right"]),
-    default="left",
-    show_default=True,
-)
-@click.option(
-    "--preset",
-    type=click.Choice(["nao", "as-printed"]),
-    default="nao",
-    show_default=True,
-    help="Gait: the NAO that walks, or the durations as printed.",
-)
-@click.option(
-    "--profile",
-    type=click.Choice(["linear", "cubic"]),
-    default="linear",
-    show_default=True,
-    help="ZMP between the feet in double support.",
-)
-@click.option("--saturated", is_flag=True, help="Turn by (6) instead of (8).")
-@click.option(
-    "--figure", type=click.Path(dir_okay=False), help="Write a figure."
-)
+
+
+@click.command("plan", cls=SettingsCommand)
+@takes_settings(_plan_settings, MANEUVER, GAIT.without(HORIZON), aside=_others)
+@FIGURE.option()
 @json_option
-def plan(
-    role: str,
-    bearing: float,
-    steps: int,
-    first_foot: str,
-    preset: str,
-    profile: str,
-    saturated: bool,
-    figure: str | None,
-    as_json: bool,
-) -> None:
-    """Plan one maneuver from standing: path, footsteps, ZMP and CoM."""
-    from dataclasses import replace
-    from math import pi
-    from typing import cast
+def plan(settings: "PlanSettings", figure: str | None, as_json: bool) -> None:
+    """Plan one maneuver from standing: path, footsteps, ZMP and CoM.
 
+    It needs a role and a bearing. A configuration may be that of a duel or
+    of a walk, too, whose gait is taken.
+    """
     import numpy as np
 
-    from ..errors import PlanError, check_within
-    from ..planning import PRESETS, Direction, Foot, ManeuverPlanner
+    from ..planning import ManeuverPlanner
+    from .plan_settings import FEET, ROLES
 
-    check_within(bearing, -pi, pi, "bearing", "rad", PlanError)
-    settings = replace(PRESETS[preset], zmp_profile=cast("object", profile))  # type: ignore[arg-type]
-    planner = ManeuverPlanner(settings)
-    direction = Direction.FORWARD if role == "pursuer" else Direction.BACKWARD
-    maneuver = planner.plan(
+    role, bearing, gait = settings.role, settings.bearing, settings.gait
+    for name, value in (("--role", role), ("--bearing", bearing)):
+        if value is None:
+            raise click.UsageError(f"Missing option '{name}'.")
+    assert role is not None and bearing is not None  # for the type checker
+    maneuver = ManeuverPlanner(gait).plan(
         bearing,
-        direction,
-        first_foot=Foot[first_foot.upper()],
+        ROLES[role],
+        first_foot=FEET[settings.first_foot],
         standing=True,
-        saturated=saturated,
-        count=steps,
+        saturated=settings.saturated,
+        count=settings.steps,
     )
     schedule = maneuver.schedule
     times = np.arange(int(schedule.duration / 0.01 + 1e-9) + 1) * 0.01
@@ -89,9 +102,9 @@ def plan(
             {
                 "role": role,
                 "bearing_rad": bearing,
-                "preset": preset,
+                "preset": settings.preset,
                 "frame": "support foot of the first step",
-                "eta_per_s": settings.eta,
+                "eta_per_s": gait.eta,
                 "margin_m": maneuver.margin(),
                 "zmp_correction_m": maneuver.correction.tolist(),
                 "phase_starts_s": schedule.starts.tolist(),

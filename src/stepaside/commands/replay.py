@@ -8,8 +8,11 @@ from typing import Any
 
 import click
 
-from .options import POSITIVE, SECONDS, NumberType, json_option, print_json
+from .declared.common import BROWSER, PORT, SERVE_FOR, json_option
+from .declared.kinds import NameType
+from .options import POSITIVE, SECONDS, NumberType, print_json
 
+VIEWS = {"fixed": False, "following": True}
 FILE = click.Path(dir_okay=False, path_type=Path)
 
 
@@ -27,32 +30,35 @@ FILE = click.Path(dir_okay=False, path_type=Path)
     help="Of a film, in the run [s].",
 )
 @click.option("--duration", type=SECONDS, help="Of the run in a film [s].")
-@click.option("--rate", type=NumberType("1/s"), help="Pictures a second.")
+@click.option(
+    "--rate", type=NumberType("1/s"), help="Pictures a second [1/s]."
+)
 @click.option(
     "--speed",
     type=POSITIVE,
     default=1.0,
-    help="Of a film; 2 is twice as fast.",
+    help="Of a film [1]; 2 is twice as fast.",
 )
 @click.option("--width", type=click.IntRange(64, 3840), help="Of a picture.")
 @click.option("--height", type=click.IntRange(64, 2160), help="Likewise.")
 @click.option(
     "--camera",
-    type=click.Choice(["fixed", "following"]),
+    type=NameType(lambda: VIEWS),
     default="fixed",
     show_default=True,
+    help="It stands, or goes along with the robots.",
 )
 @click.option("--layers/--no-layers", default=True, help="Lines in a film.")
-@click.option("--port", type=click.IntRange(1, 65535), default=8080)
-@click.option("--open/--no-open", "opens", default=True, help="A browser.")
-@click.option("--serve-for", type=SECONDS, help="Stop serving after it [s].")
+@PORT.option(default=8080, show_default=True)
+@BROWSER.option(default=True)
+@SERVE_FOR.option()
 @json_option
 def replay(run: Path, as_json: bool, **options: Any) -> None:
     """Show the duel of a RUN folder again.
 
     With no file asked for, it is served as a page with a time slider.
     """
-    from ..report.replay import load_run
+    from ..games.folder import load_run
 
     loaded = load_run(run)
     written: dict[str, Any] = {}
@@ -109,7 +115,7 @@ def _shot(
         speed=options["speed"],
         begin=options["begin"],
         duration=options["duration"] or duration,
-        following=options["camera"] == "following",
+        following=VIEWS[options["camera"]],
         layers=options["layers"],
     )
 

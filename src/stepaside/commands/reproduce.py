@@ -6,13 +6,12 @@ from typing import Any
 
 import click
 
-from .options import json_option, print_json
+from .declared.common import FIRST_SEED, FOLDER, WORKERS, json_option
+from .options import print_json
 
 
 @click.command("reproduce")
-@click.option(
-    "--seed",
-    type=click.IntRange(0),
+@FIRST_SEED.option(
     default=1,
     show_default=True,
     help="Of the first duel; the others follow it.",
@@ -24,12 +23,8 @@ from .options import json_option, print_json
     show_default=True,
     help="Runs of each claim that is measured in physics.",
 )
-@click.option(
-    "--workers", type=click.IntRange(1), help="Processes; all cores."
-)
-@click.option(
-    "--output",
-    type=click.Path(file_okay=False, path_type=Path),
+@WORKERS.option()
+@FOLDER.option(
     default=Path("runs/reproduce"),
     show_default=True,
     help="Folder of the page; what it holds already and what still has the "

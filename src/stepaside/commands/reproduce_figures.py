@@ -105,12 +105,12 @@ def _draw_sweep(file: Path, marks: int) -> None:
 
 
 def _draw_duel(file: Path, seed: int, duration: float) -> None:
-    from ..games.duel import Outcome, run_duel
+    from ..games.duel import run_duel
+    from ..games.outcome import Outcome
     from ..games.settings import DuelSettings
-    from ..games.summary import summarise
     from ..report.duel_figure import draw_duel
 
     result = run_duel(DuelSettings(seed=seed, duration=duration))
     if result.outcome is Outcome.INTERRUPTED:
         raise KeyboardInterrupt  # half a duel is no figure
-    draw_duel(result.arrays, summarise(result), result.settings, file)
+    draw_duel(result, file)

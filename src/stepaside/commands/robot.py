@@ -1,22 +1,32 @@
 """``stepaside robot``: show a robot, or write its model."""
 
+from pathlib import Path
+
 import click
 
-from .options import json_option, print_json, print_table
+from .declared.common import FILE, json_option
+from .options import print_json, print_table
 
 
 @click.command("robot")
 @click.argument("name", default="nao")
 @click.option(
-    "--mjcf", is_flag=True, help="Write the MuJoCo model and nothing else."
+    "--mjcf/--no-mjcf",
+    default=False,
+    help="Write the MuJoCo model and nothing else.",
 )
+@FILE.option(help="File for the model; standard output by default.")
 @click.option(
-    "--output",
-    type=click.Path(dir_okay=False, writable=True),
-    help="File for the model; standard output by default.",
+    "--compile/--no-compile",
+    "stores",
+    default=False,
+    help="Write its kinematic tree beside its description: with it, the "
+    "robot is controlled where MuJoCo is not installed.",
 )
 @json_option
-def robot(name: str, mjcf: bool, output: str | None, as_json: bool) -> None:
+def robot(
+    name: str, mjcf: bool, output: Path | None, stores: bool, as_json: bool
+) -> None:
     """Show the robot NAME, or write its model for MuJoCo's own viewer.
 
     NAME is a robot that comes with the package (nao), or a folder with a
@@ -33,6 +43,11 @@ def robot(name: str, mjcf: bool, output: str | None, as_json: bool) -> None:
             with open(output, "w", encoding="utf-8") as file:
                 file.write(text)
             click.echo(f"wrote {output}", err=True)
+        return
+    if stores:
+        from ..robots.stored import store_tree
+
+        click.echo(f"wrote {store_tree(description)}", err=True)
         return
     model = description.compile()
     facts = {

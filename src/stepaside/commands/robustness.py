@@ -1,22 +1,24 @@
 """``stepaside robustness``: what a walk survives, on all cores."""
 
+from collections.abc import Collection
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from .options import json_option, print_json
+from .declared.body import BODY, CONTROL, FEEDBACK, METHOD, PHYSICS
+from .declared.common import FOLDER, WORKERS, json_option
+from .declared.gait import GAIT, PUSHES, WALK
+from .declared.game import DURATION, RUN, SEED
+from .declared.kinds import NameType
+from .declared.take import SettingsCommand, takes_settings
+from .options import print_json
+from .robustness_tables import print_campaign, tell_stopped
 
-KINDS = (
-    "push",
-    "friction",
-    "unevenness",
-    "delay",
-    "backlash",
-    "noise",
-    "model",
-)
-METHODS = ("open-loop", "closed-form", "measured", "mpc")
+if TYPE_CHECKING:
+    from ..games.walk import WalkSettings
+
+OLD_KINDS = {"play": "backlash"}  # names of today by former ones
 
 
 class Asked(NamedTuple):
@@ -28,31 +30,54 @@ class Asked(NamedTuple):
     phases: int
     seeds: int
     seed: int
+    changes: str = ""
+
+    def settings(self) -> dict[str, Any]:
+        """What a result says of it; changes only where there are any."""
+        return {k: v for k, v in self._asdict().items() if v != ""}
 
 
-@click.command("robustness")
+def _kinds() -> Collection[str]:
+    from ..studies.robustness import STRENGTHS
+
+    return tuple(STRENGTHS)
+
+
+def _methods() -> Collection[str]:
+    from ..studies.robustness import METHODS
+
+    return METHODS
+
+
+def _walk() -> "type[WalkSettings]":
+    from ..games.walk import WalkSettings
+
+    return WalkSettings
+
+
+def _others() -> Collection[str]:
+    from .plan_settings import entries_of_others
+
+    return entries_of_others()
+
+
+@click.command("robustness", cls=SettingsCommand)
 @click.option(
     "--kind",
     "kinds",
-    type=click.Choice(KINDS),
+    type=NameType(_kinds, OLD_KINDS),
     multiple=True,
     help="Disturbance, any number of times; all by default. Of pushes the "
-    "largest one survived is searched, to 0.1 N s.",
+    "largest one survived is searched, to 0.1 N s for a robot of NAO's mass.",
 )
 @click.option(
     "--method",
     "methods",
-    type=click.Choice(METHODS),
+    type=NameType(_methods),
     multiple=True,
+    default=("open-loop", "measured"),
     help="How the walk is controlled, any number of times; open-loop and "
     "measured by default.",
-)
-@click.option(
-    "--body",
-    type=click.Choice(["ideal", "delayed", "hardware"]),
-    default="ideal",
-    show_default=True,
-    help="How far the body is from an ideal one.",
 )
 @click.option(
     "--phases",
@@ -68,30 +93,32 @@ class Asked(NamedTuple):
     show_default=True,
     help="Walks of each other disturbance.",
 )
-@click.option(
-    "--seed",
-    type=click.IntRange(0),
-    default=1,
-    show_default=True,
-    help="Of the first walk; the others follow it. Pushes have only this one.",
-)
-@click.option(
-    "--workers", type=click.IntRange(1), help="Processes; all cores."
-)
-@click.option(
-    "--output",
-    type=click.Path(file_okay=False, path_type=Path),
+@WORKERS.option()
+@FOLDER.option(
     help="Folder of results, which goes on with what it holds; "
-    "runs/robustness-BODY by default, none with --json.",
+    "runs/robustness-BODY by default, none with --json."
 )
 @json_option
+@takes_settings(
+    _walk,
+    RUN.without(DURATION),
+    WALK.without(PUSHES),
+    GAIT,
+    BODY,
+    CONTROL.without(METHOD, FEEDBACK),
+    PHYSICS,
+    aside=_others,
+    meanings={
+        SEED: "Of the first walk; the others follow it. Pushes have only "
+        "this one."
+    },
+)
 def robustness(
+    settings: "WalkSettings",
     kinds: tuple[str, ...],
     methods: tuple[str, ...],
-    body: str,
     phases: int,
     seeds: int,
-    seed: int,
     workers: int | None,
     output: Path | None,
     as_json: bool,
@@ -99,10 +126,17 @@ def robustness(
     """Walk many times under one disturbance after the other.
 
     A campaign that was stopped writes no results; it goes on where it was
-    when it is started again with the same folder.
+    when it is started again with the same folder. Of a configuration, which
+    may be that of a duel, too, it takes all but duration, method and pushes.
     """
-    kinds, methods = kinds or KINDS, methods or ("open-loop", "measured")
-    asked = Asked(_once(kinds), _once(methods), body, phases, seeds, seed)
+    from ..studies.changes import changes_of
+
+    kinds = kinds or tuple(_kinds())
+    body, changes = changes_of(settings)
+    seed = settings.seed
+    asked = Asked(
+        *(_once(kinds), _once(methods), body, phases, seeds, seed), changes
+    )
     if output is None and not as_json:
         output = Path("runs") / f"robustness-{body}"
     if output is not None:
@@ -110,15 +144,15 @@ def robustness(
     grid, cases = _plan(asked)
     file = None if output is None else output / "trials.jsonl"
     results, stopped = _run(grid, cases, file, workers)
-    answer = _answer(body, grid, cases, results)
+    answer = _answer(settings, body, grid, cases, results)
     if output is not None and not stopped:
-        _write(output, asked, answer)
+        _write(output, settings, asked, answer)
     if as_json:
         print_json(answer)
     else:
-        _print(answer)
+        print_campaign(answer)
     if stopped:
-        _tell_stopped(answer)
+        tell_stopped(answer)
         raise SystemExit(130)
     if not as_json:
         click.echo(f"\nresults: {output}")
@@ -133,22 +167,34 @@ def _plan(asked: Asked) -> tuple[list[Any], list[Any]]:
     from ..studies.limits import push_cases
     from ..studies.robustness import trials
 
-    kinds, methods, body, phases, seeds, seed = asked
-    grid = trials(kinds, methods, body, seeds=seeds, first_seed=seed)
+    kinds, methods, body, phases, seeds, seed, changes = asked
+    grid = trials(
+        *(kinds, methods, body),
+        seeds=seeds,
+        first_seed=seed,
+        changes=changes,
+    )
     if "push" not in kinds:
         return list(grid), []
-    cases = push_cases(methods, body, phases=phases, seed=seed)
+    cases = push_cases(
+        methods, body, phases=phases, seed=seed, changes=changes
+    )
     return list(grid), list(cases)
 
 
 def _answer(
-    body: str, grid: list[Any], cases: list[Any], results: dict[str, bool]
+    settings: "WalkSettings",
+    body: str,
+    grid: list[Any],
+    cases: list[Any],
+    results: dict[str, bool],
 ) -> dict[str, Any]:
     """What was found so far, and how much that is of what is planned.
 
     How many walks the limits of the pushes take is not known before.
     """
     from ..studies.limits import outcomes_of
+    from ..studies.robustness import mass_of, push_scale
     from ..studies.survival import (
         limit_rows,
         push_survival_rows,
@@ -157,22 +203,31 @@ def _answer(
     )
 
     limits = limit_rows(cases, results)
+    scale = push_scale(settings.robot)
     walks = sum(map(len, outcomes_of(cases, results).values()))
     return {
         "body": body,
+        "robot": settings.robot,
+        "mass_kg": mass_of(settings.robot),
         "planned": {"trials": len(grid), "push_limits": len(cases)},
         "done": {
             "trials": sum(trial.key in results for trial in grid),
             "push_limits": len(limits),
             "push_walks": walks,
         },
-        "survival": survival_rows(grid, results) + push_survival_rows(limits),
+        "survival": survival_rows(grid, results)
+        + push_survival_rows(limits, scale),
         "limits": limits,
         "limits_by_method": summarise_limits(limits),
     }
 
 
-def _write(output: Path, asked: Asked, answer: dict[str, Any]) -> None:
+def _write(
+    output: Path,
+    settings: "WalkSettings",
+    asked: Asked,
+    answer: dict[str, Any],
+) -> None:
     """Write the results of a whole campaign, each file at one stroke."""
     from ..report.robustness_figure import draw_limits, draw_survival
     from ..studies.pushes import pushes_result
@@ -180,14 +235,18 @@ def _write(output: Path, asked: Asked, answer: dict[str, Any]) -> None:
     from ..studies.robustness import UNITS
     from ..studies.trial_results import ROOMS
 
-    head = header(asked._asdict(), rooms=ROOMS)
+    head = header(asked.settings(), rooms=ROOMS)
     write_result(output / "survival.json", head, **answer)
     draw_survival(answer["survival"], UNITS, output / "survival.png")
     limits = answer["limits"]
     if limits:
         draw_limits(limits, output / "limits.png")
-        _, methods, body, phases, _, seed = asked
-        made = pushes_result(limits, methods, body, phases=phases, seed=seed)
+        made = pushes_result(
+            *(limits, asked.methods, asked.body),
+            phases=asked.phases,
+            seed=asked.seed,
+            walk=settings,
+        )
         write_result(output / "pushes.json", made)
 
 
@@ -228,51 +287,3 @@ def _run(
         except KeyboardInterrupt:
             return done, True
     return done, False
-
-
-def _tell_stopped(answer: dict[str, Any]) -> None:
-    done, planned = answer["done"], answer["planned"]
-    click.echo(
-        f"stopped after {done['trials']} of {planned['trials']} trials, "
-        f"{done['push_limits']} of {planned['push_limits']} limits of pushes",
-        err=True,
-    )
-
-
-def _print(answer: dict[str, Any]) -> None:
-    """Print survival, then the largest pushes."""
-    from ..studies.robustness import UNITS
-
-    head = ("method", "disturbance", "strength", "survived", "95 %")
-    click.echo("{:<12} {:<16} {:>10} {:>9}  {}".format(*head))
-    for row in answer["survival"]:
-        kind = f"{row['kind']} {row['direction']}".strip()
-        click.echo(
-            f"{row['method']:<12} {kind:<16} {row['strength']:>10g} "
-            f"{row['survived']:>4}/{row['trials']:<4}  "
-            f"{100 * row['low']:.0f}-{100 * row['high']:.0f} %"
-            f"   [{UNITS[row['kind']]}]"
-        )
-    if answer["limits"]:
-        _print_limits(answer["limits"], answer["limits_by_method"])
-
-
-def _print_limits(
-    limits: list[dict[str, Any]], by_method: dict[str, Any]
-) -> None:
-    click.echo("\nlargest push survived / pendulum's bound [N s], by phase")
-    for method in dict.fromkeys(r["method"] for r in limits):
-        for direction in dict.fromkeys(r["direction"] for r in limits):
-            cells = " ".join(
-                f"{r['limit_n_s']:.1f}/{r['bound_n_s']:.1f}"
-                for r in limits
-                if (r["method"], r["direction"]) == (method, direction)
-            )
-            click.echo(f"{method:<12} {direction:<9} {cells}")
-    click.echo("\nmeasured over the bound: median, least, most; above it")
-    for method, found in by_method.items():
-        click.echo(
-            f"{method:<12} {found['median_of_bound']:.2f} "
-            f"{found['least_of_bound']:.2f} {found['most_of_bound']:.2f}  "
-            f"{found['above_bound']} of {found['cases']}"
-        )

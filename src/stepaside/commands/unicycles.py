@@ -7,6 +7,14 @@ import click
 
 from ..unicycle.laws import Game
 from .circle import describe_circle
+from .declared.common import (
+    DELAY,
+    FIGURE,
+    GAME_TIME,
+    SAMPLE_TIME,
+    json_option,
+)
+from .declared.strategies import PURSUER_STRATEGY, UNICYCLE_STRATEGY
 from .game_options import (
     check_figure_folder,
     describe_game,
@@ -16,13 +24,12 @@ from .game_options import (
 from .options import (
     ANGLE,
     METERS,
-    NumberType,
-    json_option,
     print_json,
     print_table,
 )
+from .unicycle_strategies import play_named, print_named
 
-TIME = NumberType("s")
+SHORT = 0.01  # time between decisions that are not held, in [s]
 
 
 @click.command("unicycles")
@@ -35,32 +42,20 @@ TIME = NumberType("s")
     type=ANGLE,
     default=0.2,
     show_default=True,
-    help="Bearing of the evader seen by the pursuer at the start.",
+    help="Bearing [rad] of the evader seen by the pursuer at the start.",
 )
 @click.option(
     "--bearing",
     type=ANGLE,
     default=-0.1,
     show_default=True,
-    help="Bearing of the pursuer seen by the evader at the start.",
+    help="Bearing [rad] of the pursuer seen by the evader at the start.",
 )
-@click.option(
-    "--duration",
-    type=TIME,
-    help="Length of the game, in [s]. [default: until it has settled]",
+@GAME_TIME.option(
+    help="Length {unit} of the game. [default: until it has settled]"
 )
-@click.option(
-    "--sample-time",
-    type=NumberType("s", allow_zero=True),
-    default=0.0,
-    help="Hold the turning rates for this long, in [s].",
-)
-@click.option(
-    "--delay",
-    type=NumberType("s", allow_zero=True),
-    default=0.0,
-    help="Age of a perception when it takes effect, in [s].",
-)
+@SAMPLE_TIME.option(default=0.0, show_default=True)
+@DELAY.option(default=0.0, show_default=True)
 @click.option(
     "--capture-distance",
     type=METERS,
@@ -68,9 +63,9 @@ TIME = NumberType("s")
     show_default=True,
     help="Distance at which the game ends, in [m].",
 )
-@click.option(
-    "--figure", type=click.Path(dir_okay=False), help="Write a figure."
-)
+@UNICYCLE_STRATEGY.option(default=None)
+@PURSUER_STRATEGY.option(default=None)
+@FIGURE.option()
 @json_option
 def unicycles(
     game: Game,
@@ -81,6 +76,8 @@ def unicycles(
     sample_time: float,
     delay: float,
     capture_distance: float,
+    evader_strategy: str | None,
+    pursuer_strategy: str | None,
     figure: str | None,
     as_json: bool,
 ) -> None:
@@ -103,6 +100,20 @@ def unicycles(
         "delay_s": delay,
         "game": describe_game(game),
     }
+    if evader_strategy or pursuer_strategy:
+        if figure is not None or delay > 0.0:
+            raise click.UsageError(
+                "--figure and --delay are for games of the paper"
+            )
+        result |= play_named(
+            game,
+            start,
+            (pursuer_strategy or "pursuit", evader_strategy or "evasion"),
+            (duration, sample_time or SHORT),
+            capture_distance,
+        )
+        print_json(result) if as_json else print_named(result)
+        return
     if sample_time > 0.0:
         if figure is not None:
             raise click.UsageError("--figure draws games without sampling")

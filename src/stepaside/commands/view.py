@@ -1,64 +1,46 @@
 """``stepaside view``: a duel to watch, push and drive in a browser."""
 
 import webbrowser
-from pathlib import Path
 from time import sleep
+from typing import TYPE_CHECKING
 
 import click
 
-from .options import SECONDS
+from .declared.common import BROWSER, PORT, SERVE_FOR
+from .declared.game import DURATION
+from .declared.option import Declaration
+from .declared.take import SettingsCommand
+from .duel_options import duel_options
+
+if TYPE_CHECKING:
+    from ..games.settings import DuelSettings
 
 LOCAL = ("127.0.0.1", "localhost", "::1")
-
-
-@click.command("view")
-@click.option(
+HOST = Declaration(
     "--host",
-    default="127.0.0.1",
-    show_default=True,
-    help="Address to serve at; others than this machine's are open to all.",
+    "Address to serve at; others than this machine's are open to all.",
 )
-@click.option(
-    "--port", type=click.IntRange(1, 65535), default=8080, show_default=True
-)
-@click.option("--open/--no-open", "opens", default=True, help="A browser.")
-@click.option("--seed", type=click.IntRange(0), help="Of every random draw.")
-@click.option(
-    "--sensing",
-    type=click.Choice(["ideal", "cameras"]),
-    help="Whether they are told where the other is, or see it.",
-)
-@click.option("--run", is_flag=True, help="Let time pass at once.")
-@click.option(
-    "--duration", type=SECONDS, help="Stop serving after this time [s]."
-)
-@click.option(
-    "--config",
-    type=click.Path(exists=True, dir_okay=False, path_type=Path),
-    help="Configuration file of a duel.",
-)
+RUNNING = Declaration("--run/--no-run", "Let time pass at once.")
+
+
+@click.command("view", cls=SettingsCommand)
+@HOST.option(default="127.0.0.1", show_default=True)
+@PORT.option(default=8080, show_default=True)
+@BROWSER.option(default=True)
+@RUNNING.option(default=False)
+@SERVE_FOR.option(more_names=("--duration",))
+@duel_options(DURATION)
 def view(
+    settings: "DuelSettings",
     host: str,
     port: int,
     opens: bool,
-    seed: int | None,
-    sensing: str | None,
     run: bool,
-    duration: float | None,
-    config: Path | None,
+    serve_for: float | None,
 ) -> None:
     """Serve a page with two robots that chase each other."""
-    from dataclasses import replace
-
-    from ..games.configuration import load_configuration
-    from ..games.settings import DuelSettings
     from ..report.viewer.page import Page
 
-    settings = DuelSettings() if config is None else load_configuration(config)
-    if seed is not None:
-        settings = replace(settings, seed=seed)
-    if sensing is not None:
-        settings = replace(settings, sensing=sensing)
     if host not in LOCAL:
         click.echo(
             f"stepaside: {host} can be reached from other machines, and "
@@ -73,10 +55,10 @@ def view(
     if opens:
         webbrowser.open(address)
     try:
-        if duration is None:
+        if serve_for is None:
             while True:
                 sleep(1.0)
-        sleep(duration)
+        sleep(serve_for)
     except KeyboardInterrupt:
         pass
     finally:

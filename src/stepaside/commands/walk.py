@@ -1,119 +1,48 @@
 """``stepaside walk``: one humanoid walks, and somebody pushes it."""
 
-import re
-from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from .body_options import (
-    body_options,
-    body_settings,
-    floor_options,
-    floor_settings,
-)
-from .options import ANGLE, SECONDS, json_option, print_json, print_table
+from .declared.body import BODY, CONTROL, PHYSICS
+from .declared.common import json_option
+from .declared.gait import GAIT, WALK
+from .declared.game import RUN
+from .declared.take import SettingsCommand, takes_settings
+from .options import print_json, print_table
 
 if TYPE_CHECKING:
-    from ..games.walk import WalkResult
-    from ..world.push import Push
-
-PUSH = re.compile(r"^(?P<impulse>[^@]+)@(?P<time>[^:]+):(?P<direction>.+)$")
+    from ..games.walk import WalkRun, WalkSettings
 
 
-class PushType(click.ParamType["Push"]):
-    """A push: ``1.2@5:90deg`` is 1.2 N s at 5 s to the left."""
+def _walk_settings() -> "type[WalkSettings]":
+    from ..games.walk import WalkSettings
 
-    name = "IMPULSE@TIME:DIRECTION"
-
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> "Push":
-        """Parse a push."""
-        from ..errors import StepAsideError
-        from ..world.push import Push
-
-        parts = PUSH.match(str(value))
-        if parts is None:
-            self.fail(
-                "must be IMPULSE@TIME:DIRECTION [N s, s, angle] like "
-                f"1.2@5:90deg, got {value!r}",
-                param,
-                ctx,
-            )
-        direction = ANGLE.convert(parts["direction"], param, ctx)
-        numbers = []
-        for name, unit in (("impulse", "N s"), ("time", "s")):
-            try:
-                number = float(parts[name])
-            except ValueError:
-                number = float("nan")
-            if not isfinite(number):
-                self.fail(
-                    f"{name} must be a finite number [{unit}], "
-                    f"got {parts[name]!r}",
-                    param,
-                    ctx,
-                )
-            numbers.append(number)
-        try:
-            return Push(numbers[0], numbers[1], direction)
-        except StepAsideError as error:
-            self.fail(str(error), param, ctx)
+    return WalkSettings
 
 
-@click.command("walk")
-@click.option("--seed", type=click.IntRange(0), default=1, show_default=True)
-@click.option("--duration", type=SECONDS, default=20.0, show_default=True)
-@click.option(
-    "--bearing",
-    type=ANGLE,
-    default=0.0,
-    help="Desired heading at every step: 0 goes straight, others circle.",
-)
-@click.option("--backward", is_flag=True, help="Walk backward.")
-@click.option(
-    "--push",
-    "pushes",
-    type=PushType(),
-    multiple=True,
-    help="Push the torso, any number of times: 1.2@5:90deg is 1.2 N s at "
-    "5 s to the left.",
-)
-@body_options
-@floor_options
-@click.option("--robot", default="nao", help="Robot, or its folder.")
+@click.command("walk", cls=SettingsCommand)
+@takes_settings(_walk_settings, RUN, WALK, GAIT, BODY, CONTROL, PHYSICS)
 @json_option
-def walk(as_json: bool, **options: Any) -> None:
+def walk(settings: "WalkSettings", as_json: bool) -> None:
     """Let one humanoid walk, and say how well it does.
 
     Speed, turning, slip, tracking and estimation are those after the first
     three seconds, in the frame of the support foot.
     """
-    from ..games.walk import WalkSettings
     from ..games.walk_summary import summarise_walk
 
-    body, control = body_settings(
-        options.pop("body"), options.pop("method"), options.pop("feedback")
-    )
-    physics = floor_settings(options)
-    settings = WalkSettings(
-        body=body, control=control, physics=physics, **options
-    )
     result = _walk(settings)
     summary = summarise_walk(result)
     if as_json:
         print_json(summary)
     else:
         _print(summary)
-    if result.outcome == "interrupted":
+    if summary["outcome"] == "interrupted":
         raise SystemExit(130)
 
 
-def _walk(settings: Any) -> "WalkResult":
+def _walk(settings: "WalkSettings") -> "WalkRun":
     """Walk with a progress bar on standard error."""
     from tqdm import tqdm
 

@@ -10,7 +10,7 @@ from ..planning.schedule import Sampler, Schedule
 from ..poses import Pose
 from ..robots.kinematics import BodyReference
 
-CACHED = 4096  # samplers kept; rational durations need a handful
+CACHED = 256  # samplers kept; rational durations need a handful
 
 
 class ReferenceSample(NamedTuple):
@@ -124,6 +124,8 @@ class ReferenceTable:
         if sampler is None:
             times = offset + self._tick * np.arange(count)
             sampler = schedule.sampler(times)
-            if len(self._samplers) < CACHED:
-                self._samplers[key] = sampler
+            # Over hours the sums of durations drift, and the keys with them.
+            if len(self._samplers) >= CACHED:
+                del self._samplers[next(iter(self._samplers))]
+            self._samplers[key] = sampler
         return sampler

@@ -1,7 +1,6 @@
 """The control scheme of one robot (paper, Fig. 4)."""
 
 from time import process_time
-from typing import TYPE_CHECKING
 
 from ..planning import (
     CenterState,
@@ -11,18 +10,17 @@ from ..planning import (
     ManeuverPlanner,
 )
 from ..planning.steady import landing_state
-from ..poses import Array, Pose, wrap_angle
+from ..poses import Array, Pose
 from ..robots.kinematics import BodyReference, LegKinematics
 from ..sensing.measurement import Measurement, Sighting
-from ..strategies.roles import Role
-from .balance.stabiliser import Stabiliser
+from ..strategies.strategy import Strategy
+from .balance.loop import Balance, OpenLoop
 from .balance.step import Step, resting_step, step_of
-from .headings import HeadingMemory
+from .deciding import Decisions
 from .phase import Phase
 from .reference import ReferenceSample, ReferenceTable, standing_reference
-
-if TYPE_CHECKING:
-    from ..perception.perception import Perception
+from .senses import GivenSight, Senses
+from .walking import StepBegun, WalkState
 
 SETTLING = 1.0  # how long a halted robot takes to come to rest, in [s]
 
@@ -33,10 +31,17 @@ class ControlScheme:
     Everything is kept in the robot's own odometry: the frame that lay
     midway between its feet when it began.
 
+    What has been is not kept: who wants to know looks after each tick at
+    the step that it began, if it began one.
+
     Attributes:
-        role: Pursuit or evasion.
-        perception: What sees and moves the head, if there is any.
+        decisions: Its strategy, and what that remembers.
+        settings: Gait.
+        kinematics: Joint motion generation.
+        balance: What keeps the robot up.
+        senses: How it learns where the other is.
         phase: What the robot is doing.
+        sighting: The other, as it was seen last; None if it is lost.
         plan: Maneuver being walked; None while standing.
         plan_frame: Pose of its frame in odometry.
         plan_started: When it began, in [s].
@@ -44,46 +49,42 @@ class ControlScheme:
         zmp_reference: ZMP reference at this tick in odometry, in [m].
         left_foot: Pose of the left foot when it last stood, in odometry.
         right_foot: Pose of the right foot, likewise.
-        landings: Footsteps so far: (time of landing [s], foot, pose).
-        replans: Number of maneuvers planned.
-        planning_times: Processor time that each took, in [s].
-        walked: Plans walked so far, for their margins afterwards.
-        velocity_jumps: Jump of the CoM velocity reference at each plan, in
-            [m/s].
+        begun: Step that began at this tick; None if none did.
+        joint_targets: Of this tick, in [rad]. Shape (joints,).
     """
 
     def __init__(
         self,
-        role: Role,
+        strategy: Strategy,
         settings: GaitSettings,
         kinematics: LegKinematics,
         *,
         tick: float,
         first_foot: Foot = Foot.LEFT,
-        sighting: Sighting | None = None,
-        stabiliser: Stabiliser | None = None,
-        perception: "Perception | None" = None,
+        balance: Balance | None = None,
+        senses: Senses | None = None,
     ) -> None:
         """Take the standing posture.
 
         Args:
-            role: Pursuit or evasion.
+            strategy: From what it knows to what it wants.
             settings: Gait.
             kinematics: The robot's joint motion generation.
             tick: Control period, in [s].
             first_foot: Foot that makes the first step.
-            sighting: What is known of the other before anything is seen.
-            stabiliser: Feedback on top of the plan; none by default.
-            perception: What turns images into sightings; without it the
-                measurements bring sightings.
+            balance: What keeps the robot up; the plan alone by default.
+            senses: How it learns where the other is; by the sightings that
+                measurements bring by default.
 
         Raises:
             ReachError: If the robot cannot stand as the gait asks.
         """
-        self.role = role
+        self.decisions = Decisions(strategy, settings, tick)
         self.settings = settings
-        self.planner = ManeuverPlanner(settings)
         self.kinematics = kinematics
+        self.balance: Balance = OpenLoop() if balance is None else balance
+        self.senses: Senses = GivenSight() if senses is None else senses
+        self.sighting: Sighting | None = None
         self.phase = Phase.STANDING
         self.reference: BodyReference
         self._resting: ReferenceSample
@@ -93,16 +94,9 @@ class ControlScheme:
         half = 0.5 * settings.foot_spacing
         self.left_foot = Pose(0.0, half, 0.0)
         self.right_foot = Pose(0.0, -half, 0.0)
-        self.landings: list[tuple[float, Foot, Pose]] = []
-        self.replans = 0
-        self.planning_times: list[float] = []
-        self.velocity_jumps: list[float] = []
-        self.walked: list[ManeuverPlan] = []
-        self.perception = perception
+        self.begun: StepBegun | None = None
+        self._planner = ManeuverPlanner(settings)
         self._first_foot = first_foot
-        self._sighting = sighting
-        self.stabiliser = stabiliser
-        self._headings = HeadingMemory(tick)
         self._table = ReferenceTable(tick)
         self._plan_ends = 0.0
         self._stand()
@@ -120,47 +114,50 @@ class ControlScheme:
         Raises:
             ReachError: If the legs lose the reference.
         """
+        self.begun = None
         if self.phase is Phase.FALLEN:
             return self.joint_targets
-        now = measurement.time
-        feedback = self.stabiliser
-        known = feedback.estimator if feedback else self.kinematics
-        self._headings.note(now, known.torso_heading)
-        if self.perception is not None:
-            foot = self.step(now)
-            self._sighting = self.perception.see(
-                measurement, foot.support, foot.swing is Foot.RIGHT
-            )
-        elif measurement.sighting is not None:
-            self._sighting = measurement.sighting
+        now, balance = measurement.time, self.balance
+        measured = balance.torso_heading
+        known = self.kinematics.torso_heading if measured is None else measured
+        self.decisions.headings.note(now, known)
+        self.sighting = self.senses.see(measurement, self.step, balance.tilt)
         if self.plan is None:
             self._wait(now)
         elif now >= self._plan_ends - 1e-9:
             self._finish(self.plan)
-        row = self._resting if self.plan is None else self._table.at(now)
-        self.reference, self.zmp_reference = row.body, row.zmp
-        if feedback is not None:
-            step = self.step(now)
-            self.reference = feedback.update(measurement, row, step)
-            if feedback.state is not None and feedback.state.has_fallen:
-                self.phase, self.plan = Phase.FALLEN, None
-                return self.joint_targets
+        sample = self._resting if self.plan is None else self._table.at(now)
+        self.zmp_reference = sample.zmp
+        self.reference = balance.update(measurement, sample, self.step)
+        if balance.has_fallen:
+            self.phase, self.plan = Phase.FALLEN, None
+            return self.joint_targets
         targets = self.kinematics.track(self.reference)
-        if feedback is not None:
-            angles = measurement.joint_positions
-            targets = feedback.joints.update(angles, targets)
-        if self.perception is not None:
-            self.perception.aim(targets)
+        targets = balance.correct(measurement, targets)
+        self.senses.aim(targets)
         self.joint_targets = targets
         return targets
 
     @property
-    def margins(self) -> list[float]:
-        """ZMP margin of each plan in the part that was walked, in [m]."""
-        return [
-            plan.margin(plan.schedule.first_step_duration)
-            for plan in self.walked
-        ]
+    def state(self) -> WalkState:
+        """What the robot plans and asks of its body now."""
+        return WalkState(
+            phase=self.phase,
+            gait=self.settings,
+            plan=self.plan,
+            plan_frame=self.plan_frame,
+            plan_started=self.plan_started,
+            left_foot=self.left_foot,
+            right_foot=self.right_foot,
+            first_foot=self._first_foot,
+            reference=self.reference,
+            zmp_reference=self.zmp_reference,
+            sighting=self.sighting,
+            torso_heading=self.kinematics.torso_heading,
+            estimate=self.balance.state,
+            solved=self.balance.solved,
+            adapted=self.balance.adapted,
+        )
 
     def _stand(self) -> None:
         """Rest midway between the feet."""
@@ -173,12 +170,12 @@ class ControlScheme:
 
     def _wait(self, now: float) -> None:
         """Stand until the other is a reason to move."""
-        seen = self._sighting
-        if self.stabiliser is not None and not self.stabiliser.ready:
-            return
-        if seen is None or not self.role.is_triggered(seen.distance):
+        seen = self.sighting
+        if not self.balance.ready:
             return
         support = self._support(self._first_foot)
+        if seen is None or not self.decisions.starts(now, support, seen):
+            return
         x, y, _ = self.reference.com
         rest = support.inverse().compose(Pose(x, y, 0.0))
         state = CenterState(rest[:2], (0.0, 0.0))
@@ -189,10 +186,9 @@ class ControlScheme:
         step = Pose(*plan.placements[2].tolist())
         landed = self.plan_frame.compose(step)
         position, velocity = landing_state(plan)
-        if self.stabiliser is not None:
-            landed, position, velocity = self.stabiliser.land(
-                landed, position, velocity, self.step(self._plan_ends)
-            )
+        landed, position, velocity = self.balance.land(
+            landed, position, velocity, self.step(self._plan_ends)
+        )
         state = CenterState(position, velocity)
         if plan.first_foot is Foot.LEFT:
             self.left_foot = landed
@@ -203,8 +199,8 @@ class ControlScheme:
             return
         self._first_foot = plan.first_foot.other
         ended = self.plan_started + plan.schedule.first_step_duration
-        seen = self._sighting
-        if seen is not None and self.role.is_triggered(seen.distance):
+        seen = self.sighting
+        if seen is not None:
             self._replan(ended, landed, state, seen, standing=False)
         else:
             self._halt(ended, landed, state)
@@ -218,49 +214,51 @@ class ControlScheme:
         *,
         standing: bool,
     ) -> None:
-        """Plan from what was seen last (Sec. III-E)."""
+        """Plan from what was seen last, or come to rest (Sec. III-E)."""
         clock = process_time()
-        heading = self._headings.at(seen.time) + seen.bearing
-        if self.stabiliser is not None:
-            heading = self.stabiliser.prediction.ahead(seen.time, heading)
-        heading -= support.theta
-        aim = self.role.desired_heading(wrap_angle(heading))
-
+        intent = self.decisions.decide(
+            started, support, seen, self.balance.ahead, moving=not standing
+        )
+        if not intent.walks:
+            if not standing:
+                self._halt(started, support, state)
+            return
+        strategy = self.decisions.strategy
         foot = self._first_foot
         swing_start = support.inverse().compose(self._support(foot.other))
 
         def plan_from(state: CenterState) -> ManeuverPlan:
-            return self.planner.plan(
-                aim,
-                self.role.direction,
+            return self._planner.plan(
+                intent.heading,
+                strategy.direction,
                 first_foot=foot,
                 state=state,
                 swing_start=swing_start,
                 standing=standing,
-                saturated=self.role.saturated,
+                saturated=strategy.saturated,
+                speed_factor=intent.speed_factor,
             )
 
-        if self.stabiliser is None or standing:
+        if standing:
             plan = plan_from(state)
         else:
-            plan, state = self.stabiliser.fit(plan_from, state, support)
-        self.planning_times.append(process_time() - clock)
-        self.replans += 1
+            plan, state = self.balance.fit(plan_from, state, support)
+        spent = process_time() - clock
         self.phase = Phase.WALKING
         duration = plan.schedule.first_step_duration
-        self._walk(plan, support, started, duration, state)
+        self._walk(plan, support, started, duration, state, spent)
 
     def _halt(self, started: float, support: Pose, state: CenterState) -> None:
         """Bring the feet abreast and come to rest."""
         foot = self._first_foot
-        plan = self.planner.plan_halt(
+        plan = self._planner.plan_halt(
             first_foot=foot,
             state=state,
             swing_start=support.inverse().compose(self._support(foot.other)),
         )
         self.phase = Phase.HALTING
         duration = plan.schedule.duration + SETTLING
-        self._walk(plan, support, started, duration, state)
+        self._walk(plan, support, started, duration, state, None)
 
     def _walk(
         self,
@@ -269,6 +267,7 @@ class ControlScheme:
         started: float,
         duration: float,
         state: CenterState,
+        spent: float | None,
     ) -> None:
         """Replace the plan that is walked."""
         self.plan, self.plan_frame, self.plan_started = plan, frame, started
@@ -277,11 +276,11 @@ class ControlScheme:
         landing = plan.schedule.first_step_duration
         landing += started - self.settings.double_support
         landed = frame.compose(Pose(*plan.placements[2].tolist()))
-        self.landings.append((landing, plan.first_foot, landed))
         vx, vy = plan.start_velocity.tolist()
         jump = max(abs(vx - state.velocity[0]), abs(vy - state.velocity[1]))
-        self.velocity_jumps.append(jump)
-        self.walked.append(plan)
+        self.begun = StepBegun(
+            plan, started, landing, plan.first_foot, landed, spent, jump
+        )
 
     def step(self, now: float) -> Step:
         """Step being made at a time, in [s]."""

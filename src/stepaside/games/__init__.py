@@ -1,6 +1,24 @@
-"""The MuJoCo world of two robots, and the game played in it."""
+"""Games in physics: players, the one loop, and the run that it leaves."""
 
-from ..games.duel import DuelResult, Outcome, run_duel
-from ..games.settings import DuelSettings
+from typing import TYPE_CHECKING
 
-__all__ = ["DuelResult", "DuelSettings", "Outcome", "run_duel"]
+from ..doors import door
+
+if TYPE_CHECKING:
+    from .duel import Duel, run_duel
+    from .outcome import Outcome
+    from .run import Run
+    from .settings import DuelSettings
+else:
+    __getattr__ = door(
+        __name__,
+        {
+            "Duel": "duel",
+            "DuelSettings": "settings",
+            "Outcome": "outcome",
+            "Run": "run",
+            "run_duel": "duel",
+        },
+    )
+
+__all__ = ["Duel", "DuelSettings", "Outcome", "Run", "run_duel"]

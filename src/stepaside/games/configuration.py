@@ -1,12 +1,12 @@
-"""Configurations as files: TOML in, TOML out."""
+"""Configurations as files: TOML in, TOML out, for any settings."""
 
 import tomllib
-from collections.abc import Callable
-from dataclasses import asdict
+from collections.abc import Callable, Collection
+from dataclasses import asdict, fields, is_dataclass
 from enum import Enum
 from math import isfinite
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
 import dacite
 import tomli_w
@@ -14,12 +14,24 @@ import tomli_w
 from ..errors import ConfigurationError
 from .settings import DuelSettings
 
+S = TypeVar("S")  # a frozen dataclass of settings
 
-def load_configuration(path: Path) -> DuelSettings:
-    """Read the configuration of a duel.
+# Entries of older files, and what they are called today.
+RENAMED = {
+    "body.play": "body.backlash",
+    "control.stabiliser.lead_blend": "control.stabiliser.prediction_blend",
+}
+
+
+def load_settings(
+    kind: type[S], path: Path, *, aside: Collection[str] = ()
+) -> S:
+    """Read settings.
 
     Args:
+        kind: Class of the settings.
         path: TOML file; what it leaves out keeps its default.
+        aside: Entries that are left aside, for they belong to others.
 
     Raises:
         ConfigurationError: If it is not TOML, or an entry is unknown, of
@@ -29,57 +41,129 @@ def load_configuration(path: Path) -> DuelSettings:
         entries = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise ConfigurationError(f"{path}: {error}") from error
-    return parse_configuration(entries, str(path))
+    return parse_settings(kind, entries, str(path), aside=aside)
 
 
-def parse_configuration(entries: dict[str, Any], source: str) -> DuelSettings:
+def parse_settings(
+    kind: type[S],
+    entries: dict[str, Any],
+    source: str,
+    *,
+    aside: Collection[str] = (),
+) -> S:
     """Turn nested entries into settings.
 
     Args:
-        entries: Sections and values.
+        kind: Class of the settings.
+        entries: Sections and values; old names are taken for new ones.
         source: Where they come from, for messages.
+        aside: As :func:`load_settings`.
 
     Raises:
-        ConfigurationError: As :func:`load_configuration`.
+        ConfigurationError: As :func:`load_settings`.
     """
+    own = {field.name for field in fields(kind)}  # type: ignore[arg-type]
+    left = set(aside) - own
+    entries = {key: v for key, v in entries.items() if key not in left}
+    for old, new in RENAMED.items():
+        try:
+            entries = _renamed(entries, old, new)
+        except KeyError:
+            raise ConfigurationError(
+                f"{source}: {old} is the old name of {new}, "
+                "give one of them, not both"
+            ) from None
+    entries = _with_tuples(kind, entries)
     hooks: dict[type[Any], Callable[[Any], Any]]
     hooks = {float: _as_float, int: _as_int}
-    config = dacite.Config(strict=True, type_hooks=hooks)
+    config = dacite.Config(strict=True, type_hooks=hooks, cast=[Enum])
     try:
-        return dacite.from_dict(DuelSettings, entries, config)
+        return dacite.from_dict(kind, entries, config)
     except dacite.UnexpectedDataError as error:
         unknown = ", ".join(sorted(error.keys))
         raise ConfigurationError(
             f"{source}: unknown entry {unknown}"
         ) from error
+    except dacite.MissingValueError as error:
+        raise ConfigurationError(
+            f"{source}: missing entry {error.field_path}"
+        ) from error
     except dacite.WrongTypeError as error:
         raise ConfigurationError(
-            f"{source}: {error.field_path} must be a "
-            f"{getattr(error.field_type, '__name__', error.field_type)}, "
-            f"got {error.value!r}"
+            f"{source}: {error.field_path} must be "
+            f"{_type_name(error.field_type)}, got {error.value!r}"
         ) from error
 
 
-def dump_configuration(settings: DuelSettings) -> str:
-    """Text of the configuration that repeats a duel, as TOML."""
+def load_configuration(path: Path) -> DuelSettings:
+    """Read the configuration of a duel; see :func:`load_settings`."""
+    return load_settings(DuelSettings, path)
+
+
+def parse_configuration(entries: dict[str, Any], source: str) -> DuelSettings:
+    """Turn entries into those of a duel; see :func:`parse_settings`."""
+    return parse_settings(DuelSettings, entries, source)
+
+
+def dump_configuration(settings: Any) -> str:
+    """Text of the configuration that gives settings again, as TOML."""
     return tomli_w.dumps(plain_settings(settings))
 
 
-def plain_settings(settings: DuelSettings) -> dict[str, Any]:
+def plain_settings(settings: Any) -> dict[str, Any]:
     """Nested entries of settings, as a configuration has them."""
     entries: dict[str, Any] = _plain(asdict(settings))
     return entries
 
 
-def spelled_settings(settings: DuelSettings) -> dict[str, Any]:
+def spelled_settings(settings: Any) -> dict[str, Any]:
     """Settings for JSON, with what it has no number for spelled out."""
     entries: dict[str, Any] = _spelled(plain_settings(settings))
     return entries
 
 
+def _renamed(entries: dict[str, Any], old: str, new: str) -> dict[str, Any]:
+    """Entries with an old name, if it is there, replaced by the new one.
+
+    Raises:
+        KeyError: If both are there.
+    """
+    section, deeper, old_rest = old.partition(".")
+    new_rest = new.partition(".")[2]
+    if deeper:
+        inner = entries.get(section)
+        if not isinstance(inner, dict):
+            return entries
+        return entries | {section: _renamed(inner, old_rest, new_rest)}
+    if old in entries and new in entries:
+        raise KeyError(old)
+    return {new if key == old else key: v for key, v in entries.items()}
+
+
+def _with_tuples(kind: Any, entries: dict[str, Any]) -> dict[str, Any]:
+    """Entries with tuples for the lists that settings keep as such."""
+    changed = dict(entries)
+    hints = get_type_hints(kind)
+    for key in entries.keys() & hints.keys():
+        value, hint = entries[key], hints[key]
+        if isinstance(value, list) and get_origin(hint) is tuple:
+            changed[key] = tuple(value)
+        elif isinstance(value, dict) and is_dataclass(hint):
+            changed[key] = _with_tuples(hint, value)
+    return changed
+
+
+def _type_name(kind: Any) -> str:
+    if get_origin(kind) is Literal:
+        return f"one of {', '.join(map(str, get_args(kind)))}"
+    return f"a {getattr(kind, '__name__', kind)}"
+
+
 def _spelled(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _spelled(entry) for key, entry in value.items()}
+    if isinstance(value, list):
+        return [_spelled(entry) for entry in value]
     endless = isinstance(value, float) and not isfinite(value)
     return str(value) if endless else value
 
@@ -98,8 +182,14 @@ def _as_int(value: Any) -> Any:
     return value
 
 
+HOOKS: dict[type[Any], Callable[[Any], Any]]
+HOOKS = {float: _as_float, int: _as_int}  # what files have for numbers
+
+
 def _plain(value: Any) -> Any:
     """Leave out what is None, which TOML does not know."""
     if isinstance(value, dict):
         return {k: _plain(v) for k, v in value.items() if v is not None}
+    if isinstance(value, list | tuple):
+        return [_plain(entry) for entry in value]
     return value.value if isinstance(value, Enum) else value

@@ -11,6 +11,7 @@ from ..poses import Array, wrap_angle, wrap_angles
 from ..robots.head import HeadDescription, Mount
 from ..sensing.images import ColourImage, DepthImage, Percept, SonarEcho
 from ..world.robot import SimulatedRobot
+from ..world.truth import TrueState
 
 AGREES = radians(10.0)  # within which a detection is of what it should be
 ASTRAY = radians(20.0)  # error of a belief that misleads
@@ -58,37 +59,45 @@ class Judge:
         colour: Frames of the colour camera.
         depth: Frames of the depth camera.
         stills: Images kept to be looked at, by camera.
-        still_times: When they are to be kept, in [s].
     """
 
     def __init__(
         self,
         robot: SimulatedRobot,
-        other: SimulatedRobot,
+        other: TrueState,
         perception: Perception,
         head: HeadDescription,
         things: list[tuple[float, float]],
+        still_times: tuple[float, ...] = (),
     ) -> None:
         """Watch one robot.
 
         Args:
             robot: The robot.
-            other: What it should see.
+            other: Where what it should see really is.
             perception: What it believes.
             head: Its head.
             things: Places of what else stands in the world, in [m].
+            still_times: When images are to be kept, in [s].
         """
         self._robot, self._other = robot, other
         self._perception, self._head = perception, head
         self._things = things
         model = robot.world.model
         self._body = model.body(f"{robot.name}/{head.body}").id
-        self._true: dict[int, tuple[float, bool, list[float]]] = {}
+        self._true: dict[Percept, tuple[float, bool, list[float]]] = {}
         self.colour, self.depth = Tally(), Tally()
         self.stills: dict[str, list[Still]] = {"colour": [], "depth": []}
         self._rows: list[tuple[float, ...]] = []
-        self.still_times: tuple[float, ...] = ()
-        perception.on_frame = self.judge
+        self._still_times = still_times
+
+    def look(self) -> None:
+        """Judge a tick, after the robot has perceived and before it moves."""
+        eyes = self._robot.eyes
+        for percept in () if eyes is None else eyes.exposed:
+            self.note(percept)
+        for report in self._perception.reports:
+            self.judge(report)
 
     def note(self, percept: Percept) -> None:
         """Note the truth when a percept is taken."""
@@ -97,7 +106,7 @@ class Judge:
         is_colour = isinstance(percept, ColourImage)
         mount = self._head.top if is_colour else self._head.depth
         place, axes = self._camera(mount)
-        target = np.array([*self._other.truth.position, self._height()])
+        target = np.array([*self._other.position, self._height()])
         point = axes.T @ (target - place)
         shown = percept.camera.sees(point)
         if isinstance(percept, DepthImage):
@@ -107,11 +116,11 @@ class Judge:
             self._azimuth(axes.T @ (np.array([x, y, 0.2]) - place))
             for x, y in self._things
         ]
-        self._true[id(percept)] = (self._azimuth(point), shown, others)
+        self._true[percept] = (self._azimuth(point), shown, others)
 
     def judge(self, report: FrameReport) -> None:
         """Compare what an image was found to show with the truth."""
-        truth = self._true.pop(id(report.image), None)
+        truth = self._true.pop(report.image, None)
         if truth is None:
             return
         azimuth, shown, others = truth
@@ -131,13 +140,13 @@ class Judge:
             ):
                 tally.false += 1
         kept = self.stills[kind]
-        if len(kept) < len(self.still_times):
-            if report.image.time >= self.still_times[len(kept)]:
+        if len(kept) < len(self._still_times):
+            if report.image.time >= self._still_times[len(kept)]:
                 kept.append(Still(report, azimuth))
 
     def sample(self, now: float) -> None:
         """Compare the belief of this instant with the truth."""
-        own, other = self._robot.truth, self._other.truth
+        own, other = self._robot.truth, self._other
         x, y = own.position
         u, v = other.position
         bearing = wrap_angle(atan2(v - y, u - x) - own.heading)
@@ -182,7 +191,7 @@ class Judge:
         return place, axes @ mount.axes
 
     def _height(self) -> float:
-        return float(self._other.truth.com[2])
+        return float(self._other.com[2])
 
     @staticmethod
     def _azimuth(point: Array) -> float:

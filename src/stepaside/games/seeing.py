@@ -1,5 +1,6 @@
 """A duel of robots that see: eyes, perception and their judges."""
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..errors import ConfigurationError
@@ -20,8 +21,11 @@ from ..world.eyes import Eyes
 from ..world.graphics import choose_renderer
 from ..world.robot import SimulatedRobot
 from ..world.room import furnisher
-from .assembly import with_cycle
+from ..world.truth import TrueState
+from ..world.world import World
 from .judge import Judge, Still
+from .match import Match
+from .outcome import Outcome
 from .settings import DuelSettings
 
 LOOKS = {"pursuer": BLUE, "evader": RED}  # what each looks for
@@ -35,13 +39,23 @@ class Seeing:
         renderer: What draws the colour images.
         furnish: Puts walls, things and the depth camera into the world.
         perceptions: What each robot sees with, by name.
-        judges: What judges it.
     """
 
     def __init__(
-        self, settings: DuelSettings, description: RobotDescription
+        self,
+        settings: DuelSettings,
+        description: RobotDescription,
+        names: Sequence[str],
+        *,
+        tick: float,
     ) -> None:
-        """Prepare the senses of both robots.
+        """Prepare the senses of some robots.
+
+        Args:
+            settings: Of the duel.
+            description: The robots.
+            names: Who they are.
+            tick: Control period, in [s].
 
         Raises:
             StepAsideError: If the robot has no head or the renderer does
@@ -53,53 +67,74 @@ class Seeing:
         self._head = load_head(description)
         self.renderer = choose_renderer(settings.cameras.colour.renderer)
         self.furnish = furnisher(settings.room, "evader", self._head)
-        tick = with_cycle(settings.physics, settings.body).tick
         self.perceptions = {
-            name: Perception(description, self._head, look, tick=tick)
-            for name, look in LOOKS.items()
-            if name == "evader" or settings.pursuer == "robot"
+            name: Perception(description, self._head, LOOKS[name], tick=tick)
+            for name in names
         }
-        self.judges: dict[str, Judge] = {}
 
-    def open(self, robots: list[SimulatedRobot]) -> None:
-        """Open the eyes of robots that stand in their world."""
+    def eyes(self, world: World, name: str) -> Eyes:
+        """Open the eyes of a robot of a world."""
+        return Eyes(
+            world,
+            name,
+            self._description.torso,
+            self._head,
+            self._settings.cameras,
+            self.renderer,
+            self._settings.seed,
+            with_depth=name == "evader",
+        )
+
+    def judge(self, robot: SimulatedRobot, other: TrueState) -> Judge:
+        """Judge of what a robot sees of another."""
         settings = self._settings
+        # Early on more happens: the times grow as squares.
+        times = tuple(
+            0.98 * settings.duration * ((i + 0.5) / (STILLS - 0.5)) ** 2
+            for i in range(STILLS)
+        )
         places = [(thing.x, thing.y) for thing in settings.room.things]
-        for own, other in (robots, robots[::-1]):
-            if own.name not in self.perceptions:
-                continue
-            judge = Judge(
-                own, other, self.perceptions[own.name], self._head, places
-            )
-            # Early on more happens: the times grow as squares.
-            judge.still_times = tuple(
-                0.98 * settings.duration * ((i + 0.5) / (STILLS - 0.5)) ** 2
-                for i in range(STILLS)
-            )
-            own.eyes = Eyes(
-                own.world,
-                own.name,
-                self._description.torso,
-                self._head,
-                settings.cameras,
-                self.renderer,
-                settings.seed,
-                with_depth=own.name == "evader",
-            )
-            own.eyes.on_exposure = judge.note
-            self.judges[own.name] = judge
+        perception = self.perceptions[robot.name]
+        return Judge(robot, other, perception, self._head, places, times)
 
-    def sample(self, now: float) -> None:
-        """Compare what both believe with the truth."""
+
+class Witness:
+    """Lets the judges look on while a game is played.
+
+    Attributes:
+        judges: One for each robot that sees, by name.
+    """
+
+    def __init__(
+        self, judges: Mapping[str, Judge], renderer: str, *, every: int
+    ) -> None:
+        """Look on.
+
+        Args:
+            judges: Of each robot, by name.
+            renderer: What draws the colour images.
+            every: Control ticks between samples of their beliefs.
+        """
+        self.judges = dict(judges)
+        self._renderer, self._every = renderer, every
+
+    def before(self, match: Match) -> None:
+        """Compare what all believe with the truth, when it is due."""
+        if match.world.ticks % self._every == 0:
+            for judge in self.judges.values():
+                judge.sample(match.world.time)
+
+    def acted(self, match: Match) -> None:
+        """Judge what was seen at this tick."""
         for judge in self.judges.values():
-            judge.sample(now)
+            judge.look()
 
-    def arrays(self) -> dict[str, Array]:
+    def ended(self, match: Match, outcome: Outcome) -> None:
+        """Nothing is left to be seen."""
+
+    def sight(self) -> dict[str, Array]:
         """Beliefs beside the truth, by name of the robot."""
-        return {
-            f"{name}_sight": judge.array()
-            for name, judge in self.judges.items()
-        }
+        return {name: judge.array() for name, judge in self.judges.items()}
 
     def stills(self) -> dict[str, dict[str, list[Still]]]:
         """Images kept to be looked at, by robot and camera."""
@@ -115,7 +150,7 @@ class Seeing:
         shown = sum(t.shown for t in tallies)
         each = {name: j.figures() for name, j in self.judges.items()}
         return {
-            "camera": self.renderer,
+            "camera": self._renderer,
             "detection_rate": (
                 sum(t.found for t in tallies) / shown if shown else None
             ),

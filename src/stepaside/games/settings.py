@@ -1,12 +1,13 @@
 """Settings of a duel: one value that repeats it."""
 
 from dataclasses import dataclass, field
-from math import inf, pi, radians
+from math import pi
 
 from ..control.balance.settings import ControlSettings
 from ..errors import ConfigurationError, check_positive, check_within
 from ..planning import GaitSettings
-from ..strategies.roles import Evasion
+from ..strategies import Evasion
+from ..strategies.registry import check_strategy_name
 from ..world.body_settings import BodySettings
 from ..world.camera_settings import CameraSettings, RoomSettings
 from ..world.person_settings import PersonSettings, check_pursuer
@@ -14,6 +15,8 @@ from ..world.settings import PhysicsSettings, SightSettings
 
 ERROR = ConfigurationError
 SENSING = ("ideal", "cameras")
+PLAYERS = PURSUER, EVADER = ("pursuer", "evader")
+EVASION, PURSUIT = "evasion", "pursuit"  # strategies of the paper
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,41 +47,6 @@ class StartSettings:
 
 
 @dataclass(frozen=True, slots=True)
-class StrategySettings:
-    """How the evader evades.
-
-    Attributes:
-        angle: Between the line of sight and where it walks, in [rad]: pi/2
-            moves aside, 0 moves back.
-        saturated: Whether it turns by (6) instead of (4).
-        safety_radius: Distance at which it begins, in [m].
-        release_distance: Distance at which it ends, in [m].
-        side_hysteresis: How far the bearing of the pursuer must change sign
-            for the side of evasion to change, in [rad].
-    """
-
-    angle: float = pi / 2
-    saturated: bool = False
-    safety_radius: float = 0.8
-    release_distance: float = inf
-    side_hysteresis: float = radians(20.0)
-
-    def __post_init__(self) -> None:
-        """Refuse what no evader can do."""
-        self.role()
-
-    def role(self) -> Evasion:
-        """Role of an evader that has not seen anybody yet."""
-        return Evasion(
-            self.angle,
-            self.safety_radius,
-            self.release_distance,
-            self.saturated,
-            self.side_hysteresis,
-        )
-
-
-@dataclass(frozen=True, slots=True)
 class DuelSettings:
     """Everything that decides a duel.
 
@@ -87,7 +55,11 @@ class DuelSettings:
         duration: Simulated time, in [s].
         robot: Name of a robot or folder of its description.
         start: Where the robots stand at first.
-        strategy: How the evader evades.
+        strategy: How an evader of the paper evades.
+        evader_strategy: What the evader plays: "evasion" as the paper's,
+            another name of :data:`~stepaside.strategies.STRATEGIES`, or
+            FILE.py:NAME.
+        pursuer_strategy: What a pursuing robot plays, likewise.
         gait: How both walk.
         sight: What they see.
         physics: Physics, floor and clock.
@@ -104,7 +76,9 @@ class DuelSettings:
     duration: float = 120.0
     robot: str = "nao"
     start: StartSettings = field(default_factory=StartSettings)
-    strategy: StrategySettings = field(default_factory=StrategySettings)
+    strategy: Evasion = field(default_factory=Evasion)
+    evader_strategy: str = EVASION
+    pursuer_strategy: str = PURSUIT
     gait: GaitSettings = field(default_factory=GaitSettings)
     sight: SightSettings = field(default_factory=SightSettings)
     physics: PhysicsSettings = field(default_factory=PhysicsSettings)
@@ -119,6 +93,13 @@ class DuelSettings:
     def __post_init__(self) -> None:
         """Refuse a negative seed, a duration that is none, other senses."""
         check_pursuer(self.pursuer)
+        check_strategy_name(self.evader_strategy, "evader_strategy")
+        check_strategy_name(self.pursuer_strategy, "pursuer_strategy")
+        if self.pursuer == "person" and self.pursuer_strategy != PURSUIT:
+            raise ConfigurationError(
+                f"pursuer_strategy must be {PURSUIT!r} for a person, who "
+                f"walks as person.path says, got {self.pursuer_strategy!r}"
+            )
         if self.sensing not in SENSING:
             raise ConfigurationError(
                 f"sensing must be one of {', '.join(SENSING)}, "
@@ -130,3 +111,11 @@ class DuelSettings:
             )
         check_within(self.duration, 0.0, 86400.0, "duration", "s", ERROR)
         check_positive(self.duration, "duration", "s", ERROR)
+
+    @property
+    def is_of_the_paper(self) -> bool:
+        """Whether both play as in the paper, so that its theory holds."""
+        return (self.evader_strategy, self.pursuer_strategy) == (
+            EVASION,
+            PURSUIT,
+        )

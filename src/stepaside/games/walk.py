@@ -2,30 +2,26 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from math import ceil, inf
-from time import perf_counter
+from math import inf
 
 import mujoco
 
-from ..control import Phase
 from ..control.balance.mpc import MpcResult
 from ..control.balance.settings import ControlSettings
-from ..errors import (
-    ConfigurationError,
-    ReachError,
-    check_positive,
-    check_within,
-)
+from ..errors import ConfigurationError, check_positive, check_within
 from ..planning import Direction, GaitSettings
 from ..poses import Array, Pose
 from ..robots.description import load_robot
 from ..sensing.measurement import Sighting
-from ..strategies.roles import Walk
-from ..world.body_settings import BodySettings
+from ..strategies import Walk
+from ..world.body_settings import BodySettings, with_cycle
 from ..world.push import Push
 from ..world.settings import PhysicsSettings
 from ..world.world import World
-from .assembly import assemble, with_cycle
+from .match import Match, Observer, play
+from .outcome import Outcome
+from .standing import stand_walker
+from .track import margin_of
 from .walk_record import WalkRecorder
 
 NAME = "walker"
@@ -68,90 +64,108 @@ class WalkSettings:
         check_within(self.bearing, -3.2, 3.2, "bearing", "rad", ERROR)
 
 
-@dataclass(frozen=True, slots=True)
-class WalkResult:
+@dataclass(frozen=True, slots=True, eq=False)
+class WalkRun:
     """A walk as it went.
 
     Attributes:
         settings: What decided it.
-        outcome: "completed", "fall" or "interrupted".
+        outcome: How it ended.
+        message: What ended it, in words.
         duration: Simulated time, in [s].
         arrays: The record, by name; see :class:`WalkRecorder`.
         steps: Footsteps made.
         adapted: Footsteps that feedback moved.
-        margins: Least ZMP margin of each plan walked, in [m].
+        zmp_margin: Least ZMP margin of the plans walked, in [m].
         answers: Of the solver of the MPC, if there is one.
         push_impulse: Impulse given, in [N s], in the world.
         wall_time: Time that it took, in [s].
     """
 
     settings: WalkSettings
-    outcome: str
+    outcome: Outcome
+    message: str
     duration: float
     arrays: dict[str, Array]
     steps: int
     adapted: int
-    margins: list[float]
-    answers: list[MpcResult]
+    zmp_margin: float | None
+    answers: tuple[MpcResult, ...]
     push_impulse: tuple[float, float]
     wall_time: float
 
 
-class Walker:
+class Walking(Match):
     """One robot in a world, ready to walk.
 
     Attributes:
         settings: What decides the walk.
-        world: The physics.
-        robot: The robot.
-        scheme: What drives it.
+        walker: Who walks.
+        recorder: What keeps the record.
     """
 
-    def __init__(self, settings: WalkSettings) -> None:
+    def __init__(
+        self, settings: WalkSettings, *, recorded: bool = True
+    ) -> None:
         """Build the world and stand the robot in it.
+
+        Args:
+            settings: What decides the walk.
+            recorded: Whether to keep what the figures need.
 
         Raises:
             StepAsideError: If the settings ask for what cannot be.
         """
         self.settings = settings
         description = load_robot(settings.robot)
-        self.world = World(
+        world = World(
             {NAME: description},
             with_cycle(settings.physics, settings.body),
             settings.body,
             settings.seed,
         )
-        direction = (
-            Direction.BACKWARD if settings.backward else Direction.FORWARD
-        )
-        self.robot, self.scheme = assemble(
-            self.world,
+        back, ahead = Direction.BACKWARD, Direction.FORWARD
+        self.walker = stand_walker(
+            world,
             NAME,
             description,
             Pose(0.0, 0.0, 0.0),
-            Walk(settings.bearing, direction),
+            Walk(settings.bearing, back if settings.backward else ahead),
             gait=settings.gait,
             control=settings.control,
             body=settings.body,
             seed=settings.seed,
             sighting=Sighting(0.0, 0.0, inf),
         )
-        mujoco.mj_forward(self.world.model, self.world.data)
+        mujoco.mj_forward(world.model, world.data)
         if settings.pushes:
-            self.robot.push(*settings.pushes)
+            self.walker.push(*settings.pushes)
+        self.recorder = WalkRecorder(self.walker)
+        observers: list[Observer] = [self.recorder] if recorded else []
+        super().__init__(world, [self.walker], observers)
 
-    def tick(self) -> bool:
-        """Walk for one control tick; false if the robot fell."""
-        robot = self.robot
-        try:
-            targets = self.scheme.update(robot.read())
-        except ReachError:
-            # Legs that cannot follow any more belong to a robot that falls.
-            return False
-        robot.write(targets)
-        robot.step()
-        fallen = self.scheme.phase is Phase.FALLEN
-        return not (fallen or robot.truth.has_fallen)
+    def run(self, outcome: Outcome, wall_time: float) -> WalkRun:
+        """What was walked, as a value.
+
+        Args:
+            outcome: How it ended.
+            wall_time: Time that it took, in [s].
+        """
+        recorder, walker = self.recorder, self.walker
+        pusher = walker.robot.pusher
+        return WalkRun(
+            settings=self.settings,
+            outcome=outcome,
+            message=self.message,
+            duration=self.world.time,
+            arrays=recorder.arrays(),
+            steps=recorder.steps,
+            adapted=walker.scheme.balance.adapted,
+            zmp_margin=margin_of(recorder.plans),
+            answers=tuple(recorder.solved),
+            push_impulse=(0.0, 0.0) if pusher is None else pusher.impulse,
+            wall_time=wall_time,
+        )
 
 
 def run_walk(
@@ -159,49 +173,23 @@ def run_walk(
     report: Callable[[float], None] | None = None,
     *,
     record: bool = True,
-) -> WalkResult:
+) -> WalkRun:
     """Walk to the end, or to a fall.
 
     Args:
         settings: What decides the walk.
         report: Called about five times a second with the simulated time. A
             KeyboardInterrupt while walking ends the walk and keeps it.
-        record: Whether to keep what the summary needs.
+        record: Whether to keep what the figures need.
 
     Raises:
         StepAsideError: If the settings ask for what cannot be.
     """
-    walker = Walker(settings)
-    recorder = WalkRecorder(walker.robot, walker.scheme)
-    world = walker.world
-    ticks = ceil(settings.duration / world.physics.tick - 1e-9)
-    outcome = "completed"
-    began = told = perf_counter()
-    try:
-        while world.ticks < ticks:
-            if not walker.tick():
-                outcome = "fall"
-                break
-            if record and world.ticks % recorder.every == 0:
-                recorder.sample()
-            if report is not None and world.ticks % 50 == 0:
-                now = perf_counter()
-                if now - told > 0.2:
-                    told = now
-                    report(world.time)
-    except KeyboardInterrupt:
-        outcome = "interrupted"
-    scheme, pusher = walker.scheme, walker.robot.pusher
-    feedback = scheme.stabiliser
-    return WalkResult(
-        settings=settings,
-        outcome=outcome,
-        duration=world.time,
-        arrays=recorder.arrays(),
-        steps=len(scheme.landings),
-        adapted=feedback.adapted if feedback else 0,
-        margins=scheme.margins if record else [],
-        answers=feedback.zmp_feedback.answers if feedback else [],
-        push_impulse=(0.0, 0.0) if pusher is None else pusher.impulse,
-        wall_time=perf_counter() - began,
+    walking = Walking(settings, recorded=record)
+    told = report
+    outcome, wall_time = play(
+        walking,
+        settings.duration,
+        None if told is None else lambda progress: told(progress.time),
     )
+    return walking.run(outcome, wall_time)

@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 
 from ..poses import Array
-from .walk import WalkResult
+from .walk import WalkRun
 
 WARM_UP = 3.0  # left out of the figures, in [s]
 
 
-def summarise_walk(result: WalkResult) -> dict[str, Any]:
+def summarise_walk(result: WalkRun) -> dict[str, Any]:
     """Figures of a walk after its first three seconds, ready for JSON.
 
     Errors are in the frame of the support foot; speed and yaw are compared
@@ -21,9 +21,9 @@ def summarise_walk(result: WalkResult) -> dict[str, Any]:
     arrays = result.arrays
     steady = arrays["time"] >= WARM_UP
     a = {name: values[steady] for name, values in arrays.items()}
-    margins = result.margins
     return {
-        "outcome": result.outcome,
+        "outcome": result.outcome.value,
+        "message": result.message,
         "seed": settings.seed,
         "duration_s": round(result.duration, 9),
         "steps": result.steps,
@@ -53,13 +53,13 @@ def summarise_walk(result: WalkResult) -> dict[str, Any]:
             )
         },
         "tilt_max_deg": _tilt(a),
-        "min_zmp_margin_m": min(margins) if margins else None,
+        "min_zmp_margin_m": result.zmp_margin,
         "qp": _solver(result),
         "real_time_factor": result.duration / max(result.wall_time, 1e-9),
     }
 
 
-def _solver(result: WalkResult) -> dict[str, Any] | None:
+def _solver(result: WalkRun) -> dict[str, Any] | None:
     """Figures of the MPC's solver; None without one."""
     answers = result.answers
     if not answers:

@@ -1,13 +1,13 @@
 """From percepts to a line of sight, and from it to where the head looks."""
 
 from collections import deque
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import atan2, cos, hypot, radians, sin
 
 from ..poses import Array, Pose, wrap_angle
 from ..robots.body_pose import BodyKinematics, BodyPose
 from ..robots.description import RobotDescription
+from ..robots.forward import ForwardKinematics
 from ..robots.head import HeadDescription, Mount
 from ..sensing.colour_detector import (
     Appearance,
@@ -21,7 +21,6 @@ from ..sensing.track import Observation, Track
 from ..sensing.tracker import Tracker
 from .gaze import Gaze
 from .observing import angle_of, observe_obstacle, observe_shadow, observe_trim
-from .tilt import TiltFilter
 
 MEMORY = 1.0  # how long past poses are kept, in [s]
 FRESH = 0.25  # age at which a distance is worth hearing again, in [s]
@@ -59,7 +58,8 @@ class Perception:
             first.
         sighting: The other as it is believed to be now; None if lost.
         searching: Whether it is lost and looked for.
-        on_frame: Called with what each image shows.
+        reports: What the images that arrived at the last tick show.
+        forward: Kinematics of the measured body, for balance to share.
     """
 
     def __init__(
@@ -79,8 +79,8 @@ class Perception:
             tick: Control period, in [s].
         """
         self._head = head
-        self._kinematics = BodyKinematics(description, head)
-        self._tilt = TiltFilter()
+        self.forward = ForwardKinematics(description, head.body)
+        self._kinematics = BodyKinematics(description, head, self.forward)
         self._detector = ColourDetector(appearance)
         self._gaze = Gaze(head.coupling, tick)
         self._tracker = Tracker()
@@ -88,10 +88,14 @@ class Perception:
         self.body: BodyPose | None = None
         self.sighting: Sighting | None = None
         self.searching = True
-        self.on_frame: Callable[[FrameReport], None] = lambda report: None
+        self.reports: list[FrameReport] = []
 
     def see(
-        self, measurement: Measurement, support: Pose, left_supports: bool
+        self,
+        measurement: Measurement,
+        support: Pose,
+        left_supports: bool,
+        tilt: tuple[float, float],
     ) -> Sighting | None:
         """Take in what the sensors give at one tick.
 
@@ -99,18 +103,17 @@ class Perception:
             measurement: What they give.
             support: Pose of the standing foot in odometry.
             left_supports: Whether that is the left one.
+            tilt: Roll and pitch of the torso, in [rad].
 
         Returns:
             Where the other is now, as far as is known.
         """
         now = measurement.time
-        tilt = self._tilt.update(
-            now, measurement.gyro, measurement.accelerometer
-        )
         self.body = body = self._kinematics.pose(
             now, measurement.joint_positions, support, left_supports, tilt
         )
         self._poses.append(body)
+        self.reports.clear()
         for percept in measurement.percepts:
             self._take(percept, self._pose_at(percept.time), now)
         track = self._tracker.main(now, *body.torso[:2])
@@ -172,7 +175,7 @@ class Perception:
             azimuths = (-angle_of(image, found.column),)
             look, tracks = self._detector.appearance, self._tracker.tracks
             seen = [observe_trim(image, found, place, axes, look, tracks)]
-        self.on_frame(FrameReport(image, azimuths, colour=found))
+        self.reports.append(FrameReport(image, azimuths, colour=found))
         self._observe(seen, image, place, axes, named=True)
 
     def _take_depth(
@@ -183,7 +186,7 @@ class Perception:
         scene = detect_obstacles(image, place, axes, own)
         azimuths = tuple(o.azimuth for o in scene.obstacles)
         azimuths += tuple(s.azimuth for s in scene.shadows)
-        self.on_frame(FrameReport(image, azimuths, depth=scene))
+        self.reports.append(FrameReport(image, azimuths, depth=scene))
         seen = [observe_obstacle(image, o) for o in scene.obstacles]
         self._observe(seen, image, place, axes, named=False)
         for shadow in scene.shadows:

@@ -5,7 +5,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import PlanError, check_finite, check_positive
+from ..errors import (
+    PlanError,
+    check_finite,
+    check_positive,
+    check_within,
+)
 from ..poses import Array, Pose
 from .footsteps import Foot, place_footsteps
 from .path import Direction, UnicycleTrajectory
@@ -58,6 +63,7 @@ class ManeuverPlanner:
         swing_start: Pose | None = None,
         standing: bool = False,
         saturated: bool = False,
+        speed_factor: float = 1.0,
         count: int | None = None,
     ) -> ManeuverPlan:
         r"""Plan one maneuver (Fig. 4, red box).
@@ -74,6 +80,9 @@ class ManeuverPlanner:
             standing: Whether the robot starts from standing: then the plan
                 begins with a double support, else with a single support.
             saturated: Whether the template turns by (6) instead of (8).
+            speed_factor: Share of the gait's speed and stride, above 0 and
+                up to 1. The steps take as long as ever, so the turning is
+                the same; to stop, plan a halt.
             count: Footsteps; by default the horizon of the settings.
 
         Returns:
@@ -81,21 +90,27 @@ class ManeuverPlanner:
             ones.
 
         Raises:
-            PlanError: If the bearing or the state is not finite, or the state
-                is missing.
+            PlanError: If the bearing or the state is not finite, the state is
+                missing, or the speed factor is none.
         """
+        check_positive(speed_factor, "speed_factor", "1")
+        check_within(speed_factor, 0.0, 1.0, "speed_factor", "1")
         gait = self.settings
         schedule = self.schedule(
             gait.horizon if count is None else count, standing=standing
         )
         trajectory = UnicycleTrajectory(
-            bearing, gait.speed, gait.gain, direction, saturated
+            bearing,
+            speed_factor * gait.speed,
+            gait.gain,
+            direction,
+            saturated,
         )
         placements = np.zeros((schedule.count + 2, 3))
         placements[2:] = place_footsteps(
             trajectory,
             count=schedule.count,
-            stride=gait.stride,
+            stride=speed_factor * gait.stride,
             foot_spacing=gait.foot_spacing,
             first_foot=first_foot,
         )

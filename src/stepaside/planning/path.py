@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 from enum import Enum
-from math import copysign
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import laws
 from ..errors import check_finite, check_positive
 from ..poses import Array
 
@@ -58,10 +58,10 @@ class UnicycleTrajectory:
             Poses (x [m], y [m], theta [rad]), columns. Shape (n, 3).
         """
         t = np.asarray(times, dtype=np.float64)
-        rate = self.gain * self.bearing
+        rate = laws.proportional_rate(self.bearing, self.gain)
         arc = 1.0 / self.gain  # time spent on it, in [s]
         if self.saturated:
-            rate = copysign(self.gain, self.bearing)
+            rate = laws.saturated_rate(self.bearing, self.gain)
             arc *= abs(self.bearing)
         turning = np.minimum(t, arc)
         poses = np.empty((*t.shape, 3))

@@ -4,14 +4,13 @@ from dataclasses import dataclass, field
 from math import sqrt
 from typing import Literal
 
+from ..constants import GRAVITY
 from ..errors import (
     PlanError,
     check_not_negative,
     check_positive,
     check_within,
 )
-
-GRAVITY = 9.81  # [m/s^2]
 
 
 @dataclass(frozen=True, slots=True)

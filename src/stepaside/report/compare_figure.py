@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..games.summary import cycle_mean
-from .replay import Run
+from ..games.circle import cycle_mean
+from ..games.run import Run
 from .style import EVADER, PURSUER, THEORY, plt
 
 LINES = ("-", "--", ":", "-.")
@@ -26,7 +26,7 @@ def draw_comparison(runs: Sequence[Run], file: Path) -> None:
         cycle = 2.0 * run.settings.gait.step_duration
         shade = 1.0 - 0.6 * (number // len(LINES)) / max(1, len(runs))
         for name, colour in (("pursuer", PURSUER), ("evader", EVADER)):
-            place = run.arrays[f"{name}_torso"]
+            place = run.tracks[name].torso
             axes["path"].plot(
                 place[:, 0],
                 place[:, 1],

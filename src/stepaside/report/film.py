@@ -14,11 +14,13 @@ import mujoco
 import numpy as np
 
 from ..errors import ConfigurationError
-from ..games.duel import NAMES
+from ..games.folder import load_run
+from ..games.run import Run
+from ..games.settings import PLAYERS
 from ..sensing.images import Pixels
 from ..world.graphics import RAYCAST, Screen, choose_renderer
 from .film_layers import decorate
-from .replay import Run, Stage, load_run
+from .stage import Stage
 
 CHUNK = 15  # pictures that one worker draws at a time
 TRAIL = 20.0  # how long traces are, in [s]
@@ -70,7 +72,7 @@ class Cinema:
             self._stage.model, shot.width, shot.height, backend
         )
         middle = np.concatenate(
-            [run.arrays[f"{name}_torso"][:, :2] for name in NAMES]
+            [run.tracks[name].torso[:, :2] for name in PLAYERS]
         )
         low, high = middle.min(axis=0), middle.max(axis=0)
         self._center = 0.5 * (low + high)
@@ -87,7 +89,7 @@ class Cinema:
         camera.azimuth, camera.elevation = 60.0, -38.0
         center, away = self._center, 0.9 + 0.95 * self._extent
         if shot.following:
-            places = [run.arrays[f"{n}_torso"][index, :2] for n in NAMES]
+            places = [run.tracks[n].torso[index, :2] for n in PLAYERS]
             center = 0.5 * (places[0] + places[1])
             away = 1.1 + float(np.hypot(*(places[1] - places[0])))
         camera.lookat[:] = [*center, 0.2]

@@ -3,9 +3,9 @@
 import mujoco
 import numpy as np
 
-from ..games.duel import NAMES
+from ..games.run import Run
+from ..games.settings import PLAYERS
 from ..poses import Array
-from .replay import Run
 from .style import COLOURS, EVADER, THEORY
 
 THICK = 0.005  # of a line, in [m]
@@ -26,16 +26,18 @@ def decorate(
     now = float(run.times[index])
     first = int(np.searchsorted(run.times, now - trail))
     every = max(1, (index - first) // 120)
-    for name in NAMES:
-        com = run.arrays[f"{name}_com"][first : index + 1 : every, :2]
+    for name in PLAYERS:
+        com = run.tracks[name].com[first : index + 1 : every, :2]
         _lines(scene, com, 0.004, COLOURS[name])
-        landings = run.arrays[f"{name}_landings"]
+        landings = run.tracks[name].landings
+        if landings is None:
+            continue
         shown = landings[
             (landings[:, 0] <= now + 0.5) & (landings[:, 0] > now - trail)
         ]
         for _, _, x, y, heading in shown.tolist():
             _print(scene, x, y, heading, COLOURS[name])
-    places = [run.arrays[f"{n}_torso"][index, :2] for n in NAMES]
+    places = [run.tracks[n].torso[index, :2] for n in PLAYERS]
     sight = np.array([[*places[0], 0.25], [*places[1], 0.25]])
     _line(scene, sight[0], sight[1], 0.5 * THICK, THEORY)
     radius = run.settings.strategy.safety_radius

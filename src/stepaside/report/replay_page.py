@@ -10,11 +10,13 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from ..games.duel import NAMES
-from ..games.people import walkers_of
+from ..games.duel import walkers_of
+from ..games.run import Run
+from ..games.settings import PLAYERS
+from ..games.track import Track
 from ..poses import Array
 from ..robots.description import load_robot
-from .replay import Run, Stage
+from .stage import Stage
 from .style import COLOURS
 
 RATE = 20.0  # frames a second
@@ -96,7 +98,7 @@ def _content(run: Run) -> dict[str, Any]:
     torso = load_robot(run.settings.robot).torso
     words = [run.words(int(index)) for index in chosen]
     known = list(dict.fromkeys(words))
-    both = np.concatenate([run.arrays[f"{n}_torso"][:, :2] for n in NAMES])
+    both = np.concatenate([t.torso[:, :2] for t in run.tracks.values()])
     low, high = both.min(axis=0), both.max(axis=0)
     return {
         "times": np.round(run.times[chosen], 3).tolist(),
@@ -114,13 +116,11 @@ def _content(run: Run) -> dict[str, Any]:
                     else f"{name}/trunk"
                 ).id,
                 "trace": np.round(
-                    run.arrays[f"{name}_com"][chosen, :2], 3
+                    run.tracks[name].com[chosen, :2], 3
                 ).tolist(),
-                "landings": np.round(
-                    run.arrays[f"{name}_landings"], 3
-                ).tolist(),
+                "landings": _landings(run.tracks[name]),
             }
-            for name in NAMES
+            for name in PLAYERS
         ],
         "distance": np.round(run.distance[chosen], 3).tolist(),
         "angle": np.round(run.orientation[chosen], 1).tolist(),
@@ -132,6 +132,14 @@ def _content(run: Run) -> dict[str, Any]:
         "middle": np.round(0.5 * (low + high), 3).tolist(),
         "away": 1.2 + 0.9 * float(np.hypot(*(high - low))),
     }
+
+
+def _landings(track: Track) -> list[list[float]]:
+    """Footsteps of a player; none of one who plans none."""
+    if track.landings is None:
+        return []
+    rows: list[list[float]] = np.round(track.landings, 3).tolist()
+    return rows
 
 
 def _chosen(times: Array) -> np.ndarray:

@@ -1,22 +1,15 @@
 """Run folders: a duel on disk, whole or not at all."""
 
-import json
 import os
 import shutil
 import tempfile
 from pathlib import Path
-from typing import Any
-
-import numpy as np
 
 from ..errors import ConfigurationError
-from ..games.configuration import dump_configuration
-from ..games.duel import DuelResult
+from ..games.folder import write_record
+from ..games.run import Run
 from .duel_figure import draw_duel
 
-CONFIGURATION = "configuration.toml"
-SUMMARY = "summary.json"
-TRAJECTORIES = "trajectories.npz"
 FIGURE = "duel.png"
 SIGHT = "sight.png"
 
@@ -51,17 +44,14 @@ def free_folder(parent: Path, name: str) -> Path:
     return folder
 
 
-def write_run(
-    folder: Path, result: DuelResult, summary: dict[str, Any]
-) -> Path:
-    """Write a duel: configuration, summary, trajectories and figure.
+def write_run(folder: Path, run: Run) -> Path:
+    """Write a duel: configuration, summary, trajectories and figures.
 
     The folder appears when it is complete.
 
     Args:
         folder: Where it shall lie.
-        result: The duel.
-        summary: Its figures.
+        run: The duel.
 
     Returns:
         Path of the figure.
@@ -69,20 +59,12 @@ def write_run(
     folder.parent.mkdir(parents=True, exist_ok=True)
     draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=folder.parent))
     try:
-        (draft / CONFIGURATION).write_text(
-            dump_configuration(result.settings), encoding="utf-8"
-        )
-        (draft / SUMMARY).write_text(
-            json.dumps(summary, indent=2) + "\n", encoding="utf-8"
-        )
-        np.savez_compressed(
-            draft / TRAJECTORIES, allow_pickle=False, **result.arrays
-        )
-        draw_duel(result.arrays, summary, result.settings, draft / FIGURE)
-        if result.stills:
+        write_record(draft, run)
+        draw_duel(run, draft / FIGURE)
+        if run.stills:
             from .sight_figure import draw_sight
 
-            draw_sight(result, draft / SIGHT)
+            draw_sight(run, draft / SIGHT)
         if folder.is_dir():
             folder.rmdir()
         draft.chmod(0o755)

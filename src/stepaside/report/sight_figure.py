@@ -7,8 +7,9 @@ from typing import Any
 import cv2
 import numpy as np
 
-from ..games.duel import DuelResult
 from ..games.judge import Still
+from ..games.run import Run
+from ..games.track import Track
 from ..poses import Array, wrap_angles
 from ..sensing.images import ColourImage, DepthImage, Pixels
 from .soles import draw_heading
@@ -24,20 +25,21 @@ ROWS = (
 SCALE = 3  # by which depth images are enlarged
 
 
-def draw_sight(result: DuelResult, path: Path) -> None:
+def draw_sight(run: Run, path: Path) -> None:
     """Write the film strip of a duel with cameras.
 
     Args:
-        result: The duel.
+        run: The duel.
         path: File, of a format that its suffix tells.
     """
-    count = max(len(result.stills[name][kind]) for name, kind, _ in ROWS)
-    count = max(count, 1)
-    figure = plt.figure(figsize=(2.45 * count, 10.6))
-    ratios = [1.0, 1.0, 1.0, 1.1, 0.8, 0.8]
-    grid = figure.add_gridspec(6, count, height_ratios=ratios)
-    for row, (name, kind, label) in enumerate(ROWS):
-        for column, still in enumerate(result.stills[name][kind]):
+    rows = [row for row in ROWS if row[0] in run.stills]
+    count = max(1, *(len(run.stills[name][kind]) for name, kind, _ in rows))
+    ratios = [1.0] * len(rows) + [1.1, 0.8, 0.8]
+    height = 1.86 * sum(ratios)
+    figure = plt.figure(figsize=(2.45 * count, height))
+    grid = figure.add_gridspec(len(ratios), count, height_ratios=ratios)
+    for row, (name, kind, label) in enumerate(rows):
+        for column, still in enumerate(run.stills[name][kind]):
             axes = figure.add_subplot(grid[row, column])
             axes.imshow(picture(still))
             axes.set(xticks=[], yticks=[])
@@ -46,12 +48,12 @@ def draw_sight(result: DuelResult, path: Path) -> None:
                 axes.set_title(f"{still.report.image.time:.1f} s")
             if column == 0:
                 axes.set_ylabel(label)
-    for column, still in enumerate(result.stills["pursuer"]["colour"]):
-        axes = figure.add_subplot(grid[3, column])
-        _draw_top(axes, result, still.report.image.time)
-    _draw_errors(figure, grid, result)
+    for column, still in enumerate(run.stills[rows[0][0]]["colour"]):
+        axes = figure.add_subplot(grid[len(rows), column])
+        _draw_top(axes, run, still.report.image.time)
+    _draw_errors(figure, grid, run)
     figure.suptitle(
-        f"What the robots saw, seed {result.settings.seed}: detections in "
+        f"What the robots saw, seed {run.settings.seed}: detections in "
         "green, the true direction as a tick",
         fontsize=11,
     )
@@ -118,20 +120,18 @@ def _columns(
     return int(columns[0]), int(columns[1])
 
 
-def _draw_top(axes: Any, result: DuelResult, time: float) -> None:
+def _draw_top(axes: Any, run: Run, time: float) -> None:
     """Top view at a time, with the way so far."""
-    arrays = result.arrays
-    times = arrays["times_s"]
+    times = run.times
     index = min(int(np.searchsorted(times, time)), len(times) - 1)
     for name, colour in COLOURS.items():
-        way = arrays[f"{name}_torso"][: index + 1]
+        track = run.tracks[name]
+        way = track.torso[: index + 1]
         axes.plot(way[:, 0], way[:, 1], color=colour, lw=1.0)
         draw_heading(axes, way[-1], colour, 0.28)
-        _draw_belief(axes, arrays, name, time, way[-1])
-    every = np.concatenate(
-        [arrays["pursuer_torso"][:, :2], arrays["evader_torso"][:, :2]]
-    )
-    for thing in result.settings.room.things:
+        _draw_belief(axes, track, colour, time, way[-1])
+    every = np.concatenate([t.torso[:, :2] for t in run.tracks.values()])
+    for thing in run.settings.room.things:
         axes.plot(thing.x, thing.y, "s", color="#888888", ms=5)
     low, high = every.min(axis=0) - 0.3, every.max(axis=0) + 0.3
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
@@ -139,14 +139,12 @@ def _draw_top(axes: Any, result: DuelResult, time: float) -> None:
 
 
 def _draw_belief(
-    axes: Any,
-    arrays: dict[str, Array],
-    name: str,
-    time: float,
-    torso: Array,
+    axes: Any, track: Track, colour: str, time: float, torso: Array
 ) -> None:
     """Line from a robot to where it believes the other is."""
-    rows = arrays[f"{name}_sight"]
+    rows = track.sight
+    if rows is None or not len(rows):
+        return
     row = rows[min(int(np.searchsorted(rows[:, 0], time)), len(rows) - 1)]
     _, bearing, distance = row[:3]
     if not np.isfinite(bearing):
@@ -156,18 +154,20 @@ def _draw_belief(
     axes.plot(
         [torso[0], end[0]],
         [torso[1], end[1]],
-        color=COLOURS[name],
+        color=colour,
         lw=0.8,
         ls="--",
     )
 
 
-def _draw_errors(figure: Any, grid: Any, result: DuelResult) -> None:
+def _draw_errors(figure: Any, grid: Any, run: Run) -> None:
     """Bearing and distance against the truth, over time."""
-    upper = figure.add_subplot(grid[4, :])
-    lower = figure.add_subplot(grid[5, :], sharex=upper)
+    upper = figure.add_subplot(grid[-2, :])
+    lower = figure.add_subplot(grid[-1, :], sharex=upper)
     for name, colour in COLOURS.items():
-        rows = result.arrays[f"{name}_sight"]
+        rows = run.tracks[name].sight
+        if rows is None:
+            continue
         off = np.degrees(wrap_angles(rows[:, 1] - rows[:, 3]))
         upper.plot(rows[:, 0], off, color=colour, lw=0.7, label=name)
         away = rows[:, 2] - rows[:, 4]
@@ -178,7 +178,7 @@ def _draw_errors(figure: Any, grid: Any, result: DuelResult) -> None:
     ):
         axes.axhline(0.0, color=THEORY, lw=0.6)
         axes.set(ylabel=label, ylim=(-limit, limit))
-    if result.triggered_at is not None:
-        upper.axvline(result.triggered_at, color=THEORY, ls=":", lw=0.8)
+    if run.summary.triggered_at_s is not None:
+        upper.axvline(run.summary.triggered_at_s, color=THEORY, ls=":", lw=0.8)
     upper.legend(loc="upper right", ncols=2, fontsize=8)
     lower.set_xlabel("time [s]")

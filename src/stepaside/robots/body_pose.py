@@ -3,11 +3,11 @@
 from dataclasses import dataclass
 from math import atan2, cos, sin
 
-import mujoco
 import numpy as np
 
 from ..poses import Array, Pose
 from .description import RobotDescription
+from .forward import ForwardKinematics
 from .head import HeadDescription, rotation
 
 
@@ -40,25 +40,23 @@ class BodyKinematics:
     """Forward kinematics from the foot that stands to the head."""
 
     def __init__(
-        self, description: RobotDescription, head: HeadDescription
+        self,
+        description: RobotDescription,
+        head: HeadDescription,
+        kinematics: ForwardKinematics | None = None,
     ) -> None:
-        """Compile the robot's model, alone and without physics."""
-        self._model = model = description.compile()
-        self._data = data = mujoco.MjData(model)
-        names = [
-            model.joint(model.actuator_trnid[i, 0]).name
-            for i in range(model.nu)
-        ]
-        self._at = np.array([model.joint(n).qposadr[0] for n in names])
+        """Find the head among the joints.
+
+        Args:
+            description: The robot.
+            head: Its head.
+            kinematics: Of the robot with this head, if it is open already.
+        """
+        if kinematics is None:
+            kinematics = ForwardKinematics(description, head.body)
+        self._kinematics = kinematics
+        names = kinematics.tree.motors
         self.yaw, self.pitch = names.index(head.yaw), names.index(head.pitch)
-        feet = (description.left_foot, description.right_foot)
-        self._feet = [model.site(name).id for name in feet]
-        self._head = model.body(head.body).id
-        self._coupled = [
-            (model.joint(f).qposadr[0], model.joint(leader).qposadr[0])
-            for f, leader in description.coupled_joints(model).items()
-        ]
-        data.qpos[:7] = 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0
 
     def pose(
         self,
@@ -77,19 +75,15 @@ class BodyKinematics:
             left_supports: Whether that is the left one.
             tilt: Roll and pitch of the torso, in [rad].
         """
-        data = self._data
-        data.qpos[self._at] = joints
-        for follower, leader in self._coupled:
-            data.qpos[follower] = data.qpos[leader]
-        mujoco.mj_kinematics(self._model, data)
-        foot = self._feet[0 if left_supports else 1]
+        posture = self._kinematics.posture(joints)
+        foot = 0 if left_supports else 1
         lean = rotation(*tilt, 0.0)
         # Heading: that of the foot, less its own in the levelled torso.
-        ahead = lean @ data.site_xmat[foot].reshape(3, 3)[:, 0]
+        ahead = lean @ posture.frames[foot, :, 0]
         heading = support.theta - atan2(ahead[1], ahead[0])
         c, s = cos(heading), sin(heading)
         axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ lean
-        place = -(axes @ data.site_xpos[foot])
+        place = -(axes @ posture.feet[foot])
         place[0] += support.x
         place[1] += support.y
         return BodyPose(
@@ -97,8 +91,8 @@ class BodyKinematics:
             Pose(float(place[0]), float(place[1]), heading),
             place,
             axes,
-            place + axes @ data.xpos[self._head],
-            axes @ data.xmat[self._head].reshape(3, 3),
+            place + axes @ posture.head,
+            axes @ posture.head_axes,
             float(joints[self.yaw]),
             float(joints[self.pitch]),
         )

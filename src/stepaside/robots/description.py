@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field, fields
 from importlib.resources import files
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..errors import ModelError
 
@@ -67,10 +68,20 @@ class RobotDescription:
         """Compile the model and check that it has what is described.
 
         Raises:
-            ModelError: If it lacks a body, site, joint or actuator.
+            ModelError: If MuJoCo cannot compile it, or it lacks a body,
+                site, joint or actuator.
         """
-        model = self.spec().compile()
-        self._check(model)
+        try:
+            model = self.spec().compile()
+        except ValueError as error:
+            path = self.folder / self.model
+            raise ModelError(f"{path} does not compile: {error}") from error
+        self.check(
+            {model.body(i).name for i in range(model.nbody)},
+            {model.site(i).name for i in range(model.nsite)},
+            {model.joint(i).name for i in range(model.njnt)},
+            {model.actuator(i).name for i in range(model.nu)},
+        )
         return model
 
     def coupled_joints(self, model: mujoco.MjModel) -> dict[str, str]:
@@ -98,11 +109,25 @@ class RobotDescription:
             coupled[follower] = leader
         return coupled
 
-    def _check(self, model: mujoco.MjModel) -> None:
-        bodies = {model.body(i).name for i in range(model.nbody)}
-        sites = {model.site(i).name for i in range(model.nsite)}
-        joints = {model.joint(i).name for i in range(model.njnt)}
-        motors = {model.actuator(i).name for i in range(model.nu)}
+    def check(
+        self,
+        bodies: Collection[str],
+        sites: Collection[str],
+        joints: Collection[str],
+        motors: Collection[str],
+    ) -> None:
+        """Check that a model has what is described.
+
+        Args:
+            bodies: Names of its bodies.
+            sites: Names of its sites.
+            joints: Names of its joints.
+            motors: Names of its actuators.
+
+        Raises:
+            ModelError: If a body, site, joint or actuator is missing; names
+                those that there are.
+        """
         self._require("torso", [self.torso], "body", bodies)
         feet = [self.left_foot, self.right_foot]
         self._require("foot", feet, "site", sites)
@@ -113,7 +138,11 @@ class RobotDescription:
         self._require("actuator", motors, "speed limit", self.speed_limits)
 
     def _require(
-        self, key: str, wanted: Any, kind: str, existing: Any
+        self,
+        key: str,
+        wanted: Iterable[str],
+        kind: str,
+        existing: Collection[str],
     ) -> None:
         for name in wanted:
             if name not in existing:

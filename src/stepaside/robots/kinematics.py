@@ -1,51 +1,39 @@
 """Joint motion generation by damped pseudo-inverse (paper, Sec. III-A).
 
-Unknowns are the pose of the torso and the leg joints, where joints that
-share a motor are one unknown; rows are the poses of both feet, the CoM, and
-roll and pitch of the torso.
+Unknowns are place and heading of the torso, which stays level, and the leg
+joints, where joints that share a motor are one unknown; rows are the poses
+of both feet and the CoM. Where hip yaws are independent there is one more
+unknown, and one more row: the torso heads where the feet do on average.
 """
 
-from math import atan2, cos, sin
-from typing import NamedTuple
+from functools import cached_property
+from math import cos, inf, remainder, sin, tau
+from operator import itemgetter
 
-import mujoco
 import numpy as np
-from scipy.linalg.lapack import dposv
 
 from ..errors import ReachError
 from ..poses import Array
+from .configuration import Configuration
 from .description import RobotDescription
+from .leg_solver import move_within, solver_of
+from .legs import BASE, FIXED_ROWS
+from .reach import Heights
+from .reference import BodyReference
+from .stored import load_tree
 
-DAMPING = 1e-4  # squared, of the pseudo-inverse; rows in [m] and [rad]
+__all__ = ["ROWS", "BodyReference", "LegKinematics"]
+
 LEAP = 0.3  # of a joint in one step while a stance is searched, in [rad]
 TOLERANCE = 1e-4  # residual at which a posture counts as reached
 LOST = 0.5  # residual, in [m] or [rad], beyond which a request is refused
-LEVEL = (0.0, 0.0)
+FAR = 0.1  # move of the torso in a tick that is looked at twice, [m], [rad]
 ROWS = (
     *(f"left foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
     *(f"right foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
     *(f"CoM {c}" for c in ("x", "y", "z")),
-    *(f"torso {c}" for c in ("roll", "pitch")),
+    "torso heading",
 )
-
-
-class BodyReference(NamedTuple):
-    """What the body is asked to do at one instant, in one level frame.
-
-    Attributes:
-        com: CoM (x, y, z), in [m].
-        left_foot: Left foot (x, y, z, yaw), in [m] and [rad].
-        right_foot: Right foot, likewise.
-        left_tilt: Roll and pitch of the left foot about its own heading, in
-            [rad], small.
-        right_tilt: Those of the right foot.
-    """
-
-    com: tuple[float, float, float]
-    left_foot: tuple[float, float, float, float]
-    right_foot: tuple[float, float, float, float]
-    left_tilt: tuple[float, float] = (0.0, 0.0)
-    right_tilt: tuple[float, float] = (0.0, 0.0)
 
 
 class LegKinematics:
@@ -57,77 +45,75 @@ class LegKinematics:
     """
 
     def __init__(self, description: RobotDescription, *, tick: float) -> None:
-        """Compile the robot's model, alone and without physics.
+        """Take the standing angles, with the torso at the origin.
 
         Args:
             description: The robot.
             tick: Time from one tracked reference to the next, in [s].
+
+        Raises:
+            ModelError: If the kinematic tree of the robot cannot be had.
         """
         self.description = description
-        self._model = model = description.compile()
-        self._data = data = mujoco.MjData(model)
-        self.joint_names = tuple(
-            model.joint(model.actuator_trnid[i, 0]).name
-            for i in range(model.nu)
+        self._tree = tree = load_tree(description)
+        self.joint_names = tree.motors
+        self._solver = solver_of(description, tree)
+        self._legs = legs = self._solver.legs
+        self._reach = legs.speeds * tick
+        self._limits = list(
+            zip(
+                self._reach.tolist(),
+                legs.low.tolist(),
+                legs.high.tolist(),
+                strict=True,
+            )
         )
-        joints = [model.joint(name) for name in self.joint_names]
-        self._targets = np.array([j.qposadr[0] for j in joints])
-        followers = description.coupled_joints(model)
-        legs = [n for n in description.legs if n not in followers]
-        self._legs = np.array([model.joint(n).qposadr[0] for n in legs])
-        self._low, self._high = np.array(
-            [
-                description.working_limits.get(n, model.joint(n).range)
-                for n in legs
-            ]
-        ).T
-        speeds = [description.speed_limits[n] for n in legs]
-        self._reach = np.array(speeds) * tick
-        self._followers = [
-            (model.joint(f).qposadr[0], model.joint(leader).qposadr[0])
-            for f, leader in followers.items()
-        ]
-        # Unknowns: 6 of the base, one for each free leg joint.
-        self._spread = np.zeros((model.nv, 6 + len(legs)))
-        self._spread[:6, :6] = np.eye(6)
-        for column, name in enumerate(legs, start=6):
-            self._spread[model.joint(name).dofadr[0], column] = 1.0
-        for follower, leader in followers.items():
-            self._spread[model.joint(follower).dofadr[0]] = self._spread[
-                model.joint(leader).dofadr[0]
-            ]
-        self._left = model.site(description.left_foot).id
-        self._right = model.site(description.right_foot).id
-        self._torso = model.body(description.torso).id
-        self._qpos = data.qpos
-        self._points = data.site_xpos
-        self._frames = data.site_xmat
-        self._torso_frame = data.xmat[self._torso]
-        self._com = data.subtree_com[self._torso]
-        self._jacobian = np.zeros((15, model.nv))
-        self._rows = np.zeros((17, model.nv))
-        self._error = np.zeros(17)
-        self._damping = DAMPING**2 * np.eye(17)
-        for name, angle in description.standing.items():
-            data.qpos[model.joint(name).qposadr[0]] = angle
+        self._slowest = float(self._reach.min())
+        self._room = 0.0  # from the free joints to the ends of their ranges
+        self._start = tuple(
+            float(description.standing.get(name, 0.0)) for name in legs.free
+        )
+        self._free: tuple[float, ...] = self._start
+        self._place: tuple[float, ...] = (0.0, 0.0, 0.0)
+        self._heading = self._faced = 0.0
+        self._error = np.zeros(FIXED_ROWS)
+        fixed = dict(zip(tree.joints, legs.fixed, strict=True))
+        self._still = np.array([fixed[name] for name in tree.motors])
+        columns = dict(zip(tree.joints, legs.columns[1:], strict=True))
+        moved = {
+            i: column
+            for i, name in enumerate(tree.motors)
+            if (column := columns[name]) is not None
+        }
+        first, last = min(moved), max(moved) + 1
+        self._at: slice | list[int] = list(moved)
+        if self._at == list(range(first, last)):
+            self._at = slice(first, last)  # much faster
+        self._pick = itemgetter(*moved.values())
 
     @property
     def joint_targets(self) -> Array:
         """Angles of the actuated joints, in [rad]. Shape (joints,)."""
-        targets: Array = self._qpos[self._targets]
+        targets = self._still.copy()
+        targets[self._at] = self._pick(self._free)
         return targets
 
     @property
     def posture(self) -> Array:
         """Position and quaternion of the torso, then all joints."""
-        posture: Array = self._qpos.copy()
-        return posture
+        half = 0.5 * self._heading
+        turned = (cos(half), 0.0, 0.0, sin(half))
+        joints = self._legs.angles(self._free)
+        return np.array([*self._place, *turned, *joints], dtype=np.float64)
 
     @property
     def torso_heading(self) -> float:
-        """Heading of the torso in the frame of the reference, in [rad]."""
-        frame = self._torso_frame
-        return atan2(frame[3], frame[0])
+        """Heading of the torso in the frame of the reference, in [rad].
+
+        That of the posture before the last step: by the time of the next
+        one the body has come as far as that.
+        """
+        return remainder(self._faced, tau)
 
     def stand(self, reference: BodyReference) -> Array:
         """Take a posture from scratch.
@@ -143,39 +129,55 @@ class LegKinematics:
         """
         if not self._try_stand(reference):
             worst = int(np.argmax(np.abs(self._error)))
+            heights = self._heights(reference).in_words(reference.com[2])
             raise ReachError(
                 f"{self.description.name} cannot reach {ROWS[worst]} with a "
-                f"CoM height of {reference.com[2]:g} m; it reaches at most "
-                f"{self.highest_com(reference):.3f} m in this stance"
+                f"CoM height of {reference.com[2]:g} m; "
+                f"it reaches {heights} in this stance"
             )
         return self.joint_targets
 
     def highest_com(self, reference: BodyReference) -> float:
-        """Greatest CoM height with the feet of ``reference``, in [m]."""
-        x, y, high = reference.com
-        low = high
-        while not self._try_stand(reference._replace(com=(x, y, low))):
-            high, low = low, 0.95 * low
-            if low < 0.1 * reference.com[2]:
-                return 0.0
-        while high - low > 2e-4:
-            middle = 0.5 * (low + high)
-            if self._try_stand(reference._replace(com=(x, y, middle))):
-                low = middle
-            else:
-                high = middle
-        return low
+        """Greatest CoM height with the feet of ``reference``, in [m].
+
+        Returns:
+            The height; 0 if there is none.
+        """
+        return self._heights(reference).greatest
+
+    def lowest_com(self, reference: BodyReference) -> float:
+        """Least CoM height with the feet of ``reference``, in [m].
+
+        Returns:
+            The height; 0 if there is none.
+        """
+        return self._heights(reference).least
+
+    @cached_property
+    def _natural_height(self) -> float:
+        """Height of the CoM over the soles in the natural stance, in [m]."""
+        joints = np.array(self._legs.angles(self._start))
+        stance = Configuration(self._tree, joints)
+        soles = [stance.place_of_site(name)[2] for name in self._legs.sites]
+        return float(stance.com[2] - max(soles))
+
+    def _heights(self, reference: BodyReference) -> Heights:
+        return Heights(
+            lambda height: self._reaches(reference, height),
+            self._natural_height,
+        )
+
+    def _reaches(self, reference: BodyReference, height: float) -> bool:
+        x, y, _ = reference.com
+        return self._try_stand(reference._replace(com=(x, y, height)))
 
     def _try_stand(self, reference: BodyReference) -> bool:
-        x, y, z = reference.com
-        q = self._qpos
-        q[:3] = x, y, z
-        heading = 0.5 * (reference.left_foot[3] + reference.right_foot[3])
-        q[3:7] = cos(0.5 * heading), 0.0, 0.0, sin(0.5 * heading)
-        for name, angle in self.description.standing.items():
-            q[self._model.joint(name).qposadr[0]] = angle
+        self._place = reference.com
+        self._heading = reference.heading
+        self._free = self._start
+        reach = np.full(len(self._free), LEAP)
         for _ in range(60):
-            self._step(reference, LEAP)
+            self._step(reference, reach)
             if float(np.abs(self._error).max()) < TOLERANCE:
                 return True
         return False
@@ -183,8 +185,8 @@ class LegKinematics:
     def track(self, reference: BodyReference) -> Array:
         """Follow a reference by one damped step from the last posture.
 
-        A joint at a limit of its range or speed stays there and the others
-        do what they can.
+        A joint at a limit of its range or speed stays there, and torso and
+        other joints do what they can.
 
         Args:
             reference: What to reach at this tick.
@@ -195,9 +197,11 @@ class LegKinematics:
         Raises:
             ReachError: If the legs are hopelessly short of it; names what is.
         """
+        if self._step_freely(reference):
+            return self.joint_targets
         self._step(reference, self._reach)
         error = self._error
-        if error.max() > LOST or error.min() < -LOST:
+        if not -LOST <= error.min() <= error.max() <= LOST:
             worst = int(np.argmax(np.abs(error)))
             raise ReachError(
                 f"{self.description.name} cannot follow: {ROWS[worst]} is "
@@ -205,69 +209,85 @@ class LegKinematics:
             )
         return self.joint_targets
 
-    def _step(self, reference: BodyReference, reach: Array | float) -> None:
+    def _step_freely(self, reference: BodyReference) -> bool:
+        """Take the step that no limit holds back, if it is one.
+
+        Without damping: that is for legs which are nearly singular, whose
+        steps are too long to be taken here.
+        """
+        quick, n = self._solver.quick, BASE + len(self._free)
+        if quick is None:
+            return False
+        try:
+            step = quick(*self._arguments(reference))
+        except ZeroDivisionError:
+            return False
+        x, y, z, turn = step[:BASE]
+        if not max(abs(x), abs(y), abs(z), abs(turn)) < FAR:
+            return False
+        moved = step[n + BASE :]
+        if not self._allows(step[BASE:n], moved):
+            return False
+        self._free = moved
+        self._place, self._faced = step[n : n + 3], self._heading
+        self._heading = step[n + 3]
+        return True
+
+    def _allows(
+        self, moves: tuple[float, ...], moved: tuple[float, ...]
+    ) -> bool:
+        """Whether joints that move keep to their speeds and ranges.
+
+        While all of them have room to every limit, the greatest move alone
+        says so.
+        """
+        greatest = max(max(moves), -min(moves))
+        self._room -= greatest
+        if greatest <= self._slowest and self._room >= 0.0:
+            return True
+        room = inf
+        for angle, move, (reach, low, high) in zip(
+            moved, moves, self._limits, strict=True
+        ):
+            if not (-reach <= move <= reach and low <= angle <= high):
+                return False
+            room = min(room, angle - low, high - angle)
+        self._room = room
+        return True
+
+    def _arguments(self, reference: BodyReference) -> tuple[float, ...]:
+        """Arguments of the solver's functions."""
+        com, left, right, left_tilt, right_tilt = reference
+        return (
+            *self._free,
+            *self._place,
+            self._heading,
+            *com,
+            *left,
+            *right,
+            *left_tilt,
+            *right_tilt,
+        )
+
+    def _step(self, reference: BodyReference, reach: Array) -> None:
         """One damped Newton step; leaves the error before it.
 
         No joint moves by more than ``reach``, in [rad]: near a straight knee
         an unlimited step would land on the other branch of the leg.
         """
-        model, data, q = self._model, self._data, self._qpos
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
-        jacobian = self._jacobian
-        left, right = self._left, self._right
-        mujoco.mj_jacSite(model, data, jacobian[0:3], jacobian[3:6], left)
-        mujoco.mj_jacSite(model, data, jacobian[6:9], jacobian[9:12], right)
-        mujoco.mj_jacSubtreeCom(model, data, jacobian[12:15], self._torso)
-        rows = self._rows
-        rows[:15] = jacobian
-        frame = self._torso_frame.reshape(3, 3)
-        rows[15:17, 3:6] = frame[:2]
-        error = self._error
-        error[0:3] = reference.left_foot[:3] - self._points[left]
-        error[3:6] = _turn(self._frames[left], reference.left_foot[3])
-        error[6:9] = reference.right_foot[:3] - self._points[right]
-        error[9:12] = _turn(self._frames[right], reference.right_foot[3])
-        if reference.left_tilt != LEVEL or reference.right_tilt != LEVEL:
-            yaw = reference.left_foot[3]
-            error[3:5] += _lean(reference.left_tilt, yaw)
-            yaw = reference.right_foot[3]
-            error[9:11] += _lean(reference.right_tilt, yaw)
-        error[12:15] = reference.com - self._com
-        error[15] = frame[1, 2]
-        error[16] = -frame[0, 2]
-        j = rows @ self._spread
-        # J' (J J' + damping)^-1 e
-        # The matrix is positive definite; LAPACK called without ceremony.
-        _, weights, _ = dposv(j @ j.T + self._damping, error)
-        step = j.T @ weights
-        joints = step[6:]
-        np.minimum(joints, reach, out=joints)
-        np.maximum(joints, -reach, out=joints)
-        mujoco.mj_integratePos(model, q, self._spread @ step, 1.0)
-        legs = q[self._legs]
-        np.minimum(legs, self._high, out=legs)
-        np.maximum(legs, self._low, out=legs)
-        q[self._legs] = legs
-        for follower, leader in self._followers:
-            q[follower] = q[leader]
-
-
-def _lean(tilt: tuple[float, float], yaw: float) -> tuple[float, float]:
-    """Roll and pitch about a heading as a small rotation, in [rad]."""
-    c, s = cos(yaw), sin(yaw)
-    return c * tilt[0] - s * tilt[1], s * tilt[0] + c * tilt[1]
-
-
-def _turn(frame: Array, yaw: float) -> tuple[float, float, float]:
-    """Small rotation, in [rad], that levels a frame and turns it to a yaw.
-
-    Half the sum of the cross products of the axes with where they should be.
-    """
-    m00, m01, m02, m10, m11, m12, m20, m21, _ = frame.tolist()
-    c, s = cos(yaw), sin(yaw)
-    return (
-        0.5 * (m12 - m20 * s - m21 * c),
-        0.5 * (m20 * c - m21 * s - m02),
-        0.5 * ((m00 + m11) * s + (m01 - m10) * c),
-    )
+        legs = self._legs
+        error, jacobian = self._solver.linearise(*self._arguments(reference))
+        angles = np.array(self._free)
+        low = np.clip(legs.low - angles, -reach, reach)
+        high = np.clip(legs.high - angles, -reach, reach)
+        move = move_within(jacobian, error, low, high, legs.speeds)
+        c, s = cos(self._heading), sin(self._heading)
+        to_world = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+        turned = error[:FIXED_ROWS].reshape(-1, 3) @ to_world.T
+        self._error = np.append(turned, error[FIXED_ROWS:])
+        moved = np.clip(angles + move[BASE:], legs.low, legs.high)
+        self._free = tuple(moved.tolist())
+        self._room = 0.0
+        x, y, z = (self._place + to_world @ move[:3]).tolist()
+        self._place, self._faced = (x, y, z), self._heading
+        self._heading += float(move[3])

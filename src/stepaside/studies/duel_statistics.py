@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from ..games.circle import theory_of
 from ..games.settings import DuelSettings
-from ..games.summary import theory_of
 from .survival import CONFIDENCE, wilson
 
 Record = dict[str, Any]

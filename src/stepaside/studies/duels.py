@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from ..errors import PlanError
-from ..games.duel import DuelResult, run_duel
+from ..games.duel import run_duel
+from ..games.run import Run
 from ..games.settings import DuelSettings
-from ..games.summary import distance_over_time, summarise
 from ..poses import Pose
 from ..randomness import named_generator
 from ..unicycle.certificate import certify
@@ -56,55 +56,57 @@ def play_record(settings: DuelSettings) -> Record:
         whole trajectories, versions of code and libraries.
     """
     began = perf_counter()
-    result = run_duel(settings)
-    summary = summarise(result)
+    run = run_duel(settings)
+    summary = run.summary
     record = {
         "seed": settings.seed,
-        "outcome": summary["outcome"],
-        "message": summary["message"],
-        "duration_s": summary["duration_s"],
-        "start_distance_m": result.settings.start.distance,
-        "pursuer_radius_m": summary["pursuer"]["radius_m"],
-        "evader_radius_m": summary["evader"]["radius_m"],
-        "distance_m": summary["distance_m"],
-        "relative_orientation_deg": summary["relative_orientation_deg"],
-        "converged_at_s": summary["converged_at_s"],
-        "min_distance_m": summary["min_distance_m"],
-        "triggered_at_s": summary["triggered_at_s"],
-        "triggered_at_distance_m": summary["triggered_at_distance_m"],
-        "min_zmp_margin_m": summary["min_zmp_margin_m"],
-        "max_com_velocity_jump_m_s": summary["max_com_velocity_jump_m_s"],
-        **_evasion(result),
+        "outcome": summary.outcome,
+        "message": summary.message,
+        "duration_s": summary.duration_s,
+        "start_distance_m": run.settings.start.distance,
+        "pursuer_radius_m": summary.pursuer.radius_m,
+        "evader_radius_m": summary.evader.radius_m,
+        "distance_m": summary.distance_m,
+        "relative_orientation_deg": summary.relative_orientation_deg,
+        "converged_at_s": summary.converged_at_s,
+        "min_distance_m": summary.min_distance_m,
+        "triggered_at_s": summary.triggered_at_s,
+        "triggered_at_distance_m": summary.triggered_at_distance_m,
+        "min_zmp_margin_m": summary.min_zmp_margin_m,
+        "max_com_velocity_jump_m_s": summary.max_com_velocity_jump_m_s,
+        **_evasion(run),
     }
-    for name in ("misled_s", "lost_s", "detection_rate", "false_detections"):
-        if name in summary:
-            record[name] = summary[name]
-    record["digest"] = digest_of(result)
+    for name in ("lost_s", "detection_rate", "false_detections"):
+        if name in summary.sight:
+            record[name] = summary.sight[name]
+    record["digest"] = digest_of(run)
     record["wall_s"] = round(perf_counter() - began, 3)
     return record | _stamp()
 
 
-def _evasion(result: DuelResult) -> Record:
+def _evasion(run: Run) -> Record:
     """Closest approach while evading, and what is certain of the template.
 
     The certificate is that of two unicycles that start like the torsos at
     the moment evasion begins, with an evader that keeps its side.
     """
     found: Record = {"evading_min_distance_m": None, "certified_m": None}
-    if result.triggered_at is None or result.settings.pursuer != "robot":
+    triggered = run.summary.triggered_at_s
+    if triggered is None or run.settings.pursuer != "robot":
         return found
-    arrays = result.arrays
-    since = arrays["times_s"] >= result.triggered_at - 1e-9
+    since = run.times >= triggered - 1e-9
     if not since.any():
         return found
-    apart = distance_over_time(arrays)[since]
+    apart = run.distance[since]
     found["evading_min_distance_m"] = float(apart.min())
     first = int(np.argmax(since))
     start = Start.from_world(
-        Pose(*arrays["pursuer_torso"][first].tolist()),
-        Pose(*arrays["evader_torso"][first].tolist()),
+        Pose(*run.pursuer.torso[first].tolist()),
+        Pose(*run.evader.torso[first].tolist()),
     )
-    gait, strategy = result.settings.gait, result.settings.strategy
+    if not run.settings.is_of_the_paper:
+        return found
+    gait, strategy = run.settings.gait, run.settings.strategy
     try:
         game = make_game(
             *(gait.speed, gait.speed, gait.gain, gait.gain),
@@ -120,12 +122,12 @@ def _evasion(result: DuelResult) -> Record:
     return found
 
 
-def digest_of(result: DuelResult) -> str:
+def digest_of(run: Run) -> str:
     """Fingerprint of every number that was recorded of a duel."""
     digest = sha256()
-    for name in sorted(result.arrays):
+    for name, array in sorted(run.arrays().items()):
         digest.update(name.encode())
-        digest.update(np.ascontiguousarray(result.arrays[name]).tobytes())
+        digest.update(np.ascontiguousarray(array).tobytes())
     return digest.hexdigest()[:12]
 
 

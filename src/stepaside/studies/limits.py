@@ -10,20 +10,27 @@ from .robustness import DIRECTIONS, Trial, run_trial
 from .trial_results import note_result, read_results
 from .workers import give_up
 
-RESOLUTION = 0.1  # to which a limit is found, in [N s]
-STRIDE = 0.4  # between the first pushes tried, in [N s]
-LARGEST = 8.0  # push that is tried, in [N s]
+# In [N s] for a robot of NAO's mass; see :func:`.robustness.push_scale`.
+RESOLUTION = 0.1  # to which a limit is found
+STRIDE = 0.4  # between the first pushes tried
+LARGEST = 8.0  # push that is tried
 
 
 def push_cases(
-    methods: Sequence[str], body: str, *, phases: int, seed: int = 1
+    methods: Sequence[str],
+    body: str,
+    *,
+    phases: int,
+    seed: int = 1,
+    changes: str = "",
 ) -> Iterator[Trial]:
     """One trial of no strength for each method, direction and phase."""
     for method in methods:
         for direction in DIRECTIONS:
             for i in range(phases):
                 yield Trial(
-                    "push", 0.0, direction, i / phases, seed, method, body
+                    *("push", 0.0, direction, i / phases, seed, method, body),
+                    changes,
                 )
 
 

@@ -137,24 +137,25 @@ REPLANNING = (
 HUMANOIDS = CIRCLE + REPLANNING
 DURATIONS = (
     Claim(
-        "fall",
-        "with single support 0.122 s and double support 0.425 s, and the "
-        "joints' speed limits, the robots fall (time of the fall)",
+        "printed_slide",
+        "with single support 0.122 s and double support 0.425 s the joints "
+        "are too slow, and the feet that stand are dragged (ratio of their "
+        "ways on the floor in a step to those with the durations exchanged)",
         "IV",
         LEVEL,
-        WALK,
-        "s",
-        relation="<",
+        1.0,
+        "1",
+        relation=">",
         as_printed="single and double support of 0.122 s and 0.425 s",
     ),
     Claim(
-        "fall_tilt",
-        "by a fall, not a contact (greatest angle of a torso from the "
-        "vertical)",
+        "printed_tilt",
+        "and the torso tosses (ratio of its greatest angles from the "
+        "vertical, likewise)",
         "IV",
         LEVEL,
-        45.0,
-        "deg",
+        3.0,
+        "1",
         relation=">",
     ),
     Claim(

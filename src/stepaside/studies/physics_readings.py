@@ -5,14 +5,14 @@ from math import degrees, nan
 
 import numpy as np
 
-from ..games.duel import NAMES, Outcome
-from ..games.settings import DuelSettings, StartSettings
-from ..games.summary import (
+from ..games.circle import (
+    angle_between,
     converged_at,
-    distance_over_time,
-    orientation_over_time,
+    distance_between,
     theory_of,
 )
+from ..games.outcome import Outcome
+from ..games.settings import PLAYERS, DuelSettings, StartSettings
 from ..planning import PRESETS
 from ..unicycle.measure import fit_circle
 from .readings import Readings, farthest
@@ -62,11 +62,11 @@ def slip_settings(
 
 def read_circle(duel: Watched) -> Readings:
     """The circle of Sec. IV and the replanning of Sec. III-E."""
-    landings = [step for name in NAMES for step in steps_of(duel, name)]
+    landings = [step for name in PLAYERS for step in steps_of(duel, name)]
     gait = duel.settings.gait
-    shares = [plan_share(duel.plans[name], gait) for name in NAMES]
-    jumps = [reference_jumps(duel, name) for name in NAMES]
-    on_feet = [both_feet(duel, name) for name in NAMES]
+    shares = [plan_share(duel.plans[name], gait) for name in PLAYERS]
+    jumps = [reference_jumps(duel, name) for name in PLAYERS]
+    on_feet = [both_feet(duel, name) for name in PLAYERS]
     return last_circle(duel) | {
         "landings": farthest(landings, gait.step_duration),
         "both_feet": float(np.min([share for share, _ in on_feet])),
@@ -85,36 +85,37 @@ def last_circle(duel: Watched) -> Readings:
     )
     if duel.outcome is not Outcome.COMPLETED:
         return dict.fromkeys(keys, nan)
-    arrays = duel.arrays
-    times = arrays["times_s"]
-    since = converged_at(arrays, duel.settings, theory_of(duel.settings))
+    times = duel.times
+    pursuer, evader = (duel.tracks[name].torso for name in PLAYERS)
+    theory = theory_of(duel.settings)
+    since = converged_at(times, pursuer, evader, duel.settings, theory)
     tail = times >= times[-1] * 2.0 / 3.0
-    circles = [fit_circle(arrays[f"{n}_com"][tail, :2]) for n in NAMES]
-    pursuer, evader = (walking_speed(duel, name) for name in NAMES)
+    circles = [fit_circle(duel.tracks[n].com[tail, :2]) for n in PLAYERS]
+    speed, other = (walking_speed(duel, name) for name in PLAYERS)
     apart = circles[0][0] - circles[1][0]
     values = (
         nan if since is None else since,
         circles[0][1],
         circles[1][1],
         float(np.hypot(*apart)),
-        float(distance_over_time(arrays)[tail].mean()),
-        degrees(float(orientation_over_time(arrays)[tail].mean())),
-        evader / pursuer if pursuer > 0.0 else nan,
+        float(distance_between(pursuer, evader)[tail].mean()),
+        degrees(float(angle_between(pursuer, evader)[tail].mean())),
+        other / speed if speed > 0.0 else nan,
     )
     return dict(zip(keys, values, strict=True))
 
 
 def read_durations(printed: Watched, walked: Watched) -> Readings:
     """The durations as printed, and exchanged."""
-    fell = printed.outcome is Outcome.FALL
     gait = walked.settings.gait
-    speeds = [walking_speed(walked, name) for name in NAMES]
+    speeds = [walking_speed(walked, name) for name in PLAYERS]
+    slid, leant = mean_slide(walked), greatest_tilt(walked)
     return {
-        "fall": printed.duration if fell else nan,
-        "fall_tilt": greatest_tilt(printed),
+        "printed_slide": mean_slide(printed) / slid if slid > 0.0 else nan,
+        "printed_tilt": greatest_tilt(printed) / leant,
         "upright_for": walked.duration,
         "tilt": greatest_tilt(walked),
-        "distance": min(distance_walked(walked, name) for name in NAMES),
+        "distance": min(distance_walked(walked, name) for name in PLAYERS),
         "speed": farthest(speeds, gait.stride / gait.step_duration),
     }
 
@@ -137,11 +138,11 @@ def _is_walked(duel: Watched) -> bool:
     gait = duel.settings.gait
     least = SLOWEST * gait.stride / gait.step_duration
     ended = duel.outcome is Outcome.COMPLETED
-    return ended and all(walking_speed(duel, name) > least for name in NAMES)
+    return ended and all(walking_speed(duel, name) > least for name in PLAYERS)
 
 
 def _mean_speed(duel: Watched) -> float:
-    return float(np.mean([walking_speed(duel, name) for name in NAMES]))
+    return float(np.mean([walking_speed(duel, name) for name in PLAYERS]))
 
 
 def _mean_radius(duel: Watched) -> float:

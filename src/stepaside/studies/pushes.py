@@ -4,10 +4,12 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from ..planning import GaitSettings
+from ..games.walk import WalkSettings
+from .changes import changes_of
 from .limits import RESOLUTION
 from .results import header
-from .survival import PUSH, summarise_limits, walking_reach
+from .robustness import mass_of
+from .survival import DEFAULT, PUSH, summarise_limits, walking_reach
 from .trial_results import ROOMS as WALKS
 
 # The walks, what is tried of them, and the bounds beside it.
@@ -21,6 +23,7 @@ def pushes_result(
     *,
     phases: int,
     seed: int,
+    walk: WalkSettings = DEFAULT,
 ) -> dict[str, Any]:
     """Rows of limits with the command, the version and the settings.
 
@@ -30,6 +33,7 @@ def pushes_result(
         body: Preset of the body.
         phases: Of the gait cycle at which pushes begin.
         seed: Of every walk.
+        walk: That was pushed.
 
     Returns:
         What can be written as JSON.
@@ -41,12 +45,19 @@ def pushes_result(
         "seed": seed,
         "push_duration_s": PUSH,
         "resolution_n_s": RESOLUTION,
-        "reach_m": walking_reach()._asdict(),
-        "gait": asdict(GaitSettings()),
+        "reach_m": walking_reach(walk)._asdict(),
+        "gait": asdict(walk.gait),
+        "robot": walk.robot,
+        "mass_kg": mass_of(walk.robot),
     }
+    # Any other walk needs the file or the options that it was made by.
     command = (
-        f"stepaside robustness --kind push {asked} "
-        f"--body {body} --phases {phases} --seed {seed}"
+        None
+        if changes_of(walk)[1]
+        else (
+            f"stepaside robustness --kind push {asked} "
+            f"--body {body} --phases {phases} --seed {seed}"
+        )
     )
     return header(settings, rooms=ROOMS, command=command) | {
         "summary": summarise_limits(rows),

@@ -4,16 +4,20 @@ import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Executor, as_completed
 from dataclasses import asdict, dataclass, replace
+from functools import cache
 from math import pi, radians
 from pathlib import Path
 
 from ..control.balance.settings import ControlSettings, Method
 from ..errors import ConfigurationError
+from ..games.outcome import Outcome
 from ..games.walk import WalkSettings, run_walk
 from ..planning import GaitSettings
+from ..robots.description import load_robot
+from ..robots.forward import ForwardKinematics
 from ..world.body_settings import BODIES, BodySettings
 from ..world.push import Push
-from ..world.settings import PhysicsSettings
+from .changes import OWN, changed_walk
 from .trial_results import note_result, read_results
 from .workers import give_up
 
@@ -38,6 +42,7 @@ UNITS = {
 }
 METHODS = ("open-loop", "closed-form", "measured", "mpc")
 BEFORE, AFTER = 6, 4.0  # steps before a push, seconds after it
+REFERENCE = "nao"  # robot that the strengths of pushes are made for
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +56,9 @@ class Trial:
         phase: Of a push, as a fraction of the gait cycle.
         seed: Of the walk.
         method: One of ``METHODS``.
-        body: Preset of the body.
+        body: Preset of the body; ``OWN`` for the one of ``changes``.
+        changes: What else the walk has other than by default, as JSON; see
+            :func:`~.changes.changes_of`.
     """
 
     kind: str
@@ -61,30 +68,70 @@ class Trial:
     seed: int
     method: str
     body: str
+    changes: str = ""
 
     @property
     def key(self) -> str:
         """Name of the trial in a file of results."""
-        return json.dumps(list(asdict(self).values()))
+        values = list(asdict(self).values())
+        return json.dumps(values if self.changes else values[:-1])
 
 
-def control_of(method: str) -> ControlSettings:
-    """Control of a method's name."""
-    if method == "open-loop":
-        return ControlSettings()
+def control_of(
+    method: str, control: ControlSettings | None = None
+) -> ControlSettings:
+    """Control of a method's name.
+
+    Args:
+        method: One of ``METHODS``.
+        control: What holds beside it; the default by default.
+    """
     named: dict[str, Method] = {
+        "open-loop": "closed-form",
         "closed-form": "closed-form",
         "measured": "measured",
         "mpc": "mpc",
     }
-    return ControlSettings(named[method], True)
+    return replace(
+        control or ControlSettings(),
+        method=named[method],
+        feedback=method != "open-loop",
+    )
 
 
-def push_time(phase: float, control: ControlSettings) -> float:
+def push_time(
+    phase: float, control: ControlSettings, gait: GaitSettings | None = None
+) -> float:
     """When a push at a phase of the cycle begins, in [s]."""
-    gait = GaitSettings()
+    gait = gait or GaitSettings()
     begins = gait.start_support + (1.0 if control.feedback else 0.0)
     return begins + (BEFORE + 2.0 * phase) * gait.step_duration
+
+
+def walk_of(trial: Trial) -> WalkSettings:
+    """Walk of a trial, not disturbed yet."""
+    walk = changed_walk(trial.changes)
+    return replace(
+        walk,
+        seed=trial.seed,
+        body=walk.body if trial.body == OWN else BODIES[trial.body],
+        control=control_of(trial.method, walk.control),
+    )
+
+
+@cache
+def mass_of(robot: str) -> float:
+    """Mass of a robot, in [kg]."""
+    return float(ForwardKinematics(load_robot(robot)).mass)
+
+
+def push_scale(robot: str) -> float:
+    """Ratio of masses: what a push must be to do the same to a robot.
+
+    Strengths of pushes are in N s for a robot of NAO's mass, so that all
+    robots are pushed to the same speeds.
+    """
+    return mass_of(robot) / mass_of(REFERENCE)
 
 
 def settings_of(trial: Trial) -> WalkSettings:
@@ -93,18 +140,17 @@ def settings_of(trial: Trial) -> WalkSettings:
     Raises:
         ConfigurationError: If the kind is unknown.
     """
-    control = control_of(trial.method)
-    body, physics = BODIES[trial.body], PhysicsSettings()
+    walk = walk_of(trial)
+    body, physics, control = walk.body, walk.physics, walk.control
     x = trial.strength
     if trial.kind == "push":
-        time = push_time(trial.phase, control)
+        time = push_time(trial.phase, control, walk.gait)
         direction = radians(DIRECTIONS[trial.direction])
-        return WalkSettings(
-            seed=trial.seed,
+        impulse = x * push_scale(walk.robot)
+        return replace(
+            walk,
             duration=time + AFTER,
-            body=body,
-            control=control,
-            pushes=(Push(x, time, direction),),
+            pushes=(Push(impulse, time, direction),),
         )
     if trial.kind in ("friction", "unevenness"):
         physics = (
@@ -126,13 +172,7 @@ def settings_of(trial: Trial) -> WalkSettings:
         raise ConfigurationError(
             f"kind must be one of {', '.join(STRENGTHS)}, got {trial.kind!r}"
         )
-    return WalkSettings(
-        seed=trial.seed,
-        duration=20.0,
-        body=body,
-        physics=physics,
-        control=control,
-    )
+    return replace(walk, duration=20.0, body=body, physics=physics)
 
 
 def louder(body: BodySettings, factor: float) -> BodySettings:
@@ -150,7 +190,7 @@ def louder(body: BodySettings, factor: float) -> BodySettings:
 def run_trial(trial: Trial) -> tuple[str, bool]:
     """Key of a trial, and whether the robot stood to the end."""
     result = run_walk(settings_of(trial), record=False)
-    return trial.key, result.outcome == "completed"
+    return trial.key, result.outcome is Outcome.COMPLETED
 
 
 def trials(
@@ -160,6 +200,7 @@ def trials(
     *,
     seeds: int,
     first_seed: int = 1,
+    changes: str = "",
 ) -> Iterator[Trial]:
     """Grid of strengths and seeds; for pushes see :mod:`.limits`."""
     for method in methods:
@@ -168,7 +209,10 @@ def trials(
                 continue
             for strength in STRENGTHS[kind]:
                 for seed in range(first_seed, first_seed + seeds):
-                    yield Trial(kind, strength, "", 0.0, seed, method, body)
+                    yield Trial(
+                        *(kind, strength, "", 0.0, seed, method, body),
+                        changes,
+                    )
 
 
 def run_campaign(

@@ -8,17 +8,23 @@ from typing import Any
 
 import numpy as np
 
-from ..control.balance.settings import StabiliserSettings
-from ..planning import Direction, Foot, GaitSettings, ManeuverPlanner
+from ..games.walk import WalkSettings
+from ..planning import Direction, Foot, ManeuverPlanner
 from ..planning.capture import Reach, push_bound
 from ..planning.steady import steady_plan
-from ..robots.description import load_robot
-from ..robots.forward import ForwardKinematics
 from .limits import limit_of, next_strength, outcomes_of
-from .robustness import DIRECTIONS, STRENGTHS, Trial
+from .robustness import (
+    DIRECTIONS,
+    STRENGTHS,
+    Trial,
+    mass_of,
+    push_scale,
+    walk_of,
+)
 
 CONFIDENCE = 1.96  # standard deviations of a 95 % interval
 PUSH = 0.1  # duration of a push, in [s]
+DEFAULT = WalkSettings()
 
 
 def wilson(survived: int, number: int) -> tuple[float, float]:
@@ -46,19 +52,23 @@ def survival_rows(
 
 
 def push_survival_rows(
-    limits: Sequence[dict[str, Any]],
+    limits: Sequence[dict[str, Any]], scale: float = 1.0
 ) -> list[dict[str, Any]]:
     """Share of phases at which pushes up to each strength are survived.
 
     Args:
         limits: Of :func:`limit_rows`.
+        scale: Of the strengths, for a robot of another mass than NAO's; see
+            :func:`~.robustness.push_scale`.
     """
     groups: dict[tuple[str, str], list[float]] = defaultdict(list)
     for row in limits:
         groups[row["method"], row["direction"]].append(row["limit_n_s"])
     return [
         _survival_row(
-            method, "push", direction, strength, [x >= strength for x in found]
+            *(method, "push", direction, scale * strength),
+            # A strength that was reached exactly, but for rounding, counts.
+            [x >= (scale - 1e-9) * strength for x in found],
         )
         for (method, direction), found in groups.items()
         for strength in STRENGTHS["push"]
@@ -96,8 +106,9 @@ def limit_rows(
     for case, outcomes in outcomes_of(cases, results).items():
         if next_strength(outcomes) is not None:
             continue
-        limit = limit_of(outcomes)
-        bound = bound_at(case.direction, case.phase)
+        walk = walk_of(case)
+        limit = limit_of(outcomes) * push_scale(walk.robot)
+        bound = bound_at(case.direction, case.phase, walk)
         rows.append(
             {
                 "method": case.method,
@@ -106,8 +117,9 @@ def limit_rows(
                 "limit_n_s": limit,
                 "bound_n_s": bound,
                 "impulse_bound_n_s": bound_at(
-                    case.direction, case.phase, impulse=True
+                    case.direction, case.phase, walk, impulse=True
                 ),
+                "limit_m_s": limit / mass_of(walk.robot),
                 "ratio": limit / bound,
             }
         )
@@ -115,35 +127,45 @@ def limit_rows(
 
 
 @cache
-def bound_at(direction: str, phase: float, *, impulse: bool = False) -> float:
-    """Bound of the pendulum at a phase of a straight walk, in [N s].
+def bound_at(
+    direction: str,
+    phase: float,
+    walk: WalkSettings = DEFAULT,
+    *,
+    impulse: bool = False,
+) -> float:
+    """Bound of the pendulum at a phase of a walk, in [N s].
 
     The walk is under way: the push meets the state that recurs.
 
     Args:
         direction: Of the push, a key of ``DIRECTIONS``.
         phase: At which the push begins, as a fraction of the gait cycle.
+        walk: Robot, gait, heading and reach; a straight walk by default.
         impulse: Whether to take an impulse at the middle of the push
             instead. That is no bound for the push, for it denies the ZMP
             the first half of it.
     """
-    gait = GaitSettings()
+    gait = walk.gait
     cycle = 2.0 * gait.step_duration
     lasts = 0.0 if impulse else PUSH
     passed = (phase * cycle + (0.5 * PUSH if impulse else 0.0)) % cycle
     foot = Foot.LEFT if passed < gait.step_duration else Foot.RIGHT
     plan = steady_plan(
-        ManeuverPlanner(gait), 0.0, Direction.FORWARD, first_foot=foot
+        ManeuverPlanner(gait),
+        walk.bearing,
+        Direction.BACKWARD if walk.backward else Direction.FORWARD,
+        first_foot=foot,
     )
     passed %= gait.step_duration
-    mass = ForwardKinematics(load_robot("nao")).mass
-    angle = radians(DIRECTIONS[direction])
-    return push_bound(plan, passed, angle, mass, walking_reach(), lasts=lasts)
+    angle, reach = radians(DIRECTIONS[direction]), walking_reach(walk)
+    mass = mass_of(walk.robot)
+    return push_bound(plan, passed, angle, mass, reach, lasts=lasts)
 
 
-def walking_reach() -> Reach:
+def walking_reach(walk: WalkSettings = DEFAULT) -> Reach:
     """Where the feedback of a walk may set a foot."""
-    gains = StabiliserSettings()
+    gains = walk.control.stabiliser
     return Reach(
         gains.reach_forward,
         gains.reach_backward,

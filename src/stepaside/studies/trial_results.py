@@ -7,7 +7,7 @@ from .records import RecordFile
 from .version import PHYSICS, code_version, library_versions
 
 # What a walk depends on, and the file that sets up the walk of a trial.
-ROOMS = (*PHYSICS, "studies/robustness")
+ROOMS = (*PHYSICS, "studies/changes", "studies/robustness")
 
 
 def read_results(file: Path | None) -> dict[str, bool]:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..games.duel import NAMES
+from ..games.settings import PLAYERS
 from ..planning import GaitSettings
 from ..poses import Array
 from .watching import WalkedPlan, Watched
@@ -132,10 +132,10 @@ def walking_speed(duel: Watched, name: str) -> float:
 
     Chords of a gait cycle, so that the sway does not count as way.
     """
-    times = duel.arrays["times_s"]
+    times = duel.times
     period = float(times[1] - times[0])
     cycle = round(2.0 * duel.settings.gait.step_duration / period)
-    place = duel.arrays[f"{name}_torso"][len(times) * 2 // 3 :, :2]
+    place = duel.tracks[name].torso[len(times) * 2 // 3 :, :2]
     if len(place) <= cycle:
         return nan
     way = np.hypot(*(place[cycle:] - place[:-cycle]).T)
@@ -144,19 +144,21 @@ def walking_speed(duel: Watched, name: str) -> float:
 
 def distance_walked(duel: Watched, name: str) -> float:
     """Way of the torso in chords of a gait cycle, in [m]."""
-    times = duel.arrays["times_s"]
+    times = duel.times
     period = float(times[1] - times[0])
     cycle = round(2.0 * duel.settings.gait.step_duration / period)
-    place = duel.arrays[f"{name}_torso"][:, :2]
+    place = duel.tracks[name].torso[:, :2]
     corners = np.vstack([place[::cycle], place[-1:]])
     return float(np.hypot(*np.diff(corners, axis=0).T).sum())
 
 
 def greatest_tilt(duel: Watched) -> float:
     """Greatest angle of a torso from the vertical, in [deg]."""
+    postures = [duel.tracks[name].qpos for name in PLAYERS]
     upward = [
-        1.0 - 2.0 * (duel.arrays[f"{name}_qpos"][:, 4:6] ** 2).sum(axis=1)
-        for name in NAMES
+        1.0 - 2.0 * (qpos[:, 4:6] ** 2).sum(axis=1)
+        for qpos in postures
+        if qpos is not None
     ]
     return degrees(acos(max(-1.0, min(1.0, float(np.min(upward))))))
 
@@ -164,7 +166,7 @@ def greatest_tilt(duel: Watched) -> float:
 def mean_slide(duel: Watched) -> float:
     """Mean way of a foot from its landing to its next lift-off, in [m]."""
     ways = []
-    for name in NAMES:
+    for name in PLAYERS:
         for side, load in enumerate(duel.loads[name].T):
             flights = swings(duel.ticks, load)
             feet = duel.feet[name][:, side]

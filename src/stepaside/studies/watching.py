@@ -8,8 +8,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ..control import ControlScheme
-from ..games.duel import NAMES, Duel, Outcome
+from ..games.duel import Duel
+from ..games.outcome import Outcome
 from ..games.settings import DuelSettings
+from ..games.track import Track
+from ..games.walker import Walker
 from ..planning import ManeuverPlan
 from ..poses import Array
 from ..robots.description import load_robot
@@ -38,7 +41,8 @@ class Watched:
         settings: What decided it, with the start that was drawn.
         outcome: How it ended.
         duration: Simulated time, in [s].
-        arrays: The record; see :class:`~stepaside.games.record.Recorder`.
+        times: Times of the samples of the record, in [s]. Shape (m,).
+        tracks: Record of each robot, by name.
         ticks: Times of the control ticks, in [s]. Shape (n,).
         loads: By robot, what the sensors of left and right foot bear at the
             end of each tick, in [N]. Shape (n, 2).
@@ -52,7 +56,8 @@ class Watched:
     settings: DuelSettings
     outcome: Outcome
     duration: float
-    arrays: Mapping[str, Array]
+    times: Array
+    tracks: Mapping[str, Track]
     ticks: Array
     loads: Mapping[str, Array]
     feet: Mapping[str, Array]
@@ -70,22 +75,27 @@ def watch(settings: DuelSettings) -> Watched:
     world = duel.world
     period = world.physics.tick
     count = ceil(settings.duration / period - 1e-9)
-    watchers = [_Watcher(duel, index, count) for index in range(len(NAMES))]
+    watchers = [
+        _Watcher(duel, player, count)
+        for player in duel.players
+        if isinstance(player, Walker)
+    ]
     outcome: Outcome | None = None
     while outcome is None and world.ticks < count:
         tick, now = world.ticks, world.time
         outcome = duel.tick()
         for watcher in watchers:
             watcher.note(tick, now)
-    for robot in duel.robots:
-        robot.close()
-    duel.recorder.sample()
+    duel.close()
+    outcome = outcome or Outcome.COMPLETED
+    duel.recorder.ended(duel, outcome)
     done = world.ticks
     return Watched(
         settings=duel.settings,
-        outcome=outcome or Outcome.COMPLETED,
+        outcome=outcome,
         duration=world.time,
-        arrays=duel.recorder.arrays(),
+        times=duel.recorder.times,
+        tracks=duel.recorder.tracks(),
         ticks=np.arange(done, dtype=np.float64) * period,
         loads={w.name: w.loads[:done] for w in watchers},
         feet={w.name: w.feet[:done] for w in watchers},
@@ -97,10 +107,10 @@ def watch(settings: DuelSettings) -> Watched:
 class _Watcher:
     """Watches one robot of a duel."""
 
-    def __init__(self, duel: Duel, index: int, count: int) -> None:
+    def __init__(self, duel: Duel, walker: Walker, count: int) -> None:
         """Find its sensors; make room for a number of ticks."""
-        self.name = NAMES[index]
-        self._scheme: ControlScheme = duel.schemes[index]
+        self.name = walker.name
+        self._scheme: ControlScheme = walker.scheme
         self._plan: ManeuverPlan | None = None
         model, self._data = duel.world.model, duel.world.data
         robot = load_robot(duel.settings.robot)

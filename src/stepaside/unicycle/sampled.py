@@ -6,13 +6,14 @@ samples both players move on arcs, which have closed form.
 """
 
 from dataclasses import dataclass
-from math import ceil, floor, sin
+from math import ceil, floor
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import laws
 from ..errors import check_not_negative, check_positive
-from ..poses import Pose, wrap_angle
+from ..poses import Pose
 from .laws import Game
 from .relative import Start
 
@@ -66,14 +67,16 @@ def choose_turning(
         side: Side until now, or 0 for none yet.
     """
     _, a, psi = start.wrapped()
-    behind = -1 if psi > 0.0 else 1
-    if side == 0:
-        side = behind
-    elif not game.keeps_side and side * sin(psi) > sin(game.hysteresis):
-        side = behind
-    error = wrap_angle(psi + side * game.angle)
-    turning = float(np.sign(error)) if game.saturated else error
-    return game.pursuer.gain * a, game.evader.gain * turning, side
+    if side == 0 or not game.keeps_side:
+        side = laws.keep_side(side, psi, game.hysteresis)
+    error = laws.evasion_heading(psi, side, game.angle)
+    turn = laws.saturated_rate if game.saturated else laws.proportional_rate
+    aim = laws.pursuit_heading(a)
+    return (
+        laws.proportional_rate(aim, game.pursuer.gain),
+        turn(error, game.evader.gain),
+        side,
+    )
 
 
 def simulate_sampled(

@@ -5,10 +5,11 @@ Values that teams or the vendor published carry their source in
 of what they do.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi, radians
 
 from ..errors import ConfigurationError, check_not_negative, check_within
+from .settings import PhysicsSettings
 
 ERROR = ConfigurationError
 
@@ -128,3 +129,14 @@ BODIES = {
         com_error=0.003,
     ),
 }
+
+
+def with_cycle(
+    physics: PhysicsSettings, body: BodySettings
+) -> PhysicsSettings:
+    """Physics with the control period that a body asks for.
+
+    Raises:
+        ConfigurationError: If the period is no multiple of the time step.
+    """
+    return replace(physics, tick=body.cycle) if body.cycle > 0.0 else physics

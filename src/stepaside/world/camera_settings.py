@@ -15,6 +15,9 @@ ERROR = ConfigurationError
 KINDS = ("red box", "blue box", "white figure")
 # Horizontal and vertical field of view of NAO's top camera, in [deg].
 OPTICS = {"v5": (60.9, 47.6), "v6": (54.7, 42.5)}
+BACKENDS = ("egl", "osmesa")  # of graphics without a screen
+RAYCAST = "raycast"  # no graphics at all
+RENDERERS = ("auto", *BACKENDS, RAYCAST)
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +31,7 @@ class ColourSettings:
         rate: Images per second, in [1/s]; the sensor gives up to 30.
         latency: From exposure to the image in hand, in [s].
         noise: Standard deviation of a pixel, of 255.
-        renderer: "auto", "egl", "osmesa" or "raycast".
+        renderer: One of ``RENDERERS``.
     """
 
     optics: str = "v5"

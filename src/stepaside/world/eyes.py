@@ -24,7 +24,6 @@ from .world import World
 
 RAYCAST_WIDTH = 160  # columns of an image made of rays, at most
 Take = Callable[[float], Percept]
-Note = Callable[[Percept], None]
 
 
 @dataclass(slots=True, eq=False)
@@ -49,13 +48,18 @@ class Stream:
     taken: int
     pending: deque[tuple[float, Percept]]
 
-    def read(self, now: float, note: Note) -> list[Percept]:
-        """Percepts that arrive by ``now``, exposing one when it is due."""
+    def read(self, now: float, exposed: list[Percept]) -> list[Percept]:
+        """Percepts that arrive by ``now``, exposing one when it is due.
+
+        Args:
+            now: Time, in [s].
+            exposed: Gets what is taken now.
+        """
         if now >= self.taken * self.period - 1e-9:
             self.taken += 1
             if self.drop == 0.0 or self.generator.random() >= self.drop:
                 percept = self.take(now)
-                note(percept)
+                exposed.append(percept)
                 self.pending.append((now + self.latency, percept))
         arrived = []
         while self.pending and self.pending[0][0] <= now + 1e-9:
@@ -68,8 +72,8 @@ class Eyes:
 
     Attributes:
         camera: Its colour camera.
-        on_exposure: Called with each percept as it is taken, before the
-            robot has it.
+        exposed: Percepts that were taken at the last tick, which the robot
+            may not have yet.
     """
 
     def __init__(
@@ -100,7 +104,7 @@ class Eyes:
         self._settings, self._seed = settings, seed
         self._head = head
         self._screen: Screen | None = None
-        self.on_exposure: Note = lambda percept: None
+        self.exposed: list[Percept] = []
         self.camera = _size_for(renderer, settings.colour.model())
         body = f"{name}/{head.body}"
         self._streams = [self._colour(body, renderer)]
@@ -111,8 +115,9 @@ class Eyes:
     def read(self, now: float) -> tuple[Percept, ...]:
         """Percepts that arrive at a tick."""
         arrived: list[Percept] = []
+        self.exposed.clear()
         for stream in self._streams:
-            arrived += stream.read(now, self.on_exposure)
+            arrived += stream.read(now, self.exposed)
         return tuple(arrived)
 
     def close(self) -> None:

@@ -13,9 +13,10 @@ import numpy as np
 
 from ..errors import ConfigurationError
 from ..sensing.images import Pixels
+from .camera_settings import BACKENDS as BACKENDS
+from .camera_settings import RAYCAST as RAYCAST
+from .camera_settings import RENDERERS
 
-BACKENDS = ("egl", "osmesa")
-RAYCAST = "raycast"
 PROBE = (
     "import mujoco; from stepaside.world.graphics import Screen; "
     'm = mujoco.MjModel.from_xml_string(\'<mujoco><worldbody><geom size="1"/>'
@@ -43,9 +44,9 @@ def choose_renderer(wanted: str = "auto") -> str:
         return RAYCAST
     if wanted != "auto":
         if wanted not in BACKENDS:
-            known = ", ".join(("auto", *BACKENDS, RAYCAST))
             raise ConfigurationError(
-                f"renderer must be one of {known}, got {wanted!r}"
+                f"renderer must be one of {', '.join(RENDERERS)}, "
+                f"got {wanted!r}"
             )
         if not _works(wanted):
             raise ConfigurationError(

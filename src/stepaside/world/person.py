@@ -1,18 +1,12 @@
 """A person: a figure of human size that walks by itself."""
 
-from math import cos, hypot, nan, pi, sin
-from typing import Any
+from math import cos, hypot, pi, sin
 
 import mujoco
 import numpy as np
 
-from ..control import Phase
-from ..planning import GaitSettings
 from ..poses import Array, Pose
-from ..robots.kinematics import BodyReference
-from ..sensing.measurement import Measurement, Sighting
 from .person_motion import Motion
-from .push import Pusher
 from .truth import TrueState
 from .world import FLOOR_BIT, World
 
@@ -132,36 +126,32 @@ class PersonTruth(TrueState):
 
 
 class Person:
-    """A person in the place of a robot and of what drives it.
+    """The figure of a person in a world, where a walk has it.
 
     Attributes:
-        name: Its name in the world.
+        world: The world.
+        name: Its name there.
         truth: Where it is.
     """
 
     def __init__(self, world: World, name: str, motion: Motion) -> None:
         """Stand a figure where its walk begins."""
         self.world, self.name = world, name
-        self.tick = world.physics.tick
         self.truth = PersonTruth(motion)
-        self.qpos_slice = slice(0, 0)
-        self.pusher: Pusher | None = None
         self._motion = motion
         self._way = 0.0
         self._parts = parts_of(world.model, name)
-        self._evader: TrueState | None = None
         self._place()
 
-    def meet(self, evader: TrueState) -> None:
-        """Know where the evader is: people see."""
-        self._evader = evader
+    def step(self, other: tuple[float, float]) -> None:
+        """Walk for one tick.
 
-    def step(self) -> None:
-        """Walk for one tick."""
-        assert self._evader is not None
+        Args:
+            other: Place of whom the person may walk to, in [m].
+        """
         before = self._motion.pose
-        now = self.world.time + self.tick
-        self._motion.advance(now, self.tick, self._evader.position)
+        tick = self.world.physics.tick
+        self._motion.advance(self.world.time + tick, tick, other)
         x, y, _ = self._motion.pose
         self._way += hypot(x - before.x, y - before.y)
         self._place()
@@ -171,54 +161,9 @@ class Person:
         data = self.world.data
         pose_figure(data, self._parts, self._motion.pose, self._way)
 
-    def read(self) -> Measurement:
-        """Nothing: a person has no sensors of ours."""
-        nothing = np.zeros(0)
-        sighting: Sighting | None = None
-        return Measurement(
-            self.world.time, nothing, nothing, nothing, nothing, sighting
-        )
-
-    def write(self, joint_targets: Array) -> None:
-        """Nothing: nobody commands a person."""
-
-    def close(self) -> None:
-        """Nothing to let go of."""
-
-    def measured_zmp(self) -> tuple[float, float]:
-        """NaN: nobody measures it."""
-        return nan, nan
-
 
 def _turned(heading: float, pitch: float) -> tuple[float, ...]:
     """Quaternion of a heading, and a pitch after it."""
     ch, sh = cos(0.5 * heading), sin(0.5 * heading)
     cp, sp = cos(0.5 * pitch), sin(0.5 * pitch)
     return ch * cp, -sh * sp, ch * sp, sh * cp
-
-
-class PersonMind:
-    """What stands in the place of a person's control: nothing is planned.
-
-    Attributes are those of a control scheme that never plans.
-    """
-
-    def __init__(self, gait: GaitSettings) -> None:
-        """Take the gait that the evader has, for whoever asks."""
-        self.settings = gait
-        self.phase = Phase.WALKING
-        self.plan = None
-        self.stabiliser = None
-        self.replans = 0
-        self.landings: list[Any] = []
-        self.planning_times: list[float] = []
-        self.velocity_jumps: list[float] = []
-        self.margins: list[float] = []
-        self.reference = BodyReference(
-            (nan, nan, nan), (nan, nan, nan, nan), (nan, nan, nan, nan)
-        )
-        self.zmp_reference = (nan, nan)
-
-    def update(self, measurement: Measurement) -> Array:
-        """Ask nothing of the person."""
-        return np.zeros(0)

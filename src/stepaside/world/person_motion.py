@@ -2,11 +2,12 @@
 
 import csv
 from collections.abc import Callable
-from math import atan2, cos, pi, sin
+from math import atan2, cos, inf, pi, sin
 from pathlib import Path
 
 import numpy as np
 
+from .. import laws
 from ..errors import ConfigurationError
 from ..poses import Array, Pose, wrap_angle
 from .person_settings import PersonSettings
@@ -65,8 +66,9 @@ class Motion:
         settings = self._settings
         if settings.path == "steer":
             # (1)-(2) of the paper, held over one tick.
-            aim = atan2(evader[1] - y, evader[0] - x)
-            theta += settings.gain * wrap_angle(aim - theta) * duration
+            seen = wrap_angle(atan2(evader[1] - y, evader[0] - x) - theta)
+            aim = laws.pursuit_heading(seen)
+            theta += laws.proportional_rate(aim, settings.gain) * duration
         way = settings.speed * duration
         self.pose = Pose(x + way * cos(theta), y + way * sin(theta), theta)
 
@@ -148,20 +150,19 @@ def template_approach(
     """
     x, y, theta = evader
     walk = motion(start, (x, y))
-    side: float | None = None
+    side = 0
     least = float(np.hypot(walk.pose.x - x, walk.pose.y - y))
     for i in range(round(duration / step)):
         walk.advance((i + 1) * step, step, (x, y))
         px, py, _ = walk.pose
         away = float(np.hypot(px - x, py - y))
         least = min(least, away)
-        if side is None:
-            if away >= safety_radius:
-                continue
-            seen = wrap_angle(atan2(py - y, px - x) - theta)
-            side = 1.0 if seen >= 0.0 else -1.0
+        if not laws.is_evading(side != 0, away, safety_radius, inf):
+            continue
         seen = wrap_angle(atan2(py - y, px - x) - theta)
-        theta += step * gain * wrap_angle(seen - side * angle)
+        side = side or laws.side_behind(seen)
+        aim = laws.evasion_heading(seen, side, angle)
+        theta += laws.proportional_rate(aim, gain) * step
         x -= step * speed * cos(theta)
         y -= step * speed * sin(theta)
         theta = wrap_angle(theta) if abs(theta) > pi else theta

@@ -30,7 +30,7 @@ class SimulatedRobot:
     Attributes:
         name: Its name in the world.
         tick: Control period, in [s].
-        sight: Sensor of the other robot, once there is one.
+        sight: Ideal sensor of the other robot, if it has one.
         eyes: Cameras and sonars, if it sees with those.
         truth: Its true state, for sensors that say so and for the record.
     """
@@ -44,6 +44,10 @@ class SimulatedRobot:
         pose: Pose,
         body: BodySettings | None = None,
         generator: np.random.Generator | None = None,
+        *,
+        sight: IdealLineOfSight | None = None,
+        eyes: Eyes | None = None,
+        averages_imu: bool = False,
     ) -> None:
         """Stand a robot in the posture of its kinematics.
 
@@ -55,13 +59,17 @@ class SimulatedRobot:
             pose: Pose of the robot's odometry in the world.
             body: How far it is from an ideal one; not at all by default.
             generator: Of its errors and noise.
+            sight: Ideal sensor of the other, if it has one.
+            eyes: Cameras and sonars, if it sees with those.
+            averages_imu: Whether the IMU averages between readings, as real
+                ones do, instead of sampling.
         """
         body = body or BodySettings()
         self.world = world
         self.name = name
         self.tick = world.physics.tick
-        self.sight: IdealLineOfSight | None = None
-        self.eyes: Eyes | None = None
+        self.sight = sight
+        self.eyes = eyes
         model, data = world.model, world.data
         names = kinematics.joint_names
         joints = [model.joint(f"{name}/{n}") for n in names]
@@ -84,11 +92,15 @@ class SimulatedRobot:
             self._errors = SensorErrors(body, generator)
         self._gyro = self._sensor("gyro")
         self._accelerometer = self._sensor("accelerometer")
+        # Views of the state, which stays where it is: slicing takes time.
+        self._angles: Array = data.qpos
+        self._turning: Array = data.sensordata[self._gyro]
+        self._pushing: Array = data.sensordata[self._accelerometer]
         first, last = (
             self._sensor(FOOT_FORCES[0]),
             self._sensor(FOOT_FORCES[-1]),
         )
-        self._forces = slice(first.start, last.stop)
+        self._pressing: Array = data.sensordata[first.start : last.stop]
         sites = [model.site(f"{name}/{f}").id for f in FOOT_FORCES]
         self._corners = np.array(sites)
         root = model.body(f"{name}/{description.torso}")
@@ -97,6 +109,9 @@ class SimulatedRobot:
         self._torso = root.id
         self.pusher: Pusher | None = None
         self.truth = TrueState(model, data, f"{name}/{description.torso}")
+        if averages_imu:
+            self._imu = AveragedImu(data, self._gyro, self._accelerometer)
+            world.before_step.append(self._imu.before_step)
 
     def _sensor(self, sensor: str) -> slice:
         found = self.world.model.sensor(f"{self.name}/{sensor}")
@@ -111,17 +126,14 @@ class SimulatedRobot:
 
     def read(self) -> Measurement:
         """Read the sensors."""
-        data = self.world.data
-        sensors = data.sensordata
         now = self.world.time
         sighting = None if self.sight is None else self.sight.read(now)
-        angles = data.qpos[self._qpos]
+        angles = self._angles.take(self._qpos)
         if self._imu is None:
-            gyro = sensors[self._gyro].copy()
-            force = sensors[self._accelerometer].copy()
+            gyro, force = self._turning.copy(), self._pushing.copy()
         else:
             gyro, force = self._imu.read()
-        forces = sensors[self._forces].copy()
+        forces = self._pressing.copy()
         if self._errors is not None:
             angles = self._errors.encoders(angles)
             gyro, force = self._errors.imu(gyro, force)
@@ -134,13 +146,6 @@ class SimulatedRobot:
     def write(self, joint_targets: Array) -> None:
         """Send joint targets, in [rad], to the servos. Shape (joints,)."""
         self.servos.write(joint_targets)
-
-    def average_imu(self) -> None:
-        """Let the IMU average between readings, as real ones do."""
-        self._imu = AveragedImu(
-            self.world.data, self._gyro, self._accelerometer
-        )
-        self.world.before_step.append(self._imu.before_step)
 
     def push(self, *pushes: Push) -> None:
         """Let somebody push the torso, now or later."""
@@ -155,10 +160,16 @@ class SimulatedRobot:
         """Let time pass until the next control tick."""
         self.world.advance()
 
+    @property
+    def posture(self) -> Array:
+        """Position and quaternion of the torso, then all joints; a copy."""
+        posture: Array = self.world.data.qpos[self.qpos_slice].copy()
+        return posture
+
     def measured_zmp(self) -> tuple[float, float]:
         """Center of the foot forces in the world, in [m]; NaN in flight."""
         data = self.world.data
-        forces = data.sensordata[self._forces]
+        forces = self._pressing
         total = float(forces.sum())
         if total <= 0.0:
             return nan, nan

@@ -35,28 +35,29 @@ class IdealServos:
         """
         self._data = data
         self._ctrl = slice(int(actuators[0]), int(actuators[-1]) + 1)
+        self._sent: Array = data.ctrl[self._ctrl]  # a view
         gains = model.actuator_gainprm[actuators, 0]
         self._lead = -model.actuator_biasprm[actuators, 2] / gains / cycle
         self._reach = speed_limits * cycle
+        self._back = -self._reach
         self._target = np.zeros(actuators.size)
 
     def reset(self, targets: Array) -> None:
         """Take targets, in [rad], as the ones that were always there."""
         self._target = targets
-        self._data.ctrl[self._ctrl] = targets
+        self._sent[:] = targets
 
     def write(self, targets: Array) -> None:
         """Follow new targets, in [rad]. Shape (joints,)."""
         change = self._limited(targets)
         self._target = self._target + change
         change *= self._lead
-        change += self._target
-        self._data.ctrl[self._ctrl] = change
+        np.add(change, self._target, out=self._sent)
 
     def _limited(self, targets: Array) -> Array:
         change = targets - self._target
         np.minimum(change, self._reach, out=change)
-        np.maximum(change, -self._reach, out=change)
+        np.maximum(change, self._back, out=change)
         return change
 
 
@@ -131,7 +132,7 @@ class HonestServos(IdealServos):
         error -= np.minimum(np.maximum(error, -half), half)
         error += angle
         error += self._lead * self._change
-        data.ctrl[self._ctrl] = error
+        self._sent[:] = error
         if self._slope is not None:
             loss = self._slope * data.qvel[self._dofs]
             stall = self._stall

@@ -28,7 +28,8 @@ class TrueState:
     @property
     def position(self) -> tuple[float, float]:
         """Place of the torso in the world, in [m]."""
-        return float(self._position[0]), float(self._position[1])
+        x, y, _ = self._position.tolist()
+        return x, y
 
     @property
     def heading(self) -> float:

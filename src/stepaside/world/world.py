@@ -5,6 +5,7 @@ from math import cos, sin
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from ..poses import Pose
 from ..randomness import named_generator
@@ -125,13 +126,17 @@ class World:
         """Note that one robot is done; step when all of them are."""
         self._waiting -= 1
         if self._waiting == 0:
-            steps = self.physics.steps_per_tick
-            if self.before_step:
-                self._step_singly(steps)
-            else:
-                mujoco.mj_step(self.model, self.data, nstep=steps)
-            self.ticks += 1
             self._waiting = self._robots
+            self.step()
+
+    def step(self) -> None:
+        """Let one control tick pass."""
+        steps = self.physics.steps_per_tick
+        if self.before_step:
+            self._step_singly(steps)
+        else:
+            mujoco.mj_step(self.model, self.data, nstep=steps)
+        self.ticks += 1
 
     def _step_singly(self, steps: int) -> None:
         now, time_step = self.time, self.physics.time_step
@@ -142,11 +147,23 @@ class World:
 
     def robots_touch(self) -> bool:
         """Whether two robots, or one and a thing, are in contact."""
+        return bool(self._touching().any())
+
+    def touching(self) -> tuple[str, ...]:
+        """Names of who and what is in contact with each other, sorted."""
+        pairs = self.data.contact.geom[self._touching()]
+        bodies = self.model.geom_bodyid[pairs.ravel()]
+        names = {self.model.body(body).name for body in bodies}
+        return tuple(sorted({n.split("/")[0] or "a thing" for n in names}))
+
+    def _touching(self) -> NDArray[np.bool_]:
+        """Which contacts are between different owners. Shape (ncon,)."""
         if self.data.ncon == 0:
-            return False
+            return np.zeros(0, dtype=bool)
         owners = self._owner_of_geom[self.data.contact.geom]
-        touching = (owners[:, 0] != owners[:, 1]) & (owners.min(axis=1) > 0)
-        return bool(touching.any())
+        apart = owners[:, 0] != owners[:, 1]
+        touching: NDArray[np.bool_] = apart & (owners.min(axis=1) > 0)
+        return touching
 
 
 def place_free_body(qpos: Sequence[float], pose: Pose) -> list[float]:

@@ -8,8 +8,8 @@ import numpy as np
 from ...poses import Array
 from ...robots.forward import ForwardKinematics, MeasuredPosture
 from ...robots.kinematics import BodyReference
+from ...sensing.attitude import AttitudeFilter
 from ...sensing.measurement import Measurement
-from .attitude import AttitudeFilter
 
 FALLEN = 0.7  # tilt of the torso at which a robot knows that it falls, [rad]
 
@@ -93,6 +93,11 @@ class StateEstimator:
     def ready(self) -> bool:
         """Whether the robot has stood still for long enough."""
         return self._attitude.ready
+
+    @property
+    def tilt(self) -> tuple[float, float]:
+        """Roll and pitch of the torso, in [rad]."""
+        return self._attitude.roll, self._attitude.pitch
 
     @property
     def torso_heading(self) -> float:

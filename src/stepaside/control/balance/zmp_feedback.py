@@ -16,10 +16,10 @@ class ZmpFeedback(Protocol):
     """A rule for the shift of the ZMP.
 
     Attributes:
-        answers: Of a solver, if the rule has one.
+        solved: Answer of a solver at the last tick, if it was asked.
     """
 
-    answers: list[MpcResult]
+    solved: MpcResult | None
 
     def shift(self, step: Step, dcm: Vector, zmp: Vector) -> Vector:
         """Shift of the ZMP at the next tick.
@@ -35,14 +35,14 @@ class ProportionalFeedback:
     """A multiple of the DCM's shift, as far as the sole allows.
 
     Attributes:
-        answers: None: it has no solver.
+        solved: None: it has no solver.
     """
 
     def __init__(
         self, gait: GaitSettings, *, gain: float, edge: float
     ) -> None:
         """Take the gain, above 1, and the distance from the edge, in [m]."""
-        self.answers: list[MpcResult] = []
+        self.solved: MpcResult | None = None
         self._gait, self._gain, self._edge = gait, gain, edge
 
     def shift(self, step: Step, dcm: Vector, zmp: Vector) -> Vector:
@@ -58,7 +58,7 @@ class MpcFeedback:
     """The ZMP of the intrinsically stable MPC.
 
     Attributes:
-        answers: Every answer of the solver.
+        solved: Answer of the solver at the last tick, if it was asked.
     """
 
     def __init__(
@@ -68,11 +68,12 @@ class MpcFeedback:
         tick: float,
     ) -> None:
         """Ask an MPC while walking, and another rule while standing."""
-        self.answers: list[MpcResult] = []
+        self.solved: MpcResult | None = None
         self._mpc, self._standing, self._tick = mpc, standing, tick
 
     def shift(self, step: Step, dcm: Vector, zmp: Vector) -> Vector:
         """Shift of the ZMP; see :class:`ZmpFeedback`."""
+        self.solved = None
         if step.plan is None:
             return self._standing.shift(step, dcm, zmp)
         if dcm == zmp == (0.0, 0.0):
@@ -83,7 +84,7 @@ class MpcFeedback:
             np.array(step.to_support(*dcm)),
             np.array(step.to_support(*zmp)),
         )
-        self.answers.append(answer)
+        self.solved = answer
         vx, vy = step.from_support(*answer.velocity)
         return zmp[0] + self._tick * vx, zmp[1] + self._tick * vy
 

@@ -1,20 +1,21 @@
 """What the robots' cameras see, with what they found in it."""
 
-import threading
 from math import degrees, tan
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import viser
 
-from ...games.duel import Duel
 from ...sensing.images import ColourImage, Pixels
+
+if TYPE_CHECKING:
+    from ...perception.perception import FrameReport
 
 WIDTH = 240  # of a picture on the page, in [pixels]
 FOUND = (40, 200, 90)
 
 
-def picture(report: Any) -> Pixels:
+def picture(report: "FrameReport") -> Pixels:
     """Picture of one image, with a line at every bearing found in it."""
     image = report.image
     if isinstance(image, ColourImage):
@@ -44,38 +45,21 @@ class CameraPanel:
         self._gui = gui
         self._folder = gui.add_folder("Cameras", visible=False)
         self._shown: dict[str, viser.GuiImageHandle] = {}
-        self._newest: dict[str, Any] = {}
-        self._lock = threading.Lock()
 
-    def watch(self, duel: Duel) -> None:
-        """Watch the cameras of a duel, if it has any."""
+    def forget(self, *, visible: bool) -> None:
+        """Empty the folder for another duel, with cameras or without."""
         for handle in self._shown.values():
             handle.remove()
         self._shown.clear()
-        self._newest.clear()
-        self._folder.visible = duel.seeing is not None
-        if duel.seeing is None:
-            return
-        for name, perception in duel.seeing.perceptions.items():
-            self._listen(name, perception)
+        self._folder.visible = visible
 
-    def _listen(self, name: str, perception: Any) -> None:
-        judge = perception.on_frame
+    def show(self, frames: dict[str, "FrameReport"]) -> None:
+        """Show what came since the last time.
 
-        def note(report: Any) -> None:
-            judge(report)
-            is_colour = isinstance(report.image, ColourImage)
-            kind = "colour" if is_colour else "depth"
-            with self._lock:
-                self._newest[f"{name}, {kind}"] = report
-
-        perception.on_frame = note
-
-    def show(self) -> None:
-        """Show what came since the last time."""
-        with self._lock:
-            newest, self._newest = self._newest, {}
-        for label, report in newest.items():
+        Args:
+            frames: Newest image of each camera, by its label.
+        """
+        for label, report in frames.items():
             drawn = picture(report)
             if label in self._shown:
                 self._shown[label].image = drawn

@@ -2,10 +2,12 @@
 
 import numpy as np
 
-from ...poses import Array
+from ...control.walking import StepBegun, WalkState
+from ...poses import Array, Pose
 from ..style import COLOURS, EVADER, THEORY
 from .layers import (
     HEIGHTS,
+    PRINTS,
     Layers,
     chain,
     path_of,
@@ -16,6 +18,8 @@ from .layers import (
 )
 from .session import Session
 
+Drawn = tuple[str, str, Array, str]  # layer, owner, segments, colour
+SUPPORT = "#2a9d55"
 ZMP_COLOURS = {"pursuer": "#e8a598", "evader": "#9bb8e8"}
 
 
@@ -29,40 +33,16 @@ def draw_session(layers: Layers, session: Session) -> None:
     with session.lock:
         duel = session.duel
         now = duel.world.time
-        drawn: list[tuple[str, str, Array, str]] = []
+        drawn: list[Drawn] = []
         places = []
-        for robot, scheme, frame in zip(
-            duel.robots, duel.schemes, duel.recorder.frames, strict=True
-        ):
-            name, colour = robot.name, COLOURS[robot.name]
-            places.append(np.array(robot.truth.position))
-            path = path_of(scheme, frame)
-            drawn += [
-                (
-                    "planned path",
-                    name,
-                    chain(path, HEIGHTS["planned path"]),
-                    colour,
-                ),
-                ("footsteps", name, prints_of(scheme, frame), colour),
-                (
-                    "support polygon",
-                    name,
-                    support_of(scheme, frame, now),
-                    "#2a9d55",
-                ),
-            ]
-            for what, shade in (("CoM", colour), ("ZMP", ZMP_COLOURS[name])):
-                trace = np.array(session.traces[f"{name}/{what}"])
-                layer = f"{what} trace"
-                drawn.append(
-                    (
-                        layer,
-                        name,
-                        chain(trace.reshape(-1, 2), HEIGHTS[layer]),
-                        shade,
-                    )
-                )
+        for player in duel.players:
+            seen = player.snapshot()
+            name = player.name
+            places.append(np.array(seen.torso[:2]))
+            if seen.walk is not None and seen.frame is not None:
+                steps = list(session.trail.steps.get(name, ()))[-PRINTS:]
+                drawn += _walk_of(seen.walk, steps, seen.frame, now, name)
+            drawn += _traces(session, name)
         radius = session.settings.strategy.safety_radius
         drawn.append(
             ("safety area", "evader", safety_of(places[1], radius), EVADER)
@@ -81,6 +61,34 @@ def draw_session(layers: Layers, session: Session) -> None:
         layers.draw(layer, owner, segments, colour)
 
 
+def _walk_of(
+    walk: WalkState,
+    steps: list[StepBegun],
+    frame: Pose,
+    now: float,
+    name: str,
+) -> list[Drawn]:
+    """Plan, footsteps and support of a robot that walks."""
+    colour = COLOURS[name]
+    path = chain(path_of(walk, frame), HEIGHTS["planned path"])
+    return [
+        ("planned path", name, path, colour),
+        ("footsteps", name, prints_of(walk, steps, frame), colour),
+        ("support polygon", name, support_of(walk, frame, now), SUPPORT),
+    ]
+
+
+def _traces(session: Session, name: str) -> list[Drawn]:
+    """Where CoM and ZMP of a player have been lately."""
+    drawn = []
+    for what, shade in (("CoM", COLOURS[name]), ("ZMP", ZMP_COLOURS[name])):
+        layer = f"{what} trace"
+        trace = np.array(session.trail.traces.get(f"{name}/{what}", ()))
+        lines = chain(trace.reshape(-1, 2), HEIGHTS[layer])
+        drawn.append((layer, name, lines, shade))
+    return drawn
+
+
 def _circle(session: Session, places: list[Array]) -> Array:
     """Circle of theory, laid through where the robots are.
 
@@ -95,7 +103,8 @@ def _circle(session: Session, places: list[Array]) -> Array:
     half = 0.5 * float(np.hypot(*apart))
     if half >= radius or half < 1e-6:
         return np.zeros((0, 2, 3))
-    plan = session.duel.schemes[0].plan
+    walk = session.duel.players[0].snapshot().walk
+    plan = None if walk is None else walk.plan
     side = 1.0 if plan is None or plan.bearing >= 0.0 else -1.0
     normal = side * np.array([-apart[1], apart[0]]) / (2.0 * half)
     x, y = (middle + normal * np.sqrt(radius**2 - half**2)).tolist()

@@ -1,11 +1,13 @@
 """Buttons and keys with which a hand drives the pursuer."""
 
+from dataclasses import replace
 from math import inf
 
 import viser
 
-from ...strategies.driving import Driven
-from ...strategies.roles import Pursuit
+from ...games.duel import Duel
+from ...games.walker import Walker
+from ...strategies import Driven, Pursuit, Strategy
 from .session import Session
 
 TURNS = {"left": 1.0, "straight": 0.0, "right": -1.0}
@@ -76,22 +78,32 @@ class DrivePanel:
     def _drive(
         self, *, turn: float | None = None, going: bool | None = None
     ) -> None:
-        """Take the pursuer over, or steer it."""
-        if self._hand is None:
-            self._hand = hand = Driven(going=True)
+        """Take the pursuer over, or steer it; a person takes no orders."""
+        if not isinstance(self._session.duel.players[0], Walker):
+            return
+        hand = self._hand
+        if hand is None:
+            hand = Driven(going=True)
             self._began = self._session.duel.world.time
             self._closest = inf
-            self._session.change(
-                lambda duel: setattr(duel.schemes[0], "role", hand)
-            )
         if turn is not None:
-            self._hand.turn = turn
+            hand = replace(hand, turn=turn)
         if going is not None:
-            self._hand.going = going
+            hand = replace(hand, going=going)
+        self._hand = hand
+        self._give(hand)
 
     def _release(self) -> None:
         """Give the pursuer back to itself."""
         self._hand = None
-        self._session.change(
-            lambda duel: setattr(duel.schemes[0], "role", Pursuit())
-        )
+        self._give(Pursuit())
+
+    def _give(self, strategy: Strategy) -> None:
+        """Let a pursuer that is a robot follow a strategy from now on."""
+
+        def change(duel: Duel) -> None:
+            pursuer = duel.players[0]
+            if isinstance(pursuer, Walker):
+                pursuer.scheme.decisions.adopt(strategy)
+
+        self._session.change(change)

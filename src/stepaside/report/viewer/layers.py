@@ -1,11 +1,12 @@
 """Lines on the floor: plans, footsteps, traces, circles."""
 
+from collections.abc import Iterable
 from math import inf
 
 import numpy as np
 import viser
 
-from ...control import ControlScheme
+from ...control.walking import StepBegun, WalkState
 from ...planning.support import convex_hull, sole_corners
 from ...poses import Array, Pose
 from ..style import COLOURS, EVADER, THEORY
@@ -94,42 +95,45 @@ class Layers:
         self._drawn.clear()
 
 
-def path_of(scheme: ControlScheme, frame: Pose) -> Array:
+def path_of(walk: WalkState, frame: Pose) -> Array:
     """Points of the template's path under the plan. Shape (n, 2)."""
-    plan = scheme.plan
+    plan = walk.plan
     if plan is None:
         return np.zeros((0, 2))
     x, y = plan.placements[1:, 0], plan.placements[1:, 1]
     middle = np.column_stack([0.5 * (x[1:] + x[:-1]), 0.5 * (y[1:] + y[:-1])])
-    return frame.compose(scheme.plan_frame).transform_points(middle)
+    return frame.compose(walk.plan_frame).transform_points(middle)
 
 
-def prints_of(scheme: ControlScheme, frame: Pose) -> Array:
+def prints_of(
+    walk: WalkState, steps: Iterable[StepBegun], frame: Pose
+) -> Array:
     """Outlines of the last footsteps and the planned ones."""
-    sole = scheme.settings.sole
+    sole = walk.gait.sole
     height = HEIGHTS["footsteps"]
     outlines = []
-    for _, foot, pose in scheme.landings[-PRINTS:]:
-        place = np.array(frame.compose(pose))
-        corners = sole_corners(place, foot, sole)
+    for step in steps:
+        place = np.array(frame.compose(step.landing))
+        corners = sole_corners(place, step.foot, sole)
         outlines.append(chain(corners, height, closed=True))
-    plan = scheme.plan
+    plan = walk.plan
     if plan is not None:
-        at = frame.compose(scheme.plan_frame)
-        for step in plan.footsteps:
-            place = np.array(at.compose(Pose(step.x, step.y, step.theta)))
-            corners = sole_corners(place, step.foot, sole)
+        at = frame.compose(walk.plan_frame)
+        for planned in plan.footsteps:
+            pose = Pose(planned.x, planned.y, planned.theta)
+            place = np.array(at.compose(pose))
+            corners = sole_corners(place, planned.foot, sole)
             outlines.append(chain(corners, height, closed=True))
     return np.concatenate(outlines) if outlines else np.zeros((0, 2, 3))
 
 
-def support_of(scheme: ControlScheme, frame: Pose, now: float) -> Array:
+def support_of(walk: WalkState, frame: Pose, now: float) -> Array:
     """Outline of the support polygon."""
-    step = scheme.step(now)
-    sole = scheme.settings.sole
+    step = walk.step(now)
+    sole = walk.gait.sole
     feet = [(step.support, step.swing.other)]
     if step.remaining <= 0.0:
-        stood = scheme.left_foot if step.swing.value > 0 else scheme.right_foot
+        stood = walk.left_foot if step.swing.value > 0 else walk.right_foot
         feet.append((step.landing if step.walking else stood, step.swing))
     corners = [
         sole_corners(np.array(frame.compose(pose)), foot, sole)

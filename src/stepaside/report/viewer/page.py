@@ -2,21 +2,17 @@
 
 import logging
 import threading
-from dataclasses import replace
-from math import degrees, inf, radians
+from math import inf
 from time import perf_counter, sleep
 
 import viser
 
-from ...control.balance.settings import OPEN_LOOP, STABILISED
-from ...errors import StepAsideError
-from ...games.duel import Duel
-from ...games.settings import SENSING, DuelSettings
-from ...world.body_settings import BODIES
+from ...games.settings import DuelSettings
 from .bodies import Bodies
 from .camera_panel import CameraPanel
 from .drawing import draw_session
 from .drive_panel import DrivePanel
+from .duel_panel import DuelPanel
 from .layers import LAYERS, Layers
 from .plots import Plots
 from .push_panel import add_push
@@ -71,13 +67,13 @@ class Page:
         self._status = gui.add_markdown("starting")
         self._message = gui.add_markdown("", visible=False)
         self._add_time()
-        self._add_duel()
+        self._duel = DuelPanel(gui, self.session, self._say)
         add_push(gui, self.session, self._say)
         self._drive = DrivePanel(gui, self.session)
         self._add_layers()
         self._plots = Plots(gui)
         self._cameras = CameraPanel(gui)
-        self._cameras.watch(self.session.duel)
+        self._watch_cameras()
         self._publisher = threading.Thread(target=self._publish, daemon=True)
 
     def start(self) -> None:
@@ -110,7 +106,8 @@ class Page:
 
         @reset.on_click
         def _(_: object) -> None:
-            self._restart()
+            if self._duel.restart():
+                self._drive.forget()
 
         @speed.on_update
         def _(_: object) -> None:
@@ -120,107 +117,6 @@ class Page:
         @dark.on_update
         def _(_: object) -> None:
             gui.configure_theme(dark_mode=dark.value)
-
-    def _add_duel(self) -> None:
-        gui = self.server.gui
-        settings = self.session.settings
-        start = self.session.duel.settings.start
-        with gui.add_folder("Strategy (acts at the next step)"):
-            self._angle = gui.add_number(
-                "Angle [deg]", degrees(settings.strategy.angle), step=5.0
-            )
-            self._law = gui.add_dropdown(
-                "Law", ("proportional (4)", "saturated (6)")
-            )
-        with gui.add_folder("Start (acts at the next reset)"):
-            self._seed = gui.add_number("Seed", settings.seed, step=1)
-            self._distance = gui.add_number(
-                "Distance [m]", round(start.distance or 1.0, 3), step=0.05
-            )
-            self._pursuer_off = gui.add_number(
-                "Pursuer turned by [deg]",
-                round(degrees(start.pursuer_offset or 0.0), 1),
-                step=5.0,
-            )
-            self._evader_off = gui.add_number(
-                "Evader turned by [deg]",
-                round(degrees(start.evader_offset or 0.0), 1),
-                step=5.0,
-            )
-            self._speed_m_s = gui.add_number(
-                "Driving speed [m/s]", settings.gait.speed, step=0.01
-            )
-            self._gain = gui.add_number(
-                "Gain k [1/s]", settings.gait.gain, step=0.05
-            )
-            self._sensing = gui.add_dropdown(
-                "Sensing", SENSING, initial_value=settings.sensing
-            )
-            self._body = gui.add_dropdown(
-                "Body", tuple(BODIES), initial_value="ideal"
-            )
-
-        @self._angle.on_update
-        def _(_: object) -> None:
-            self._strategy()
-
-        @self._law.on_update
-        def _(_: object) -> None:
-            self._strategy()
-
-    def _strategy(self) -> None:
-        """Give the evader another strategy at its next replan."""
-        try:
-            strategy = replace(
-                self.session.settings.strategy,
-                angle=radians(float(self._angle.value)),
-                saturated=self._law.value.startswith("saturated"),
-            )
-            role = strategy.role()
-        except StepAsideError as error:
-            self._say(str(error))
-            return
-        self._say("")
-        session = self.session
-        session.settings = replace(session.settings, strategy=strategy)
-
-        def change(duel: Duel) -> None:
-            old = duel.schemes[1].role
-            role.evading = getattr(old, "evading", False)
-            duel.schemes[1].role = role
-
-        session.change(change)
-
-    def _restart(self) -> None:
-        """Begin again with what the controls say."""
-        session = self.session
-        try:
-            settings = replace(
-                session.settings,
-                seed=int(self._seed.value),
-                start=replace(
-                    session.settings.start,
-                    distance=float(self._distance.value),
-                    pursuer_offset=radians(float(self._pursuer_off.value)),
-                    evader_offset=radians(float(self._evader_off.value)),
-                ),
-                gait=replace(
-                    session.settings.gait,
-                    speed=float(self._speed_m_s.value),
-                    gain=float(self._gain.value),
-                ),
-                sensing=self._sensing.value,
-                body=BODIES[self._body.value],
-                control=OPEN_LOOP
-                if self._body.value == "ideal"
-                else STABILISED,
-            )
-            session.reset(settings)
-        except StepAsideError as error:
-            self._say(str(error))
-            return
-        self._drive.forget()
-        self._say("")
 
     def _add_layers(self) -> None:
         gui = self.server.gui
@@ -235,6 +131,11 @@ class Page:
         def _(_: object) -> None:
             self._layers.shown[layer] = box.value
 
+    def _watch_cameras(self) -> None:
+        """Show the cameras of the duel that runs, if it has any."""
+        with_cameras = self.session.settings.sensing == "cameras"
+        self._cameras.forget(visible=with_cameras)
+
     def _say(self, text: str) -> None:
         self._message.content = f"**{text}**" if text else ""
         self._message.visible = bool(text)
@@ -248,7 +149,7 @@ class Page:
                 if began - plotted > 1.0 / PLOTS:
                     plotted = began
                     self._plots.show(self.session)
-                    self._cameras.show()
+                    self._cameras.show(self.session.new_frames())
             except Exception:
                 LOG.exception("the page could not be refreshed")
             rest = 1.0 / RATE - (perf_counter() - began)
@@ -260,15 +161,16 @@ class Page:
         if session.generation != self._generation:
             self._generation = session.generation
             self._layers.clear()
-            self._cameras.watch(session.duel)
+            self._watch_cameras()
         moment = session.moment()
         with self.server.atomic():
             self._bodies.move(moment.positions, moment.quaternions)
             draw_session(self._layers, session)
         self._play.label = "Pause" if session.running else "Start"
         duel = session.duel
-        history = session.history[-1] if session.history else (0.0, 0.0, 0.0)
-        distance, angle = duel.distance, history[2]
+        history = session.trail.history
+        angle = history[-1][2] if history else 0.0
+        distance = duel.distance or 0.0
         words = words_of(
             phases_of(duel),
             distance,

@@ -33,7 +33,7 @@ class Plots:
 
     def show(self, session: Session) -> None:
         """Show what a session has gone through."""
-        rows = np.array(session.history).reshape(-1, 3)
+        rows = np.array(session.trail.history).reshape(-1, 3)
         if len(rows) < 2:
             return
         theory = session.theory or (np.nan, np.nan)

@@ -8,8 +8,9 @@ import numpy as np
 import viser
 from viser import uplot
 
-from ...games.duel import NAMES
-from ..replay import Run, Stage
+from ...games.run import Run
+from ...games.settings import PLAYERS
+from ..stage import Stage
 from ..style import COLOURS, EVADER, PURSUER, THEORY
 from .bodies import Bodies
 from .layers import HEIGHTS, Layers, chain, ring, safety_of
@@ -40,7 +41,7 @@ class ReplayPage:
         scene.add_grid(
             "/floor", width=12.0, height=12.0, cell_size=0.25, plane="xy"
         )
-        place = run.arrays["evader_torso"][0]
+        place = run.evader.torso[0]
         self.server.initial_camera.position = (
             float(place[0]) - 1.5,
             float(place[1]) - 1.6,
@@ -152,11 +153,11 @@ class ReplayPage:
         run, layers = self._run, self._layers
         first = max(0, index - 1500)
         places = []
-        for name in NAMES:
-            trace = run.arrays[f"{name}_com"][first : index + 1 : 5, :2]
+        for name in PLAYERS:
+            trace = run.tracks[name].com[first : index + 1 : 5, :2]
             lines = chain(trace, HEIGHTS["CoM trace"])
             layers.draw("CoM trace", name, lines, COLOURS[name])
-            places.append(run.arrays[f"{name}_torso"][index, :2])
+            places.append(run.tracks[name].torso[index, :2])
         radius = run.settings.strategy.safety_radius
         layers.draw(
             "safety area", "evader", safety_of(places[1], radius), EVADER

@@ -7,21 +7,21 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import degrees
 from time import perf_counter, sleep
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from ...errors import StepAsideError
-from ...games.duel import Duel, Outcome
+from ...games.circle import theory_of
+from ...games.duel import Duel
+from ...games.outcome import Outcome
 from ...games.settings import DuelSettings
-from ...games.summary import theory_of
-from ...poses import Array, wrap_angle
+from ...poses import Array
 from ...world.push import Push
+from .trail import Trail
+
+if TYPE_CHECKING:
+    from ...perception.perception import FrameReport
 
 LOG = logging.getLogger(__name__)
-HISTORY = 6000  # samples of the plots that are kept, 0.1 s apart
-KEPT = 100  # plans and footsteps of each robot that are kept
-NEVER = 2**62  # ticks between two samples of a record that nobody reads
-TRACE = 1500  # points of a trace that are kept
 BEHIND = 0.25  # delay after which lost time is given up, in [s]
 
 
@@ -54,7 +54,7 @@ class Session:
         speed: Simulated time per time that passes; inf for all it can.
         outcome: How the duel ended, if it did.
         error: What went wrong in the loop, if anything did.
-        history: (time [s], distance [m], angle [deg]) every 0.1 s.
+        trail: What the page draws of the time that has passed.
         lock: Held while the duel changes.
         factor: Simulated time over time passed, lately.
     """
@@ -73,8 +73,8 @@ class Session:
         self._requests: deque[Callable[[], None]] = deque()
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._loop, daemon=True)
-        self.on_tick: Callable[[Duel], None] | None = None
         self.generation = 0
+        self._open: Duel | None = None
         self._thread.start()
         try:
             self._in_loop(lambda: self._begin(settings))
@@ -101,18 +101,15 @@ class Session:
             raise failed[0]
 
     def _begin(self, settings: DuelSettings) -> None:
-        duel = Duel(settings)
         # A live duel has no end: what would grow with it is not kept.
-        duel.recorder.every = NEVER
+        trail = Trail()
+        duel = Duel(settings, (trail,), recorded=False)
+        self._let_go()
+        self._open = duel
         self.settings = settings
         self.duel = duel
         self.outcome: Outcome | None = None
-        self.history: deque[tuple[float, float, float]] = deque(maxlen=HISTORY)
-        self.traces: dict[str, deque[tuple[float, float]]] = {
-            f"{robot.name}/{what}": deque(maxlen=TRACE)
-            for robot in duel.robots
-            for what in ("CoM", "ZMP")
-        }
+        self.trail = trail
         circle = theory_of(settings)
         self.theory = (
             (circle.distance_m, degrees(circle.headings_apart_rad))
@@ -153,16 +150,24 @@ class Session:
             direction: From its heading, in [rad].
 
         Raises:
-            ConfigurationError: If the push makes no sense.
+            ConfigurationError: If the push makes no sense, or nobody is
+                there who can be pushed.
         """
         duel = self.duel
         push = Push(impulse, duel.world.time, direction)
-        self._requests.append(lambda: duel.robots[robot].push(push))
+        self._in_loop(lambda: duel.players[robot].push(push))
 
     def change(self, request: Callable[[Duel], None]) -> None:
         """Change the duel between two ticks; acts at the next replan."""
         duel = self.duel
         self._requests.append(lambda: request(duel))
+
+    def new_frames(self) -> "dict[str, FrameReport]":
+        """Newest images of all cameras, once; see :class:`Trail`."""
+        with self.lock:
+            frames = dict(self.trail.frames)
+            self.trail.frames.clear()
+        return frames
 
     def moment(self) -> Moment:
         """Copy what the page shows."""
@@ -200,6 +205,13 @@ class Session:
             except Exception as error:
                 LOG.exception("the duel stopped")
                 self._fail(f"{type(error).__name__}: {error}")
+        self._let_go()
+
+    def _let_go(self) -> None:
+        """Close the duel in the thread that drew for it."""
+        if self._open is not None:
+            self._open.close()
+            self._open = None
 
     def _fail(self, message: str) -> None:
         LOG.error("%s", message)
@@ -218,27 +230,4 @@ class Session:
                 self._tick()
 
     def _tick(self) -> None:
-        duel = self.duel
-        self.outcome = duel.tick()
-        if self.on_tick is not None:
-            self.on_tick(duel)
-        every = max(1, round(0.1 / duel.world.physics.tick))
-        if duel.world.ticks % every:
-            return
-        self._note(duel)
-
-    def _note(self, duel: Duel) -> None:
-        for scheme in duel.schemes:
-            del scheme.walked[:-KEPT]
-            del scheme.landings[:-KEPT]
-            del scheme.planning_times[:-KEPT]
-            del scheme.velocity_jumps[:-KEPT]
-        pursuer, evader = (robot.truth for robot in duel.robots)
-        apart = abs(wrap_angle(evader.heading - pursuer.heading))
-        self.history.append((duel.world.time, duel.distance, degrees(apart)))
-        for robot in duel.robots:
-            x, y, _ = robot.truth.com.tolist()
-            self.traces[f"{robot.name}/CoM"].append((x, y))
-            zmp = robot.measured_zmp()
-            if np.isfinite(zmp[0]):
-                self.traces[f"{robot.name}/ZMP"].append(zmp)
+        self.outcome = self.duel.tick()

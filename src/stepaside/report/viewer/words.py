@@ -4,6 +4,7 @@ from math import inf
 
 from ...control import Phase
 from ...games.duel import Duel
+from ...games.player import Player
 
 NEAR_DISTANCE = 0.05  # of theory's distance, on the circle
 NEAR_ANGLE = 5.0  # of theory's angle, on the circle, in [deg]
@@ -52,9 +53,14 @@ def words_of(
 
 
 def phases_of(duel: Duel) -> tuple[Phase, Phase]:
-    """What both robots do; a true fall counts."""
-    pursuer, evader = (
-        Phase.FALLEN if robot.truth.has_fallen else scheme.phase
-        for robot, scheme in zip(duel.robots, duel.schemes, strict=True)
-    )
+    """What both players do; a true fall counts."""
+    pursuer, evader = (phase_of(player) for player in duel.players)
     return pursuer, evader
+
+
+def phase_of(player: Player) -> Phase:
+    """What a player does; who has no phases of its own walks."""
+    if player.has_fallen:
+        return Phase.FALLEN
+    walk = player.snapshot().walk
+    return Phase.WALKING if walk is None else walk.phase

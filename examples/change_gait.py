@@ -1,0 +1,46 @@
+# /// script
+# dependencies = ["stepaside"]
+# ///
+"""Let NAO walk with other gaits, and see what feedback is good for.
+
+Run it alone: ``python examples/change_gait.py``.
+"""
+
+import sys
+from math import degrees, hypot
+
+from stepaside import (
+    ControlSettings,
+    GaitSettings,
+    Push,
+    WalkSettings,
+    run_walk,
+)
+
+seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 10.0
+gaits = {
+    "as in the paper": GaitSettings(),
+    "longer strides": GaitSettings(stride=0.06),
+    "quicker steps": GaitSettings(single_support=0.3, double_support=0.1),
+}
+feedback = ControlSettings(method="measured", feedback=True)
+
+print("gait             control     outcome      speed [m/s]  tilt [deg]")
+for name, gait in gaits.items():
+    for control in (ControlSettings(), feedback):
+        walk = WalkSettings(
+            duration=seconds,
+            gait=gait,
+            control=control,
+            # Somebody bumps into it from the right, 0.6 N s, for 0.1 s.
+            pushes=(Push(0.6, 0.6 * seconds, 1.57),),
+        )
+        run = run_walk(walk)
+        x, y = run.arrays["world_x"], run.arrays["world_y"]
+        speed = hypot(x[-1] - x[0], y[-1] - y[0]) / run.duration
+        tilt = degrees(max(abs(run.arrays["roll"])))
+        loop = "feedback" if control.feedback else "open loop"
+        print(
+            f"{name:<16} {loop:<11} {run.outcome.value:<12} {speed:11.3f}"
+            f"{tilt:12.2f}"
+        )

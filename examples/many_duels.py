@@ -1,0 +1,43 @@
+# /// script
+# dependencies = ["stepaside"]
+# ///
+"""Play duels side by side on all cores: how much does a worse body cost?
+
+Any executor of ``concurrent.futures`` will do, on one machine or on many.
+Run it alone: ``python examples/many_duels.py``.
+"""
+
+import sys
+from concurrent.futures import ProcessPoolExecutor
+
+from stepaside import BODIES, ControlSettings, DuelSettings, run_duel
+
+FEEDBACK = ControlSettings(method="measured", feedback=True)
+
+
+def main(seconds: float, seeds: range) -> None:
+    """Play every body from every start, and tabulate."""
+    duels = {
+        (body, seed): DuelSettings(
+            seed=seed,
+            duration=seconds,
+            body=BODIES[body],
+            control=ControlSettings() if body == "ideal" else FEEDBACK,
+        )
+        for body in ("ideal", "hardware")
+        for seed in seeds
+    }
+    print("body      seed  outcome      closest [m]  at the end [m]  replans")
+    with ProcessPoolExecutor() as pool:
+        runs = pool.map(run_duel, duels.values())
+        for (body, seed), run in zip(duels, runs, strict=True):
+            print(
+                f"{body:<9} {seed:4d}  {run.outcome.value:<11}"
+                f"{run.summary.min_distance_m:12.3f}"
+                f"{run.distance[-1]:16.3f}{run.summary.replans:9d}"
+            )
+
+
+if __name__ == "__main__":
+    seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 30.0
+    main(seconds, range(1, 4))

@@ -1,0 +1,60 @@
+# /// script
+# dependencies = ["stepaside"]
+# ///
+"""An evader of your own: aside from afar, back when the pursuer is near."""
+
+import sys
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+
+from stepaside import Direction, DuelSettings, Start, StartSettings, run_duel
+from stepaside import strategies as st
+from stepaside.unicycle.laws import Unicycle
+
+
+@dataclass(frozen=True)
+class BackAndAside:
+    """Blend "move back" into "move aside" as the distance grows."""
+
+    direction: Direction = Direction.BACKWARD
+    saturated: bool = False
+
+    def begin(self) -> st.EvasionMemory:
+        """Nobody has come near yet."""
+        return st.EvasionMemory()
+
+    def decide(
+        self, knowledge: st.Knowledge, memory: st.EvasionMemory
+    ) -> tuple[st.Intent, st.EvasionMemory]:
+        """Evade as the paper does, at an angle that the distance decides."""
+        room = 2.0 * knowledge.distance - 1.0  # from 0.5 m on, up to 1 m
+        angle = 0.5 * pi * min(max(room, 0.0), 1.0)
+        return st.Evasion(angle=angle).decide(knowledge, memory)
+
+
+def main(duration: float) -> None:
+    """Play it against moving aside, in both bodies."""
+    body = Unicycle(0.1, 0.2)  # NAO's, in path time: 0.4 s in 0.547 s
+    for name in ("evasion", f"{__file__}:BackAndAside"):
+        game = st.play_strategies(
+            st.Pursuit(), st.load_strategy(name), Start(0.9, 0.3, -0.2),
+            bodies=(body, body), period=0.4, duration=0.4 / 0.547 * duration,
+        )  # fmt: skip
+        start = StartSettings(0.9, -0.3, 0.2)
+        duel = run_duel(
+            DuelSettings(duration=duration, start=start, evader_strategy=name)
+        )
+        for bodies, closest, path in (
+            ("unicycles", game.closest_distance, game.evader),
+            ("humanoids", duel.summary.min_distance_m, duel.evader.torso),
+        ):
+            floor = np.hypot(*(path - path[0])[:, :2].T).max()
+            who = "aside" if name == "evasion" else "own"
+            print(f"{who} {bodies}: closest approach {closest:.2f} m, floor "
+                  f"used {floor:.2f} m")  # fmt: skip
+
+
+if __name__ == "__main__":
+    main(float(sys.argv[1]) if len(sys.argv) > 1 else 40.0)

@@ -1,0 +1,1 @@
+"""Options, each declared once, and settings built from them."""

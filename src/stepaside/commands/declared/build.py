@@ -1,0 +1,69 @@
+"""Settings from defaults, a file, and the options that were given."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from .body import BODY_PRESET, FEEDBACK, METHOD
+
+if TYPE_CHECKING:
+    from ...control.balance.settings import ControlSettings
+
+S = TypeVar("S")
+
+
+def changed(settings: S, values: Mapping[str, Any]) -> S:
+    """Settings with other values at some paths.
+
+    Whole sections come first, then what lies in them; the values of one
+    section go in together, so that each may need the others.
+
+    Args:
+        settings: That hold for everything else.
+        values: By path, like ``physics.friction``.
+
+    Raises:
+        StepAsideError: If a section refuses its values.
+    """
+    sections: dict[tuple[str, ...], dict[str, Any]] = {}
+    for path, value in values.items():
+        *section, name = path.split(".")
+        sections.setdefault(tuple(section), {})[name] = value
+    for where in sorted(sections, key=len):
+        settings = _put(settings, where, sections[where])
+    return settings
+
+
+def _put(settings: Any, section: tuple[str, ...], values: Any) -> Any:
+    if not section:
+        return replace(settings, **values)
+    name, *deeper = section
+    inner = _put(getattr(settings, name), tuple(deeper), values)
+    return replace(settings, **{name: inner})
+
+
+def with_control(
+    given: Mapping[str, Any], control: "ControlSettings"
+) -> dict[str, Any]:
+    """Values with the method and the feedback that others imply.
+
+    A body other than the ideal one is stabilised unless it is said not to
+    be, as is a walk planned from the measured state.
+
+    Args:
+        given: Values by path, names of presets not looked up yet.
+        control: What holds so far.
+    """
+    body, method, feedback = (
+        given.get(option.path) for option in (BODY_PRESET, METHOD, FEEDBACK)
+    )
+    if feedback is None and (method or body) is not None:
+        feedback = body not in (None, "ideal") or (
+            method not in (None, "closed-form")
+        )
+        feedback = feedback or (body is None and control.feedback)
+    if feedback is None:
+        return dict(given)
+    if method is None:
+        method = "measured" if feedback else "closed-form"
+    return {**given, METHOD.path: method, FEEDBACK.path: feedback}

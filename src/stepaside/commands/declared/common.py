@@ -1,0 +1,67 @@
+"""Options of commands themselves, which no configuration holds."""
+
+from pathlib import Path
+
+import click
+
+from ..options import NumberType
+from .option import Declaration
+
+JSON = Declaration(
+    "--json/--no-json", "Print one JSON object.", more_names=("as_json",)
+)
+json_option = JSON.option(default=False)
+FOLDER = Declaration(
+    "--output",
+    "Folder of results.",
+    kind=click.Path(file_okay=False, path_type=Path),
+)
+FILE = Declaration(
+    "--output",
+    "File to write.",
+    kind=click.Path(dir_okay=False, path_type=Path),
+)
+FIGURE = Declaration(
+    "--figure",
+    "Write a figure (.png, .svg or .pdf).",
+    kind=click.Path(dir_okay=False),
+)
+WORKERS = Declaration(
+    "--workers", "Processes; all cores by default.", kind=click.IntRange(1)
+)
+FIRST_SEED = Declaration(
+    "--seed", "Of every random draw.", kind=click.IntRange(0)
+)
+PORT = Declaration(
+    "--port", "To serve the page at.", kind=click.IntRange(1, 65535)
+)
+BROWSER = Declaration(
+    "--open/--no-open", "Open the page in a browser.", more_names=("opens",)
+)
+SERVE_FOR = Declaration(
+    "--serve-for",
+    "Stop serving after this time",
+    unit="s",
+    kind=NumberType("s"),
+)
+CAPTURE = Declaration(
+    "--body",
+    "Distance {unit} that counts as capture.",
+    unit="m",
+    kind=NumberType("m"),
+)
+GAME_TIME = Declaration(
+    "--duration", "Length of a game", unit="s", kind=NumberType("s")
+)
+SAMPLE_TIME = Declaration(
+    "--sample-time",
+    "Time for which turning rates are held",
+    unit="s",
+    kind=NumberType("s", allow_zero=True),
+)
+DELAY = Declaration(
+    "--delay",
+    "Age of a perception when it takes effect",
+    unit="s",
+    kind=NumberType("s", allow_zero=True),
+)

@@ -1,0 +1,217 @@
+"""Options of a game: how it starts, who plays, what the evader does."""
+
+from collections.abc import Collection
+from math import inf
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..options import SECONDS
+from .option import Declaration, Group
+from .strategies import EVADER_STRATEGY, PURSUER_STRATEGY
+
+if TYPE_CHECKING:
+    from ...world.camera_settings import Thing
+
+
+def _senses() -> Collection[str]:
+    from ...games.settings import SENSING
+
+    return SENSING
+
+
+def _pursuers() -> Collection[str]:
+    from ...world.person_settings import PURSUERS
+
+    return PURSUERS
+
+
+def _optics() -> Collection[str]:
+    from ...world.camera_settings import OPTICS
+
+    return tuple(OPTICS)
+
+
+def _renderers() -> Collection[str]:
+    from ...world.camera_settings import RENDERERS
+
+    return RENDERERS
+
+
+def _things() -> "dict[bool, list[Thing]]":
+    from ...world.camera_settings import CLUTTER
+
+    return {True: list(CLUTTER), False: []}
+
+
+SEED = Declaration("--seed", "Of every random draw.", "seed", kind=click.INT)
+DURATION = Declaration(
+    "--duration", "Simulated time", "duration", "s", kind=SECONDS
+)
+ROBOT = Declaration(
+    "--robot", "Robot, or the folder of its description.", "robot"
+)
+RUN = Group("Run", (SEED, DURATION, ROBOT))
+DRAWN: dict[str, Any] = {"drawn": None}
+START = Group(
+    "Start (what is not given, the seed draws)",
+    (
+        Declaration(
+            "--distance",
+            "Distance {unit} between the robots.",
+            "start.distance",
+            "m",
+            words=DRAWN,
+        ),
+        Declaration(
+            "--pursuer-offset",
+            "Heading of the pursuer from the evader",
+            "start.pursuer_offset",
+            "rad",
+            words=DRAWN,
+        ),
+        Declaration(
+            "--evader-offset",
+            "Heading of the evader from the pursuer",
+            "start.evader_offset",
+            "rad",
+            words=DRAWN,
+        ),
+    ),
+)
+STRATEGY = Group(
+    "Strategy",
+    (
+        EVADER_STRATEGY,
+        PURSUER_STRATEGY,
+        Declaration(
+            "--angle",
+            "Angle {unit} of evasion: 90deg moves aside, 0 moves back.",
+            "strategy.angle",
+            "rad",
+        ),
+        Declaration(
+            "--saturated/--no-saturated",
+            "Whether the evader turns by (6), or by (4).",
+            "strategy.saturated",
+        ),
+        Declaration(
+            "--safety-radius",
+            "Distance {unit} at which evasion begins; {default} by default.",
+            "strategy.safety_radius",
+            "m",
+        ),
+        Declaration(
+            "--release-distance",
+            "Distance {unit} at which evasion ends; {default} by default.",
+            "strategy.release_distance",
+            "m",
+            words={"never": inf},
+        ),
+        Declaration(
+            "--side-hysteresis",
+            "How far {unit} the pursuer's bearing must be past a change of "
+            "sign for the evader's side to change.",
+            "strategy.side_hysteresis",
+            "rad",
+            more_names=("--hysteresis",),
+        ),
+    ),
+)
+SENSING = Declaration(
+    "--sensing",
+    "Whether they are told where the other is, or see it.",
+    "sensing",
+    registry=_senses,
+)
+SIGHT = Group(
+    "Sight (where they are told)",
+    (
+        SENSING,
+        Declaration(
+            "--bearing-noise",
+            "Standard deviation of the bearing",
+            "sight.bearing_noise",
+            "rad",
+        ),
+        Declaration(
+            "--distance-noise",
+            "Standard deviation of the distance",
+            "sight.distance_noise",
+            "m",
+        ),
+        Declaration("--delay", "From seeing to knowing", "sight.delay", "s"),
+        Declaration(
+            "--rate",
+            "Sightings a second",
+            "sight.rate",
+            "1/s",
+            words={"every-tick": inf},
+        ),
+    ),
+)
+CAMERAS = Group(
+    "Cameras and room (where they see)",
+    (
+        Declaration(
+            "--drop-frames",
+            "Share of images that never arrive",
+            "cameras.drop_frames",
+            "1",
+        ),
+        Declaration(
+            "--camera-latency",
+            "Added to that of the cameras",
+            "cameras.added_latency",
+            "s",
+        ),
+        Declaration(
+            "--optics",
+            "Which NAO's top camera.",
+            "cameras.colour.optics",
+            registry=_optics,
+        ),
+        Declaration(
+            "--renderer",
+            "What draws the images.",
+            "cameras.colour.renderer",
+            registry=_renderers,
+        ),
+        Declaration(
+            "--clutter/--no-clutter",
+            "Boxes and a white figure stand about.",
+            "room.things",
+            registry=_things,
+        ),
+        Declaration(
+            "--walls",
+            "Distance {unit} of the walls from the middle; 0 for none.",
+            "room.walls",
+            "m",
+        ),
+    ),
+)
+PERSON = Group(
+    "Who comes",
+    (
+        Declaration(
+            "--pursuer",
+            "Another robot, or a person.",
+            "pursuer",
+            registry=_pursuers,
+        ),
+        Declaration(
+            "--person-path",
+            "steer, straight, or a CSV file of time,x,y.",
+            "person.path",
+        ),
+        Declaration("--person-speed", "Of the walk", "person.speed", "m/s"),
+        Declaration("--person-gain", "Of the steering", "person.gain", "1/s"),
+        Declaration(
+            "--person-miss",
+            "How far {unit} beside the evader a straight walk aims.",
+            "person.miss",
+            "m",
+        ),
+    ),
+)

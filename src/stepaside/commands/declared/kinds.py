@@ -1,0 +1,95 @@
+"""Kinds of values that options take."""
+
+from collections.abc import Callable, Collection, Mapping
+from typing import Any
+
+import click
+
+
+class RealType(click.ParamType[float]):
+    """A number; in which range is up to the settings that it is for."""
+
+    name = "number"
+
+    def __init__(self, unit: str) -> None:
+        """Name the unit for messages."""
+        self.unit = unit
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> float:
+        """Parse a number."""
+        try:
+            number = float(value)
+        except ValueError:
+            number = float("nan")
+        if number != number:
+            self.fail(f"must be a number [{self.unit}], got {value!r}")
+        return number
+
+
+class NameType(click.ParamType[str]):
+    """One of the names of a registry, which is asked when it is needed."""
+
+    name = "choice"
+
+    def __init__(
+        self,
+        registry: Callable[[], Collection[str]],
+        old_names: Mapping[str, str] | None = None,
+    ) -> None:
+        """Remember where the names are.
+
+        Args:
+            registry: Gives the names.
+            old_names: Names of today by what they were called before.
+        """
+        self.registry, self._old_names = registry, dict(old_names or {})
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        """Names that may be chosen."""
+        return tuple(self.registry())
+
+    def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
+        """Names, as the help shows them."""
+        return f"[{'|'.join(self.choices)}]"
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> str:
+        """Look a name up."""
+        name = self._old_names.get(value, value)
+        return click.Choice(self.choices).convert(name, param, ctx)
+
+
+class WordedType(click.ParamType[Any]):
+    """A value of another kind, or a word for one that has no number."""
+
+    def __init__(
+        self, kind: click.ParamType[Any], words: Mapping[str, Any]
+    ) -> None:
+        """Wrap a kind.
+
+        Args:
+            kind: Of all other values.
+            words: Values by word; None stands for no value at all.
+        """
+        self.kind, self.words, self.name = kind, words, kind.name
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> Any:
+        """Take a word for its value, and anything else as its kind does."""
+        if value in self.words:
+            return self.words[value]
+        return self.kind.convert(value, param, ctx)

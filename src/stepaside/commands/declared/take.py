@@ -1,0 +1,127 @@
+"""Commands that take settings: groups of options, a file, or both.
+
+What a command gets is its defaults, changed by the file of ``--config``,
+changed by presets such as ``--body``, changed by single options.
+"""
+
+from collections.abc import Callable, Collection, Mapping
+from functools import wraps
+from pathlib import Path
+from typing import Any
+
+import click
+from click.core import ParameterSource
+
+from .build import changed, with_control
+from .option import Declaration, DeclaredOption, Group, Kind
+
+CONFIG = Declaration(
+    "--config",
+    "Configuration file (TOML); options given beside it win.",
+    kind=click.Path(exists=True, dir_okay=False, path_type=Path),
+)
+PRINT_CONFIG = Declaration(
+    "--print-config/--no-print-config",
+    "Print the configuration that would be used, with what each entry means, "
+    "and do nothing else.",
+)
+CONFIGURATION = Group("Configuration", (CONFIG, PRINT_CONFIG))
+
+
+class SettingsCommand(click.Command):
+    """A command whose help shows its options by group."""
+
+    def format_options(
+        self, ctx: click.Context, formatter: click.HelpFormatter
+    ) -> None:
+        """Write those of the command first, then each group."""
+        titles: dict[Declaration, str] = {
+            option: group.title
+            for group in getattr(self.callback, "groups", ())
+            for option in group.options
+        }
+        sections: dict[str, list[tuple[str, str]]] = {}
+        for param in self.get_params(ctx):
+            record = param.get_help_record(ctx)
+            if record is not None:
+                title = "Options"
+                if isinstance(param, DeclaredOption):
+                    title = titles.get(param.declaration, title)
+                sections.setdefault(title, []).append(record)
+        for title in ("Options", *dict.fromkeys(titles.values())):
+            if title in sections:
+                with formatter.section(title):
+                    formatter.write_dl(sections[title])
+
+
+def takes_settings(
+    kind: Kind,
+    *groups: Group,
+    aside: Callable[[], Collection[str]] = tuple,
+    meanings: Mapping[Declaration, str] | None = None,
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Give a command groups of options, ``--config`` and its ``settings``.
+
+    Args:
+        kind: Gives the class of the settings.
+        groups: Of options that change them.
+        aside: Gives entries of a file that belong to other commands.
+        meanings: Help of options that mean something else here.
+
+    Returns:
+        Decorator of a command with an argument ``settings``.
+    """
+    groups = (*groups, CONFIGURATION)
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        @wraps(function)
+        def command(**values: Any) -> Any:
+            settings = _settings(kind, values, aside)
+            if values.pop("print_config"):
+                from .print_config import commented
+
+                click.echo(commented(settings), nl=False)
+                return None
+            return function(settings=settings, **values)
+
+        taken: Callable[..., Any] = command
+        for group in reversed(groups):
+            for declaration in reversed(group.options):
+                told = (meanings or {}).get(declaration, declaration.help)
+                taken = declaration.option(kind, help=told)(taken)
+        taken.groups = groups  # type: ignore[attr-defined]
+        return taken
+
+    return decorate
+
+
+def _settings(
+    kind: Kind, values: dict[str, Any], aside: Callable[[], Collection[str]]
+) -> Any:
+    """Take the options of settings out of a command's values, and build."""
+    context = click.get_current_context()
+    given: dict[str, Any] = {}
+    declarations: dict[str, Declaration] = {}
+    for param in context.command.params:
+        if not isinstance(param, DeclaredOption) or param.name is None:
+            continue
+        declaration = param.declaration
+        if not param.sets_settings:
+            continue
+        value = values.pop(param.name)
+        source = context.get_parameter_source(param.name)
+        if source is not ParameterSource.DEFAULT:
+            given[declaration.path] = value
+            declarations[declaration.path] = declaration
+    config = values.pop("config")
+    if config is None:
+        settings = kind()()
+    else:
+        from ...games.configuration import load_settings
+
+        settings = load_settings(kind(), config, aside=aside())
+    if hasattr(settings, "control"):
+        given = with_control(given, settings.control)
+    for path, declaration in declarations.items():
+        given[path] = declaration.value_of(given[path])
+    return changed(settings, given)

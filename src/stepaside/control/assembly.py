@@ -1,0 +1,94 @@
+"""Putting a mind together: kinematics, balance, senses and scheme."""
+
+from typing import TYPE_CHECKING
+
+from ..planning import GaitSettings
+from ..robots.description import RobotDescription
+from ..robots.forward import ForwardKinematics
+from ..robots.kinematics import LegKinematics
+from ..sensing.measurement import Sighting
+from ..strategies.strategy import Strategy
+from .balance.estimation import StateEstimator
+from .balance.loop import Balance, ClosedLoop, OpenLoop
+from .balance.settings import ControlSettings
+from .balance.stabiliser import Stabiliser
+from .scheme import ControlScheme
+from .senses import CameraSight, GivenSight
+
+if TYPE_CHECKING:
+    from ..perception.perception import Perception
+
+
+def build_balance(
+    description: RobotDescription,
+    gait: GaitSettings,
+    control: ControlSettings,
+    *,
+    tick: float,
+    delay: float,
+    forward: ForwardKinematics | None = None,
+) -> Balance:
+    """What keeps a robot up, as its settings ask.
+
+    Args:
+        description: The robot.
+        gait: How it walks.
+        control: How it controls its walk.
+        tick: Control period, in [s].
+        delay: Time from a request to the motion, in [s].
+        forward: Kinematics of the measured body, if somebody has it already.
+    """
+    if not control.feedback:
+        return OpenLoop()
+    forward = forward or ForwardKinematics(description)
+    estimator = StateEstimator(
+        forward, forward.force_sensors(), gait.eta, tick
+    )
+    return ClosedLoop(
+        Stabiliser(control, estimator, gait, tick=tick, delay=delay)
+    )
+
+
+def build_scheme(
+    strategy: Strategy,
+    description: RobotDescription,
+    gait: GaitSettings,
+    control: ControlSettings,
+    *,
+    tick: float,
+    delay: float = 0.0,
+    sighting: Sighting | None = None,
+    perception: "Perception | None" = None,
+) -> ControlScheme:
+    """Control of one robot, whatever body it will move.
+
+    Args:
+        strategy: From what it knows to what it wants.
+        description: The robot.
+        gait: How it walks.
+        control: How it controls its walk.
+        tick: Control period, in [s].
+        delay: Time from a request to the motion, in [s].
+        sighting: What is known of the other before anything is seen.
+        perception: What turns its images into sightings, if it has eyes.
+
+    Raises:
+        ReachError: If the robot cannot stand as the gait asks.
+    """
+    return ControlScheme(
+        strategy,
+        gait,
+        LegKinematics(description, tick=tick),
+        tick=tick,
+        balance=build_balance(
+            description,
+            gait,
+            control,
+            tick=tick,
+            delay=delay,
+            forward=None if perception is None else perception.forward,
+        ),
+        senses=GivenSight(sighting)
+        if perception is None
+        else CameraSight(perception, tick=tick),
+    )

@@ -1,0 +1,119 @@
+"""Asking the strategy of one robot, with what it remembers."""
+
+from collections.abc import Callable
+from typing import Any
+
+from ..planning import GaitSettings
+from ..poses import Pose, wrap_angle
+from ..sensing.measurement import Sighting
+from ..strategies.knowledge import Intent, Knowledge, Limits
+from ..strategies.rates import SightRates
+from ..strategies.strategy import Strategy
+from .headings import HeadingMemory
+
+Prediction = Callable[[float, float], float]
+
+
+class Decisions:
+    """The strategy of a robot and its memory, from decision to decision.
+
+    Attributes:
+        strategy: From what the robot knows to what it wants.
+        memory: What the strategy remembers.
+        headings: Past headings of the torso, from which sightings count.
+    """
+
+    def __init__(
+        self, strategy: Strategy, gait: GaitSettings, tick: float
+    ) -> None:
+        """Begin with nobody seen yet.
+
+        Args:
+            strategy: From what the robot knows to what it wants.
+            gait: How it walks.
+            tick: Control period, in [s].
+        """
+        self.strategy = strategy
+        self.memory: Any = strategy.begin()
+        self.headings = HeadingMemory(tick)
+        self._rates = SightRates(gait.step_duration)
+        self._limits = Limits(
+            gait.speed, gait.gain, gait.stride, gait.step_duration
+        )
+
+    def adopt(self, strategy: Strategy) -> None:
+        """Follow another strategy from the next decision on.
+
+        Args:
+            strategy: One of the same kind goes on with what is remembered;
+                another kind begins anew.
+        """
+        if type(strategy) is not type(self.strategy):
+            self.memory = strategy.begin()
+        self.strategy = strategy
+
+    def starts(self, now: float, support: Pose, seen: Sighting) -> bool:
+        """Whether a robot that stands is to walk.
+
+        If so it is asked again for the instant at which the step takes
+        effect, and what it would remember of this time is forgotten.
+
+        Args:
+            now: Time of the decision, in [s].
+            support: Foot that will support, in odometry.
+            seen: What was seen last.
+        """
+        known = self._knowledge(now, support, seen, None, moving=False)
+        intent, memory = self.strategy.decide(known, self.memory)
+        if not intent.walks:
+            self.memory = memory
+        return intent.walks
+
+    def decide(
+        self,
+        now: float,
+        support: Pose,
+        seen: Sighting,
+        ahead: Prediction | None,
+        *,
+        moving: bool,
+    ) -> Intent:
+        """Ask what the robot wants, and remember it.
+
+        Args:
+            now: Time of the decision, in [s].
+            support: Foot that will support, in odometry.
+            seen: What was seen last.
+            ahead: From time and direction of a sighting to the direction
+                when a step takes effect, where feedback predicts it.
+            moving: Whether it is under way.
+        """
+        known = self._knowledge(now, support, seen, ahead, moving=moving)
+        intent, self.memory = self.strategy.decide(known, self.memory)
+        return intent
+
+    def _knowledge(
+        self,
+        now: float,
+        support: Pose,
+        seen: Sighting,
+        ahead: Prediction | None,
+        *,
+        moving: bool,
+    ) -> Knowledge:
+        """What is known, in the frame of the foot that will support."""
+        sight = self.headings.at(seen.time) + seen.bearing
+        rates = self._rates.note(seen.time, sight, seen.distance)
+        if ahead is not None:
+            sight = ahead(seen.time, sight)
+        return Knowledge(
+            now,
+            wrap_angle(sight - support.theta),
+            seen.distance,
+            self._limits,
+            rates.bearing_rate,
+            rates.closing_speed,
+            max(0.0, now - seen.time),
+            support,
+            moving,
+        )

@@ -1,0 +1,122 @@
+"""The circle of a duel: theory's, and when the players are on it."""
+
+from math import degrees
+
+import numpy as np
+
+from ..poses import Array
+from ..unicycle.circling import Circle, find_circle
+from .settings import DuelSettings
+
+DISTANCE_BAND = 0.05  # of theory's distance
+ORIENTATION_BAND = 5.0  # of theory's angle, in [deg]
+
+
+def theory_of(settings: DuelSettings) -> Circle:
+    """Circle that the unicycles of a duel end on (level 0).
+
+    Of strategies that are not of the paper nothing is known.
+    """
+    if not settings.is_of_the_paper:
+        return Circle(exists=False)
+    gait, strategy = settings.gait, settings.strategy
+    speeds = gait.speed, gait.speed
+    gains = gait.gain, gait.gain
+    if settings.pursuer == "person":
+        # A person lives in real time, the gait in its own.
+        pace = gait.path_interval / gait.step_duration
+        person = settings.person
+        speeds = person.speed, gait.speed * pace
+        gains = person.gain, gait.gain * pace
+    return find_circle(
+        *speeds,
+        *gains,
+        strategy.angle,
+        "saturated" if strategy.saturated else "proportional",
+    )
+
+
+def distance_between(first: Array, second: Array) -> Array:
+    """Distance between two players over time, in [m]. Shape (n,).
+
+    Args:
+        first: Place and heading of one, in [m] and [rad]. Shape (n, 3).
+        second: Those of the other.
+    """
+    apart = second - first
+    distance: Array = np.hypot(apart[:, 0], apart[:, 1])
+    return distance
+
+
+def angle_between(first: Array, second: Array) -> Array:
+    """Angle between two headings over time, in [0, pi] [rad]. Shape (n,).
+
+    Args:
+        first: Place and heading of one, in [m] and [rad]. Shape (n, 3).
+        second: Those of the other.
+    """
+    apart = second[:, 2] - first[:, 2]
+    angle: Array = np.abs((apart + np.pi) % (2.0 * np.pi) - np.pi)
+    return angle
+
+
+def cycle_mean(values: Array, times: Array, period: float) -> Array:
+    """Mean over a sliding gait cycle, which takes the sway out.
+
+    Args:
+        values: Samples. Shape (n,).
+        times: Their times, evenly spaced, in [s]. Shape (n,).
+        period: Duration of a gait cycle (two steps), in [s].
+    """
+    if len(times) < 3:
+        return values
+    width = max(1, round(period / float(times[1] - times[0])))
+    if width >= len(values):
+        return np.full_like(values, values.mean())
+    kernel = np.ones(width)
+    weight = np.convolve(np.ones_like(values), kernel, mode="same")
+    mean: Array = np.convolve(values, kernel, mode="same") / weight
+    return mean
+
+
+def converged_at(
+    times: Array,
+    pursuer: Array,
+    evader: Array,
+    settings: DuelSettings,
+    theory: Circle,
+) -> float | None:
+    """Time from which the robots stay on the circle, in [s].
+
+    On the circle means: over a gait cycle the mean distance is within 5 %
+    and the mean angle between the headings within 5 degrees of theory's,
+    from then to the end, and for at least the last 5 s.
+
+    Args:
+        times: Of the samples, in [s]. Shape (n,).
+        pursuer: Its place and heading, in [m] and [rad]. Shape (n, 3).
+        evader: Those of the evader.
+        settings: What decided the duel.
+        theory: Circle of its unicycles.
+    """
+    if not theory.exists or len(times) < 3:
+        return None
+    period = 2.0 * settings.gait.step_duration
+    distance = cycle_mean(distance_between(pursuer, evader), times, period)
+    angle = np.degrees(
+        cycle_mean(angle_between(pursuer, evader), times, period)
+    )
+    off = (
+        np.abs(distance - theory.distance_m)
+        > DISTANCE_BAND * theory.distance_m
+    ) | (np.abs(angle - degrees(theory.headings_apart_rad)) > ORIENTATION_BAND)
+    # A window that the end cuts is no gait cycle: the last whole one counts.
+    half = round(period / float(times[1] - times[0])) // 2
+    if 0 < half < len(off):
+        off[-half:] = off[-half - 1]
+    last = np.flatnonzero(off)
+    start = 0 if last.size == 0 else int(last[-1]) + 1
+    if start >= len(times):
+        return None
+    since = float(times[start])
+    return since if times[-1] - since >= 5.0 else None

@@ -1,0 +1,202 @@
+"""The one loop in which players play, whoever and how many they are."""
+
+from collections.abc import Callable, Sequence
+from itertools import combinations
+from math import ceil
+from time import perf_counter
+from typing import NamedTuple, Protocol
+
+from ..errors import ReachError
+from ..world.world import World
+from .outcome import Outcome
+from .player import Player
+
+CHECK_NEAR = 0.8  # torsos farther apart than two arm spans cannot touch, [m]
+TOLD = 0.2  # time that passes between two words of progress, in [s]
+
+
+class Progress(NamedTuple):
+    """How far a game has come.
+
+    Attributes:
+        time: Simulated time, in [s].
+        distance: Between the first two torsos, in [m]; None if one plays
+            alone.
+        real_time_factor: Simulated time over time passed.
+    """
+
+    time: float
+    distance: float | None
+    real_time_factor: float
+
+
+class Observer(Protocol):
+    """Whoever looks on: a recorder, a judge of sight, a page."""
+
+    def before(self, match: "Match") -> None:
+        """Look before anybody has moved at a tick."""
+
+    def acted(self, match: "Match") -> None:
+        """Look when all have acted, before time passes."""
+
+    def ended(self, match: "Match", outcome: Outcome) -> None:
+        """Look when the game is over."""
+
+
+class Match:
+    """Players in a world, tick by tick.
+
+    Attributes:
+        world: The physics.
+        players: Who plays, in the order in which they act.
+        observers: Who looks on.
+        message: What ended the game, in words; empty while it goes on.
+        min_distance: Least distance between the first two torsos, in [m].
+        triggered_at: When the last player began to move, in [s]; None if it
+            never did.
+        triggered_distance: Distance then, in [m].
+    """
+
+    def __init__(
+        self,
+        world: World,
+        players: Sequence[Player],
+        observers: Sequence[Observer] = (),
+        *,
+        has_things: bool = False,
+    ) -> None:
+        """Begin a game.
+
+        Args:
+            world: The physics, in which everybody stands.
+            players: Who plays.
+            observers: Who looks on.
+            has_things: Whether there is more to bump into than players.
+        """
+        self.world = world
+        self.players = tuple(players)
+        self.observers = tuple(observers)
+        self.message = ""
+        self._has_things = has_things
+        self.min_distance = self.distance
+        self.triggered_at: float | None = None
+        self.triggered_distance: float | None = None
+
+    @property
+    def distance(self) -> float | None:
+        """True distance between the first two torsos, in [m]."""
+        if len(self.players) < 2:
+            return None
+        first, second = self.players[:2]
+        return first.truth.distance_to(second.truth)
+
+    def player(self, name: str) -> Player:
+        """Player with a name.
+
+        Raises:
+            KeyError: If nobody has it.
+        """
+        for player in self.players:
+            if player.name == name:
+                return player
+        raise KeyError(name)
+
+    def tick(self) -> Outcome | None:
+        """Play one control tick; an outcome if it ends the game."""
+        for observer in self.observers:
+            observer.before(self)
+        for player in self.players:
+            try:
+                player.tick()
+            except ReachError as error:
+                self.message = (
+                    f"{player.name} lost its footing at "
+                    f"{self.world.time:.2f} s: {error}"
+                )
+                return Outcome.UNREACHABLE
+        for observer in self.observers:
+            observer.acted(self)
+        self.world.step()
+        return self._judge()
+
+    def _judge(self) -> Outcome | None:
+        """Apply the rules: who falls or touches has ended the game."""
+        now, distance = self.world.time, self.distance
+        if self.triggered_at is None and self.players[-1].is_moving:
+            self.triggered_at = now
+            self.triggered_distance = distance
+        if distance is not None:
+            assert self.min_distance is not None
+            self.min_distance = min(self.min_distance, distance)
+        fallen = [p.name for p in self.players if p.has_fallen]
+        if fallen:
+            self.message = f"{' and '.join(fallen)} fell at {now:.2f} s"
+            return Outcome.FALL
+        if self._can_touch() and self.world.robots_touch():
+            self.message = f"{self._who_touched()} touched at {now:.2f} s"
+            return Outcome.CONTACT
+        return None
+
+    def _can_touch(self) -> bool:
+        """Whether anybody is near enough to touch another, or a thing."""
+        return self._has_things or any(
+            one.truth.distance_to(other.truth) < CHECK_NEAR
+            for one, other in combinations(self.players, 2)
+        )
+
+    def _who_touched(self) -> str:
+        """What met, in words."""
+        names = self.world.touching()
+        return " and ".join(names)
+
+    def close(self) -> None:
+        """Let everybody go."""
+        for player in self.players:
+            player.close()
+
+
+def play(
+    match: Match,
+    duration: float,
+    report: Callable[[Progress], None] | None = None,
+) -> tuple[Outcome, float]:
+    """Play a game to its end.
+
+    Whatever ends it, a KeyboardInterrupt included, what was played stays
+    with the observers, and the players are let go.
+
+    Args:
+        match: The game.
+        duration: Simulated time after which it is completed, in [s].
+        report: Called about five times a second with the progress.
+
+    Returns:
+        How it ended, and the time that it took, in [s].
+    """
+    world = match.world
+    ticks = ceil(duration / world.physics.tick - 1e-9)
+    outcome = Outcome.COMPLETED
+    began = told = perf_counter()
+    try:
+        while world.ticks < ticks:
+            ended = match.tick()
+            if ended is not None:
+                outcome = ended
+                break
+            if report is not None and world.ticks % 25 == 0:
+                now = perf_counter()
+                if now - told > TOLD:
+                    told = now
+                    factor = world.time / (now - began)
+                    report(Progress(world.time, match.distance, factor))
+    except KeyboardInterrupt:
+        outcome = Outcome.INTERRUPTED
+        match.message = f"interrupted at {world.time:.2f} s"
+    finally:
+        match.close()
+    wall = perf_counter() - began
+    if outcome is Outcome.COMPLETED:
+        match.message = f"played {world.time:.2f} s"
+    for observer in match.observers:
+        observer.ended(match, outcome)
+    return outcome, wall

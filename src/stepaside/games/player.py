@@ -1,0 +1,95 @@
+"""Whoever plays: a walking robot, a person, later a robot elsewhere."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+from ..control.walking import StepBegun, WalkState
+from ..poses import Array, Pose
+from ..world.push import Push
+from ..world.truth import TrueState
+
+if TYPE_CHECKING:
+    from ..perception.perception import FrameReport
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Snapshot:
+    """A player at one instant, as far as it is known.
+
+    What a player does not have is None: a person has no plan, a robot far
+    away no true posture.
+
+    Attributes:
+        name: Who it is.
+        time: The instant, in [s].
+        torso: Place and heading of the torso in the world.
+        com: CoM (x, y, z) in the world, in [m].
+        frame: Pose of its odometry in the world.
+        walk: What it plans and asks of its body.
+        zmp: Center of its foot forces in the world, in [m]; NaN in flight.
+        posture: Position and quaternion of the torso, then its joints.
+            Shape (7 + joints,).
+    """
+
+    name: str
+    time: float
+    torso: Pose
+    com: tuple[float, float, float]
+    frame: Pose | None = None
+    walk: WalkState | None = None
+    zmp: tuple[float, float] | None = None
+    posture: Array | None = None
+
+
+class Player(Protocol):
+    """Whoever plays.
+
+    Attributes:
+        name: Who it is.
+        truth: Where it really is, for the rules of the game and the record.
+        begun: Step that it began at the last tick, if it did.
+        reports: What the images that reached it at the last tick show.
+    """
+
+    name: str
+
+    @property
+    def truth(self) -> TrueState:
+        """Where it really is."""
+
+    @property
+    def begun(self) -> StepBegun | None:
+        """Step that it began at the last tick, if it did."""
+
+    @property
+    def reports(self) -> "Sequence[FrameReport]":
+        """What the images that reached it at the last tick show."""
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether it walks, rather than stands and waits."""
+
+    @property
+    def has_fallen(self) -> bool:
+        """Whether it lies, or feels that it falls."""
+
+    def tick(self) -> None:
+        """Perceive, decide and act; time passes afterwards, for all.
+
+        Raises:
+            ReachError: If its legs lose what they are asked for.
+        """
+
+    def snapshot(self) -> Snapshot:
+        """State of this instant."""
+
+    def push(self, *pushes: Push) -> None:
+        """Let somebody push it, now or later.
+
+        Raises:
+            ConfigurationError: If it is nobody who can be pushed.
+        """
+
+    def close(self) -> None:
+        """Let go of what it holds."""

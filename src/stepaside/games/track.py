@@ -1,0 +1,102 @@
+"""What one player left behind: its way through the world."""
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from ..planning import ManeuverPlan
+from ..poses import Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Track:
+    """Record of one player, one row per sample; what it lacks is None.
+
+    Positions are in the world, in [m], angles in [rad].
+
+    Attributes:
+        com: CoM. Shape (n, 3).
+        torso: Place and heading, which does not wrap. Shape (n, 3).
+        com_reference: What its plan asks of the CoM. Shape (n, 2).
+        zmp_reference: What it asks of the ZMP. Shape (n, 2).
+        zmp: Center of the foot forces; NaN in flight. Shape (n, 2).
+        qpos: Place and quaternion of the torso, then the joints, in single
+            precision. Shape (n, 7 + joints).
+        landings: Time [s], side (1 left, -1 right), x, y, heading of each
+            footstep. Shape (m, 5).
+        sight: Time [s], believed bearing and distance, true ones, whether
+            the other was lost. Shape (k, 6).
+    """
+
+    com: Array
+    torso: Array
+    com_reference: Array | None = None
+    zmp_reference: Array | None = None
+    zmp: Array | None = None
+    qpos: Array | None = None
+    landings: Array | None = None
+    sight: Array | None = None
+
+    def __post_init__(self) -> None:
+        """Close what is written for good."""
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if value is not None:
+                value.setflags(write=False)
+
+    def arrays(self, name: str) -> dict[str, Array]:
+        """Everything that there is, by name of the player and the array."""
+        found = {}
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if value is not None:
+                found[f"{name}_{field.name}"] = value
+        return found
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Planning:
+    """How one player planned.
+
+    Attributes:
+        steps: Steps begun.
+        times: Processor time of each maneuver, in [s]. Shape (replans,).
+        velocity_jump: Greatest jump of the CoM velocity reference, in [m/s].
+        zmp_margin: Least distance of the ZMP reference from the edge of the
+            support polygon, in what was walked, in [m]; None if nothing was.
+    """
+
+    steps: int
+    times: Array
+    velocity_jump: float
+    zmp_margin: float | None
+
+
+def margin_of(plans: list[ManeuverPlan]) -> float | None:
+    """Least ZMP margin of plans in the parts that were walked, in [m]."""
+    return min(
+        (plan.margin(plan.schedule.first_step_duration) for plan in plans),
+        default=None,
+    )
+
+
+def tracks_in(
+    arrays: dict[str, Array], names: tuple[str, ...]
+) -> dict[str, Track]:
+    """Tracks of players from arrays by name.
+
+    Raises:
+        KeyError: If one that everybody has is missing.
+    """
+    known = [field.name for field in fields(Track)]
+    needed = ("com", "torso")
+    return {
+        name: Track(
+            **{
+                key: np.asarray(arrays[f"{name}_{key}"])
+                for key in known
+                if key in needed or f"{name}_{key}" in arrays
+            }
+        )
+        for name in names
+    }

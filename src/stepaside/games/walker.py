@@ -1,0 +1,87 @@
+"""A player that is a robot in the world, with its own control."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from ..control import ControlScheme, Phase
+from ..control.senses import CameraSight
+from ..control.walking import StepBegun
+from ..poses import Pose
+from ..world.push import Push
+from ..world.robot import SimulatedRobot
+from ..world.truth import TrueState
+from .player import Snapshot
+
+if TYPE_CHECKING:
+    from ..perception.perception import FrameReport
+
+
+class Walker:
+    """A body and the mind that moves it.
+
+    Attributes:
+        name: Who it is.
+        robot: Its body.
+        scheme: Its control.
+        frame: Pose of its odometry in the world.
+        truth: Where it really is.
+    """
+
+    def __init__(
+        self, robot: SimulatedRobot, scheme: ControlScheme, frame: Pose
+    ) -> None:
+        """Join body and mind."""
+        self.name = robot.name
+        self.robot, self.scheme, self.frame = robot, scheme, frame
+        self.truth: TrueState = robot.truth
+
+    @property
+    def begun(self) -> StepBegun | None:
+        """Step that it began at the last tick, if it did."""
+        return self.scheme.begun
+
+    @property
+    def reports(self) -> "Sequence[FrameReport]":
+        """What the images that reached it at the last tick show."""
+        senses = self.scheme.senses
+        if isinstance(senses, CameraSight):
+            return senses.perception.reports
+        return ()
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether it walks, rather than stands and waits."""
+        return self.scheme.phase is not Phase.STANDING
+
+    @property
+    def has_fallen(self) -> bool:
+        """Whether it lies, or feels that it falls."""
+        return self.truth.has_fallen or self.scheme.phase is Phase.FALLEN
+
+    def tick(self) -> None:
+        """Read the sensors, decide, and send joint targets."""
+        robot = self.robot
+        robot.write(self.scheme.update(robot.read()))
+
+    def snapshot(self) -> Snapshot:
+        """State of this instant."""
+        robot, truth = self.robot, self.truth
+        x, y, z = truth.com.tolist()
+        return Snapshot(
+            name=self.name,
+            time=robot.world.time,
+            torso=Pose(*truth.position, truth.heading),
+            com=(x, y, z),
+            frame=self.frame,
+            walk=self.scheme.state,
+            zmp=robot.measured_zmp(),
+            posture=robot.posture,
+        )
+
+    def push(self, *pushes: Push) -> None:
+        """Let somebody push the torso, now or later."""
+        self.robot.push(*pushes)
+
+    def close(self) -> None:
+        """Let go of the eyes."""
+        self.robot.close()

@@ -1,0 +1,72 @@
+"""What a live page keeps of the time that has passed."""
+
+from collections import deque
+from math import degrees
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...control.walking import StepBegun
+from ...games.circle import angle_between
+from ...games.match import Match
+from ...games.outcome import Outcome
+
+if TYPE_CHECKING:
+    from ...perception.perception import FrameReport
+
+PERIOD = 0.1  # between samples, in [s]
+HISTORY = 6000  # samples of the plots that are kept
+TRACE = 1500  # points of a trace that are kept
+KEPT = 100  # footsteps of each player that are kept
+
+
+class Trail:
+    """Looks on while a duel is played, and forgets what is long past.
+
+    Attributes:
+        history: (time [s], distance [m], angle [deg]) of the last minutes.
+        traces: Last places of CoM and ZMP in the world, in [m], by
+            ``player/CoM`` and ``player/ZMP``.
+        steps: Last steps of each player, by name.
+        frames: Newest image of each camera with what was found in it, by
+            player and camera; emptied by who shows them.
+    """
+
+    def __init__(self) -> None:
+        """Begin with nothing."""
+        self.history: deque[tuple[float, float, float]] = deque(maxlen=HISTORY)
+        self.traces: dict[str, deque[tuple[float, float]]] = {}
+        self.steps: dict[str, deque[StepBegun]] = {}
+        self.frames: dict[str, FrameReport] = {}
+
+    def before(self, match: Match) -> None:
+        """Take a sample when one is due."""
+        every = max(1, round(PERIOD / match.world.physics.tick))
+        if match.world.ticks == 0 or match.world.ticks % every:
+            return
+        seen = [player.snapshot() for player in match.players]
+        pursuer, evader = (np.array([s.torso]) for s in seen)
+        apart = float(angle_between(pursuer, evader)[0])
+        assert match.distance is not None
+        now = match.world.time
+        self.history.append((now, match.distance, degrees(apart)))
+        for each in seen:
+            self._trace(f"{each.name}/CoM", each.com[:2])
+            if each.zmp is not None and np.isfinite(each.zmp[0]):
+                self._trace(f"{each.name}/ZMP", each.zmp)
+
+    def acted(self, match: Match) -> None:
+        """Keep the steps that begin, and the images that arrived."""
+        for player in match.players:
+            if player.begun is not None:
+                steps = self.steps.setdefault(player.name, deque(maxlen=KEPT))
+                steps.append(player.begun)
+            for report in player.reports:
+                camera = type(report.image).__name__.removesuffix("Image")
+                self.frames[f"{player.name}, {camera.lower()}"] = report
+
+    def ended(self, match: Match, outcome: Outcome) -> None:
+        """Keep what there is."""
+
+    def _trace(self, name: str, place: tuple[float, float]) -> None:
+        self.traces.setdefault(name, deque(maxlen=TRACE)).append(place)

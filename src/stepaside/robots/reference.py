@@ -1,0 +1,29 @@
+"""What the body is asked to do at one instant."""
+
+from math import remainder, tau
+from typing import NamedTuple
+
+
+class BodyReference(NamedTuple):
+    """What the body is asked to do at one instant, in one level frame.
+
+    Attributes:
+        com: CoM (x, y, z), in [m].
+        left_foot: Left foot (x, y, z, yaw), in [m] and [rad].
+        right_foot: Right foot, likewise.
+        left_tilt: Roll and pitch of the left foot about its own heading, in
+            [rad], small.
+        right_tilt: Those of the right foot.
+    """
+
+    com: tuple[float, float, float]
+    left_foot: tuple[float, float, float, float]
+    right_foot: tuple[float, float, float, float]
+    left_tilt: tuple[float, float] = (0.0, 0.0)
+    right_tilt: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def heading(self) -> float:
+        """Heading between those of the feet, in [rad]."""
+        left, right = self.left_foot[3], self.right_foot[3]
+        return left + 0.5 * remainder(right - left, tau)

@@ -1,0 +1,58 @@
+"""Walk, or stand, whatever the other does."""
+
+from dataclasses import dataclass
+
+from ..planning import Direction
+from .knowledge import STAND, Intent, Knowledge
+
+
+@dataclass(frozen=True, slots=True)
+class Walk:
+    """Walk with a bearing that does not depend on anybody.
+
+    Attributes:
+        bearing: Desired heading in the frame of each support foot, [rad].
+        direction: Whether the robot walks forward or backward.
+        saturated: Whether it turns by (6) instead of (8).
+        speed_factor: Share of the gait's speed, in [0, 1]; 0 stands.
+    """
+
+    bearing: float = 0.0
+    direction: Direction = Direction.FORWARD
+    saturated: bool = False
+    speed_factor: float = 1.0
+
+    def __post_init__(self) -> None:
+        """Refuse what no robot can do."""
+        Intent(self.bearing, self.speed_factor)
+
+    def begin(self) -> None:
+        """It remembers nothing."""
+
+    def decide(
+        self, knowledge: Knowledge, memory: None
+    ) -> tuple[Intent, None]:
+        """Walk on."""
+        return Intent(self.bearing, self.speed_factor), None
+
+
+@dataclass(frozen=True, slots=True)
+class Stand:
+    """Stay where it is: what happens to an evader that does nothing.
+
+    Attributes:
+        direction: Of a step that is never made.
+        saturated: Likewise.
+    """
+
+    direction: Direction = Direction.BACKWARD
+    saturated: bool = False
+
+    def begin(self) -> None:
+        """It remembers nothing."""
+
+    def decide(
+        self, knowledge: Knowledge, memory: None
+    ) -> tuple[Intent, None]:
+        """Stand."""
+        return STAND, None

@@ -1,0 +1,128 @@
+"""Runs made by hand: what a duel leaves behind, as it is wanted."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from stepaside.games.figures import (
+    DuelSummary,
+    PlanTimes,
+    PlayerFigures,
+    StartFigures,
+    TheoryFigures,
+)
+from stepaside.games.outcome import Outcome
+from stepaside.games.run import Run
+from stepaside.games.settings import DuelSettings
+from stepaside.games.track import Track
+from stepaside.poses import Array
+
+NO_THEORY = TheoryFigures(None, False, None, None, None)
+
+
+def figures(**changes: Any) -> DuelSummary:
+    """Figures of a duel in which nobody was ever triggered."""
+    told = DuelSummary(
+        outcome="completed",
+        message="played 18.00 s",
+        seed=7,
+        duration_s=18.0,
+        start=StartFigures(1.0, 0.0, 0.0),
+        triggered_at_s=None,
+        triggered_at_distance_m=None,
+        distance_m=1.0,
+        relative_orientation_deg=90.0,
+        min_distance_m=0.9,
+        converged_at_s=None,
+        replans=0,
+        max_com_velocity_jump_m_s=0.0,
+        min_zmp_margin_m=None,
+        theory=NO_THEORY,
+        plan_time_us=PlanTimes(None, None),
+        real_time_factor=1.0,
+        pursuer=PlayerFigures(None),
+        evader=PlayerFigures(None),
+    )
+    return replace(told, **changes)
+
+
+def run_of(
+    times: Array,
+    tracks: Mapping[str, Track],
+    *,
+    settings: DuelSettings | None = None,
+    name: str = "invented",
+    outcome: Outcome = Outcome.COMPLETED,
+    message: str = "played 18.00 s",
+    stills: Any = None,
+    **changes: Any,
+) -> Run:
+    """Run with these tracks.
+
+    Args:
+        times: Of the samples, in [s].
+        tracks: By name of the player.
+        settings: What decided it.
+        name: What it is called.
+        outcome: How it ended.
+        message: What ended it.
+        stills: What was seen, by player and camera.
+        changes: Of the figures.
+    """
+    return Run(
+        name=name,
+        settings=settings or DuelSettings(),
+        outcome=outcome,
+        message=message,
+        duration=float(times[-1]),
+        times=times,
+        tracks=tracks,
+        summary=figures(outcome=outcome.value, message=message, **changes),
+        stills=stills or {},
+    )
+
+
+def changed(run: Run, **figures: Any) -> Run:
+    """The same run with other figures."""
+    return replace(run, summary=replace(run.summary, **figures))
+
+
+def drifted(run: Run, times: Array) -> Run:
+    """The same run at other times, in which both players slide apart.
+
+    Args:
+        run: The run.
+        times: Of its samples, in [s].
+    """
+    tracks = {}
+    for name, side in (("pursuer", 1.0), ("evader", -1.0)):
+        track = run.tracks[name]
+        assert track.qpos is not None
+        tracks[name] = replace(
+            track,
+            torso=_slid(track.torso, side, times),
+            com=_slid(track.com, side, times),
+            qpos=_slid(track.qpos, side, times),
+        )
+    return replace(run, times=times, tracks=tracks)
+
+
+def _slid(rows: Array, side: float, times: Array) -> Array:
+    """Rows whose first two columns move on with time."""
+    moved = rows.copy()
+    moved[:, 0] += (side * times).astype(rows.dtype)
+    moved[:, 1] -= (0.5 * side * times).astype(rows.dtype)
+    return moved
+
+
+def check_same(run: Run, other: Run) -> None:
+    """Compare all of two runs that a folder keeps, but for their names."""
+    for key in ("settings", "outcome", "message", "duration", "summary"):
+        assert getattr(run, key) == getattr(other, key), key
+    arrays, others = run.arrays(), other.arrays()
+    assert arrays.keys() == others.keys()
+    for name, values in others.items():
+        np.testing.assert_array_equal(arrays[name], values)
+        assert arrays[name].dtype == values.dtype

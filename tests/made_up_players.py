@@ -1,0 +1,174 @@
+"""Players and a world that are made up, to test the game itself."""
+
+from collections.abc import Callable, Iterator
+from math import hypot
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from stepaside.control.walking import StepBegun
+from stepaside.games import match as loop
+from stepaside.games.match import Match
+from stepaside.games.outcome import Outcome
+from stepaside.games.player import Snapshot
+from stepaside.planning import Foot
+from stepaside.poses import Pose
+from stepaside.world.push import Push
+
+TICK = 0.004
+
+
+class FakeTruth:
+    """A place on the floor."""
+
+    def __init__(self, x: float, y: float) -> None:
+        self.position, self.heading = (x, y), 0.0
+
+    def distance_to(self, other: Any) -> float:
+        """Horizontal distance to another, in [m]."""
+        (x, y), (u, v) = self.position, other.position
+        return hypot(u - x, v - y)
+
+
+class FakeWorld:
+    """A clock, and contacts as they are told."""
+
+    def __init__(self, tick: float = TICK) -> None:
+        self.ticks = 0
+        self.physics = SimpleNamespace(tick=tick)
+        self.contacts: tuple[str, ...] = ()
+        self.asked = 0
+        self.told: list[str] = []
+
+    @property
+    def time(self) -> float:
+        """Time, in [s]."""
+        return self.ticks * float(self.physics.tick)
+
+    def step(self) -> None:
+        """Let a tick pass."""
+        self.told.append("time passes")
+        self.ticks += 1
+
+    def robots_touch(self) -> bool:
+        """Whether somebody was told to touch."""
+        self.asked += 1
+        return bool(self.contacts)
+
+    def touching(self) -> tuple[str, ...]:
+        """Who was told to touch."""
+        return self.contacts
+
+
+class FakePlayer:
+    """Does what it is told at a tick; its ticks are told to its world."""
+
+    def __init__(
+        self, world: FakeWorld, name: str, x: float = 0.0, y: float = 0.0
+    ) -> None:
+        self.world, self.name = world, name
+        self.truth: Any = FakeTruth(x, y)
+        self.begun: StepBegun | None = None
+        self.reports: Any = ()
+        self.is_moving = self.has_fallen = False
+        self.closed = 0
+        self.does: dict[int, Callable[[], None]] = {}
+        self.seen: dict[str, Any] = {}
+
+    def tick(self) -> None:
+        """Do what was told for this tick."""
+        self.world.told.append(self.name)
+        self.does.get(self.world.ticks, lambda: None)()
+
+    def snapshot(self) -> Snapshot:
+        """What was told to be seen, of a place if nothing else."""
+        x, y = self.truth.position
+        values: dict[str, Any] = {
+            "torso": Pose(x, y, self.truth.heading),
+            "com": (x, y, 0.3),
+        } | self.seen
+        return Snapshot(self.name, self.world.time, **values)
+
+    def push(self, *pushes: Push) -> None:
+        """Stand like a rock."""
+
+    def close(self) -> None:
+        """Count it."""
+        self.closed += 1
+
+
+class FakeObserver:
+    """Tells the world's list when it looked."""
+
+    def __init__(self) -> None:
+        self.ended_with: list[tuple[Outcome, str, float]] = []
+
+    def before(self, match: Match) -> None:
+        """Look first."""
+        self._tell(match, "before")
+
+    def acted(self, match: Match) -> None:
+        """Look after all acted."""
+        self._tell(match, "acted")
+
+    def ended(self, match: Match, outcome: Outcome) -> None:
+        """Note how it ended."""
+        self.ended_with.append((outcome, match.message, match.world.time))
+
+    def _tell(self, match: Match, word: str) -> None:
+        world: Any = match.world
+        world.told.append(word)
+
+
+def game(
+    *places: float, observers: Any = (), **options: Any
+) -> tuple[Match, FakeWorld, list[FakePlayer]]:
+    """Players on a line, named a, b, c, ..."""
+    world: Any = FakeWorld()
+    players = [
+        FakePlayer(world, name, x)
+        for name, x in zip("abcdef", places, strict=False)
+    ]
+    match = Match(world, players, observers, **options)
+    return match, world, players
+
+
+def raising(error: BaseException) -> Callable[[], None]:
+    """What raises an error when it is done."""
+
+    def act() -> None:
+        raise error
+
+    return act
+
+
+def begun(**changes: Any) -> StepBegun:
+    """A step whose plan has a margin of 2 cm in the part that is walked."""
+    plan: Any = SimpleNamespace(
+        schedule=SimpleNamespace(first_step_duration=0.5),
+        margin=lambda duration: 0.04 * duration,
+    )
+    values: dict[str, Any] = {
+        "plan": plan,
+        "started": 0.6,
+        "landing_time": 1.0,
+        "foot": Foot.LEFT,
+        "landing": Pose(0.3, 0.1, 0.2),
+        "planning_time": 2e-4,
+        "velocity_jump": 0.0,
+    } | changes
+    return StepBegun(**values)
+
+
+def clock(monkeypatch: pytest.MonkeyPatch, step: float) -> None:
+    """A wall clock that moves on whenever somebody looks at it."""
+
+    def ticking() -> Iterator[float]:
+        now = 100.0
+        while True:
+            yield now
+            now += step
+
+    times = ticking()
+    monkeypatch.setattr(loop, "perf_counter", lambda: next(times))

@@ -1,0 +1,65 @@
+"""Records of duels that are made up: how far apart, when, how wide."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from stepaside.games.circle import theory_of
+from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.track import Track
+from stepaside.poses import Array
+
+SETTINGS = DuelSettings(start=StartSettings(1.0, 0.1, -0.2))
+THEORY = theory_of(SETTINGS)
+CYCLE = 2.0 * SETTINGS.gait.step_duration
+TIMES: Array = 0.02 * np.arange(3001, dtype=float)
+Law = Callable[[Array], Array]
+
+
+def still(value: float) -> Law:
+    return lambda times: np.full_like(times, value)
+
+
+def stepped(at: float, before: float, after: float) -> Law:
+    return lambda times: np.where(times < at, before, after)
+
+
+ROUND = (still(THEORY.distance_m), still(THEORY.headings_apart_rad))
+RADII = (still(0.5), still(0.7))
+
+
+class Record:
+    """Torsos some way apart, and CoMs on circles round other places."""
+
+    def __init__(
+        self,
+        distance: Law = ROUND[0],
+        apart: Law = ROUND[1],
+        radii: tuple[Law, Law] = RADII,
+        times: Array = TIMES,
+    ) -> None:
+        heading = 0.4 * times
+        away = distance(times)
+        pursuer = np.column_stack([0.1 * times, 0.0 * times, heading])
+        evader = pursuer + np.column_stack(
+            [away * np.cos(0.3), away * np.sin(0.3), apart(times)]
+        )
+        self.times, self.torsos = times, {"pursuer": pursuer, "evader": evader}
+        self.coms: dict[str, Array] = {}
+        middles = {"pursuer": (1.0, -2.0), "evader": (-3.0, 0.5)}
+        for (name, (x, y)), radius in zip(middles.items(), radii, strict=True):
+            size = radius(times)
+            self.coms[name] = np.column_stack(
+                [
+                    x + size * np.cos(heading),
+                    y + size * np.sin(heading),
+                    0.27 + 0.01 * np.sin(9.0 * times),
+                ]
+            )
+
+    def tracks(self) -> dict[str, Track]:
+        """Record of each player."""
+        return {
+            name: Track(self.coms[name], self.torsos[name])
+            for name in self.torsos
+        }

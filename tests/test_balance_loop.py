@@ -1,0 +1,173 @@
+"""Test what keeps a robot up: nothing that changes anything, or feedback."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from made_up_robot import measure
+from stepaside.control.assembly import build_balance, build_scheme
+from stepaside.control.balance.loop import ClosedLoop, OpenLoop
+from stepaside.control.balance.settings import OPEN_LOOP, STABILISED
+from stepaside.control.senses import CameraSight, GivenSight
+from stepaside.planning import CenterState, GaitSettings
+from stepaside.poses import Pose
+from stepaside.robots.description import load_robot
+from stepaside.robots.forward import ForwardKinematics
+from stepaside.sensing.measurement import Sighting
+from stepaside.strategies import Pursuit
+
+NAO = load_robot("nao")
+GAIT = GaitSettings()
+
+
+class Noting:
+    """Stands for anything; notes what it is asked, and answers by name."""
+
+    def __init__(self) -> None:
+        self.asked: list[tuple[Any, ...]] = []
+
+    def __getattr__(self, name: str) -> Any:
+        """Answer any method by its name."""
+
+        def method(*arguments: Any) -> str:
+            self.asked.append((name, *arguments))
+            return f"answer to {name}"
+
+        return method
+
+
+def stabiliser(**changes: Any) -> Any:
+    """A stabiliser that is nothing but what is asked of it."""
+    made = Noting()
+    values: dict[str, Any] = {
+        "state": None,
+        "adapted": 5,
+        "ready": False,
+        "zmp_feedback": SimpleNamespace(solved="solved"),
+        "estimator": SimpleNamespace(tilt=(0.1, 0.2), torso_heading=0.3),
+        "joints": Noting(),
+        "prediction": Noting(),
+    } | changes
+    for name, value in values.items():
+        setattr(made, name, value)
+    return made
+
+
+def unasked(*_: Any) -> Any:
+    raise AssertionError("nobody needs to know")
+
+
+def test_the_open_loop_passes_everything_on_unchanged() -> None:
+    loop: Any = OpenLoop()
+    measurement = measure(1.0)._replace(joint_positions=np.full(3, 9.0))
+    sample: Any = SimpleNamespace(body=object())
+    assert loop.update(measurement, sample, unasked) is sample.body
+    targets = np.arange(3.0)
+    assert loop.correct(measurement, targets) is targets
+    np.testing.assert_array_equal(targets, [0.0, 1.0, 2.0])
+    for direction in (0.7, -3.0):
+        assert loop.ahead(2.0, direction) == direction
+    landed, step = Pose(1.0, 2.0, 0.3), object()
+    made: Any = (landed, (0.1, 0.2), (0.3, 0.4))
+    assert loop.land(*made, step) == made
+    state = CenterState((0.1, 0.2), (0.3, 0.4))
+    asked: list[Any] = []
+
+    def plan_from(state: Any) -> Any:
+        asked.append(state)
+        return "plan"
+
+    plan, begun = loop.fit(plan_from, state, landed)
+    assert (plan, begun) == ("plan", state) and asked == [state]
+
+
+def test_the_open_loop_knows_nothing_and_holds_nobody_back() -> None:
+    loop: Any = OpenLoop()
+    assert loop.ready and not loop.has_fallen and loop.adapted == 0
+    assert loop.state is loop.solved is loop.tilt is None
+    assert loop.torso_heading is None
+
+
+def test_the_closed_loop_asks_its_stabiliser_for_everything() -> None:
+    fake = stabiliser()
+    loop: Any = ClosedLoop(fake)
+    measurement = measure(1.25)._replace(joint_positions=np.full(3, 9.0))
+    targets = np.arange(3.0)
+    sample: Any = object()
+    asked_for: list[float] = []
+
+    def step_at(now: float) -> Any:
+        asked_for.append(now)
+        return "step"
+
+    assert loop.update(measurement, sample, step_at) == "answer to update"
+    assert asked_for == [1.25]
+    (told,) = fake.asked
+    assert told[0] == "update" and told[1] is measurement
+    assert told[2:] == (sample, "step")
+    assert loop.correct(measurement, targets) == "answer to update"
+    (told,) = fake.joints.asked
+    assert told[1] is measurement.joint_positions and told[2] is targets
+    assert loop.ahead(2.0, 0.7) == "answer to ahead"
+    assert fake.prediction.asked == [("ahead", 2.0, 0.7)]
+    for name, given in (
+        ("land", (Pose(1.0, 2.0, 0.3), (0.1, 0.2), (0.3, 0.4), "step")),
+        ("fit", ("plan from", "state", "support")),
+    ):
+        answer = getattr(loop, name)(*given)
+        assert answer == f"answer to {name}"
+        assert fake.asked[-1] == (name, *given)
+
+
+def test_the_closed_loop_is_as_its_stabiliser_is() -> None:
+    fake = stabiliser()
+    loop: Any = ClosedLoop(fake)
+    assert loop.state is None and not loop.has_fallen
+    assert loop.solved == "solved" and loop.adapted == 5
+    assert loop.tilt == (0.1, 0.2) and loop.torso_heading == 0.3
+    assert loop.ready is False
+    fake.ready = True
+    assert loop.ready is True
+    for fallen in (False, True):
+        fake.state = SimpleNamespace(has_fallen=fallen)
+        assert loop.state is fake.state and loop.has_fallen is fallen
+
+
+def test_settings_open_or_close_the_loop() -> None:
+    options: dict[str, Any] = {"tick": 0.012, "delay": 0.036}
+    loop = build_balance(NAO, GAIT, OPEN_LOOP, **options)
+    assert isinstance(loop, OpenLoop)
+    closed = build_balance(NAO, GAIT, STABILISED, **options)
+    assert isinstance(closed, ClosedLoop)
+    made = closed.stabiliser
+    assert made.settings is STABILISED and not closed.ready
+    assert made._tick == 0.012
+    # A request, and those still on their way.
+    assert made._asked.maxlen == 4
+
+
+@pytest.mark.parametrize("seen", [None, Sighting(0.0, 0.1, 2.0)])
+def test_a_mind_is_put_together_without_a_world(seen: Sighting | None) -> None:
+    wish = Pursuit()
+    mind = build_scheme(wish, NAO, GAIT, OPEN_LOOP, tick=0.004, sighting=seen)
+    assert mind.decisions.strategy is wish and mind.settings is GAIT
+    assert isinstance(mind.balance, OpenLoop)
+    assert isinstance(mind.senses, GivenSight)
+    assert mind.joint_targets.shape == (len(mind.kinematics.joint_names),)
+    targets = mind.update(measure(0.0, distance=None))
+    assert mind.sighting == seen and (mind.plan is None) is (seen is None)
+    assert targets is mind.joint_targets
+
+
+def test_a_mind_with_a_perception_sees_with_it() -> None:
+    eyes: Any = SimpleNamespace(forward=ForwardKinematics(NAO))
+    mind = build_scheme(
+        *(Pursuit(), NAO, GAIT, STABILISED), tick=0.004, perception=eyes
+    )
+    assert isinstance(mind.senses, CameraSight)
+    assert mind.senses.perception is eyes
+    assert isinstance(mind.balance, ClosedLoop)
+    # The measured body is worked out once, for eyes and balance.
+    assert mind.balance.stabiliser.estimator._kinematics is eyes.forward

@@ -1,0 +1,159 @@
+"""Test how a robot asks its strategy."""
+
+from dataclasses import replace
+from math import sin
+
+import pytest
+
+from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run, feeding
+from stepaside.control.deciding import Decisions
+from stepaside.control.phase import Phase
+from stepaside.planning import Direction
+from stepaside.poses import Pose
+from stepaside.sensing.measurement import Sighting
+from stepaside.strategies import Evasion, EvasionMemory, Pursuit, Walk
+
+FOOT = Pose(1.0, 2.0, 0.5)
+
+
+def decisions(strategy: FakeStrategy | None = None) -> Decisions:
+    """Decisions of a robot whose torso looks along 0.2 rad."""
+    made = Decisions(strategy or FakeStrategy(), GAIT, TICK)
+    made.headings.note(0.0, 0.2)
+    return made
+
+
+def test_it_tells_what_it_knows_in_the_frame_of_the_foot() -> None:
+    made = decisions()
+    made.decide(3.0, FOOT, Sighting(2.5, 0.4, 1.5), None, moving=True)
+    (known,) = made.memory
+    assert known.bearing == pytest.approx(0.4 + 0.2 - 0.5)
+    assert known.time == 3.0 and known.age == 0.5 and known.distance == 1.5
+    assert known.pose == FOOT and known.moving and known.obstacles == ()
+    limits = known.limits
+    assert (limits.speed, limits.gain) == (GAIT.speed, GAIT.gain)
+    assert (limits.stride, limits.step_duration) == (GAIT.stride, STEP)
+    made.decide(3.0, FOOT, Sighting(3.1, 0.4, 1.5), None, moving=False)
+    assert made.memory[1].age == 0.0 and not made.memory[1].moving
+
+
+def test_it_tells_how_fast_the_other_comes() -> None:
+    made = decisions()
+    for i in range(4):
+        seen = Sighting(i * STEP, 0.1 * i, 1.5 - 0.02 * i)
+        made.decide(i * STEP, FOOT, seen, None, moving=True)
+    first, *_, last = made.memory
+    assert first.bearing_rate is None and first.closing_speed is None
+    assert last.bearing_rate == pytest.approx(0.1 / STEP)
+    assert last.closing_speed == pytest.approx(0.02 / STEP)
+
+
+def test_a_prediction_moves_the_bearing_and_not_the_rate() -> None:
+    made = decisions()
+    for i in range(3):
+        made.decide(
+            i * STEP,
+            FOOT,
+            Sighting(i * STEP, 0.1, 1.0),
+            lambda time, sight: sight + 0.3,
+            moving=True,
+        )
+    known = made.memory[-1]
+    assert known.bearing == pytest.approx(0.1 + 0.2 + 0.3 - 0.5)
+    assert known.bearing_rate == 0.0
+
+
+def test_a_robot_that_stands_remembers_but_not_what_made_it_walk() -> None:
+    """It is asked again for that instant, with the line of sight to come."""
+
+    class Counting(FakeStrategy):
+        """Counts how often it decided."""
+
+        def begin(self) -> int:  # type: ignore[override]
+            return 0
+
+        def decide(self, knowledge, memory):  # type: ignore[no-untyped-def]
+            intent, _ = super().decide(knowledge, ())
+            return intent, memory + 1
+
+    made = decisions(Counting())
+    far, near = Sighting(0.0, 0.0, 3.0), Sighting(0.0, 0.0, 1.0)
+    assert not made.starts(0.0, FOOT, far) and made.memory == 1
+    assert made.starts(0.0, FOOT, near) and made.memory == 1
+    made.decide(0.0, FOOT, near, None, moving=False)
+    assert made.memory == 2
+
+
+def test_a_strategy_of_the_same_kind_goes_on_with_what_is_remembered() -> None:
+    made = Decisions(Evasion(), GAIT, TICK)
+    made.memory = EvasionMemory(True, 1)
+    made.adopt(Evasion(angle=1.0))
+    assert made.memory == EvasionMemory(True, 1)
+    assert made.strategy == Evasion(angle=1.0)
+    made.adopt(Pursuit())
+    assert made.memory is None
+    made.adopt(Evasion())
+    assert made.memory == EvasionMemory(False, 0)
+
+
+def test_an_adopted_strategy_acts_at_the_next_step() -> None:
+    run = Run(Walk(0.5))
+    run.until(FIRST - 0.1)
+    run.scheme.decisions.adopt(Walk(-0.5, Direction.BACKWARD))
+    plan = run.scheme.plan
+    assert plan is not None and plan.bearing == 0.5
+    plan = run.until(FIRST + 0.1).plan
+    assert plan is not None and plan.bearing == -0.5
+    assert plan.direction is Direction.BACKWARD
+
+
+@pytest.mark.parametrize("factor", [1.0, 0.5, 0.2])
+def test_a_robot_strides_by_the_share_of_speed_it_is_asked_for(
+    factor: float,
+) -> None:
+    run = Run(FakeStrategy(heading=0.5, speed_factor=factor))
+    full = Run(FakeStrategy(heading=0.5))
+    full.until(FIRST + 2.5 * STEP)
+    run.until(FIRST + 2.5 * STEP)
+    for (at, foot, pose), (then, same, whole) in zip(
+        run.landings, full.landings, strict=True
+    ):
+        assert (at, foot) == (then, same)
+        assert pose.theta == pytest.approx(whole.theta, abs=1e-15)
+    ways = [
+        pose.x + 0.5 * GAIT.foot_spacing * sin(pose.theta)
+        for pose in (run.landings[0][2], full.landings[0][2])
+    ]
+    assert ways[0] == pytest.approx(factor * ways[1])
+
+
+def test_a_speed_of_nothing_brings_it_to_rest() -> None:
+    run = Run(FakeStrategy())
+    run.until(FIRST - 0.1)
+    run.strategy.speed_factor = 0.0
+    run.until(FIRST + 0.1)
+    assert run.phase() is Phase.HALTING
+    run.until(FIRST + 4.0)
+    assert run.phase() is Phase.STANDING
+    run.strategy.speed_factor = 0.5
+    run.until(FIRST + 4.0 + 2 * TICK)
+    assert run.phase() is Phase.WALKING
+
+
+def test_a_start_that_the_prediction_takes_back_is_none() -> None:
+    """What makes it walk lies a little ahead of what it sees."""
+
+    class Shy(FakeStrategy):
+        """Walks only while the other is straight ahead."""
+
+        def decide(self, knowledge, memory):  # type: ignore[no-untyped-def]
+            intent, memory = super().decide(knowledge, memory)
+            return replace(intent, moving=abs(knowledge.bearing) < 0.1), memory
+
+    run, feedback = feeding(Shy())
+    feedback.turn = 0.5
+    run.until(0.1)
+    assert run.phase() is Phase.STANDING and run.scheme.plan is None
+    feedback.turn = 0.0
+    run.until(0.2)
+    assert run.phase() is Phase.WALKING

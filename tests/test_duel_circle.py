@@ -1,0 +1,211 @@
+"""Test the circle of a duel: theory's, and when the players are on it."""
+
+from dataclasses import replace
+from math import pi
+
+import numpy as np
+import pytest
+
+from made_up_record import (
+    CYCLE,
+    SETTINGS,
+    THEORY,
+    TIMES,
+    Record,
+    stepped,
+    still,
+)
+from stepaside.games.circle import (
+    angle_between,
+    converged_at,
+    cycle_mean,
+    distance_between,
+    theory_of,
+)
+from stepaside.games.settings import DuelSettings
+from stepaside.poses import Array
+from stepaside.strategies import Evasion
+from stepaside.world.person_settings import PersonSettings
+
+
+def since(record: Record, settings: DuelSettings = SETTINGS) -> float | None:
+    """When a record says that they are on the circle."""
+    torsos = record.torsos["pursuer"], record.torsos["evader"]
+    return converged_at(record.times, *torsos, settings, theory_of(settings))
+
+
+def test_theory_is_the_circle_of_the_settings() -> None:
+    """Level 0: radius 4v/(pi k) for both, headings a right angle apart."""
+    gait = SETTINGS.gait
+    radius = 4.0 * gait.speed / (pi * gait.gain)
+    assert THEORY.radius_evader_m == pytest.approx(radius)
+    assert THEORY.distance_m == pytest.approx(2**0.5 * radius)
+    assert THEORY.headings_apart_rad == pytest.approx(pi / 2)
+    back = replace(SETTINGS, strategy=Evasion(angle=0.0))
+    assert not theory_of(back).exists
+    sliding = replace(SETTINGS, strategy=Evasion(saturated=True))
+    assert theory_of(sliding).radius_evader_m == pytest.approx(0.5)
+
+
+def test_a_person_walks_the_same_circle_at_its_own_pace() -> None:
+    """Time is scaled by the gait's pace; lengths and angles are not."""
+    gait = SETTINGS.gait
+    pace = gait.path_interval / gait.step_duration
+    assert pace < 0.9
+    person = PersonSettings(speed=gait.speed * pace, gain=gait.gain * pace)
+    circle = theory_of(replace(SETTINGS, pursuer="person", person=person))
+    assert circle.radius_evader_m == pytest.approx(THEORY.radius_evader_m)
+    assert circle.distance_m == pytest.approx(THEORY.distance_m)
+    assert circle.turning_rate_rad_s == pytest.approx(
+        pace * THEORY.turning_rate_rad_s
+    )
+    slower = replace(person, speed=0.9 * person.speed)
+    other = theory_of(replace(SETTINGS, pursuer="person", person=slower))
+    assert other.radius_pursuer_m < 0.95 * other.radius_evader_m
+    unsure = replace(person, gain=0.9 * person.gain)
+    other = theory_of(replace(SETTINGS, pursuer="person", person=unsure))
+    assert other.turning_rate_rad_s < 0.99 * circle.turning_rate_rad_s
+
+
+def test_distance_is_between_the_torsos_in_the_plane() -> None:
+    one = np.array([[1.0, 2.0, 9.0], [0.0, 0.0, 0.0]])
+    other = np.array([[4.0, -2.0, 0.0], [0.0, -1.0, 2.0]])
+    np.testing.assert_allclose(distance_between(one, other), [5.0, 1.0])
+    np.testing.assert_allclose(distance_between(other, one), [5.0, 1.0])
+
+
+@pytest.mark.parametrize(
+    ("pursuer", "evader", "apart"),
+    [
+        (0.0, 90.0, 90.0),
+        (90.0, 0.0, 90.0),
+        (350.0, 20.0, 30.0),
+        (0.0, 200.0, 160.0),
+        (-170.0, 170.0, 20.0),
+        (30.0, 750.0, 0.0),
+    ],
+)
+def test_headings_are_apart_by_the_smaller_angle(
+    pursuer: float, evader: float, apart: float
+) -> None:
+    one = np.radians([[0.0, 0.0, pursuer]])
+    other = np.radians([[0.0, 0.0, evader]])
+    for pair in ((one, other), (other, one)):
+        found = np.degrees(angle_between(*pair))
+        np.testing.assert_allclose(found, apart, atol=1e-9)
+
+
+def test_the_mean_over_a_cycle_takes_out_the_sway_alone() -> None:
+    times: Array = 0.02 * np.arange(500, dtype=float)
+    sway = np.sin(2.0 * pi * times / 0.5)
+    mean = cycle_mean(3.0 + 0.1 * times + sway, times, 0.5)
+    inner = slice(13, -13)
+    np.testing.assert_allclose(
+        mean[inner], (3.0 + 0.1 * times)[inner], atol=1e-9
+    )
+    np.testing.assert_allclose(cycle_mean(np.full(500, 3.0), times, 0.5), 3.0)
+
+
+def test_the_mean_at_the_ends_is_over_what_there_is() -> None:
+    times = np.arange(5.0)
+    mean = cycle_mean(np.array([0.0, 3.0, 6.0, 0.0, 9.0]), times, 3.0)
+    np.testing.assert_allclose(mean, [1.5, 3.0, 3.0, 5.0, 4.5])
+    alone = cycle_mean(np.array([1.0, 2.0, 6.0]), np.arange(3.0), 3.0)
+    np.testing.assert_allclose(alone, 3.0)
+    longer = cycle_mean(np.array([1.0, 2.0, 6.0]), np.arange(3.0), 9.0)
+    np.testing.assert_allclose(longer, 3.0)
+    every = np.array([1.0, 2.0, 6.0])
+    np.testing.assert_allclose(cycle_mean(every, np.arange(3.0), 0.1), every)
+    two = np.array([1.0, 2.0])
+    np.testing.assert_array_equal(cycle_mean(two, np.arange(2.0), 9.0), two)
+
+
+# A step of four bands is within the band once a quarter of a cycle is off.
+LATE = CYCLE / 4.0
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("at", [12.0, 30.0, 50.0])
+def test_they_converge_when_the_angle_is_within_5_degrees(
+    side: float, at: float
+) -> None:
+    right = THEORY.headings_apart_rad
+    off = right + side * np.radians(20.0)
+    found = since(Record(apart=stepped(at, off, right)))
+    assert found == pytest.approx(at + LATE, abs=0.021)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("at", [12.0, 30.0, 50.0])
+def test_they_converge_when_the_distance_is_within_5_percent(
+    side: float, at: float
+) -> None:
+    right = THEORY.distance_m
+    found = since(Record(stepped(at, (1.0 + 0.2 * side) * right, right)))
+    assert found == pytest.approx(at + LATE, abs=0.021)
+
+
+@pytest.mark.parametrize("share", [0.9, -0.9])
+def test_within_the_band_they_are_on_the_circle_from_the_start(
+    share: float,
+) -> None:
+    made = Record(
+        still(THEORY.distance_m * (1.0 + 0.05 * share)),
+        still(THEORY.headings_apart_rad + np.radians(5.0 * share)),
+    )
+    assert since(made) == 0.0
+
+
+@pytest.mark.parametrize("share", [1.1, -1.1])
+def test_just_outside_the_band_they_never_converge(share: float) -> None:
+    wide = Record(still(THEORY.distance_m * (1.0 + 0.05 * share)))
+    assert since(wide) is None
+    angle = THEORY.headings_apart_rad + np.radians(5.0 * share)
+    assert since(Record(apart=still(angle))) is None
+
+
+def test_who_leaves_the_circle_has_not_converged_before() -> None:
+    right, off = THEORY.distance_m, 1.2 * THEORY.distance_m
+
+    def left(times: Array) -> Array:
+        return np.where((times > 20.0) & (times < 25.0), off, right)
+
+    found = since(Record(left))
+    assert found == pytest.approx(25.0 + LATE, abs=0.021)
+    gone = Record(stepped(40.0, right, off))
+    assert since(gone) is None
+
+
+def test_the_last_five_seconds_must_be_on_the_circle() -> None:
+    right, off = THEORY.distance_m, 1.2 * THEORY.distance_m
+    just = Record(stepped(54.9 - LATE, off, right))
+    assert since(just) == pytest.approx(54.9, abs=0.1)
+    late = Record(stepped(55.1 - LATE, off, right))
+    assert since(late) is None
+
+
+def test_a_cycle_that_the_end_cuts_is_not_judged() -> None:
+    """Sway whose half cycles are off, but whose whole ones are not."""
+
+    def sway(times: Array) -> Array:
+        phase = 2.0 * pi * (times - times[-1]) / CYCLE
+        off: Array = np.radians(12.0) * np.sin(phase)
+        return THEORY.headings_apart_rad + off
+
+    found = since(Record(apart=sway))
+    assert found is not None and found < CYCLE
+
+
+def test_the_last_whole_cycle_is_judged() -> None:
+    """Who leaves the circle 0.8 of a cycle before the end is seen to."""
+    left = 60.0 - 0.8 * CYCLE
+    far = 1.12 * THEORY.distance_m
+    gone = Record(stepped(left, THEORY.distance_m, far))
+    assert since(gone) is None
+
+
+def test_nothing_converges_without_a_circle_or_a_record() -> None:
+    back = replace(SETTINGS, strategy=Evasion(angle=0.0))
+    assert since(Record(), back) is None
+    assert since(Record(times=TIMES[:2])) is None
+    assert since(Record(times=TIMES[:200])) is None

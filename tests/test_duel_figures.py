@@ -1,0 +1,133 @@
+"""Test the figures of a duel as they are told and read again."""
+
+import json
+from copy import deepcopy
+from typing import Any
+
+import pytest
+
+from invented_run import figures
+from stepaside.errors import ConfigurationError
+from stepaside.games.figures import (
+    DuelSummary,
+    PlanTimes,
+    PlayerFigures,
+    TheoryFigures,
+)
+
+BLIND = figures(
+    seed=3,
+    duration_s=20.0,
+    triggered_at_s=2.5,
+    triggered_at_distance_m=0.79,
+    converged_at_s=11.0,
+    replans=40,
+    min_zmp_margin_m=0.021,
+    theory=TheoryFigures(None, True, 0.637, 0.9, 90.0),
+    plan_time_us=PlanTimes(180.0, 300.0),
+    pursuer=PlayerFigures(0.63),
+    evader=PlayerFigures(0.64),
+)
+EYES = {
+    "bearing_error_deg": {"median": 0.7, "p95": None},
+    "false_detections": 2,
+    "lost_s": 0.0,
+}
+SEEING = figures(
+    pursuer=PlayerFigures(0.63, {**EYES, "detection_rate": 0.9}),
+    evader=PlayerFigures(None, {**EYES, "depth_detection_rate": 1}),
+    sight={"camera": "raycast", "detection_rate": 0.97, "lost_s": 1.5},
+    run_folder="/some/where",
+)
+WITH_A_PERSON = figures(
+    pursuer=PlayerFigures(None), evader=PlayerFigures(0.6, EYES)
+)
+
+
+@pytest.mark.parametrize("told", [BLIND, SEEING, WITH_A_PERSON])
+def test_figures_are_read_as_they_were_told(told: DuelSummary) -> None:
+    """Through JSON as text, too."""
+    plain = told.to_json()
+    assert DuelSummary.from_json(plain, "test") == told
+    again = json.loads(json.dumps(plain))
+    found = DuelSummary.from_json(again, "test")
+    assert found == told
+    assert json.dumps(found.to_json()) == json.dumps(plain)
+
+
+def test_what_was_seen_lies_beside_the_other_figures() -> None:
+    plain = SEEING.to_json()
+    assert plain["pursuer"] == {"radius_m": 0.63, "detection_rate": 0.9} | EYES
+    assert plain["camera"] == "raycast" and plain["lost_s"] == 1.5
+    assert "sight" not in plain and plain["run_folder"] == "/some/where"
+    blind = BLIND.to_json()
+    assert blind["evader"] == {"radius_m": 0.64}
+    assert "run_folder" not in blind and "camera" not in blind
+
+
+def test_telling_figures_leaves_them_as_they_are() -> None:
+    SEEING.to_json()["pursuer"]["lost_s"] = 9.0
+    assert SEEING.pursuer.sight["lost_s"] == 0.0
+    plain = SEEING.to_json()
+    before = deepcopy(plain)
+    DuelSummary.from_json(plain, "test")
+    assert plain == before
+
+
+def test_whole_numbers_are_real_ones_where_those_are_asked_for() -> None:
+    plain = BLIND.to_json() | {"distance_m": 1, "triggered_at_s": 2}
+    found = DuelSummary.from_json(plain, "test")
+    assert isinstance(found.distance_m, float) and found.distance_m == 1.0
+    assert isinstance(found.triggered_at_s, float)
+    assert isinstance(found.replans, int)
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"distance_m": "far"}, "distance_m"),
+        ({"distance_m": None}, "distance_m"),
+        ({"distance_m": True}, "float"),
+        ({"replans": 1.5}, "replans"),
+        ({"replans": True}, "int"),
+        ({"seed": "one"}, "seed"),
+        ({"message": 3}, "message"),
+        ({"theory": None}, "theory"),
+        ({"theory": [1.0]}, "theory"),
+        ({"theory": {"radius_m": 1.0}}, "exists"),
+        ({"plan_time_us": "fast"}, "plan_time_us"),
+        ({"start": 1.0}, "start"),
+        ({"pursuer": 0.6}, "pursuer"),
+        ({"evader": {"radius_m": "wide"}}, "radius_m"),
+    ],
+)
+def test_a_damaged_figure_is_refused_by_name(
+    changes: dict[str, Any], word: str
+) -> None:
+    with pytest.raises(ConfigurationError) as refused:
+        DuelSummary.from_json(BLIND.to_json() | changes, "summary.json")
+    message = str(refused.value)
+    assert message.startswith("summary.json: ") and word in message
+    assert "\n" not in message
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("outcome", "message", "seed", "duration_s", "start", "distance_m"),
+        *("relative_orientation_deg", "min_distance_m", "replans", "theory"),
+        *("max_com_velocity_jump_m_s", "plan_time_us", "real_time_factor"),
+        *("pursuer", "evader"),
+    ],
+)
+def test_a_figure_that_every_duel_has_may_not_be_missing(name: str) -> None:
+    plain = BLIND.to_json()
+    del plain[name]
+    with pytest.raises(ConfigurationError, match=f"^here: .*{name}"):
+        DuelSummary.from_json(plain, "here")
+
+
+@pytest.mark.parametrize("plain", [None, 3, "text", [BLIND.to_json()]])
+def test_what_is_no_object_holds_no_figures(plain: Any) -> None:
+    with pytest.raises(ConfigurationError, match="here must hold one JSON"):
+        DuelSummary.from_json(plain, "here")

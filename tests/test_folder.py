@@ -1,0 +1,249 @@
+"""Test run folders as files: what is written comes back, old ones too."""
+
+import json
+from collections.abc import Callable
+from dataclasses import fields, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from invented_run import run_of
+from stepaside.errors import ConfigurationError
+from stepaside.games.folder import (
+    FORMAT,
+    SUMMARY,
+    TRAJECTORIES,
+    load_run,
+    write_record,
+)
+from stepaside.games.outcome import Outcome
+from stepaside.games.run import Run
+from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.track import Track
+from stepaside.poses import Array
+
+ROWS = 6
+TIMES: Array = 0.02 * np.arange(float(ROWS))
+
+
+def robot(number: float, *, sees: bool = False) -> Track:
+    """A robot whose every quantity tells what it is."""
+    rows = np.arange(float(ROWS))[:, None]
+
+    def table(base: float, columns: int) -> Array:
+        made: Array = 100.0 * number + base + rows + 0.1 * np.arange(columns)
+        return made
+
+    zmp = table(5.0, 2)
+    zmp[2] = np.nan  # in flight
+    return Track(
+        com=table(1.0, 3),
+        torso=table(2.0, 3),
+        com_reference=table(3.0, 2),
+        zmp_reference=table(4.0, 2),
+        zmp=zmp,
+        qpos=table(6.0, 30).astype(np.float32),
+        landings=table(7.0, 5)[:2],
+        sight=table(8.0, 6) if sees else None,
+    )
+
+
+def person() -> Track:
+    track = robot(1.0)
+    return Track(track.com, track.torso)
+
+
+def duel(pursuer: Track, **changes: Any) -> Run:
+    return run_of(
+        TIMES,
+        {"pursuer": pursuer, "evader": robot(2.0, sees=True)},
+        settings=DuelSettings(seed=9, start=StartSettings(1.3, 0.4, -0.2)),
+        name="run",
+        duration_s=float(TIMES[-1]),
+        **changes,
+    )
+
+
+RUNS = {
+    "robots": duel(robot(1.0)),
+    "seeing robots": duel(robot(1.0, sees=True)),
+    "a person": duel(person()),
+    "nobody walked": duel(
+        replace(robot(1.0), landings=np.zeros((0, 5))),
+        outcome=Outcome.UNREACHABLE,
+        message="pursuer lost its footing at 0.10 s: too far",
+    ),
+}
+by_run = pytest.mark.parametrize("run", RUNS.values(), ids=RUNS.keys())
+
+
+def folder_of(tmp_path: Path, run: Run) -> Path:
+    folder = tmp_path / "run"
+    folder.mkdir()
+    write_record(folder, run)
+    return folder
+
+
+def damage(folder: Path, change: Callable[[dict[str, Any]], Any]) -> None:
+    """Change what a summary holds."""
+    plain = json.loads((folder / SUMMARY).read_text())
+    change(plain)
+    (folder / SUMMARY).write_text(json.dumps(plain))
+
+
+def restore(folder: Path, arrays: dict[str, Array]) -> None:
+    np.savez_compressed(folder / TRAJECTORIES, allow_pickle=False, **arrays)
+
+
+def as_first_format(folder: Path, run: Run) -> None:
+    """Turn a folder into what the first format would have been.
+
+    Its summary has no number. Every player has all arrays but that of what
+    it saw: those of a person are NaN, its posture has no columns and its
+    landings no rows.
+    """
+    damage(folder, lambda plain: plain.pop("format"))
+    arrays = run.arrays()
+    fillers = {
+        "com_reference": np.full((ROWS, 2), np.nan),
+        "zmp_reference": np.full((ROWS, 2), np.nan),
+        "zmp": np.full((ROWS, 2), np.nan),
+        "qpos": np.zeros((ROWS, 0), np.float32),
+        "landings": np.zeros((0, 5)),
+    }
+    for name in run.tracks:
+        for key, filler in fillers.items():
+            arrays.setdefault(f"{name}_{key}", filler)
+    restore(folder, arrays)
+
+
+def check_same(found: Run, run: Run) -> None:
+    for name in ("name", "settings", "outcome", "message", "summary"):
+        assert getattr(found, name) == getattr(run, name), name
+    assert found.duration == pytest.approx(run.duration)
+    np.testing.assert_array_equal(found.times, run.times)
+    assert list(found.tracks) == list(run.tracks)
+    for name, track in run.tracks.items():
+        for field in fields(Track):
+            value = getattr(track, field.name)
+            again = getattr(found.tracks[name], field.name)
+            if value is None:
+                assert again is None, (name, field.name)
+            else:
+                np.testing.assert_array_equal(again, value)
+                assert again.dtype == value.dtype
+                assert not again.flags.writeable
+
+
+@by_run
+def test_a_run_comes_back_as_it_was_written(tmp_path: Path, run: Run) -> None:
+    check_same(load_run(folder_of(tmp_path, run)), run)
+
+
+@by_run
+def test_a_run_of_the_first_format_is_the_same(
+    tmp_path: Path, run: Run
+) -> None:
+    """What stood for nothing there is None: a person has no plan."""
+    folder = folder_of(tmp_path, run)
+    as_first_format(folder, run)
+    check_same(load_run(folder), run)
+
+
+def test_the_format_has_a_number_which_is_no_figure(tmp_path: Path) -> None:
+    folder = folder_of(tmp_path, RUNS["seeing robots"])
+    told = json.loads((folder / SUMMARY).read_text())
+    assert told["format"] == FORMAT == 2
+    assert "format" not in load_run(folder).summary.sight
+
+
+@pytest.mark.parametrize("number", [3, 0, -1, 1.5, "2", None, [1]])
+def test_a_format_that_is_not_known_is_refused_by_its_number(
+    tmp_path: Path, number: Any
+) -> None:
+    """Before anything else of it is read."""
+    folder = folder_of(tmp_path, RUNS["robots"])
+
+    def renumber(plain: dict[str, Any]) -> None:
+        plain.clear()
+        plain["format"] = number
+
+    damage(folder, renumber)
+    with pytest.raises(ConfigurationError) as refused:
+        load_run(folder)
+    message = str(refused.value)
+    assert f"has format {number!r}" in message and "reads 1 to 2" in message
+    assert "run run" in message and "\n" not in message
+
+
+def test_nan_is_no_filler_in_a_format_that_has_none(tmp_path: Path) -> None:
+    """A robot that never pressed the floor, in the second format."""
+    flying = replace(robot(1.0), zmp=np.full((ROWS, 2), np.nan))
+    run = duel(flying)
+    folder = folder_of(tmp_path, run)
+    check_same(load_run(folder), run)
+
+
+@pytest.mark.parametrize("name", ["times_s", "pursuer_com", "evader_torso"])
+@pytest.mark.parametrize("first", [False, True])
+def test_an_array_that_every_run_has_may_not_be_missing(
+    tmp_path: Path, name: str, first: bool
+) -> None:
+    run = RUNS["a person"]
+    folder = folder_of(tmp_path, run)
+    if first:
+        as_first_format(folder, run)
+    arrays = run.arrays()
+    del arrays[name]
+    restore(folder, arrays)
+    with pytest.raises(ConfigurationError, match=f"no array '?{name}"):
+        load_run(folder)
+
+
+def test_an_outcome_that_nobody_knows_is_refused(tmp_path: Path) -> None:
+    folder = folder_of(tmp_path, RUNS["robots"])
+    damage(folder, lambda plain: plain.update(outcome="victory"))
+    with pytest.raises(ConfigurationError, match="unreachable.*'victory'"):
+        load_run(folder)
+
+
+def test_a_damaged_summary_is_refused_by_its_file(tmp_path: Path) -> None:
+    folder = folder_of(tmp_path, RUNS["robots"])
+    damage(folder, lambda plain: plain.update(distance_m="far"))
+    with pytest.raises(ConfigurationError, match="summary.json.*distance_m"):
+        load_run(folder)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.3, 0.9, 0.999])
+def test_trajectories_that_were_cut_off_are_refused(
+    tmp_path: Path, share: float
+) -> None:
+    """As by a copy that broke off."""
+    folder = folder_of(tmp_path, RUNS["robots"])
+    whole = (folder / TRAJECTORIES).read_bytes()
+    cut = whole[: int(share * len(whole))]
+    (folder / TRAJECTORIES).write_bytes(cut)
+    with pytest.raises(ConfigurationError, match="cannot be read"):
+        load_run(folder)
+
+
+def test_a_spoilt_byte_anywhere_is_refused_or_harmless(
+    tmp_path: Path,
+) -> None:
+    """Never read as other numbers, and never an error of another kind."""
+    run = RUNS["robots"]
+    folder = folder_of(tmp_path, run)
+    whole = (folder / TRAJECTORIES).read_bytes()
+    generator = np.random.default_rng(1)
+    refused = 0
+    for at in generator.integers(len(whole), size=150):
+        spoilt = bytearray(whole)
+        spoilt[at] ^= 1 << int(generator.integers(8))
+        (folder / TRAJECTORIES).write_bytes(spoilt)
+        try:
+            check_same(load_run(folder), run)
+        except ConfigurationError:
+            refused += 1
+    assert refused > 100

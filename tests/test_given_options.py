@@ -1,0 +1,299 @@
+"""Settings from defaults, a file, presets and single options, in order."""
+
+import json
+import tomllib
+from math import inf, pi, radians
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner, Result
+
+from stepaside.cli import main
+from stepaside.commands.declared.build import changed
+from stepaside.commands.plan_settings import PlanSettings
+from stepaside.control.balance.settings import StabiliserSettings
+from stepaside.errors import ConfigurationError
+from stepaside.games.configuration import dump_configuration, parse_settings
+from stepaside.games.settings import DuelSettings
+from stepaside.games.walk import WalkSettings
+from stepaside.planning import PRESETS
+from stepaside.world.body_settings import BODIES
+from stepaside.world.camera_settings import CLUTTER
+from stepaside.world.push import Push
+
+KINDS: dict[str, Any] = {
+    "duel": DuelSettings,
+    "duels": DuelSettings,
+    "view": DuelSettings,
+    "walk": WalkSettings,
+    "robustness": WalkSettings,
+    "plan": PlanSettings,
+}
+SWITCHES = """
+[strategy]
+saturated = true
+release_distance = 1.5
+[start]
+distance = 1.0
+[body]
+torque_speed = true
+[control]
+feedback = true
+method = "measured"
+[room]
+things = [{ kind = "red box", x = 3.0, y = 1.0 }]
+[sight]
+rate = 10
+"""
+
+
+def run(line: str) -> Result:
+    return CliRunner().invoke(main, line.split())
+
+
+def printed(line: str) -> dict[str, Any]:
+    """Entries of the configuration that a command would use."""
+    result = run(f"{line} --print-config")
+    assert result.exit_code == 0, result.stderr
+    return tomllib.loads(result.stdout)
+
+
+def settings(line: str) -> Any:
+    return parse_settings(KINDS[line.split()[0]], printed(line), line)
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    made = tmp_path / "settings.toml"
+    made.write_text(SWITCHES, encoding="utf-8")
+    return made
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_what_nobody_changes_is_as_the_settings_have_it(name: str) -> None:
+    assert settings(name) == KINDS[name]()
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_the_printed_configuration_explains_each_entry(name: str) -> None:
+    lines = run(f"{name} --print-config").stdout.splitlines()
+    for before, line in zip(lines, lines[1:], strict=False):
+        if line and not line.startswith("# "):
+            assert before.startswith("# ") and len(before) > 5, line
+    text = "\n".join(lines)
+    assert "# Step size along the trajectory, in [m].\nstride = " in text
+
+
+def test_the_printed_configuration_is_what_is_played(tmp_path: Path) -> None:
+    line = "duel --seed 3 --duration 0.2 --clutter --angle 45deg --gain 0.25"
+    made = tmp_path / "duel.toml"
+    made.write_text(run(f"{line} --print-config").stdout, encoding="utf-8")
+    first, again = (
+        json.loads(run(f"{asked} --json").stdout)
+        for asked in (line, f"duel --config {made}")
+    )
+    for name in ("plan_time_us", "real_time_factor"):
+        del first[name], again[name]
+    assert first == again
+
+
+@pytest.mark.parametrize("name", ["duel", "view", "walk", "robustness"])
+def test_gait_body_and_floor_are_taken_by_every_command(name: str) -> None:
+    found = settings(
+        f"{name} --preset as-printed --single-support 0.2 --stride 0.03 "
+        "--com-height 0.26 --body delayed --backlash 2deg --friction 0.5 "
+        "--mpc-steps 3 --seed 0"
+    )
+    gait = changed(
+        PRESETS["as-printed"],
+        {"single_support": 0.2, "stride": 0.03, "com_height": 0.26},
+    )
+    assert found.gait == gait
+    delayed = changed(BODIES["delayed"], {"backlash": radians(2.0)})
+    assert found.body == delayed
+    assert found.physics.friction == 0.5 and found.seed == 0
+    assert found.control.mpc.steps == 3 and found.control.feedback
+
+
+def test_safety_and_release_change_together() -> None:
+    """Each alone would be refused beside the other's default."""
+    line = "--safety-radius 1.2 --release-distance 1.5 --side-hysteresis 5deg"
+    for name in ("duel", "duels", "view"):
+        strategy = settings(f"{name} {line}").strategy
+        assert (strategy.safety_radius, strategy.release_distance) == (
+            1.2,
+            1.5,
+        )
+        assert strategy.side_hysteresis == pytest.approx(radians(5.0))
+    refused = run("duel --safety-radius 2 --release-distance 1.5")
+    assert refused.exit_code == 2
+    assert "release_distance must exceed safety_radius" in refused.stderr
+
+
+def test_a_file_wins_over_defaults_and_options_over_a_file(
+    file: Path,
+) -> None:
+    given = settings(f"duel --config {file}")
+    assert given.strategy.saturated and given.body.torque_speed
+    assert given.sight.rate == 10.0 and given.start.distance == 1.0
+    beside = settings(f"duel --config {file} --rate 20 --slope 1deg")
+    assert beside.sight.rate == 20.0
+    assert beside.strategy == given.strategy
+    assert beside.physics.slope == pytest.approx(pi / 180.0)
+
+
+def test_a_preset_wins_over_a_file_and_single_options_over_both(
+    file: Path,
+) -> None:
+    """A file of a run names every entry: a preset below it did nothing."""
+    found = settings(f"duel --config {file} --body delayed --delay-cycles 5")
+    assert found.body == changed(BODIES["delayed"], {"delay_cycles": 5})
+
+
+def test_whatever_a_file_switches_on_can_be_switched_off(file: Path) -> None:
+    found = settings(
+        f"duel --config {file} --no-saturated --no-torque-speed "
+        "--no-feedback --no-clutter --release-distance never "
+        "--distance drawn --rate every-tick"
+    )
+    assert found == DuelSettings()
+    assert not settings(f"duel --config {file} --open-loop").control.feedback
+    clutter = settings(f"duel --config {file} --clutter").room.things
+    assert clutter == list(CLUTTER)
+
+
+def test_a_body_that_is_not_ideal_is_stabilised_unless_told_otherwise() -> (
+    None
+):
+    for line, method, feedback in (
+        ("duel --body hardware", "measured", True),
+        ("duel --body hardware --no-feedback", "closed-form", False),
+        ("duel --body ideal", "closed-form", False),
+        ("walk --method mpc", "mpc", True),
+        ("walk --feedback", "measured", True),
+        ("walk --feedback --method closed-form", "closed-form", True),
+        ("walk --backlash 1deg", "closed-form", False),
+    ):
+        control = settings(line).control
+        assert (control.method, control.feedback) == (method, feedback), line
+
+
+def test_feedback_of_a_file_stays_where_only_the_method_changes(
+    file: Path,
+) -> None:
+    found = settings(f"duel --config {file} --method closed-form").control
+    assert (found.method, found.feedback) == ("closed-form", True)
+
+
+def test_a_file_of_a_walk_has_its_own_entries(tmp_path: Path) -> None:
+    walk = WalkSettings(
+        duration=3.0,
+        bearing=0.2,
+        backward=True,
+        gait=changed(WalkSettings().gait, {"speed": 0.08}),
+        pushes=(Push(0.5, 1.0, 0.0), Push(0.4, 2.0, pi)),
+    )
+    file = tmp_path / "walk.toml"
+    file.write_text(dump_configuration(walk), encoding="utf-8")
+    assert settings(f"walk --config {file}") == walk
+    ahead = settings(f"walk --config {file} --forward --push 1@2:90deg")
+    assert not ahead.backward
+    assert ahead.pushes == (Push(1.0, 2.0, pi / 2),)
+    refused = run(f"duel --config {file}")
+    assert refused.exit_code == 2
+    assert "unknown entry backward, bearing, pushes" in refused.stderr
+
+
+def test_plans_and_campaigns_take_files_of_duels(file: Path) -> None:
+    file.write_text(f"{SWITCHES}[gait]\nspeed = 0.08\n", encoding="utf-8")
+    for name in ("plan", "robustness"):
+        assert settings(f"{name} --config {file}").gait.speed == 0.08
+    file.write_text("weather = 1", encoding="utf-8")
+    refused = run(f"plan --config {file}")
+    assert refused.exit_code == 2 and "unknown entry weather" in refused.stderr
+
+
+def test_entries_of_older_files_go_by_their_new_names(tmp_path: Path) -> None:
+    file = tmp_path / "old.toml"
+    file.write_text(
+        "[body]\nplay = 0.02\n[control.stabiliser]\nlead_blend = 0.5\n",
+        encoding="utf-8",
+    )
+    for name in ("duel", "walk"):
+        found = settings(f"{name} --config {file}")
+        assert found.body.backlash == 0.02
+        stabiliser = changed(StabiliserSettings(), {"prediction_blend": 0.5})
+        assert found.control.stabiliser == stabiliser
+    file.write_text("[body]\nplay = 0.02\nbacklash = 0.01", encoding="utf-8")
+    with pytest.raises(ConfigurationError, match=r"body\.play is the old"):
+        parse_settings(WalkSettings, tomllib.loads(file.read_text()), "here")
+
+
+def test_a_file_that_lacks_what_it_must_say_is_refused(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "walk.toml"
+    for text, message in (
+        ("[[pushes]]\nimpulse = 1.0\ntime = 1.0", "missing entry pushes"),
+        ("control.method = 'mind'", "one of closed-form, measured, mpc"),
+        ("pushes = 3", "pushes must be a tuple, got 3"),
+    ):
+        file.write_text(text, encoding="utf-8")
+        refused = run(f"walk --config {file}")
+        assert refused.exit_code == 2 and message in refused.stderr, text
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("walk --stride 0", r"stride must be finite and > 0 [m], got 0.0"),
+        ("walk --foot-spacing 0.05", "foot_spacing must exceed"),
+        ("duel --efficiency nan", "must be a number [1], got 'nan'"),
+        ("duel --safety-radius wide", "must be a number [m], got 'wide'"),
+        ("duel --renderer paint", "'paint' is not one of"),
+        ("plan --role evader", "Missing option '--bearing'"),
+        ("plan --bearing 1", "Missing option '--role'"),
+        ("robustness --kind wind", "'wind' is not one of 'push'"),
+        ("view --walls 0.5", "walls must lie in"),
+    ],
+)
+def test_what_no_settings_take_is_refused_in_one_line(
+    line: str, message: str
+) -> None:
+    result = run(line)
+    assert result.exit_code == 2
+    assert len(result.stderr.splitlines()) == 1 and message in result.stderr
+
+
+def test_plan_answers_for_the_gait_that_was_asked_for() -> None:
+    line = "plan --role pursuer --bearing 0 --steps 4 --json"
+    usual, long = (
+        json.loads(run(f"{line}{more}").stdout)
+        for more in ("", " --stride 0.06")
+    )
+    assert (usual["preset"], long["preset"]) == ("nao", None)
+    apart = [
+        found["footsteps"][2]["x"] - found["footsteps"][1]["x"]
+        for found in (usual, long)
+    ]
+    assert apart == pytest.approx([0.04, 0.06])
+    for more, preset in (
+        ("--profile cubic", "nao"),
+        ("--preset as-printed", "as-printed"),
+    ):
+        assert json.loads(run(f"{line} {more}").stdout)["preset"] == preset
+
+
+def test_changes_reach_the_deepest_section_after_whole_ones() -> None:
+    found = changed(
+        DuelSettings(),
+        {
+            "control.mpc.steps": 4,
+            "body.backlash": 0.01,
+            "body": BODIES["delayed"],
+            "strategy.release_distance": inf,
+        },
+    )
+    assert found.control.mpc.steps == 4
+    assert found.body == changed(BODIES["delayed"], {"backlash": 0.01})

@@ -1,0 +1,201 @@
+"""Test the one loop in which players play, on players that are made up."""
+
+import numpy as np
+import pytest
+
+from made_up_players import TICK, FakeObserver, clock, game, raising
+from stepaside.errors import ReachError
+from stepaside.games.match import Progress, play
+from stepaside.games.outcome import Outcome
+from stepaside.games.record import Recorder
+
+
+def test_three_players_act_in_turn_and_time_passes_for_all() -> None:
+    """Who looks on does so before anybody has moved, and after all have."""
+    watcher = FakeObserver()
+    match, world, players = game(0.0, 2.0, 5.0, observers=[watcher])
+    outcome, _ = play(match, 3 * TICK)
+    assert outcome is Outcome.COMPLETED and match.message == "played 0.01 s"
+    turn = ["before", "a", "b", "c", "acted", "time passes"]
+    assert world.told == 3 * turn
+    assert watcher.ended_with == [(outcome, match.message, world.time)]
+    assert [player.closed for player in players] == [1, 1, 1]
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 5])
+def test_any_number_may_play(count: int) -> None:
+    match, world, players = game(*(2.0 * np.arange(count)))
+    assert match.distance == (None if count == 1 else 2.0)
+    outcome, _ = play(match, 2 * TICK)
+    assert outcome is Outcome.COMPLETED and world.ticks == 2
+    assert match.min_distance == match.distance
+    assert match.player("a") is players[0]
+    assert match.player(players[-1].name) is players[-1]
+    with pytest.raises(KeyError, match="zoe"):
+        match.player("zoe")
+
+
+@pytest.mark.parametrize(
+    ("duration", "ticks"), [(0.04, 10), (0.0399, 10), (0.0401, 11)]
+)
+def test_a_game_lasts_as_long_as_asked(duration: float, ticks: int) -> None:
+    match, world, _ = game(0.0, 2.0)
+    assert play(match, duration)[0] is Outcome.COMPLETED
+    assert world.ticks == ticks
+
+
+@pytest.mark.parametrize("clumsy", [0, 1, 2])
+def test_legs_that_lose_their_reference_end_a_game_and_it_is_kept(
+    clumsy: int,
+) -> None:
+    """Of any player; those after it do not act any more."""
+    watcher = FakeObserver()
+    match, world, players = game(0.0, 2.0, 5.0)
+    recorder = Recorder(players, tick=TICK)
+    match.observers = (recorder, watcher)
+    name = players[clumsy].name
+    players[clumsy].does[12] = raising(ReachError("a leg is too short"))
+    outcome, _ = play(match, 1.0)
+    assert outcome is Outcome.UNREACHABLE and world.ticks == 12
+    said = f"{name} lost its footing at 0.05 s: a leg is too short"
+    assert match.message == said
+    assert watcher.ended_with == [(outcome, said, world.time)]
+    assert world.told[-2 - clumsy :] == ["before", *"abc"[: clumsy + 1]]
+    assert [player.closed for player in players] == [1, 1, 1]
+    np.testing.assert_allclose(recorder.times, [0.0, 0.02, 0.04, 0.048])
+    assert all(len(t.com) == 4 for t in recorder.tracks().values())
+
+
+@pytest.mark.parametrize("at", [10, 12])
+@pytest.mark.parametrize("who", [0, 1, 2])
+def test_an_interrupted_game_is_kept_and_its_players_let_go(
+    who: int, at: int
+) -> None:
+    """No instant is kept twice, even one that was begun."""
+    watcher = FakeObserver()
+    match, world, players = game(0.0, 2.0, 5.0)
+    recorder = Recorder(players, tick=TICK)
+    match.observers = (recorder, watcher)
+    players[who].does[at] = raising(KeyboardInterrupt())
+    outcome, _ = play(match, 1.0)
+    assert outcome is Outcome.INTERRUPTED
+    assert match.message == f"interrupted at {at * TICK:.2f} s"
+    assert watcher.ended_with == [(outcome, match.message, world.time)]
+    assert [player.closed for player in players] == [1, 1, 1]
+    rest = [] if at == 10 else [0.048]
+    np.testing.assert_allclose(recorder.times, [0.0, 0.02, 0.04, *rest])
+
+
+def test_another_error_lets_the_players_go_too() -> None:
+    watcher = FakeObserver()
+    match, _, players = game(0.0, 2.0, observers=[watcher])
+    players[1].does[3] = raising(RuntimeError("a bolt came loose"))
+    with pytest.raises(RuntimeError, match="bolt"):
+        play(match, 1.0)
+    assert [player.closed for player in players] == [1, 1]
+    assert watcher.ended_with == []
+
+
+@pytest.mark.parametrize(
+    ("fallen", "who"), [((0,), "a"), ((2,), "c"), ((0, 2), "a and c")]
+)
+def test_a_fall_of_anybody_ends_a_game(
+    fallen: tuple[int, ...], who: str
+) -> None:
+    """Who falls on another has fallen."""
+    match, world, players = game(0.0, 0.5, 1.0)
+    world.contacts = ("a", "b")
+    for number in fallen:
+        players[number].has_fallen = True
+    outcome, _ = play(match, 1.0)
+    assert outcome is Outcome.FALL and world.ticks == 1
+    assert match.message == f"{who} fell at 0.00 s"
+
+
+@pytest.mark.parametrize(
+    ("places", "asked"),
+    [((0.0, 0.79), 1), ((0.0, 0.81), 0), ((0.0, 3.0, 3.5), 1), ((0.0,), 0)],
+)
+def test_contact_is_looked_for_where_any_two_are_near(
+    places: tuple[float, ...], asked: int
+) -> None:
+    match, world, _ = game(*places)
+    assert match.tick() is None
+    assert world.asked == asked
+    world.contacts = ("b", "c")
+    assert match.tick() is (Outcome.CONTACT if asked else None)
+    assert match.message == ("b and c touched at 0.01 s" if asked else "")
+
+
+def test_things_are_in_reach_of_everybody_always() -> None:
+    match, world, _ = game(0.0, has_things=True)
+    world.contacts = ("a", "thing 0")
+    assert match.tick() is Outcome.CONTACT
+    assert match.message == "a and thing 0 touched at 0.00 s"
+
+
+def test_the_closest_and_the_first_move_of_the_last_are_noted() -> None:
+    """Distances are those of the first two; it is the last who evades."""
+    match, _, players = game(0.0, 5.0, 50.0)
+    others = []
+
+    def stand(x: float, *, moves: bool) -> None:
+        players[1].truth.position = (x, 0.0)
+        players[2].is_moving = moves
+        assert match.tick() is None
+        others.append(match.min_distance)
+
+    players[0].is_moving = players[1].is_moving = True
+    for x, moves in ((4.0, False), (2.0, True), (3.0, True), (1.5, True)):
+        stand(x, moves=moves)
+    assert others == [4.0, 2.0, 2.0, 1.5]
+    assert match.triggered_at == 2 * TICK
+    assert match.triggered_distance == 2.0
+
+
+def test_who_never_moves_is_never_triggered() -> None:
+    match, _, _ = game(0.0, 5.0)
+    play(match, 0.1)
+    assert match.triggered_at is None and match.triggered_distance is None
+
+
+def test_progress_is_told_at_most_five_times_a_second(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Looked at every 0.1 s of the game; every other time 0.22 s passed."""
+    clock(monkeypatch, 0.11)
+    told: list[Progress] = []
+    match, _, _ = game(0.0, 1.3)
+    _, wall = play(match, 0.5, told.append)
+    assert [p.time for p in told] == pytest.approx([0.2, 0.4])
+    factors = [p.real_time_factor for p in told]
+    assert factors == pytest.approx([0.2 / 0.22, 0.4 / 0.44])
+    assert {p.distance for p in told} == {1.3}
+    assert wall == pytest.approx(0.11 * 6)
+
+
+def test_who_plays_alone_is_at_no_distance(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    clock(monkeypatch, 1.0)
+    told: list[Progress] = []
+    match, _, _ = game(0.0)
+    play(match, 0.1, told.append)
+    assert told == [Progress(0.1, None, 0.1)]
+
+
+def test_a_word_of_progress_may_interrupt(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    clock(monkeypatch, 1.0)
+    watcher = FakeObserver()
+    match, _, players = game(0.0, 1.3, observers=[watcher])
+
+    def interrupt(progress: Progress) -> None:
+        raise KeyboardInterrupt
+
+    outcome, _ = play(match, 5.0, interrupt)
+    assert outcome is Outcome.INTERRUPTED
+    assert match.message == "interrupted at 0.10 s"
+    assert len(watcher.ended_with) == 1
+    assert [player.closed for player in players] == [1, 1]

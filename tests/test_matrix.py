@@ -1,0 +1,337 @@
+"""Everybody plays with everything: each combination of settings, briefly.
+
+What can be combined is written, read, shown and pushed, whoever plays. Each
+of these has its own tests elsewhere; here none of them may have forgotten a
+combination.
+"""
+
+from collections.abc import Iterator
+from itertools import product
+from math import pi
+from pathlib import Path
+from threading import Event
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+
+from invented_run import check_same
+from onlooker import look_on
+from stepaside.commands.duel import _print
+from stepaside.control.balance.settings import METHODS, ControlSettings
+from stepaside.errors import ConfigurationError
+from stepaside.games.duel import Duel, run_duel
+from stepaside.games.folder import load_run, write_record
+from stepaside.games.outcome import Outcome
+from stepaside.games.run import Run
+from stepaside.games.settings import (
+    PLAYERS,
+    SENSING,
+    DuelSettings,
+    StartSettings,
+)
+from stepaside.games.track import Track
+from stepaside.games.walker import Walker
+from stepaside.report.compare_figure import draw_comparison
+from stepaside.report.film import Cinema, Shot
+from stepaside.report.replay_page import write_page
+from stepaside.report.run_folder import write_run
+from stepaside.report.style import plt
+from stepaside.report.viewer.camera_panel import picture
+from stepaside.report.viewer.drawing import draw_session
+from stepaside.report.viewer.session import Session
+from stepaside.strategies import Evasion
+from stepaside.world.body_settings import BODIES
+from stepaside.world.camera_settings import (
+    CameraSettings,
+    ColourSettings,
+    DepthSettings,
+)
+from stepaside.world.graphics import RAYCAST, choose_renderer
+from stepaside.world.person_settings import PURSUERS
+
+PUSHED = 0.24  # [s]; a push is over, and what it does has been felt
+LONG = 60.0  # [s]; no event of a loop that runs comes as late as this
+CAMERAS = CameraSettings(  # as small as they still find each other
+    colour=ColourSettings(width=160, height=120, renderer=RAYCAST),
+    depth=DepthSettings(width=40, height=30),
+)
+
+
+class Case(NamedTuple):
+    """What is combined."""
+
+    pursuer: str
+    sensing: str
+    body: str
+    method: str
+
+    @property
+    def walkers(self) -> tuple[str, ...]:
+        """Who is a robot."""
+        return PLAYERS if self.pursuer == "robot" else PLAYERS[1:]
+
+    @property
+    def cameras(self) -> set[str]:
+        """Labels of the cameras that there are."""
+        if self.sensing == "ideal":
+            return set()
+        return {f"{name}, colour" for name in self.walkers} | {"evader, depth"}
+
+    @property
+    def duration(self) -> float:
+        """Time in which all begin to walk, in [s].
+
+        Images have to arrive first, and feedback stands still for a second.
+        """
+        return 0.2 if self.body == "ideal" else 1.2
+
+    def settings(self) -> DuelSettings:
+        """Settings of its duel."""
+        method: Any = self.method
+        return DuelSettings(
+            duration=self.duration,
+            pursuer=self.pursuer,
+            sensing=self.sensing,
+            body=BODIES[self.body],
+            control=ControlSettings(method, feedback=self.body != "ideal"),
+            cameras=CAMERAS,
+            start=StartSettings(1.2, 0.3, -0.2),
+            strategy=Evasion(safety_radius=1.5),
+        )
+
+
+def accepted() -> Iterator[Case]:
+    """Every combination that settings take."""
+    for found in product(PURSUERS, SENSING, ("ideal", "hardware"), METHODS):
+        case = Case(*found)
+        try:
+            case.settings()
+        except ConfigurationError:
+            continue
+        yield case
+
+
+CASES = tuple(accepted())
+
+
+class Played(NamedTuple):
+    """A duel of a case, and where it was written."""
+
+    case: Case
+    run: Run
+    folder: Path
+
+
+@pytest.fixture(scope="module", autouse=True)
+def plain_figures() -> Iterator[None]:
+    """Small figures that nobody lays out: what is drawn is the same."""
+    with plt.rc_context(
+        {"savefig.dpi": 30, "figure.constrained_layout.use": False}
+    ):
+        yield
+
+
+@pytest.fixture(
+    scope="module",
+    params=[
+        pytest.param(
+            case,
+            id="-".join(case),
+            marks=pytest.mark.xdist_group(f"matrix {'-'.join(case[:2])}"),
+        )
+        for case in CASES
+    ],
+)
+def played(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Played:
+    case: Case = request.param
+    folder = tmp_path_factory.mktemp("runs") / "-".join(case)
+    run = run_duel(case.settings())
+    assert write_run(folder, run) == folder / "duel.png"
+    return Played(case, run, folder)
+
+
+def test_only_what_needs_feedback_and_has_none_is_refused() -> None:
+    assert len(CASES) == 2 * 2 * 4
+    for pursuer, sensing in product(PURSUERS, SENSING):
+        own = {case[2:] for case in CASES if case[:2] == (pursuer, sensing)}
+        hardware = {("hardware", method) for method in METHODS}
+        assert own == {("ideal", "closed-form")} | hardware
+    with pytest.raises(ConfigurationError, match="needs feedback"):
+        Case("robot", "ideal", "ideal", "mpc").settings()
+
+
+def test_everybody_leaves_what_it_has(played: Played) -> None:
+    case, run, _ = played
+    assert run.outcome is Outcome.COMPLETED
+    assert run.summary.triggered_at_s is not None
+    assert run.duration == pytest.approx(run.times[-1])
+    assert run.duration == pytest.approx(case.duration, abs=1e-9)
+    assert tuple(run.tracks) == PLAYERS
+    for name, track in run.tracks.items():
+        lacking = {
+            field
+            for field in Track.__dataclass_fields__
+            if getattr(track, field) is None
+        }
+        if name not in case.walkers:
+            assert lacking == set(Track.__dataclass_fields__) - {
+                *("com", "torso")
+            }
+            continue
+        assert lacking == ({"sight"} if case.sensing == "ideal" else set())
+        assert track.landings is not None and len(track.landings) == 1
+    for name, track in run.tracks.items():
+        for field in ("com", "torso", "com_reference", "zmp", "qpos"):
+            rows = getattr(track, field)
+            assert rows is None or len(rows) == len(run.times), (name, field)
+    stilled = {
+        f"{name}, {kind}"
+        for name, kinds in run.stills.items()
+        for kind, stills in kinds.items()
+        if stills
+    }
+    assert stilled == case.cameras
+    seeing = {"camera", "detection_rate", "false_detections", "lost_s"}
+    told = set(run.summary.to_json())
+    assert told & seeing == (seeing if case.cameras else set())
+
+
+def test_a_run_folder_is_complete_and_read_as_it_was(
+    played: Played, tmp_path: Path
+) -> None:
+    case, run, folder = played
+    strip = ["sight.png"] if case.cameras else []
+    assert sorted(file.name for file in folder.iterdir()) == [
+        *("configuration.toml", "duel.png", *strip),
+        *("summary.json", "trajectories.npz"),
+    ]
+    for file in folder.glob("*.png"):
+        assert plt.imread(file).std() > 0.05
+    loaded = load_run(folder)
+    check_same(loaded, run)
+    assert loaded.name == folder.name and not loaded.stills
+    again = tmp_path / "again"
+    again.mkdir()
+    write_record(again, loaded)
+    check_same(load_run(again), run)
+
+
+def test_figures_are_printed_beside_theory(
+    played: Played, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case, run, _ = played
+    _print(run.summary.to_json())
+    text = capsys.readouterr().out
+    assert f"completed: played {case.duration:.2f} s" in text
+    assert ("detection rate" in text) == bool(case.cameras)
+    for name in PLAYERS:
+        sees = bool(case.cameras) and name in case.walkers
+        known = run.summary.to_json()[name].get("bearing_error_deg")
+        assert (known is not None) == sees
+        told = known is not None and known["median"] is not None
+        assert (f"{name}'s bearing error" in text) == told
+
+
+def test_an_offline_page_is_written(played: Played, tmp_path: Path) -> None:
+    _, _, folder = played
+    file = tmp_path / "run.html"
+    write_page(load_run(folder), file)
+    text = file.read_text(encoding="utf-8")
+    assert "@@" not in text and folder.name in text
+    assert "NaN" not in text and "Infinity" not in text
+
+
+@pytest.mark.skipif(
+    choose_renderer() == RAYCAST, reason="neither EGL nor OSMesa works here"
+)
+def test_a_film_has_a_picture(played: Played) -> None:
+    run = load_run(played.folder)
+    cinema = Cinema(run, Shot(64, 48), choose_renderer())
+    shown = cinema.picture(0.5 * played.case.duration)
+    cinema.close()
+    assert shown.shape == (48, 64, 3) and shown.std() > 5.0
+
+
+def test_a_run_is_compared_with_itself(played: Played, tmp_path: Path) -> None:
+    file = tmp_path / "both.png"
+    draw_comparison([load_run(played.folder), played.run], file)
+    assert plt.imread(file).std() > 0.05
+
+
+@pytest.fixture
+def session(played: Played) -> Iterator[Session]:
+    made = Session(played.case.settings())
+    yield made
+    made.close()
+
+
+def stepped(session: Session, duration: float) -> None:
+    """Let a while pass, and wait until it has."""
+    done = Event()
+    session.step(duration)
+    session.change(lambda duel: done.set())
+    assert done.wait(LONG) and session.error is None, session.error
+
+
+def test_a_live_duel_is_played_pushed_and_drawn(
+    played: Played, session: Session
+) -> None:
+    case = played.case
+    stepped(session, case.duration)
+    for number, name in enumerate(PLAYERS):
+        if name in case.walkers:
+            session.push(number, 2.5, pi / 2)
+            continue
+        with pytest.raises(ConfigurationError, match="who is a person"):
+            session.push(number, 2.5, pi / 2)
+    solved: set[str] = set()
+
+    def look(duel: Duel) -> None:
+        for player in duel.players:
+            walk = player.snapshot().walk
+            if walk is not None and walk.solved is not None:
+                solved.add(player.name)
+
+    look_on(session.duel, look)
+    stepped(session, PUSHED)
+    assert session.outcome is None
+    passed = case.duration + PUSHED
+    assert session.duel.world.time == pytest.approx(passed, abs=0.012)
+    # The plan itself is the answer until a push throws a robot off it.
+    assert solved == (set(case.walkers) if case.method == "mpc" else set())
+    for player in session.duel.players:
+        seen = player.snapshot()
+        if not isinstance(player, Walker):
+            assert seen.walk is None
+            continue
+        assert player.robot.pusher is not None
+        impulse = np.hypot(*player.robot.pusher.impulse[:2])
+        assert impulse == pytest.approx(2.5, rel=0.01)
+        assert seen.walk is not None and seen.walk.plan is not None
+        feedback = case.body != "ideal"
+        assert (seen.walk.estimate is not None) == feedback
+
+    drawn: set[tuple[str, str]] = set()
+
+    class Noting:
+        """Layers that note what is drawn."""
+
+        def draw(self, layer: str, owner: str, *_: Any) -> None:
+            """Note it."""
+            drawn.add((layer, owner))
+
+    layers: Any = Noting()
+    draw_session(layers, session)
+    for name in PLAYERS:
+        walks = name in case.walkers
+        assert (("footsteps", name) in drawn) == walks
+        assert ("CoM trace", name) in drawn
+    frames = session.new_frames()
+    assert set(frames) == case.cameras
+    for label, report in frames.items():
+        size = (120, 160, 3) if "colour" in label else (180, 240, 3)
+        assert picture(report).shape == size
+    assert len(session.duel.recorder.times) == 0

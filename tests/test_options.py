@@ -1,0 +1,224 @@
+"""Options of all commands: declared once, explained, taken from registries."""
+
+import subprocess
+import sys
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+from dataclasses import fields
+from typing import Any, Literal, get_args, get_origin, get_type_hints
+
+import click
+import pytest
+
+from stepaside.cli import COMMANDS, main
+from stepaside.commands.declared.kinds import NameType, RealType, WordedType
+from stepaside.commands.declared.option import Declaration, DeclaredOption
+from stepaside.commands.declared.print_config import meanings
+from stepaside.commands.game_options import STRATEGIES
+from stepaside.commands.options import AngleType, NumberType
+from stepaside.commands.plan_settings import FEET, ROLES, PlanSettings
+from stepaside.commands.replay import VIEWS
+from stepaside.control.balance.settings import METHODS, TAILS
+from stepaside.games.settings import SENSING, DuelSettings
+from stepaside.games.walk import WalkSettings
+from stepaside.planning import PRESETS, GaitSettings
+from stepaside.studies import robustness
+from stepaside.unicycle.laws import SideRule, TurningLaw
+from stepaside.world.body_settings import BODIES
+from stepaside.world.camera_settings import OPTICS, RENDERERS
+from stepaside.world.person_settings import PURSUERS
+
+SETTINGS = {
+    "duel": DuelSettings,
+    "duels": DuelSettings,
+    "view": DuelSettings,
+    "walk": WalkSettings,
+    "robustness": WalkSettings,
+    "plan": PlanSettings,
+}
+# Where the names of each option must come from, whatever command takes it.
+REGISTRIES: dict[str, Iterable[str]] = {
+    "--body": BODIES,
+    "--preset": PRESETS,
+    "--profile": get_args(get_type_hints(GaitSettings)["zmp_profile"]),
+    "--method": METHODS,
+    "--mpc-tail": TAILS,
+    "--sensing": SENSING,
+    "--optics": OPTICS,
+    "--renderer": RENDERERS,
+    "--pursuer": PURSUERS,
+    "--role": ROLES,
+    "--first-foot": FEET,
+    "--kind": robustness.STRENGTHS,
+    "--strategy": STRATEGIES,
+    "--law": [law.value for law in TurningLaw],
+    "--side-rule": [rule.value for rule in SideRule],
+    "--camera": VIEWS,
+}
+# Names that say something else to games of unicycles, to films or to a
+# campaign than to a robot in physics; each is declared once in each sense.
+SENSES = {
+    "--aim": 2,
+    "--angle": 2,
+    "--bearing": 2,
+    "--body": 2,
+    "--delay": 2,
+    "--distance": 2,
+    "--evader-strategy": 2,
+    "--duration": 4,
+    "--gain": 2,
+    "--hysteresis": 2,
+    "--method": 2,
+    "--output": 2,
+    "--rate": 2,
+    "--saturated": 2,
+    "--seed": 2,
+    "--strategy": 2,
+    "--seeds": 2,
+    "--side-hysteresis": 2,
+    "--speed": 3,
+}
+
+
+def options_of(name: str) -> list[click.Option]:
+    context = click.Context(main)
+    command = main.get_command(context, name)
+    assert command is not None
+    return [p for p in command.params if isinstance(p, click.Option)]
+
+
+def every_option() -> Iterator[tuple[str, click.Option]]:
+    for name in COMMANDS:
+        for option in options_of(name):
+            yield name, option
+
+
+DECLARED = {
+    option.declaration: SETTINGS[name]
+    for name, option in every_option()
+    if isinstance(option, DeclaredOption) and option.sets_settings
+}
+
+
+def told(name: str, option: click.Option) -> str:
+    """Help of an option, as it is shown."""
+    command = main.get_command(click.Context(main), name)
+    assert command is not None
+    record = option.get_help_record(click.Context(command))
+    assert record is not None
+    return record[1]
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_option_says_what_it_means_and_in_which_unit(name: str) -> None:
+    for option in options_of(name):
+        text = told(name, option)
+        assert len(text.split("[default")[0].strip()) > 5, option.opts
+        assert "{" not in text, option.opts
+        kind: Any = option.type
+        if isinstance(kind, WordedType):
+            kind = kind.kind
+        if isinstance(kind, RealType | NumberType):
+            assert f"[{kind.unit}]" in text, option.opts
+        if isinstance(kind, AngleType):
+            assert "[rad]" in text, option.opts
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_flag_can_be_switched_off(name: str) -> None:
+    for option in options_of(name):
+        assert option.is_flag == bool(option.secondary_opts), option.opts
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_choice_is_that_of_a_registry(name: str) -> None:
+    for option in options_of(name):
+        assert not isinstance(option.type, click.Choice), "typed by hand"
+        if isinstance(option.type, NameType):
+            wanted = tuple(REGISTRIES[option.opts[0]])
+            if (name, option.opts[0]) == ("robustness", "--method"):
+                wanted = robustness.METHODS
+            assert option.type.choices == wanted, option.opts
+
+
+def test_what_commands_share_is_declared_once() -> None:
+    """One name, one sense, one declaration, but for the senses listed."""
+    by_name: dict[str, set[object]] = defaultdict(set)
+    takers: dict[str, int] = defaultdict(int)
+    by_path: dict[str, set[Declaration]] = defaultdict(set)
+    for _, option in every_option():
+        declaration: Any = getattr(option, "declaration", option)
+        for spelling in option.opts:
+            by_name[spelling].add(declaration)
+            takers[spelling] += 1
+        if declaration in DECLARED:
+            by_path[declaration.path].add(declaration)
+    found = {name: len(s) for name, s in by_name.items() if len(s) > 1}
+    assert found == SENSES
+    # Declared once is not taken once: these are shared indeed.
+    for name in ("--friction", "--stride", "--config", "--workers"):
+        assert takers[name] > 2, name
+    assert all(len(s) == 1 for s in by_path.values())
+
+
+@pytest.mark.parametrize("name", SETTINGS)
+def test_commands_of_robots_take_a_file_and_the_gait(name: str) -> None:
+    spelled = {word for option in options_of(name) for word in option.opts}
+    assert spelled >= {"--config", "--print-config", "--preset"}
+    assert spelled >= {
+        f"--{field.name.replace('_', '-')}"
+        for field in fields(GaitSettings)
+        if field.name not in ("gravity", "sole", "horizon")
+    }
+    assert ("--horizon" in spelled) == (name != "plan")
+
+
+def entry(kind: Any, path: str) -> tuple[Any, str]:
+    """Type of an entry of settings, and what their docstring says of it."""
+    for name in path.split("."):
+        owner, kind = kind, get_type_hints(kind)[name]
+    return kind, meanings(owner).get(path.split(".")[-1], "")
+
+
+def test_declarations_agree_with_the_settings() -> None:
+    assert len(DECLARED) > 60
+    for declaration, settings in DECLARED.items():
+        hint, text = entry(settings, declaration.path)
+        assert text, f"{declaration.path}: the settings do not say what it is"
+        kinds = set(get_args(hint)) or {hint}
+        if float in kinds:
+            assert declaration.unit, declaration.path
+            if "[" in text:
+                assert f"[{declaration.unit}]" in text, declaration.path
+        elif int in kinds:
+            assert declaration.kind is click.INT, declaration.path
+        elif bool in kinds:
+            assert declaration.is_flag, declaration.path
+        elif get_origin(hint) is Literal:
+            assert isinstance(declaration.type, NameType), declaration.path
+            assert declaration.type.choices == get_args(hint)
+
+
+def test_the_list_of_commands_loads_nothing() -> None:
+    """Not a command, not numpy: it is there at once."""
+    code = (
+        "import sys; from stepaside.cli import main\n"
+        "try: main(['--help'])\n"
+        "except SystemExit: pass\n"
+        "bad = [m for m in sys.modules if m.startswith('stepaside.commands')]"
+        "\nassert not bad and 'numpy' not in sys.modules, bad"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_commands_are_declared_without_physics(name: str) -> None:
+    """Settings, registries and MuJoCo are loaded when an option is used."""
+    heavy = ["mujoco", "scipy", "matplotlib"]
+    if name not in ("unicycles", "circle", "map"):
+        heavy.append("numpy")
+    code = (
+        f"import sys, stepaside.commands.{name}\n"
+        f"bad = [m for m in {heavy} if m in sys.modules]\nassert not bad, bad"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)

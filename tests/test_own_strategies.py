@@ -1,0 +1,254 @@
+"""Test how strategies are found by name and in files."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.errors import ConfigurationError
+from stepaside.games import DuelSettings, run_duel
+from stepaside.games.circle import theory_of
+from stepaside.games.configuration import (
+    dump_configuration,
+    load_configuration,
+)
+from stepaside.games.duel import Duel
+from stepaside.games.outcome import Outcome
+from stepaside.games.settings import StartSettings
+from stepaside.planning import Direction
+from stepaside.strategies import (
+    STRATEGIES,
+    Evasion,
+    Pursuit,
+    Stand,
+    Walk,
+    load_strategy,
+)
+from stepaside.strategies.registry import absolute_name
+
+OWN = '''
+from dataclasses import dataclass
+from math import pi
+
+from stepaside.planning import Direction
+from stepaside.strategies import Intent
+
+
+@dataclass(frozen=True, slots=True)
+class Timid:
+    """Backs off at half the speed."""
+
+    factor: float = 0.5
+    direction: Direction = Direction.BACKWARD
+    saturated: bool = False
+
+    def begin(self):
+        return 0
+
+    def decide(self, knowledge, memory):
+        return Intent(knowledge.bearing, self.factor), memory + 1
+
+
+class Mute(Timid):
+    def decide(self, knowledge, memory):
+        return 0.3
+
+
+class Moody(Timid):
+    asked = []
+
+    def decide(self, knowledge, memory):
+        self.asked.append(1)
+        return Intent(0.1 * len(self.asked)), memory
+
+
+class Broken(Timid):
+    def decide(self, knowledge, memory):
+        return Intent(1.0 / memory), memory
+
+
+class Wild(Timid):
+    def decide(self, knowledge, memory):
+        return Intent(speed_factor=2.0), memory
+
+
+def sideways():
+    return Timid(direction=-1)
+
+
+class Forgetful:
+    direction = Direction.BACKWARD
+    saturated = False
+
+    def decide(self, knowledge, memory):
+        return Intent(), memory
+
+
+def vague():
+    return Timid(saturated=1)
+
+
+class Lost(Timid):
+    def begin(self):
+        raise RuntimeError("no memory")
+
+
+timid = Timid(0.25)
+
+
+def quick():
+    return Timid(1.0)
+
+
+def picky(factor):
+    return Timid(factor)
+
+
+NUMBER = 3
+'''
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    path = tmp_path / "own.py"
+    path.write_text(OWN, encoding="utf-8")
+    return path
+
+
+def test_strategies_have_names() -> None:
+    evader = Evasion(angle=0.3)
+    assert load_strategy("evasion", evader) is evader
+    assert load_strategy("evasion") == Evasion()
+    assert load_strategy("pursuit") == Pursuit()
+    assert load_strategy("stand") == Stand()
+    assert load_strategy("walk") == Walk()
+    assert set(STRATEGIES) == {"evasion", "pursuit", "stand", "walk"}
+
+
+@pytest.mark.parametrize(
+    ("name", "factor"), [("Timid", 0.5), ("timid", 0.25), ("quick", 1.0)]
+)
+def test_a_file_gives_a_class_a_value_or_what_makes_one(
+    file: Path, name: str, factor: float
+) -> None:
+    strategy: Any = load_strategy(f"{file}:{name}")
+    assert strategy.factor == factor
+    assert strategy.direction is Direction.BACKWARD
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("Mute", r"decide must return \(Intent, memory\), got 0.3"),
+        ("Moody", "the same knowledge and memory must have the same answer"),
+        ("Broken", "must answer, got ZeroDivisionError"),
+        ("Wild", "must answer, got PlanError: speed_factor must lie in"),
+        ("sideways", "direction must be a Direction, got -1"),
+        ("Forgetful", "must have a method begin, got a Forgetful without"),
+        ("vague", "saturated must be true or false, got 1"),
+        ("Lost", r"begin\(\) must give a memory, got RuntimeError: no mem"),
+        ("picky", r"picky\(\) must make a strategy, got TypeError"),
+        ("NUMBER", "must be a strategy, or a class or function.*got 3"),
+        ("Nobody", "the file has no Nobody, but .*Timid"),
+        ("Path", "the file has no Path"),
+    ],
+)
+def test_what_is_no_strategy_is_refused_in_one_line(
+    file: Path, name: str, message: str
+) -> None:
+    with pytest.raises(ConfigurationError, match=message) as caught:
+        load_strategy(f"{file}:{name}")
+    assert str(caught.value).startswith(f"strategy {file}:{name}: ")
+    assert "\n" not in str(caught.value)
+
+
+def test_a_file_that_is_not_there_or_does_not_run_is_named(
+    tmp_path: Path,
+) -> None:
+    with pytest.raises(ConfigurationError, match="there is no file .*no.py"):
+        load_strategy(f"{tmp_path}/no.py:Timid")
+    for text, message in (
+        ("1 / 0", "does not run: ZeroDivisionError"),
+        ("def (", "does not run: SyntaxError"),
+        ("raise SystemExit(3)", "does not run: SystemExit: 3"),
+    ):
+        path = tmp_path / "bad.py"
+        path.write_text(text, encoding="utf-8")
+        with pytest.raises(ConfigurationError, match=message):
+            load_strategy(f"{path}:Timid")
+
+
+@pytest.mark.parametrize(
+    "name", ["", "evade", "own.py", "own.py:", "own.py:a b", "own.txt:Timid"]
+)
+@pytest.mark.parametrize("key", ["evader_strategy", "pursuer_strategy"])
+def test_what_names_no_strategy_is_refused_at_once(
+    key: str, name: str
+) -> None:
+    with pytest.raises(ConfigurationError) as caught:
+        DuelSettings(**{key: name})  # type: ignore[arg-type]
+    assert str(caught.value) == (
+        f"{key} must be one of evasion, pursuit, stand, walk or "
+        f"FILE.py:NAME, got {name!r}"
+    )
+
+
+def test_settings_can_be_read_where_the_file_is_not() -> None:
+    """Figures of an old run need no strategy; a duel does."""
+    settings = DuelSettings(evader_strategy="gone.py:Timid")
+    with pytest.raises(ConfigurationError, match=r"no file gone\.py"):
+        Duel(settings)
+
+
+def test_a_configuration_repeats_who_plays(tmp_path: Path) -> None:
+    settings = DuelSettings(evader_strategy="a.py:B", pursuer_strategy="stand")
+    path = tmp_path / "duel.toml"
+    path.write_text(dump_configuration(settings), encoding="utf-8")
+    assert load_configuration(path) == settings
+    path.write_text("duration = 3.0", encoding="utf-8")
+    usual = load_configuration(path)
+    assert usual.evader_strategy == "evasion"
+    assert usual.pursuer_strategy == "pursuit"
+
+
+def test_a_person_plays_no_strategy() -> None:
+    with pytest.raises(ConfigurationError, match="pursuer_strategy.*person"):
+        DuelSettings(pursuer="person", pursuer_strategy="stand")
+
+
+def test_the_theory_is_that_of_the_strategies_of_the_paper() -> None:
+    assert theory_of(DuelSettings()).exists
+    assert not theory_of(DuelSettings(evader_strategy="walk")).exists
+    assert not theory_of(DuelSettings(pursuer_strategy="stand")).exists
+
+
+def test_names_of_files_are_those_of_every_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert absolute_name("own.py:Timid") == f"{tmp_path}/own.py:Timid"
+    assert absolute_name("stand") == "stand"
+
+
+def test_own_strategies_play_in_physics(file: Path) -> None:
+    """The evader backs off at once, half as fast as one of the paper."""
+    start = StartSettings(1.0, 0.0, 0.0)
+    ways = []
+    for name in ("Timid", "quick"):
+        settings = DuelSettings(
+            duration=6.0,
+            start=start,
+            evader_strategy=f"{file}:{name}",
+            pursuer_strategy="stand",
+        )
+        result = run_duel(settings)
+        assert result.outcome is Outcome.COMPLETED
+        track = result.evader.torso
+        ways.append(float(np.hypot(*(track[-1] - track[0])[:2])))
+        pursued = result.pursuer.torso
+        assert np.hypot(*(pursued[-1] - pursued[0])[:2]) < 0.01
+    assert result.summary.theory.exists is False
+    assert result.summary.converged_at_s is None
+    assert ways[1] > 0.25
+    assert ways[0] == pytest.approx(0.5 * ways[1], abs=0.03)

@@ -1,0 +1,141 @@
+"""Test postures of robots against MuJoCo's own, to the last digits."""
+
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from made_up_humanoid import made_up
+from stepaside.errors import ModelError
+from stepaside.poses import Array
+from stepaside.robots.compiling import compile_tree
+from stepaside.robots.configuration import Configuration
+from stepaside.robots.description import RobotDescription, load_robot
+from stepaside.robots.stored import load_tree
+
+ROBOTS = ["nao", "made up", "made up, seven joints a leg"]
+
+
+def robot(name: str, folder: Path) -> RobotDescription:
+    if name == "nao":
+        return load_robot("nao")
+    return made_up(folder, twists=name != "made up")
+
+
+def random_posture(
+    robot: RobotDescription, seed: int
+) -> tuple[mujoco.MjModel, mujoco.MjData, Configuration]:
+    """Any angles, any place, any tilt, in MuJoCo and here."""
+    model = robot.compile()
+    data = mujoco.MjData(model)
+    q = np.random.default_rng(seed).uniform(-1.5, 1.5, model.nq)
+    q[3:7] /= np.linalg.norm(q[3:7])
+    data.qpos[:] = q
+    mujoco.mj_forward(model, data)
+    torso = data.body(robot.torso)
+    axes = torso.xmat.reshape(3, 3)
+    tree = load_tree(robot)
+    return model, data, Configuration(tree, q[7:], torso.xpos, axes)
+
+
+def by_torso_in_world(jacobian: Array, axes: Array) -> Array:
+    """MuJoCo turns a free joint about its own axes; we, the world's."""
+    turned = jacobian.copy()
+    turned[:, 3:6] = jacobian[:, 3:6] @ axes.T
+    return turned
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("name", ROBOTS)
+def test_transforms_and_com_are_those_of_mujoco(
+    name: str, seed: int, tmp_path: Path
+) -> None:
+    description = robot(name, tmp_path)
+    _, data, ours = random_posture(description, seed)
+    torso = data.body(description.torso).id
+    np.testing.assert_allclose(ours.com, data.subtree_com[torso], atol=1e-9)
+    for body in ours.tree.bodies:
+        place, axes = data.body(body).xpos, data.body(body).xmat
+        assert ours.place_of_body(body) == pytest.approx(place, abs=1e-9)
+        np.testing.assert_allclose(
+            ours.axes_of_body(body).reshape(-1), axes, atol=1e-9
+        )
+    for site in ours.tree.sites:
+        place, axes = data.site(site).xpos, data.site(site).xmat
+        assert ours.place_of_site(site) == pytest.approx(place, abs=1e-9)
+        np.testing.assert_allclose(
+            ours.axes_of_site(site).reshape(-1), axes, atol=1e-9
+        )
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_jacobians_are_those_of_mujoco(name: str, tmp_path: Path) -> None:
+    description = robot(name, tmp_path)
+    model, data, ours = random_posture(description, 7)
+    for site in ours.tree.sites:
+        theirs = np.zeros((6, model.nv))
+        number = model.site(site).id
+        mujoco.mj_jacSite(model, data, theirs[:3], theirs[3:], number)
+        np.testing.assert_allclose(
+            ours.jacobian_of_site(site),
+            by_torso_in_world(theirs, ours.axes),
+            atol=1e-9,
+        )
+    theirs = np.zeros((3, model.nv))
+    torso = model.body(description.torso).id
+    mujoco.mj_jacSubtreeCom(model, data, theirs, torso)
+    np.testing.assert_allclose(
+        ours.jacobian_of_com(),
+        by_torso_in_world(theirs, ours.axes),
+        atol=1e-9,
+    )
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_a_tree_knows_masses_motors_and_ranges(
+    name: str, tmp_path: Path
+) -> None:
+    description = robot(name, tmp_path)
+    model, tree = description.compile(), compile_tree(description)
+    torso = model.body(description.torso).id
+    assert tree.mass == pytest.approx(model.body_subtreemass[torso])
+    assert len(tree.links) == model.njnt
+    for motor, joint in enumerate(tree.motors):
+        assert model.joint(model.actuator_trnid[motor, 0]).name == joint
+    for joint in tree.joints:
+        link = tree.links[tree.link_of(joint)]
+        assert (link.low, link.high) == tuple(model.joint(joint).range)
+
+
+def test_what_stands_beside_the_robot_is_none_of_it(tmp_path: Path) -> None:
+    assert "rail" not in load_tree(made_up(tmp_path)).bodies
+
+
+def test_motors_move_their_followers_and_others_stand() -> None:
+    tree = load_tree(load_robot("nao"))
+    angles = np.linspace(-0.3, 0.3, len(tree.motors))
+    ours = Configuration.of_motors(tree, angles, {})
+    known = dict(zip(tree.joints, ours.joints, strict=True))
+    assert known["RHipYawPitch"] == known["LHipYawPitch"] != 0.0
+    for motor, angle in zip(tree.motors, angles, strict=True):
+        assert known[motor] == angle
+
+
+def test_a_configuration_is_a_value() -> None:
+    tree = load_tree(load_robot("nao"))
+    ours = Configuration(tree, np.zeros(len(tree.joints)))
+    with pytest.raises(ValueError, match="read-only"):
+        ours.joints[0] = 1.0
+    np.testing.assert_array_equal(ours.place_of_body("torso"), np.zeros(3))
+
+
+def test_what_there_is_not_is_refused_by_name() -> None:
+    tree = load_tree(load_robot("nao"))
+    ours = Configuration(tree, np.zeros(len(tree.joints)))
+    with pytest.raises(ModelError, match="no site 'tail'; there are .*imu"):
+        ours.place_of_site("tail")
+    with pytest.raises(ModelError, match="no body 'tail'; there are .*head"):
+        ours.place_of_body("tail")
+    with pytest.raises(ModelError, match="must be 24 angles, got 3"):
+        Configuration(tree, np.zeros(3))

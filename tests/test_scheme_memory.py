@@ -1,0 +1,131 @@
+"""Test that a robot's control keeps nothing of what has been."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from made_up_robot import GAIT, STEP, TICK, FakeStrategy, Run, measure
+from made_up_state import FakeEstimator
+from stepaside.control.balance.loop import ClosedLoop
+from stepaside.control.balance.settings import ControlSettings, MpcSettings
+from stepaside.control.balance.stabiliser import Stabiliser
+from stepaside.control.headings import MEMORY
+from stepaside.control.phase import Phase
+from stepaside.control.senses import CameraSight
+from stepaside.robots.kinematics import BodyReference
+from weighing import weight
+
+# Four steps are a whole number of ticks: then the gait repeats on its clock.
+AGAIN = round(4 * STEP / TICK)
+
+
+class DullLegs:
+    """Legs that reach everything and remember nothing."""
+
+    torso_heading = 0.0
+
+    def stand(self, reference: BodyReference) -> Any:
+        """Take any posture."""
+        return np.array(reference.com)
+
+    track = stand
+
+
+class Dull(FakeStrategy):
+    """Heads to one side, and remembers nothing."""
+
+    def decide(self, knowledge: Any, memory: Any) -> Any:
+        """Turn a little."""
+        intent, _ = super().decide(knowledge, memory)
+        return intent, memory
+
+
+class DullPerception:
+    """Sees the other always at the same place."""
+
+    def see(self, measurement: Any, *told: Any) -> Any:
+        """See what a measurement says."""
+        return measurement.sighting
+
+    def aim(self, targets: Any) -> None:
+        """Leave the head alone."""
+
+
+class DullEstimator(FakeEstimator):
+    """Finds every state off by the same, and notes nothing."""
+
+    torso_heading = 0.0
+
+    def update(self, measurement: Any, feet: Any, asked: Any) -> Any:
+        """Answer with a state."""
+        state = super().update(measurement, feet, asked)
+        self.told.clear()
+        x, y, _ = feet.com
+        dx, dy = self.off_dcm
+        return state._replace(com=(x, y), dcm=(x + dx, y + dy))
+
+
+class DullJoints:
+    """Joints that miss nothing."""
+
+    def update(self, angles: Any, targets: Any) -> Any:
+        """Pass the targets on."""
+        return targets
+
+
+def dull(**changes: Any) -> Run:
+    run = Run(Dull(heading=0.5), **changes)
+    legs: Any = DullLegs()
+    run.legs = run.scheme.kinematics = legs
+    return run
+
+
+def weights(run: Run, rounds: int, times: int = 4) -> list[int]:
+    """What the control holds, again and again at one phase of the gait."""
+    found = []
+    for _ in range(times + 1):
+        for _ in range(rounds * AGAIN):
+            run.scheme.update(measure(run.ticks * TICK))
+            run.ticks += 1
+        found.append(weight(run.scheme))
+    assert run.phase() is Phase.WALKING
+    return found[1:]  # first the memories fill
+
+
+def test_four_steps_are_whole_ticks() -> None:
+    assert AGAIN * TICK == pytest.approx(4 * STEP, abs=1e-12)
+    assert AGAIN * TICK > MEMORY
+
+
+def test_twenty_thousand_ticks_leave_nothing_behind() -> None:
+    run = dull()
+    found = weights(run, rounds=8)
+    assert run.ticks > 20_000
+    assert found[0] > 1000 and len(set(found)) == 1
+    assert weight([run.scheme, 1.0]) == found[0] + 2
+
+
+def test_eyes_leave_nothing_behind() -> None:
+    perception: Any = DullPerception()
+    found = weights(dull(senses=CameraSight(perception, tick=TICK)), rounds=1)
+    assert len(set(found)) == 1
+
+
+@pytest.mark.parametrize("method", ["closed-form", "measured", "mpc"])
+def test_feedback_leaves_nothing_behind(method: Any) -> None:
+    if method == "mpc":
+        pytest.importorskip("daqp")
+    estimator: Any = DullEstimator()
+    estimator.off_dcm = (0.05, 0.0)  # far beyond the dead zone
+    settings = ControlSettings(method, True, mpc=MpcSettings(steps=2))
+    stabiliser = Stabiliser(
+        settings, estimator, GAIT, tick=TICK, delay=3 * TICK
+    )
+    stabiliser.joints = DullJoints()  # type: ignore[assignment]
+    run = dull(balance=ClosedLoop(stabiliser))
+    found = weights(run, rounds=1, times=2)
+    assert (run.scheme.balance.solved is not None) is (method == "mpc")
+    assert run.scheme.balance.adapted > 0
+    # Shifts that are none share one object: a few values come and go.
+    assert max(found) - min(found) < AGAIN / 10

@@ -1,0 +1,120 @@
+"""Test how a robot learns where the other is."""
+
+from math import exp
+from typing import Any
+
+import numpy as np
+import pytest
+
+from made_up_robot import FakePerception, measure
+from stepaside.constants import GRAVITY
+from stepaside.control.balance.step import Step, resting_step
+from stepaside.control.senses import BELIEF, CameraSight, GivenSight
+from stepaside.planning import Foot
+from stepaside.poses import Array, Pose
+from stepaside.robots.head import rotation
+from stepaside.sensing.measurement import Sighting
+
+TICK = 0.004
+FRAME = Pose(1.0, -2.0, 0.7)
+
+
+def resting(now: float, foot: Foot = Foot.LEFT) -> Step:
+    return resting_step(FRAME, foot)
+
+
+def leaning(time: float, roll: float, pitch: float) -> Any:
+    """What a torso that leans and rests gives."""
+    felt: Array = GRAVITY * rotation(roll, pitch, 0.0)[2]
+    return measure(time)._replace(accelerometer=felt)
+
+
+def seeing() -> tuple[CameraSight, FakePerception]:
+    eyes: Any = FakePerception()
+    return CameraSight(eyes, tick=TICK), eyes
+
+
+def test_a_given_sighting_is_kept_until_the_next() -> None:
+    sight = GivenSight()
+    found = [
+        sight.see(measure(time, distance), resting, None)
+        for time, distance in ((0.0, None), (0.1, 1.0), (0.2, None))
+    ]
+    one = Sighting(0.1, 0.0, 1.0)
+    assert found == [None, one, one]
+    later = sight.see(measure(0.3, 2.0, 0.5), resting, (0.1, 0.1))
+    assert later == Sighting(0.3, 0.5, 2.0)
+
+
+def test_what_was_known_first_counts_until_something_is_seen() -> None:
+    known = Sighting(0.0, 0.3, 1.0)
+    sight = GivenSight(known)
+    assert sight.see(measure(0.5, None), resting, None) is known
+    seen = sight.see(measure(0.6, 2.0), resting, None)
+    assert seen == Sighting(0.6, 0.0, 2.0)
+    assert sight.see(measure(0.7, None), resting, None) == seen
+
+
+def test_given_sightings_leave_the_head_where_it_is() -> None:
+    targets = np.arange(5.0)
+    GivenSight().aim(targets)
+    np.testing.assert_array_equal(targets, np.arange(5.0))
+
+
+def test_cameras_turn_the_head_and_say_what_they_see() -> None:
+    sight, eyes = seeing()
+    assert sight.see(measure(0.0), resting, None) is None
+    eyes.seen = Sighting(0.1, 0.2, 1.0)
+    assert sight.see(measure(0.1, None), resting, None) is eyes.seen
+    eyes.seen = None  # lost is lost: nothing is kept
+    assert sight.see(measure(0.2), resting, None) is None
+    targets = np.zeros(5)
+    sight.aim(targets)
+    assert targets[0] == 0.75
+
+
+@pytest.mark.parametrize("swing", Foot)
+def test_cameras_see_over_the_foot_that_stands_at_that_time(
+    swing: Foot,
+) -> None:
+    sight, eyes = seeing()
+    asked: list[float] = []
+
+    def step_at(now: float) -> Step:
+        asked.append(now)
+        return resting(now, swing)
+
+    sight.see(measure(1.5), step_at, (0.0, 0.0))
+    assert eyes.stood == [(FRAME, swing is Foot.RIGHT)]
+    assert asked == [1.5]
+
+
+def test_the_tilt_that_balance_knows_serves_the_eyes() -> None:
+    """Whatever the accelerometer says."""
+    sight, eyes = seeing()
+    for tilt in ((0.1, -0.2), (0.0, 0.0)):
+        sight.see(leaning(0.0, 0.5, 0.5), resting, tilt)
+        assert eyes.tilts[-1] == tilt
+
+
+def test_without_one_gravity_is_believed_at_its_rate() -> None:
+    """Upright at first; d(angle)/dt = k (true - angle) for small angles."""
+    sight, eyes = seeing()
+    for i in range(round(2.0 / TICK)):
+        sight.see(leaning(i * TICK, 0.04, -0.03), resting, None)
+    share = 1.0 - exp(-BELIEF * 2.0)
+    assert eyes.tilts[0] == pytest.approx((0.0, 0.0), abs=2e-4)
+    expected = (0.04 * share, -0.03 * share)
+    assert eyes.tilts[-1] == pytest.approx(expected, rel=5e-3)
+    assert BELIEF == 0.5
+
+
+def test_without_one_the_gyro_is_integrated() -> None:
+    sight, eyes = seeing()
+    for i in range(25):
+        turned = leaning(i * TICK, 0.0, 0.0)
+        turned = turned._replace(gyro=np.array([1.0, 0.0, 0.0]))
+        sight.see(turned, resting, None)
+    roll, pitch = eyes.tilts[-1]
+    assert roll == pytest.approx(0.1, rel=0.05)
+    assert pitch == pytest.approx(0.0, abs=1e-12)

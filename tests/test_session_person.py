@@ -1,0 +1,132 @@
+"""A live duel with a person: whom nobody pushes, drives or plans for."""
+
+from collections.abc import Iterator
+from math import pi
+from threading import Event
+from typing import Any
+
+import numpy as np
+import pytest
+
+from fake_page import Gui
+from stepaside.control import Phase
+from stepaside.errors import ConfigurationError
+from stepaside.games.pedestrian import Pedestrian
+from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.walker import Walker
+from stepaside.report.viewer.drawing import draw_session
+from stepaside.report.viewer.drive_panel import DrivePanel
+from stepaside.report.viewer.layers import Layers
+from stepaside.report.viewer.push_panel import add_push
+from stepaside.report.viewer.session import Session
+from stepaside.report.viewer.words import phases_of
+
+START = StartSettings(distance=2.0, pursuer_offset=0.3, evader_offset=0.0)
+LONG = 60.0  # [s]; no event of a loop that runs comes as late as this
+
+
+@pytest.fixture
+def session() -> Iterator[Session]:
+    made = Session(DuelSettings(pursuer="person", start=START))
+    yield made
+    made.close()
+
+
+def stepped(session: Session, duration: float) -> None:
+    """Let a while pass, and wait until it has."""
+    done = Event()
+    session.step(duration)
+    session.change(lambda duel: done.set())
+    assert done.wait(LONG) and session.error is None, session.error
+
+
+def test_a_person_walks_on_in_a_step(session: Session) -> None:
+    person, evader = session.duel.players
+    assert isinstance(person, Pedestrian) and isinstance(evader, Walker)
+    began = np.array(person.truth.position)
+    stepped(session, 1.0)
+    assert session.duel.world.time == pytest.approx(1.0)
+    way = float(np.hypot(*(np.array(person.truth.position) - began)))
+    assert way == pytest.approx(0.15, rel=0.01)  # a second at its pace
+    assert phases_of(session.duel) == (Phase.WALKING, Phase.STANDING)
+    assert len(session.trail.history) == 9
+    assert set(session.trail.traces) == {
+        *("pursuer/CoM", "evader/CoM", "evader/ZMP")
+    }
+
+
+def test_the_robot_is_pushed_and_the_person_is_not(session: Session) -> None:
+    """Who is refused loses nothing: the duel goes on, and pushes too."""
+    before = session.duel
+    with pytest.raises(ConfigurationError, match="pursuer, who is a person"):
+        session.push(0, 0.4, pi / 2)
+    assert session.error is None and session.duel is before
+    stepped(session, 0.1)
+    assert session.duel.world.time == pytest.approx(0.1)
+    session.push(1, 0.4, pi / 2)
+    stepped(session, 0.2)
+    evader = session.duel.players[1]
+    assert isinstance(evader, Walker) and evader.robot.pusher is not None
+    assert np.hypot(*evader.robot.pusher.impulse[:2]) == pytest.approx(0.4)
+    assert session.outcome is None
+
+
+def test_the_push_button_says_that_a_person_is_not_pushed(
+    session: Session,
+) -> None:
+    gui: Any = Gui()
+    said: list[str] = []
+    add_push(gui, session, said.append)
+    gui["Robot"].value = "pursuer"
+    gui["Push"].press()
+    assert said == ["a push needs a robot, got pursuer, who is a person"]
+    gui["Robot"].value = "evader"
+    gui["Push"].press()
+    assert said[1:] == ["pushed the evader left by 0.5 N s"]
+
+
+def test_nobody_drives_a_person(session: Session) -> None:
+    """It walks as it would have, and no score is kept."""
+    gui: Any = Gui()
+    panel = DrivePanel(gui, session)
+    score = gui.texts[-1]
+    ways = []
+    for driven in (False, True):
+        session.reset()
+        if driven:
+            gui["Turn"].press("right")
+            gui["Walk"].press("stop")
+            gui["Drive left"].press()
+        stepped(session, 0.5)
+        panel.show(session.duel.world.time, 1.0)
+        assert score.content == "" and session.error is None
+        ways.append(session.duel.players[0].truth.position)
+        gui["Let it pursue by itself"].press()
+        stepped(session, 0.01)
+    assert ways[0] == ways[1]
+
+
+def test_of_a_person_only_its_way_is_drawn(session: Session) -> None:
+    """Plans, footsteps and a ZMP are the robot's."""
+    stepped(session, 0.5)
+    drawn: dict[tuple[str, str], Any] = {}
+
+    def draw(layer: str, owner: str, lines: Any, colour: str) -> None:
+        drawn[layer, owner] = lines
+
+    layers: Any = Layers.__new__(Layers)
+    layers.draw = draw
+    draw_session(layers, session)
+    of_person = {layer for layer, owner in drawn if owner == "pursuer"}
+    assert of_person == {"CoM trace", "ZMP trace"}
+    assert len(drawn["CoM trace", "pursuer"]) == 3
+    assert len(drawn["ZMP trace", "pursuer"]) == 0
+    of_robot = {layer for layer, owner in drawn if owner == "evader"}
+    assert of_robot == {
+        *("CoM trace", "ZMP trace", "safety area"),
+        *("planned path", "footsteps", "support polygon"),
+    }
+    places = [player.truth.position for player in session.duel.players]
+    (sight,) = drawn["line of sight", "both"]
+    np.testing.assert_allclose(sight[:, :2], places)
+    assert len(drawn["circle of theory", "both"]) == 0

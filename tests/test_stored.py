@@ -1,0 +1,141 @@
+"""Test trees of robots that are stored beside their descriptions."""
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from made_up_humanoid import made_up
+from stepaside.cli import main
+from stepaside.errors import ModelError
+from stepaside.robots.compiling import compile_tree
+from stepaside.robots.description import load_robot
+from stepaside.robots.stored import FILE, load_tree, store_tree
+from stepaside.robots.tree import RobotTree
+
+NAO = load_robot("nao")
+
+
+def without_mujoco(patch: pytest.MonkeyPatch) -> None:
+    """Let MuJoCo be missing."""
+    patch.setitem(sys.modules, "mujoco", None)
+    patch.delitem(sys.modules, "stepaside.robots.compiling", raising=False)
+
+
+def test_the_stored_nao_is_what_mujoco_compiles() -> None:
+    """If this fails: stepaside robot nao --compile."""
+    stored = json.loads((NAO.folder / FILE).read_text(encoding="utf-8"))
+    compiled = compile_tree(NAO).to_json()
+    del stored["version"], stored["digest"]
+    assert stored == json.loads(json.dumps(compiled))
+
+
+def test_the_stored_nao_is_up_to_date(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    without_mujoco(monkeypatch)
+    monkeypatch.setattr("stepaside.robots.stored._KNOWN", {})
+    assert load_tree(NAO).mass == pytest.approx(5.305, abs=2e-3)
+
+
+def test_a_tree_is_opened_once() -> None:
+    assert load_tree(NAO) is load_tree(load_robot("nao"))
+
+
+def test_a_stored_tree_comes_back_as_it_was(tmp_path: Path) -> None:
+    robot = made_up(tmp_path)
+    tree = compile_tree(robot)
+    store_tree(robot)
+    assert load_tree(robot).to_json() == tree.to_json()
+    assert load_tree(robot).links == tree.links
+    assert load_tree(robot).sites == tree.sites
+
+
+def test_an_old_tree_is_compiled_again(tmp_path: Path) -> None:
+    robot = made_up(tmp_path)
+    store_tree(robot)
+    model = robot.folder / robot.model
+    light = load_tree(robot).mass
+    model.write_text(model.read_text().replace('mass="8"', 'mass="9"'))
+    assert load_tree(robot).mass == pytest.approx(light + 1.0)
+
+
+@pytest.mark.parametrize(
+    ("kept", "why"),
+    [
+        (None, "is missing"),
+        ("old", "is older than the model"),
+        ("{", "cannot be read"),
+        ("{}", "cannot be read"),
+    ],
+)
+def test_without_mujoco_a_tree_has_to_be_there(
+    kept: str | None,
+    why: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    robot = made_up(tmp_path)
+    if kept == "old":
+        store_tree(robot)
+        model = robot.folder / robot.model
+        model.write_text(model.read_text().replace('mass="8"', 'mass="9"'))
+    elif kept is not None:
+        (robot.folder / FILE).write_text(kept)
+    without_mujoco(monkeypatch)
+    words = rf"tree.json {why}.*`stepaside robot .* --compile`"
+    with pytest.raises(ModelError, match=words):
+        load_tree(robot)
+
+
+def test_a_tree_is_checked_against_the_description(tmp_path: Path) -> None:
+    """The description may change after the tree was stored."""
+    robot = made_up(tmp_path)
+    store_tree(robot)
+    text = (tmp_path / "robot.toml").read_text()
+    text = text.replace('left_foot = "l_sole"', 'left_foot = "l_toe"')
+    (tmp_path / "robot.toml").write_text(text)
+    with pytest.raises(ModelError, match="there is no site 'l_toe'"):
+        load_tree(load_robot(tmp_path))
+
+
+@pytest.mark.parametrize("missing", ["links", "sites", "motors"])
+def test_a_tree_with_entries_missing_is_refused(missing: str) -> None:
+    entries: dict[str, Any] = compile_tree(NAO).to_json()
+    del entries[missing]
+    with pytest.raises(ModelError, match=missing):
+        RobotTree.from_json(entries)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("<freejoint/>", "", "'trunk' has no free joint"),
+        (
+            '<joint name="nod" axis="0 1 0" pos="0 0 0.03" range="-1 1"/>',
+            '<joint name="nod" type="ball"/>',
+            "'nod' of Made up must be a hinge or a slide",
+        ),
+        ('mass="8"', 'mass="0"', "does not compile"),
+    ],
+)
+def test_a_model_that_cannot_be_moved_is_refused(
+    old: str, new: str, words: str, tmp_path: Path
+) -> None:
+    robot = made_up(tmp_path)
+    model = robot.folder / robot.model
+    text = model.read_text()
+    assert old in text
+    model.write_text(text.replace(old, new))
+    with pytest.raises(ModelError, match=words):
+        load_tree(robot)
+
+
+def test_the_command_line_stores_a_tree(tmp_path: Path) -> None:
+    robot = made_up(tmp_path)
+    with pytest.raises(SystemExit) as ended:
+        main(["robot", str(tmp_path), "--compile"])
+    assert not ended.value.code
+    assert (robot.folder / FILE).is_file()

@@ -1,0 +1,224 @@
+"""Test what players make of what they know (paper, Sec. II)."""
+
+from copy import deepcopy
+from dataclasses import FrozenInstanceError, replace
+from math import pi, radians
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from stepaside.errors import ConfigurationError, PlanError
+from stepaside.planning import Direction
+from stepaside.strategies import (
+    Driven,
+    Evasion,
+    EvasionMemory,
+    Intent,
+    Knowledge,
+    Limits,
+    Pursuit,
+    Stand,
+    Strategy,
+    Walk,
+)
+from stepaside.strategies.driven import TURN
+
+LIMITS = Limits(0.1, 0.2, 0.04, 0.547)
+ALL: list[Strategy] = [
+    Pursuit(),
+    Evasion(),
+    Evasion(angle=1.0, saturated=True, release_distance=1.1),
+    Walk(0.3),
+    Stand(),
+    Driven(0.5, True),
+]
+BEARINGS = st.floats(-pi, pi)
+DISTANCES = st.floats(0.1, 3.0)
+
+
+def known(bearing: float = 0.0, distance: float = 0.5) -> Knowledge:
+    """What a player knows of another at a bearing and a distance."""
+    return Knowledge(1.0, bearing, distance, LIMITS)
+
+
+def heading(strategy: Strategy, bearing: float) -> float:
+    """Heading of a player that has just seen another near by."""
+    return strategy.decide(known(bearing), strategy.begin())[0].heading
+
+
+def test_players_of_the_paper_drive_as_it_says() -> None:
+    """(1) forward, (3) backward; (6) is for the figure that compares."""
+    assert Pursuit().direction is Direction.FORWARD
+    assert Evasion().direction is Direction.BACKWARD
+    assert Walk().direction is Direction.FORWARD
+    assert Driven().direction is Direction.FORWARD
+    assert not any(s.saturated for s in (Pursuit(), Evasion(), Walk()))
+    assert Pursuit(saturated=True).saturated and Evasion(saturated=True)
+
+
+def test_pursuer_heads_for_the_other_wherever_it_is() -> None:
+    assert heading(Pursuit(), 0.4) == 0.4
+    assert heading(Pursuit(), -0.4) == -0.4
+    for distance in (0.01, 100.0):
+        intent, _ = Pursuit().decide(known(0.0, distance), None)
+        assert intent == Intent(0.0, 1.0, True)
+
+
+def test_a_walk_heads_where_it_was_told_whatever_is_seen() -> None:
+    walk = Walk(-0.3, speed_factor=0.5)
+    for bearing in (1.0, -1.0):
+        assert walk.decide(known(bearing, 9.0), None)[0] == Intent(-0.3, 0.5)
+    assert heading(Walk(), 1.0) == 0.0
+    with pytest.raises(PlanError, match="speed_factor"):
+        Walk(speed_factor=1.5)
+
+
+def test_who_stands_stands() -> None:
+    assert not Stand().decide(known(0.0, 0.01), None)[0].walks
+
+
+@pytest.mark.parametrize("turn", [-1.0, -0.4, 0.0, 1.0])
+def test_a_hand_points_a_share_of_its_full_turn(turn: float) -> None:
+    for bearing in (-1.0, 0.0, 2.0):
+        intent, _ = Driven(turn, True).decide(known(bearing), None)
+        assert intent == Intent(turn * TURN)
+    assert radians(50.0) == TURN
+
+
+def test_it_walks_while_the_hand_lets_it() -> None:
+    assert not Driven(1.0).decide(known(), None)[0].walks
+    assert Driven(1.0, True).decide(known(0.0, 10.0), None)[0].walks
+    with pytest.raises(ConfigurationError, match="turn"):
+        Driven(1.1)
+
+
+def test_evader_of_the_paper_moves_aside_from_0_8_m_on() -> None:
+    """Sec. IV: the safety area has a radius of 0.8 m and has no end."""
+    evader = Evasion()
+    intent, memory = evader.decide(known(0.1, 0.801), evader.begin())
+    assert not intent.walks and memory == EvasionMemory(False, 0)
+    intent, memory = evader.decide(known(0.1, 0.799), memory)
+    assert intent.heading == pytest.approx(0.1 - pi / 2)
+    assert intent == Intent(intent.heading)
+    assert memory == EvasionMemory(True, -1)
+    intent, memory = evader.decide(known(0.1, 1e6), memory)
+    assert intent.walks and memory == EvasionMemory(True, -1)
+    assert evader.side_hysteresis == pytest.approx(radians(20.0))
+
+
+@given(st.floats(0.01, 3.1), st.floats(0.0, pi))
+def test_rule_is_the_same_on_both_sides(bearing: float, angle: float) -> None:
+    evader = Evasion(angle=angle)
+    assert heading(evader, bearing) == -heading(evader, -bearing)
+
+
+def test_noise_about_straight_ahead_does_not_flip_the_side() -> None:
+    evader = Evasion()
+    first, memory = evader.decide(known(0.02), evader.begin())
+    second, memory = evader.decide(known(-0.02), memory)
+    assert second.heading == pytest.approx(first.heading, abs=0.05)
+    flipped, memory = evader.decide(known(radians(-40.0)), memory)
+    assert flipped.heading == pytest.approx(radians(50.0))
+    assert memory.side == 1
+
+
+def test_evasion_latches_and_chooses_its_side_anew_after_a_release() -> None:
+    """Kept, it would send the evader to the wrong side of a new pursuer."""
+    evader = Evasion(safety_radius=0.8, release_distance=1.2)
+    memory = evader.begin()
+    sides = []
+    for distance in (1.0, 0.79, 1.0, 1.19, 1.21, 1.0):
+        intent, memory = evader.decide(known(0.1, distance), memory)
+        assert intent.walks is memory.evading
+        sides.append(memory.side)
+    assert sides == [0, -1, -1, -1, 0, 0]
+    intent, memory = evader.decide(known(radians(-10.0), 0.7), memory)
+    assert intent.heading == pytest.approx(radians(80.0))
+    assert memory.side == 1
+
+
+@given(BEARINGS, BEARINGS, st.floats(0.0, pi))
+def test_desired_heading_is_an_angle_within_half_a_turn(
+    first: float, then: float, angle: float
+) -> None:
+    """Also when the latched side is not that of the bearing."""
+    evader = Evasion(angle=angle)
+    _, memory = evader.decide(known(first), evader.begin())
+    intent, _ = evader.decide(known(then), memory)
+    assert abs(intent.heading) <= pi
+
+
+@pytest.mark.parametrize("strategy", ALL, ids=repr)
+@given(st.lists(st.tuples(BEARINGS, DISTANCES), min_size=1, max_size=6))
+def test_strategies_are_pure(
+    strategy: Strategy, seen: list[tuple[float, float]]
+) -> None:
+    """The same knowledge and memory: the same answer, and no change."""
+    before = deepcopy(strategy)
+    memory: Any = strategy.begin()
+    for bearing, distance in seen:
+        knowledge = known(bearing, distance)
+        given = deepcopy((knowledge, memory))
+        answer = strategy.decide(knowledge, memory)
+        assert strategy.decide(knowledge, memory) == answer
+        assert (knowledge, memory) == given
+        memory = answer[1]
+    assert strategy == before
+    assert hash(memory) == hash(deepcopy(memory))
+
+
+@pytest.mark.parametrize("strategy", ALL[:3], ids=repr)
+@given(st.lists(st.tuples(BEARINGS, DISTANCES), min_size=1, max_size=6))
+def test_what_is_seen_in_a_mirror_is_done_in_a_mirror(
+    strategy: Strategy, seen: list[tuple[float, float]]
+) -> None:
+    memory: Any = strategy.begin()
+    mirrored: Any = strategy.begin()
+    for bearing, distance in seen:
+        if bearing == 0.0:
+            return  # both normals lie alike, (5) chooses one
+        intent, memory = strategy.decide(known(bearing, distance), memory)
+        other, mirrored = strategy.decide(known(-bearing, distance), mirrored)
+        assert other == replace(intent, heading=-intent.heading)
+
+
+@pytest.mark.parametrize("strategy", ALL, ids=repr)
+def test_strategies_never_change(strategy: Strategy) -> None:
+    with pytest.raises(FrozenInstanceError):
+        strategy.saturated = True  # type: ignore[misc]
+
+
+def test_an_intent_that_no_body_can_follow_is_refused() -> None:
+    for factor in (-0.01, 1.01, float("nan")):
+        with pytest.raises(PlanError, match="speed_factor must lie in"):
+            Intent(0.0, factor)
+    with pytest.raises(PlanError, match="heading must be finite"):
+        Intent(float("inf"))
+    assert Intent().walks and Intent(speed_factor=1e-3).walks
+    assert not Intent(speed_factor=0.0).walks
+    assert not Intent(moving=False).walks
+
+
+@pytest.mark.parametrize("angle", [0.0, pi])
+def test_extreme_strategies_are_allowed(angle: float) -> None:
+    assert Evasion(angle=angle, side_hysteresis=0.0).angle == angle
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        {"angle": -0.1},
+        {"angle": float("nan")},
+        {"safety_radius": 0.0},
+        {"release_distance": 0.5},
+        {"release_distance": 0.8},
+        {"side_hysteresis": -0.1},
+        {"side_hysteresis": 3.2},
+        {"angle": 3.2},
+    ],
+)
+def test_impossible_evasion_is_refused(bad: dict[str, float]) -> None:
+    with pytest.raises(ConfigurationError, match=next(iter(bad))):
+        Evasion(**bad)  # type: ignore[arg-type]

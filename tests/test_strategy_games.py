@@ -1,0 +1,159 @@
+"""Test unicycles that play any two strategies."""
+
+from dataclasses import replace
+from math import pi, sin
+
+import numpy as np
+import pytest
+
+from stepaside.errors import PlanError
+from stepaside.planning import Direction
+from stepaside.poses import wrap_angle
+from stepaside.strategies import (
+    Evasion,
+    Intent,
+    Knowledge,
+    Pursuit,
+    Stand,
+    Walk,
+)
+from stepaside.strategies.unicycles import StrategyRun, play_strategies
+from stepaside.unicycle import Start, make_game, simulate_sampled
+from stepaside.unicycle.laws import Unicycle
+
+BODY = Unicycle(1.0, 0.5)  # Fig. 2
+START = Start(2.5, 0.3, -0.2)
+ALWAYS = Evasion(safety_radius=1e9, side_hysteresis=0.0)
+
+
+def play(
+    pursuer: object = None, evader: object = None, **changes: object
+) -> StrategyRun:
+    """Play the players of the paper, or others."""
+    options = {"bodies": (BODY, BODY), "period": 0.2, "duration": 10.0}
+    return play_strategies(
+        pursuer or Pursuit(),  # type: ignore[arg-type]
+        evader or ALWAYS,  # type: ignore[arg-type]
+        changes.pop("start", START),  # type: ignore[arg-type]
+        **(options | changes),  # type: ignore[arg-type]
+    )
+
+
+@pytest.mark.parametrize("angle", [0.0, 1.0, pi / 2, 2.5])
+@pytest.mark.parametrize("bearing", [-0.2, 0.4, 2.9])
+def test_strategies_of_the_paper_are_its_sampled_game(
+    angle: float, bearing: float
+) -> None:
+    """Two programs that share the laws alone."""
+    start = replace(START, bearing=bearing)
+    run = play_strategies(
+        Pursuit(),
+        replace(ALWAYS, angle=angle),
+        start,
+        bodies=(BODY, BODY),
+        period=0.2,
+        duration=10.0,
+    )
+    game = make_game(1.0, 1.0, 0.5, 0.5, angle)
+    sampled = simulate_sampled(game, start, 10.0, 0.2)
+    for mine, theirs in (
+        (run.pursuer, sampled.pursuer),
+        (run.evader, sampled.evader),
+    ):
+        np.testing.assert_allclose(mine[::8], theirs, atol=1e-9)
+    np.testing.assert_allclose(run.times[::8], sampled.times, atol=1e-12)
+
+
+def test_they_end_on_the_circle_of_the_theory() -> None:
+    """Sec. 3: r = 4 v sin(alpha / 2) / (k alpha), headings pi/2 apart."""
+    run = play(duration=120.0)
+    expected = 4.0 * sin(pi / 4.0) / (0.5 * pi / 2.0)
+    assert run.distances[-1] == pytest.approx(expected, rel=1e-3)
+    apart = wrap_angle(float(run.evader[-1, 2] - run.pursuer[-1, 2]))
+    assert abs(apart) == pytest.approx(pi / 2, rel=1e-3)
+
+
+def test_a_saturated_evader_ends_on_a_circle_of_radius_v_over_k() -> None:
+    """Sec. 4, eq. (6): r = 2 v sin(1) / k."""
+    run = play(evader=replace(ALWAYS, saturated=True), duration=120.0)
+    assert run.distances[-1] == pytest.approx(2.0 * sin(1.0) / 0.5, rel=0.01)
+
+
+def test_an_evader_stands_until_the_other_is_in_its_safety_area() -> None:
+    run = play(evader=Evasion(safety_radius=1.5))
+    still = (run.evader == run.evader[0]).all(axis=1)
+    first = int(np.argmin(still))
+    assert still[:first].all() and 1.2 < run.distances[first] < 1.5
+    assert not run.captured
+
+
+def test_one_that_stands_is_captured_and_the_game_ends() -> None:
+    run = play(evader=Stand(), start=Start(2.5), capture_distance=0.1)
+    assert run.captured and run.closest_distance == run.distances[-1] <= 0.1
+    assert len(run.times) == len(run.pursuer) == len(run.evader)
+    assert 2.3 < run.times[-1] < 3.0
+    assert play(capture_distance=2.6).times.tolist() == [0.0]
+
+
+@pytest.mark.parametrize("factor", [1.0, 0.5])
+def test_the_way_is_the_share_of_the_speed(factor: float) -> None:
+    walk = Walk(0.0, Direction.BACKWARD, speed_factor=factor)
+    run = play(evader=walk, duration=2.0)
+    way = run.evader[-1] - run.evader[0]
+    assert np.hypot(*way[:2]) == pytest.approx(2.0 * factor)
+    back = way[0] * np.cos(run.evader[0, 2]) + way[1] * np.sin(
+        run.evader[0, 2]
+    )
+    assert back == pytest.approx(-2.0 * factor)
+
+
+def test_a_mirrored_game_is_the_mirror_image() -> None:
+    games = [
+        play_strategies(
+            Pursuit(),
+            ALWAYS,
+            Start(2.5, sign * 0.3, sign * -0.2),
+            bodies=(BODY, BODY),
+            period=0.2,
+            duration=10.0,
+        )
+        for sign in (1.0, -1.0)
+    ]
+    mirror = np.array([1.0, -1.0, -1.0])
+    for name in ("pursuer", "evader"):
+        left, right = (getattr(game, name) for game in games)
+        turned = left * mirror - right
+        turned[:, 2] = np.remainder(turned[:, 2] + pi, 2.0 * pi) - pi
+        np.testing.assert_allclose(turned, 0.0, atol=1e-9)
+
+
+def test_players_know_how_fast_the_line_of_sight_moves() -> None:
+    class Noting(Stand):
+        """Remembers what it knew."""
+
+        def begin(self):  # type: ignore[no-untyped-def]
+            return ()
+
+        def decide(self, knowledge, memory):  # type: ignore[no-untyped-def]
+            seen.append(knowledge)
+            return Intent(moving=False), memory
+
+    seen: list[Knowledge] = []
+    play(Walk(), Noting(), start=Start(9.0), duration=4.0)
+    assert seen[0].closing_speed is None and seen[0].bearing_rate is None
+    assert seen[-1].closing_speed is not None
+    assert seen[-1].closing_speed > 0.5
+    limits = seen[-1].limits
+    assert (limits.speed, limits.gain) == (1.0, 0.5)
+    assert limits.stride == pytest.approx(0.2) and limits.step_duration == 0.2
+    assert [k.time for k in seen] == pytest.approx(np.arange(20) * 0.2)
+    assert not any(k.moving for k in seen)
+
+
+@pytest.mark.parametrize("name", ["period", "duration", "capture_distance"])
+def test_values_that_no_game_has_are_refused(name: str) -> None:
+    for value in (0.0, -1.0, float("nan")):
+        with pytest.raises(PlanError, match=name):
+            play(**{name: value})
+    with pytest.raises(PlanError, match="speed"):
+        play(bodies=(BODY, Unicycle(0.0, 1.0)))

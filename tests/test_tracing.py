@@ -1,0 +1,88 @@
+"""Test that traced formulas become functions that mean the same."""
+
+from math import cos, sin
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.robots.tracing import (
+    Number,
+    Trace,
+    Traced,
+    cosine,
+    hint_of,
+    sine,
+)
+
+
+def formula(x: Number, y: Number) -> list[Number]:
+    """Every operation, on either side, with constants and without."""
+    shared = x * y - 2.0
+    return [
+        (1.5 + x) * (y + 2.5) - (3.0 - x),
+        shared / (y + 4.0) + shared,
+        -(x - y) * (-x) + (-y) / 3.0,
+        sine(x + 0.5) * cosine(y) - 1.0 / (x + 3.0),
+        (x + 1.0) + 2.0 - y - (-x),
+        (-x) / (-y - 5.0) + 1.0 / (-x - 6.0) + (2.0 + (-x)),
+        -x - y,
+        0.25,
+    ]
+
+
+def test_a_function_gives_what_its_formula_gives() -> None:
+    trace = Trace()
+    x, y = trace.variable("x", 0.3), trace.variable("y", 0.7)
+    traced = formula(x, y)
+    function = trace.function("formula", traced)
+    np.testing.assert_allclose(
+        [hint_of(number) for number in traced], function(0.3, 0.7)
+    )
+    for a, b in np.random.default_rng(1).uniform(-2, 2, (20, 2)).tolist():
+        expected: list[Any] = formula(a, b)
+        np.testing.assert_allclose(function(a, b), expected, rtol=1e-13)
+
+
+def test_what_is_constant_folds() -> None:
+    x = Trace().variable("x", 2.0)
+    assert x * 0.0 == x - x == 0.0 * x == 0.0 / x == 0.0
+    assert x / x == 1.0
+    kept: list[Number] = [
+        *(x * 1.0, 1.0 * x, x + 0.0, 0.0 + x, x - 0.0, x / 1.0),
+        *(0.0 - (-x), -(0.0 - x), (-1.0 * x) * -1.0),
+    ]
+    assert all(number is x for number in kept)
+    assert isinstance(x - 1.0, Traced)
+
+
+def test_what_repeats_is_computed_once() -> None:
+    trace = Trace()
+    x, y = trace.variable("x"), trace.variable("y")
+    assert x * y is y * x
+    assert sine(x) is sine(x)
+    assert x - y is not y - x
+    shared = sine(x) * y
+    text = trace.source("f", [shared + 1.0, shared * shared])
+    assert text.count("sin(x)") == 1
+
+
+def test_a_name_is_used_again_when_its_number_is_not_needed() -> None:
+    """Few names for a long chain; and the right number in each."""
+    trace = Trace()
+    number: Number = trace.variable("x")
+    for _ in range(40):
+        number = sine(number) + number
+    text = trace.source("chain", [number])
+    names = {line.split(" = ")[0] for line in text.splitlines() if "=" in line}
+    assert len(names) <= 2
+    value = 0.4
+    for _ in range(40):
+        value = sin(value) + value
+    (found,) = trace.function("chain", [number])(0.4)
+    assert found == pytest.approx(value)
+
+
+def test_functions_of_floats_are_their_own() -> None:
+    assert sine(0.3) == sin(0.3) and cosine(0.3) == cos(0.3)
+    assert hint_of(0.5) == 0.5

@@ -1,0 +1,90 @@
+"""Test what a player leaves behind: tracks, and how it planned."""
+
+from dataclasses import fields
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from by_hand import plan_of
+from stepaside.games.track import Track, margin_of, tracks_in
+from stepaside.poses import Array
+
+SHAPES = {
+    "com": (5, 3),
+    "torso": (5, 3),
+    "com_reference": (5, 2),
+    "zmp_reference": (5, 2),
+    "zmp": (5, 2),
+    "qpos": (5, 30),
+    "landings": (2, 5),
+    "sight": (4, 6),
+}
+
+
+def arrays_of(*names: str) -> dict[str, Array]:
+    generator = np.random.default_rng(1)
+    return {name: generator.random(SHAPES[name]) for name in names}
+
+
+def test_arrays_of_a_track_cannot_be_written_to() -> None:
+    track = Track(**arrays_of(*SHAPES))
+    assert set(SHAPES) == {field.name for field in fields(Track)}
+    for name in SHAPES:
+        values = getattr(track, name)
+        before = values.copy()
+        with pytest.raises(ValueError, match="read-only"):
+            values[0] = 9.0
+        np.testing.assert_array_equal(values, before)
+
+
+@pytest.mark.parametrize(
+    "names",
+    [tuple(SHAPES), ("com", "torso"), ("com", "torso", "zmp", "sight")],
+)
+def test_a_track_is_told_by_name_and_found_again(
+    names: tuple[str, ...],
+) -> None:
+    """What it lacks has no name, and is None again."""
+    track = Track(**arrays_of(*names))
+    told = track.arrays("evader")
+    assert set(told) == {f"evader_{name}" for name in names}
+    other = Track(**arrays_of("com", "torso")).arrays("pursuer")
+    found = tracks_in(told | other | {"times_s": np.zeros(5)}, ("evader",))
+    assert set(found) == {"evader"}
+    for name in SHAPES:
+        value, again = getattr(track, name), getattr(found["evader"], name)
+        if name in names:
+            np.testing.assert_array_equal(again, value)
+        else:
+            assert value is again is None
+
+
+@pytest.mark.parametrize("name", ["com", "torso"])
+def test_a_track_without_what_everybody_has_is_none(name: str) -> None:
+    arrays = Track(**arrays_of(*SHAPES)).arrays("evader")
+    del arrays[f"evader_{name}"]
+    with pytest.raises(KeyError, match=f"evader_{name}"):
+        tracks_in(arrays, ("evader",))
+
+
+def test_margins_are_those_of_the_parts_that_were_walked() -> None:
+    """What a plan would have asked for later is not counted."""
+    plans: list[Any] = [
+        SimpleNamespace(
+            schedule=SimpleNamespace(first_step_duration=duration),
+            margin=lambda upto, least=least: least - 0.01 * upto,
+        )
+        for duration, least in ((0.5, 0.05), (1.5, 0.04), (0.2, 0.03))
+    ]
+    assert margin_of(plans) == pytest.approx(0.025)
+    assert margin_of(plans[:1]) == pytest.approx(0.045)
+    assert margin_of([]) is None
+
+
+def test_the_margin_of_real_plans_is_the_least_of_theirs() -> None:
+    plans = [plan_of("start"), plan_of("walk"), plan_of("halt")]
+    margins = [p.margin(p.schedule.first_step_duration) for p in plans]
+    assert len(set(margins)) > 1 and min(margins) > 0.0
+    assert margin_of(plans) == min(margins)

@@ -1,0 +1,134 @@
+"""A gait that legs lose while walking ends a duel as data, not as an error."""
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+from threading import Event
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from invented_run import check_same
+from stepaside.cli import main
+from stepaside.errors import ReachError
+from stepaside.games.configuration import dump_configuration
+from stepaside.games.duel import run_duel
+from stepaside.games.folder import load_run
+from stepaside.games.outcome import Outcome
+from stepaside.games.run import Run
+from stepaside.games.settings import PLAYERS, DuelSettings, StartSettings
+from stepaside.planning import GaitSettings
+from stepaside.report.replay_page import write_page
+from stepaside.report.run_folder import write_run
+from stepaside.report.viewer.session import Session
+from stepaside.strategies import Evasion
+
+# Steps far higher than legs are long: they can be stood, and begun.
+FAR = GaitSettings(step_height=0.9)
+WORDS = r"lost its footing at [01]\.\d\d s: NAO cannot follow: \w+ foot"
+LONG = 60.0  # [s]; no event of a loop that runs comes as late as this
+
+
+def settings_of(pursuer: str) -> DuelSettings:
+    """A duel in which a robot walks at once, and cannot for long."""
+    return DuelSettings(
+        duration=4.0,
+        pursuer=pursuer,
+        gait=FAR,
+        start=StartSettings(1.0, 0.0, 0.0),
+        strategy=Evasion(safety_radius=1.5),
+    )
+
+
+@pytest.fixture(scope="module", params=["robot", "person"])
+def run(request: pytest.FixtureRequest) -> Run:
+    pursuer: str = request.param
+    return run_duel(settings_of(pursuer))
+
+
+def test_legs_that_lose_the_reference_end_the_duel(run: Run) -> None:
+    """Everything up to then is recorded, and it is told who it was."""
+    assert run.outcome is Outcome.UNREACHABLE
+    assert run.summary.outcome == "unreachable"
+    assert run.message == run.summary.message
+    who = PLAYERS if run.settings.pursuer == "robot" else PLAYERS[1:]
+    name, rest = run.message.split(maxsplit=1)
+    assert name in who and re.match(WORDS, rest)
+    # It stood for the first double support, and then it walked.
+    assert FAR.start_support < run.duration < 2.0
+    assert f"{run.duration:.2f} s" in run.message
+    assert run.times[-1] == pytest.approx(run.duration)
+    assert (np.diff(run.times) > 0.0).all()
+    for name in who:
+        landings = run.tracks[name].landings
+        assert landings is not None and len(landings) >= 1
+    for track in run.tracks.values():
+        assert len(track.torso) == len(run.times) == len(track.com)
+        assert np.isfinite(track.torso).all()
+    assert run.summary.replans >= 1 and run.summary.converged_at_s is None
+    last = len(run.times) - 1
+    assert run.words(last) == run.message != run.words(last - 1)
+
+
+def test_its_run_folder_is_whole(run: Run, tmp_path: Path) -> None:
+    folder = tmp_path / "lost"
+    figure = write_run(folder, run)
+    assert figure.is_file() and figure.stat().st_size > 10_000
+    loaded = load_run(folder)
+    check_same(loaded, run)
+    page = tmp_path / "lost.html"
+    write_page(loaded, page)
+    assert run.message in page.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("as_json", [True, False])
+def test_the_command_line_tells_it_as_an_outcome(
+    tmp_path: Path, as_json: bool
+) -> None:
+    """As after a fall: the folder is there, and the status is success."""
+    config, folder = tmp_path / "far.toml", tmp_path / "lost"
+    text = dump_configuration(settings_of("robot"))
+    config.write_text(text, encoding="utf-8")
+    options = ["--config", str(config), "--output", str(folder)]
+    flags = ["--json"] if as_json else []
+    result = CliRunner().invoke(main, ["duel", *options, *flags])
+    assert result.exit_code == 0, result.output
+    if as_json:
+        told = json.loads(result.stdout)
+        assert told["outcome"] == "unreachable"
+        assert told["run_folder"] == str(folder)
+    else:
+        assert "unreachable: " in result.stdout
+    run = load_run(folder)
+    assert run.outcome is Outcome.UNREACHABLE
+    assert run.message in result.stdout
+    assert (folder / "duel.png").is_file()
+
+
+def test_a_live_duel_ends_with_it_and_can_begin_again() -> None:
+    session = Session(settings_of("robot"))
+    try:
+        done = Event()
+        session.step(2.0)
+        session.change(lambda duel: done.set())
+        assert done.wait(LONG) and session.error is None
+        assert session.outcome is Outcome.UNREACHABLE
+        ended = session.duel.world.time
+        assert ended < 2.0
+        session.reset(replace(settings_of("robot"), gait=GaitSettings()))
+        assert session.outcome is None
+        done.clear()
+        session.step(ended)
+        session.change(lambda duel: done.set())
+        assert done.wait(LONG) and session.outcome is None
+    finally:
+        session.close()
+
+
+def test_a_gait_that_cannot_even_be_stood_is_refused() -> None:
+    """Nothing was played then, so there is nothing to keep."""
+    tall = replace(settings_of("robot"), gait=GaitSettings(com_height=0.5))
+    with pytest.raises(ReachError, match="reaches at most"):
+        run_duel(tall)

@@ -1,0 +1,224 @@
+"""Records of walks: every column holds what its name says."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from made_up_players import begun
+from stepaside.control.balance.estimation import BodyState
+from stepaside.control.balance.loop import ClosedLoop
+from stepaside.control.balance.settings import STABILISED
+from stepaside.games.outcome import Outcome
+from stepaside.games.walk import Walking, WalkSettings
+from stepaside.games.walk_record import COLUMNS, WalkRecorder
+from stepaside.planning import Foot
+from stepaside.poses import Pose
+from stepaside.world.settings import PhysicsSettings
+
+
+@pytest.fixture(scope="module")
+def walking() -> Walking:
+    """A robot that has walked a few steps in a circle, with feedback."""
+    made = Walking(WalkSettings(bearing=0.6, control=STABILISED))
+    for _ in range(1100):
+        assert made.tick() is None
+    return made
+
+
+def last(walking: Walking) -> dict[str, float]:
+    made = WalkRecorder(walking.walker)
+    made.every = 1
+    made.before(walking)
+    arrays = made.arrays()
+    assert tuple(arrays) == COLUMNS
+    return {name: float(values[0]) for name, values in arrays.items()}
+
+
+def test_a_walk_is_seen_from_the_foot_that_stands(walking: Walking) -> None:
+    """Truth, wish and estimate agree in a frame that all three share."""
+    walker = walking.walker
+    seen = last(walking)
+    assert seen["time"] == walking.world.time
+    foot = walker.scheme.step(walking.world.time).swing.other
+    assert seen["support"] == foot.value
+    truth = walker.robot.truth
+    heading = truth.heading
+    assert abs(heading) > 0.2
+    assert seen["heading"] == pytest.approx(heading)
+    assert seen["asked_heading"] == pytest.approx(
+        walker.scheme.kinematics.torso_heading
+    )
+    assert seen["asked_heading"] == pytest.approx(heading, abs=0.05)
+    np.testing.assert_allclose(
+        [seen["world_x"], seen["world_y"]], truth.com[:2]
+    )
+    np.testing.assert_allclose(
+        [seen["asked_x"], seen["asked_y"]], walker.scheme.reference.com[:2]
+    )
+    for name, tolerance in (("com_x", 0.004), ("com_y", 0.004)):
+        wanted = seen[name.replace("com", "reference")]
+        assert seen[name] == pytest.approx(wanted, abs=0.01)
+        assert seen[name] == pytest.approx(
+            seen[f"estimated_{name}"], abs=tolerance
+        )
+    # The CoM is nearer the middle than the foot is: on its other side.
+    assert -0.1 < foot.value * seen["com_y"] < 0.0
+    assert abs(seen["com_x"]) < 0.06
+
+
+def test_vectors_turn_with_the_foot_and_points_move_too(
+    walking: Walking,
+) -> None:
+    """The foot's place and heading, found again from the columns."""
+    walker = walking.walker
+    seen = last(walking)
+    foot = walker.scheme.step(walking.world.time).swing.other
+    description = walker.scheme.kinematics.description
+    name = {
+        Foot.LEFT: description.left_foot,
+        Foot.RIGHT: description.right_foot,
+    }[foot]
+    data = walking.world.data
+    place = data.site(f"walker/{name}")
+    heading = np.arctan2(place.xmat[3], place.xmat[0])
+    frame = Pose(place.xpos[0], place.xpos[1], float(heading))
+    assert (seen["foot_x"], seen["foot_y"]) == (frame.x, frame.y)
+    com = frame.transform_points([[seen["com_x"], seen["com_y"]]])[0]
+    np.testing.assert_allclose(com, walker.robot.truth.com[:2])
+    zmp = frame.transform_points([[seen["zmp_x"], seen["zmp_y"]]])[0]
+    np.testing.assert_allclose(zmp, walker.robot.measured_zmp())
+    model = walking.world.model
+    torso = model.body(f"walker/{description.torso}").id
+    slopes = np.zeros((3, model.nv))
+    mujoco.mj_jacSubtreeCom(model, data, slopes, torso)
+    speed = slopes @ data.qvel
+    assert np.hypot(*speed[:2]) > 0.01
+    turned = Pose(0.0, 0.0, float(heading))
+    velocity = [[seen["velocity_x"], seen["velocity_y"]]]
+    np.testing.assert_allclose(
+        turned.transform_points(velocity)[0],
+        speed[:2],
+        atol=2e-3,  # places and speeds are one physics step apart
+    )
+    support = walker.scheme.step(walking.world.time).support
+    for column, point in (
+        ("reference", walker.scheme.reference.com[:2]),
+        ("zmp_reference", walker.scheme.zmp_reference),
+    ):
+        there = [[seen[f"{column}_x"], seen[f"{column}_y"]]]
+        np.testing.assert_allclose(
+            support.transform_points(there)[0], point, atol=1e-12
+        )
+
+
+def test_the_torsos_lean_is_roll_and_pitch(walking: Walking) -> None:
+    data = walking.world.data
+    before = data.qpos.copy()
+    for roll, pitch in ((0.2, 0.1), (-0.3, 0.05)):
+        yaw = np.zeros(4)
+        mujoco.mju_euler2Quat(yaw, [roll, pitch, 0.8], "XYZ")
+        data.qpos[3:7] = yaw
+        mujoco.mj_forward(walking.world.model, data)
+        seen = last(walking)
+        assert seen["roll"] == pytest.approx(roll)
+        assert seen["pitch"] == pytest.approx(pitch)
+    data.qpos[:] = before
+    mujoco.mj_forward(walking.world.model, data)
+
+
+def test_what_was_estimated_is_seen_from_the_foot_too(
+    walking: Walking,
+) -> None:
+    walker = walking.walker
+    assert isinstance(walker.scheme.balance, ClosedLoop)
+    stabiliser = walker.scheme.balance.stabiliser
+    state = BodyState(
+        *((1.0, 2.0), (0.3, 0.4), (9.0, 9.0), (1.5, 2.5), (0.01, 0.02)),
+        *((0.0, 0.0, 0.0), 0.5, 50.0),
+    )
+    before, stabiliser.state = stabiliser.state, state
+    seen = last(walking)
+    support = walker.scheme.step(walking.world.time).support
+    turned = Pose(0.0, 0.0, support.theta)
+    for name, frame, value in (
+        ("com", support, state.com),
+        ("velocity", turned, state.velocity),
+        ("zmp", support, state.zmp),
+    ):
+        there = [[seen[f"estimated_{name}_x"], seen[f"estimated_{name}_y"]]]
+        found = frame.transform_points(there)[0]
+        np.testing.assert_allclose(found, value, atol=1e-12)
+    assert (seen["estimated_roll"], seen["estimated_pitch"]) == state.tilt
+    stabiliser.state = None
+    estimates = [v for n, v in last(walking).items() if "estimated" in n]
+    assert len(estimates) == 8 and np.isnan(estimates).all()
+    stabiliser.state = before
+
+
+def test_single_support_lasts_while_a_foot_swings() -> None:
+    """Not before the walk, and not while both feet stand."""
+    walking = Walking(WalkSettings())
+    resting = WalkRecorder(walking.walker)._row(0.0)
+    assert resting[COLUMNS.index("single")] == 0.0
+    gait = walking.settings.gait
+    singles, heights = [], []
+    while walking.world.time < 3.0:
+        assert walking.tick() is None
+        singles.append(last(walking)["single"])
+        feet = walking.walker.scheme.reference
+        heights.append(max(feet.left_foot[2], feet.right_foot[2]))
+    single, lifted = np.array(singles) > 0.5, np.array(heights) > 1e-3
+    assert single[lifted].mean() > 0.97
+    cycle = round(2.0 * gait.step_duration / 0.004)
+    share = gait.single_support / gait.step_duration
+    assert single[-cycle:].mean() == pytest.approx(share, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("tick", "every"), [(0.004, 5), (0.012, 2), (0.002, 10), (0.06, 1)]
+)
+def test_samples_of_a_walk_are_about_20_ms_apart(
+    tick: float, every: int
+) -> None:
+    walking = Walking(WalkSettings(physics=PhysicsSettings(tick=tick)))
+    made = WalkRecorder(walking.walker)
+    assert made.every == every
+    assert made.arrays()["time"].shape == (0,)
+
+
+def test_a_walk_is_sampled_when_due_but_not_before_it_begins() -> None:
+    """At the end once, and not if the robot lies."""
+    for outcome, last_one in (
+        *((Outcome.COMPLETED, True), (Outcome.INTERRUPTED, True)),
+        *((Outcome.FALL, False), (Outcome.UNREACHABLE, False)),
+    ):
+        walking = Walking(WalkSettings(), recorded=False)
+        made = WalkRecorder(walking.walker)
+        for _ in range(10):
+            made.before(walking)
+            walking.world.ticks += 1
+        for _ in range(2):
+            made.ended(walking, outcome)
+        expected = [0.02, 0.04] if last_one else [0.02]
+        np.testing.assert_allclose(made.arrays()["time"], expected)
+        walking.world.ticks += 1  # not due
+        made.ended(walking, outcome)
+        assert len(made.arrays()["time"]) == len(expected)
+
+
+def test_what_a_walk_begins_and_a_solver_answers_is_noted() -> None:
+    walking = Walking(WalkSettings(), recorded=False)
+    made = WalkRecorder(walking.walker)
+    scheme: Any = walking.walker.scheme
+    answers: list[Any] = ["one", None, "two"]
+    step = begun()
+    for answer, began in zip(answers, (step, None, step), strict=True):
+        scheme.balance = SimpleNamespace(solved=answer)
+        scheme.begun = began
+        made.acted(walking)
+    assert made.steps == 2 and made.plans == [step.plan] * 2
+    solved: list[Any] = list(made.solved)
+    assert solved == ["one", "two"]
