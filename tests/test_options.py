@@ -10,7 +10,9 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 import click
 import pytest
 
+from stepaside.bound import Scheme
 from stepaside.cli import COMMANDS, main
+from stepaside.commands.bound import AGAINST
 from stepaside.commands.declared.kinds import NameType, RealType, WordedType
 from stepaside.commands.declared.option import Declaration, DeclaredOption
 from stepaside.commands.declared.print_config import meanings
@@ -54,6 +56,8 @@ REGISTRIES: dict[str, Iterable[str]] = {
     "--law": [law.value for law in TurningLaw],
     "--side-rule": [rule.value for rule in SideRule],
     "--camera": VIEWS,
+    "--against": AGAINST,
+    "--scheme": [scheme.value for scheme in Scheme],
 }
 # Names that say something else to games of unicycles, to films or to a
 # campaign than to a robot in physics; each is declared once in each sense.
@@ -64,19 +68,26 @@ SENSES = {
     "--body": 2,
     "--delay": 2,
     "--distance": 2,
-    "--evader-strategy": 2,
     "--duration": 4,
+    "--evader-speed": 2,
+    "--evader-strategy": 2,
+    "--farthest": 2,
     "--gain": 2,
+    "--grid": 2,
+    "--horizon": 2,
     "--hysteresis": 2,
     "--method": 2,
+    "--nearest": 2,
     "--output": 2,
+    "--pursuer-gain": 2,
+    "--pursuer-speed": 2,
     "--rate": 2,
     "--saturated": 2,
     "--seed": 2,
-    "--strategy": 2,
     "--seeds": 2,
     "--side-hysteresis": 2,
     "--speed": 3,
+    "--strategy": 2,
 }
 
 
@@ -215,7 +226,7 @@ def test_the_list_of_commands_loads_nothing() -> None:
 def test_commands_are_declared_without_physics(name: str) -> None:
     """Settings, registries and MuJoCo are loaded when an option is used."""
     heavy = ["mujoco", "scipy", "matplotlib"]
-    if name not in ("unicycles", "circle", "map"):
+    if name not in ("unicycles", "circle", "map", "bound"):
         heavy.append("numpy")
     code = (
         f"import sys, stepaside.commands.{name}\n"

@@ -20,6 +20,7 @@ FLOORS = {
     "randomness": 1,
     "doors": 1,
     "unicycle": 2,
+    "bound": 3,
     "robots": 2,
     "sensing": 2,
     "planning": 2,

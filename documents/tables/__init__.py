@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from . import (
     benchmark,
+    bounds,
     duels,
     index,
     instants,
@@ -22,6 +23,10 @@ from . import (
 
 TABLES: dict[str, Callable[..., str]] = {
     "benchmark": benchmark.all_rows,
+    "barrier": bounds.barrier,
+    "bound-evaders": bounds.evaders,
+    "bound-refinement": bounds.refinement,
+    "bound-speed": bounds.speed,
     "certified": many_duels.certified,
     "certified-starts": unicycles.certified_starts,
     "each": persons.each,

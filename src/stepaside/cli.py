@@ -21,6 +21,7 @@ COMMANDS = {
     "unicycles": "Play one game of two unicycles (Sec. II).",
     "circle": "Find all circles of a game, and which starts end on which.",
     "map": "Map games over their starts: closest approach, worst start.",
+    "bound": "Compute the best that any evader can do.",
     "reproduce": "Measure every claim of the paper and write a page.",
     "robot": "Show a robot, or write its model.",
 }

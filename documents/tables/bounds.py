@@ -1,0 +1,106 @@
+"""How well anybody can evade, and how well that was computed."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from .markdown import NONE, number, table
+
+Result = Mapping[str, Any]
+GAMES = {"pursuit": "against eqs. (1)-(2)", "cars": "two identical cars"}
+
+
+def speed(result: Result) -> str:
+    """Both solvers on one core."""
+    head = (
+        "scheme",
+        "precision",
+        "stepaside [s]",
+        "hj_reachability [s]",
+        "ratio",
+        "greatest difference",
+        "mean difference",
+        "share within 5e-4",
+    )
+    rows = [
+        (
+            row["scheme"],
+            "double" if row["double"] else "single",
+            number(row["bound_s"], 2),
+            number(row["hj_reachability_s"], 1),
+            number(row["ratio"], 0),
+            f"{row['greatest_difference']:.1e}",
+            f"{row['mean_difference']:.1e}",
+            f"{100.0 * row['share_within']:.4f} %",
+        )
+        for row in result["rows"]
+    ]
+    return table(head, rows)
+
+
+def refinement(result: Result) -> str:
+    """Differences between grids, and the order of convergence."""
+    head = ("game", "cells", "mean", "95 %", "worst", "order")
+    rows = [
+        (
+            words,
+            f"{row['cells']} beside {row['finer']}",
+            number(row["mean"], 4),
+            number(row["most"], 4),
+            number(row["worst"], 2),
+            NONE if row["order"] is None else number(row["order"], 1),
+        )
+        for game, words in GAMES.items()
+        for row in result[game]["refinement"]
+    ]
+    return table(head, rows)
+
+
+def barrier(result: Result) -> str:
+    """The table at points of the closed-form barrier."""
+    head = (
+        "capture [v/ω]",
+        "points",
+        "value off, median",
+        "mean",
+        "worst",
+        "barrier off, median",
+        "mean",
+    )
+    rows = [
+        (
+            number(row["capture"], 1),
+            str(row["points"]),
+            number(row["median"], 4),
+            number(row["mean"], 4),
+            number(row["worst"], 2),
+            number(row["apart_median"], 4),
+            number(row["apart_mean"], 4),
+        )
+        for row in result["cars"]["barrier"]
+    ]
+    return table(head, rows)
+
+
+def evaders(result: Result) -> str:
+    """Least distances of several evaders beside the best possible."""
+    head = (
+        "starts",
+        "evader",
+        "mean closest [v/k]",
+        "of the bound",
+        "best over this",
+        "most above the bound [v/k]",
+    )
+    rows = [
+        (
+            starts,
+            row["evader"],
+            number(row["closest"], 3),
+            number(row["over_bound"], 3),
+            number(row["best_over_this"], 2),
+            number(row["most_above"], 4),
+        )
+        for starts, found in result["pursuit"]["boxes"].items()
+        for row in found
+    ]
+    return table(head, rows)

@@ -1,0 +1,17 @@
+"""How well anybody can evade: games of two unicycles solved on a grid."""
+
+from .game import BoundGame, against_any, against_pursuit
+from .grid import Grid
+from .solve import Scheme, solve_bound
+from .table import Bound, load_bound
+
+__all__ = [
+    "Bound",
+    "BoundGame",
+    "Grid",
+    "Scheme",
+    "against_any",
+    "against_pursuit",
+    "load_bound",
+    "solve_bound",
+]

@@ -1,0 +1,304 @@
+"""``stepaside bound``: the best that any evader can do."""
+
+from dataclasses import asdict
+from math import pi
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from .declared.common import FIGURE, FILE, json_option
+from .declared.kinds import NameType
+from .game_options import check_figure_folder
+from .options import METERS, SECONDS, NumberType, print_json, print_table
+
+if TYPE_CHECKING:
+    from ..bound import Bound, BoundGame
+
+SPEED, RATE = NumberType("m/s"), NumberType("rad/s")
+SHOWN = 12  # barrier points in the result
+AGAINST = ("pursuit", "any")
+
+
+def _schemes() -> tuple[str, ...]:
+    from ..bound import Scheme
+
+    return tuple(scheme.value for scheme in Scheme)
+
+
+@click.command("bound")
+@click.option(
+    "--against",
+    type=NameType(lambda: AGAINST),
+    default=AGAINST[0],
+    show_default=True,
+    help="The pursuer of eqs. (1)-(2), or any that turns within its limit.",
+)
+@click.option(
+    "--pursuer-speed",
+    type=SPEED,
+    default=1.0,
+    show_default=True,
+    help="Speed of the pursuer [m/s].",
+)
+@click.option(
+    "--evader-speed",
+    type=SPEED,
+    default=1.0,
+    show_default=True,
+    help="Speed of the evader [m/s].",
+)
+@click.option(
+    "--pursuer-gain",
+    type=NumberType("1/s"),
+    default=0.5,
+    show_default=True,
+    help="Gain k of eq. (2) [1/s], for --against pursuit.",
+)
+@click.option(
+    "--pursuer-turn",
+    type=RATE,
+    help="Largest turning rate [rad/s], for --against any. [default: pi k]",
+)
+@click.option(
+    "--evader-turn",
+    type=RATE,
+    help="Largest turning rate of the evader [rad/s]. "
+    "[default: the pursuer's]",
+)
+@click.option(
+    "--capture",
+    type=METERS,
+    help="Distance whose barrier is shown [m]. [default: 0.7 v/k]",
+)
+@click.option(
+    "--nearest",
+    type=METERS,
+    help="Distance at which a game ends [m]. [default: half of --capture]",
+)
+@click.option(
+    "--farthest", type=METERS, help="Edge of the grid [m]. [default: by game]"
+)
+@click.option(
+    "--grid",
+    "cells",
+    type=click.IntRange(16, 400),
+    default=64,
+    show_default=True,
+    help="Cells along each axis.",
+)
+@click.option(
+    "--refine",
+    type=click.IntRange(0, 3),
+    default=1,
+    show_default=True,
+    help="Coarser grids, of half as many cells each, for the error.",
+)
+@click.option(
+    "--horizon",
+    type=SECONDS,
+    help="Duration [s]. [default: a turn at slowest]",
+)
+@click.option(
+    "--scheme",
+    type=NameType(lambda: _schemes()),
+    default="weno",
+    show_default=True,
+    help="Fifth or first order, by Godunov's or Lax's flux.",
+)
+@click.option(
+    "--games",
+    type=click.IntRange(0),
+    default=1000,
+    show_default=True,
+    help="Random games played to check the table; 0 for none.",
+)
+@FILE.option(help="Write the table (.npz).")
+@FIGURE.option()
+@json_option
+def bound(
+    against: str,
+    pursuer_speed: float,
+    evader_speed: float,
+    pursuer_gain: float,
+    pursuer_turn: float | None,
+    evader_turn: float | None,
+    capture: float | None,
+    nearest: float | None,
+    farthest: float | None,
+    cells: int,
+    refine: int,
+    horizon: float | None,
+    scheme: str,
+    games: int,
+    output: Path | None,
+    figure: str | None,
+    as_json: bool,
+) -> None:
+    """Compute how close the pursuer comes to the best evader."""
+    from tqdm import tqdm
+
+    from ..bound import Grid, Scheme, against_any, against_pursuit
+    from ..bound.refine import refine_bound
+
+    check_figure_folder(figure)
+    _check_output(output)
+    if against == "pursuit":
+        game = against_pursuit(
+            pursuer_speed, evader_speed, pursuer_gain, evader_turn
+        )
+    else:
+        turn = pi * pursuer_gain if pursuer_turn is None else pursuer_turn
+        game = against_any(pursuer_speed, evader_speed, turn, evader_turn)
+    if capture is None:
+        capture = 0.7 * evader_speed / pursuer_gain
+    nearest = 0.5 * capture if nearest is None else nearest
+    farthest = _edge(game, capture) if farthest is None else farthest
+    if not nearest <= capture <= farthest:
+        raise click.BadParameter(
+            f"must lie in [{nearest:g}, {farthest:g}] [m], got {capture}",
+            param_hint="--capture",
+        )
+    grid = Grid.cube(nearest, farthest, cells)
+    look = "{l_bar}{bar}| {elapsed}<{remaining}"
+    with tqdm(total=1.0, bar_format=look, disable=as_json, leave=False) as bar:
+        table, rows = refine_bound(
+            game,
+            grid,
+            refine,
+            horizon=horizon,
+            scheme=Scheme(scheme),
+            progress=bar.update,
+        )
+    result = describe(table, capture)
+    result["refinement"] = [
+        {
+            "cells": row.grid.distances - 1,
+            "seconds": row.seconds,
+            "mean_difference_m": row.mean,
+            "most_difference_m": row.most,
+            "worst_difference_m": row.worst,
+            "order": row.order,
+        }
+        for row in rows
+    ]
+    result["grid_error_m"] = rows[-1].mean if rows else None
+    if games:
+        from ..bound.checks import check_by_playing
+
+        played = check_by_playing(table, games)
+        result["played"] = [
+            {f"{k}_m" if k in _METERS else k: v for k, v in asdict(p).items()}
+            for p in played
+        ]
+    if output is not None:
+        table.save(output)
+        result["output"] = str(output)
+    if figure is not None:
+        from ..report.bound_figure import draw_bound
+
+        draw_bound(table, capture, figure)
+        result["figure"] = figure
+    if as_json:
+        print_json(result)
+        return
+    _print(result)
+
+
+_METERS = ("closest", "mean_error", "most", "below", "above")
+
+
+def describe(table: "Bound", capture: float) -> dict[str, Any]:
+    """What a table says, as an object for other programs."""
+    barrier = table.barrier(capture)
+    result: dict[str, Any] = {
+        "game": asdict(table.game),
+        "grid": asdict(table.grid),
+        "scheme": table.scheme,
+        "horizon_s": table.horizon,
+        "seconds": table.seconds,
+        "falling_mean_m": table.falling_mean,
+        "falling_worst_m": table.falling_worst,
+        "capture_m": capture,
+        "barrier_reach_m": float(barrier.max()),
+        "barrier_mean_m": float(barrier.mean()),
+    }
+    if table.game.identical:
+        result["analytic"] = _analytic(table, capture)
+    return result
+
+
+def _analytic(table: "Bound", capture: float) -> dict[str, Any]:
+    """The table beside the closed-form barrier."""
+    import numpy as np
+
+    from ..bound.checks import PIECES, check_barrier
+
+    found = check_barrier(table, capture)
+    values, apart = np.abs(found.value_errors), np.abs(found.distance_errors)
+    pieces = np.abs(found.pieces)
+    picks = np.linspace(0, len(values) - 1, min(SHOWN, len(values)))
+    return {
+        "points": len(values),
+        "value_error_mean_m": float(values.mean()),
+        "value_error_median_m": float(np.median(values)),
+        "value_error_worst_m": float(values.max()),
+        "distance_error_mean_m": float(apart.mean()),
+        "distance_error_median_m": float(np.median(apart)),
+        "distance_error_worst_m": float(apart.max()),
+        "by_piece": {
+            name: float(values[pieces == n].mean())
+            for n, name in PIECES.items()
+            if (pieces == n).any()
+        },
+        "barrier": [
+            {
+                "distance_m": float(found.states[i, 0]),
+                "pursuer_error_rad": float(found.states[i, 1]),
+                "bearing_rad": float(found.states[i, 2]),
+                "analytic_m": capture,
+                "table_m": capture + float(found.value_errors[i]),
+            }
+            for i in picks.astype(int)
+        ],
+    }
+
+
+def _edge(game: "BoundGame", capture: float) -> float:
+    """Edge of the grid, beyond the barrier of equal players, in [m]."""
+    return capture + (4.0 if game.pursuer_gain > 0.0 else 6.0) * game.unit
+
+
+def _check_output(path: Path | None) -> None:
+    """Refuse, before any work, a file that could not be written."""
+    if path is None:
+        return
+    if path.suffix != ".npz":
+        raise click.BadParameter(
+            f"must end in .npz, got {str(path)!r}", param_hint="--output"
+        )
+    if not path.parent.is_dir():
+        raise click.BadParameter(
+            f"must be in a folder that exists, got {str(path)!r}",
+            param_hint="--output",
+        )
+
+
+def _print(result: dict[str, Any]) -> None:
+    """Print the result in two columns."""
+    rows = [
+        (name, f"{value:.4g}" if isinstance(value, float) else str(value))
+        for name, value in result.items()
+        if not isinstance(value, dict | list)
+    ]
+    for name, value in result.get("analytic", {}).items():
+        if isinstance(value, int | float):
+            rows.append((f"analytic {name}", f"{value:.4g}"))
+    for row in result["refinement"]:
+        off = f"{row['mean_difference_m']:.4g}"
+        rows.append((f"{row['cells']} cells, off by [m]", off))
+    for played in result.get("played", []):
+        text = f"{played['over_bound']:.3f} of the bound"
+        text += f", above it by {played['above_m']:.3g} m at most"
+        rows.append((f"played {played['name']}", text))
+    print_table(rows)

@@ -1,0 +1,72 @@
+"""Figure of a bound: value and barrier around the pursuer."""
+
+from math import pi, tau
+from typing import Any
+
+import numpy as np
+
+from ..bound import Bound
+from ..bound.barrier import barrier_slice
+from .style import EVADER, PURSUER, THEORY, plt
+
+HEADINGS = (0.25, 0.5, 0.75, 1.0)  # between the motions, in pi
+POINTS = 161  # along each side of a slice
+
+
+def draw_bound(bound: Bound, capture: float, path: str) -> None:
+    """Write slices of the value, as seen from the pursuer.
+
+    Each slice has one angle between the directions of motion; the evader
+    stands at (x, y), and an arrow shows how it moves.
+
+    Args:
+        bound: Table to draw.
+        capture: Distance whose barrier is drawn, in [m].
+        path: File, of a format that its suffix tells.
+    """
+    far = min(bound.grid.far, 1.4 * float(bound.barrier(capture).max()))
+    side = np.linspace(-far, far, POINTS)
+    x, y = np.meshgrid(side, side)
+    r, sight = np.hypot(x, y), np.arctan2(y, x)
+    figure, axes = plt.subplots(
+        1, len(HEADINGS), figsize=(3.1 * len(HEADINGS) + 0.9, 3.5), sharey=True
+    )
+    image: Any = None
+    for ax, share in zip(axes, HEADINGS, strict=True):
+        theta = share * pi
+        values = bound.value(r, sight, sight - theta)
+        values[r > bound.grid.far] = np.nan
+        image = ax.pcolormesh(
+            x, y, values, vmin=0.0, vmax=far, cmap="cividis", rasterized=True
+        )
+        ax.contour(x, y, values, [capture], colors="w", linewidths=1.5)
+        if bound.game.identical:
+            unit = bound.game.unit
+            points, _ = barrier_slice(capture / unit, theta)
+            ax.plot(*(unit * points.T), ":", color=THEORY, lw=1.5)
+        circle = np.linspace(0.0, tau, 100)
+        ring = capture * np.cos(circle), capture * np.sin(circle)
+        ax.plot(*ring, color=PURSUER, lw=0.8)
+        _arrow(ax, 0.0, 0.0, 0.0, 0.2 * far, PURSUER)
+        _arrow(ax, 0.0, 0.75 * far, theta, 0.2 * far, EVADER)
+        ax.set_title(f"motions {np.rad2deg(theta):.0f}° apart")
+        ax.set_aspect("equal")
+        ax.grid(visible=False)
+        ax.set_xlabel("ahead of the pursuer [m]")
+    axes[0].set_ylabel("to its left [m]")
+    figure.colorbar(
+        image, ax=list(axes), label="best closest approach [m]", shrink=0.8
+    )
+    figure.savefig(path)
+    plt.close(figure)
+
+
+def _arrow(
+    ax: Any, x: float, y: float, heading: float, length: float, colour: str
+) -> None:
+    ax.annotate(
+        "",
+        (x + length * np.cos(heading), y + length * np.sin(heading)),
+        (x, y),
+        arrowprops={"color": colour, "width": 2.0, "headwidth": 8.0},
+    )

@@ -1,0 +1,166 @@
+"""Test tables of bounds: lookup, files, and games that are played."""
+
+import json
+from dataclasses import replace
+from math import pi
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from stepaside.bound import (
+    Bound,
+    Grid,
+    against_any,
+    against_pursuit,
+    load_bound,
+    solve_bound,
+)
+from stepaside.bound.checks import check_by_playing
+from stepaside.bound.rollout import draw_starts, moving, play_bound
+from stepaside.commands.bound import bound as bound_command
+from stepaside.errors import PlanError
+from stepaside.unicycle import make_game, play_games
+
+GRID = Grid(0.3, 4.0, 33, 32, 32)
+
+
+@pytest.fixture(scope="module")
+def pursuit() -> Bound:
+    return solve_bound(against_pursuit(1.0, 1.0, 1.0), GRID, horizon=4.0)
+
+
+@pytest.fixture(scope="module")
+def cars() -> Bound:
+    game = against_any(1.0, 1.0, 1.0)
+    return solve_bound(game, replace(GRID, far=6.0))
+
+
+def test_lookup_returns_what_stands_at_the_nodes(pursuit: Bound) -> None:
+    a, r, psi = pursuit.grid.axes()
+    found = pursuit.value(r[:, None], a[:, None, None], psi)
+    np.testing.assert_allclose(found, pursuit.values, atol=1e-5)
+    assert pursuit.value(1.0, 0.2, 0.3).shape == ()
+    assert pursuit.value(0.1, 0.2, 0.3) == pytest.approx(0.1)
+    edge = pursuit.value(GRID.far, 0.2, 0.3)
+    assert pursuit.value(GRID.far + 1, 0.2, 0.3) == pytest.approx(edge + 1)
+
+
+def test_turning_rates_keep_their_limits_and_mirror(cars: Bound) -> None:
+    states = draw_starts(cars, 300, 5).T
+    for turn in (cars.evader_turn, cars.pursuer_turn):
+        here = turn(*states)
+        assert np.abs(here).max() <= 1.0 + 1e-9
+        mirrored = turn(states[0], -states[1], -states[2])
+        assert (np.abs(mirrored + here) > 1e-2).mean() < 0.02  # ties
+
+
+def test_pursuer_turns_towards_and_evader_away(cars: Bound) -> None:
+    """Evader to the left: turn left; pursuer on its left: turn right."""
+    assert cars.pursuer_turn(2.0, 1.0, 0.0) == pytest.approx(1.0)
+    assert cars.evader_turn(2.0, 0.0, 1.0) == pytest.approx(1.0)
+    assert cars.evader_turn(2.0, 0.0, -1.0) == pytest.approx(-1.0)
+
+
+def test_a_pursuer_with_a_law_obeys_it(pursuit: Bound) -> None:
+    turns = pursuit.pursuer_turn(2.0, np.array([0.5, -1.0, 4.0]), 0.0)
+    np.testing.assert_allclose(turns, [0.5, -1.0, 4.0 - 2 * pi])
+
+
+def test_the_best_evader_keeps_what_the_table_says(
+    pursuit: Bound, cars: Bound
+) -> None:
+    """And no other keeps more, beyond the error of these coarse grids."""
+    for bound in (pursuit, cars):
+        best, *others = check_by_playing(bound, 300)
+        assert best.name == "optimal"
+        assert abs(best.mean_error) < 0.01 and best.most < 0.03
+        for other in others:
+            assert other.above < 0.03, other.name
+            assert other.over_bound < best.over_bound - 0.02
+
+
+def test_no_pursuer_comes_closer_than_the_best(cars: Bound) -> None:
+    starts = draw_starts(cars, 200, 1)
+    promised = cars.value(*starts.T)
+
+    def towards(r, a, psi):  # type: ignore[no-untyped-def]
+        return np.clip(4.0 * a, -1.0, 1.0)
+
+    kept = play_bound(cars, starts, pursuer=towards)
+    assert np.quantile(kept - promised, 0.02) > -0.06
+    assert (kept - promised).mean() > 0.0
+
+
+def test_games_on_the_floor_are_those_of_the_kernel(pursuit: Bound) -> None:
+    """Moving aside by eq. (4), played twice by independent code."""
+    starts = draw_starts(pursuit, 100, 2)
+    free = replace(pursuit, game=replace(pursuit.game, evader_turn=1e3))
+    here = play_bound(free, starts, moving(pursuit, pi / 2), duration=4.0)
+    game = make_game(1.0, 1.0, 1.0, 1.0)
+    out = play_games(game, starts, 4.0, capture_distance=GRID.near)
+    there = np.maximum(out.closest_distance, GRID.near)
+    off = np.abs(here - there)
+    assert np.quantile(off, 0.95) < 0.01
+
+
+def test_a_table_is_read_as_it_was_written(
+    cars: Bound, tmp_path: Path
+) -> None:
+    path = tmp_path / "cars.npz"
+    cars.save(path)
+    again = load_bound(path)
+    np.testing.assert_array_equal(again.values, cars.values)
+    assert replace(again, values=cars.values) == cars
+    with np.load(path) as file:
+        assert file["evader_turn"].shape == cars.grid.shape
+        assert file["pursuer_turn"].shape == cars.grid.shape
+    with pytest.raises(ValueError, match="read-only"):
+        again.values[0, 0, 0] = 1.0
+
+
+@pytest.mark.parametrize("content", [b"", b"nonsense", None])
+def test_other_files_are_refused(
+    content: bytes | None, tmp_path: Path
+) -> None:
+    path = tmp_path / "bad.npz"
+    if content is None:
+        np.savez(path, values=np.zeros(3))
+    else:
+        path.write_bytes(content)
+    with pytest.raises(PlanError, match="no table of a bound"):
+        load_bound(path)
+
+
+def test_command_writes_table_figure_and_answer(tmp_path: Path) -> None:
+    table, figure = tmp_path / "cars.npz", tmp_path / "cars.png"
+    words = "--against any --pursuer-turn 1 --capture 1 --grid 24 --games 50"
+    words += f" --output {table} --figure {figure} --json"
+    result = CliRunner().invoke(bound_command, words.split())
+    assert result.exit_code == 0, result.output
+    found = json.loads(result.stdout)
+    assert found["analytic"]["value_error_median_m"] < 0.02
+    assert len(found["analytic"]["barrier"]) == 12
+    assert 0.0 < found["grid_error_m"] < 0.1
+    assert found["refinement"][0]["cells"] == 12
+    assert found["played"][0]["over_bound"] == pytest.approx(1.0, abs=0.03)
+    assert load_bound(table).game == against_any(1.0, 1.0, 1.0)
+    assert figure.stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("--capture 0", "--capture"),
+        ("--capture 99 --farthest 5 --nearest 1", "--capture"),
+        ("--pursuer-speed nan", "--pursuer-speed"),
+        ("--output table.txt", ".npz"),
+        ("--output nowhere/table.npz", "folder"),
+        ("--figure table.txt", "--figure"),
+        ("--grid 3", "--grid"),
+    ],
+)
+def test_bad_options_are_refused(words: str, said: str) -> None:
+    result = CliRunner().invoke(bound_command, words.split())
+    assert result.exit_code != 0 and said in result.output
