@@ -20,6 +20,7 @@ from stepaside.commands.game_options import STRATEGIES
 from stepaside.commands.options import AngleType, NumberType
 from stepaside.commands.plan_settings import FEET, ROLES, PlanSettings
 from stepaside.commands.replay import VIEWS
+from stepaside.commands.serve import SIGHTS
 from stepaside.control.balance.settings import METHODS, TAILS
 from stepaside.games.settings import SENSING, DuelSettings
 from stepaside.games.walk import WalkSettings
@@ -33,6 +34,8 @@ from stepaside.world.person_settings import PURSUERS
 SETTINGS = {
     "duel": DuelSettings,
     "duels": DuelSettings,
+    "play": DuelSettings,
+    "serve": DuelSettings,
     "view": DuelSettings,
     "walk": WalkSettings,
     "robustness": WalkSettings,
@@ -56,6 +59,7 @@ REGISTRIES: dict[str, Iterable[str]] = {
     "--law": [law.value for law in TurningLaw],
     "--side-rule": [rule.value for rule in SideRule],
     "--camera": VIEWS,
+    "--sight": SIGHTS,
     "--against": AGAINST,
     "--scheme": [scheme.value for scheme in Scheme],
 }
@@ -68,7 +72,7 @@ SENSES = {
     "--body": 2,
     "--delay": 2,
     "--distance": 2,
-    "--duration": 4,
+    "--duration": 5,
     "--evader-speed": 2,
     "--evader-strategy": 2,
     "--farthest": 2,
@@ -82,6 +86,8 @@ SENSES = {
     "--pursuer-gain": 2,
     "--pursuer-speed": 2,
     "--rate": 2,
+    "--robot": 2,
+    "--role": 2,
     "--saturated": 2,
     "--seed": 2,
     "--seeds": 2,

@@ -27,6 +27,7 @@ FLOORS = {
     "perception": 3,
     "strategies": 3,
     "control": 4,
+    "drivers": 5,
     "world": 5,
     "games": 6,
     "report": 7,
@@ -83,7 +84,10 @@ def test_every_name_at_the_door_exists(room: str) -> None:
 
 @pytest.mark.parametrize(
     "room",
-    ["robots", "planning", "sensing", "perception", "strategies", "control"],
+    [
+        *("robots", "planning", "sensing", "perception", "strategies"),
+        *("control", "drivers"),
+    ],
 )
 def test_who_perceives_knows_nothing_of_the_simulator(room: str) -> None:
     """No truth can leak in: neither the world nor MuJoCo is imported."""

@@ -22,6 +22,8 @@ COMMANDS = {
     "circle": "Find all circles of a game, and which starts end on which.",
     "map": "Map games over their starts: closest approach, worst start.",
     "bound": "Compute the best that any evader can do.",
+    "play": "Let control drive a robot that speaks LoLA.",
+    "serve": "Let others play in our world, over LoLA.",
     "reproduce": "Measure every claim of the paper and write a page.",
     "robot": "Show a robot, or write its model.",
 }

@@ -3,20 +3,20 @@
 from dataclasses import asdict
 from math import pi
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
+from .bound_tables import IN_METERS, describe, print_bound
 from .declared.common import FIGURE, FILE, json_option
 from .declared.kinds import NameType
 from .game_options import check_figure_folder
-from .options import METERS, SECONDS, NumberType, print_json, print_table
+from .options import METERS, SECONDS, NumberType, print_json
 
 if TYPE_CHECKING:
-    from ..bound import Bound, BoundGame
+    from ..bound import BoundGame
 
 SPEED, RATE = NumberType("m/s"), NumberType("rad/s")
-SHOWN = 12  # barrier points in the result
 AGAINST = ("pursuit", "any")
 
 
@@ -188,7 +188,10 @@ def bound(
 
         played = check_by_playing(table, games)
         result["played"] = [
-            {f"{k}_m" if k in _METERS else k: v for k, v in asdict(p).items()}
+            {
+                f"{k}_m" if k in IN_METERS else k: v
+                for k, v in asdict(p).items()
+            }
             for p in played
         ]
     if output is not None:
@@ -202,66 +205,7 @@ def bound(
     if as_json:
         print_json(result)
         return
-    _print(result)
-
-
-_METERS = ("closest", "mean_error", "most", "below", "above")
-
-
-def describe(table: "Bound", capture: float) -> dict[str, Any]:
-    """What a table says, as an object for other programs."""
-    barrier = table.barrier(capture)
-    result: dict[str, Any] = {
-        "game": asdict(table.game),
-        "grid": asdict(table.grid),
-        "scheme": table.scheme,
-        "horizon_s": table.horizon,
-        "seconds": table.seconds,
-        "falling_mean_m": table.falling_mean,
-        "falling_worst_m": table.falling_worst,
-        "capture_m": capture,
-        "barrier_reach_m": float(barrier.max()),
-        "barrier_mean_m": float(barrier.mean()),
-    }
-    if table.game.identical:
-        result["analytic"] = _analytic(table, capture)
-    return result
-
-
-def _analytic(table: "Bound", capture: float) -> dict[str, Any]:
-    """The table beside the closed-form barrier."""
-    import numpy as np
-
-    from ..bound.checks import PIECES, check_barrier
-
-    found = check_barrier(table, capture)
-    values, apart = np.abs(found.value_errors), np.abs(found.distance_errors)
-    pieces = np.abs(found.pieces)
-    picks = np.linspace(0, len(values) - 1, min(SHOWN, len(values)))
-    return {
-        "points": len(values),
-        "value_error_mean_m": float(values.mean()),
-        "value_error_median_m": float(np.median(values)),
-        "value_error_worst_m": float(values.max()),
-        "distance_error_mean_m": float(apart.mean()),
-        "distance_error_median_m": float(np.median(apart)),
-        "distance_error_worst_m": float(apart.max()),
-        "by_piece": {
-            name: float(values[pieces == n].mean())
-            for n, name in PIECES.items()
-            if (pieces == n).any()
-        },
-        "barrier": [
-            {
-                "distance_m": float(found.states[i, 0]),
-                "pursuer_error_rad": float(found.states[i, 1]),
-                "bearing_rad": float(found.states[i, 2]),
-                "analytic_m": capture,
-                "table_m": capture + float(found.value_errors[i]),
-            }
-            for i in picks.astype(int)
-        ],
-    }
+    print_bound(result)
 
 
 def _edge(game: "BoundGame", capture: float) -> float:
@@ -282,23 +226,3 @@ def _check_output(path: Path | None) -> None:
             f"must be in a folder that exists, got {str(path)!r}",
             param_hint="--output",
         )
-
-
-def _print(result: dict[str, Any]) -> None:
-    """Print the result in two columns."""
-    rows = [
-        (name, f"{value:.4g}" if isinstance(value, float) else str(value))
-        for name, value in result.items()
-        if not isinstance(value, dict | list)
-    ]
-    for name, value in result.get("analytic", {}).items():
-        if isinstance(value, int | float):
-            rows.append((f"analytic {name}", f"{value:.4g}"))
-    for row in result["refinement"]:
-        off = f"{row['mean_difference_m']:.4g}"
-        rows.append((f"{row['cells']} cells, off by [m]", off))
-    for played in result.get("played", []):
-        text = f"{played['over_bound']:.3f} of the bound"
-        text += f", above it by {played['above_m']:.3g} m at most"
-        rows.append((f"played {played['name']}", text))
-    print_table(rows)

@@ -39,10 +39,11 @@ def duel_options(
         without: Options that this command lacks.
     """
     groups = (group.without(*without) for group in GROUPS)
-    return takes_settings(_duel, *groups)
+    return takes_settings(duel_kind, *groups)
 
 
-def _duel() -> type[Any]:
+def duel_kind() -> type[Any]:
+    """Class of the settings of a duel, when it is needed."""
     from ..games.settings import DuelSettings
 
     return DuelSettings

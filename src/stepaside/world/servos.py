@@ -41,6 +41,13 @@ class IdealServos:
         self._reach = speed_limits * cycle
         self._back = -self._reach
         self._target = np.zeros(actuators.size)
+        self._range = model.actuator_forcerange[self._ctrl]
+        self._full = self._range[:, 1].copy()
+
+    def soften(self, stiffness: Array) -> None:
+        """Let joints push with a share of their torque, 0 to 1 each."""
+        self._range[:, 1] = self._full * stiffness
+        self._range[:, 0] = -self._range[:, 1]
 
     def reset(self, targets: Array) -> None:
         """Take targets, in [rad], as the ones that were always there."""
@@ -99,14 +106,24 @@ class HonestServos(IdealServos):
         self._half_backlash = 0.5 * backlash
         share = body.efficiency * body.stiffness
         self._stall = model.actuator_forcerange[actuators, 1] * share
-        self._range = model.actuator_forcerange[self._ctrl]
+        self._full = self._stall.copy()
         self._range[:, 0], self._range[:, 1] = -self._stall, self._stall
-        self._slope = self._stall / speed_limits if body.torque_speed else None
+        self._no_load = speed_limits if body.torque_speed else None
+        self._slope = (
+            None if self._no_load is None else self._stall / speed_limits
+        )
         self._pending: deque[Array] = deque()
         self._delay = body.delay_cycles
         self._cycle, self._time_step = cycle, model.opt.timestep
         self._change = np.zeros(actuators.size)
         self._elapsed = 0.0
+
+    def soften(self, stiffness: Array) -> None:
+        """Let joints push with a share of their torque, 0 to 1 each."""
+        super().soften(stiffness)
+        self._stall = self._full * stiffness
+        if self._no_load is not None:
+            self._slope = self._stall / self._no_load
 
     def reset(self, targets: Array) -> None:
         """Take targets, in [rad], as the ones that were always there."""

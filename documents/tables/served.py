@@ -1,0 +1,61 @@
+"""Duels whose control came over sockets."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from .markdown import number, table
+
+HEAD = (
+    "body",
+    "time",
+    "outcome",
+    "pursuer's radius [m]",
+    "evader's radius [m]",
+    "on the circle since [s]",
+    "late ticks",
+    "unanswered frames",
+)
+
+
+def duels(result: Mapping[str, Any]) -> str:
+    """One row for each duel."""
+    return table(
+        HEAD,
+        (
+            (
+                row["body"],
+                _time(row),
+                _outcome(row),
+                number(row["pursuer_radius_m"]),
+                number(row["evader_radius_m"]),
+                number(row["converged_at_s"], 1),
+                "-" if row["lock_step"] else str(row["late_ticks"]),
+                str(row["unanswered_frames"]),
+            )
+            for row in result["rows"]
+        ),
+    )
+
+
+def lateness(result: Mapping[str, Any]) -> str:
+    """How many ticks began how late, in real time."""
+    rows = [row for row in result["rows"] if not row["lock_step"]]
+    bins = list(rows[0]["lateness_ms"])
+    return table(
+        ("ticks late by [ms]", *bins),
+        (
+            (row["body"], *(str(row["lateness_ms"][name]) for name in bins))
+            for row in rows
+        ),
+    )
+
+
+def _time(row: Mapping[str, Any]) -> str:
+    return "lock step" if row["lock_step"] else "real"
+
+
+def _outcome(row: Mapping[str, Any]) -> str:
+    outcome: str = row["outcome"]
+    if outcome == "completed":
+        return outcome
+    return f"{outcome} at {row['duration_s']:.1f} s"

@@ -1,0 +1,1 @@
+"""What drives robots that are not simulated here, by their own languages."""

@@ -1,0 +1,1 @@
+"""LoLA: the language of NAO V6, frames of joints every 12 ms."""

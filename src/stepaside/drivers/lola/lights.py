@@ -1,0 +1,44 @@
+"""Lights that say what the robot is doing."""
+
+from collections.abc import Mapping
+
+from .safety import State
+
+Colour = tuple[float, float, float]
+OFF: Colour = (0.0, 0.0, 0.0)
+COLOURS: Mapping[State, Colour] = {
+    State.LIMP: (1.0, 0.0, 0.0),
+    State.REACHING: (1.0, 0.5, 0.0),
+    State.READY: (0.0, 1.0, 0.0),
+    State.WALKING: (0.0, 0.0, 1.0),
+    State.STOPPING: (0.5, 0.0, 1.0),
+    State.RESTING: (1.0, 1.0, 0.0),
+}
+EYE_LEDS, EAR_LEDS, SKULL_LEDS = 8, 10, 12
+
+
+def lights_for(
+    state: State, *, sees: bool, charge: float
+) -> dict[str, tuple[float, ...]]:
+    """Brightness of every light, by LoLA's keys.
+
+    Args:
+        state: Shown by the chest: red limp, orange reaching, green ready,
+            blue walking, violet stopping, yellow resting.
+        sees: Whether the other robot is known: white eyes, else dark ones.
+        charge: Of the battery, from 0 to 1: as many lights of the ears.
+    """
+    eye = (1.0 if sees else 0.0,) * (3 * EYE_LEDS)
+    lit = round(min(max(charge, 0.0), 1.0) * EAR_LEDS)
+    ear = (1.0,) * lit + (0.0,) * (EAR_LEDS - lit)
+    skull = (1.0 if state.moves_by_control else 0.0,) * SKULL_LEDS
+    return {
+        "Chest": COLOURS[state],
+        "LEar": ear,
+        "REar": ear,
+        "LEye": eye,
+        "REye": eye,
+        "LFoot": OFF,
+        "RFoot": OFF,
+        "Skull": skull,
+    }

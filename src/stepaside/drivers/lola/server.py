@@ -1,0 +1,192 @@
+"""The robot's side of LoLA, for a robot that is simulated."""
+
+import logging
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+
+from ...poses import Array
+from ...sensing.attitude import AttitudeFilter
+from ...sensing.measurement import Measurement
+from .address import Address
+from .answers import AnswerReader
+from .conventions import sensor_frame_of
+from .frame_clock import TICK
+from .frames import ActuatorFrame, pack_sensors
+from .joints import JOINT_COUNT, JointMap
+from .listener import Listener
+from .sight_offer import SightOffer
+from .wire import LONGEST_ANSWER, WireError
+
+SILENT = 8  # ticks without an answer before stiffness decays: 0.1 s
+BELIEF = 0.5  # rate at which the accelerometer is believed, in [1/s]
+FADING = 0.5  # from full stiffness to none, in [s]
+log = logging.getLogger(__name__)
+
+
+class ServedRobot(Protocol):
+    """A robot that LoLA can be spoken for."""
+
+    def sensors(self) -> Measurement:
+        """What its sensors give now."""
+
+    def command(self, targets: Array, stiffness: Array) -> None:
+        """Set joint targets, in [rad], and shares of the torque."""
+
+
+class LolaServer:
+    """Speaks LoLA for one robot: a frame out, an answer in, every tick.
+
+    A tick is :meth:`speak`, then :meth:`hear` until the answer is there or
+    time is up, then :meth:`act`. Nothing here waits or looks at a clock.
+
+    Attributes:
+        count: Number of the last frame sent in this session; -1 before.
+        answered: Whether the last frame has been answered.
+        share: What is left of the commanded stiffness without answers.
+        stiffness: Of the motors now. Shape (25,).
+    """
+
+    def __init__(
+        self,
+        address: Address,
+        robot: ServedRobot,
+        joint_names: Sequence[str],
+        *,
+        lock_step: bool = False,
+        ideal_sight: bool = True,
+    ) -> None:
+        """Listen for a client.
+
+        Args:
+            address: Where.
+            robot: Whom to speak for.
+            joint_names: Its joints, in the order of its measurements.
+            lock_step: Whether its world waits for answers.
+            ideal_sight: Whether the true line of sight is offered beside.
+
+        Raises:
+            ConfigurationError: If the address cannot be listened on.
+            ModelError: If LoLA has no motor for one of the joints.
+        """
+        self._robot, self._joints = robot, JointMap(joint_names)
+        self._lock_step = lock_step
+        self._listener = Listener(address)
+        self._sight: SightOffer | None = None
+        if ideal_sight and address.sight is not None:
+            try:
+                self._sight = SightOffer(address.sight)
+            except BaseException:
+                self._listener.close()
+                raise
+        self._attitude = AttitudeFilter(BELIEF, 0.0, calibration=0.0)
+        self._reader = AnswerReader()
+        self._chest_pressed = False
+        self._silent = 0
+        self.count = -1
+        self.answered = False
+        self.share = 0.0
+        self._commanded: Array = np.zeros(JOINT_COUNT)
+        self.stiffness: Array = np.zeros(JOINT_COUNT)
+        self._targets: Array = np.zeros(JOINT_COUNT)
+        self._has_targets = False
+
+    @property
+    def connected(self) -> bool:
+        """Whether a client is there."""
+        return self._listener.client is not None
+
+    @property
+    def refused(self) -> int:
+        """Clients that came while there was one."""
+        return self._listener.refused
+
+    def fileno(self) -> int:
+        """Descriptor to wait on for answers; -1 without a client."""
+        client = self._listener.client
+        return -1 if client is None else client.fileno()
+
+    def press(self, pressed: bool) -> None:
+        """Press the chest button, or let it go."""
+        self._chest_pressed = pressed
+
+    def speak(self) -> None:
+        """Take a client that has come, and send it a frame."""
+        self.hear()  # what comes too late is no answer to the next frame
+        if self._listener.accept():
+            self._reader, self.count = AnswerReader(), -1
+            if self._sight is not None:
+                self._sight.forget()
+            log.info("%s: client connected", self._listener.address)
+        measurement = self._robot.sensors()
+        own = self._attitude
+        own.update(
+            measurement.gyro, measurement.accelerometer, (0.0, 0.0), TICK
+        )
+        if not self._has_targets:
+            self._targets = self._joints.to_lola(
+                measurement.joint_positions, np.zeros(JOINT_COUNT)
+            )
+        self.answered = False
+        if not self.connected:
+            return
+        self.count += 1
+        if self._sight is not None:
+            self._sight.tell(measurement, self.count)
+        frame = sensor_frame_of(
+            measurement,
+            self._joints,
+            angles=(own.roll, own.pitch),
+            stiffness=self.stiffness,
+            count=self.count,
+            chest_pressed=self._chest_pressed,
+            lock_step=self._lock_step,
+        )
+        self._try(pack_sensors(frame))
+
+    def hear(self) -> bool:
+        """Take answers that have come; whether nobody is waited for."""
+        try:
+            data = self._listener.receive(LONGEST_ANSWER)
+            frames = self._reader.feed(data) if data else []
+        except (OSError, WireError) as error:
+            self._listener.drop(error)
+            frames = []
+        for frame in frames:
+            self._take(frame)
+        return self.answered or not self.connected
+
+    def act(self) -> None:
+        """Let the robot do what was asked, as stiff as it may be."""
+        if self._silent >= SILENT:
+            self.share = max(0.0, self.share - TICK / FADING)
+        self._silent += 1
+        self.stiffness = self.share * self._commanded
+        pick = self._joints.from_lola
+        self._robot.command(pick(self._targets), pick(self.stiffness))
+
+    def drop(self, why: str) -> None:
+        """Let go of a client, and say why; another may come."""
+        self._listener.drop(why)
+
+    def close(self) -> None:
+        """Let go of the client."""
+        self._listener.close()
+        if self._sight is not None:
+            self._sight.close()
+
+    def _take(self, frame: ActuatorFrame) -> None:
+        self.answered = True
+        if frame.position is not None:
+            self._targets, self._has_targets = frame.position, True
+        if frame.stiffness is not None:
+            # Only who commands stiffness keeps the robot stiff.
+            self._commanded = frame.stiffness
+            self._silent, self.share = 0, 1.0
+
+    def _try(self, data: bytes) -> None:
+        try:
+            self._listener.send(data)
+        except OSError as error:
+            self._listener.drop(error)

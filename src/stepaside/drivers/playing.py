@@ -1,0 +1,126 @@
+"""One player at one robot: control in a process of its own."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+from ..control import ControlScheme, Phase
+from ..errors import ReachError
+from ..poses import Array
+from ..sensing.measurement import Measurement, Sighting
+from ..strategies import Stand, Strategy
+from .lola.body import LolaBody
+from .lola.safety import State
+
+MakeScheme = Callable[[Strategy], ControlScheme]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tick:
+    """What one tick was, for whoever looks on.
+
+    Attributes:
+        state: What the robot may do.
+        reason: Why, in words.
+        phase: What control is doing.
+        measurement: What the sensors gave.
+        targets: What control wanted, in [rad]. Shape (joints,).
+        sighting: The other, as far as is known.
+        refused: Frames that were none, so far.
+    """
+
+    state: State
+    reason: str
+    phase: Phase
+    measurement: Measurement
+    targets: Array
+    sighting: Sighting | None
+    refused: int
+
+
+class Onlooker(Protocol):
+    """Whoever looks on: a status line, a log."""
+
+    def note(self, tick: Tick) -> None:
+        """Look at one tick."""
+
+
+class Playing:
+    """Moves a robot by control while it may, tick by tick.
+
+    A mind walks once: after it has come to rest, or was cut off, a new one
+    begins where the robot stands then.
+    """
+
+    def __init__(
+        self,
+        open_body: Callable[[ControlScheme], LolaBody],
+        strategy: Strategy,
+        make_scheme: MakeScheme,
+        *,
+        dry_run: bool = False,
+    ) -> None:
+        """Think first, connect then: thinking takes longer than a frame.
+
+        Args:
+            open_body: Connects to the robot that a scheme will move.
+            strategy: From what it knows to what it wants; every walk begins
+                with nothing remembered.
+            make_scheme: Its control for a strategy.
+            dry_run: Whether control runs without moving anything.
+        """
+        self._strategy, self._make_scheme = strategy, make_scheme
+        self._scheme: ControlScheme
+        self._think_anew()
+        self._dry_run = dry_run
+        self.body = open_body(self._scheme)
+
+    def tick(self) -> Tick:
+        """Read, decide, answer.
+
+        Raises:
+            SessionLost: If the robot is gone; it was let go of.
+        """
+        body = self.body
+        measurement = body.read()
+        state = body.state
+        if state is State.LIMP and self._used:
+            self._think_anew()
+        targets = self._scheme.joint_targets
+        thinks = state.moves_by_control
+        if self._dry_run:
+            thinks = state in (State.REACHING, State.READY, State.WALKING)
+        if thinks:
+            targets = self._think(measurement, state)
+        body.write(targets)
+        body.step()
+        return Tick(
+            body.state,
+            body.reason,
+            self._scheme.phase,
+            measurement,
+            targets,
+            body.sighting,
+            body.refused,
+        )
+
+    def _think(self, measurement: Measurement, state: State) -> Array:
+        """Let control decide, and see that it still can."""
+        self._used = True
+        scheme, body = self._scheme, self.body
+        if state is State.STOPPING:
+            scheme.decisions.adopt(Stand())  # comes to rest
+            if scheme.phase is Phase.STANDING:
+                body.halted()
+        try:
+            targets = scheme.update(measurement)
+        except ReachError as error:
+            body.fail(f"control lost its footing: {error}")
+            return scheme.joint_targets
+        if scheme.phase is Phase.FALLEN:
+            body.fail("control feels that it falls")
+        return targets
+
+    def _think_anew(self) -> None:
+        self._scheme = self._make_scheme(self._strategy)
+        self._used = False

@@ -1,0 +1,60 @@
+"""One line on the terminal that says what the robot does."""
+
+from collections.abc import Callable
+from math import degrees
+from time import monotonic
+from typing import TextIO
+
+from .lola.safety import State
+from .playing import Tick
+
+PERIOD = 0.2  # between two looks of the line, in [s]
+
+
+def words_of(tick: Tick) -> str:
+    """What one tick was, in one line."""
+    seen = tick.sighting
+    other = "sees nobody"
+    if seen is not None:
+        other = (
+            f"other at {seen.distance:.2f} m, {degrees(seen.bearing):+.0f} deg"
+        )
+    text = f"{tick.state.value} ({tick.reason}), {tick.phase.value}, {other}"
+    if tick.refused:
+        text += f", {tick.refused} frames refused"
+    return f"{tick.measurement.time:7.1f} s  {text}"
+
+
+class StatusLine:
+    """Keeps a line up to date, and leaves one behind at each change."""
+
+    def __init__(
+        self, stream: TextIO, clock: Callable[[], float] = monotonic
+    ) -> None:
+        """Write to a stream; only changes if it is no terminal."""
+        self._stream, self._clock = stream, clock
+        self._is_terminal = stream.isatty()
+        self._said = -PERIOD
+        self._state: State | None = None
+
+    def note(self, tick: Tick) -> None:
+        """Say what a tick was, if it is time to."""
+        now = self._clock()
+        changed = tick.state is not self._state
+        if not changed and not self._is_terminal:
+            return
+        if not changed and now - self._said < PERIOD:
+            return
+        self._state, self._said = tick.state, now
+        text = words_of(tick)
+        if self._is_terminal:
+            text = f"\r{text:<79.120}" + ("\n" if changed else "")
+        else:
+            text += "\n"
+        self._stream.write(text)
+        self._stream.flush()
+
+    def close(self) -> None:
+        """End the line."""
+        if self._is_terminal:
+            self._stream.write("\n")

@@ -1,0 +1,119 @@
+"""Players whose control is elsewhere: bodies here, minds behind LoLA."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..control.walking import StepBegun
+from ..drivers.lola.server import LolaServer
+from ..poses import Array, Pose
+from ..sensing.measurement import Measurement
+from ..world.push import Push
+from ..world.robot import SimulatedRobot
+from ..world.truth import TrueState
+from .player import Snapshot
+
+if TYPE_CHECKING:
+    from ..perception.perception import FrameReport
+
+MOVED = 0.05  # of a target from the stance before a robot moves, in [rad]
+
+
+class ServedBody:
+    """A simulated robot as LoLA's server sees it.
+
+    Until the game begins somebody holds the robot up: its sensors say the
+    same all the time, and what is commanded does nothing.
+
+    Attributes:
+        is_moving: Whether its targets have left the stance.
+    """
+
+    def __init__(self, robot: SimulatedRobot) -> None:
+        """Hold a robot that stands in its world."""
+        self._robot = robot
+        self._held = True
+        self._seen: Measurement | None = None
+        self._ticks = -1
+        self._stance: Array | None = None
+        self.is_moving = False
+
+    def let_go(self) -> None:
+        """Let the game begin."""
+        self._held = False
+
+    def sensors(self) -> Measurement:
+        """What its sensors give: read once a tick, as noise is drawn."""
+        ticks = self._robot.world.ticks
+        if self._seen is None or ticks != self._ticks:
+            self._seen, self._ticks = self._robot.read(), ticks
+        return self._seen
+
+    def command(self, targets: Array, stiffness: Array) -> None:
+        """Set joint targets, in [rad], and shares of the torque."""
+        if self._held:
+            return
+        if self._stance is None:
+            self._stance = targets
+        moved = np.abs(targets - self._stance).max()
+        self.is_moving = self.is_moving or bool(moved > MOVED)
+        self._robot.servos.soften(stiffness)
+        self._robot.write(targets)
+
+
+class ServedPlayer:
+    """A robot in the world whose control is in another process.
+
+    Attributes:
+        name: Who it is.
+        server: What speaks LoLA for it.
+        body: What the server moves.
+        truth: Where it really is.
+        begun: None: its plans are not known here.
+        reports: None: what it sees is not known here.
+    """
+
+    begun: StepBegun | None = None
+    reports: "Sequence[FrameReport]" = ()
+
+    def __init__(
+        self, robot: SimulatedRobot, body: ServedBody, server: LolaServer
+    ) -> None:
+        """Join a robot and what speaks for it."""
+        self.name = robot.name
+        self.robot, self.body, self.server = robot, body, server
+        self.truth: TrueState = robot.truth
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether it walks, rather than stands and waits."""
+        return self.body.is_moving
+
+    @property
+    def has_fallen(self) -> bool:
+        """Whether it lies."""
+        return self.truth.has_fallen
+
+    def tick(self) -> None:
+        """Do what was asked for over the socket."""
+        self.server.act()
+
+    def snapshot(self) -> Snapshot:
+        """State of this instant, as far as it is known here."""
+        x, y, z = self.truth.com.tolist()
+        return Snapshot(
+            name=self.name,
+            time=self.robot.world.time,
+            torso=Pose(*self.truth.position, self.truth.heading),
+            com=(x, y, z),
+        )
+
+    def push(self, *pushes: Push) -> None:
+        """Let somebody push the torso, now or later."""
+        self.robot.push(*pushes)
+
+    def close(self) -> None:
+        """Let go of client and eyes."""
+        self.server.close()
+        self.robot.close()

@@ -1,0 +1,31 @@
+"""Test that what drives a robot can be loaded on the robot."""
+
+import subprocess
+import sys
+
+import pytest
+
+ABSENT = ("mujoco", "scipy", "matplotlib", "cv2")
+
+
+def loads(code: str) -> None:
+    """Run code where nothing of a simulator can be imported."""
+    absent = f"import sys; sys.modules.update(dict.fromkeys({ABSENT!r}));"
+    subprocess.run([sys.executable, "-c", absent + code], check=True)
+
+
+@pytest.mark.parametrize(
+    "module", ["body", "opening", "server", "guardian", "sight_offer"]
+)
+def test_lola_is_spoken_without_a_simulator(module: str) -> None:
+    loads(f"import stepaside.drivers.lola.{module}")
+
+
+def test_help_on_playing_loads_no_simulator() -> None:
+    """It shows the defaults of gait and control: numbers, no physics."""
+    loads(
+        "from stepaside.cli import main\n"
+        "try: main(['play', '--help'])\n"
+        "except SystemExit as e: assert not e.code\n"
+        "assert 'stepaside.world.world' not in sys.modules"
+    )

@@ -1,0 +1,132 @@
+"""Test the clock of a served world, with time that is set by hand."""
+
+import socket
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.drivers.lola.frame_clock import TICK
+from stepaside.errors import ConfigurationError
+from stepaside.games.exchange import PRESSED, STEADY, Exchange
+
+from lola_fakes import Clock  # isort: skip
+
+
+class FakeServer:
+    """A server whose client answers at once, or never."""
+
+    def __init__(self, *, answers: bool = True, stiff: float = 1.0) -> None:
+        self.answers, self.connected = answers, True
+        self.stiffness = np.full(25, stiff)
+        self.pair = socket.socketpair()
+        self.log: list[str] = []
+
+    def fileno(self) -> int:
+        """Something that never becomes readable."""
+        return self.pair[0].fileno()
+
+    def speak(self) -> None:
+        """Note it."""
+        self.log.append("speak")
+
+    def hear(self) -> bool:
+        """Whether nobody is waited for."""
+        return self.answers or not self.connected
+
+    def act(self) -> None:
+        """Note it."""
+        self.log.append("act")
+
+    def press(self, pressed: bool) -> None:
+        """Note it."""
+        self.log.append("press" if pressed else "release")
+
+    def drop(self, why: str) -> None:
+        """Lose the client."""
+        self.connected = False
+        self.log.append(why)
+
+
+def exchange_of(
+    *servers: FakeServer, **changes: Any
+) -> tuple[Exchange, Clock]:
+    clock = Clock()
+    exchange = Exchange(
+        servers,  # type: ignore[arg-type]
+        clock=clock,
+        pause=clock.pause,
+        **changes,
+    )
+    return exchange, clock
+
+
+def test_ticks_are_12_ms_apart_whatever_the_world_takes() -> None:
+    exchange, clock = exchange_of(FakeServer())
+    began = clock.now
+    for _ in range(50):
+        exchange.before(None)  # type: ignore[arg-type]
+        clock.now += 0.005
+    assert clock.now - began == pytest.approx(49 * TICK + 0.005)
+    assert exchange.late == 0
+
+
+def test_a_tick_that_begins_more_than_6_ms_late_is_counted() -> None:
+    exchange, clock = exchange_of(FakeServer())
+    for lag in (0.0, TICK + 0.0055, TICK + 0.001, 3 * TICK, 0.0):
+        clock.now += lag
+        exchange.before(None)  # type: ignore[arg-type]
+    late = np.round(1e3 * np.array(exchange.lateness), 6)
+    assert late.tolist() == [0.0, 5.5, 6.5, 30.5, 18.5]
+    assert exchange.late == 3 and exchange.histogram()["< 6"] == 1
+
+
+def test_a_world_that_was_frozen_does_not_race_to_catch_up() -> None:
+    exchange, clock = exchange_of(FakeServer())
+    exchange.before(None)  # type: ignore[arg-type]
+    clock.now += 1.0
+    exchange.before(None)  # type: ignore[arg-type]
+    resumed = clock.now
+    for _ in range(10):
+        exchange.before(None)  # type: ignore[arg-type]
+    assert clock.now - resumed == pytest.approx(10 * TICK)
+
+
+def test_buttons_are_pressed_once_all_are_stiff_and_let_go_for_the_start() -> (
+    None
+):
+    first, second = FakeServer(), FakeServer()
+    exchange, _ = exchange_of(first, second)
+    exchange.gather(60.0)
+    words = first.log
+    assert words.index("press") == 2 * STEADY
+    assert words[-1] == "release"
+    assert words[words.index("press") :].count("speak") == PRESSED
+    assert first.log == second.log
+
+
+def test_who_is_not_ready_in_time_is_not_waited_for() -> None:
+    exchange, clock = exchange_of(FakeServer(), FakeServer(stiff=0.5))
+    began = clock.now
+    with pytest.raises(ConfigurationError, match="1 of 2 robots .* within 2"):
+        exchange.gather(2.0)
+    assert clock.now - began < 2.1
+
+
+def test_in_lock_step_a_silent_client_is_dropped_and_the_world_goes_on(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    silent = FakeServer(answers=False)
+    exchange, clock = exchange_of(FakeServer(), silent, lock_step=True)
+
+    def select(waiting: Any, *_: Any) -> None:
+        assert waiting == [silent]
+        clock.now += _[-1]
+
+    monkeypatch.setattr("stepaside.games.exchange.select.select", select)
+    exchange.before(None)  # type: ignore[arg-type]
+    assert exchange.unanswered == 1
+    assert not silent.connected and "no answer for 5 s" in silent.log[-1]
+    before = clock.now
+    exchange.before(None)  # type: ignore[arg-type]
+    assert clock.now == before and exchange.lateness == []

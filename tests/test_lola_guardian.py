@@ -1,0 +1,84 @@
+"""Test who lets go of the robot when control cannot any more."""
+
+import os
+import signal
+import socket
+
+import msgpack
+import numpy as np
+import pytest
+
+from stepaside.drivers.lola.answers import AnswerReader
+from stepaside.drivers.lola.frames import ActuatorFrame
+from stepaside.drivers.lola.guardian import GOODBYE, Guardian
+
+TARGETS = np.linspace(-0.2, 0.2, 25)
+STIFF = np.full(25, 0.8)
+
+
+def answers_until_limp(robot: socket.socket) -> list[ActuatorFrame]:
+    """What a robot is told, until it is told to be limp or left."""
+    robot.settimeout(30.0)
+    reader, answers = AnswerReader(), []
+    while True:
+        data = robot.recv(4096)
+        answers += reader.feed(data) if data else []
+        if not data or (
+            answers
+            and answers[-1].stiffness is not None
+            and answers[-1].stiffness.max() == 0.0
+        ):
+            return answers
+
+
+def control_that(ends: str) -> tuple[int, socket.socket]:
+    """A process with a guardian, that commands once and then ends badly."""
+    near, far = socket.socketpair()
+    pid = os.fork()
+    if pid == 0:
+        far.close()
+        guardian = Guardian(near)
+        guardian.tell(TARGETS, STIFF)
+        if ends == "limp":
+            guardian.tell(TARGETS, np.zeros(25))
+            os._exit(0)
+        if ends == "well":
+            guardian.dismiss()
+            os._exit(0)
+        os.kill(os.getpid(), signal.SIGKILL if ends == "killed" else 19)
+        os._exit(1)
+    near.close()
+    return pid, far
+
+
+@pytest.mark.parametrize("ends", ["killed", "frozen"])
+def test_a_control_that_is_killed_or_freezes_is_replaced_by_falling_stiffness(
+    ends: str,
+) -> None:
+    pid, robot = control_that(ends)
+    answers = answers_until_limp(robot)
+    shares = [float(a.stiffness.max()) for a in answers]  # type: ignore[union-attr]
+    assert len(shares) == 42 and shares[0] < 0.8 and shares[-1] == 0.0
+    steps = np.diff(shares)
+    np.testing.assert_allclose(steps, -0.8 / 42, atol=1e-6)
+    for answer in answers:
+        assert answer.position is not None
+        np.testing.assert_allclose(answer.position, TARGETS, atol=1e-7)
+    _, status = os.waitpid(pid, 0)  # it does not come back to life
+    assert os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGKILL
+    robot.close()
+
+
+@pytest.mark.parametrize("ends", ["well", "limp"])
+def test_a_control_that_leaves_a_limp_robot_is_left_in_peace(
+    ends: str,
+) -> None:
+    pid, robot = control_that(ends)
+    assert answers_until_limp(robot) == []
+    _, status = os.waitpid(pid, 0)
+    assert os.WEXITSTATUS(status) == 0
+    robot.close()
+
+
+def test_goodbye_is_no_word_about_joints() -> None:
+    assert len(GOODBYE) == 1 and msgpack.unpackb(GOODBYE) == 0

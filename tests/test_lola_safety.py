@@ -1,0 +1,210 @@
+"""Test what a robot may do: each state, each way out, each reason."""
+
+from typing import Any
+
+import pytest
+
+from stepaside.drivers.lola.safety import (
+    Safety,
+    SafetySettings,
+    Seen,
+    State,
+)
+from stepaside.errors import ConfigurationError
+
+SETTINGS = SafetySettings()
+MOVING = [s for s in State if s is not State.LIMP]
+
+
+def seen(time: float = 0.0, **changes: Any) -> Seen:
+    return Seen(time)._replace(**changes)
+
+
+def press(machine: Safety, time: float = 0.0) -> State:
+    machine.frame(seen(time, chest_pressed=True))
+    return machine.frame(seen(time))
+
+
+def warm() -> Safety:
+    machine = Safety(SETTINGS)
+    for _ in range(SETTINGS.warm_up):
+        machine.frame(seen())
+    return machine
+
+
+def at(state: State) -> Safety:
+    """A machine in a state, since time zero."""
+    machine = warm()
+    if state is State.REACHING:
+        return machine
+    machine.frame(seen(reached=True))
+    if state is State.READY:
+        return machine
+    press(machine)
+    if state is State.WALKING:
+        return machine
+    press(machine)
+    if state is State.STOPPING:
+        return machine
+    machine.halted(0.0)
+    if state is State.RESTING:
+        return machine
+    machine.frame(seen(reached=True))
+    return machine
+
+
+@pytest.mark.parametrize("state", State)
+def test_every_state_can_be_reached(state: State) -> None:
+    assert at(state).state is state
+
+
+def test_nothing_moves_on_what_the_first_frames_say() -> None:
+    machine = Safety(SETTINGS)
+    for _ in range(SETTINGS.warm_up - 1):
+        assert machine.frame(seen(reached=True)) is State.LIMP
+    assert machine.frame(seen()) is State.REACHING
+
+
+def test_only_walking_and_stopping_are_moved_by_control() -> None:
+    movers = {state for state in State if state.moves_by_control}
+    assert movers == {State.WALKING, State.STOPPING}
+
+
+def test_the_button_acts_when_it_is_let_go_and_only_once() -> None:
+    machine = at(State.READY)
+    for _ in range(5):
+        assert machine.frame(seen(chest_pressed=True)) is State.READY
+    assert machine.frame(seen()) is State.WALKING
+    for _ in range(5):
+        assert machine.frame(seen()) is State.WALKING
+    assert machine.reason == "chest button"
+
+
+@pytest.mark.parametrize(
+    ("state", "after"),
+    [
+        (State.LIMP, State.REACHING),
+        (State.REACHING, State.RESTING),
+        (State.READY, State.WALKING),
+        (State.WALKING, State.STOPPING),
+        (State.STOPPING, State.RESTING),
+        (State.RESTING, State.RESTING),
+    ],
+)
+def test_the_button_starts_stops_and_wakes(state: State, after: State) -> None:
+    assert press(at(state)) is after
+
+
+@pytest.mark.parametrize("state", MOVING)
+def test_a_robot_that_falls_goes_limp(state: State) -> None:
+    machine = at(state)
+    assert machine.frame(seen(tilt=0.99 * SETTINGS.fall)) is state
+    assert machine.frame(seen(tilt=1.01 * SETTINGS.fall)) is State.LIMP
+    assert "falls" in machine.reason
+
+
+def test_a_robot_that_lies_does_not_get_up_by_the_button() -> None:
+    machine = at(State.LIMP)
+    machine.frame(seen(tilt=1.5, chest_pressed=True))
+    assert machine.frame(seen(tilt=1.5)) is State.LIMP
+    assert "falls" in machine.reason
+    assert press(machine) is State.REACHING
+
+
+@pytest.mark.parametrize("hot", [{"status": 2}, {"temperature": 81.0}])
+@pytest.mark.parametrize(
+    ("state", "after"),
+    [
+        (State.WALKING, State.STOPPING),
+        (State.READY, State.RESTING),
+        (State.REACHING, State.RESTING),
+        (State.RESTING, State.RESTING),
+        (State.LIMP, State.LIMP),
+    ],
+)
+def test_a_hot_robot_comes_to_rest(
+    state: State, after: State, hot: dict[str, Any]
+) -> None:
+    machine = at(state)
+    assert machine.frame(seen(**hot)) is after
+    assert machine.frame(seen(**hot)) is after
+
+
+def test_a_hot_robot_that_has_rested_goes_limp_and_stays_so() -> None:
+    machine = at(State.RESTING)
+    assert machine.frame(seen(status=2, reached=True)) is State.LIMP
+    assert machine.frame(seen(status=2, chest_pressed=True)) is State.LIMP
+    assert machine.frame(seen(status=2)) is State.LIMP
+
+
+@pytest.mark.parametrize("state", MOVING)
+def test_critical_heat_goes_limp(state: State) -> None:
+    assert at(state).frame(seen(status=3)) is State.LIMP
+
+
+def test_a_little_heat_is_borne() -> None:
+    machine = at(State.WALKING)
+    assert machine.frame(seen(status=1, temperature=79.0)) is State.WALKING
+
+
+@pytest.mark.parametrize("state", [State.REACHING, State.RESTING])
+def test_a_posture_that_is_not_reached_in_time_is_given_up(
+    state: State,
+) -> None:
+    machine = at(state)
+    assert machine.frame(seen(SETTINGS.longest_reach)) is state
+    assert machine.frame(seen(SETTINGS.longest_reach + 0.1)) is State.LIMP
+    assert "took too long" in machine.reason
+
+
+def test_control_that_does_not_stop_is_stopped() -> None:
+    machine = at(State.STOPPING)
+    assert machine.frame(seen(SETTINGS.longest_stop)) is State.STOPPING
+    assert machine.frame(seen(SETTINGS.longest_stop + 0.1)) is State.RESTING
+
+
+def test_halting_matters_only_to_a_robot_that_stops() -> None:
+    for state in State:
+        machine = at(state)
+        machine.halted(0.0)
+        stops = state is State.STOPPING
+        assert machine.state is (State.RESTING if stops else state)
+
+
+@pytest.mark.parametrize("state", MOVING)
+def test_what_fails_goes_limp_and_says_why(state: State) -> None:
+    machine = at(state)
+    machine.fail("no good frame for 0.1 s", 0.0)
+    assert machine.state is State.LIMP
+    assert machine.reason == "no good frame for 0.1 s"
+
+
+def test_rest_stops_who_walks_and_lowers_who_stands() -> None:
+    for state, after in (
+        (State.WALKING, State.STOPPING),
+        (State.READY, State.RESTING),
+        (State.REACHING, State.RESTING),
+        (State.LIMP, State.LIMP),
+    ):
+        machine = at(state)
+        machine.rest("asked to", 0.0)
+        assert machine.state is after
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("silence", 0.001),
+        ("warm_up", 0),
+        ("fall", 3.0),
+        ("look_ahead", -0.1),
+        ("hottest", float("nan")),
+        ("longest_reach", 0.0),
+        ("longest_stop", float("inf")),
+    ],
+)
+def test_limits_that_limit_nothing_are_refused(
+    name: str, value: float
+) -> None:
+    with pytest.raises(ConfigurationError, match=name):
+        SafetySettings(**{name: value})  # type: ignore[arg-type]

@@ -1,0 +1,315 @@
+"""Test LoLA's bytes: fixed vectors, and everything that is no frame."""
+
+import struct
+from typing import Any
+
+import msgpack
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lola_fakes import sensor_frame
+from stepaside.drivers.lola.answers import AnswerReader
+from stepaside.drivers.lola.frames import (
+    ActuatorFrame,
+    pack_actuators,
+    pack_sensors,
+    unpack_actuators,
+    unpack_sensors,
+)
+from stepaside.drivers.lola.wire import (
+    ACTUATOR_BYTES,
+    LONGEST_ANSWER,
+    SENSOR_BYTES,
+    WireError,
+)
+
+HALF = b"\xca\x3f\x00\x00\x00"  # 0.5 in single precision
+ZERO = b"\xca\x00\x00\x00\x00"
+MANY = b"\xdc\x00\x19"  # head of an array of 25
+TEXTS = b"\xb4" + b"P" * 20 + b"\xa56.0.0"
+
+# Written by hand from the specification of MessagePack.
+SENSOR_VECTOR = (
+    b"\x8d"
+    + (b"\xa8Position" + MANY + HALF + 24 * ZERO)
+    + (b"\xa9Stiffness" + MANY + 25 * ZERO)
+    + (b"\xa7Current" + MANY + 25 * ZERO)
+    + (b"\xabTemperature" + MANY + 24 * ZERO + HALF)
+    + (b"\xa6Status" + MANY + b"\x03" + 24 * b"\x00")
+    + (b"\xadAccelerometer" + b"\x93" + 2 * ZERO + b"\xca\xc1\x1c\xf5\xc3")
+    + (b"\xa9Gyroscope" + b"\x93" + 3 * HALF)
+    + (b"\xa6Angles" + b"\x92" + HALF + ZERO)
+    + (b"\xa3FSR" + b"\x98" + HALF + 7 * ZERO)
+    + (b"\xa5Sonar" + b"\x92" + ZERO + HALF)
+    + (b"\xa5Touch" + b"\x9e" + 13 * ZERO + HALF)
+    + (b"\xa7Battery" + b"\x94" + HALF + 3 * ZERO)
+    + (b"\xabRobotConfig" + b"\x94" + 2 * TEXTS)
+)
+ACTUATOR_VECTOR = (
+    b"\x8b"
+    + (b"\xa8Position" + MANY + HALF + 24 * ZERO)
+    + (b"\xa9Stiffness" + MANY + 24 * ZERO + HALF)
+    + (b"\xa5Chest" + b"\x93" + 3 * HALF)
+    + (b"\xa4LEar" + b"\x9a" + 10 * ZERO)
+    + (b"\xa4REar" + b"\x9a" + 10 * ZERO)
+    + (b"\xa4LEye" + b"\xdc\x00\x18" + 24 * ZERO)
+    + (b"\xa4REye" + b"\xdc\x00\x18" + 24 * ZERO)
+    + (b"\xa5LFoot" + b"\x93" + 3 * ZERO)
+    + (b"\xa5RFoot" + b"\x93" + 3 * ZERO)
+    + (b"\xa5Skull" + b"\x9c" + 12 * ZERO)
+    + (b"\xa5Sonar" + b"\x92\xc3\xc2")
+)
+
+
+def one(first: float, count: int = 25, *, at: int = 0) -> np.ndarray:
+    values = np.zeros(count)
+    values[at] = first
+    return values
+
+
+VECTOR_FRAME = sensor_frame(
+    position=one(0.5),
+    stiffness=np.zeros(25),
+    temperature=one(0.5, at=-1),
+    status=(3,) + (0,) * 24,
+    accelerometer=np.array([0.0, 0.0, -9.81]),
+    gyroscope=np.full(3, 0.5),
+    angles=(0.5, 0.0),
+    fsr=one(0.5, 8),
+    sonar=(0.0, 0.5),
+    touch=(0.0,) * 13 + (0.5,),
+    battery=(0.5, 0.0, 0.0, 0.0),
+    robot_config=("P" * 20, "6.0.0", "P" * 20, "6.0.0"),
+)
+VECTOR_ANSWER = ActuatorFrame(
+    one(0.5),
+    one(0.5, at=-1),
+    {
+        "Chest": (0.5,) * 3,
+        "LEar": (0.0,) * 10,
+        "REar": (0.0,) * 10,
+        "LEye": (0.0,) * 24,
+        "REye": (0.0,) * 24,
+        "LFoot": (0.0,) * 3,
+        "RFoot": (0.0,) * 3,
+        "Skull": (0.0,) * 12,
+    },
+    (True, False),
+)
+
+
+def test_a_sensor_frame_is_these_896_bytes() -> None:
+    assert len(SENSOR_VECTOR) == SENSOR_BYTES == 896
+    assert pack_sensors(VECTOR_FRAME) == SENSOR_VECTOR
+
+
+def test_an_actuator_frame_is_these_786_bytes() -> None:
+    assert len(ACTUATOR_VECTOR) == ACTUATOR_BYTES == 786
+    assert pack_actuators(VECTOR_ANSWER) == ACTUATOR_VECTOR
+
+
+def test_what_is_read_is_what_was_written() -> None:
+    for got, sent in zip(
+        unpack_sensors(SENSOR_VECTOR), VECTOR_FRAME, strict=True
+    ):
+        if isinstance(got, np.ndarray):
+            np.testing.assert_array_equal(got, np.float32(sent))  # type: ignore[arg-type]
+        else:
+            assert got == sent
+    answer = unpack_actuators(ACTUATOR_VECTOR)
+    np.testing.assert_array_equal(answer.position, VECTOR_ANSWER.position)
+    np.testing.assert_array_equal(answer.stiffness, VECTOR_ANSWER.stiffness)
+    assert answer[2:] == VECTOR_ANSWER[2:]
+
+
+def repacked(data: bytes, **changes: Any) -> bytes:
+    """The map of a frame, changed, as other programs might write it."""
+    values = msgpack.unpackb(data) | changes
+    for key in [k for k, v in changes.items() if v is None]:
+        del values[key]
+    packed: bytes = msgpack.packb(values, use_single_float=True)
+    return packed
+
+
+def test_keys_in_any_order_and_whole_numbers_are_read() -> None:
+    values = msgpack.unpackb(ACTUATOR_VECTOR)
+    backwards = dict(reversed(values.items())) | {"Position": [1] * 25}
+    answer = unpack_actuators(msgpack.packb(backwards))
+    assert answer.position is not None
+    assert answer.position.tolist() == [1.0] * 25
+
+
+def test_an_answer_may_leave_keys_out() -> None:
+    assert unpack_actuators(b"\x80") == ActuatorFrame()
+    chest = unpack_actuators(b"\x81\xa5Chest\x93" + 3 * HALF)
+    assert chest.lights == {"Chest": (0.5, 0.5, 0.5)}
+    assert pack_actuators(chest) == b"\x81\xa5Chest\x93" + 3 * HALF
+
+
+def test_garbage_in_lights_is_cut_but_garbage_in_targets_is_refused() -> None:
+    nan = float("nan")
+    wild = repacked(
+        ACTUATOR_VECTOR, Chest=[nan, -1e30, 7.0], Stiffness=[2] * 25
+    )
+    answer = unpack_actuators(wild)
+    assert answer.lights["Chest"] == (0.0, 0.0, 1.0)
+    assert answer.stiffness is not None and answer.stiffness.max() == 1.0
+    for key in ("Position", "Stiffness"):
+        with pytest.raises(WireError, match=f"{key} must be finite"):
+            unpack_actuators(repacked(ACTUATOR_VECTOR, **{key: [nan] * 25}))
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"Position": [0.0] * 24}, "Position must have 25 values, got 24"),
+        ({"Position": [True] * 25}, "Position must hold numbers, got bool"),
+        ({"Position": 1.0}, "Position must be an array of 25, got float"),
+        ({"Stiffness": {"a": 1}}, "Stiffness must be an array .* got map"),
+        ({"Sonar": [1.0, 0.0]}, "Sonar must hold bool values, got float"),
+        ({"Torque": [1.0]}, "unknown key 'Torque'"),
+        ({"Chest": ["red"] * 3}, "Chest must hold numbers, got str"),
+        ({"Position": [1e39] + [0] * 24}, "no MessagePack|finite"),
+    ],
+)
+def test_an_answer_with_a_fault_is_refused_by_name(
+    changes: dict[str, Any], said: str
+) -> None:
+    values = msgpack.unpackb(ACTUATOR_VECTOR) | changes
+    with pytest.raises(WireError, match=said):
+        unpack_actuators(msgpack.packb(values))
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"FSR": None}, "must have 896 bytes"),
+        ({"Status": [0.0] * 25}, "must have 896 bytes"),
+        ({"Angles": [0.0] * 3}, "must have 896 bytes"),
+    ],
+)
+def test_a_sensor_frame_of_another_length_is_refused(
+    changes: dict[str, Any], said: str
+) -> None:
+    with pytest.raises(WireError, match=said):
+        unpack_sensors(repacked(SENSOR_VECTOR, **changes))
+
+
+def test_faults_that_keep_the_length_are_refused_too() -> None:
+    twice = SENSOR_VECTOR.replace(b"\xa5Touch", b"\xa5Sonar")
+    with pytest.raises(WireError, match="key Sonar stands twice"):
+        unpack_sensors(twice)
+    spoilt = SENSOR_VECTOR.replace(b"\xa3FSR", b"\xa3FRS")
+    with pytest.raises(WireError, match="unknown key 'FRS'"):
+        unpack_sensors(spoilt)
+    endless = SENSOR_VECTOR.replace(HALF, b"\xca\x7f\x80\x00\x00", 1)
+    with pytest.raises(WireError, match="Position must be finite, got inf"):
+        unpack_sensors(endless)
+
+
+@pytest.mark.parametrize("key", VECTOR_FRAME._fields[:4])
+def test_no_frame_is_written_with_a_number_that_is_none(key: str) -> None:
+    changes: dict[str, Any] = {key: one(float("nan"))}
+    broken = VECTOR_FRAME._replace(**changes)
+    with pytest.raises(WireError, match="must be finite"):
+        pack_sensors(broken)
+
+
+def test_texts_that_make_another_length_are_not_sent() -> None:
+    broken = VECTOR_FRAME._replace(robot_config=("NAO", "6", "NAO", "6"))
+    with pytest.raises(WireError, match="must have 896 bytes, got 854"):
+        pack_sensors(broken)
+
+
+def test_every_truncation_is_refused() -> None:
+    for length in range(SENSOR_BYTES):
+        with pytest.raises(WireError):
+            unpack_sensors(SENSOR_VECTOR[:length])
+    for length in range(ACTUATOR_BYTES):
+        with pytest.raises(WireError):
+            unpack_actuators(ACTUATOR_VECTOR[:length])
+
+
+@pytest.mark.parametrize("flip", [0x01, 0x80, 0xFF])
+def test_every_flipped_byte_is_refused_or_a_frame(flip: int) -> None:
+    for data, unpack in (
+        (SENSOR_VECTOR, unpack_sensors),
+        (ACTUATOR_VECTOR, unpack_actuators),
+    ):
+        read = 0
+        for at in range(len(data)):
+            broken = bytearray(data)
+            broken[at] ^= flip
+            try:
+                frame: Any = unpack(bytes(broken))
+            except WireError:
+                continue
+            read += 1
+            assert np.all(np.isfinite(frame.position))
+        assert 0 < read < len(data)
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.binary(max_size=1000))
+def test_garbage_is_refused_with_one_error(data: bytes) -> None:
+    with pytest.raises(WireError):
+        unpack_sensors(data)
+    if data[:1] != b"\x80":
+        with pytest.raises(WireError):
+            unpack_actuators(data)
+    try:
+        AnswerReader().feed(data)
+    except WireError:
+        pass
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.binary(min_size=896, max_size=896))
+def test_896_bytes_of_garbage_are_refused(data: bytes) -> None:
+    with pytest.raises(WireError):
+        unpack_sensors(b"\x8d" + data[1:])
+
+
+@pytest.mark.parametrize(
+    "bomb",
+    [
+        b"\x91" * 800 + b"\x00",  # nested arrays
+        b"\xdd\xff\xff\xff\xff",  # array of 4 billion
+        b"\xdf\xff\xff\xff\xff",  # map of 4 billion
+        b"\xdb\xff\xff\xff\xff",  # text of 4 GB
+        b"\xc9\xff\xff\xff\xff\x01",  # extension of 4 GB
+        b"\xd6\xff\x00\x00\x00\x00",  # a time stamp
+        b"\xc4\x01a",  # binary
+        b"\x81\x91\x00\x00",  # a list as a key
+        b"\xa5\xff\xfe\xfd\xfc\xfb",  # text that is none
+    ],
+)
+def test_bombs_do_not_go_off(bomb: bytes) -> None:
+    with pytest.raises(WireError):
+        unpack_actuators(bomb)
+    with pytest.raises(WireError):  # at the latest when more has come
+        AnswerReader().feed(bomb + bytes(3 * LONGEST_ANSWER))
+
+
+def test_answers_are_cut_out_of_a_stream_wherever_it_is_cut() -> None:
+    stream = 3 * ACTUATOR_VECTOR
+    for at in range(0, len(stream), 97):
+        reader = AnswerReader()
+        frames = reader.feed(stream[:at]) + reader.feed(stream[at:])
+        assert [f.sonar for f in frames] == 3 * [(True, False)]
+
+
+def test_an_answer_that_never_ends_is_given_up() -> None:
+    reader = AnswerReader()
+    entry = b"\xa8Position" + MANY + 25 * HALF
+    with pytest.raises(WireError):
+        reader.feed(b"\x8f")
+        for _ in range(3 * LONGEST_ANSWER // len(entry)):
+            assert reader.feed(entry) == []
+
+
+def test_single_precision_is_what_goes_over_the_wire() -> None:
+    third = unpack_sensors(pack_sensors(sensor_frame(angles=(1 / 3, 0.0))))
+    assert third.angles[0] == struct.unpack("f", struct.pack("f", 1 / 3))[0]

@@ -1,0 +1,89 @@
+"""Test ``serve`` and ``play`` as words on a command line."""
+
+import json
+from pathlib import Path
+from select import select
+from threading import Thread
+
+import numpy as np
+import pytest
+
+from lola_fakes import JOINTS, STANCE, MadeUpRobot
+from stepaside.cli import main
+from stepaside.drivers.lola.address import Address
+from stepaside.drivers.lola.server import LolaServer
+
+
+def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
+    """What is said to words that are refused."""
+    with pytest.raises(SystemExit) as left:
+        main(list(words))
+    assert left.value.code == 2
+    said = capsys.readouterr().err.strip().splitlines()[-1]
+    assert said.startswith("stepaside: ")
+    return said
+
+
+def test_a_robot_that_is_not_there_is_said_in_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    place = f"lola:{tmp_path}/none"
+    said = refused(capsys, "play", "--role", "evader", "--robot", place)
+    assert "no robot listens at" in said and "none" in said
+
+
+def test_a_robot_that_is_no_address_is_refused(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    said = refused(capsys, "play", "--role", "evader", "--robot", "lola::5")
+    assert "lola:PATH or lola:HOST:PORT" in said
+
+
+@pytest.mark.parametrize(
+    "lola", [["referee=R"], ["evader"], ["evader=E", "evader=F"]]
+)
+def test_a_player_that_is_none_is_not_served(
+    lola: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = [word for entry in lola for word in ("--lola", entry)]
+    assert "pursuer or evader=ADDRESS" in refused(capsys, "serve", *words)
+
+
+def test_a_world_without_clients_gives_up(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    place = f"evader={tmp_path}/e"
+    said = refused(capsys, "serve", "--lola", place, "--wait", "0.05")
+    assert "no client that was ready within 0.05 s" in said
+
+
+def test_a_dry_run_looks_on_and_writes_down_what_it_saw(
+    tmp_path: Path,
+) -> None:
+    place, log = tmp_path / "e", tmp_path / "log"
+    robot = MadeUpRobot()
+    server = LolaServer(Address(str(place)), robot, JOINTS, lock_step=True)
+
+    def play() -> None:
+        words = ["play", "--role", "evader", "--robot", f"lola:{place}"]
+        with pytest.raises(SystemExit):
+            main([*words, "--record", str(log), "--dry-run"])
+
+    player = Thread(target=play)
+    player.start()
+    try:
+        while server.count < 50 and player.is_alive():
+            server.speak()
+            while not server.hear():
+                select([server], [], [], 10.0)
+            server.act()
+    finally:
+        server.close()
+        player.join(60.0)
+    assert not player.is_alive()
+    assert robot.stiffness.max() == 0.0
+    np.testing.assert_array_equal(robot.angles, STANCE)
+    words = json.loads((log / "play.json").read_text())
+    assert words["role"] == "evader" and words["dry_run"]
+    states = [change["state"] for change in words["changes"]]
+    assert states[:2] == ["limp", "reaching"]

@@ -1,0 +1,185 @@
+"""Test one player at one robot, with control that is made up."""
+
+import io
+import json
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lola_fakes import JOINTS, STANCE, Clock, FakeLink, pressed, sensor_frame
+from stepaside.control import Phase
+from stepaside.control.deciding import Decisions
+from stepaside.drivers.log import PlayLog
+from stepaside.drivers.lola.body import LolaBody
+from stepaside.drivers.lola.frames import pack_sensors
+from stepaside.drivers.lola.safety import State
+from stepaside.drivers.playing import Playing
+from stepaside.drivers.status_line import StatusLine
+from stepaside.errors import ConfigurationError, ReachError
+from stepaside.planning import GaitSettings
+from stepaside.poses import Pose
+from stepaside.sensing.measurement import Sighting
+from stepaside.strategies import Evasion, Stand, Strategy
+
+FINE = pack_sensors(sensor_frame())
+PRESS = [pack_sensors(pressed()), FINE]
+TO_READY = 100 * [FINE]
+WISH = Evasion()
+
+
+class FakeMind:
+    """Control that walks until its strategy wants nothing more."""
+
+    def __init__(self, strategy: Strategy) -> None:
+        self.decisions = Decisions(strategy, GaitSettings(), 0.012)
+        self.phase = Phase.STANDING
+        self.joint_targets = STANCE
+        self.kinematics = SimpleNamespace(joint_names=JOINTS)
+        self.times: list[float] = []
+        self.fails: Exception | None = None
+
+    def update(self, measurement: Any) -> Any:
+        """Walk."""
+        self.times.append(measurement.time)
+        if self.fails is not None:
+            raise self.fails
+        self.decisions.headings.note(measurement.time, 0.0)
+        near = Sighting(measurement.time, 0.0, 0.1)
+        feet = Pose(0.0, 0.0, 0.0)
+        going = self.decisions.starts(measurement.time, feet, near)
+        self.phase = Phase.WALKING if going else Phase.STANDING
+        return STANCE + 0.01
+
+
+class Game:
+    """A player with a made-up robot and minds that can be looked into."""
+
+    def __init__(self, script: list[Any], **changes: Any) -> None:
+        self.minds: list[FakeMind] = []
+        self.link = FakeLink(Clock(), script)
+
+        def open_body(scheme: Any) -> LolaBody:
+            clock = self.link.clock
+            names = scheme.kinematics.joint_names
+            return LolaBody(
+                self.link,
+                names,
+                scheme.joint_targets,
+                clock=clock,
+                pause=clock.pause,
+                **changes,
+            )
+
+        def make(strategy: Any) -> Any:
+            self.minds.append(FakeMind(strategy))
+            return self.minds[-1]
+
+        self.playing = Playing(open_body, WISH, make, **changes)
+
+    def play(self, ticks: int) -> Any:
+        """Play some ticks, and return the last."""
+        for _ in range(ticks):
+            tick = self.playing.tick()
+        return tick
+
+
+def test_control_thinks_only_while_it_may_move_the_robot() -> None:
+    game = Game([*TO_READY, *PRESS, *5 * [FINE]])
+    game.play(101)
+    (mind,) = game.minds
+    assert mind.times == []
+    game.play(6)
+    np.testing.assert_allclose(mind.times, 0.012 * np.arange(6))
+
+
+def test_the_button_lets_control_stop_and_the_next_walk_has_a_new_mind() -> (
+    None
+):
+    game = Game([*TO_READY, *PRESS, *3 * [FINE], *PRESS, *3 * [FINE]])
+    assert game.play(105).phase is Phase.WALKING
+    game.play(2)  # pressed and let go: control is told, and walks on
+    assert game.playing.body.state is State.STOPPING
+    assert isinstance(game.minds[0].decisions.strategy, Stand)
+    assert game.play(1).state is State.RESTING
+    assert len(game.minds) == 1
+    game.playing.body.fail("lies on its belly")
+    game.play(1)
+    assert len(game.minds) == 2
+    assert game.minds[1].decisions.strategy is WISH
+
+
+@pytest.mark.parametrize("kind", ["footing", "falling"])
+def test_control_that_gives_up_lets_the_robot_go_limp(kind: str) -> None:
+    game = Game([*TO_READY, *PRESS, *5 * [FINE]])
+    game.play(103)
+    if kind == "footing":
+        game.minds[0].fails = ReachError("a leg is too short")
+    else:
+        game.minds[0].update = lambda _: STANCE  # type: ignore[method-assign, assignment]
+        game.minds[0].phase = Phase.FALLEN
+    tick = game.play(1)
+    assert tick.state is State.LIMP
+    assert {"footing": "too short", "falling": "falls"}[kind] in tick.reason
+
+
+def test_a_dry_run_thinks_and_moves_nothing() -> None:
+    game = Game([*TO_READY], dry_run=True)
+    game.play(50)
+    assert len(game.minds[0].times) > 40
+    assert all(answer.position is None for answer in game.link.sent)
+
+
+def test_the_log_keeps_every_tick_and_why_states_changed(
+    tmp_path: Path,
+) -> None:
+    log = PlayLog(tmp_path / "log", {"role": "pursuer"})
+    game = Game([*TO_READY, *PRESS])
+    for _ in range(102):
+        log.note(game.playing.tick())
+    log.close()
+    arrays = np.load(tmp_path / "log" / "play.npz")
+    assert arrays["joint_positions"].shape == (102, 23)
+    assert arrays["sighting"].shape == (102, 3)
+    words = json.loads((tmp_path / "log" / "play.json").read_text())
+    changes = [change["state"] for change in words["changes"]]
+    assert changes == ["limp", "reaching", "ready", "walking"]
+    assert words["changes"][-1]["reason"] == "chest button"
+    assert words["states"][arrays["state"][-1]] == "walking"
+    assert words["role"] == "pursuer"
+
+
+def test_a_folder_with_something_in_it_is_not_written_over(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "mine").write_text("")
+    with pytest.raises(ConfigurationError, match="must be empty"):
+        PlayLog(tmp_path, {})
+
+
+class Terminal(io.StringIO):
+    """A terminal."""
+
+    def isatty(self) -> bool:
+        """Be one."""
+        return True
+
+
+@pytest.mark.parametrize("stream", [io.StringIO(), Terminal()])
+def test_the_line_says_each_change_and_on_terminals_five_times_a_second(
+    stream: io.StringIO,
+) -> None:
+    game = Game([*TO_READY, *PRESS])
+    line = StatusLine(stream, clock=game.link.clock)
+    for _ in range(102):
+        line.note(game.playing.tick())
+    line.close()
+    said = stream.getvalue()
+    for word in ("limp", "reaching", "ready", "walking (chest button)"):
+        assert word in said
+    assert said.count("\n") == (5 if stream.isatty() else 4)
+    wanted = (8, 14) if stream.isatty() else (4, 4)
+    assert wanted[0] <= said.count(" s  ") <= wanted[1]
+    assert "sees nobody" in said

@@ -1,0 +1,64 @@
+"""Test a robot of the world as LoLA's server moves it."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from stepaside.games.served import MOVED, ServedBody
+
+
+class FakeRobot:
+    """A robot of a world, which notes what is asked."""
+
+    def __init__(self) -> None:
+        self.world = SimpleNamespace(ticks=0)
+        self.readings = 0
+        self.written: list[Any] = []
+        self.shares: list[Any] = []
+        self.servos = SimpleNamespace(soften=self.shares.append)
+
+    def read(self) -> int:
+        """Another measurement each time, as noise makes it."""
+        self.readings += 1
+        return self.readings
+
+    def write(self, targets: Any) -> None:
+        """Note it."""
+        self.written.append(targets)
+
+
+def body_of() -> tuple[Any, FakeRobot]:
+    robot: Any = FakeRobot()
+    return ServedBody(robot), robot
+
+
+def test_sensors_are_read_once_a_tick_however_often_they_are_asked() -> None:
+    body, robot = body_of()
+    assert [body.sensors() for _ in range(3)] == [1, 1, 1]
+    robot.world.ticks = 1
+    assert [body.sensors() for _ in range(3)] == [2, 2, 2]
+
+
+def test_a_robot_that_is_held_does_nothing() -> None:
+    body, robot = body_of()
+    body.command(np.ones(3), np.ones(3))
+    assert robot.written == robot.shares == []
+    body.let_go()
+    body.command(np.ones(3), np.full(3, 0.5))
+    assert robot.written[0].tolist() == [1.0] * 3
+    assert robot.shares[0].tolist() == [0.5] * 3
+
+
+def test_a_robot_moves_once_a_target_has_left_the_stance() -> None:
+    body, _ = body_of()
+    body.let_go()
+    stance = np.array([0.1, 0.2])
+    for offset, moves in (
+        (0.0, False),
+        (0.9, False),
+        (1.1, True),
+        (0.0, True),
+    ):
+        body.command(stance + [0.0, offset * MOVED], np.ones(2))
+        assert body.is_moving == moves

@@ -1,0 +1,110 @@
+"""Test duels whose control comes over sockets, against duels in one."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from threading import Thread
+
+import pytest
+
+from stepaside.control.balance.settings import ControlSettings
+from stepaside.drivers.lola.address import Address
+from stepaside.drivers.lola.body import LolaBody
+from stepaside.drivers.lola.link import SessionLost
+from stepaside.drivers.lola.opening import open_lola
+from stepaside.drivers.lola.safety import State
+from stepaside.drivers.minds import mind_maker
+from stepaside.drivers.playing import Playing, Tick
+from stepaside.errors import ConfigurationError
+from stepaside.games.duel import run_duel
+from stepaside.games.serving import serve_duel
+from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.planning import GaitSettings
+from stepaside.robots.description import load_robot
+from stepaside.strategies import Evasion, Pursuit, Strategy
+from stepaside.world.body_settings import BODIES
+
+FEEDBACK = ControlSettings(method="measured", feedback=True)
+
+
+def client(address: Address, strategy: Strategy, ticks: list[Tick]) -> None:
+    """One player, until its robot is gone."""
+
+    def open_body(scheme: object) -> LolaBody:
+        kinematics = scheme.kinematics  # type: ignore[attr-defined]
+        targets = scheme.joint_targets  # type: ignore[attr-defined]
+        return open_lola(address, kinematics.joint_names, targets)
+
+    make = mind_maker(load_robot("nao"), GaitSettings(), FEEDBACK, tick=0.012)
+    while not Path(address.path).exists():
+        pass  # the world is being built
+    playing = Playing(open_body, strategy, make)
+    try:
+        while True:
+            ticks.append(playing.tick())
+    except SessionLost:
+        playing.body.close()
+
+
+@contextmanager
+def clients(folder: Path) -> Iterator[tuple[dict[str, Address], list[Tick]]]:
+    addresses = {
+        name: Address(path=str(folder / name))
+        for name in ("pursuer", "evader")
+    }
+    roles = {"pursuer": Pursuit(), "evader": Evasion()}
+    ticks: list[Tick] = []
+    threads = [
+        Thread(target=client, args=(addresses[n], roles[n], ticks))
+        for n in addresses
+    ]
+    for thread in threads:
+        thread.start()
+    try:
+        yield addresses, ticks
+    finally:
+        for thread in threads:
+            thread.join(60.0)
+        assert not any(thread.is_alive() for thread in threads)
+
+
+def test_in_lock_step_the_duel_is_the_one_played_in_one_process(
+    tmp_path: Path,
+) -> None:
+    """To what single precision on the wire leaves of it."""
+    settings = DuelSettings(
+        seed=7,
+        duration=3.0,
+        start=StartSettings(0.75, 0.2, 0.1),
+        body=BODIES["delayed"],
+        control=FEEDBACK,
+    )
+    with clients(tmp_path) as (addresses, ticks):
+        served = serve_duel(settings, addresses, lock_step=True).to_json()
+    alone = run_duel(settings).summary.to_json()
+    assert served["outcome"] == alone["outcome"] == "completed"
+    assert served["duration_s"] == alone["duration_s"]
+    for key in ("distance_m", "min_distance_m"):
+        assert abs(served[key] - alone[key]) < 1e-3
+    # Seen from outside a step begins when the joints move.
+    late = served["triggered_at_s"] - alone["triggered_at_s"]
+    assert 0.0 <= late < 1.0
+    assert served["late_ticks"] == 0
+    walked = [t for t in ticks if t.state is State.WALKING]
+    assert max(t.measurement.time for t in walked) >= 249 * 0.012 - 1e-9
+    assert not any(Path(a.path).exists() for a in addresses.values())
+
+
+def test_a_world_waits_for_clients_no_longer_than_it_is_told(
+    tmp_path: Path,
+) -> None:
+    addresses = {"evader": Address(path=str(tmp_path / "e"))}
+    settings = DuelSettings(body=BODIES["delayed"])
+    with pytest.raises(ConfigurationError, match="1 of 1 robots had no"):
+        serve_duel(settings, addresses, patience=0.02)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_world_with_another_tick_is_not_served(tmp_path: Path) -> None:
+    with pytest.raises(ConfigurationError, match="tick of 0.012"):
+        serve_duel(DuelSettings(), {})
