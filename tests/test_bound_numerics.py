@@ -18,7 +18,7 @@ from stepaside.bound.numerics import (
     weno5,
 )
 from stepaside.bound.solve import make_setting
-from stepaside.unicycle import compiled
+from stepaside.unicycle.compiled import load_numba
 
 EPS = 12e-6
 
@@ -109,7 +109,7 @@ def test_godunov_is_monotone_and_fills_valleys_less_than_lax() -> None:
 
 
 @pytest.mark.parametrize("scheme", Scheme)
-@pytest.mark.skipif(not compiled.AVAILABLE, reason="needs Numba")
+@pytest.mark.skipif(load_numba() is None, reason="needs Numba")
 def test_plain_numpy_does_the_same_step(
     scheme: Scheme, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -14,8 +14,9 @@ from stepaside.unicycle.certificate import (
 from stepaside.unicycle.circling import circle_of
 from stepaside.unicycle.kernel import play_games
 from stepaside.unicycle.laws import Game, make_game
-from stepaside.unicycle.numpy_batch import rates
+from stepaside.unicycle.motion import State, look
 from stepaside.unicycle.relative import Start
+from stepaside.unicycle.rules import rules_of
 
 ASIDE = make_game(1.0, 1.0, 1.0, 1.0)
 LATCHED = make_game(1.0, 1.0, 1.0, 1.0, side_rule="latched")
@@ -140,10 +141,10 @@ def test_lyapunov_rate_is_the_one_of_the_proof() -> None:
     rng = np.random.default_rng(5)
     v, k, alpha = 0.8, 0.6, 1.1
     game = make_game(v, v, k, k, alpha)
-    radius = circle_of(game).distance_m
+    radius, rules = circle_of(game).distance_m, rules_of(game, 1e-6)
     for r, a, b in rng.uniform([0.2, -2, -2], [3, 2, 2], (100, 3)):
         psi = b - alpha
-        r_dot, omega = rates(r, a, psi, v, v)
+        *_, r_dot, omega = look(State(r, a, psi), rules)
         a_dot, b_dot = omega - k * a, omega - k * b
         d, x = a - b, 0.5 * (a + b - alpha)
         z = r * np.exp(1j * x)
@@ -159,11 +160,12 @@ def test_lyapunov_rate_is_the_one_of_the_proof() -> None:
 def test_dulac_function_has_a_divergence_of_one_sign() -> None:
     """On d = 0: divergence of r (r', x') is -k r, so nothing is periodic."""
     v, k, alpha, h = 1.0, 0.5, 1.3, 1e-5
+    rules = rules_of(make_game(v, v, k, k, alpha), 1e-6)
 
     def field(r: float, x: float) -> np.ndarray:
         a = x + alpha / 2
         psi = a - alpha
-        rate, omega = (float(x) for x in rates(r, a, psi, v, v))  # type: ignore[arg-type]
+        *_, rate, omega = look(State(r, a, psi), rules)
         return r * np.array([rate, omega - k * a])
 
     for r, x in [(0.5, 0.3), (2.0, -1.0), (4.0, 2.0)]:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from stepaside.errors import PlanError
-from stepaside.unicycle.compiled import AVAILABLE
+from stepaside.unicycle.compiled import load_numba
 from stepaside.unicycle.compiled_batch import sine_cosine
 from stepaside.unicycle.kernel import play_games
 from stepaside.unicycle.laws import Game, make_game
@@ -50,7 +50,7 @@ def test_every_game_agrees_with_the_adaptive_integrator(game: Game) -> None:
         np.testing.assert_allclose(many.states[i, :2], last, atol=1e-6)
 
 
-@pytest.mark.skipif(not AVAILABLE, reason="Numba is not installed")
+@pytest.mark.skipif(load_numba() is None, reason="Numba is not installed")
 @pytest.mark.parametrize("game", GAMES)
 def test_numpy_gives_the_same_answers(game: Game) -> None:
     starts = random_starts(300, seed=2)
@@ -111,7 +111,7 @@ def test_bad_starts_are_refused(start: list[float]) -> None:
         play_games(GAMES[0], [start], 1.0)
 
 
-BACKENDS = ["numpy", *(["numba"] if AVAILABLE else [])]
+BACKENDS = ["numpy", *(["numba"] if load_numba() else [])]
 
 
 @pytest.mark.parametrize("backend", BACKENDS)

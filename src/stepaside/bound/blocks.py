@@ -9,10 +9,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..unicycle.compiled import compiled, compiled_parallel, prange
+from ..unicycle.compiled import compiled, compiled_parallel, parallel_range
 from .numerics import lax_friedrichs, upwind, weno5
 
 FIRST, FIFTH = 1, 5
+prange = parallel_range()
 
 
 class Setting(NamedTuple):

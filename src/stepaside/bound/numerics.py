@@ -18,10 +18,11 @@ from typing import Any
 
 import numpy as np
 
-from ..unicycle.compiled import AVAILABLE, compiled_inline, forget_stale
+from ..unicycle.compiled import forget_stale, inlined, load_numba
 
-if AVAILABLE:
-    forget_stale(Path(__file__).parent)
+if load_numba() is not None:
+    _HERE = Path(__file__).parent
+    forget_stale(_HERE, [*_HERE.glob("*.py"), *_HERE.parent.glob("*.py")])
 
 HALF = np.float32(0.5)
 ZERO = np.float32(0.0)
@@ -30,7 +31,7 @@ _TWO, _THREE, _FOUR = np.float32(2), np.float32(3), np.float32(4)
 _FIVE, _SIX, _BEND = np.float32(5), np.float32(6), np.float32(13)
 
 
-@compiled_inline
+@inlined
 def weno5(
     m3: Any, m2: Any, m1: Any, c: Any, p1: Any, p2: Any, p3: Any, eps: Any
 ) -> tuple[Any, Any]:
@@ -83,25 +84,25 @@ def weno5(
     return left, right
 
 
-@compiled_inline
+@inlined
 def blow(speed: Any, left: Any, right: Any) -> Any:
     """Speed times the slope on the side that the motion goes to."""
     return HALF * (speed * (left + right) + abs(speed) * (right - left))
 
 
-@compiled_inline
+@inlined
 def larger(a: Any, b: Any) -> Any:
     """The larger of two, of numbers or arrays."""
     return HALF * (a + b + abs(a - b))
 
 
-@compiled_inline
+@inlined
 def smaller(a: Any, b: Any) -> Any:
     """The smaller of two, of numbers or arrays."""
     return HALF * (a + b - abs(a - b))
 
 
-@compiled_inline
+@inlined
 def upwind(
     closing: Any,
     swing: Any,
@@ -136,7 +137,7 @@ def upwind(
     return blow(closing, rl, rr) + chase + evade
 
 
-@compiled_inline
+@inlined
 def lax_friedrichs(
     closing: Any,
     swing: Any,

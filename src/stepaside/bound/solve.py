@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import check_positive
-from ..unicycle import compiled
+from ..unicycle.compiled import load_numba
 from .arrays import stage_arrays
 from .blocks import FIFTH, FIRST, Setting, stage_blocks, wake_neighbours
 from .game import BoundGame
@@ -116,7 +116,7 @@ def march(
     are a view that the next step overwrites; shape (a, r, psi), in [m].
     """
     setting, rate = make_setting(game, grid, scheme, precision)
-    stage = stage_blocks if compiled.AVAILABLE else stage_arrays
+    stage = stage_blocks if load_numba() is not None else stage_arrays
     count = max(1, ceil(horizon * rate / COURANT - 1e-6))
     stable = precision(COURANT / rate)
     times = 1 if scheme.first_order else 3

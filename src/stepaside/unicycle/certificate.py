@@ -30,7 +30,7 @@ from math import asin, inf, log, pi, sin
 import numpy as np
 
 from ..errors import PlanError
-from ..poses import wrap_angle
+from ..laws import evasion_heading, side_behind
 from .circling import circle_of
 from .diamond import stays_unwrapped
 from .laws import Game
@@ -84,11 +84,11 @@ def certify(game: Game, start: Start, *, side: int = 0) -> Certificate:
     radius = circle_of(game).distance_m
     r, a, psi = start.wrapped()
     if side == 0:
-        side = -1 if psi > 0.0 else 1
+        side = side_behind(psi)
     a, psi = side * a, side * psi
     if psi > 0.0 and not game.keeps_side:
         return Certificate(False)  # the side changes at once
-    b = wrap_angle(psi + alpha)
+    b = evasion_heading(psi, 1, alpha)
     d, x = a - b, 0.5 * (a + b - alpha)
     spread = abs(r * exp(1j * x) - radius)
     plain = radius - spread - speed * abs(d) / gain

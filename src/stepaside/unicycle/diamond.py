@@ -16,6 +16,7 @@ the second of which keeps :math:`p` above :math:`p(0) e^{-kt}`. Proof in
 from math import cos, exp, pi
 
 from ..errors import PlanError
+from ..laws import side_behind
 from .laws import Game
 from .relative import Start
 
@@ -58,7 +59,7 @@ def least_distance(game: Game, start: Start, time: float) -> float:
     """
     _, a, psi = start.wrapped()
     equal = game.pursuer == game.evader and not game.saturated
-    side = -1 if psi > 0.0 else 1
+    side = side_behind(psi)
     if not (equal and stays_unwrapped(game, side * a, side * psi)):
         raise PlanError(
             "the bound needs equal speeds and gains, the proportional law "

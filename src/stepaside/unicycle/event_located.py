@@ -1,227 +1,190 @@
-"""One step of one game past capture, closest approach and edges.
+"""One step of one game past edges, closest approach and capture.
 
-Fixed steps by Runge and Kutta's rule of fourth order. A step that meets an
-edge of its smooth piece (:mod:`.modes`), that holds the closest approach or
-the capture, or that is long against the distance is cut there.
+A step that meets an edge of its smooth piece (:mod:`.modes`), that holds the
+closest approach or the capture, or that is long against the distance is cut
+there, and each part is one step of :func:`.motion.rk4`.
 """
 
-from math import cos, pi, sin
-from typing import Any
+from enum import IntEnum
+from math import pi
+from typing import Any, NamedTuple
 
-from . import modes
-from .compiled import compiled
+from .compiled import inlined, shared
+from .modes import Branch, Edge, Mode, Piece, leave, piece_of
+from .motion import State, View, look, look_anew, rk4
+from .rules import Rules
 
 TURN_PER_STEP = 0.04  # longest step, in distances per sum of the speeds
-_SLACK = 1e-12
-
-piece = compiled(modes.piece)
-leave = compiled(modes.leave)
-enter = compiled(modes.enter)
+_SLACK = 1e-12  # how far beyond an edge counts as left
 
 
-@compiled
-def enter_all(
-    state: Any,
-    side: Any,
-    branch: Any,
-    vp: float,
-    ve: float,
-    first: int,
-    angle: float,
-    keeps_side: bool,
-    saturated: bool,
-    gain: float,
-) -> None:
-    """Find the piece that each game starts in; ``state`` may turn round."""
-    for j in range(len(state)):
-        r, a, psi = state[j, 0], state[j, 1], state[j, 2]
-        sight = (vp * sin(a) - ve * sin(psi)) / r
-        state[j, 2], side[j], branch[j] = enter(
-            psi, sight, first, angle, keeps_side, saturated, gain
-        )
+class Event(IntEnum):
+    """What a step may be cut at."""
+
+    NONE = -1
+    WRAP = 0  # the pursuer's error passes pi
+    LOW = 1  # the bearing leaves its piece
+    HIGH = 2
+    RELEASE = 3  # the line of sight outruns the evader that slides on it
+    CLOSEST = 4  # the distance stops falling
+    CAPTURE = 5
 
 
-@compiled
-def rk4(
-    r: float,
-    a: float,
-    psi: float,
-    step: float,
-    vp: float,
-    ve: float,
-    kp: float,
-    c0: float,
-    c1: float,
-    c2: float,
-) -> tuple[float, float, float]:
-    """Advance (r, a, psi) by one step on a smooth piece."""
-    r0, a0, p0 = r, a, psi
-    dr, da, dp = 0.0, 0.0, 0.0
-    for stage in range(4):
-        w = (vp * sin(a) - ve * sin(psi)) / r
-        fr = ve * cos(psi) - vp * cos(a)
-        fa = w - kp * a
-        fp = (1.0 - c2) * w - c1 * psi - c0
-        weight = 1.0 if stage == 0 or stage == 3 else 2.0
-        dr += weight * fr
-        da += weight * fa
-        dp += weight * fp
-        part = step if stage == 2 else 0.5 * step
-        r, a, psi = r0 + part * fr, a0 + part * fa, p0 + part * fp
-    sixth = step / 6.0
-    return r0 + sixth * dr, a0 + sixth * da, p0 + sixth * dp
+EDGES = (Event.WRAP, Event.LOW, Event.HIGH, Event.RELEASE)
+"""Events that end a piece."""
 
 
-@compiled
-def margin(
-    what: int,
-    r: float,
-    a: float,
-    psi: float,
-    vp: float,
-    ve: float,
-    ke: float,
-    low: float,
-    high: float,
-    capture: float,
-) -> float:
-    """Distance to an edge: 0 pursuer's wrap, 1 low, 2 high, 3 sliding.
+class Moment(NamedTuple):
+    """A state and its view."""
 
-    4 is the closest approach and 5 the capture.
+    state: State
+    seen: View
+
+
+class Located(NamedTuple):
+    """A game after one step.
+
+    Attributes:
+        state: State at the end, or at the capture.
+        mode: Mode then.
+        closest: Least distance within the step, in [m].
+        closest_time: When that was, from the start of the step, in [s].
+        capture_time: When the capture was, likewise; -1 for none.
     """
-    if what == 0:
-        return pi - abs(a)
-    if what == 1:
-        return psi - low
-    if what == 2:
-        return high - psi
-    if what == 3:
-        return ke - abs((vp * sin(a) - ve * sin(psi)) / r)
-    if what == 4:
-        return vp * cos(a) - ve * cos(psi)
-    return r - capture
+
+    state: State
+    mode: Mode
+    closest: float
+    closest_time: float
+    capture_time: float
 
 
-@compiled
-def cut(
-    what: int,
-    r: float,
-    a: float,
-    psi: float,
-    step: float,
-    vp: float,
-    ve: float,
-    kp: float,
-    ke: float,
-    low: float,
-    high: float,
-    c0: float,
-    c1: float,
-    c2: float,
-    capture: float,
+@inlined
+def margin(event: Event, now: Moment, piece: Piece, rules: Rules) -> Any:
+    """How far a state, or many, are from an event; zero there."""
+    if event == Event.WRAP:
+        return pi - abs(now.state.a)
+    if event == Event.LOW:
+        return now.state.psi - piece.low
+    if event == Event.HIGH:
+        return piece.high - now.state.psi
+    if event == Event.CAPTURE:
+        return now.state.r - rules.capture_distance
+    if event == Event.RELEASE:
+        return rules.evader_gain - abs(now.seen.sight)
+    return -now.seen.closing
+
+
+@inlined
+def advance(now: Moment, time: float, piece: Piece, rules: Rules) -> Moment:
+    """Advance on a piece by one step, with exact sines."""
+    state = rk4(look_anew, now.state, now.seen, time, piece, rules)
+    return Moment(state, look(state, rules))
+
+
+@shared
+def time_of(
+    event: Event, now: Moment, step: float, piece: Piece, rules: Rules
 ) -> float:
-    """Part of a step until a margin falls to zero, in [s]."""
+    """Part of a step until an event's margin falls to zero, in [s].
+
+    By false position, where the value at an end that stays twice is halved
+    (Illinois). From an edge a game may come in first and then leave.
+    """
     short, long = 0.0, step
-    above = margin(what, r, a, psi, vp, ve, ke, low, high, capture)
-    x, y, z = rk4(r, a, psi, step, vp, ve, kp, c0, c1, c2)
-    below = margin(what, x, y, z, vp, ve, ke, low, high, capture)
+    above = margin(event, now, piece, rules)
+    for halvings in range(1, 49):
+        if above > 0.0:
+            break
+        short = step * 0.5**halvings
+        above = margin(event, advance(now, short, piece, rules), piece, rules)
     if above <= 0.0:
         return 0.0
+    below = margin(event, advance(now, long, piece, rules), piece, rules)
+    moved = 0  # which end was moved last
     for _ in range(60):
         middle = (short * below - long * above) / (below - above)
         if not short < middle < long:
             break
-        x, y, z = rk4(r, a, psi, middle, vp, ve, kp, c0, c1, c2)
-        m = margin(what, x, y, z, vp, ve, ke, low, high, capture)
+        m = margin(event, advance(now, middle, piece, rules), piece, rules)
+        if abs(m) < 1e-15:
+            return float(middle)
         if m > 0.0:
             short, above = middle, m
-            below *= 0.5
+            below *= 0.5 if moved == 1 else 1.0
+            moved = 1
         else:
             long, below = middle, m
-            above *= 0.5
-        if abs(m) < 1e-15 or long - short < 1e-15 * step:
-            break
+            above *= 0.5 if moved == -1 else 1.0
+            moved = -1
     return long
 
 
-@compiled
-def careful_step(
-    r: float,
-    a: float,
-    psi: float,
-    side: int,
-    branch: int,
-    step: float,
-    vp: float,
-    ve: float,
-    kp: float,
-    ke: float,
-    angle: float,
-    hysteresis: float,
-    keeps_side: bool,
-    capture: float,
-) -> tuple[float, float, float, int, int, float, float, float]:
-    """Advance a game by one step, however many pieces it takes.
+@shared
+def first_edge(
+    now: Moment, step: float, mode: Mode, piece: Piece, rules: Rules
+) -> tuple[Event, float, Moment]:
+    """The first end of a piece within a step, its time, and what is then."""
+    edge, part = Event.NONE, step
+    then = advance(now, part, piece, rules)
+    for event in EDGES:
+        if event == Event.RELEASE and mode.branch != Branch.SLIDING:
+            continue
+        if margin(event, then, piece, rules) < -_SLACK:
+            edge, part = event, time_of(event, now, part, piece, rules)
+            then = advance(now, part, piece, rules)
+    return edge, part, then
 
-    Returns:
-        r, a, psi, side, branch, then the least distance within the step
-        [m], when it was, and when the capture was (-1 for none), both from
-        the start of the step, in [s].
-    """
+
+@shared
+def nearest(
+    now: Moment, then: Moment, step: float, piece: Piece, rules: Rules
+) -> tuple[float, float]:
+    """Least distance of a step, but for its start, and its time."""
+    if not now.seen.closing < 0.0 < then.seen.closing:
+        return then.state.r, step
+    time = time_of(Event.CLOSEST, now, step, piece, rules)
+    return advance(now, time, piece, rules).state.r, time
+
+
+@inlined
+def cross(
+    event: Event, state: State, mode: Mode, rules: Rules
+) -> tuple[State, Mode]:
+    """Pass an edge: state and mode on its other side."""
+    r, a, psi = state
+    if event == Event.WRAP:
+        return State(r, a - 2.0 * pi if a > 0.0 else a + 2.0 * pi, psi), mode
+    edge = Edge.LOW if event == Event.LOW else Edge.HIGH
+    psi, mode = leave(psi, look(state, rules).sight, mode, edge, rules)
+    return State(r, a, psi), mode
+
+
+@shared
+def event_located_step(
+    state: State, mode: Mode, step: float, rules: Rules
+) -> Located:
+    """Advance a game by one step, however many pieces it takes."""
     done = 0.0
-    best, best_time = r, 0.0
+    best, best_time = state.r, 0.0
+    speeds = rules.pursuer_speed + rules.evader_speed
+    now = Moment(state, look(state, rules))
     while done < step:
-        low, high, c0, c1, c2 = piece(
-            side, branch, angle, hysteresis, keeps_side, ke
-        )
-        part = min(step - done, TURN_PER_STEP * r / (vp + ve))
-        last = part == step - done
-        r1, a1, psi1 = rk4(r, a, psi, part, vp, ve, kp, c0, c1, c2)
-        edge = -1
-        for what in range(4):
-            if what == 3 and branch != 2:
-                continue
-            m = margin(what, r1, a1, psi1, vp, ve, ke, low, high, capture)
-            if m < -_SLACK:
-                time = cut(
-                    what, r, a, psi, part, vp, ve, kp, ke, low, high,
-                    c0, c1, c2, capture,
-                )  # fmt: skip
-                part, edge, last = time, what, False
-                r1, a1, psi1 = rk4(r, a, psi, part, vp, ve, kp, c0, c1, c2)
-        was = vp * cos(a) - ve * cos(psi)
-        now = vp * cos(a1) - ve * cos(psi1)
-        nearest, when = r1, part
-        if was > 0.0 and now < 0.0:
-            when = cut(
-                4, r, a, psi, part, vp, ve, kp, ke, low, high, c0, c1, c2,
-                capture,
-            )  # fmt: skip
-            nearest = rk4(r, a, psi, when, vp, ve, kp, c0, c1, c2)[0]
-        if nearest <= capture:
-            when = cut(
-                5, r, a, psi, when, vp, ve, kp, ke, low, high, c0, c1, c2,
-                capture,
-            )  # fmt: skip
-            r, a, psi = rk4(r, a, psi, when, vp, ve, kp, c0, c1, c2)
+        piece = piece_of(mode, rules)
+        reach = min(step - done, TURN_PER_STEP * now.state.r / speeds)
+        edge, part, then = first_edge(now, reach, mode, piece, rules)
+        near, when = nearest(now, then, part, piece, rules)
+        if near <= rules.capture_distance:
+            when = time_of(Event.CAPTURE, now, when, piece, rules)
+            state = advance(now, when, piece, rules).state
             done += when
-            return r, a, psi, side, branch, r, done, done
-        if nearest < best:
-            best, best_time = nearest, done + when
-        r, a, psi = r1, a1, psi1
+            return Located(state, mode, state.r, done, done)
+        if near < best:
+            best, best_time = near, done + when
+        last = edge == Event.NONE and reach == step - done
         done = step if last else done + part
-        if edge == 0:
-            a -= 2.0 * pi if a > 0.0 else -2.0 * pi
-        elif edge > 0:
-            sight = (vp * sin(a) - ve * sin(psi)) / r
-            psi, side, branch = leave(
-                psi,
-                sight,
-                side,
-                branch,
-                -1 if edge == 1 else 1,
-                angle,
-                keeps_side,
-                ke,
-            )
-    return r, a, psi, side, branch, best, best_time, -1.0
+        if edge != Event.NONE:
+            state, mode = cross(edge, then.state, mode, rules)
+            then = Moment(state, look(state, rules))
+        now = then
+    return Located(now.state, mode, best, best_time, -1.0)

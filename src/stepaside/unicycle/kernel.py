@@ -1,6 +1,6 @@
 """Many games at once: compiled where Numba is installed, else NumPy."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import ceil, inf
 
@@ -9,11 +9,18 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import PlanError, check_positive
 from ..poses import wrap_angles
+from .batch import Array, Clock, deviations
 from .circles import circles_of
+from .circling import Circle
+from .compiled import load_numba
 from .laws import Game
+from .motion import State
+from .rules import rules_of
 
-Array = NDArray[np.float64]
-NEAR = 0.02  # off a circle by less than 2 % and 0.02 rad is "on it"
+_RESULTS = (
+    *State._fields,
+    *("side", "closest", "closest_time", "capture_time", "settled"),
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,83 +82,95 @@ def play_games(
     Raises:
         PlanError: If a value is out of its range, or a backend is not there.
     """
-    from . import compiled
-    from . import compiled_batch as blocks
-    from . import event_located as careful
-    from . import numpy_batch as plain
+    from . import compiled_batch, numpy_batch  # which import Numba
+    from .entering import lay_blocks
 
     check_positive(duration, "duration", "s")
     check_positive(step, "step", "s")
     check_positive(capture_distance, "capture_distance", "m")
+    fast = _compiles(backend)
+    play = compiled_batch.play_blocks if fast else numpy_batch.play_blocks
+    states = _wrapped(starts)
+    circles = circles_of(game)
+    rows = circle_states(circles)
+    clock = Clock(ceil(duration / step - 1e-9), float(step))
+    rules = rules_of(game, capture_distance)
+    played = np.empty((len(_RESULTS), len(states)))
+    for first in range(0, len(states), chunk):
+        part = states[first : first + chunk]
+        size = compiled_batch.SIZE if fast else len(part)
+        blocks = lay_blocks(part, side, size, clock.step, rules)
+        play(blocks, rows, clock, rules)
+        for row, name in zip(played, _RESULTS, strict=True):
+            row[first : first + chunk] = blocks[name].ravel()[: len(part)]
+        if progress is not None:
+            progress(len(part))
+    return _outcomes(played, rows, clock)
+
+
+def circle_states(circles: Sequence[Circle]) -> Array:
+    """Rows of r [m], a, psi [rad] on circles at side +1. Shape (n, 3)."""
+    rows = [
+        (c.distance_m, c.pursuer_error_rad, c.bearing_rad) for c in circles
+    ]
+    return np.array(rows).reshape(-1, 3)
+
+
+def circles_off(circles: Array, states: Array, sides: ArrayLike) -> Array:
+    """How far states are off each circle, as a share of it or in [rad].
+
+    Args:
+        circles: Rows of r [m], a, psi [rad] at side +1. Shape (n, 3).
+        states: Rows of r [m], a, psi [rad]. Shape (m, 3).
+        sides: Side of each state. Shape (m,).
+
+    Returns:
+        The largest of the three deviations. Shape (n, m).
+    """
+    circle = State(*circles.T[..., None])
+    off = deviations(State(*states.T), np.asarray(sides), circle)
+    largest: Array = np.max(off, axis=0)
+    return largest
+
+
+def _compiles(backend: str) -> bool:
+    """Whether a backend is the compiled one."""
     if backend not in ("auto", "numba", "numpy"):
         raise PlanError(f"backend must be auto, numba or numpy, got {backend}")
-    if backend == "numba" and not compiled.AVAILABLE:
+    if backend == "numba" and load_numba() is None:
         raise PlanError("backend numba is not installed; pip install numba")
-    fast = compiled.AVAILABLE and backend != "numpy"
-    play = blocks.play_blocks if fast else plain.play_arrays
+    return backend != "numpy" and load_numba() is not None
 
-    state = np.array(starts, dtype=np.float64).reshape(-1, 3)
-    if not (np.isfinite(state).all() and (state[:, 0] > 0.0).all()):
+
+def _wrapped(starts: ArrayLike) -> Array:
+    """Starts with both angles wrapped. Shape (n, 3)."""
+    states = np.array(starts, dtype=np.float64).reshape(-1, 3)
+    if not (np.isfinite(states).all() and (states[:, 0] > 0.0).all()):
         raise PlanError("starts must be finite with distance > 0 [m]")
-    angles = state[:, 1:]
+    angles = states[:, 1:]
     far = np.abs(angles) > np.pi  # wrapping would turn pi into -pi
     angles[far] = wrap_angles(angles[far])
-    vp, ve = game.pursuer.speed, game.evader.speed
-    kp, ke = game.pursuer.gain, game.evader.gain
-    sides = np.empty(len(state), dtype=np.int64)
-    branches = np.empty(len(state), dtype=np.int64)
-    careful.enter_all(
-        state,
-        sides,
-        branches,
-        vp,
-        ve,
-        side,
-        game.angle,
-        game.keeps_side,
-        game.saturated,
-        ke,
-    )
-    out = np.empty((len(state), 4))  # closest, its time, capture, settled
-    out[:, 0], out[:, 1:] = state[:, 0], (0.0, -1.0, 0.0)
-    out[state[:, 0] <= capture_distance, 2] = 0.0
-    circles = np.array(
-        [
-            (c.distance_m, c.pursuer_error_rad, c.bearing_rad)
-            for c in circles_of(game)
-        ]
-    ).reshape(-1, 3)
-    count = ceil(duration / step - 1e-9)
-    c1 = 0.0 if game.saturated else ke
-    laws = (vp, ve, kp, ke, c1, game.angle, game.hysteresis)
-    for first in range(0, len(state), chunk):
-        part = slice(first, first + chunk)
-        play(
-            state[part],
-            sides[part],
-            branches[part],
-            out[part],
-            count,
-            step,
-            laws,
-            game.keeps_side,
-            capture_distance,
-            circles,
-            NEAR,
-        )
-        if progress is not None:
-            progress(min(chunk, len(state) - first))
-    captured = out[:, 2] >= 0.0
-    unsettled = captured | (out[:, 3] >= count * step * (1.0 - 1e-12))
-    off = plain.distances_off(circles, sides, *state.T)
-    nearest = off.argmin(axis=0) if len(circles) else sides
+    return states
+
+
+def _outcomes(played: Array, circles: Array, clock: Clock) -> Outcomes:
+    """Outcomes of games from what their blocks hold at the end."""
+    r, a, psi, side, closest, closest_time, capture_time, settled = played
+    end = clock.steps * clock.step
+    ends = r < closest
+    captured = capture_time >= 0.0
+    unsettled = captured | (settled >= end * (1.0 - 1e-12))
+    states = np.stack([r, a, psi], axis=-1)
+    nearest = np.zeros(len(r), dtype=np.int64)
+    if len(circles):
+        nearest = circles_off(circles, states, side).argmin(axis=0)
     return Outcomes(
-        out[:, 0],
-        out[:, 1],
+        np.where(ends, r, closest),
+        np.where(ends, end, closest_time),
         captured,
-        np.where(captured, out[:, 2], np.nan),
-        np.where(unsettled, inf, out[:, 3]),
+        np.where(captured, capture_time, np.nan),
+        np.where(unsettled, inf, settled),
         np.where(unsettled, -1, nearest),
-        state,
-        sides,
+        states,
+        side.astype(np.int64),
     )

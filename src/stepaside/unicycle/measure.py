@@ -7,11 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..poses import wrap_angle
+from .batch import NEAR
 from .circles import circles_of
 from .circling import Circle
-from .kernel import NEAR
+from .kernel import circle_states, circles_off
 from .laws import Game
-from .numpy_batch import distances_off
 from .simulate import Run
 
 Array = NDArray[np.float64]
@@ -63,13 +63,9 @@ def circle_at(
     Returns:
         The nearest of them, or None.
     """
-    rows = [
-        (c.distance_m, c.pursuer_error_rad, c.bearing_rad) for c in circles
-    ]
-    if not rows:
+    if not circles:
         return None
-    columns = np.reshape(state, (3, 1))
-    off = distances_off(np.array(rows), np.array([side]), *columns)[:, 0]
+    off = circles_off(circle_states(circles), state[None], [side])[:, 0]
     return circles[int(off.argmin())] if off.min() <= NEAR else None
 
 

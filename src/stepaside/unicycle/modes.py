@@ -4,128 +4,188 @@ In relative coordinates :math:`(r, a, \psi)` the laws jump where a wrapped
 error passes :math:`\pm\pi`, where the evader changes side, and, saturated,
 where its error changes sign. Between those places
 
-.. math:: \dot\psi = (1 - c_2) \Omega - c_1 \psi - c_0,
+.. math:: \dot\psi = f \Omega - c_1 \psi - c_0,
     \qquad \psi \in [\text{low}, \text{high}].
 
-The functions take and return plain numbers and call no other, so that they
-can be compiled as they are.
+The functions take and return numbers, so that they can be compiled as they
+are.
 """
 
+from enum import IntEnum
 from math import inf, pi
+from typing import Any, NamedTuple
 
-PROPORTIONAL = 0  # branch of eq. (4)
-LEFT = 1  # branches of eq. (6): full rate to the left,
-RIGHT = -1  # to the right,
-SLIDING = 2  # and what Filippov's rule gives between the two
+from .. import laws
+from .compiled import inlined
+from .rules import Rules
+
+inlined(laws.wrap_once)  # the heading calls it
+evasion_heading = inlined(laws.evasion_heading)
+proportional_rate = inlined(laws.proportional_rate)
+saturated_rate = inlined(laws.saturated_rate)
+side_behind = inlined(laws.side_behind)
 
 
-def piece(
-    side: int,
-    branch: int,
-    angle: float,
-    hysteresis: float,
-    keeps_side: bool,
-    gain: float,
-) -> tuple[float, float, float, float, float]:
-    """Give (low, high, c0, c1, c2) of a piece; see the module."""
-    zero = -side * angle  # bearing at which the evader's error is zero
-    if branch == 2:
-        return -inf, inf, 0.0, 0.0, 1.0
-    if keeps_side:
+class Branch(IntEnum):
+    """Which formula gives the evader's turning rate."""
+
+    PROPORTIONAL = 0  # eq. (4)
+    LEFT = 1  # eq. (6): full rate to the left,
+    RIGHT = 2  # to the right,
+    SLIDING = 3  # and what Filippov's rule gives between the two
+
+
+class Edge(IntEnum):
+    """Which end of a piece's range of bearings."""
+
+    LOW = -1
+    HIGH = 1
+
+
+class Mode(NamedTuple):
+    """What names a piece.
+
+    Attributes:
+        side: Side of the line of sight that the evader takes, +1 or -1.
+        branch: Branch of its turning law.
+    """
+
+    side: int
+    branch: Branch
+
+
+class Piece(NamedTuple):
+    """The numbers of a piece, or of the pieces of many games.
+
+    Attributes:
+        low: Least bearing, in [rad].
+        high: Largest bearing, in [rad].
+        constant: Turning rate of the evader at bearing zero, in [rad/s].
+        slope: Its derivative by the bearing, in [1/s].
+        free: 0 where the evader turns with the line of sight, else 1.
+    """
+
+    low: Any
+    high: Any
+    constant: Any
+    slope: Any
+    free: Any
+
+
+@inlined
+def branch_at(code: int) -> Branch:
+    """The branch of a number, which is what arrays hold."""
+    if code == 0:
+        return Branch.PROPORTIONAL
+    if code == 1:
+        return Branch.LEFT
+    if code == 2:
+        return Branch.RIGHT
+    return Branch.SLIDING
+
+
+@inlined
+def towards(amount: float) -> Branch:
+    """Branch on which the evader turns to the side of a sign."""
+    return Branch.LEFT if amount > 0.0 else Branch.RIGHT
+
+
+@inlined
+def opposite(branch: Branch) -> Branch:
+    """The branch that turns the other way."""
+    if branch == Branch.LEFT:
+        return Branch.RIGHT
+    if branch == Branch.RIGHT:
+        return Branch.LEFT
+    return branch
+
+
+@inlined
+def piece_of(mode: Mode, rules: Rules) -> Piece:
+    """Give the numbers of a piece."""
+    gain, width = rules.evader_gain, rules.hysteresis
+    zero = -mode.side * rules.angle  # bearing where the evader's error is zero
+    if mode.branch == Branch.SLIDING:
+        return Piece(-inf, inf, 0.0, 0.0, 0.0)
+    if rules.keeps_side:
         low, high = zero - pi, zero + pi
-    elif side < 0:
-        low, high = -hysteresis, pi + hysteresis
+    elif mode.side < 0:
+        low, high = -width, pi + width
     else:
-        low, high = -pi - hysteresis, hysteresis
-    if branch == 0:
-        return low, high, -gain * zero, gain, 0.0
-    if branch > 0:
-        return zero, high, gain, 0.0, 0.0
-    return low, zero, -gain, 0.0, 0.0
+        low, high = -pi - width, width
+    if mode.branch == Branch.PROPORTIONAL:
+        constant = proportional_rate(-zero, gain)
+        slope = proportional_rate(1.0, gain)
+        return Piece(low, high, constant, slope, 1.0)
+    if mode.branch == Branch.LEFT:
+        return Piece(zero, high, saturated_rate(1.0, gain), 0.0, 1.0)
+    return Piece(low, zero, saturated_rate(-1.0, gain), 0.0, 1.0)
 
 
+@inlined
 def enter(
-    bearing: float,
-    sight_rate: float,
-    side: int,
-    angle: float,
-    keeps_side: bool,
-    saturated: bool,
-    gain: float,
-) -> tuple[float, int, int]:
+    bearing: float, sight_rate: float, side: int, rules: Rules
+) -> tuple[float, Mode]:
     """Find the piece that a game starts in.
 
     Args:
         bearing: Bearing of the pursuer, in [-pi, pi], in [rad].
         sight_rate: Rate of the line of sight, in [rad/s].
         side: +1 or -1, or 0 for the side behind the evader.
-        angle: Evasion angle, in [rad].
-        keeps_side: Whether the side never changes.
-        saturated: Whether the evader turns by (6).
-        gain: Gain of the evader, in [1/s].
+        rules: Rules of the game.
 
     Returns:
-        Bearing (a whole turn away from the given one at most), side, branch.
+        Bearing (a whole turn away from the given one at most), and the mode.
     """
     if side == 0:
-        side = -1 if bearing > 0.0 else 1
-    error = bearing + side * angle
-    if keeps_side:
-        if error > pi:
-            error -= 2.0 * pi
-        elif error < -pi:
-            error += 2.0 * pi
-    branch = 0
-    if saturated:
-        if error > 0.0:
-            branch = 1
-        elif error < 0.0:
-            branch = -1
-        elif abs(sight_rate) <= gain:
-            branch = 2
+        side = side_behind(bearing)
+    error = bearing + side * rules.angle
+    if rules.keeps_side:
+        error = evasion_heading(bearing, side, rules.angle)
+    branch = Branch.PROPORTIONAL
+    if rules.saturated:
+        if error != 0.0:
+            branch = towards(error)
+        elif abs(sight_rate) <= rules.evader_gain:
+            branch = Branch.SLIDING
         else:
-            branch = 1 if sight_rate > 0.0 else -1
-    return error - side * angle, side, branch
+            branch = towards(sight_rate)
+    return error - side * rules.angle, Mode(side, branch)
 
 
+@inlined
 def leave(
-    bearing: float,
-    sight_rate: float,
-    side: int,
-    branch: int,
-    edge: int,
-    angle: float,
-    keeps_side: bool,
-    gain: float,
-) -> tuple[float, int, int]:
+    bearing: float, sight_rate: float, mode: Mode, edge: Edge, rules: Rules
+) -> tuple[float, Mode]:
     """Find the piece that follows when a game leaves its piece.
 
     Args:
         bearing: Bearing of the pursuer at that instant, in [rad].
         sight_rate: Rate of the line of sight, in [rad/s].
-        side: Side of the piece left.
-        branch: Branch of the piece left.
-        edge: -1 at its low bearing, +1 at its high one; of no meaning when
-            sliding, which ends where the line of sight outruns the evader.
-        angle: Evasion angle, in [rad].
-        keeps_side: Whether the side never changes.
-        gain: Gain of the evader, in [1/s].
+        mode: Mode of the piece left.
+        edge: Where the bearing leaves; of no meaning when sliding, which
+            ends where the line of sight outruns the evader.
+        rules: Rules of the game.
 
     Returns:
-        Bearing, side and branch on the next piece.
+        Bearing and mode on the next piece.
     """
-    zero = -side * angle
-    if branch == 2:
-        return zero, side, (1 if sight_rate > 0.0 else -1)
-    if branch == -edge:  # the saturated evader's error is zero
-        if abs(sight_rate) <= gain:
-            return zero, side, 2
-        return zero, side, -branch
-    if keeps_side:
-        return bearing - edge * 2.0 * pi, side, -branch
-    if edge * side < 0:  # the pursuer passes behind the evader's back
-        bearing -= edge * 2.0 * pi
+    side, branch = mode.side, mode.branch
+    zero = -side * rules.angle
+    if branch == Branch.SLIDING:
+        return zero, Mode(side, towards(sight_rate))
+    falls = branch == Branch.LEFT and edge == Edge.LOW
+    if falls or (branch == Branch.RIGHT and edge == Edge.HIGH):
+        # The saturated evader's error is zero.
+        if abs(sight_rate) <= rules.evader_gain:
+            return zero, Mode(side, Branch.SLIDING)
+        return zero, Mode(side, opposite(branch))
+    turned = bearing - (2.0 * pi if edge == Edge.HIGH else -2.0 * pi)
+    if rules.keeps_side:
+        return turned, Mode(side, opposite(branch))
+    if (edge == Edge.HIGH) == (side < 0):
+        bearing = turned  # the pursuer passes behind the evader's back
     side = -side
-    if branch != 0:
-        branch = 1 if bearing + side * angle > 0.0 else -1
-    return bearing, side, branch
+    if branch != Branch.PROPORTIONAL:
+        branch = towards(bearing + side * rules.angle)
+    return bearing, Mode(side, branch)

@@ -8,7 +8,8 @@ with the line of sight, as Filippov's rule says, so nothing chatters.
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from math import cos, pi, sin
+from functools import partial
+from math import cos, sin
 from typing import Any
 
 import numpy as np
@@ -16,12 +17,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import StepAsideError, check_positive
 from ..poses import Pose
+from .event_located import EDGES, Event, Moment, cross, margin
 from .laws import Game
-from .modes import SLIDING, enter, leave, piece
+from .modes import Branch, Mode, Piece, enter, piece_of
+from .motion import State, derivative, look, look_many
 from .relative import Start, world_poses
+from .rules import Rules, rules_of
 
 Array = NDArray[np.float64]
-_PROBES = np.linspace(0.0, 1.0, 9)  # of each step, where edges are looked for
+_EVENTS = (Event.CAPTURE, *EDGES)
+_PROBES = np.linspace(0.0, 1.0, 9)  # of each step, where events are looked for
+_PARTS = (0.0, *(0.5**k for k in range(1, 49)))  # of a step, tried in turn
 _SLACK = 1e-12  # how far beyond an edge counts as left
 
 
@@ -74,80 +80,116 @@ class Run:
 
 @dataclass
 class _Play:
-    """State of a game under way."""
+    """The piece that a game under way is on."""
 
-    game: Game
-    capture: float
-    side: int = 0
-    branch: int = 0
-    numbers: tuple[float, float, float, float, float] = (0, 0, 0, 0, 0)
-
-    def set_piece(self, side: int, branch: int) -> None:
-        game = self.game
-        self.side, self.branch = side, branch
-        self.numbers = piece(
-            side,
-            branch,
-            game.angle,
-            game.hysteresis,
-            game.keeps_side,
-            game.evader.gain,
-        )
-
-    def sight_rate(self, state: Array) -> Any:
-        vp, ve = self.game.pursuer.speed, self.game.evader.speed
-        return (vp * np.sin(state[1]) - ve * np.sin(state[2])) / state[0]
-
-    def closing(self, state: Array) -> Any:
-        """Rate of the distance, in [m/s]."""
-        vp, ve = self.game.pursuer.speed, self.game.evader.speed
-        return ve * np.cos(state[2]) - vp * np.cos(state[1])
+    rules: Rules
+    mode: Mode
+    piece: Piece
 
     def rates(self, _: float, state: Array) -> list[float]:
         """Rates of (r, a, psi, line of sight, x, y)."""
         r, a, psi, sight, _x, _y = state.tolist()
-        vp, ve = self.game.pursuer.speed, self.game.evader.speed
-        _, _, c0, c1, c2 = self.numbers
-        omega = (vp * sin(a) - ve * sin(psi)) / r
-        heading = sight - a
+        here = State(r, a, psi)
+        view = look(here, self.rules)
+        heading, speed = sight - a, self.rules.pursuer_speed
         return [
-            ve * cos(psi) - vp * cos(a),
-            omega - self.game.pursuer.gain * a,
-            (1.0 - c2) * omega - c1 * psi - c0,
-            omega,
-            vp * cos(heading),
-            vp * sin(heading),
+            *derivative(here, view, self.piece, self.rules),
+            view.sight,
+            speed * cos(heading),
+            speed * sin(heading),
         ]
 
-    def margins(self, state: Array) -> Array:
-        """Distances to the edges: capture, a, low, high, end of sliding."""
-        r, a, psi = state[0], state[1], state[2]
-        low, high = self.numbers[:2]
-        free = np.full_like(r, np.inf)
-        if self.branch == SLIDING:
-            free = self.game.evader.gain - np.abs(self.sight_rate(state))
-        edges = [r - self.capture, pi - np.abs(a), psi - low, high - psi]
-        return np.stack([*edges, free])
+    def margins(self, states: Array) -> Array:
+        """How far states are from each event, in the order of the events."""
+        here = State(*states[:3])
+        now = Moment(here, look_many(here, self.rules))
+        found = [margin(e, now, self.piece, self.rules) for e in _EVENTS]
+        if self.mode.branch != Branch.SLIDING:
+            found[_EVENTS.index(Event.RELEASE)] = np.full_like(here.r, np.inf)
+        return np.stack(found)
 
-    def switch(self, state: Array, edge: int) -> Array:
+    def first_event(
+        self, dense: Any, begin: float, end: float
+    ) -> tuple[Event, float]:
+        """First event of a step and its time, or none and the end."""
+        from scipy.optimize import brentq
+
+        probes = begin + (end - begin) * _PROBES
+        margins = self.margins(dense(probes))
+        left = margins < -_SLACK
+        event = Event.NONE
+        if not left.any():
+            return event, end
+        i = int(np.argmax(left.any(axis=0)))
+        for e in np.flatnonzero(left[:, i]).tolist():
+            hit, out = float(probes[max(i - 1, 0)]), float(probes[i])
+
+            def margin_at(time: float, e: int = e) -> float:
+                return float(self.margins(dense(time))[e])
+
+            # From an edge a game may come in first and then leave.
+            tried = (hit + (out - hit) * part for part in _PARTS)
+            inside = next((t for t in tried if margin_at(t) > 0.0), None)
+            if inside is not None:
+                xtol = 1e-14 * max(1.0, end)
+                hit = brentq(margin_at, inside, out, xtol=xtol)
+            if event == Event.NONE or hit < end:
+                event, end = _EVENTS[e], hit
+        return event, end
+
+    def closest(
+        self, dense: Any, begin: float, step_end: float, end: float
+    ) -> tuple[float, float]:
+        """Least distance of a step until its end, and its time."""
+        from scipy.optimize import brentq
+
+        def opening(times: Any) -> Any:
+            return look_many(State(*dense(times)[:3]), self.rules).closing
+
+        probes = begin + (step_end - begin) * _PROBES
+        times = np.append(probes[probes < end], end)
+        best = (float(dense(times)[0, -1]), float(end))
+        speeds = opening(times)
+        turns = (speeds[:-1] < 0.0) & (speeds[1:] > 0.0)
+        for i in np.flatnonzero(turns).tolist():
+            when = brentq(opening, times[i], times[i + 1])
+            best = min(best, (float(dense(when)[0]), float(when)))
+        return best
+
+    def switch(self, state: Array, event: Event) -> Array:
         """Pass an edge; return the state on the other side."""
-        state = state.copy()
-        if edge == 1:
-            state[1] -= 2.0 * pi * np.sign(state[1])
-            return state
-        bearing, side, branch = leave(
-            float(state[2]),
-            float(self.sight_rate(state)),
-            self.side,
-            self.branch,
-            -1 if edge == 2 else 1,
-            self.game.angle,
-            self.game.keeps_side,
-            self.game.evader.gain,
+        here = State(*state[:3].tolist())
+        here, self.mode = cross(event, here, self.mode, self.rules)
+        self.piece = piece_of(self.mode, self.rules)
+        return np.array([*here, *state[3:]])
+
+
+@dataclass
+class _Kept:
+    """What is kept of a game under way; see :class:`Run`."""
+
+    best: tuple[float, float]
+    times: list[float]
+    sides: list[int]
+    switches: list[float] = field(default_factory=list)
+    pieces: list[Callable[[float], Array]] = field(default_factory=list)
+
+    def run(self, game: Game, state: Array, captured: bool) -> Run:
+        """The game as it was played."""
+        times, pieces = list(self.times), list(self.pieces)
+        if not pieces:
+            pieces.append(lambda _: state)
+            times.append(times[-1])
+        return Run(
+            game,
+            np.array(times),
+            captured,
+            times[-1],
+            *self.best,
+            tuple(self.switches),
+            tuple(self.sides),
+            tuple(pieces),
         )
-        state[2] = bearing
-        self.set_piece(side, branch)
-        return state
 
 
 def simulate(
@@ -179,101 +221,50 @@ def simulate(
         PlanError: If a duration or distance is not finite and positive.
         StepAsideError: If the integrator gives up.
     """
-    from scipy.integrate import DOP853
-    from scipy.optimize import brentq
-
     check_positive(duration, "duration", "s")
     check_positive(capture_distance, "capture_distance", "m")
-    play = _Play(game, capture_distance)
+    rules = rules_of(game, capture_distance)
     r, a, psi = start.wrapped()
+    sight = look(State(r, a, psi), rules).sight
+    psi, mode = enter(psi, sight, side or 0, rules)
+    play = _Play(rules, mode, piece_of(mode, rules))
     state = np.array([r, a, psi, pursuer.theta + a, pursuer.x, pursuer.y])
-    state[2], first, branch = enter(
-        psi,
-        float(play.sight_rate(state)),
-        side or 0,
-        game.angle,
-        game.keeps_side,
-        game.saturated,
-        game.evader.gain,
+    return _integrate(play, game, state, duration, tolerance)
+
+
+def _integrate(
+    play: _Play, game: Game, state: Array, duration: float, tolerance: float
+) -> Run:
+    """Play a game from a state, piece by piece, until it ends."""
+    from scipy.integrate import DOP853
+
+    solve = partial(
+        DOP853,
+        play.rates,
+        t_bound=duration,
+        rtol=tolerance,
+        atol=0.1 * tolerance,
+        max_step=4.0 / max(game.pursuer.gain, game.evader.gain),
     )
-    play.set_piece(first, branch)
-    times, pieces, switches, sides = [0.0], [], [], [first]
-    best, captured = (r, 0.0), r <= capture_distance
-    time = 0.0
-    longest = 4.0 / max(game.pursuer.gain, game.evader.gain)
-
-    def solver() -> Any:
-        return DOP853(
-            play.rates,
-            time,
-            state,
-            duration,
-            rtol=tolerance,
-            atol=0.1 * tolerance,
-            max_step=longest,
-        )
-
-    steps = solver()
+    time, distance = 0.0, float(state[0])
+    kept = _Kept((distance, time), [time], [play.mode.side])
+    captured = distance <= play.rules.capture_distance
+    steps = solve(time, state)
     while not captured and time < duration:
         message = steps.step()
         if message:
             raise StepAsideError(f"integration stopped at {time} s: {message}")
         dense = steps.dense_output()
-        end, state, edge = steps.t, steps.y, -1
-        probes = time + (end - time) * _PROBES
-        seen = dense(probes)
-        margins = play.margins(seen)
-        left = margins < -_SLACK
-        if left.any():
-            i = int(np.argmax(left.any(axis=0)))
-            for e in np.flatnonzero(left[:, i]).tolist():
-                hit = float(probes[i - 1])
-                if margins[e, i - 1] > 0.0:
-                    hit = brentq(
-                        lambda t, e=e, d=dense: play.margins(d(t))[e],
-                        probes[i - 1],
-                        probes[i],
-                        xtol=1e-14 * max(1.0, end),
-                    )
-                if edge < 0 or hit < end:
-                    end, edge = hit, e
-            state = dense(end)
-        best = min(best, _closest(play, dense, probes, end, brentq))
-        times.append(end)
-        pieces.append(dense)
+        event, end = play.first_event(dense, time, steps.t)
+        state = steps.y if event == Event.NONE else dense(end)
+        kept.best = min(kept.best, play.closest(dense, time, steps.t, end))
         time = end
-        captured = edge == 0
-        if edge > 0:
-            state = play.switch(state, edge)
-            switches.append(time)
-            sides.append(play.side)
-            steps = solver()
-    if not pieces:
-        constant = state.copy()
-        pieces.append(lambda _: constant)
-        times.append(time)
-    return Run(
-        game,
-        np.array(times),
-        captured,
-        time,
-        best[0],
-        best[1],
-        tuple(switches),
-        tuple(sides),
-        tuple(pieces),
-    )
-
-
-def _closest(
-    play: _Play, dense: Any, probes: Array, end: float, solve: Any
-) -> tuple[float, float]:
-    """Least distance of one step and its time."""
-    times = np.append(probes[probes < end], end)
-    states = dense(times)
-    best = (float(states[0, -1]), float(end))
-    rates = play.closing(states)
-    for i in np.flatnonzero((rates[:-1] < 0.0) & (rates[1:] > 0.0)).tolist():
-        when = solve(lambda t: play.closing(dense(t)), times[i], times[i + 1])
-        best = min(best, (float(dense(when)[0]), float(when)))
-    return best
+        kept.times.append(time)
+        kept.pieces.append(dense)
+        captured = event == Event.CAPTURE
+        if event in EDGES:
+            state = play.switch(state, event)
+            kept.switches.append(time)
+            kept.sides.append(play.mode.side)
+            steps = solve(time, state)
+    return kept.run(game, state, captured)

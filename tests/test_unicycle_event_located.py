@@ -1,0 +1,73 @@
+"""Test the steps that are cut where something happens."""
+
+from math import pi, sin
+
+import numpy as np
+import pytest
+
+from stepaside.unicycle.event_located import (
+    Event,
+    Moment,
+    event_located_step,
+    margin,
+    time_of,
+)
+from stepaside.unicycle.laws import make_game
+from stepaside.unicycle.modes import Branch, Mode, Piece, piece_of
+from stepaside.unicycle.motion import State, look
+from stepaside.unicycle.rules import Rules, rules_of
+
+ONWARD = Mode(1, Branch.PROPORTIONAL)
+
+
+def driving_past(capture_distance: float) -> Rules:
+    """A pursuer drives straight on, and the evader stands still."""
+    made = rules_of(make_game(1.0, 1.0, 1.0, 1.0, 0.0), capture_distance)
+    return made._replace(evader_speed=0.0, pursuer_gain=0.0, evader_gain=0.0)
+
+
+def test_margins_fall_to_zero_at_their_events() -> None:
+    rules = rules_of(make_game(1.2, 0.9, 0.5, 0.6), 0.7)
+    state, piece = State(2.0, 0.4, -0.3), Piece(-1.0, 0.5, 0.0, 0.6, 1.0)
+    rate = (1.2 * sin(0.4) - 0.9 * sin(-0.3)) / 2.0
+    closing = 1.2 * np.cos(0.4) - 0.9 * np.cos(-0.3)
+    expected = {
+        Event.WRAP: pi - 0.4,
+        Event.LOW: 0.7,
+        Event.HIGH: 0.8,
+        Event.RELEASE: 0.6 - abs(rate),
+        Event.CLOSEST: closing,
+        Event.CAPTURE: 1.3,
+    }
+    now = Moment(state, look(state, rules))
+    got = {event: margin(event, now, piece, rules) for event in expected}
+    assert got == pytest.approx(expected)
+
+
+def test_step_tells_the_closest_approach_and_its_time() -> None:
+    """A pursuer drives straight past an evader that stands still."""
+    a, r = np.arctan2(0.3, 0.5), np.hypot(0.3, 0.5)
+    past, apart = State(r, a, -a), State(r, pi - a, -a)
+    step = event_located_step(past, ONWARD, 2.0, driving_past(0.01))
+    assert step[2:] == pytest.approx((0.3, 0.5, -1.0))
+    assert step.state.r == pytest.approx(np.hypot(0.3, 1.5))
+    step = event_located_step(apart, ONWARD, 0.5, driving_past(0.01))
+    assert step[2:] == pytest.approx((r, 0.0, -1.0))
+    step = event_located_step(past, ONWARD, 2.0, driving_past(0.5))
+    when = 0.5 - np.sqrt(0.5**2 - 0.3**2)
+    assert step[2:] == pytest.approx((0.5, when, when))
+
+
+def test_edge_that_a_game_stands_on_is_met_when_it_comes_back() -> None:
+    """The line of sight outruns the evader for some milliseconds only."""
+    rules = rules_of(make_game(1.0, 1.0, 0.5, 0.5, law="saturated"), 0.2)
+    state = State(1.2787314540990418, -2.7776696801482905, -0.5 * pi)
+    left = Mode(1, Branch.LEFT)
+    assert 0.5 < look(state, rules).sight < 0.51
+    piece = piece_of(left, rules)
+    now = Moment(state, look(state, rules))
+    time = time_of(Event.LOW, now, 0.007, piece, rules)
+    assert 0.003 < time < 0.005
+    step = event_located_step(state, left, 0.01, rules)
+    assert step.mode == (1, Branch.SLIDING)
+    assert step.state.psi == -0.5 * pi
