@@ -1,17 +1,27 @@
 """Test how a robot asks its strategy."""
 
+from collections.abc import Callable
 from dataclasses import replace
-from math import sin
+from math import nan, sin
+from typing import Any
 
 import pytest
 
 from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run, feeding
 from stepaside.control.deciding import Decisions
 from stepaside.control.phase import Phase
+from stepaside.errors import StrategyError
 from stepaside.planning import Direction
 from stepaside.poses import Pose
 from stepaside.sensing.measurement import Sighting
-from stepaside.strategies import Evasion, EvasionMemory, Pursuit, Walk
+from stepaside.strategies import (
+    Evasion,
+    EvasionMemory,
+    Intent,
+    Knowledge,
+    Pursuit,
+    Walk,
+)
 
 FOOT = Pose(1.0, 2.0, 0.5)
 
@@ -157,3 +167,30 @@ def test_a_start_that_the_prediction_takes_back_is_none() -> None:
     feedback.turn = 0.0
     run.until(0.2)
     assert run.phase() is Phase.WALKING
+
+
+@pytest.mark.parametrize(
+    ("answer", "said"),
+    [
+        (lambda: dict[str, int]()["lost"], "KeyError: 'lost'"),
+        (lambda: (Intent(nan), None), "PlanError: heading must be finite"),
+        (lambda: None, "TypeError: cannot unpack"),
+        (lambda: (0.3, None), "decide gave no Intent, got 0.3"),
+    ],
+)
+def test_a_strategy_that_gives_no_intent_is_told_from_other_errors(
+    answer: Callable[[], Any], said: str
+) -> None:
+    class Failing(FakeStrategy):
+        """Fails when it is asked."""
+
+        def decide(self, knowledge: Knowledge, memory: Any) -> Any:
+            return answer()
+
+    made, seen = decisions(Failing()), Sighting(0.0, 0.1, 1.0)
+    before = made.memory
+    with pytest.raises(StrategyError, match=said):
+        made.starts(0.0, FOOT, seen)
+    with pytest.raises(StrategyError, match=said):
+        made.decide(0.0, FOOT, seen, None, moving=True)
+    assert made.memory == before

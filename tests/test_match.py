@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from made_up_players import TICK, FakeObserver, clock, game, raising
-from stepaside.errors import ReachError
+from stepaside.errors import ReachError, StrategyError
 from stepaside.games.match import Progress, play
 from stepaside.games.outcome import Outcome
 from stepaside.games.record import Recorder
@@ -64,6 +64,17 @@ def test_legs_that_lose_their_reference_end_a_game_and_it_is_kept(
     assert [player.closed for player in players] == [1, 1, 1]
     np.testing.assert_allclose(recorder.times, [0.0, 0.02, 0.04, 0.048])
     assert all(len(t.com) == 4 for t in recorder.tracks().values())
+
+
+def test_a_strategy_that_fails_ends_a_game_and_it_is_kept() -> None:
+    watcher = FakeObserver()
+    match, world, players = game(0.0, 2.0, observers=[watcher])
+    players[1].does[3] = raising(StrategyError("KeyError: 'x'"))
+    outcome, _ = play(match, 1.0)
+    said = "b's strategy failed at 0.01 s: KeyError: 'x'"
+    assert outcome is Outcome.FAILED and match.message == said
+    assert watcher.ended_with == [(outcome, said, 3 * TICK)]
+    assert [player.closed for player in players] == [1, 1]
 
 
 @pytest.mark.parametrize("at", [10, 12])

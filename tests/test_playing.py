@@ -18,7 +18,7 @@ from stepaside.drivers.lola.frames import pack_sensors
 from stepaside.drivers.lola.safety import State
 from stepaside.drivers.playing import Playing
 from stepaside.drivers.status_line import StatusLine
-from stepaside.errors import ConfigurationError, ReachError
+from stepaside.errors import ConfigurationError, ReachError, StrategyError
 from stepaside.planning import GaitSettings
 from stepaside.poses import Pose
 from stepaside.sensing.measurement import Sighting
@@ -111,18 +111,21 @@ def test_the_button_lets_control_stop_and_the_next_walk_has_a_new_mind() -> (
     assert game.minds[1].decisions.strategy is WISH
 
 
-@pytest.mark.parametrize("kind", ["footing", "falling"])
+@pytest.mark.parametrize("kind", ["footing", "strategy", "falling"])
 def test_control_that_gives_up_lets_the_robot_go_limp(kind: str) -> None:
     game = Game([*TO_READY, *PRESS, *5 * [FINE]])
     game.play(103)
     if kind == "footing":
         game.minds[0].fails = ReachError("a leg is too short")
+    elif kind == "strategy":
+        game.minds[0].fails = StrategyError("KeyError: 'x'")
     else:
         game.minds[0].update = lambda _: STANCE  # type: ignore[method-assign, assignment]
         game.minds[0].phase = Phase.FALLEN
     tick = game.play(1)
     assert tick.state is State.LIMP
-    assert {"footing": "too short", "falling": "falls"}[kind] in tick.reason
+    said = {"footing": "too short", "strategy": "'x'", "falling": "falls"}
+    assert said[kind] in tick.reason
 
 
 def test_a_dry_run_thinks_and_moves_nothing() -> None:

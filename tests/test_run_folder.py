@@ -100,6 +100,19 @@ def test_an_error_leaves_nothing_behind(
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_full_disk_is_told_in_one_line(
+    tmp_path: Path, result: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: Any) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(run_folder, "draw_duel", full)
+    said = "run cannot be written: .*No space left"
+    with pytest.raises(ConfigurationError, match=said):
+        write_run(tmp_path / "run", result)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_film_strip_is_there_if_they_saw(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, result: Run
 ) -> None:

@@ -9,7 +9,7 @@ from stepaside.poses import wrap_angle
 from stepaside.unicycle.basins import find_basins, random_starts
 from stepaside.unicycle.circles import agrees, circles_of, find_circles
 from stepaside.unicycle.circling import Circle, circle_of
-from stepaside.unicycle.equilibria import find_rests, growth_rates
+from stepaside.unicycle.equilibria import Games, find_rests, growth_rates
 from stepaside.unicycle.kernel import play_games
 from stepaside.unicycle.laws import Game, TurningLaw, make_game
 from stepaside.unicycle.measure import circle_at, measure, settling_time
@@ -173,10 +173,9 @@ def test_eigenvalues_are_those_of_the_printed_law(law: TurningLaw) -> None:
     """Finite differences of the rates, of the sliding motion if it slides."""
     h = 1e-6
     values = random_games(25)
-    rests = find_rests(*values.T, saturated=law is TurningLaw.SATURATED)
-    growth = growth_rates(
-        rests, *values.T, saturated=law is TurningLaw.SATURATED
-    )
+    games, saturated = Games.of(*values.T), law is TurningLaw.SATURATED
+    rests = find_rests(games, saturated=saturated)
+    growth = growth_rates(rests, games, saturated=saturated)
     assert set(np.unique(rests.game)) <= set(range(25))
     for i, number in enumerate(rests.game):
         game = game_of(values[number], law, "latched")

@@ -1,6 +1,7 @@
 """Test the circle of a game against its closed forms."""
 
 from functools import partial
+from inspect import signature
 from math import cos, inf, nan, pi, sin
 
 import numpy as np
@@ -155,3 +156,16 @@ def test_bad_values_are_refused(place: int, value: float) -> None:
 def test_angle_out_of_range_is_refused(angle: float) -> None:
     with pytest.raises(PlanError, match="angle must"):
         find_circle(1, 1, 1, 1, angle)
+
+
+def test_a_game_and_its_values_have_the_same_circle() -> None:
+    values = (1.2, 1.0, 0.5, 0.9)
+    named = {"angle": 2.4, "law": "saturated", "side_rule": "latched"}
+    game = make_game(*values, **named)  # type: ignore[arg-type]
+    found = find_circle(*values, **named)  # type: ignore[arg-type]
+    assert found.exists
+    assert found == circle_of(game)
+    assert find_circle.__name__ == "find_circle"
+    assert list(signature(find_circle).parameters) == list(
+        signature(make_game).parameters
+    )

@@ -265,3 +265,18 @@ def test_hysteresis_is_bounded_by_the_nearer_end_of_the_angle(
     for value in (widest + 1e-6, -0.1, float("nan")):
         with pytest.raises(PlanError, match="^hysteresis must"):
             make_game(1, 1, 1, 1, angle, hysteresis=value)
+
+
+def test_side_that_the_rule_forbids_is_given_up_before_anything_moves() -> (
+    None
+):
+    """Then the game is the one that asks for no side."""
+    game, start = make_game(1.0, 1.0, 0.5, 0.5), Start(3.0, 0.2, 0.8)
+    asked = simulate(game, start, 10.0, side=1)
+    free = simulate(game, start, 10.0)
+    assert asked.switches[0] == 0.0
+    assert asked.sides[:2] == (1, -1)
+    times = np.linspace(0.0, 10.0, 21)
+    np.testing.assert_allclose(
+        asked.states(times), free.states(times), atol=1e-9
+    )

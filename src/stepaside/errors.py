@@ -19,6 +19,10 @@ class ReachError(StepAsideError, ValueError):
     """A body was asked for a posture that it cannot take."""
 
 
+class StrategyError(StepAsideError, RuntimeError):
+    """A strategy failed when it was asked, or gave no intent."""
+
+
 class ModelError(StepAsideError, ValueError):
     """A robot description does not fit its model."""
 

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
+from ..errors import StrategyError
 from ..planning import GaitSettings
 from ..poses import Pose, wrap_angle
 from ..sensing.measurement import Sighting
@@ -62,9 +63,12 @@ class Decisions:
             now: Time of the decision, in [s].
             support: Foot that will support, in odometry.
             seen: What was seen last.
+
+        Raises:
+            StrategyError: If the strategy gives no intent.
         """
         known = self._knowledge(now, support, seen, None, moving=False)
-        intent, memory = self.strategy.decide(known, self.memory)
+        intent, memory = self._ask(known)
         if not intent.walks:
             self.memory = memory
         return intent.walks
@@ -87,10 +91,23 @@ class Decisions:
             ahead: From time and direction of a sighting to the direction
                 when a step takes effect, where feedback predicts it.
             moving: Whether it is under way.
+
+        Raises:
+            StrategyError: If the strategy gives no intent.
         """
         known = self._knowledge(now, support, seen, ahead, moving=moving)
-        intent, self.memory = self.strategy.decide(known, self.memory)
+        intent, self.memory = self._ask(known)
         return intent
+
+    def _ask(self, known: Knowledge) -> tuple[Intent, Any]:
+        """Answer of a strategy that anybody may have written."""
+        try:
+            intent, memory = self.strategy.decide(known, self.memory)
+        except Exception as error:
+            raise StrategyError(f"{type(error).__name__}: {error}") from error
+        if not isinstance(intent, Intent):
+            raise StrategyError(f"decide gave no Intent, got {intent!r}")
+        return intent, memory
 
     def _knowledge(
         self,

@@ -113,6 +113,7 @@ class ControlScheme:
 
         Raises:
             ReachError: If the legs lose the reference.
+            StrategyError: If the strategy gives no intent.
         """
         self.begun = None
         if self.phase is Phase.FALLEN:

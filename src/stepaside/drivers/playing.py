@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from ..control import ControlScheme, Phase
-from ..errors import ReachError
+from ..errors import ReachError, StrategyError
 from ..poses import Array
 from ..sensing.measurement import Measurement, Sighting
 from ..strategies import Stand, Strategy
@@ -116,6 +116,9 @@ class Playing:
             targets = scheme.update(measurement)
         except ReachError as error:
             body.fail(f"control lost its footing: {error}")
+            return scheme.joint_targets
+        except StrategyError as error:
+            body.fail(f"the strategy failed: {error}")
             return scheme.joint_targets
         if scheme.phase is Phase.FALLEN:
             body.fail("control feels that it falls")

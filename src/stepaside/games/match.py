@@ -6,7 +6,7 @@ from math import ceil
 from time import perf_counter
 from typing import NamedTuple, Protocol
 
-from ..errors import ReachError
+from ..errors import ReachError, StrategyError
 from ..world.world import World
 from .outcome import Outcome
 from .player import Player
@@ -114,6 +114,12 @@ class Match:
                     f"{self.world.time:.2f} s: {error}"
                 )
                 return Outcome.UNREACHABLE
+            except StrategyError as error:
+                self.message = (
+                    f"{player.name}'s strategy failed at "
+                    f"{self.world.time:.2f} s: {error}"
+                )
+                return Outcome.FAILED
         for observer in self.observers:
             observer.acted(self)
         self.world.step()

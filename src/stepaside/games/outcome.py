@@ -10,4 +10,5 @@ class Outcome(Enum):
     FALL = "fall"
     CONTACT = "contact"
     UNREACHABLE = "unreachable"
+    FAILED = "failed"
     INTERRUPTED = "interrupted"

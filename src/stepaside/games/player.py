@@ -79,6 +79,7 @@ class Player(Protocol):
 
         Raises:
             ReachError: If its legs lose what they are asked for.
+            StrategyError: If its strategy gives no intent.
         """
 
     def snapshot(self) -> Snapshot:

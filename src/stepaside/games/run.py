@@ -106,8 +106,8 @@ class Run:
         triggered = self.summary.triggered_at_s
         converged = self.summary.converged_at_s
         last = index >= len(self.times) - 1
-        over = (Outcome.FALL, Outcome.CONTACT, Outcome.UNREACHABLE)
-        if last and self.outcome in over:
+        goes_on = (Outcome.COMPLETED, Outcome.INTERRUPTED)
+        if last and self.outcome not in goes_on:
             return self.message
         if triggered is None or time < triggered:
             return "the pursuer comes; the evader stands"

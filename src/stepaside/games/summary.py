@@ -117,8 +117,6 @@ def _closest_approach(settings: DuelSettings) -> float | None:
         return None
     if not settings.is_of_the_paper:
         return None
-    if not settings.is_of_the_paper:
-        return None
     pace = gait.path_interval / gait.step_duration
     return template_approach(
         lambda pose, evader: Motion(settings.person, pose, evader),

@@ -55,9 +55,23 @@ def write_run(folder: Path, run: Run) -> Path:
 
     Returns:
         Path of the figure.
+
+    Raises:
+        ConfigurationError: If the folder cannot be written.
     """
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=folder.parent))
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=folder.parent))
+        _write_whole(draft, folder, run)
+    except OSError as error:
+        raise ConfigurationError(
+            f"output {folder} cannot be written: {error}"
+        ) from error
+    return folder / FIGURE
+
+
+def _write_whole(draft: Path, folder: Path, run: Run) -> None:
+    """Fill a draft, and put it where the folder shall lie."""
     try:
         write_record(draft, run)
         draw_duel(run, draft / FIGURE)
@@ -72,4 +86,3 @@ def write_run(folder: Path, run: Run) -> Path:
     except BaseException:
         shutil.rmtree(draft, ignore_errors=True)
         raise
-    return folder / FIGURE

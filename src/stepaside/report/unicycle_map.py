@@ -9,6 +9,10 @@ from ..unicycle.circling import Circle
 from ..unicycle.maps import StartMap
 from .style import plt
 
+_QUANTITIES = (
+    ("closest_distance", "closest approach [m]", "viridis"),
+    ("settled_time", "time until it circles [s]", "cividis"),
+)
 # By Okabe and Ito, told apart by everybody; the main way round is pale.
 _COLOURS = ("#f0e442", "#0072b2", "#cc79a7", "#d55e00", "#009e73", "#56b4e9")
 
@@ -27,11 +31,6 @@ def draw_map(
     """
     count = len(found.distances)
     picks = np.unique(np.linspace(0, count - 1, min(4, count)).astype(int))
-    closest = found.grid("closest_distance")
-    settled = found.grid("settled_time").copy()
-    settled[~np.isfinite(settled)] = np.nan
-    aims = np.rad2deg(found.pursuer_errors)
-    bearings = np.rad2deg(found.bearings)
     count = 3 if len(circles) > 1 else 2
     figure, axes = plt.subplots(
         count,
@@ -41,23 +40,8 @@ def draw_map(
         sharey=True,
         squeeze=False,
     )
-    rows = (
-        (closest, "closest approach [m]", "viridis"),
-        (settled, "time until it circles [s]", "cividis"),
-    )
-    for row, (values, label, colours) in zip(axes, rows, strict=False):
-        high = float(np.nanmax(values)) if np.isfinite(values).any() else 1.0
-        for ax, i in zip(row, picks, strict=True):
-            image = ax.pcolormesh(
-                bearings, aims, values[i], vmin=0.0, vmax=high, cmap=colours
-            )
-            ax.set_facecolor("0.8")  # captured or not settled
-            ax.grid(visible=False)
-            if closest[i].min() <= body < closest[i].max():
-                ax.contour(
-                    bearings, aims, closest[i], [1.001 * body], colors="w"
-                )
-        figure.colorbar(image, ax=list(row), label=label)
+    for row, quantity in zip(axes, _QUANTITIES, strict=False):
+        _draw_quantity(figure, row, found, picks, quantity, body)
     if count == 3:
         _draw_circles(figure, axes[2], found, picks, circles)
     for ax, i in zip(axes[0], picks, strict=True):
@@ -68,6 +52,32 @@ def draw_map(
         ax.set_ylabel("bearing of the evader\nseen by the pursuer [deg]")
     figure.savefig(path)
     plt.close(figure)
+
+
+def _draw_quantity(
+    figure: Any,
+    row: Any,
+    found: StartMap,
+    picks: Any,
+    quantity: tuple[str, str, str],
+    body: float,
+) -> None:
+    """Draw one quantity; captured and not settled stay grey."""
+    name, label, colours = quantity
+    values, closest = found.grid(name).copy(), found.grid("closest_distance")
+    values[~np.isfinite(values)] = np.nan
+    high = 1.0 if np.isnan(values).all() else float(np.nanmax(values))
+    aims = np.rad2deg(found.pursuer_errors)
+    bearings = np.rad2deg(found.bearings)
+    for ax, i in zip(row, picks, strict=True):
+        image = ax.pcolormesh(
+            bearings, aims, values[i], vmin=0.0, vmax=high, cmap=colours
+        )
+        ax.set_facecolor("0.8")
+        ax.grid(visible=False)
+        if closest[i].min() <= body < closest[i].max():
+            ax.contour(bearings, aims, closest[i], [1.001 * body], colors="w")
+    figure.colorbar(image, ax=list(row), label=label)
 
 
 def _draw_circles(

@@ -2,13 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..unicycle.circling import circle_of
 from ..unicycle.laws import Game, SideRule, TurningLaw
-from ..unicycle.measure import measure, settling_time
+from ..unicycle.measure import Measured, measure, settling_time
 from ..unicycle.relative import Start
 from ..unicycle.simulate import simulate
 from .style import EVADER, PURSUER, THEORY, plt
@@ -19,6 +19,41 @@ _STYLES = {
 }
 
 
+class Sweep(NamedTuple):
+    """One thing that is varied.
+
+    Attributes:
+        label: What it is, with its unit.
+        low: Where it begins.
+        high: Where it ends.
+        vary: Gives the game at a value of it.
+    """
+
+    label: str
+    low: float
+    high: float
+    vary: Callable[[Game, float], Game]
+
+
+def _with_gain(game: Game, ratio: float) -> Game:
+    """Game with another ratio of the evader's to the pursuer's gain."""
+    evader = replace(game.evader, gain=ratio * game.pursuer.gain)
+    return replace(game, evader=evader)
+
+
+def _with_speed(game: Game, ratio: float) -> Game:
+    """Game with another ratio of the pursuer's to the evader's speed."""
+    pursuer = replace(game.pursuer, speed=ratio * game.evader.speed)
+    return replace(game, pursuer=pursuer)
+
+
+_SWEEPS = (
+    Sweep("evasion angle [rad]", 0.15, 3.0, lambda g, x: replace(g, angle=x)),
+    Sweep("evader's gain / pursuer's gain", 0.4, 2.5, _with_gain),
+    Sweep("pursuer's speed / evader's speed", 0.4, 1.6, _with_speed),
+)
+
+
 def draw_sweep(game: Game, path: str, *, marks: int = 7) -> None:
     """Write radius and distance over angle, gain ratio and speed ratio.
 
@@ -27,35 +62,14 @@ def draw_sweep(game: Game, path: str, *, marks: int = 7) -> None:
         path: File, of a format that its suffix tells.
         marks: Simulated games along each line.
     """
-    sweeps: list[tuple[str, Any, Callable[[float], Game]]] = [
-        (
-            "evasion angle [rad]",
-            (0.15, 3.0),
-            lambda s: replace(game, angle=s),
-        ),
-        (
-            "evader's gain / pursuer's gain",
-            (0.4, 2.5),
-            lambda s: replace(
-                game, evader=replace(game.evader, gain=s * game.pursuer.gain)
-            ),
-        ),
-        (
-            "pursuer's speed / evader's speed",
-            (0.4, 1.6),
-            lambda s: replace(
-                game,
-                pursuer=replace(game.pursuer, speed=s * game.evader.speed),
-            ),
-        ),
-    ]
     figure, axes = plt.subplots(
         2, 3, figsize=(10.0, 5.6), sharex="col", sharey="row"
     )
-    for column, (label, (low, high), vary) in zip(axes.T, sweeps, strict=True):
-        for law, style in _STYLES.items():
-            _draw(column, low, high, marks, vary, law, style)
-        column[1].set_xlabel(label)
+    for column, sweep in zip(axes.T, _SWEEPS, strict=True):
+        for law in TurningLaw:
+            _draw_lines(column, game, sweep, law)
+            _draw_marks(column, game, sweep, law, marks)
+        column[1].set_xlabel(sweep.label)
     axes[0, 0].set_ylabel("radius of the pursuer [m]")
     axes[1, 0].set_ylabel("distance [m]")
     unit = game.evader.speed / game.evader.gain
@@ -67,43 +81,46 @@ def draw_sweep(game: Game, path: str, *, marks: int = 7) -> None:
     plt.close(figure)
 
 
-def _draw(
-    axes: Any,
-    low: float,
-    high: float,
-    marks: int,
-    vary: Callable[[float], Game],
-    law: TurningLaw,
-    style: tuple[str, str, str],
-) -> None:
-    """Draw one line and its marks into a column of two axes."""
-    line, mark, colour = style
-    xs = np.linspace(low, high, 200)
-    circles = [circle_of(replace(vary(float(x)), law=law)) for x in xs]
+def _draw_lines(axes: Any, game: Game, sweep: Sweep, law: TurningLaw) -> None:
+    """Draw what the equations say into a column of two axes."""
+    line, _, colour = _STYLES[law]
+    xs = np.linspace(sweep.low, sweep.high, 200)
+    games = [replace(sweep.vary(game, float(x)), law=law) for x in xs]
+    circles = [circle_of(varied) for varied in games]
     radii = [c.radius_pursuer_m for c in circles]
     distances = [c.distance_m for c in circles]
     axes[0].plot(xs, radii, line, color=colour, label=f"{law}, equations")
     axes[1].plot(xs, distances, line, color=colour)
+
+
+def _draw_marks(
+    axes: Any, game: Game, sweep: Sweep, law: TurningLaw, count: int
+) -> None:
+    """Draw what simulated games end on, where a stable circle exists."""
+    _, mark, colour = _STYLES[law]
     found = []
-    for x in np.linspace(low, high, marks).tolist():
-        game = replace(vary(x), law=law)
-        circle = circle_of(game)
-        if not (circle.exists and circle.stable):
-            continue
-        start = Start(
-            1.2 * circle.distance_m,
-            circle.pursuer_error_rad,
-            circle.evader_error_rad - game.angle,
-        )
-        # On a kept side: near the circle the rule behind changes nothing.
-        kept = replace(game, side_rule=SideRule.LATCHED, hysteresis=0.0)
-        run = simulate(kept, start, settling_time(game), side=1)
-        measured = measure(run)
-        found.append((x, measured.radius_pursuer_m, measured.distance_m))
-    if found:
-        x_marks, r_marks, d_marks = np.array(found).T
-        axes[0].plot(
-            x_marks, r_marks, mark, ms=4, mec=THEORY, mfc=colour,
-            label=f"{law}, simulated",
-        )  # fmt: skip
-        axes[1].plot(x_marks, d_marks, mark, ms=4, mec=THEORY, mfc=colour)
+    for x in np.linspace(sweep.low, sweep.high, count).tolist():
+        ends = _simulated(replace(sweep.vary(game, x), law=law))
+        if ends is not None:
+            found.append((x, ends.radius_pursuer_m, ends.distance_m))
+    if not found:
+        return
+    look = {"ms": 4, "mec": THEORY, "mfc": colour}
+    xs, radii, distances = np.array(found).T
+    axes[0].plot(xs, radii, mark, label=f"{law}, simulated", **look)
+    axes[1].plot(xs, distances, mark, **look)
+
+
+def _simulated(game: Game) -> Measured | None:
+    """What a game that starts near its circle ends on, if that is stable."""
+    circle = circle_of(game)
+    if not (circle.exists and circle.stable):
+        return None
+    start = Start(
+        1.2 * circle.distance_m,
+        circle.pursuer_error_rad,
+        circle.evader_error_rad - game.angle,
+    )
+    # On a kept side: near the circle the rule behind changes nothing.
+    kept = replace(game, side_rule=SideRule.LATCHED, hysteresis=0.0)
+    return measure(simulate(kept, start, settling_time(game), side=1))

@@ -64,7 +64,7 @@ def needs_care(
     rules: Rules,
 ) -> Any:
     """Whether a step holds an event, or is long against the distance."""
-    turned = (was.closing < 0.0) & (now.closing >= 0.0)
+    turned = (was.opening < 0.0) & (now.opening >= 0.0)
     caught = after.r <= rules.capture_distance
     wrapped = abs(after.a) > pi
     left = (after.psi < piece.low) | (after.psi > piece.high)
@@ -80,7 +80,7 @@ def put_state(block: Any, i: Any, state: State, view: View) -> None:
     block.r[i], block.a[i], block.psi[i] = state
     block.sin_a[i], block.cos_a[i] = view.sin_a, view.cos_a
     block.sin_psi[i], block.cos_psi[i] = view.sin_psi, view.cos_psi
-    block.closing[i], block.sight[i] = view.closing, view.sight
+    block.opening[i], block.sight[i] = view.opening, view.sight
 
 
 @inlined
@@ -98,7 +98,7 @@ def step_games(
         block.cos_a[i],
         block.sin_psi[i],
         block.cos_psi[i],
-        block.closing[i],
+        block.opening[i],
         block.sight[i],
     )
     piece = Piece(

@@ -3,51 +3,10 @@
 from math import pi
 
 from .circling import Circle, circle_of, describe_circle
-from .equilibria import find_rests
-from .laws import MOVE_ASIDE, Game, SideRule, TurningLaw, make_game
+from .equilibria import Games, find_rests
+from .laws import Game, make_game, with_values
 
 _SAME = 1e-9  # relative difference of the rates of one and the same circle
-
-
-def find_circles(
-    pursuer_speed: float,
-    evader_speed: float,
-    pursuer_gain: float,
-    evader_gain: float,
-    angle: float = MOVE_ASIDE,
-    law: TurningLaw | str = TurningLaw.PROPORTIONAL,
-    *,
-    side_rule: SideRule | str = SideRule.BEHIND,
-) -> tuple[Circle, ...]:
-    """Find every circle of a game; see :func:`circles_of`.
-
-    Args:
-        pursuer_speed: Speed of the pursuer, in [m/s].
-        evader_speed: Speed of the evader, in [m/s].
-        pursuer_gain: Gain of the pursuer, in [1/s].
-        evader_gain: Gain of the evader, in [1/s]; with the saturated law
-            its turning rate, in [rad/s].
-        angle: Evasion angle in [0, pi], in [rad].
-        law: Turning law of the evader.
-        side_rule: How the evader chooses its side.
-
-    Returns:
-        The circles; none where there is none.
-
-    Raises:
-        PlanError: If a value is out of its range.
-    """
-    return circles_of(
-        make_game(
-            pursuer_speed,
-            evader_speed,
-            pursuer_gain,
-            evader_gain,
-            angle,
-            law,
-            side_rule=side_rule,
-        )
-    )
 
 
 def circles_of(game: Game) -> tuple[Circle, ...]:
@@ -67,14 +26,14 @@ def circles_of(game: Game) -> tuple[Circle, ...]:
         The main circle first, if there is one, then those that turn its way
         round, then the reversed ones, each group the slowest first.
     """
-    rests = find_rests(
+    values = Games.of(
         game.pursuer.speed,
         game.evader.speed,
         game.pursuer.gain,
         game.evader.gain,
         game.angle,
-        saturated=game.saturated,
     )
+    rests = find_rests(values, saturated=game.saturated)
     main = circle_of(game)
     found = [main] if main.exists else []
     rows = zip(
@@ -91,6 +50,10 @@ def circles_of(game: Game) -> tuple[Circle, ...]:
         if agrees(game, circle) and not _is_main(main, circle):
             found.append(circle)
     return tuple(found)
+
+
+find_circles = with_values("find_circles", make_game, circles_of)
+"""The same of the values that :func:`.laws.make_game` takes."""
 
 
 def agrees(game: Game, circle: Circle) -> bool:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import acos, atan2, cos, nan, pi, sin
 
 from ..poses import wrap_angle
-from .laws import MOVE_ASIDE, Game, SideRule, TurningLaw, make_game
+from .laws import Game, make_game, with_values
 from .roots import sign_changes
 from .stability import jacobian, sorted_eigenvalues, time_constant
 
@@ -63,47 +63,6 @@ class Circle:
         return -pi < self.bearing_rad < 0.0
 
 
-def find_circle(
-    pursuer_speed: float,
-    evader_speed: float,
-    pursuer_gain: float,
-    evader_gain: float,
-    angle: float = MOVE_ASIDE,
-    law: TurningLaw | str = TurningLaw.PROPORTIONAL,
-    *,
-    side_rule: SideRule | str = SideRule.BEHIND,
-) -> Circle:
-    """Find the circle of a game; see :func:`circle_of`.
-
-    Args:
-        pursuer_speed: Speed of the pursuer, in [m/s].
-        evader_speed: Speed of the evader, in [m/s].
-        pursuer_gain: Gain of the pursuer, in [1/s].
-        evader_gain: Gain of the evader, in [1/s]; with the saturated law
-            its turning rate, in [rad/s].
-        angle: Evasion angle in [0, pi], in [rad].
-        law: Turning law of the evader.
-        side_rule: How the evader chooses its side.
-
-    Returns:
-        The circle; ``exists`` is false where there is none.
-
-    Raises:
-        PlanError: If a value is out of its range.
-    """
-    return circle_of(
-        make_game(
-            pursuer_speed,
-            evader_speed,
-            pursuer_gain,
-            evader_gain,
-            angle,
-            law,
-            side_rule=side_rule,
-        )
-    )
-
-
 def circle_of(game: Game) -> Circle:
     r"""Find the slowest-turning circle with a positive rate at side +1.
 
@@ -120,6 +79,10 @@ def circle_of(game: Game) -> Circle:
     # By more than rounding: at its full rate the evader does not slide.
     sliding = game.saturated and turning < game.evader.gain * (1.0 - 1e-12)
     return describe_circle(game, turning, *errors, sliding=sliding)
+
+
+find_circle = with_values("find_circle", make_game, circle_of)
+"""The same of the values that :func:`.laws.make_game` takes."""
 
 
 def describe_circle(

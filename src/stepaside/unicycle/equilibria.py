@@ -14,6 +14,7 @@ instant; such places are no circles.
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import pi
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,10 +24,39 @@ from .stability import loop_matrices
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
+Function = Callable[["Games", Array], Array]
 Found = tuple[Indices, Array, Array, Flags]  # game, rate, b, sliding
 _PIECES = 96  # of the range of turning rates, where roots are looked for
 _HALVINGS = 64  # of a bracket: down to rounding
 _TOUCH = 1e-12  # m/s per m/s: below it the two stand on one spot
+
+
+class Games(NamedTuple):
+    """Parameters of many games; arrays of one shape.
+
+    Attributes:
+        pursuer_speed: In [m/s].
+        evader_speed: In [m/s].
+        pursuer_gain: In [1/s].
+        evader_gain: In [1/s]; saturated, the turning rate in [rad/s].
+        angle: Evasion angle in [0, pi], in [rad].
+    """
+
+    pursuer_speed: Array
+    evader_speed: Array
+    pursuer_gain: Array
+    evader_gain: Array
+    angle: Array
+
+    @classmethod
+    def of(cls, *values: ArrayLike) -> "Games":
+        """Games of values that broadcast to shape (n,)."""
+        arrays = [np.atleast_1d(np.asarray(v, np.float64)) for v in values]
+        return cls(*np.broadcast_arrays(*arrays))
+
+    def pick(self, index: Any) -> "Games":
+        """Some of the games, or a view with another shape."""
+        return Games(*(values[index] for values in self))
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,34 +80,19 @@ class Rests:
     sliding: Flags
 
 
-def find_rests(
-    pursuer_speed: ArrayLike,
-    evader_speed: ArrayLike,
-    pursuer_gain: ArrayLike,
-    evader_gain: ArrayLike,
-    angle: ArrayLike,
-    *,
-    saturated: bool,
-) -> Rests:
+def find_rests(games: Games, *, saturated: bool) -> Rests:
     """Find every circle of games whose evader keeps its side.
 
     Args:
-        pursuer_speed: In [m/s]. This and the others broadcast to shape (n,).
-        evader_speed: In [m/s].
-        pursuer_gain: In [1/s].
-        evader_gain: In [1/s].
-        angle: Evasion angle in [0, pi], in [rad].
+        games: The games, of shape (n,).
         saturated: Whether the evader turns by (6) rather than by (4).
 
     Returns:
         The rests with a positive distance.
     """
-    values = (pursuer_speed, evader_speed, pursuer_gain, evader_gain, angle)
-    arrays = [np.atleast_1d(np.asarray(v, dtype=np.float64)) for v in values]
-    games = np.array(np.broadcast_arrays(*arrays))
     found = _saturated(games) if saturated else _proportional(games)
     index, rate, b, sliding = found
-    vp, ve, kp, _, alpha = games[:, index]
+    vp, ve, kp, _, alpha = games.pick(index)
     a = rate / kp
     across = vp * np.sin(a) - ve * np.sin(b - alpha)
     apart = np.abs(across) > _TOUCH * np.maximum(vp, ve)
@@ -89,7 +104,7 @@ def find_rests(
     )
 
 
-def imbalance(games: Array, rate: Array) -> Array:
+def imbalance(games: Games, rate: Array) -> Array:
     """Rate of the distance at given turning rates under (4), in [m/s].
 
     Written so that nothing cancels when the speeds are equal.
@@ -101,7 +116,7 @@ def imbalance(games: Array, rate: Array) -> Array:
     return found
 
 
-def _slope(games: Array, rate: Array) -> Array:
+def _slope(games: Games, rate: Array) -> Array:
     """Derivative of the imbalance by the turning rate, in [m]."""
     vp, ve, kp, ke, alpha = games
     evader = ve / ke * np.sin(alpha - rate / ke)
@@ -109,25 +124,25 @@ def _slope(games: Array, rate: Array) -> Array:
     return found
 
 
-def _proportional(games: Array) -> Found:
+def _proportional(games: Games) -> Found:
     """Roots of the balance over all rates that the errors allow.
 
     It is a sum of two sinusoids, and the range holds one period of the
     faster one, so pieces are short against what it can do between two
     knots: cross zero once, or turn back before or behind it.
     """
-    top = pi * np.minimum(games[2], games[3])
+    top = pi * np.minimum(games.pursuer_gain, games.evader_gain)
     knots = np.linspace(-1.0, 1.0, _PIECES + 1)[:, None] * top
-    value = imbalance(games[:, None], knots)
-    slope = _slope(games[:, None], knots)
+    value = imbalance(games.pick(None), knots)
+    slope = _slope(games.pick(None), knots)
     above = value > 0.0
     crosses = above[1:] != above[:-1]
     towards = (slope[:-1] < 0.0) == above[:-1]
     returns = ~crosses & towards & ((slope[1:] > 0.0) == above[1:])
     piece, index = np.nonzero(returns)
     low, high = knots[piece, index], knots[piece + 1, index]
-    turn = _bisect(_slope, games[:, index], low, high)
-    beyond = (imbalance(games[:, index], turn) > 0.0) != above[piece, index]
+    turn = _bisect(_slope, games.pick(index), low, high)
+    beyond = (imbalance(games.pick(index), turn) > 0.0) != above[piece, index]
     piece, index, turn = piece[beyond], index[beyond], turn[beyond]
     lows = [knots[piece, index], turn]
     highs = [turn, knots[piece + 1, index]]
@@ -136,14 +151,14 @@ def _proportional(games: Array) -> Found:
     low = np.concatenate([*lows, knots[piece, index]])
     high = np.concatenate([*highs, knots[piece + 1, index]])
     index = np.concatenate([*where, index])
-    rate = _bisect(imbalance, games[:, index], low, high)
+    rate = _bisect(imbalance, games.pick(index), low, high)
     sliding = np.zeros(len(index), dtype=np.bool_)
-    return index, rate, rate / games[3, index], sliding
+    return index, rate, rate / games.evader_gain[index], sliding
 
 
 def _bisect(
-    function: Callable[[Array, Array], Array],
-    games: Array,
+    function: Function,
+    games: Games,
     low: Array,
     high: Array,
 ) -> Array:
@@ -157,7 +172,7 @@ def _bisect(
     return found
 
 
-def _saturated(games: Array) -> Found:
+def _saturated(games: Games) -> Found:
     """Rests under (6): at full rate either way round, or sliding.
 
     Where the two meet, the rest counts as one at full rate.
@@ -187,41 +202,19 @@ def _saturated(games: Array) -> Found:
     return index[real], rate[real], b[real], sliding[real]
 
 
-def growth_rates(
-    rests: Rests,
-    pursuer_speed: Array,
-    evader_speed: Array,
-    pursuer_gain: Array,
-    evader_gain: Array,
-    angle: Array,
-    *,
-    saturated: bool,
-) -> Array:
+def growth_rates(rests: Rests, games: Games, *, saturated: bool) -> Array:
     """Largest real part of the eigenvalues about each rest, in [1/s].
 
     Args:
         rests: Rests of the games.
-        pursuer_speed: Of the games, in [m/s]. All have shape (n,).
-        evader_speed: In [m/s].
-        pursuer_gain: In [1/s].
-        evader_gain: In [1/s].
-        angle: Evasion angle, in [rad].
+        games: The games.
         saturated: Whether the evader turns by (6) rather than by (4).
 
     Returns:
         Rates, of the sliding motion where the evader slides; negative where
         the circle is stable. Shape (m,) for m rests.
     """
-    vp, ve, kp, ke, alpha = (
-        values[rests.game]
-        for values in (
-            pursuer_speed,
-            evader_speed,
-            pursuer_gain,
-            evader_gain,
-            angle,
-        )
-    )
+    vp, ve, kp, ke, alpha = games.pick(rests.game)
     a, psi = rests.pursuer_error, rests.evader_error - alpha
     loops = loop_matrices(
         (vp, ve), (kp, 0.0 * ke if saturated else ke), rests.distance, a, psi

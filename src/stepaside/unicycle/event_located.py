@@ -72,7 +72,7 @@ def margin(event: Event, now: Moment, piece: Piece, rules: Rules) -> Any:
         return now.state.r - rules.capture_distance
     if event == Event.RELEASE:
         return rules.evader_gain - abs(now.seen.sight)
-    return -now.seen.closing
+    return -now.seen.opening
 
 
 @inlined
@@ -92,7 +92,7 @@ def time_of(
     (Illinois). From an edge a game may come in first and then leave.
     """
     short, long = 0.0, step
-    above = margin(event, now, piece, rules)
+    above: float = margin(event, now, piece, rules)
     for halvings in range(1, 49):
         if above > 0.0:
             break
@@ -100,7 +100,9 @@ def time_of(
         above = margin(event, advance(now, short, piece, rules), piece, rules)
     if above <= 0.0:
         return 0.0
-    below = margin(event, advance(now, long, piece, rules), piece, rules)
+    below: float = margin(
+        event, advance(now, long, piece, rules), piece, rules
+    )
     moved = 0  # which end was moved last
     for _ in range(60):
         middle = (short * below - long * above) / (below - above)
@@ -141,7 +143,7 @@ def nearest(
     now: Moment, then: Moment, step: float, piece: Piece, rules: Rules
 ) -> tuple[float, float]:
     """Least distance of a step, but for its start, and its time."""
-    if not now.seen.closing < 0.0 < then.seen.closing:
+    if not now.seen.opening < 0.0 < then.seen.opening:
         return then.state.r, step
     time = time_of(Event.CLOSEST, now, step, piece, rules)
     return advance(now, time, piece, rules).state.r, time

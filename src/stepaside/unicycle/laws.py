@@ -1,10 +1,17 @@
 """The game of two unicycles and its laws, eqs. (1)-(6) of the paper."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import wraps
+from inspect import signature
 from math import pi
+from typing import Any, ParamSpec, TypeVar
 
 from ..errors import check_positive, check_within
+
+Values = ParamSpec("Values")
+Found = TypeVar("Found")
 
 MOVE_BACK = 0.0
 """Evasion angle of "move back", in [rad]."""
@@ -119,3 +126,31 @@ def make_game(
         SideRule(side_rule),
         hysteresis,
     )
+
+
+def with_values(
+    name: str, make: Callable[Values, Game], find: Callable[[Game], Found]
+) -> Callable[Values, Found]:
+    """Give a function of a game a twin that takes the values of one.
+
+    Args:
+        name: Name of the twin.
+        make: Makes a game of values, as :func:`make_game` does.
+        find: Function of a game.
+    """
+
+    @wraps(make, assigned=())
+    def found(*values: Values.args, **named: Values.kwargs) -> Found:
+        return find(make(*values, **named))
+
+    made: Any = found
+    given = signature(find).return_annotation
+    made.__signature__ = signature(make).replace(return_annotation=given)
+    first = (find.__doc__ or "").partition("\n")[0]
+    found.__name__ = found.__qualname__ = name
+    found.__module__ = find.__module__
+    found.__doc__ = (
+        f"{first}\n\nSee :func:`{find.__name__}`; the game is that which "
+        f":func:`.laws.{make.__name__}` makes of the values."
+    )
+    return found

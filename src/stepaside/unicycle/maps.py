@@ -143,6 +143,10 @@ def map_starts(
     return StartMap(axes[0], axes[1], axes[2], outcomes)
 
 
+Lowest = Callable[[Array], Array]
+"""Closest approaches of games from starts of shape (n, 3); shape (n,)."""
+
+
 def find_worst_start(
     game: Game,
     start_map: StartMap,
@@ -169,61 +173,79 @@ def find_worst_start(
     Returns:
         The worst start found.
     """
-    from scipy.ndimage import minimum_filter
-    from scipy.optimize import minimize
-
     played = start_map.outcomes.closest_distance.size
-    low, high = box.low, box.high
 
     def lowest(starts: Array) -> Array:
         nonlocal played
         played += len(starts)
         return play_games(
             game,
-            np.clip(starts, low, high),
+            np.clip(starts, box.low, box.high),
             duration,
             step=step,
             capture_distance=capture_distance,
         ).closest_distance
 
+    centers, best = _local_minima(start_map)
+    cell = (box.high - box.low) / np.maximum(np.array(start_map.shape) - 1, 1)
+    for _ in range(_LEVELS):
+        if best.min() <= capture_distance:
+            break
+        centers, best = _refine(lowest, box, centers, best, cell)
+        cell = cell * _SHRINK
+    winner, worst = centers[best.argmin()], float(best.min())
+    if worst > capture_distance:
+        winner, worst = _polish(lowest, box, winner, worst, cell)
+    captured = worst <= capture_distance * (1.0 + 1e-9)
+    r, a, psi = winner.tolist()
+    return WorstStart(Start(r, a, psi), worst, captured, played)
+
+
+def _local_minima(start_map: StartMap) -> tuple[Array, Array]:
+    """Lowest local minima of a map: starts (n, 3) and distances (n,)."""
+    from scipy.ndimage import minimum_filter
+
     values = start_map.grid("closest_distance")
     local = values <= minimum_filter(values, size=3, mode="nearest")
     order = np.argsort(np.where(local, values, np.inf), axis=None)
     order = order[: min(_CANDIDATES, int(local.sum()))]
-    index = np.stack(np.unravel_index(order, values.shape), axis=-1)
+    index = np.unravel_index(order, values.shape)
     axes = (start_map.distances, start_map.pursuer_errors, start_map.bearings)
-    centers = np.stack([axes[i][index[:, i]] for i in range(3)], axis=-1)
-    best = values.ravel()[order]
-    counts = np.maximum(np.array(values.shape) - 1, 1)
-    cell = (high - low) / counts
+    starts = [axis[i] for axis, i in zip(axes, index, strict=True)]
+    return np.stack(starts, axis=-1), values.ravel()[order]
+
+
+def _refine(
+    lowest: Lowest, box: StartBox, centers: Array, best: Array, cell: Array
+) -> tuple[Array, Array]:
+    """Move each centre to the best point of a small grid around it."""
     spots = np.linspace(-1.0, 1.0, _FINE)
     offsets = np.stack(np.meshgrid(spots, spots, spots), -1).reshape(-1, 3)
-    for _ in range(_LEVELS):
-        if best.min() <= capture_distance:
-            break
-        tried = np.clip(centers[:, None] + cell * offsets, low, high)
-        found = lowest(tried.reshape(-1, 3)).reshape(len(centers), -1)
-        pick = found.argmin(axis=1)
-        better = found.min(axis=1) < best
-        rows = np.arange(len(centers))
-        centers = np.where(better[:, None], tried[rows, pick], centers)
-        best = np.minimum(best, found.min(axis=1))
-        cell = cell * _SHRINK
-    winner, worst = centers[best.argmin()], float(best.min())
-    if worst > capture_distance:
-        simplex = winner + np.vstack([np.zeros(3), 2.0 * np.diag(cell)])
-        result = minimize(
-            lambda s: float(lowest(np.array([s]))[0]),
-            winner,
-            method="Nelder-Mead",
-            bounds=list(zip(low, high, strict=True)),
-            options={
-                "initial_simplex": np.clip(simplex, low, high),
-                "maxfev": 120,
-            },
-        )
-        if result.fun < worst:
-            winner, worst = np.clip(result.x, low, high), float(result.fun)
-    captured = worst <= capture_distance * (1.0 + 1e-9)
-    r, a, psi = winner.tolist()
-    return WorstStart(Start(r, a, psi), worst, captured, played)
+    tried = np.clip(centers[:, None] + cell * offsets, box.low, box.high)
+    found = lowest(tried.reshape(-1, 3)).reshape(len(centers), -1)
+    pick, least = found.argmin(axis=1), found.min(axis=1)
+    better = (least < best)[:, None]
+    moved = np.where(better, tried[np.arange(len(centers)), pick], centers)
+    return moved, np.minimum(best, least)
+
+
+def _polish(
+    lowest: Lowest, box: StartBox, winner: Array, worst: float, cell: Array
+) -> tuple[Array, float]:
+    """Better a start by a simplex, if that betters it."""
+    from scipy.optimize import minimize
+
+    simplex = winner + np.vstack([np.zeros(3), 2.0 * np.diag(cell)])
+    result = minimize(
+        lambda start: float(lowest(np.array([start]))[0]),
+        winner,
+        method="Nelder-Mead",
+        bounds=list(zip(box.low, box.high, strict=True)),
+        options={
+            "initial_simplex": np.clip(simplex, box.low, box.high),
+            "maxfev": 120,
+        },
+    )
+    if result.fun < worst:
+        return np.clip(result.x, box.low, box.high), float(result.fun)
+    return winner, worst

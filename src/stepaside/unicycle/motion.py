@@ -46,7 +46,7 @@ class View(NamedTuple):
         cos_a: Its cosine.
         sin_psi: Sine of the bearing of the pursuer.
         cos_psi: Its cosine.
-        closing: Rate of the distance, in [m/s]; negative while it shrinks.
+        opening: Rate of the distance, in [m/s]; negative while it shrinks.
         sight: Rate of the line of sight, in [rad/s].
     """
 
@@ -54,7 +54,7 @@ class View(NamedTuple):
     cos_a: Any
     sin_psi: Any
     cos_psi: Any
-    closing: Any
+    opening: Any
     sight: Any
 
 
@@ -70,9 +70,9 @@ def view_of(
 ) -> View:
     """View from a distance and the sines and cosines of both bearings."""
     vp, ve = rules.pursuer_speed, rules.evader_speed
-    closing = ve * cos_psi - vp * cos_a
+    opening = ve * cos_psi - vp * cos_a
     sight = (vp * sin_a - ve * sin_psi) / r
-    return View(sin_a, cos_a, sin_psi, cos_psi, closing, sight)
+    return View(sin_a, cos_a, sin_psi, cos_psi, opening, sight)
 
 
 @inlined
@@ -99,7 +99,7 @@ def derivative(state: State, view: View, piece: Piece, rules: Rules) -> State:
     """Rates of the three coordinates on a piece."""
     error = pursuit_heading(state.a)
     return State(
-        view.closing,
+        view.opening,
         view.sight - proportional_rate(error, rules.pursuer_gain),
         piece.free * view.sight - piece.slope * state.psi - piece.constant,
     )

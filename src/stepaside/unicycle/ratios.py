@@ -6,7 +6,7 @@ from math import pi
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .equilibria import find_rests, growth_rates
+from .equilibria import Games, find_rests, growth_rates
 from .laws import TurningLaw
 
 Array = NDArray[np.float64]
@@ -56,11 +56,10 @@ def map_ratios(
     gains = np.asarray(gain_ratios, dtype=np.float64)
     grid = np.meshgrid(speeds, gains, indexing="ij")
     vp, ke = (axis.ravel() for axis in grid)
-    one = np.ones(len(vp))
-    games = (vp, one, one, ke, angle * one)
+    games = Games.of(vp, 1.0, 1.0, ke, angle)
     saturated = TurningLaw(law) is TurningLaw.SATURATED
-    rests = find_rests(*games, saturated=saturated)
-    growth = growth_rates(rests, *games, saturated=saturated)
+    rests = find_rests(games, saturated=saturated)
+    growth = growth_rates(rests, games, saturated=saturated)
     bearing = rests.evader_error - angle
     behind = (bearing > -pi) & (bearing < 0.0)
 

@@ -6,7 +6,7 @@ samples both players move on arcs, which have closed form.
 """
 
 from dataclasses import dataclass
-from math import ceil, floor
+from math import ceil, floor, inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -79,6 +79,22 @@ def choose_turning(
     )
 
 
+def _drive(
+    game: Game,
+    pursuer: Pose,
+    evader: Pose,
+    turns: tuple[float, float],
+    span: float,
+) -> tuple[Pose, Pose, float]:
+    """Move both along arcs: poses after a time, and the least distance [m]."""
+    closest = inf
+    for time in (span * np.arange(1, _PARTS + 1) / _PARTS).tolist():
+        p = walk_arc(pursuer, game.pursuer.speed, turns[0], time)
+        e = walk_arc(evader, -game.evader.speed, turns[1], time)
+        closest = min(closest, float(np.hypot(e.x - p.x, e.y - p.y)))
+    return p, e, closest
+
+
 def simulate_sampled(
     game: Game,
     start: Start,
@@ -130,15 +146,12 @@ def simulate_sampled(
         rates.append((turn_p, turn_e))
         sides.append(side)
         old = queue.pop(0)
-        for turn, span in ((old, late), (queue[0], sample_time - late)):
-            if span <= 0.0:
-                continue
-            ends = span * np.arange(1, _PARTS + 1) / _PARTS
-            for time in ends.tolist():
-                p = walk_arc(pursuer, game.pursuer.speed, turn[0], time)
-                e = walk_arc(evader, -game.evader.speed, turn[1], time)
-                closest = min(closest, float(np.hypot(e.x - p.x, e.y - p.y)))
-            pursuer, evader = p, e
+        for turns, span in ((old, late), (queue[0], sample_time - late)):
+            if span > 0.0:
+                pursuer, evader, least = _drive(
+                    game, pursuer, evader, turns, span
+                )
+                closest = min(closest, least)
         captured = closest <= capture_distance
         poses_p.append(pursuer)
         poses_e.append(evader)

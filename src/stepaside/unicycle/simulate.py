@@ -144,7 +144,7 @@ class _Play:
         from scipy.optimize import brentq
 
         def opening(times: Any) -> Any:
-            return look_many(State(*dense(times)[:3]), self.rules).closing
+            return look_many(State(*dense(times)[:3]), self.rules).opening
 
         probes = begin + (step_end - begin) * _PROBES
         times = np.append(probes[probes < end], end)
