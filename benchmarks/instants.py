@@ -1,16 +1,16 @@
 """Which heading and which point the line of sight refers to, and what of it.
 
 The desired heading is the line of sight less a heading. Taken is that of
-the foot that has just landed; tried beside it is the mean of both feet.
-Sighted are the torsos; tried beside them are the points 20 mm behind, where
-the unicycles of the template are. Writes docs/results/instants.json.
+the path where the body was when it saw; tried beside it are that of the
+foot that has just landed and the mean of both feet. Sighted are the places,
+midway between the feet; tried beside them are the torsos. Writes
+docs/results/instants.json.
 """
 
 import os
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from math import cos, sin
 from typing import Any, NamedTuple
 from unittest.mock import patch
 
@@ -27,7 +27,14 @@ from stepaside.poses import wrap_angle
 from stepaside.studies.results import header, write_result
 from stepaside.world.sight import IdealLineOfSight
 
-DURATION = 90.0  # of a duel, in [s]
+DURATION = 120.0  # of a duel, in [s]
+CHOICES = (  # heading that is subtracted, point that is sighted
+    ("path", "place"),
+    ("both feet", "place"),
+    ("landed foot", "place"),
+    ("path", "torso"),
+    ("landed foot", "torso"),
+)
 
 
 class Job(NamedTuple):
@@ -35,21 +42,21 @@ class Job(NamedTuple):
 
     Attributes:
         seed: Of the duel.
-        heading: "landed foot" or "both feet".
-        behind: How far behind the torso the sighted point lies, in [m].
+        heading: "path", "landed foot" or "both feet".
+        point: "place" or "torso".
     """
 
     seed: int
     heading: str
-    behind: float
+    point: str
 
 
-class Behind:
-    """True state of a robot whose place is a point behind its torso."""
+class Torso:
+    """True state of a robot whose place is its torso."""
 
-    def __init__(self, truth: Any, behind: float) -> None:
+    def __init__(self, truth: Any) -> None:
         """Take the place of a true state."""
-        self._truth, self._behind = truth, behind
+        self._truth = truth
 
     @property
     def heading(self) -> float:
@@ -57,65 +64,65 @@ class Behind:
         return float(self._truth.heading)
 
     @property
-    def position(self) -> tuple[float, float]:
-        """Place of the point, in [m]."""
+    def place(self) -> tuple[float, float]:
+        """Origin of the torso, in [m]."""
         x, y = self._truth.position
-        theta = self._truth.heading
-        return x - self._behind * cos(theta), y - self._behind * sin(theta)
+        return x, y
 
 
 def play(job: Job) -> dict[str, Any]:
     """Radii and distance of one duel, in the process of its own choices."""
     look, replan = IdealLineOfSight._look, ControlScheme._replan
 
-    def look_behind(sight: Any, now: float) -> Any:
+    def look_at_torsos(sight: Any, now: float) -> Any:
         own, other = sight._own, sight._other
-        sight._own, sight._other = (
-            Behind(own, job.behind),
-            Behind(other, job.behind),
-        )
+        sight._own, sight._other = Torso(own), Torso(other)
         try:
             return look(sight, now)
         finally:
             sight._own, sight._other = own, other
 
-    def replan_from_both(
+    def replan_from_feet(
         scheme: Any, started: float, support: Any, *rest: Any, **more: Any
     ) -> None:
         state, seen = rest
+        subtracted = support.theta
         if job.heading == "both feet":
             feet = scheme.left_foot.theta - scheme.right_foot.theta
-            mean = scheme.right_foot.theta + 0.5 * wrap_angle(feet)
-            bearing = seen.bearing + wrap_angle(support.theta - mean)
-            seen = seen._replace(bearing=wrap_angle(bearing))
+            subtracted = scheme.right_foot.theta + 0.5 * wrap_angle(feet)
+        path = scheme.decisions.templates.at(seen.time).theta
+        bearing = wrap_angle(seen.bearing + path - subtracted)
+        seen = seen._replace(bearing=bearing)
         replan(scheme, started, support, state, seen, **more)
 
     settings = DuelSettings(seed=job.seed, duration=DURATION)
+    by_path, at_place = job.heading == "path", job.point == "place"
     with (
-        patch.object(IdealLineOfSight, "_look", look_behind),
-        patch.object(ControlScheme, "_replan", replan_from_both),
+        patch.object(
+            IdealLineOfSight, "_look", look if at_place else look_at_torsos
+        ),
+        patch.object(
+            ControlScheme, "_replan", replan if by_path else replan_from_feet
+        ),
     ):
         run = run_duel(settings)
     found = run.summary
     return {
         "heading": job.heading,
-        "behind_m": job.behind,
+        "point": job.point,
         "seed": job.seed,
         "pursuer_radius_m": found.pursuer.radius_m,
         "evader_radius_m": found.evader.radius_m,
-        "distance_m": _distance(run, job.behind),
+        "distance_m": found.distance_m,
+        "torsos_apart_m": _between_torsos(run),
     }
 
 
-def _distance(run: Run, behind: float) -> float:
-    """Mean distance of the sighted points in the last third, in [m]."""
+def _between_torsos(run: Run) -> float:
+    """Mean distance of the torsos in the last third, in [m]."""
     last = run.times >= run.times[-1] * 2.0 / 3.0
-    points = []
-    for track in (run.pursuer, run.evader):
-        x, y, theta = track.torso[last].T
-        points.append((x - behind * np.cos(theta), y - behind * np.sin(theta)))
-    (x, y), (u, v) = points
-    return float(np.hypot(u - x, v - y).mean())
+    apart = run.pursuer.torso[last] - run.evader.torso[last]
+    return float(np.hypot(apart[:, 0], apart[:, 1]).mean())
 
 
 def main() -> None:
@@ -124,12 +131,10 @@ def main() -> None:
     parser.add_argument("--seeds", type=seeds_of, default=range(7, 11))
     asked = parser.parse_args()
     settings = DuelSettings(duration=DURATION)
-    ahead = settings.gait.zmp_forward
     head = header({"seeds": list(asked.seeds), "duration": DURATION})
     jobs = {
-        f"{heading}/{behind}/{seed}": Job(seed, heading, behind)
-        for heading in ("landed foot", "both feet")
-        for behind in (0.0, ahead)
+        f"{heading}/{point}/{seed}": Job(seed, heading, point)
+        for heading, point in CHOICES
         for seed in asked.seeds
     }
     rows = list(gather(asked.output, head, jobs, play).values())

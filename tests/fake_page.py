@@ -116,8 +116,11 @@ class Gui:
         """Add a picture."""
         return self._add(label, image=image)
 
-    def configure_theme(self, *, dark_mode: bool) -> None:
+    def configure_theme(
+        self, *, dark_mode: bool, show_share_button: bool
+    ) -> None:
         """Note whether the page is dark."""
+        assert not show_share_button
         self.themes.append(dark_mode)
 
 
@@ -186,3 +189,10 @@ class Server:
     def stop(self) -> None:
         """Stop."""
         self.stopped = True
+
+
+def open_fake(host: str, port: int) -> Any:
+    """Open a server that serves nobody, behind no door."""
+    server = Server(host=host, port=port)
+    listener = SimpleNamespace(say=None)
+    return SimpleNamespace(server=server, gate=None, listener=listener)

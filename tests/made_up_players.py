@@ -25,6 +25,11 @@ class FakeTruth:
     def __init__(self, x: float, y: float) -> None:
         self.position, self.heading = (x, y), 0.0
 
+    @property
+    def place(self) -> tuple[float, float]:
+        """What stands for it: a hand's breadth to the left."""
+        return self.position[0], self.position[1] + 0.1
+
     def distance_to(self, other: Any) -> float:
         """Horizontal distance to another, in [m]."""
         (x, y), (u, v) = self.position, other.position
@@ -85,6 +90,7 @@ class FakePlayer:
         """What was told to be seen, of a place if nothing else."""
         x, y = self.truth.position
         values: dict[str, Any] = {
+            "place": Pose(x, y + 0.1, self.truth.heading),
             "torso": Pose(x, y, self.truth.heading),
             "com": (x, y, 0.3),
         } | self.seen

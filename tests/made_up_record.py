@@ -29,7 +29,11 @@ RADII = (still(0.5), still(0.7))
 
 
 class Record:
-    """Torsos some way apart, and CoMs on circles round other places."""
+    """Two players some way apart, the first on a circle.
+
+    Their torsos are a little ahead of the places that stand for them, and
+    their CoMs on circles round other places.
+    """
 
     def __init__(
         self,
@@ -40,11 +44,21 @@ class Record:
     ) -> None:
         heading = 0.4 * times
         away = distance(times)
-        pursuer = np.column_stack([0.1 * times, 0.0 * times, heading])
+        pursuer = np.column_stack(
+            [0.4 * np.cos(heading), 0.4 * np.sin(heading), heading]
+        )
         evader = pursuer + np.column_stack(
             [away * np.cos(0.3), away * np.sin(0.3), apart(times)]
         )
-        self.times, self.torsos = times, {"pursuer": pursuer, "evader": evader}
+        self.times, self.places = times, {"pursuer": pursuer, "evader": evader}
+        self.torsos = {
+            name: place
+            + 0.014
+            * np.column_stack(
+                [np.cos(place[:, 2]), np.sin(place[:, 2]), 0.0 * times]
+            )
+            for name, place in self.places.items()
+        }
         self.coms: dict[str, Array] = {}
         middles = {"pursuer": (1.0, -2.0), "evader": (-3.0, 0.5)}
         for (name, (x, y)), radius in zip(middles.items(), radii, strict=True):
@@ -60,6 +74,6 @@ class Record:
     def tracks(self) -> dict[str, Track]:
         """Record of each player."""
         return {
-            name: Track(self.coms[name], self.torsos[name])
+            name: Track(self.coms[name], self.torsos[name], self.places[name])
             for name in self.torsos
         }

@@ -74,13 +74,12 @@ class FakeFeedback:
         self.zmp_feedback = SimpleNamespace(solved=None)
         self.adapted = 0
         self.state: Any = None
-        self.lift = self.shift = self.turn = 0.0
+        self.lift = self.shift = 0.0
         self.jump = (0.0, 0.0)
         self.steps: list[Any] = []
         self.landed: list[Any] = []
         self.fits = 0
         self.joints = SimpleNamespace(update=lambda angles, t: t + angles)
-        self.prediction = SimpleNamespace(ahead=lambda time, d: d + self.turn)
 
     def update(self, _: Any, row: Any, step: Any) -> BodyReference:
         """Pass the reference on, lifted."""

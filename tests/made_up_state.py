@@ -46,7 +46,7 @@ BODY = BodyReference(
 )
 
 
-ROW = ReferenceSample(BODY, ZMP, DCM)
+ROW = ReferenceSample(BODY, ZMP, DCM, Pose(0.0, 0.0, 0.0))
 
 
 class FakeEstimator:

@@ -10,16 +10,19 @@ from made_up_robot import measure
 from stepaside.control.assembly import build_balance, build_scheme
 from stepaside.control.balance.loop import ClosedLoop, OpenLoop
 from stepaside.control.balance.settings import OPEN_LOOP, STABILISED
+from stepaside.control.reference import resting_sample, standing_reference
 from stepaside.control.senses import CameraSight, GivenSight
 from stepaside.planning import CenterState, GaitSettings
 from stepaside.poses import Pose
 from stepaside.robots.description import load_robot
 from stepaside.robots.forward import ForwardKinematics
+from stepaside.robots.kinematics import LegKinematics
 from stepaside.sensing.measurement import Sighting
 from stepaside.strategies import Pursuit
 
 NAO = load_robot("nao")
 GAIT = GaitSettings()
+LEFT, RIGHT = Pose(0.0, 0.05, 0.0), Pose(0.0, -0.05, 0.0)
 
 
 class Noting:
@@ -48,7 +51,6 @@ def stabiliser(**changes: Any) -> Any:
         "zmp_feedback": SimpleNamespace(solved="solved"),
         "estimator": SimpleNamespace(tilt=(0.1, 0.2), torso_heading=0.3),
         "joints": Noting(),
-        "prediction": Noting(),
     } | changes
     for name, value in values.items():
         setattr(made, name, value)
@@ -67,8 +69,6 @@ def test_the_open_loop_passes_everything_on_unchanged() -> None:
     targets = np.arange(3.0)
     assert loop.correct(measurement, targets) is targets
     np.testing.assert_array_equal(targets, [0.0, 1.0, 2.0])
-    for direction in (0.7, -3.0):
-        assert loop.ahead(2.0, direction) == direction
     landed, step = Pose(1.0, 2.0, 0.3), object()
     made: Any = (landed, (0.1, 0.2), (0.3, 0.4))
     assert loop.land(*made, step) == made
@@ -110,8 +110,6 @@ def test_the_closed_loop_asks_its_stabiliser_for_everything() -> None:
     assert loop.correct(measurement, targets) == "answer to update"
     (told,) = fake.joints.asked
     assert told[1] is measurement.joint_positions and told[2] is targets
-    assert loop.ahead(2.0, 0.7) == "answer to ahead"
-    assert fake.prediction.asked == [("ahead", 2.0, 0.7)]
     for name, given in (
         ("land", (Pose(1.0, 2.0, 0.3), (0.1, 0.2), (0.3, 0.4), "step")),
         ("fit", ("plan from", "state", "support")),
@@ -136,9 +134,18 @@ def test_the_closed_loop_is_as_its_stabiliser_is() -> None:
 
 
 def test_settings_open_or_close_the_loop() -> None:
-    options: dict[str, Any] = {"tick": 0.012, "delay": 0.036}
+    legs = LegKinematics(NAO, tick=0.012)
+    legs.stand(standing_reference(LEFT, RIGHT, GAIT))
+    options: dict[str, Any] = {
+        "tick": 0.012,
+        "delay": 0.036,
+        "kinematics": legs,
+    }
     loop = build_balance(NAO, GAIT, OPEN_LOOP, **options)
     assert isinstance(loop, OpenLoop)
+    targets = np.zeros(len(legs.joint_names))
+    loop.update(measure(0.0), resting_sample(LEFT, RIGHT, GAIT), unasked)
+    assert np.abs(loop.correct(measure(0.0), targets)).max() > 1e-4
     closed = build_balance(NAO, GAIT, STABILISED, **options)
     assert isinstance(closed, ClosedLoop)
     made = closed.stabiliser

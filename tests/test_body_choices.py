@@ -5,13 +5,14 @@ from typing import Any
 
 import pytest
 
-from fake_page import Server
+from fake_page import open_fake
 from stepaside.control.balance.settings import (
     OPEN_LOOP,
     STABILISED,
     ControlSettings,
 )
 from stepaside.games.settings import DuelSettings
+from stepaside.report.viewer import page as pages
 from stepaside.report.viewer.body_choices import OWN, body_choices
 from stepaside.report.viewer.page import Page
 from stepaside.strategies import Evasion
@@ -45,7 +46,7 @@ def test_a_body_of_its_own_stands_beside_the_presets() -> None:
 def test_controls_show_a_start_that_is_not_the_usual_one(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("viser.ViserServer", Server)
+    monkeypatch.setattr(pages, "open_server", open_fake)
     control = ControlSettings("closed-form", True)
     settings = DuelSettings(
         strategy=Evasion(saturated=True),

@@ -156,7 +156,6 @@ def test_command_writes_table_figure_and_answer(tmp_path: Path) -> None:
         ("--capture 99 --farthest 5 --nearest 1", "--capture"),
         ("--pursuer-speed nan", "--pursuer-speed"),
         ("--output table.txt", ".npz"),
-        ("--output nowhere/table.npz", "folder"),
         ("--figure table.txt", "--figure"),
         ("--grid 3", "--grid"),
     ],

@@ -105,15 +105,17 @@ def limping(loads: Array) -> Array:
 CIRCLE: dict[str, tuple[Fault, ...]] = {
     "settled": (far_until_late,),
     "pursuer_radius": (
-        lambda d: changed(d, pursuer_com=lambda c: 1.05 * c),
-        lambda d: changed(d, pursuer_com=lambda c: 0.95 * c),
-        lambda d: changed(d, pursuer_com=lambda c: 0.0 * c),
+        lambda d: changed(d, pursuer_torso=lambda t: t * (1.05, 1.05, 1.0)),
+        lambda d: changed(d, pursuer_torso=lambda t: t * (0.95, 0.95, 1.0)),
+        lambda d: changed(d, pursuer_torso=lambda t: t * (0.0, 0.0, 1.0)),
     ),
     "evader_radius": (
-        lambda d: changed(d, evader_com=lambda c: 1.05 * c),
-        lambda d: changed(d, evader_com=lambda c: 0.2 * c),
+        lambda d: changed(d, evader_torso=lambda t: t * (1.05, 1.05, 1.0)),
+        lambda d: changed(d, evader_torso=lambda t: t * (0.2, 0.2, 1.0)),
     ),
-    "one_circle": (lambda d: changed(d, evader_com=lambda c: c + 0.03),),
+    "one_circle": (
+        lambda d: changed(d, evader_torso=lambda t: t + (0.03, 0.03, 0.0)),
+    ),
     "distance": (
         lambda d: changed(d, evader_torso=lambda t: 1.2 * t),
         lambda d: changed(d, evader_torso=lambda t: 0.8 * t),

@@ -35,7 +35,7 @@ RANGES: list[tuple[Callable[..., Any], str, float, float]] = [
     (SightSettings, "distance_noise", 0.0, 1e9),
     (SightSettings, "delay", 0.0, 2.0),
     (SightSettings, "rate", 1e-9, inf),
-    (PhysicsSettings, "friction", 1e-9, 1e9),
+    (PhysicsSettings, "friction", 1e-6, 100.0),
     (PhysicsSettings, "unevenness", 0.0, 0.1),
     (PhysicsSettings, "slope", 0.0, 0.5),
     (PhysicsSettings, "slope_direction", -pi, pi),

@@ -33,7 +33,6 @@ def test_gains_are_those_that_the_documents_were_measured_with() -> None:
         "step_speed": 1.5,
         "freeze": 0.95,
         "stride_gain": 0.3,
-        "prediction_blend": 0.3,
         "joint_gain": 10.0,
         "joint_bound": 0.03,
         "joint_leak": 1.0,

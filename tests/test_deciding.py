@@ -1,13 +1,12 @@
 """Test how a robot asks its strategy."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from math import nan, sin
 from typing import Any
 
 import pytest
 
-from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run, feeding
+from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run
 from stepaside.control.deciding import Decisions
 from stepaside.control.phase import Phase
 from stepaside.errors import StrategyError
@@ -23,27 +22,28 @@ from stepaside.strategies import (
     Walk,
 )
 
-FOOT = Pose(1.0, 2.0, 0.5)
+PLACE = Pose(1.0, 2.0, 0.5)
 
 
 def decisions(strategy: FakeStrategy | None = None) -> Decisions:
     """Decisions of a robot whose torso looks along 0.2 rad."""
     made = Decisions(strategy or FakeStrategy(), GAIT, TICK)
     made.headings.note(0.0, 0.2)
+    made.templates.note(0.0, PLACE)
     return made
 
 
-def test_it_tells_what_it_knows_in_the_frame_of_the_foot() -> None:
+def test_it_tells_what_it_knows_in_the_frame_of_its_unicycle() -> None:
     made = decisions()
-    made.decide(3.0, FOOT, Sighting(2.5, 0.4, 1.5), None, moving=True)
+    made.decide(3.0, Sighting(2.5, 0.4, 1.5), moving=True)
     (known,) = made.memory
     assert known.bearing == pytest.approx(0.4 + 0.2 - 0.5)
     assert known.time == 3.0 and known.age == 0.5 and known.distance == 1.5
-    assert known.pose == FOOT and known.moving and known.obstacles == ()
+    assert known.pose == PLACE and known.moving and known.obstacles == ()
     limits = known.limits
     assert (limits.speed, limits.gain) == (GAIT.speed, GAIT.gain)
     assert (limits.stride, limits.step_duration) == (GAIT.stride, STEP)
-    made.decide(3.0, FOOT, Sighting(3.1, 0.4, 1.5), None, moving=False)
+    made.decide(3.0, Sighting(3.1, 0.4, 1.5), moving=False)
     assert made.memory[1].age == 0.0 and not made.memory[1].moving
 
 
@@ -51,26 +51,25 @@ def test_it_tells_how_fast_the_other_comes() -> None:
     made = decisions()
     for i in range(4):
         seen = Sighting(i * STEP, 0.1 * i, 1.5 - 0.02 * i)
-        made.decide(i * STEP, FOOT, seen, None, moving=True)
+        made.decide(i * STEP, seen, moving=True)
     first, *_, last = made.memory
     assert first.bearing_rate is None and first.closing_speed is None
     assert last.bearing_rate == pytest.approx(0.1 / STEP)
     assert last.closing_speed == pytest.approx(0.02 / STEP)
 
 
-def test_a_prediction_moves_the_bearing_and_not_the_rate() -> None:
+def test_line_of_sight_and_heading_are_of_one_instant() -> None:
+    """However late a sighting is, it counts from where the body was then."""
     made = decisions()
-    for i in range(3):
-        made.decide(
-            i * STEP,
-            FOOT,
-            Sighting(i * STEP, 0.1, 1.0),
-            lambda time, sight: sight + 0.3,
-            moving=True,
-        )
-    known = made.memory[-1]
-    assert known.bearing == pytest.approx(0.1 + 0.2 + 0.3 - 0.5)
-    assert known.bearing_rate == 0.0
+    made.headings.note(1.0, 0.6)
+    made.templates.note(1.0, Pose(1.1, 2.0, 0.8))
+    for age in (0.0, 0.3, 0.9):
+        for seen, torso, template in ((0.5, 0.2, 0.5), (1.0, 0.6, 0.8)):
+            sighting = Sighting(seen, 0.4, 1.5)
+            made.decide(seen + age, sighting, moving=True)
+            known = made.memory[-1]
+            assert known.bearing == pytest.approx(torso + 0.4 - template)
+            assert known.pose.theta == template
 
 
 def test_a_robot_that_stands_remembers_but_not_what_made_it_walk() -> None:
@@ -88,9 +87,9 @@ def test_a_robot_that_stands_remembers_but_not_what_made_it_walk() -> None:
 
     made = decisions(Counting())
     far, near = Sighting(0.0, 0.0, 3.0), Sighting(0.0, 0.0, 1.0)
-    assert not made.starts(0.0, FOOT, far) and made.memory == 1
-    assert made.starts(0.0, FOOT, near) and made.memory == 1
-    made.decide(0.0, FOOT, near, None, moving=False)
+    assert not made.starts(0.0, far) and made.memory == 1
+    assert made.starts(0.0, near) and made.memory == 1
+    made.decide(0.0, near, moving=False)
     assert made.memory == 2
 
 
@@ -150,25 +149,6 @@ def test_a_speed_of_nothing_brings_it_to_rest() -> None:
     assert run.phase() is Phase.WALKING
 
 
-def test_a_start_that_the_prediction_takes_back_is_none() -> None:
-    """What makes it walk lies a little ahead of what it sees."""
-
-    class Shy(FakeStrategy):
-        """Walks only while the other is straight ahead."""
-
-        def decide(self, knowledge, memory):  # type: ignore[no-untyped-def]
-            intent, memory = super().decide(knowledge, memory)
-            return replace(intent, moving=abs(knowledge.bearing) < 0.1), memory
-
-    run, feedback = feeding(Shy())
-    feedback.turn = 0.5
-    run.until(0.1)
-    assert run.phase() is Phase.STANDING and run.scheme.plan is None
-    feedback.turn = 0.0
-    run.until(0.2)
-    assert run.phase() is Phase.WALKING
-
-
 @pytest.mark.parametrize(
     ("answer", "said"),
     [
@@ -190,7 +170,7 @@ def test_a_strategy_that_gives_no_intent_is_told_from_other_errors(
     made, seen = decisions(Failing()), Sighting(0.0, 0.1, 1.0)
     before = made.memory
     with pytest.raises(StrategyError, match=said):
-        made.starts(0.0, FOOT, seen)
+        made.starts(0.0, seen)
     with pytest.raises(StrategyError, match=said):
-        made.decide(0.0, FOOT, seen, None, moving=True)
+        made.decide(0.0, seen, moving=True)
     assert made.memory == before

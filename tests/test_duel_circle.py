@@ -30,8 +30,8 @@ from stepaside.world.person_settings import PersonSettings
 
 def since(record: Record, settings: DuelSettings = SETTINGS) -> float | None:
     """When a record says that they are on the circle."""
-    torsos = record.torsos["pursuer"], record.torsos["evader"]
-    return converged_at(record.times, *torsos, settings, theory_of(settings))
+    places = record.places["pursuer"], record.places["evader"]
+    return converged_at(record.times, *places, settings, theory_of(settings))
 
 
 def test_theory_is_the_circle_of_the_settings() -> None:
@@ -67,7 +67,7 @@ def test_a_person_walks_the_same_circle_at_its_own_pace() -> None:
     assert other.turning_rate_rad_s < 0.99 * circle.turning_rate_rad_s
 
 
-def test_distance_is_between_the_torsos_in_the_plane() -> None:
+def test_distance_is_in_the_plane() -> None:
     one = np.array([[1.0, 2.0, 9.0], [0.0, 0.0, 0.0]])
     other = np.array([[4.0, -2.0, 0.0], [0.0, -1.0, 2.0]])
     np.testing.assert_allclose(distance_between(one, other), [5.0, 1.0])

@@ -40,13 +40,13 @@ def test_robots_stand_where_the_start_says() -> None:
     pursuer, evader = (player.truth for player in duel.players)
     assert [player.name for player in duel.players] == ["pursuer", "evader"]
     assert duel.player("evader") is duel.players[1]
-    assert duel.distance == pytest.approx(1.3, abs=0.03)
+    assert duel.distance == pytest.approx(1.3, abs=1e-6)
     assert pursuer.heading == pytest.approx(0.4)
     assert abs(evader.heading) == pytest.approx(pi - 0.2)
-    np.testing.assert_allclose(pursuer.position, [0.0, 0.0], atol=0.02)
-    np.testing.assert_allclose(evader.position, [1.3, 0.0], atol=0.02)
+    np.testing.assert_allclose(pursuer.place, [0.0, 0.0], atol=1e-6)
+    np.testing.assert_allclose(evader.place, [1.3, 0.0], atol=1e-6)
     assert duel.settings.start == START
-    assert duel.min_distance == duel.distance
+    assert duel.min_distance == pursuer.distance_to(evader)
     assert duel.triggered_at is None and duel.triggered_distance is None
 
 
@@ -136,11 +136,12 @@ def test_a_duel_notes_its_closest_and_when_the_evader_began(
     ways = iter((1.0, 0.9, 0.95, 0.85))
     moves = {pursuer: True, evader: False}
 
-    def distance(duel: Duel) -> float:
+    def apart(duel: Duel) -> float:
         moves[evader] = duel.world.ticks >= 3
         return next(ways)
 
-    monkeypatch.setattr(Duel, "distance", property(distance))
+    monkeypatch.setattr(Duel, "torsos_apart", property(apart))
+    monkeypatch.setattr(Duel, "distance", 0.7)
     monkeypatch.setattr(Walker, "is_moving", property(moves.get))
     monkeypatch.setattr(Walker, "tick", lambda walker: None)
     duel.min_distance = 5.0
@@ -150,7 +151,7 @@ def test_a_duel_notes_its_closest_and_when_the_evader_began(
         closest.append(duel.min_distance)
     assert closest == [1.0, 0.9, 0.9, 0.85]
     assert duel.triggered_at == pytest.approx(0.012)
-    assert duel.triggered_distance == 0.95
+    assert duel.triggered_distance == 0.7
 
 
 @pytest.mark.parametrize(

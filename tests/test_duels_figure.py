@@ -27,10 +27,15 @@ def record(value: float | None) -> dict[str, Any]:
 
 
 @pytest.fixture
-def kept(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Figure]]:
+def kept(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> Iterator[list[Figure]]:
     """Figures that were drawn, instead of files."""
+    monkeypatch.chdir(tmp_path)
     figures: list[Figure] = []
-    monkeypatch.setattr(Figure, "savefig", lambda f, _: figures.append(f))
+    monkeypatch.setattr(
+        Figure, "savefig", lambda f, *_, **__: figures.append(f)
+    )
     real = plt.close
     monkeypatch.setattr(plt, "close", lambda _: None)
     yield figures

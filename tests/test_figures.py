@@ -64,12 +64,15 @@ def record() -> dict[str, Track]:
 
 
 @pytest.fixture
-def kept(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Figure]]:
+def kept(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> Iterator[list[Figure]]:
     """Figures that were drawn, instead of files."""
     figures: list[Figure] = []
+    monkeypatch.chdir(tmp_path)
 
-    def save(figure: Figure, path: Any) -> None:
-        assert path == Path("figure.png")
+    def save(figure: Figure, file: Any, *, format: str) -> None:
+        assert format == "png"
         figures.append(figure)
 
     closed: list[Figure] = []
@@ -77,6 +80,7 @@ def kept(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Figure]]:
     real = plt.close
     monkeypatch.setattr(plt, "close", closed.append)
     yield figures
+    assert [file.name for file in tmp_path.iterdir()] == ["figure.png"]
     assert closed == figures
     for figure in figures:
         real(figure)

@@ -214,16 +214,20 @@ def test_plans_and_campaigns_take_files_of_duels(file: Path) -> None:
     assert refused.exit_code == 2 and "unknown entry weather" in refused.stderr
 
 
-def test_entries_of_older_files_go_by_their_new_names(tmp_path: Path) -> None:
+def test_entries_of_older_files_go_by_new_names_or_not_at_all(
+    tmp_path: Path,
+) -> None:
     file = tmp_path / "old.toml"
     file.write_text(
-        "[body]\nplay = 0.02\n[control.stabiliser]\nlead_blend = 0.5\n",
+        "[body]\nplay = 0.02\n[control.stabiliser]\nankle = 0.2\n"
+        "lead_blend = 0.5\nprediction_blend = 0.4\n",
         encoding="utf-8",
     )
     for name in ("duel", "walk"):
         found = settings(f"{name} --config {file}")
         assert found.body.backlash == 0.02
-        stabiliser = changed(StabiliserSettings(), {"prediction_blend": 0.5})
+        # Entries that mean nothing any more are passed over.
+        stabiliser = changed(StabiliserSettings(), {"ankle": 0.2})
         assert found.control.stabiliser == stabiliser
     file.write_text("[body]\nplay = 0.02\nbacklash = 0.01", encoding="utf-8")
     with pytest.raises(ConfigurationError, match=r"body\.play is the old"):

@@ -48,6 +48,8 @@ class Scene:
         yaw: float = 0.0,
         things: list[tuple[float, float]] | None = None,
         still_times: tuple[float, ...] = (),
+        *,
+        wears_trim: bool = True,
     ) -> None:
         quaternion = f"{cos(0.5 * yaw)} 0 0 {sin(0.5 * yaw)}"
         model = mujoco.MjModel.from_xml_string(
@@ -70,7 +72,8 @@ class Scene:
         other: Any = self.other
         head: Any = HEAD
         self.judge = Judge(
-            own, other, self.mind, head, things or [], still_times
+            *(own, other, self.mind, head, things or [], still_times),
+            wears_trim=wears_trim,
         )
 
     def stand(self, mount: Mount, azimuth: float, away: float) -> None:
@@ -327,3 +330,15 @@ def test_stills_are_the_first_images_at_their_times() -> None:
     assert kept[0].azimuth == pytest.approx(radians(12.0))
     show(scene, depth(0.7))
     assert len(scene.judge.stills["depth"]) == 1
+
+
+def test_a_person_without_trim_counts_in_depth_images_alone() -> None:
+    scene = Scene(wears_trim=False)
+    scene.stand(TOP, 0.0, 1.5)
+    show(scene, colour())
+    show(scene, colour(0.1), 40.0)
+    assert scene.judge.colour == Tally(shown=0, found=0, false=1)
+    assert scene.judge.colour.rate is None
+    scene.stand(DEPTH, 0.0, 1.5)
+    show(scene, depth(), 0.0)
+    assert scene.judge.depth == Tally(shown=1, found=1, false=0)

@@ -239,15 +239,15 @@ def test_many_duels_become_tables(tmp_path: Path) -> None:
 
 def test_choices_of_heading_and_point_become_means(tmp_path: Path) -> None:
     rows = [
-        {"heading": "both feet", "behind_m": 0.02, "seed": seed}
-        | {"pursuer_radius_m": 0.6, "evader_radius_m": 0.7, "distance_m": d}
+        {"heading": "both feet", "point": "torso", "seed": seed}
+        | {"pursuer_radius_m": 0.6, "evader_radius_m": 0.7}
+        | {"distance_m": d, "torsos_apart_m": d - 0.02}
         for seed, d in enumerate([0.8, 1.0])
     ]
     head = header({}, command="none")
     write_result(tmp_path / "instants.json", head, rows=rows)
     assert make("instants", "instants", Store(tmp_path)).endswith(
-        "| both feet | 20 mm behind the torso | 2 | 0.600 | 0.700 | 0.900 "
-        "| 0.800-1.000 |"
+        "| both feet | torso | 2 | 0.600 | 0.700 | 0.900 | 0.880 |"
     )
 
 

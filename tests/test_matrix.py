@@ -178,7 +178,7 @@ def test_everybody_leaves_what_it_has(played: Played) -> None:
         }
         if name not in case.walkers:
             assert lacking == set(Track.__dataclass_fields__) - {
-                *("com", "torso")
+                *("com", "place", "torso")
             }
             continue
         assert lacking == ({"sight"} if case.sensing == "ideal" else set())

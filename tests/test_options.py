@@ -82,7 +82,7 @@ SENSES = {
     "--hysteresis": 2,
     "--method": 2,
     "--nearest": 2,
-    "--output": 2,
+    "--output": 3,
     "--pursuer-gain": 2,
     "--pursuer-speed": 2,
     "--rate": 2,

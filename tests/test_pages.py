@@ -1,20 +1,24 @@
 """The pages in a real browser; pictures are kept in ``artefacts``."""
 
+import json
 import shutil
 import threading
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 from click.testing import CliRunner
 
+from hostile import HOSTILE
 from onlooker import look_away, look_on
 from stepaside.cli import main
 from stepaside.games.duel import Duel
 from stepaside.games.folder import load_run
 from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.games.walker import Walker
+from stepaside.report.inert import visible
 from stepaside.report.replay_page import write_page
 from stepaside.report.viewer.session import Session
 
@@ -195,9 +199,8 @@ def test_the_written_page_opens_without_a_network(
     assert page.inner_text("#clock") == "0.0 s"
     before = page.evaluate("document.getElementById('world').toDataURL()")
     page.click("#play")
-    page.wait_for_function(
-        "parseFloat(document.getElementById('clock').textContent) > 0.5"
-    )
+    # Not in the page, whose policy lets no text become a script.
+    until(page, lambda: float(page.inner_text("#clock").split()[0]) > 0.5)
     page.click("#play")
     page.fill("#time", "200")
     assert float(page.inner_text("#clock").split()[0]) > 7.0
@@ -211,3 +214,107 @@ def test_the_written_page_opens_without_a_network(
     page.screenshot(path=ARTEFACTS / f"offline-{scheme}.png")
     assert errors == []
     context.close()
+
+
+def hostile_run(folder: Path, run: Path, text: str) -> Path:
+    """The run, with this for every text in it that is free."""
+    name = text.replace("/", "%2f")
+    there = folder / name
+    shutil.copytree(run, there)
+    file = there / "summary.json"
+    summary = json.loads(file.read_text(encoding="utf-8"))
+    summary |= {"outcome": "fall", "message": text, "camera": text}
+    summary |= {"run_folder": text, text: text}
+    summary["pursuer"] |= {text: [text]}
+    file.write_text(json.dumps(summary), encoding="utf-8")
+    return there
+
+
+@pytest.mark.parametrize("text", HOSTILE)
+def test_nothing_in_a_run_folder_runs_in_its_page(
+    browser: Any, run: Path, tmp_path: Path, text: str
+) -> None:
+    there = hostile_run(tmp_path, run, text)
+    write_page(load_run(there), tmp_path / "run.html")
+    page = open_page(browser)
+    wrong: list[str] = []
+    page.on("pageerror", lambda error: wrong.append(str(error)))
+    page.on("console", lambda told: wrong.append(told.text))
+    page.on("dialog", lambda dialog: wrong.append(dialog.message))
+    page.goto((tmp_path / "run.html").as_uri())
+    assert page.inner_text("#clock") == "0.0 s"
+    page.fill("#time", page.get_attribute("#time", "max"))
+    assert page.text_content("#words") == visible(text)
+    assert page.text_content("h1") == visible(there.name)
+    assert page.locator("img, iframe, svg").count() == 0
+    assert page.locator("script").count() == 2
+    assert page.evaluate("window.ran") is None
+    assert wrong == []
+    page.close()
+
+
+def test_a_page_s_policy_lets_nothing_else_run(
+    browser: Any, run: Path, tmp_path: Path
+) -> None:
+    """Even what would get past the writing does nothing."""
+    file = tmp_path / "run.html"
+    write_page(load_run(run), file)
+    text = file.read_text(encoding="utf-8")
+    extra = "<script>ran=1</script><img src='x:' onerror='ran=2'>"
+    file.write_text(text.replace("<h1>", extra + "<h1>"), encoding="utf-8")
+    page = open_page(browser)
+    page.goto(file.as_uri())
+    page.wait_for_timeout(200)
+    assert page.inner_text("#clock") == "0.0 s"
+    assert page.evaluate("window.ran") is None
+    page.close()
+
+
+def test_a_hostile_name_is_text_on_the_replay_page(
+    browser: Any, run: Path, tmp_path: Path
+) -> None:
+    from stepaside.report.viewer.replaying import ReplayPage
+
+    text = "<img src=x onerror=ran=1><iframe srcdoc=a>**b** ![a](x)"
+    served = ReplayPage(replace(load_run(run), name=text), port=8751)
+    served.start()
+    try:
+        page = open_page(browser)
+        page.goto(f"http://127.0.0.1:{served.server.get_port()}")
+        page.get_by_text(text).first.wait_for()
+        assert page.evaluate("window.ran") is None
+        assert page.locator("iframe").count() == 0
+        page.close()
+    finally:
+        served.close()
+
+
+def test_a_page_of_elsewhere_cannot_reach_the_live_page(browser: Any) -> None:
+    import viser
+
+    from stepaside.report.viewer.serving import open_server
+
+    served = open_server("127.0.0.1", 8761)
+    port = served.gate.address.port
+    plug = f"""(host) => new Promise((told) => {{
+        const socket = new WebSocket(
+            `ws://${{host}}:{port}`, ["viser-v{viser.__version__}"]);
+        socket.onopen = () => told("open");
+        socket.onerror = () => told("refused");
+    }})"""
+    try:
+        page = open_page(browser)
+        own = f"http://127.0.0.1:{port}"
+        page.goto(own)
+        assert page.evaluate(plug, "127.0.0.1") == "open"
+        frame = f"<h1>evil</h1><iframe src='{own}'></iframe>"
+        page.route(
+            "http://evil.example/**",
+            lambda route: route.fulfill(body=frame, content_type="text/html"),
+        )
+        page.goto("http://evil.example/")
+        for host in ("127.0.0.1", "localhost"):
+            assert page.evaluate(plug, host) == "refused"
+        page.close()
+    finally:
+        served.server.stop()

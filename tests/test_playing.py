@@ -47,9 +47,9 @@ class FakeMind:
         if self.fails is not None:
             raise self.fails
         self.decisions.headings.note(measurement.time, 0.0)
+        self.decisions.templates.note(measurement.time, Pose(0.0, 0.0, 0.0))
         near = Sighting(measurement.time, 0.0, 0.1)
-        feet = Pose(0.0, 0.0, 0.0)
-        going = self.decisions.starts(measurement.time, feet, near)
+        going = self.decisions.starts(measurement.time, near)
         self.phase = Phase.WALKING if going else Phase.STANDING
         return STANCE + 0.01
 

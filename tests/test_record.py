@@ -28,6 +28,7 @@ def tell(player: FakePlayer, number: int, row: int = 0) -> None:
     player.seen = {
         "com": (base + 1.0, base + 2.0, base + 3.0),
         "torso": Pose(base + 4.0, base + 5.0, 0.5 * number),
+        "place": Pose(base + 14.0, base + 15.0, 0.5 * number),
         "frame": FRAMES[number],
         "walk": walk,
         "zmp": (base + 6.0, base + 7.0),
@@ -78,6 +79,10 @@ def test_a_record_holds_each_quantity_under_its_name() -> None:
                 [base + 4.0, base + 5.0, 0.5 * number],
             )
             np.testing.assert_allclose(
+                arrays[f"{name}_place"][row],
+                [base + 14.0, base + 15.0, 0.5 * number],
+            )
+            np.testing.assert_allclose(
                 arrays[f"{name}_zmp"][row], [base + 6.0, base + 7.0]
             )
             posture = np.arange(3.0) + 3.0 * number + 0.5 * row
@@ -95,7 +100,14 @@ def test_a_record_holds_each_quantity_under_its_name() -> None:
         f"{name}_{key}"
         for name in NAMES
         for key in (
-            *("com", "torso", "com_reference", "zmp_reference", "zmp"),
+            *(
+                "com",
+                "torso",
+                "place",
+                "com_reference",
+                "zmp_reference",
+                "zmp",
+            ),
             *("qpos", "landings"),
         )
     }
@@ -173,7 +185,7 @@ def test_what_a_player_lacks_is_none_in_its_track() -> None:
     for _ in range(3):
         sample(made, match)
     person, robot = (made.tracks()[name] for name in NAMES)
-    assert set(person.arrays("a")) == {"a_com", "a_torso"}
+    assert set(person.arrays("a")) == {"a_com", "a_torso", "a_place"}
     np.testing.assert_array_equal(person.com, [[0.0, 0.0, 0.3]] * 3)
     np.testing.assert_array_equal(person.torso, np.zeros((3, 3)))
     assert robot.qpos is not None and robot.qpos.shape == (3, 3)

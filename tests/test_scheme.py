@@ -123,15 +123,29 @@ def test_the_reference_is_continuous_through_all_plans() -> None:
     assert len(run.legs.tracked) == run.ticks
 
 
-def test_the_bearing_is_taken_from_the_support_foot() -> None:
-    """Seen from the torso, when it had the heading of that time."""
+def test_the_bearing_counts_from_the_path_where_the_body_is() -> None:
+    """Seen from the torso; of the first turn less than 0.7 is walked then."""
     run = Run(FakeStrategy(heading=0.5))
     run.legs.torso_heading = 0.2
     run.until(TICK, bearing=0.1)
     assert run.asked == pytest.approx([0.3])
     run.until(FIRST + 0.1, bearing=-0.3)
-    landed = run.landings[0][2].theta
-    assert run.asked[1] == pytest.approx(-0.3 + 0.2 - landed)
+    walked = -0.3 + 0.2 - run.asked[1]
+    assert 0.6 < walked / run.landings[0][2].theta < 0.7
+    (_, known) = run.scheme.decisions.memory
+    assert known.pose.theta == pytest.approx(walked)
+    assert 0.6 < known.pose.x / GAIT.stride < 0.7
+
+
+def test_a_body_that_is_late_is_where_it_was_asked_to_be() -> None:
+    """With a delay of a fifth of a step it has walked that much less."""
+    walked = []
+    for delay in (0.0, 0.2 * STEP):
+        run = Run(FakeStrategy(heading=0.5), delay=delay)
+        run.until(FIRST + 0.1)
+        walked.append(-run.asked[1] / run.landings[0][2].theta)
+    # Near the end of double support the body is at its fastest.
+    assert 0.2 < walked[0] - walked[1] < 0.3
 
 
 def test_a_late_sighting_counts_for_when_it_was_seen() -> None:

@@ -10,7 +10,7 @@ from made_up_state import FakeEstimator
 from stepaside.control.balance.loop import ClosedLoop
 from stepaside.control.balance.settings import ControlSettings, MpcSettings
 from stepaside.control.balance.stabiliser import Stabiliser
-from stepaside.control.headings import MEMORY
+from stepaside.control.memory import KEPT
 from stepaside.control.phase import Phase
 from stepaside.control.senses import CameraSight
 from stepaside.robots.kinematics import BodyReference
@@ -95,7 +95,7 @@ def weights(run: Run, rounds: int, times: int = 4) -> list[int]:
 
 def test_four_steps_are_whole_ticks() -> None:
     assert AGAIN * TICK == pytest.approx(4 * STEP, abs=1e-12)
-    assert AGAIN * TICK > MEMORY
+    assert AGAIN * TICK > KEPT
 
 
 def test_twenty_thousand_ticks_leave_nothing_behind() -> None:

@@ -124,12 +124,17 @@ def test_each_is_judged_by_the_truth_of_the_other(
 ) -> None:
     """Five stills within the duel, at square times from near its begin."""
     made: list[tuple[Any, ...]] = []
-    monkeypatch.setattr(seeing, "Judge", lambda *a: made.append(a))
+
+    def judge(*a: Any, wears_trim: bool) -> None:
+        made.append((*a, wears_trim))
+
+    monkeypatch.setattr(seeing, "Judge", judge)
     both = prepared()
     robot: Any = SimpleNamespace(name="pursuer")
     truth: Any = object()
-    both.judge(robot, truth)
-    ((own, other, mind, _, things, times),) = made
+    both.judge(robot, truth, wears_trim=False)
+    ((own, other, mind, _, things, times, wears_trim),) = made
+    assert wears_trim is False
     assert own is robot and other is truth
     assert mind is both.perceptions["pursuer"]
     assert things == [(1.0, 2.0)]

@@ -11,8 +11,8 @@ from stepaside.sensing.measurement import Sighting
 from stepaside.world.settings import SightSettings
 from stepaside.world.sight import IdealLineOfSight
 
-OWN: Any = SimpleNamespace(position=(1.0, 2.0), heading=2.5)
-OTHER: Any = SimpleNamespace(position=(-0.5, 1.6), heading=0.0)
+OWN: Any = SimpleNamespace(place=(1.0, 2.0), heading=2.5)
+OTHER: Any = SimpleNamespace(place=(-0.5, 1.6), heading=0.0)
 TICK = 0.004
 
 

@@ -160,9 +160,12 @@ def seen(*, depths: int = 0) -> dict[str, list[Still]]:
 
 
 @pytest.fixture
-def kept(monkeypatch: pytest.MonkeyPatch) -> list[Figure]:
+def kept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[Figure]:
+    monkeypatch.chdir(tmp_path)
     figures: list[Figure] = []
-    monkeypatch.setattr(Figure, "savefig", lambda f, path: figures.append(f))
+    monkeypatch.setattr(
+        Figure, "savefig", lambda f, *_, **__: figures.append(f)
+    )
     monkeypatch.setattr(plt, "close", lambda figure: None)
     return figures
 

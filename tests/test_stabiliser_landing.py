@@ -127,14 +127,6 @@ def test_a_correction_stays_in_the_sole_and_the_rest_is_a_shift(
     same(together, np.array(velocity) / ETA)
 
 
-def test_it_looks_ahead_by_half_a_step_and_the_delay() -> None:
-    feedback, _ = stabiliser(delay=0.036)
-    feedback.prediction.ahead(0.0, 0.0)
-    ahead = feedback.prediction.ahead(0.5, 0.1)
-    lead = 0.5 * GAIT.step_duration + 0.036
-    assert ahead == pytest.approx(0.1 + 0.3 * 0.2 * lead)
-
-
 def test_joints_are_corrected_with_their_delay() -> None:
     feedback, _ = stabiliser(delay=3 * TICK)
     targets = np.array([0.1])

@@ -19,6 +19,7 @@ FLOORS = {
     "poses": 1,
     "randomness": 1,
     "doors": 1,
+    "outputs": 1,
     "unicycle": 2,
     "bound": 3,
     "robots": 2,

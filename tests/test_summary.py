@@ -66,16 +66,20 @@ def figures(
 
 
 def test_figures_are_those_of_the_last_third() -> None:
-    """Before it everything is otherwise; each robot has its own radius."""
-    made = Record(
-        stepped(40.0, 2.0, 0.93),
-        stepped(40.0, 0.2, 1.5),
-        (stepped(40.0, 2.0, 0.5), stepped(40.0, 3.0, 0.7)),
-    )
+    """Before it everything is otherwise; all are those of the places."""
+    made = Record(stepped(40.0, 2.0, 0.93), stepped(40.0, 0.2, 1.5))
     found = figures(made)
     assert found["distance_m"] == pytest.approx(0.93)
     assert found["relative_orientation_deg"] == pytest.approx(degrees(1.5))
-    assert found["pursuer"] == {"radius_m": pytest.approx(0.5)}
+    assert found["pursuer"] == {"radius_m": pytest.approx(0.4)}
+    assert found["evader"] == {"radius_m": pytest.approx(0.4)}
+
+
+def test_each_robot_has_its_own_radius() -> None:
+    made = Record()
+    made.places["evader"][:, :2] = 1.75 * made.places["pursuer"][:, :2]
+    found = figures(made)
+    assert found["pursuer"] == {"radius_m": pytest.approx(0.4)}
     assert found["evader"] == {"radius_m": pytest.approx(0.7)}
 
 
@@ -91,7 +95,7 @@ def test_figures_of_the_last_third_are_means() -> None:
 
 def test_a_straight_way_has_no_radius() -> None:
     made = Record()
-    made.coms["evader"][:] = 0.25  # stands
+    made.places["evader"][:] = 0.25  # stands
     found = figures(made)
     assert found["pursuer"]["radius_m"] is not None
     assert (found["evader"]["radius_m"] or 0.0) < 1e-6
@@ -177,8 +181,8 @@ def test_what_was_seen_is_told_for_each_robot_and_both() -> None:
     sight = {"evader": {"seen": 0.9}, "processing_ms": 3.0}
     found = figures(Record(), sight=sight)
     assert found["evader"]["seen"] == 0.9
-    assert found["evader"]["radius_m"] == pytest.approx(0.7)
-    assert found["pursuer"] == {"radius_m": pytest.approx(0.5)}
+    assert found["evader"]["radius_m"] == pytest.approx(0.4)
+    assert found["pursuer"] == {"radius_m": pytest.approx(0.4)}
     assert found["processing_ms"] == 3.0
 
 

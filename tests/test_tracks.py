@@ -1,6 +1,7 @@
 """Test what a player leaves behind: tracks, and how it planned."""
 
 from dataclasses import fields
+from math import degrees
 from types import SimpleNamespace
 from typing import Any
 
@@ -8,12 +9,14 @@ import numpy as np
 import pytest
 
 from by_hand import plan_of
+from invented_run import run_of
 from stepaside.games.track import Track, margin_of, tracks_in
 from stepaside.poses import Array
 
 SHAPES = {
     "com": (5, 3),
     "torso": (5, 3),
+    "place": (5, 3),
     "com_reference": (5, 2),
     "zmp_reference": (5, 2),
     "zmp": (5, 2),
@@ -37,6 +40,29 @@ def test_arrays_of_a_track_cannot_be_written_to() -> None:
         with pytest.raises(ValueError, match="read-only"):
             values[0] = 9.0
         np.testing.assert_array_equal(values, before)
+
+
+def test_the_place_stands_for_a_player_and_the_torso_if_none_is_kept() -> None:
+    track = Track(**arrays_of(*SHAPES))
+    assert track.unicycle is track.place
+    older = Track(**arrays_of("com", "torso"))
+    assert older.unicycle is older.torso
+
+
+def test_a_run_is_judged_by_the_places() -> None:
+    there = [track_at(0.0, 0.0, 0.2), track_at(3.0, 4.0, 1.2)]
+    tracks = dict(zip(("pursuer", "evader"), there, strict=True))
+    run = run_of(np.arange(2.0), tracks, converged_at_s=0.0)
+    np.testing.assert_allclose(run.distance, 5.0)
+    np.testing.assert_allclose(run.orientation, degrees(1.0))
+    assert run.circle is not None
+    np.testing.assert_allclose(run.circle[:2], [1.5, 2.0])
+
+
+def track_at(x: float, y: float, heading: float) -> Track:
+    """Somebody who stays at a place, with the torso elsewhere."""
+    rows = np.tile([x, y, heading], (2, 1))
+    return Track(rows + 0.7, rows + [0.3, 0.1, 0.5] + x, rows)
 
 
 @pytest.mark.parametrize(

@@ -6,12 +6,18 @@ import mujoco
 import numpy as np
 import pytest
 
+from stepaside.poses import Pose
 from stepaside.robots.head import rotation
 from stepaside.world.truth import TrueState
 
 
 def put(
-    x: float, y: float, roll: float, pitch: float, yaw: float
+    x: float,
+    y: float,
+    roll: float,
+    pitch: float,
+    yaw: float,
+    com_forward: float = 0.0,
 ) -> TrueState:
     """A box with its CoM above its origin, its angles in degrees."""
     model = mujoco.MjModel.from_xml_string(
@@ -24,7 +30,7 @@ def put(
     axes = rotation(radians(roll), radians(pitch), radians(yaw))
     mujoco.mju_mat2Quat(data.qpos[3:7], axes.reshape(-1))
     mujoco.mj_forward(model, data)
-    return TrueState(model, data, "box")
+    return TrueState(model, data, "box", com_forward=com_forward)
 
 
 def test_place_heading_and_com_are_those_of_the_torso() -> None:
@@ -33,6 +39,16 @@ def test_place_heading_and_com_are_those_of_the_torso() -> None:
     assert truth.heading == pytest.approx(radians(130.0))
     np.testing.assert_allclose(truth.com, (1.0, -2.0, 0.6))
     assert put(0, 0, 20.0, 0.0, -50.0).heading == pytest.approx(radians(-50))
+
+
+@pytest.mark.parametrize("yaw", [0.0, 90.0, -130.0])
+def test_the_place_is_behind_the_com_along_the_heading(yaw: float) -> None:
+    truth = put(1.0, -2.0, 0.0, 0.0, yaw, com_forward=0.02)
+    turned = Pose(*truth.place, truth.heading).compose(Pose(0.02, 0.0, 0.0))
+    np.testing.assert_allclose(turned[:2], truth.com[:2], atol=1e-12)
+    lean = put(1.0, -2.0, 0.0, 30.0, yaw, com_forward=0.0)
+    np.testing.assert_allclose(lean.place, lean.com[:2])
+    assert hypot(lean.place[0] - 1.0, lean.place[1] + 2.0) > 0.05
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])

@@ -186,7 +186,7 @@ def test_bad_input_is_one_line_and_status_2(
 def test_figure_that_cannot_be_written_is_refused_first(
     tmp_path: Path,
 ) -> None:
-    for name in ("game.txt", "nowhere/game.png"):
+    for name in ("game.txt", "game.png/x.txt"):
         result = run(unicycles, f"--figure {tmp_path / name}")
         assert result.exit_code == 2 and "--figure" in result.stderr
     assert not list(tmp_path.iterdir())

@@ -2,6 +2,7 @@
 
 import json
 import re
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from threading import Event
@@ -23,11 +24,12 @@ from stepaside.planning import GaitSettings
 from stepaside.report.replay_page import write_page
 from stepaside.report.run_folder import write_run
 from stepaside.report.viewer.session import Session
+from stepaside.robots import kinematics
 from stepaside.strategies import Evasion
 
-# Steps far higher than legs are long: they can be stood, and begun.
-FAR = GaitSettings(step_height=0.9)
-WORDS = r"lost its footing at [01]\.\d\d s: NAO cannot follow: \w+ foot"
+# Four times the paper's stride: it can be stood, and begun.
+FAR = GaitSettings(stride=0.16)
+WORDS = r"lost its footing at 1\.\d\d s: NAO cannot follow: \w+ foot"
 LONG = 60.0  # [s]; no event of a loop that runs comes as late as this
 
 
@@ -40,6 +42,14 @@ def settings_of(pursuer: str) -> DuelSettings:
         start=StartSettings(1.0, 0.0, 0.0),
         strategy=Evasion(safety_radius=1.5),
     )
+
+
+@pytest.fixture(scope="module", autouse=True)
+def impatient() -> Iterator[None]:
+    """Legs that give up before their robot falls."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(kinematics, "LOST", 0.02)
+        yield
 
 
 @pytest.fixture(scope="module", params=["robot", "person"])

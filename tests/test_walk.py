@@ -119,11 +119,18 @@ def test_a_hardware_like_body_turns_and_goes_as_planned(
         assert errors[name]["rms"] < 0.014
 
 
-def test_without_feedback_a_hardware_like_body_falls() -> None:
+def test_without_feedback_a_hardware_like_body_walks_short_and_slides() -> (
+    None
+):
     """So that the other tests show what feedback does."""
     settings = WalkSettings(duration=20.0, body=BODIES["hardware"])
-    result = run_walk(settings, record=False)
-    assert result.outcome is Outcome.FALL and result.duration < 10.0
+    told = [
+        summarise_walk(run_walk(replace(settings, control=control)))
+        for control in (OPEN_LOOP, STABILISED)
+    ]
+    alone, helped = told
+    assert alone["speed_ratio"] < 0.96 < helped["speed_ratio"]
+    assert alone["slip_per_step_m"] > 1.5 * helped["slip_per_step_m"]
 
 
 @pytest.mark.parametrize(("phase", "side"), SIDEWAYS)
@@ -135,12 +142,12 @@ def test_feedback_survives_sideways_pushes(phase: float, side: float) -> None:
 
 
 def test_the_same_pushes_fell_the_open_loop() -> None:
-    """Three of the four: the last one is against the sway."""
+    """Two of the four: the others are against the sway."""
     survived = [
         pushed(1.2, side * pi / 2, phase, feedback=False).outcome
         for phase, side in SIDEWAYS
     ]
-    assert survived.count(Outcome.FALL) == 3
+    assert survived.count(Outcome.FALL) == 2
 
 
 @pytest.mark.parametrize("direction", [0.0, pi])

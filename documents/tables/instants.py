@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from .markdown import interval, number, table
+from .markdown import number, table
 
 HEAD = (
     "heading subtracted",
@@ -11,30 +11,28 @@ HEAD = (
     "duels",
     "pursuer radius [m]",
     "evader radius [m]",
-    "distance [m]",
-    "least to greatest distance [m]",
+    "distance of the places [m]",
+    "of the torsos [m]",
 )
+HEADINGS = {"path": "path, where the body is"}
 
 
 def instants(result: Mapping[str, Any]) -> str:
     """Means over the seeds for each pair of choices."""
-    groups: dict[tuple[str, float], list[Mapping[str, Any]]] = {}
+    groups: dict[tuple[str, str], list[Mapping[str, Any]]] = {}
     for row in result["rows"]:
-        groups.setdefault((row["heading"], row["behind_m"]), []).append(row)
+        groups.setdefault((row["heading"], row["point"]), []).append(row)
     lines = []
-    for (heading, behind), rows in groups.items():
-        away = [row["distance_m"] for row in rows]
+    for (heading, point), rows in groups.items():
         lines.append(
             (
-                heading,
-                f"{1000.0 * behind:.0f} mm behind the torso"
-                if behind
-                else "torso",
+                HEADINGS.get(heading, heading),
+                point,
                 str(len(rows)),
                 number(_mean(rows, "pursuer_radius_m")),
                 number(_mean(rows, "evader_radius_m")),
                 number(_mean(rows, "distance_m")),
-                interval(min(away), max(away)),
+                number(_mean(rows, "torsos_apart_m")),
             )
         )
     return table(HEAD, lines)

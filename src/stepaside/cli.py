@@ -62,6 +62,9 @@ class LazyGroup(click.Group):
             _refuse(error.format_message())
         except StepAsideError as error:
             _refuse(str(error))
+        except OSError as error:
+            place = f"{error.filename}: " if error.filename else ""
+            _refuse(f"{place}{(error.strerror or str(error)).lower()}")
         except (click.Abort, KeyboardInterrupt):
             click.echo("stepaside: interrupted", err=True)
             sys.exit(130)
@@ -69,7 +72,9 @@ class LazyGroup(click.Group):
 
 
 def _refuse(message: str) -> NoReturn:
-    click.echo(f"stepaside: {' '.join(message.split())}", err=True)
+    from .commands.terminal import echo
+
+    echo(f"stepaside: {' '.join(message.split())}", err=True)
     sys.exit(2)
 
 

@@ -27,6 +27,10 @@ class ModelError(StepAsideError, ValueError):
     """A robot description does not fit its model."""
 
 
+class OutputError(StepAsideError, OSError):
+    """The system did not let a result be written."""
+
+
 def check_finite(
     value: float,
     name: str,
@@ -34,6 +38,7 @@ def check_finite(
     error: type[StepAsideError] = PlanError,
 ) -> None:
     """Raise ``error`` unless ``value`` is a finite number."""
+    _check_type(value, name, unit, error)
     if not isfinite(value):
         raise error(f"{name} must be finite [{unit}], got {value}")
 
@@ -45,6 +50,7 @@ def check_positive(
     error: type[StepAsideError] = PlanError,
 ) -> None:
     """Raise ``error`` unless ``value`` is finite and above zero."""
+    _check_type(value, name, unit, error)
     if not 0.0 < value < float("inf"):
         raise error(f"{name} must be finite and > 0 [{unit}], got {value}")
 
@@ -56,6 +62,7 @@ def check_not_negative(
     error: type[StepAsideError] = PlanError,
 ) -> None:
     """Raise ``error`` unless ``value`` is finite and at least zero."""
+    _check_type(value, name, unit, error)
     if not 0.0 <= value < float("inf"):
         raise error(f"{name} must be finite and >= 0 [{unit}], got {value}")
 
@@ -69,7 +76,16 @@ def check_within(
     error: type[StepAsideError] = PlanError,
 ) -> None:
     """Raise ``error`` unless ``low <= value <= high``."""
+    _check_type(value, name, unit, error)
     if not low <= value <= high:
         raise error(
             f"{name} must lie in [{low:g}, {high:g}] [{unit}], got {value}"
         )
+
+
+def _check_type(
+    value: object, name: str, unit: str, error: type[StepAsideError]
+) -> None:
+    """Refuse true and false, which Python takes for one and zero."""
+    if isinstance(value, bool):
+        raise error(f"{name} must be a number [{unit}], got {value}")

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import PlanError, check_within
+from ..outputs import writing
 from .game import BoundGame
 from .grid import Grid, Values
 
@@ -163,7 +164,7 @@ class Bound:
         }
         a, r, psi = self.grid.axes()
         nodes = r[:, None], a[:, None, None], psi
-        with Path(path).open("wb") as file:
+        with writing(Path(path)) as draft, draft.open("wb") as file:
             np.savez_compressed(
                 file,
                 head=np.array(dumps(head)),

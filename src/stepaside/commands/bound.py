@@ -2,21 +2,24 @@
 
 from dataclasses import asdict
 from math import pi
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from .bound_tables import IN_METERS, describe, print_bound
-from .declared.common import FIGURE, FILE, json_option
-from .declared.kinds import NameType
-from .game_options import check_figure_folder
+from .declared.common import FIGURE, json_option
+from .declared.kinds import NameType, OutputFile
+from .declared.option import Declaration
 from .options import METERS, SECONDS, NumberType, print_json
+from .outputs import attempt, writes_files
 
 if TYPE_CHECKING:
     from ..bound import BoundGame
 
 SPEED, RATE = NumberType("m/s"), NumberType("rad/s")
+TABLE = Declaration(
+    "--output", "Write the table (.npz).", kind=OutputFile(".npz")
+)
 AGAINST = ("pursuit", "any")
 
 
@@ -113,9 +116,10 @@ def _schemes() -> tuple[str, ...]:
     show_default=True,
     help="Random games played to check the table; 0 for none.",
 )
-@FILE.option(help="Write the table (.npz).")
+@TABLE.option()
 @FIGURE.option()
 @json_option
+@writes_files
 def bound(
     against: str,
     pursuer_speed: float,
@@ -131,7 +135,7 @@ def bound(
     horizon: float | None,
     scheme: str,
     games: int,
-    output: Path | None,
+    output: str | None,
     figure: str | None,
     as_json: bool,
 ) -> None:
@@ -141,8 +145,6 @@ def bound(
     from ..bound import Grid, Scheme, against_any, against_pursuit
     from ..bound.refine import refine_bound
 
-    check_figure_folder(figure)
-    _check_output(output)
     if against == "pursuit":
         game = against_pursuit(
             pursuer_speed, evader_speed, pursuer_gain, evader_turn
@@ -194,14 +196,13 @@ def bound(
             }
             for p in played
         ]
-    if output is not None:
-        table.save(output)
-        result["output"] = str(output)
+    if output is not None and attempt(lambda: table.save(output)):
+        result["output"] = output
     if figure is not None:
         from ..report.bound_figure import draw_bound
 
-        draw_bound(table, capture, figure)
-        result["figure"] = figure
+        if attempt(lambda: draw_bound(table, capture, figure)):
+            result["figure"] = figure
     if as_json:
         print_json(result)
         return
@@ -211,18 +212,3 @@ def bound(
 def _edge(game: "BoundGame", capture: float) -> float:
     """Edge of the grid, beyond the barrier of equal players, in [m]."""
     return capture + (4.0 if game.pursuer_gain > 0.0 else 6.0) * game.unit
-
-
-def _check_output(path: Path | None) -> None:
-    """Refuse, before any work, a file that could not be written."""
-    if path is None:
-        return
-    if path.suffix != ".npz":
-        raise click.BadParameter(
-            f"must end in .npz, got {str(path)!r}", param_hint="--output"
-        )
-    if not path.parent.is_dir():
-        raise click.BadParameter(
-            f"must be in a folder that exists, got {str(path)!r}",
-            param_hint="--output",
-        )

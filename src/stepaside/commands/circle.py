@@ -4,6 +4,7 @@ from typing import Any
 
 import click
 
+from ..outputs import FIGURES
 from ..unicycle.laws import Game
 from .circles import describe_circles, describe_remedies, print_circles
 from .declared.common import (
@@ -15,12 +16,12 @@ from .declared.common import (
     json_option,
 )
 from .game_options import (
-    check_figure_folder,
     describe_game,
     finite,
     game_options,
 )
 from .options import print_json
+from .outputs import OutputFile, attempt, writes_files
 
 
 @click.command("circle")
@@ -29,7 +30,7 @@ from .options import print_json
 @DELAY.option(default=0.0, show_default=True)
 @click.option(
     "--sweep",
-    type=click.Path(dir_okay=False),
+    type=OutputFile(*FIGURES),
     help="Write a figure over angle and ratios of gains and speeds.",
 )
 @FIGURE.option(help="Write a map of the reversed circle over both ratios.")
@@ -48,6 +49,7 @@ from .options import print_json
     help="Try what else the evader could do.",
 )
 @json_option
+@writes_files
 def circle(
     game: Game,
     sample_time: float,
@@ -61,8 +63,6 @@ def circle(
     as_json: bool,
 ) -> None:
     """Find the circles that a game ends on, and how firmly they hold."""
-    check_figure_folder(sweep)
-    check_figure_folder(figure)
     if remedies and starts == 0:
         raise click.UsageError("--remedies needs --starts > 0")
     result = describe_circle(game, sample_time, delay)
@@ -72,13 +72,13 @@ def circle(
     if figure is not None:
         from ..report.unicycle_ratios import draw_ratios
 
-        draw_ratios(game, figure)
-        result["figure"] = figure
+        if attempt(lambda: draw_ratios(game, figure)):
+            result["figure"] = figure
     if sweep is not None:
         from ..report.unicycle_sweep import draw_sweep
 
-        draw_sweep(game, sweep)
-        result["sweep"] = sweep
+        if attempt(lambda: draw_sweep(game, sweep)):
+            result["sweep"] = sweep
     if as_json:
         print_json(result)
         return

@@ -2,12 +2,11 @@
 
 from typing import Any
 
-import click
-
 from ..unicycle.circling import Circle
 from ..unicycle.laws import Game
 from .game_options import finite
 from .options import print_table
+from .terminal import echo
 
 
 def describe_circles(
@@ -120,11 +119,9 @@ def print_circles(result: dict[str, Any]) -> None:
     else:
         others = bool(result["circles"])
         end = "" if others else "."
-        click.echo(
-            f"There is no circle for these speeds, gains and angle{end}"
-        )
+        echo(f"There is no circle for these speeds, gains and angle{end}")
         if others:
-            click.echo("that turns the main way round.")
+            echo("that turns the main way round.")
     _print_rows(result["circles"], _COLUMNS)
     if result["starts"] is not None:
         _print_ends(result["starts"])
@@ -133,7 +130,7 @@ def print_circles(result: dict[str, Any]) -> None:
 
 def _print_ends(starts: dict[str, Any]) -> None:
     """Print the shares of starts that ended on none of the circles."""
-    click.echo("\n  share of starts that ended on none")
+    echo("\n  share of starts that ended on none")
     print_table(
         [
             ("captured", _text(starts["captured_share"])),
@@ -149,10 +146,10 @@ def _print_rows(rows: list[dict[str, Any]], columns: dict[str, str]) -> None:
     cells = [[_text(row[name]) for name in columns] for row in rows]
     table = [list(columns.values()), *cells]
     widths = [max(len(line[i]) for line in table) for i in range(len(columns))]
-    click.echo()
+    echo()
     for line in table:
         pairs = zip(line, widths, strict=True)
-        click.echo("  " + "  ".join(f"{c:<{w}}" for c, w in pairs).rstrip())
+        echo("  " + "  ".join(f"{c:<{w}}" for c, w in pairs).rstrip())
 
 
 def _text(value: Any) -> str:

@@ -10,6 +10,7 @@ from .declared.common import FOLDER, json_option
 from .declared.take import SettingsCommand
 from .duel_options import duel_options
 from .options import print_json, print_table
+from .terminal import echo
 
 if TYPE_CHECKING:
     from ..games.run import Run
@@ -30,29 +31,38 @@ def duel(settings: "DuelSettings", output: Path | None, as_json: bool) -> None:
     trajectories and a figure.
     """
     from ..games.outcome import Outcome
-    from ..report.run_folder import check_output, free_folder
+    from ..report.run_folder import FIGURE, check_output, free_folder
 
     if output is None and not as_json:
         output = free_folder(Path("runs"), f"duel-seed{settings.seed}")
     if output is not None:
         check_output(output)
     run = _play(settings)
-    figure = None
+    kept, failed = None, None
     if output is not None:
-        from ..report.run_folder import write_run
+        from ..report.run_folder import keep_run
 
-        figure = write_run(output, run)
-        run = replace(
-            run, summary=replace(run.summary, run_folder=str(output))
-        )
+        kept, failed = keep_run(output, run)
+        _tell_elsewhere(output, kept)
+        where = None if kept is None else str(kept)
+        run = replace(run, summary=replace(run.summary, run_folder=where))
     summary = run.summary.to_json()
     if as_json:
         print_json(summary)
     else:
         _print(summary)
-        click.echo(f"\nfigure:     {figure}\nrun folder: {output}")
+        if kept is not None:
+            echo(f"\nfigure:     {kept / FIGURE}\nrun folder: {kept}")
+    if failed is not None:
+        raise failed
     if run.outcome is Outcome.INTERRUPTED:
         raise SystemExit(130)
+
+
+def _tell_elsewhere(output: Path, kept: Path | None) -> None:
+    """Say where a duel is, if not where it was asked for."""
+    if kept is not None and kept != output:
+        echo(f"stepaside: not in {output}; the run is in {kept}", err=True)
 
 
 def _play(settings: "DuelSettings") -> "Run":

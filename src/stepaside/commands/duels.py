@@ -1,17 +1,19 @@
 """``stepaside duels``: many duels from many starts, on all cores."""
 
 import re
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..errors import OutputError
+from ..outputs import check_folder
 from .declared.common import FOLDER, WORKERS, json_option
 from .declared.game import SEED
 from .declared.take import SettingsCommand
 from .duel_options import duel_options
 from .options import print_json
+from .terminal import echo
 
 if TYPE_CHECKING:
     from ..games.settings import DuelSettings
@@ -93,21 +95,29 @@ def duels(
     """
     if output is None and not as_json:
         output = Path("runs") / "duels"
+    if output is not None:
+        check_folder(output, new=False)
     if verify is not None:
         _verify(settings, output, verify, workers)
     records, stopped = _play(settings, seeds, output, workers)
     answer = _answer(settings, seeds, records)
+    failed: OutputError | None = None
     if output is not None and records:
         from ..report.duels_figure import draw_duels
         from ..studies.results import write_result
 
-        answer = write_result(output / SUMMARY, answer)
-        draw_duels({"": records}, answer["summary"], output / FIGURE)
+        try:
+            answer = write_result(output / SUMMARY, answer)
+            draw_duels({"": records}, answer["summary"], output / FIGURE)
+        except OutputError as error:
+            failed = error
     if as_json:
         print_json(answer)
     else:
         _print(answer["summary"])
-        click.echo(f"\nresults: {output}")
+        echo(f"\nresults: {output}")
+    if failed is not None:
+        raise failed
     if stopped:
         raise SystemExit(130)
 
@@ -137,9 +147,9 @@ def _verify(
             settings, _file(output), number, executor
         )
     same = len(played) - len(differ)
-    click.echo(f"{same} of {len(played)} duels came out the same", err=True)
+    echo(f"{same} of {len(played)} duels came out the same", err=True)
     if differ:
-        click.echo(
+        echo(
             f"stepaside: seeds {', '.join(map(str, differ))} came out "
             "otherwise; nothing was taken over or played",
             err=True,
@@ -176,10 +186,10 @@ def _play(
         except KeyboardInterrupt:
             stopped = True
     if file is not None and file.aside:
-        print(
+        echo(
             f"{file.aside} records were torn or foreign: set aside beside "
             f"{file.path}",
-            file=sys.stderr,
+            err=True,
         )
     return sorted(done.values(), key=lambda r: int(r["seed"])), stopped
 
@@ -205,22 +215,22 @@ def _answer(
 def _print(summary: dict[str, Any]) -> None:
     for name, share in summary["outcomes"].items():
         if share["number"]:
-            click.echo(_share(name, share))
-    click.echo(_share("on the circle", summary["on_the_circle"]))
-    click.echo(
+            echo(_share(name, share))
+    echo(_share("on the circle", summary["on_the_circle"]))
+    echo(
         f"\n{'':<26}{'theory':>9}{'mean':>9}{'+-95 %':>9}"
         f"{'least':>9}{'greatest':>9}  worst seed"
     )
     for name, row in summary["figures"].items():
         theory = "" if row["theory"] is None else f"{row['theory']:.3f}"
         half = row["mean_high"] - row["mean"]
-        click.echo(
+        echo(
             f"{name:<26}{theory:>9}{row['mean']:>9.3f}{half:>9.3f}"
             f"{row['least']:>9.3f}{row['greatest']:>9.3f}"
             f"  {row['worst_seed']}"
         )
     for entry in summary["not_completed"]:
-        click.echo(f"seed {entry['seed']}: {entry['message']}")
+        echo(f"seed {entry['seed']}: {entry['message']}")
 
 
 def _share(name: str, share: dict[str, float]) -> str:

@@ -125,22 +125,3 @@ def describe_game(game: Game) -> dict[str, float | str]:
 def finite(value: float) -> float | None:
     """A number for JSON: None where there is none."""
     return value if abs(value) < float("inf") else None
-
-
-def check_figure_folder(path: str | None) -> None:
-    """Refuse, before any work, a figure that could not be written."""
-    from pathlib import Path
-
-    if path is None:
-        return
-    formats = (".png", ".svg", ".pdf")
-    if Path(path).suffix not in formats:
-        raise click.BadParameter(
-            f"must end in {', '.join(formats)}, got {path!r}",
-            param_hint="--figure",
-        )
-    if not Path(path).parent.is_dir():
-        raise click.BadParameter(
-            f"must be in a folder that exists, got {path!r}",
-            param_hint="--figure",
-        )

@@ -8,7 +8,6 @@ import click
 from ..unicycle.laws import Game
 from .declared.common import CAPTURE, FIGURE, GAME_TIME, json_option
 from .game_options import (
-    check_figure_folder,
     describe_game,
     finite,
     game_options,
@@ -20,6 +19,7 @@ from .options import (
     print_json,
     print_table,
 )
+from .outputs import attempt, writes_files
 
 TIME = NumberType("s")
 
@@ -69,6 +69,7 @@ TIME = NumberType("s")
 )
 @FIGURE.option()
 @json_option
+@writes_files
 def map(  # noqa: A001 (the command's name)
     game: Game,
     nearest: float | None,
@@ -89,7 +90,6 @@ def map(  # noqa: A001 (the command's name)
 
     from ..unicycle.maps import StartBox, find_worst_start, map_starts
 
-    check_figure_folder(figure)
     for name, value in (("--aim", aim), ("--facing", facing)):
         if not 0.0 <= value <= pi:
             raise click.BadParameter(
@@ -158,8 +158,11 @@ def map(  # noqa: A001 (the command's name)
         from ..report.unicycle_map import draw_map
         from ..unicycle.circles import circles_of
 
-        draw_map(found, figure, circles=circles_of(game), body=body)
-        result["figure"] = figure
+        circles = circles_of(game)
+        if attempt(
+            lambda: draw_map(found, figure, circles=circles, body=body)
+        ):
+            result["figure"] = figure
     if as_json:
         print_json(result)
         return

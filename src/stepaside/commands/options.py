@@ -6,6 +6,8 @@ from typing import Any
 
 import click
 
+from .terminal import echo
+
 UNITS = {"rad": 1.0, "deg": radians(1.0)}
 
 
@@ -61,10 +63,13 @@ class NumberType(click.ParamType[float]):
         except ValueError:
             number = float("nan")
         low_enough = number >= 0.0 if self.allow_zero else number > 0.0
-        if not (isfinite(number) and low_enough):
+        # Of what is smaller or greater, squares and ratios are no numbers.
+        small = 0.0 < number < 1e-9
+        if small or number > 1e9 or not (isfinite(number) and low_enough):
             rule = ">= 0" if self.allow_zero else "> 0"
             self.fail(
-                f"must be finite and {rule} [{self.unit}], got {value!r}",
+                f"must be finite and {rule}, 1e-9 to 1e9 [{self.unit}], "
+                f"got {value!r:.60}",
                 param,
                 ctx,
             )
@@ -79,11 +84,11 @@ POSITIVE = NumberType("1")
 
 def print_json(value: Any) -> None:
     """Print a value as one JSON object."""
-    click.echo(json.dumps(value, allow_nan=False))
+    echo(json.dumps(value, allow_nan=False))
 
 
 def print_table(rows: list[tuple[str, str]]) -> None:
     """Print names and values in two columns."""
     width = max(len(name) for name, _ in rows)
     for name, value in rows:
-        click.echo(f"  {name:<{width}}  {value}")
+        echo(f"  {name:<{width}}  {value}")

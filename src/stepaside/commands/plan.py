@@ -11,6 +11,8 @@ from .declared.gait import BEARING, GAIT, HORIZON
 from .declared.option import Declaration, Group
 from .declared.take import SettingsCommand, takes_settings
 from .options import print_json
+from .outputs import attempt, writes_files
+from .terminal import echo
 
 if TYPE_CHECKING:
     from .plan_settings import PlanSettings
@@ -70,6 +72,7 @@ MANEUVER = Group(
 @takes_settings(_plan_settings, MANEUVER, GAIT.without(HORIZON), aside=_others)
 @FIGURE.option()
 @json_option
+@writes_files
 def plan(settings: "PlanSettings", figure: str | None, as_json: bool) -> None:
     """Plan one maneuver from standing: path, footsteps, ZMP and CoM.
 
@@ -129,18 +132,18 @@ def plan(settings: "PlanSettings", figure: str | None, as_json: bool) -> None:
             }
         )
     else:
-        click.echo("  foot       x [m]     y [m]  theta [deg]")
+        echo("  foot       x [m]     y [m]  theta [deg]")
         for step in maneuver.footsteps:
-            click.echo(
+            echo(
                 f"  {step.foot.name.lower():<6} {step.x:9.4f} {step.y:9.4f}"
                 f"  {np.degrees(step.theta):11.2f}"
             )
-        click.echo(
+        echo(
             f"  {schedule.duration:.2f} s; the ZMP stays "
             f"{1e3 * maneuver.margin():.1f} mm inside the support polygon"
         )
     if figure is not None:
         from ..report.plan_figure import draw_plan
 
-        draw_plan(maneuver, role, Path(figure))
-        click.echo(f"figure: {figure}", err=as_json)
+        if attempt(lambda: draw_plan(maneuver, role, Path(figure))):
+            echo(f"figure: {figure}", err=as_json)

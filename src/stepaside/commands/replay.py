@@ -11,18 +11,23 @@ import click
 from .declared.common import BROWSER, PORT, SERVE_FOR, json_option
 from .declared.kinds import NameType
 from .options import POSITIVE, SECONDS, NumberType, print_json
+from .outputs import OutputFile, attempt, writes_files
+from .terminal import echo
 
 VIEWS = {"fixed": False, "following": True}
-FILE = click.Path(dir_okay=False, path_type=Path)
 
 
 @click.command("replay")
 @click.argument(
     "run", type=click.Path(exists=True, file_okay=False, path_type=Path)
 )
-@click.option("--html", type=FILE, help="Write one page that opens offline.")
-@click.option("--video", type=FILE, help="Write a film (H.264).")
-@click.option("--gif", type=FILE, help="Write a short film.")
+@click.option(
+    "--html",
+    type=OutputFile(".html", ".htm"),
+    help="Write one page that opens offline.",
+)
+@click.option("--video", type=OutputFile(".mp4"), help="Write a film (H.264).")
+@click.option("--gif", type=OutputFile(".gif"), help="Write a short film.")
 @click.option(
     "--begin",
     type=NumberType("s", allow_zero=True),
@@ -53,6 +58,7 @@ FILE = click.Path(dir_okay=False, path_type=Path)
 @BROWSER.option(default=True)
 @SERVE_FOR.option()
 @json_option
+@writes_files
 def replay(run: Path, as_json: bool, **options: Any) -> None:
     """Show the duel of a RUN folder again.
 
@@ -62,35 +68,33 @@ def replay(run: Path, as_json: bool, **options: Any) -> None:
 
     loaded = load_run(run)
     written: dict[str, Any] = {}
-    html, video, gif = (options[k] for k in ("html", "video", "gif"))
-    for file in (html, video, gif):
-        if file is not None:
-            file.parent.mkdir(parents=True, exist_ok=True)
+    html, video, gif = (
+        None if options[kind] is None else Path(options[kind])
+        for kind in ("html", "video", "gif")
+    )
     if html is not None:
         from ..report.replay_page import write_page
 
-        write_page(loaded, html)
-        written["html"] = _written(html)
+        if attempt(lambda: write_page(loaded, html)):
+            written["html"] = _written(html)
     if video is not None:
         from ..report.film import write_video
 
         shot = _shot(options, 60.0, 30.0, 640, 480)
-        number = _with_bar("video", write_video, run, video, shot)
-        written["video"] = _written(video) | {"pictures": number}
+        _film("video", write_video, run, video, shot, written)
     if gif is not None:
         from ..report.film import write_gif
 
         shot = _shot(options, 12.0, 10.0, 360, 270)
-        number = _with_bar("gif", write_gif, run, gif, shot)
-        written["gif"] = _written(gif) | {"pictures": number}
-    if not written:
+        _film("gif", write_gif, run, gif, shot, written)
+    if html is video is gif is None:
         _serve(loaded, options)
     elif as_json:
         print_json(written)
     else:
         for kind, entry in written.items():
             size = entry["bytes"] / 1e6
-            click.echo(f"{kind}: {entry['file']} ({size:.1f} MB)")
+            echo(f"{kind}: {entry['file']} ({size:.1f} MB)")
 
 
 def _written(file: Path) -> dict[str, Any]:
@@ -120,9 +124,15 @@ def _shot(
     )
 
 
-def _with_bar(
-    name: str, write: Callable[..., int], run: Path, file: Path, shot: Any
-) -> int:
+def _film(
+    name: str,
+    write: Callable[..., int],
+    run: Path,
+    file: Path,
+    shot: Any,
+    written: dict[str, Any],
+) -> None:
+    """Write a film with a bar, and note it."""
     from tqdm import tqdm
 
     with tqdm(desc=name, unit="picture", disable=None) as bar:
@@ -131,7 +141,8 @@ def _with_bar(
             bar.total, bar.n = number, done
             bar.refresh()
 
-        return write(run, file, shot, report)
+        if attempt(lambda: write(run, file, shot, report)):
+            written[name] = _written(file) | {"pictures": bar.n}
 
 
 def _serve(run: Any, options: dict[str, Any]) -> None:
@@ -140,7 +151,7 @@ def _serve(run: Any, options: dict[str, Any]) -> None:
     page = ReplayPage(run, port=options["port"])
     page.start()
     address = f"http://127.0.0.1:{page.server.get_port()}"
-    click.echo(f"serving at {address}; Ctrl-C stops")
+    echo(f"serving at {address}; Ctrl-C stops")
     if options["opens"]:
         webbrowser.open(address)
     try:

@@ -6,8 +6,10 @@ from typing import Any
 
 import click
 
+from ..outputs import check_folder, writing
 from .declared.common import FIRST_SEED, FOLDER, WORKERS, json_option
 from .options import print_json
+from .terminal import echo
 
 
 @click.command("reproduce")
@@ -44,13 +46,13 @@ def reproduce(
     from ..studies.reproduce import provenance
     from .reproduce_figures import draw_figures, turns_shown
 
+    check_folder(output, new=False)
     rows = _measure(output / "rows", range(seed, seed + runs), workers)
     figures = draw_figures(output, seed)
     made = {"seed": seed, "runs": runs, "jobs": provenance(seed)}
-    (output / "claims.json").write_text(
-        json.dumps(made | {"rows": rows}, indent=1, allow_nan=False) + "\n",
-        encoding="utf-8",
-    )
+    with writing(output / "claims.json") as draft:
+        text = json.dumps(made | {"rows": rows}, indent=1, allow_nan=False)
+        draft.write_text(text + "\n", encoding="utf-8")
     beside = paper_figures(rows, *turns_shown())
     page = write_page(output, rows, beside, figures, made)
     failed = sum(row["verdict"] != "holds" for row in rows)
@@ -58,11 +60,9 @@ def reproduce(
         print_json(rows)
     else:
         for row in rows:
-            click.echo(
-                f"  {row['verdict']:<6} {row['section']:<13} {row['claim']}"
-            )
+            echo(f"  {row['verdict']:<6} {row['section']:<13} {row['claim']}")
         held = len(rows) - failed
-        click.echo(f"\n{held} of {len(rows)} hold\npage: {page}")
+        echo(f"\n{held} of {len(rows)} hold\npage: {page}")
     if failed:
         raise SystemExit(1)
 

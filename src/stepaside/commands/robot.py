@@ -4,8 +4,11 @@ from pathlib import Path
 
 import click
 
+from ..outputs import writing
 from .declared.common import FILE, json_option
 from .options import print_json, print_table
+from .outputs import writes_files
+from .terminal import echo
 
 
 @click.command("robot")
@@ -24,8 +27,9 @@ from .options import print_json, print_table
     "robot is controlled where MuJoCo is not installed.",
 )
 @json_option
+@writes_files
 def robot(
-    name: str, mjcf: bool, output: Path | None, stores: bool, as_json: bool
+    name: str, mjcf: bool, output: str | None, stores: bool, as_json: bool
 ) -> None:
     """Show the robot NAME, or write its model for MuJoCo's own viewer.
 
@@ -38,16 +42,16 @@ def robot(
     if mjcf or output is not None:
         text = description.mjcf()
         if output is None:
-            click.echo(text)
+            echo(text)
         else:
-            with open(output, "w", encoding="utf-8") as file:
-                file.write(text)
-            click.echo(f"wrote {output}", err=True)
+            with writing(Path(output)) as draft:
+                draft.write_text(text, encoding="utf-8")
+            echo(f"wrote {output}", err=True)
         return
     if stores:
         from ..robots.stored import store_tree
 
-        click.echo(f"wrote {store_tree(description)}", err=True)
+        echo(f"wrote {store_tree(description)}", err=True)
         return
     model = description.compile()
     facts = {

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
+from ..errors import OutputError
+from ..outputs import check_folder
 from .declared.body import BODY, CONTROL, FEEDBACK, METHOD, PHYSICS
 from .declared.common import FOLDER, WORKERS, json_option
 from .declared.gait import GAIT, PUSHES, WALK
@@ -14,6 +16,7 @@ from .declared.kinds import NameType
 from .declared.take import SettingsCommand, takes_settings
 from .options import print_json
 from .robustness_tables import print_campaign, tell_stopped
+from .terminal import echo
 
 if TYPE_CHECKING:
     from ..games.walk import WalkSettings
@@ -140,13 +143,18 @@ def robustness(
     if output is None and not as_json:
         output = Path("runs") / f"robustness-{body}"
     if output is not None:
+        check_folder(output, new=False)
         output.mkdir(parents=True, exist_ok=True)
     grid, cases = _plan(asked)
     file = None if output is None else output / "trials.jsonl"
     results, stopped = _run(grid, cases, file, workers)
     answer = _answer(settings, body, grid, cases, results)
+    failed: OutputError | None = None
     if output is not None and not stopped:
-        _write(output, settings, asked, answer)
+        try:
+            _write(output, settings, asked, answer)
+        except OutputError as error:
+            failed = error
     if as_json:
         print_json(answer)
     else:
@@ -154,8 +162,10 @@ def robustness(
     if stopped:
         tell_stopped(answer)
         raise SystemExit(130)
+    if failed is not None:
+        raise failed
     if not as_json:
-        click.echo(f"\nresults: {output}")
+        echo(f"\nresults: {output}")
 
 
 def _once(names: tuple[str, ...]) -> tuple[str, ...]:

@@ -2,13 +2,13 @@
 
 from typing import Any
 
-import click
+from .terminal import echo
 
 
 def tell_stopped(answer: dict[str, Any]) -> None:
     """Say how far a campaign came."""
     done, planned = answer["done"], answer["planned"]
-    click.echo(
+    echo(
         f"stopped after {done['trials']} of {planned['trials']} trials, "
         f"{done['push_limits']} of {planned['push_limits']} limits of pushes",
         err=True,
@@ -20,10 +20,10 @@ def print_campaign(answer: dict[str, Any]) -> None:
     from ..studies.robustness import UNITS
 
     head = ("method", "disturbance", "strength", "survived", "95 %")
-    click.echo("{:<12} {:<16} {:>10} {:>9}  {}".format(*head))
+    echo("{:<12} {:<16} {:>10} {:>9}  {}".format(*head))
     for row in answer["survival"]:
         kind = f"{row['kind']} {row['direction']}".strip()
-        click.echo(
+        echo(
             f"{row['method']:<12} {kind:<16} {row['strength']:>10g} "
             f"{row['survived']:>4}/{row['trials']:<4}  "
             f"{100 * row['low']:.0f}-{100 * row['high']:.0f} %"
@@ -36,7 +36,7 @@ def print_campaign(answer: dict[str, Any]) -> None:
 def _print_limits(
     limits: list[dict[str, Any]], by_method: dict[str, Any]
 ) -> None:
-    click.echo("\nlargest push survived / pendulum's bound [N s], by phase")
+    echo("\nlargest push survived / pendulum's bound [N s], by phase")
     for method in dict.fromkeys(r["method"] for r in limits):
         for direction in dict.fromkeys(r["direction"] for r in limits):
             cells = " ".join(
@@ -44,10 +44,10 @@ def _print_limits(
                 for r in limits
                 if (r["method"], r["direction"]) == (method, direction)
             )
-            click.echo(f"{method:<12} {direction:<9} {cells}")
-    click.echo("\nmeasured over the bound: median, least, most; above it")
+            echo(f"{method:<12} {direction:<9} {cells}")
+    echo("\nmeasured over the bound: median, least, most; above it")
     for method, found in by_method.items():
-        click.echo(
+        echo(
             f"{method:<12} {found['median_of_bound']:.2f} "
             f"{found['least_of_bound']:.2f} {found['most_of_bound']:.2f}  "
             f"{found['above_bound']} of {found['cases']}"

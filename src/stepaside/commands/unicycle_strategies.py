@@ -2,9 +2,8 @@
 
 from typing import TYPE_CHECKING, Any
 
-import click
-
 from .options import print_table
+from .terminal import echo
 
 if TYPE_CHECKING:
     from ..unicycle.laws import Game
@@ -71,7 +70,5 @@ def print_named(result: dict[str, Any]) -> None:
     rows = [(name, f"{result[name]:.6g}") for name in names]
     rows.append(("captured", "yes" if result["captured"] else "no"))
     rows.append(("end_time_s", f"{result['end_time_s']:.6g}"))
-    click.echo(
-        f"{result['evader_strategy']} against {result['pursuer_strategy']}"
-    )
+    echo(f"{result['evader_strategy']} against {result['pursuer_strategy']}")
     print_table(rows)

@@ -16,7 +16,6 @@ from .declared.common import (
 )
 from .declared.strategies import PURSUER_STRATEGY, UNICYCLE_STRATEGY
 from .game_options import (
-    check_figure_folder,
     describe_game,
     finite,
     game_options,
@@ -27,6 +26,7 @@ from .options import (
     print_json,
     print_table,
 )
+from .outputs import attempt, writes_files
 from .unicycle_strategies import play_named, print_named
 
 SHORT = 0.01  # time between decisions that are not held, in [s]
@@ -67,6 +67,7 @@ SHORT = 0.01  # time between decisions that are not held, in [s]
 @PURSUER_STRATEGY.option(default=None)
 @FIGURE.option()
 @json_option
+@writes_files
 def unicycles(
     game: Game,
     distance: float | None,
@@ -85,7 +86,6 @@ def unicycles(
     from ..unicycle.measure import settling_time
     from ..unicycle.relative import Start
 
-    check_figure_folder(figure)
     if distance is None:
         distance = 2.5 * game.evader.speed / game.evader.gain
     if duration is None:
@@ -167,8 +167,8 @@ def _play(
     if figure is not None:
         from ..report.unicycle_figures import draw_game
 
-        draw_game(run, figure)
-        result["figure"] = figure
+        if attempt(lambda: draw_game(run, figure)):
+            result["figure"] = figure
     return result
 
 

@@ -11,14 +11,15 @@ from .declared.game import DURATION
 from .declared.option import Declaration
 from .declared.take import SettingsCommand
 from .duel_options import duel_options
+from .terminal import echo
 
 if TYPE_CHECKING:
     from ..games.settings import DuelSettings
 
-LOCAL = ("127.0.0.1", "localhost", "::1")
 HOST = Declaration(
     "--host",
-    "Address to serve at; others than this machine's are open to all.",
+    "Address to serve at; where other machines reach it, the link holds a "
+    "secret.",
 )
 RUNNING = Declaration("--run/--no-run", "Let time pass at once.")
 
@@ -41,17 +42,17 @@ def view(
     """Serve a page with two robots that chase each other."""
     from ..report.viewer.page import Page
 
-    if host not in LOCAL:
-        click.echo(
+    page = Page(settings, host=host, port=port)
+    if page.gate.secret:
+        echo(
             f"stepaside: {host} can be reached from other machines, and "
-            "whoever opens the page can drive the robots",
+            "whoever has the link can drive the robots",
             err=True,
         )
-    page = Page(settings, host=host, port=port)
     page.session.running = run
     page.start()
-    address = f"http://{host}:{page.server.get_port()}"
-    click.echo(f"serving at {address}; Ctrl-C stops")
+    address = page.gate.link
+    echo(f"serving at {address}; Ctrl-C stops")
     if opens:
         webbrowser.open(address)
     try:

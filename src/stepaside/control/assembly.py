@@ -9,6 +9,7 @@ from ..robots.kinematics import LegKinematics
 from ..sensing.measurement import Sighting
 from ..strategies.strategy import Strategy
 from .balance.estimation import StateEstimator
+from .balance.feedforward import LoadFeedforward
 from .balance.loop import Balance, ClosedLoop, OpenLoop
 from .balance.settings import ControlSettings
 from .balance.stabiliser import Stabiliser
@@ -26,6 +27,7 @@ def build_balance(
     *,
     tick: float,
     delay: float,
+    kinematics: LegKinematics,
     forward: ForwardKinematics | None = None,
 ) -> Balance:
     """What keeps a robot up, as its settings ask.
@@ -36,10 +38,15 @@ def build_balance(
         control: How it controls its walk.
         tick: Control period, in [s].
         delay: Time from a request to the motion, in [s].
+        kinematics: Its joint motion generation.
         forward: Kinematics of the measured body, if somebody has it already.
     """
     if not control.feedback:
-        return OpenLoop()
+        return OpenLoop(
+            LoadFeedforward(
+                kinematics, zmp_forward=gait.zmp_forward, tick=tick
+            )
+        )
     forward = forward or ForwardKinematics(description)
     estimator = StateEstimator(
         forward, forward.force_sensors(), gait.eta, tick
@@ -75,17 +82,20 @@ def build_scheme(
     Raises:
         ReachError: If the robot cannot stand as the gait asks.
     """
+    kinematics = LegKinematics(description, tick=tick)
     return ControlScheme(
         strategy,
         gait,
-        LegKinematics(description, tick=tick),
+        kinematics,
         tick=tick,
+        delay=delay,
         balance=build_balance(
             description,
             gait,
             control,
             tick=tick,
             delay=delay,
+            kinematics=kinematics,
             forward=None if perception is None else perception.forward,
         ),
         senses=GivenSight(sighting)

@@ -1,6 +1,5 @@
 """Asking the strategy of one robot, with what it remembers."""
 
-from collections.abc import Callable
 from typing import Any
 
 from ..errors import StrategyError
@@ -10,9 +9,7 @@ from ..sensing.measurement import Sighting
 from ..strategies.knowledge import Intent, Knowledge, Limits
 from ..strategies.rates import SightRates
 from ..strategies.strategy import Strategy
-from .headings import HeadingMemory
-
-Prediction = Callable[[float, float], float]
+from .memory import Memory
 
 
 class Decisions:
@@ -21,7 +18,9 @@ class Decisions:
     Attributes:
         strategy: From what the robot knows to what it wants.
         memory: What the strategy remembers.
-        headings: Past headings of the torso, from which sightings count.
+        headings: Past headings of the torso in odometry, in [rad], from
+            which sightings count.
+        templates: Past poses of the unicycle that stands for the body.
     """
 
     def __init__(
@@ -36,7 +35,8 @@ class Decisions:
         """
         self.strategy = strategy
         self.memory: Any = strategy.begin()
-        self.headings = HeadingMemory(tick)
+        self.headings: Memory[float] = Memory(tick)
+        self.templates: Memory[Pose] = Memory(tick)
         self._rates = SightRates(gait.step_duration)
         self._limits = Limits(
             gait.speed, gait.gain, gait.stride, gait.step_duration
@@ -53,7 +53,7 @@ class Decisions:
             self.memory = strategy.begin()
         self.strategy = strategy
 
-    def starts(self, now: float, support: Pose, seen: Sighting) -> bool:
+    def starts(self, now: float, seen: Sighting) -> bool:
         """Whether a robot that stands is to walk.
 
         If so it is asked again for the instant at which the step takes
@@ -61,41 +61,29 @@ class Decisions:
 
         Args:
             now: Time of the decision, in [s].
-            support: Foot that will support, in odometry.
             seen: What was seen last.
 
         Raises:
             StrategyError: If the strategy gives no intent.
         """
-        known = self._knowledge(now, support, seen, None, moving=False)
+        known = self._knowledge(now, seen, moving=False)
         intent, memory = self._ask(known)
         if not intent.walks:
             self.memory = memory
         return intent.walks
 
-    def decide(
-        self,
-        now: float,
-        support: Pose,
-        seen: Sighting,
-        ahead: Prediction | None,
-        *,
-        moving: bool,
-    ) -> Intent:
+    def decide(self, now: float, seen: Sighting, *, moving: bool) -> Intent:
         """Ask what the robot wants, and remember it.
 
         Args:
             now: Time of the decision, in [s].
-            support: Foot that will support, in odometry.
             seen: What was seen last.
-            ahead: From time and direction of a sighting to the direction
-                when a step takes effect, where feedback predicts it.
             moving: Whether it is under way.
 
         Raises:
             StrategyError: If the strategy gives no intent.
         """
-        known = self._knowledge(now, support, seen, ahead, moving=moving)
+        known = self._knowledge(now, seen, moving=moving)
         intent, self.memory = self._ask(known)
         return intent
 
@@ -110,27 +98,25 @@ class Decisions:
         return intent, memory
 
     def _knowledge(
-        self,
-        now: float,
-        support: Pose,
-        seen: Sighting,
-        ahead: Prediction | None,
-        *,
-        moving: bool,
+        self, now: float, seen: Sighting, *, moving: bool
     ) -> Knowledge:
-        """What is known, in the frame of the foot that will support."""
+        """What is known, in the frame of the unicycle that saw.
+
+        Line of sight and heading are of one instant: the foot that lands
+        stands for a body that is half a step farther than the one that saw,
+        and the torso looks where both feet do.
+        """
+        template = self.templates.at(seen.time)
         sight = self.headings.at(seen.time) + seen.bearing
         rates = self._rates.note(seen.time, sight, seen.distance)
-        if ahead is not None:
-            sight = ahead(seen.time, sight)
         return Knowledge(
             now,
-            wrap_angle(sight - support.theta),
+            wrap_angle(sight - template.theta),
             seen.distance,
             self._limits,
             rates.bearing_rate,
             rates.closing_speed,
             max(0.0, now - seen.time),
-            support,
+            template,
             moving,
         )

@@ -7,7 +7,8 @@ import numpy as np
 
 from ..planning import GaitSettings, ManeuverPlan
 from ..planning.schedule import Sampler, Schedule
-from ..poses import Pose
+from ..planning.template import path_samples, poses_on_path
+from ..poses import Pose, wrap_angle
 from ..robots.kinematics import BodyReference
 
 CACHED = 256  # samplers kept; rational durations need a handful
@@ -20,11 +21,13 @@ class ReferenceSample(NamedTuple):
         body: CoM and feet.
         zmp: ZMP reference, in [m].
         dcm: DCM reference, in [m].
+        template: Pose of the unicycle that stands for the body.
     """
 
     body: BodyReference
     zmp: tuple[float, float]
     dcm: tuple[float, float]
+    template: Pose
 
 
 def standing_reference(
@@ -37,6 +40,21 @@ def standing_reference(
     left = (left_foot.x, left_foot.y, 0.0, left_foot.theta)
     right = (right_foot.x, right_foot.y, 0.0, right_foot.theta)
     return BodyReference(com, left, right)
+
+
+def resting_sample(
+    left_foot: Pose, right_foot: Pose, settings: GaitSettings
+) -> ReferenceSample:
+    """What is asked of a body that stands, midway between its feet."""
+    body = standing_reference(left_foot, right_foot, settings)
+    rest = body.com[:2]
+    apart = wrap_angle(left_foot.theta - right_foot.theta)
+    template = Pose(
+        0.5 * (left_foot.x + right_foot.x),
+        0.5 * (left_foot.y + right_foot.y),
+        right_foot.theta + 0.5 * apart,
+    )
+    return ReferenceSample(body, rest, rest, template)
 
 
 def _anchor(foot: Pose, settings: GaitSettings) -> tuple[float, float]:
@@ -78,9 +96,13 @@ class ReferenceTable:
         offset = self._first * tick - started
         count = max(1, ceil((duration - offset) / tick - 1e-6))
         samples = plan.sample(self._sampler(plan.schedule, offset, count))
-        height = plan.schedule.settings.com_height
         c, s = cos(plan_frame.theta), sin(plan_frame.theta)
         turn = np.array([[c, s], [-s, c]])
+        settings = plan.schedule.settings
+        path = path_samples(
+            plan.placements, plan.first_foot, settings.foot_spacing
+        )
+        template = poses_on_path(path, samples.com, settings.zmp_forward)
         points = np.concatenate(
             [
                 samples.com,
@@ -88,12 +110,16 @@ class ReferenceTable:
                 samples.right_foot[:, :2],
                 samples.zmp,
                 samples.dcm,
+                template[:, :2],
             ]
         )
         points = points @ turn
         points += plan_frame[:2]
-        com, left, right, zmp, dcm = points.reshape(5, count, 2).tolist()
+        com, left, right, zmp, dcm, place = points.reshape(
+            6, count, 2
+        ).tolist()
         theta = plan_frame.theta
+        heading = (template[:, 2] + theta).tolist()
         left_yaw = (samples.left_foot[:, 2] + theta).tolist()
         right_yaw = (samples.right_foot[:, 2] + theta).tolist()
         left_height = samples.left_height.tolist()
@@ -101,12 +127,13 @@ class ReferenceTable:
         self._rows = [
             ReferenceSample(
                 BodyReference(
-                    (com[i][0], com[i][1], height),
+                    (com[i][0], com[i][1], settings.com_height),
                     (left[i][0], left[i][1], left_height[i], left_yaw[i]),
                     (right[i][0], right[i][1], right_height[i], right_yaw[i]),
                 ),
                 (zmp[i][0], zmp[i][1]),
                 (dcm[i][0], dcm[i][1]),
+                Pose(place[i][0], place[i][1], heading[i]),
             )
             for i in range(count)
         ]

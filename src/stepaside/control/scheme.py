@@ -18,7 +18,7 @@ from .balance.loop import Balance, OpenLoop
 from .balance.step import Step, resting_step, step_of
 from .deciding import Decisions
 from .phase import Phase
-from .reference import ReferenceSample, ReferenceTable, standing_reference
+from .reference import ReferenceSample, ReferenceTable, resting_sample
 from .senses import GivenSight, Senses
 from .walking import StepBegun, WalkState
 
@@ -60,6 +60,7 @@ class ControlScheme:
         kinematics: LegKinematics,
         *,
         tick: float,
+        delay: float = 0.0,
         first_foot: Foot = Foot.LEFT,
         balance: Balance | None = None,
         senses: Senses | None = None,
@@ -71,6 +72,7 @@ class ControlScheme:
             settings: Gait.
             kinematics: The robot's joint motion generation.
             tick: Control period, in [s].
+            delay: Time from a request to the motion, in [s].
             first_foot: Foot that makes the first step.
             balance: What keeps the robot up; the plan alone by default.
             senses: How it learns where the other is; by the sightings that
@@ -95,11 +97,13 @@ class ControlScheme:
         self.left_foot = Pose(0.0, half, 0.0)
         self.right_foot = Pose(0.0, -half, 0.0)
         self.begun: StepBegun | None = None
+        self._delay, self._late = delay, delay + tick
         self._planner = ManeuverPlanner(settings)
         self._first_foot = first_foot
         self._table = ReferenceTable(tick)
         self._plan_ends = 0.0
         self._stand()
+        self.decisions.templates.note(0.0, self._resting.template)
         self.joint_targets: Array = kinematics.stand(self.reference)
 
     def update(self, measurement: Measurement) -> Array:
@@ -121,13 +125,16 @@ class ControlScheme:
         now, balance = measurement.time, self.balance
         measured = balance.torso_heading
         known = self.kinematics.torso_heading if measured is None else measured
-        self.decisions.headings.note(now, known)
+        late = self._delay if measured is None else 0.0
+        self.decisions.headings.note(now + late, known)
         self.sighting = self.senses.see(measurement, self.step, balance.tilt)
         if self.plan is None:
             self._wait(now)
         elif now >= self._plan_ends - 1e-9:
             self._finish(self.plan)
         sample = self._resting if self.plan is None else self._table.at(now)
+        arrives = now + self._late
+        self.decisions.templates.note(arrives, sample.template)
         self.zmp_reference = sample.zmp
         self.reference = balance.update(measurement, sample, self.step)
         if balance.has_fallen:
@@ -163,20 +170,19 @@ class ControlScheme:
     def _stand(self) -> None:
         """Rest midway between the feet."""
         self.phase, self.plan = Phase.STANDING, None
-        self.reference = standing_reference(
+        self._resting = resting_sample(
             self.left_foot, self.right_foot, self.settings
         )
-        self.zmp_reference = rest = self.reference.com[:2]
-        self._resting = ReferenceSample(self.reference, rest, rest)
+        self.reference, self.zmp_reference, *_ = self._resting
 
     def _wait(self, now: float) -> None:
         """Stand until the other is a reason to move."""
         seen = self.sighting
         if not self.balance.ready:
             return
-        support = self._support(self._first_foot)
-        if seen is None or not self.decisions.starts(now, support, seen):
+        if seen is None or not self.decisions.starts(now, seen):
             return
+        support = self._support(self._first_foot)
         x, y, _ = self.reference.com
         rest = support.inverse().compose(Pose(x, y, 0.0))
         state = CenterState(rest[:2], (0.0, 0.0))
@@ -217,9 +223,7 @@ class ControlScheme:
     ) -> None:
         """Plan from what was seen last, or come to rest (Sec. III-E)."""
         clock = process_time()
-        intent = self.decisions.decide(
-            started, support, seen, self.balance.ahead, moving=not standing
-        )
+        intent = self.decisions.decide(started, seen, moving=not standing)
         if not intent.walks:
             if not standing:
                 self._halt(started, support, state)

@@ -16,11 +16,19 @@ from .settings import DuelSettings
 
 S = TypeVar("S")  # a frozen dataclass of settings
 
+LONGEST = 2**20  # text of a configuration, in [characters]
+
 # Entries of older files, and what they are called today.
 RENAMED = {
     "body.play": "body.backlash",
-    "control.stabiliser.lead_blend": "control.stabiliser.prediction_blend",
 }
+
+
+# Entries of older files that mean nothing any more.
+RETIRED = (
+    "control.stabiliser.lead_blend",
+    "control.stabiliser.prediction_blend",
+)
 
 
 def load_settings(
@@ -38,10 +46,38 @@ def load_settings(
             the wrong type or out of its range.
     """
     try:
-        entries = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        with path.open("rb") as file:
+            text = file.read(LONGEST + 1).decode("utf-8")
+    except (OSError, UnicodeDecodeError) as error:
         raise ConfigurationError(f"{path}: {error}") from error
-    return parse_settings(kind, entries, str(path), aside=aside)
+    return read_settings(kind, text, str(path), aside=aside)
+
+
+def read_settings(
+    kind: type[S], text: str, source: str, *, aside: Collection[str] = ()
+) -> S:
+    """Turn TOML into settings.
+
+    Args:
+        kind: Class of the settings.
+        text: TOML.
+        source: Where it comes from, for messages.
+        aside: As :func:`load_settings`.
+
+    Raises:
+        ConfigurationError: As :func:`load_settings`.
+    """
+    if len(text) > LONGEST:
+        raise ConfigurationError(
+            f"{source} must have at most {LONGEST} characters"
+        )
+    try:
+        entries = tomllib.loads(text)
+    except RecursionError as error:
+        raise ConfigurationError(f"{source} is nested too deep") from error
+    except ValueError as error:  # no TOML, or a number without end
+        raise ConfigurationError(f"{source}: {error}") from error
+    return parse_settings(kind, entries, source, aside=aside)
 
 
 def parse_settings(
@@ -73,6 +109,8 @@ def parse_settings(
                 f"{source}: {old} is the old name of {new}, "
                 "give one of them, not both"
             ) from None
+    for old in RETIRED:
+        entries = _without(entries, old)
     entries = _with_tuples(kind, entries)
     hooks: dict[type[Any], Callable[[Any], Any]]
     hooks = {float: _as_float, int: _as_int}
@@ -138,6 +176,15 @@ def _renamed(entries: dict[str, Any], old: str, new: str) -> dict[str, Any]:
     if old in entries and new in entries:
         raise KeyError(old)
     return {new if key == old else key: v for key, v in entries.items()}
+
+
+def _without(entries: dict[str, Any], old: str) -> dict[str, Any]:
+    """Entries without one."""
+    section, deeper, rest = old.partition(".")
+    inner = entries.get(section)
+    if deeper and isinstance(inner, dict):
+        return entries | {section: _without(inner, rest)}
+    return {key: v for key, v in entries.items() if key != old}
 
 
 def _with_tuples(kind: Any, entries: dict[str, Any]) -> dict[str, Any]:

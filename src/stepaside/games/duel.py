@@ -147,6 +147,7 @@ class _Setting:
                 self.world.model,
                 self.world.data,
                 f"{name}/{self._description.torso}",
+                com_forward=settings.gait.zmp_forward,
             )
             for name in walkers
         }
@@ -196,8 +197,11 @@ class _Setting:
         judges = {}
         for own, other in (self.players, self.players[::-1]):
             if isinstance(own, Walker):
-                truth = self._truths[other.name]
-                judges[own.name] = self._seeing.judge(own.robot, truth)
+                judges[own.name] = self._seeing.judge(
+                    own.robot,
+                    self._truths[other.name],
+                    wears_trim=not isinstance(other, Pedestrian),
+                )
         return Witness(judges, self._seeing.renderer, every=every)
 
 

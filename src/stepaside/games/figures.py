@@ -52,7 +52,7 @@ class PlayerFigures:
     """Figures of one player.
 
     Attributes:
-        radius_m: Of the circle that its CoM went in the end, in [m].
+        radius_m: Of the circle that its place went in the end, in [m].
         sight: How well it saw, if with cameras.
     """
 
@@ -64,6 +64,9 @@ class PlayerFigures:
 class DuelSummary:
     """Figures of a duel; radii, distance and angle of its last third.
 
+    The place of a player is the point that stands for it in the game: of a
+    robot that midway between its feet, of a person the trunk's axis.
+
     Attributes:
         outcome: How it ended.
         message: What ended it, in words.
@@ -71,8 +74,9 @@ class DuelSummary:
         duration_s: Simulated time, in [s].
         start: Where they stood at first.
         triggered_at_s: When the evader began to evade, in [s].
-        triggered_at_distance_m: True distance then, in [m].
-        distance_m: Mean distance between the torsos, in [m].
+        triggered_at_distance_m: True distance between the places then, in
+            [m].
+        distance_m: Mean distance between the places, in [m].
         relative_orientation_deg: Mean angle between the headings, in [deg].
         min_distance_m: Least distance between the torsos, in [m].
         converged_at_s: Since when they are on theory's circle, in [s].
@@ -152,5 +156,5 @@ class DuelSummary:
         config = dacite.Config(type_hooks=HOOKS)
         try:
             return dacite.from_dict(cls, entries, config)
-        except (dacite.DaciteError, TypeError) as error:
+        except (dacite.DaciteError, TypeError, AttributeError) as error:
             raise ConfigurationError(f"{source}: {error}") from error

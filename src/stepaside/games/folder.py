@@ -11,9 +11,11 @@ import numpy as np
 
 from ..errors import ConfigurationError
 from ..poses import Array
-from .configuration import dump_configuration, load_configuration
+from .checking import check_times, check_tracks
+from .configuration import dump_configuration, read_settings
 from .figures import DuelSummary
 from .outcome import Outcome
+from .reading import read_arrays, read_json, read_text
 from .run import Run
 from .settings import PLAYERS, DuelSettings
 from .track import Track, tracks_in
@@ -21,10 +23,14 @@ from .track import Track, tracks_in
 CONFIGURATION = "configuration.toml"
 SUMMARY = "summary.json"
 TRAJECTORIES = "trajectories.npz"
+ARRAYS = frozenset(
+    {"times_s"}
+    | {f"{name}_{field.name}" for name in PLAYERS for field in fields(Track)}
+)
 FORMAT = 2  # of a run folder; 1 had no number and filled gaps with NaN
 BROKEN = (  # what reading a file can raise, if it is not as it was written
     *(ValueError, OSError, EOFError, KeyError, NotImplementedError),
-    *(BadZipFile, DeflateError),
+    *(BadZipFile, DeflateError, RuntimeError, MemoryError),
 )
 
 
@@ -60,14 +66,15 @@ def load_run(folder: Path) -> Run:
                 f"{TRAJECTORIES}; {folder} has no {name}"
             )
     try:
-        plain = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
-        with np.load(folder / TRAJECTORIES) as stored:
-            arrays = {name: stored[name] for name in stored.files}
+        plain = read_json(folder / SUMMARY)
+        arrays = read_arrays(folder / TRAJECTORIES, ARRAYS)
+        text = read_text(folder / CONFIGURATION)
     except BROKEN as error:
         raise ConfigurationError(
-            f"run {folder} cannot be read: {error}"
+            f"run {folder} cannot be read: {error or type(error).__name__}"
         ) from error
-    settings = load_configuration(folder / CONFIGURATION)
+    source = str(folder / CONFIGURATION)
+    settings = read_settings(DuelSettings, text, source)
     return read_record(folder.resolve().name, settings, plain, arrays)
 
 
@@ -86,6 +93,9 @@ def read_record(
         ConfigurationError: If they are none, or of a later format.
     """
     version = _version(plain, name)
+    times, tracks = _times(arrays, name), _tracks(arrays, name, version)
+    check_times(times, name)
+    check_tracks(tracks, len(times), name)
     summary = DuelSummary.from_json(plain, f"{SUMMARY} of run {name}")
     return Run(
         name=name,
@@ -93,8 +103,8 @@ def read_record(
         outcome=_outcome(summary, name),
         message=summary.message,
         duration=summary.duration_s,
-        times=_times(arrays, name),
-        tracks=_tracks(arrays, name, version),
+        times=times,
+        tracks=tracks,
         summary=summary,
     )
 

@@ -69,6 +69,8 @@ class Judge:
         head: HeadDescription,
         things: list[tuple[float, float]],
         still_times: tuple[float, ...] = (),
+        *,
+        wears_trim: bool = True,
     ) -> None:
         """Watch one robot.
 
@@ -79,7 +81,10 @@ class Judge:
             head: Its head.
             things: Places of what else stands in the world, in [m].
             still_times: When images are to be kept, in [s].
+            wears_trim: Whether the other has the colour that is looked for;
+                a person has none, so no colour frame can find one.
         """
+        self._wears_trim = wears_trim
         self._robot, self._other = robot, other
         self._perception, self._head = perception, head
         self._things = things
@@ -109,6 +114,7 @@ class Judge:
         target = np.array([*self._other.position, self._height()])
         point = axes.T @ (target - place)
         shown = percept.camera.sees(point)
+        shown &= self._wears_trim or not is_colour
         if isinstance(percept, DepthImage):
             away = float(np.hypot(*point[:2]))
             shown &= percept.near + MARGIN < away < percept.far

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from itertools import combinations
-from math import ceil
+from math import ceil, hypot
 from time import perf_counter
 from typing import NamedTuple, Protocol
 
@@ -20,8 +20,8 @@ class Progress(NamedTuple):
 
     Attributes:
         time: Simulated time, in [s].
-        distance: Between the first two torsos, in [m]; None if one plays
-            alone.
+        distance: Between the places of the first two, in [m]; None if one
+            plays alone.
         real_time_factor: Simulated time over time passed.
     """
 
@@ -54,7 +54,7 @@ class Match:
         min_distance: Least distance between the first two torsos, in [m].
         triggered_at: When the last player began to move, in [s]; None if it
             never did.
-        triggered_distance: Distance then, in [m].
+        triggered_distance: Distance between the places then, in [m].
     """
 
     def __init__(
@@ -78,12 +78,20 @@ class Match:
         self.observers = tuple(observers)
         self.message = ""
         self._has_things = has_things
-        self.min_distance = self.distance
+        self.min_distance = self.torsos_apart
         self.triggered_at: float | None = None
         self.triggered_distance: float | None = None
 
     @property
     def distance(self) -> float | None:
+        """True distance between the places of the first two, in [m]."""
+        if len(self.players) < 2:
+            return None
+        (x, y), (u, v) = (player.truth.place for player in self.players[:2])
+        return hypot(u - x, v - y)
+
+    @property
+    def torsos_apart(self) -> float | None:
         """True distance between the first two torsos, in [m]."""
         if len(self.players) < 2:
             return None
@@ -127,13 +135,13 @@ class Match:
 
     def _judge(self) -> Outcome | None:
         """Apply the rules: who falls or touches has ended the game."""
-        now, distance = self.world.time, self.distance
+        now, apart = self.world.time, self.torsos_apart
         if self.triggered_at is None and self.players[-1].is_moving:
             self.triggered_at = now
-            self.triggered_distance = distance
-        if distance is not None:
+            self.triggered_distance = self.distance
+        if apart is not None:
             assert self.min_distance is not None
-            self.min_distance = min(self.min_distance, distance)
+            self.min_distance = min(self.min_distance, apart)
         fallen = [p.name for p in self.players if p.has_fallen]
         if fallen:
             self.message = f"{' and '.join(fallen)} fell at {now:.2f} s"

@@ -50,6 +50,7 @@ class Pedestrian:
         return Snapshot(
             name=self.name,
             time=self.person.world.time,
+            place=Pose(*truth.place, truth.heading),
             torso=Pose(*truth.position, truth.heading),
             com=(x, y, z),
         )

@@ -23,7 +23,10 @@ class Snapshot:
     Attributes:
         name: Who it is.
         time: The instant, in [s].
-        torso: Place and heading of the torso in the world.
+        place: What stands for it in the game, in the world: of a robot the
+            point midway between its feet, of a person the trunk's axis; with
+            its heading.
+        torso: Origin and heading of the torso in the world.
         com: CoM (x, y, z) in the world, in [m].
         frame: Pose of its odometry in the world.
         walk: What it plans and asks of its body.
@@ -34,6 +37,7 @@ class Snapshot:
 
     name: str
     time: float
+    place: Pose
     torso: Pose
     com: tuple[float, float, float]
     frame: Pose | None = None

@@ -75,6 +75,7 @@ class _Record:
         """Keep a snapshot as rows."""
         rows: dict[str, Sequence[float] | Array] = {
             "com": seen.com,
+            "place": seen.place,
             "torso": seen.torso,
         }
         if seen.walk is not None:
@@ -93,8 +94,9 @@ class _Record:
         arrays = {name: np.array(rows) for name, rows in self._rows.items()}
         for name in ("com", "torso"):
             arrays.setdefault(name, np.zeros((0, 3)))
-        torso = arrays["torso"]
-        torso[:, 2] = np.unwrap(torso[:, 2])
+        for name in ("place", "torso"):
+            if name in arrays:
+                arrays[name][:, 2] = np.unwrap(arrays[name][:, 2])
         if self._frame is not None:
             for name in ("com_reference", "zmp_reference"):
                 if name in arrays:

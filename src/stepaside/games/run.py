@@ -59,13 +59,13 @@ class Run:
 
     @property
     def distance(self) -> Array:
-        """Distance between the torsos, in [m]. Shape (n,)."""
-        return distance_between(self.pursuer.torso, self.evader.torso)
+        """Distance between the places, in [m]. Shape (n,)."""
+        return distance_between(self.pursuer.unicycle, self.evader.unicycle)
 
     @property
     def orientation(self) -> Array:
         """Angle between the headings, in [deg]. Shape (n,)."""
-        angle = angle_between(self.pursuer.torso, self.evader.torso)
+        angle = angle_between(self.pursuer.unicycle, self.evader.unicycle)
         degs: Array = np.degrees(angle)
         return degs
 
@@ -94,7 +94,7 @@ class Run:
             return None
         tail = self.times >= since
         middles = [
-            track.torso[tail, :2].mean(axis=0)
+            track.unicycle[tail, :2].mean(axis=0)
             for track in self.tracks.values()
         ]
         x, y = np.mean(middles, axis=0).tolist()

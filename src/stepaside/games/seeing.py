@@ -85,8 +85,10 @@ class Seeing:
             with_depth=name == "evader",
         )
 
-    def judge(self, robot: SimulatedRobot, other: TrueState) -> Judge:
-        """Judge of what a robot sees of another."""
+    def judge(
+        self, robot: SimulatedRobot, other: TrueState, *, wears_trim: bool
+    ) -> Judge:
+        """Judge of what a robot sees of another, who may wear its trim."""
         settings = self._settings
         # Early on more happens: the times grow as squares.
         times = tuple(
@@ -95,7 +97,15 @@ class Seeing:
         )
         places = [(thing.x, thing.y) for thing in settings.room.things]
         perception = self.perceptions[robot.name]
-        return Judge(robot, other, perception, self._head, places, times)
+        return Judge(
+            robot,
+            other,
+            perception,
+            self._head,
+            places,
+            times,
+            wears_trim=wears_trim,
+        )
 
 
 class Witness:

@@ -105,6 +105,7 @@ class ServedPlayer:
         return Snapshot(
             name=self.name,
             time=self.robot.world.time,
+            place=Pose(*self.truth.place, self.truth.heading),
             torso=Pose(*self.truth.position, self.truth.heading),
             com=(x, y, z),
         )

@@ -19,6 +19,12 @@ PLAYERS = PURSUER, EVADER = ("pursuer", "evader")
 EVASION, PURSUIT = "evasion", "pursuit"  # strategies of the paper
 
 
+def _short(value: object) -> str:
+    """A value for a message; Python writes no number of any length."""
+    huge = isinstance(value, int) and abs(value) >= 2**128
+    return "one that is longer" if huge else repr(value)
+
+
 @dataclass(frozen=True, slots=True)
 class StartSettings:
     """Where the robots stand at first; what is left out, the seed draws.
@@ -105,9 +111,11 @@ class DuelSettings:
                 f"sensing must be one of {', '.join(SENSING)}, "
                 f"got {self.sensing!r}"
             )
-        if not isinstance(self.seed, int) or self.seed < 0:
+        whole = type(self.seed) is int
+        if not whole or not 0 <= self.seed < 2**128:
             raise ConfigurationError(
-                f"seed must be an integer >= 0 [1], got {self.seed}"
+                f"seed must be an integer >= 0 [1] of at most 128 bits, got "
+                f"{_short(self.seed)}"
             )
         check_within(self.duration, 0.0, 86400.0, "duration", "s", ERROR)
         check_positive(self.duration, "duration", "s", ERROR)

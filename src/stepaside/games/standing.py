@@ -79,5 +79,6 @@ def stand_walker(
         sight=sight,
         eyes=eyes,
         averages_imu=control.feedback,
+        com_forward=gait.zmp_forward,
     )
     return Walker(robot, scheme, frame)

@@ -46,7 +46,7 @@ def summarise(
             player under its name.
         wall_time: Time that it took, in [s].
     """
-    pursuer, evader = (tracks[name].torso for name in PLAYERS)
+    pursuer, evader = (tracks[name].unicycle for name in PLAYERS)
     theory = theory_of(settings)
     tail = times >= times[-1] * 2.0 / 3.0
     last = pursuer[tail], evader[tail]
@@ -106,7 +106,7 @@ def _plan_times(planning: Mapping[str, Planning]) -> PlanTimes:
 def _player(
     track: Track, tail: Array, sight: Mapping[str, Any]
 ) -> PlayerFigures:
-    radius = fit_circle(track.com[tail, :2])[1]
+    radius = fit_circle(track.unicycle[tail, :2])[1]
     return PlayerFigures(_number(radius), sight)
 
 

@@ -16,7 +16,10 @@ class Track:
 
     Attributes:
         com: CoM. Shape (n, 3).
-        torso: Place and heading, which does not wrap. Shape (n, 3).
+        torso: Origin of the torso and its heading, which does not wrap.
+            Shape (n, 3).
+        place: Point that stands for the player in the game, likewise with
+            the heading. Shape (n, 3).
         com_reference: What its plan asks of the CoM. Shape (n, 2).
         zmp_reference: What it asks of the ZMP. Shape (n, 2).
         zmp: Center of the foot forces; NaN in flight. Shape (n, 2).
@@ -30,6 +33,7 @@ class Track:
 
     com: Array
     torso: Array
+    place: Array | None = None
     com_reference: Array | None = None
     zmp_reference: Array | None = None
     zmp: Array | None = None
@@ -43,6 +47,14 @@ class Track:
             value = getattr(self, field.name)
             if value is not None:
                 value.setflags(write=False)
+
+    @property
+    def unicycle(self) -> Array:
+        """Place and heading by which the game is judged. Shape (n, 3).
+
+        Records that are older than the place have the torso.
+        """
+        return self.torso if self.place is None else self.place
 
     def arrays(self, name: str) -> dict[str, Array]:
         """Everything that there is, by name of the player and the array."""

@@ -70,6 +70,7 @@ class Walker:
         return Snapshot(
             name=self.name,
             time=robot.world.time,
+            place=Pose(*truth.place, truth.heading),
             torso=Pose(*truth.position, truth.heading),
             com=(x, y, z),
             frame=self.frame,

@@ -18,6 +18,8 @@ from .plan import ManeuverPlan
 from .schedule import Schedule
 from .settings import GaitSettings
 
+FARTHEST = 1e3  # bearing, in [rad]; of greater ones the digits are no angle
+
 
 class CenterState(NamedTuple):
     """Present state of the CoM in the frame of the next support foot.
@@ -93,6 +95,8 @@ class ManeuverPlanner:
             PlanError: If the bearing or the state is not finite, the state is
                 missing, or the speed factor is none.
         """
+        check_finite(bearing, "bearing", "rad")
+        check_within(bearing, -FARTHEST, FARTHEST, "bearing", "rad")
         check_positive(speed_factor, "speed_factor", "1")
         check_within(speed_factor, 0.0, 1.0, "speed_factor", "1")
         gait = self.settings

@@ -4,8 +4,10 @@ from dataclasses import dataclass
 from math import inf
 from typing import NamedTuple
 
+import numpy as np
 from numpy.typing import ArrayLike
 
+from ..errors import PlanError
 from ..poses import Array
 from .footsteps import Foot, Footstep
 from .path import Direction
@@ -133,7 +135,12 @@ class ManeuverPlan:
         Args:
             times: Times since the plan began, in [s], shape (m,); or a
                 sampler of this plan's schedule, which is faster.
+
+        Raises:
+            PlanError: If a time is not finite.
         """
+        if not isinstance(times, Sampler) and not np.isfinite(times).all():
+            raise PlanError("times must be finite [s]")
         sampler = (
             times
             if isinstance(times, Sampler)

@@ -45,6 +45,9 @@ class GaitSettings:
     durations, which only walk when they are exchanged, and for what the
     paper does not give.
 
+    Every number has a range, of :data:`RANGES`, in which a gait can be
+    computed.
+
     Attributes:
         speed: Driving speed :math:`\bar{v}` of the template, in [m/s].
         gain: Steering gain :math:`k`, in [1/s].
@@ -83,9 +86,12 @@ class GaitSettings:
 
     def __post_init__(self) -> None:
         """Refuse values that no plan can satisfy."""
-        for name, unit in _POSITIVE.items():
-            check_positive(getattr(self, name), name, unit)
+        for name, (low, high, unit) in RANGES.items():
+            value = getattr(self, name)
+            check_positive(value, name, unit)
+            check_within(value, low, high, name, unit)
         check_not_negative(self.step_height, "step_height", "m")
+        check_within(self.step_height, 0.0, 10.0, "step_height", "m")
         check_within(
             self.zmp_forward,
             self.sole.back,
@@ -127,16 +133,18 @@ class GaitSettings:
         return self.stride / self.speed
 
 
-_POSITIVE = {
-    "speed": "m/s",
-    "gain": "1/s",
-    "stride": "m",
-    "foot_spacing": "m",
-    "single_support": "s",
-    "double_support": "s",
-    "start_support": "s",
-    "com_height": "m",
-    "gravity": "m/s^2",
+# From a thousandth of what a humanoid does to some hundred times it: beyond,
+# exponentials of a gait leave the numbers that a computer has.
+RANGES = {
+    "speed": (1e-4, 10.0, "m/s"),
+    "gain": (1e-4, 100.0, "1/s"),
+    "stride": (1e-4, 10.0, "m"),
+    "foot_spacing": (1e-3, 10.0, "m"),
+    "single_support": (1e-3, 100.0, "s"),
+    "double_support": (1e-3, 100.0, "s"),
+    "start_support": (1e-3, 100.0, "s"),
+    "com_height": (1e-2, 10.0, "m"),
+    "gravity": (1e-2, 100.0, "m/s^2"),
 }
 
 PRESETS: dict[str, GaitSettings] = {

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..bound import Bound
 from ..bound.barrier import barrier_slice
-from .style import EVADER, PURSUER, THEORY, plt
+from .style import EVADER, PURSUER, THEORY, plt, save
 
 HEADINGS = (0.25, 0.5, 0.75, 1.0)  # between the motions, in pi
 POINTS = 161  # along each side of a slice
@@ -57,8 +57,7 @@ def draw_bound(bound: Bound, capture: float, path: str) -> None:
     figure.colorbar(
         image, ax=list(axes), label="best closest approach [m]", shrink=0.8
     )
-    figure.savefig(path)
-    plt.close(figure)
+    save(figure, path)
 
 
 def _arrow(

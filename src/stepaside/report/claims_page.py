@@ -4,6 +4,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from ..outputs import writing
+
 HEAD = """# Every claim of the paper, measured
 
 `stepaside reproduce` wrote this page. A row says what the paper claims, as it
@@ -92,15 +94,17 @@ def write_page(
     import markdown
 
     text = markdown_page(rows, beside, figures, made)
-    (folder / "claims.md").write_text(text, encoding="utf-8")
+    with writing(folder / "claims.md") as draft:
+        draft.write_text(text, encoding="utf-8")
     body = markdown.markdown(text, extensions=["tables"])
     html = folder / "claims.html"
-    html.write_text(
+    page = (
         '<!doctype html><html lang="en"><meta charset="utf-8">'
         "<title>Every claim of the paper, measured</title>"
-        f"<style>{STYLE}</style>{body}</html>",
-        encoding="utf-8",
+        f"<style>{STYLE}</style>{body}</html>"
     )
+    with writing(html) as draft:
+        draft.write_text(page, encoding="utf-8")
     return html
 
 

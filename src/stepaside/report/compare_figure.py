@@ -5,7 +5,8 @@ from pathlib import Path
 
 from ..games.circle import cycle_mean
 from ..games.run import Run
-from .style import EVADER, PURSUER, THEORY, plt
+from .inert import for_figure
+from .style import EVADER, PURSUER, THEORY, plt, save
 
 LINES = ("-", "--", ":", "-.")
 RUNS = ("#222222", "#0f7b6c", "#b5651d", "#6a3d9a")
@@ -46,7 +47,7 @@ def draw_comparison(runs: Sequence[Run], file: Path) -> None:
                 linestyle=line,
                 alpha=shade,
                 linewidth=1.1,
-                label=run.name,
+                label=for_figure(run.name),
             )
     theory = runs[0].theory
     if theory is not None:
@@ -62,5 +63,4 @@ def draw_comparison(runs: Sequence[Run], file: Path) -> None:
     axes["angle"].set_ylabel("between headings [deg]")
     axes["angle"].set_xlabel("time [s]")
     axes["distance"].legend(fontsize=7)
-    figure.savefig(file)
-    plt.close(figure)
+    save(figure, file)

@@ -7,8 +7,9 @@ import numpy as np
 
 from ..games.circle import cycle_mean
 from ..games.run import Run
+from .inert import for_figure
 from .soles import draw_heading, draw_soles
-from .style import COLOURS, THEORY, plt
+from .style import COLOURS, THEORY, plt, save
 
 SNAPSHOTS = 4
 
@@ -33,10 +34,10 @@ def draw_duel(
     for name, place in zip(walkers, _places(grid, len(walkers)), strict=True):
         _draw_balance(figure.add_subplot(place), run, name)
     figure.suptitle(
-        f"Duel, seed {run.settings.seed}: {run.message}", fontsize=11
+        f"Duel, seed {run.settings.seed}: {for_figure(run.message)}",
+        fontsize=11,
     )
-    figure.savefig(path)
-    plt.close(figure)
+    save(figure, path)
 
 
 def _places(grid: Any, count: int) -> list[Any]:

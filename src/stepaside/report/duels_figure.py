@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .style import COLOURS, LEFT, RIGHT, THEORY, plt
+from .style import COLOURS, LEFT, RIGHT, THEORY, plt, save
 
 # Record, label, unit, colour and where theory stands, panel by panel.
 PANELS = (
@@ -54,8 +54,7 @@ def draw_duels(
     for axis in axes[0][:2]:  # the others draw what the second does
         if axis.get_legend_handles_labels()[0]:
             axis.legend(fontsize=7)
-    figure.savefig(file)
-    plt.close(figure)
+    save(figure, file)
 
 
 def _draw_panel(

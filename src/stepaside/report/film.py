@@ -13,10 +13,11 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from ..errors import ConfigurationError
+from ..errors import ConfigurationError, OutputError
 from ..games.folder import load_run
 from ..games.run import Run
 from ..games.settings import PLAYERS
+from ..outputs import reason_of, writing
 from ..sensing.images import Pixels
 from ..world.graphics import RAYCAST, Screen, choose_renderer
 from .film_layers import decorate
@@ -177,27 +178,28 @@ def write_video(
     import av
 
     number = len(shot.instants(float(load_run(folder).times[-1])))
-    draft = file.with_name(f".{file.name}.part.mp4")
     done = 0
-    try:
-        with av.open(
-            str(draft), "w", options={"movflags": "faststart"}
-        ) as out:
-            rate = Fraction(shot.rate).limit_denominator(1000)
-            stream = out.add_stream("libx264", rate=rate)
-            stream.width, stream.height = shot.width, shot.height
-            stream.pix_fmt = "yuv420p"
-            stream.options = {"crf": "23", "preset": "veryfast"}
-            for picture in pictures(folder, shot):
-                frame = av.VideoFrame.from_ndarray(picture, format="rgb24")
-                out.mux(stream.encode(frame))
-                done += 1
-                if report is not None:
-                    report(done, number)
-            out.mux(stream.encode(None))
-        draft.replace(file)
-    finally:
-        draft.unlink(missing_ok=True)
+    with writing(file) as draft:
+        try:
+            with av.open(
+                str(draft), "w", options={"movflags": "faststart"}
+            ) as out:
+                rate = Fraction(shot.rate).limit_denominator(1000)
+                stream = out.add_stream("libx264", rate=rate)
+                stream.width, stream.height = shot.width, shot.height
+                stream.pix_fmt = "yuv420p"
+                stream.options = {"crf": "23", "preset": "veryfast"}
+                for picture in pictures(folder, shot):
+                    frame = av.VideoFrame.from_ndarray(picture, format="rgb24")
+                    out.mux(stream.encode(frame))
+                    done += 1
+                    if report is not None:
+                        report(done, number)
+                out.mux(stream.encode(None))
+        except av.FFmpegError as error:
+            raise OutputError(
+                f"{file} could not be written: {reason_of(error)}"
+            ) from error
     return done
 
 
@@ -217,17 +219,16 @@ def write_gif(
         frames.append(image.quantize(64, dither=Image.Dither.NONE))
         if report is not None:
             report(len(frames), number)
-    draft = file.with_name(f".{file.name}.part")
-    frames[0].save(
-        draft,
-        format="GIF",
-        save_all=True,
-        append_images=frames[1:],
-        duration=round(1000.0 / shot.rate),
-        loop=0,
-        optimize=True,
-    )
-    draft.replace(file)
+    with writing(file) as draft:
+        frames[0].save(
+            draft,
+            format="GIF",
+            save_all=True,
+            append_images=frames[1:],
+            duration=round(1000.0 / shot.rate),
+            loop=0,
+            optimize=True,
+        )
     return len(frames)
 
 

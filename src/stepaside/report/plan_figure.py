@@ -6,7 +6,7 @@ import numpy as np
 
 from ..planning import ManeuverPlan
 from .soles import draw_soles
-from .style import COLOURS, THEORY, plt
+from .style import COLOURS, THEORY, plt, save
 
 
 def draw_plan(plan: ManeuverPlan, role: str, path: Path) -> None:
@@ -67,5 +67,4 @@ def draw_plan(plan: ManeuverPlan, role: str, path: Path) -> None:
         axes.set_xlabel("time [s]" if index else "")
         if index == 0:
             axes.legend(ncols=3, loc="best")
-    figure.savefig(path)
-    plt.close(figure)
+    save(figure, path)

@@ -1,8 +1,6 @@
 """A run as one page that opens from disk, without a network."""
 
-import json
 from base64 import b64encode
-from html import escape
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -14,8 +12,10 @@ from ..games.duel import walkers_of
 from ..games.run import Run
 from ..games.settings import PLAYERS
 from ..games.track import Track
+from ..outputs import writing
 from ..poses import Array
 from ..robots.description import load_robot
+from .inert import fill_page, visible
 from .stage import Stage
 from .style import COLOURS
 
@@ -74,16 +74,15 @@ def write_page(run: Run, file: Path) -> None:
     Args:
         run: The run.
         file: Page to write; it appears when it is complete.
+
+    Raises:
+        OutputError: If it cannot be written.
     """
     template = files(__package__).joinpath("replay_page.html")
     text = template.read_text(encoding="utf-8")
-    content = json.dumps(_content(run), separators=(",", ":"))
-    # A closing tag in a string would end the script.
-    text = text.replace("@@NAME@@", escape(run.name))
-    text = text.replace("@@RUN@@", content.replace("</", "<\\/"))
-    draft = file.with_name(f".{file.name}.part")
-    draft.write_text(text, encoding="utf-8")
-    draft.replace(file)
+    text = fill_page(text, {"NAME": run.name}, _content(run))
+    with writing(file) as draft:
+        draft.write_text(text, encoding="utf-8", newline="\n")
 
 
 def _content(run: Run) -> dict[str, Any]:
@@ -96,7 +95,7 @@ def _content(run: Run) -> dict[str, Any]:
         poses[row, :, 3:] = stage.data.xquat * 32767
     stored = np.clip(np.rint(poses), -32767, 32767).astype("<i2")
     torso = load_robot(run.settings.robot).torso
-    words = [run.words(int(index)) for index in chosen]
+    words = [visible(run.words(int(index))) for index in chosen]
     known = list(dict.fromkeys(words))
     both = np.concatenate([t.torso[:, :2] for t in run.tracks.values()])
     low, high = both.min(axis=0), both.max(axis=0)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .style import THEORY, plt
+from .style import THEORY, plt, save
 
 METHOD_STYLES = {
     "open-loop": ("#8a8a8a", "o", ":"),
@@ -77,8 +77,7 @@ def draw_survival(
     for row in axes:
         row[0].set_ylabel("survived [%]")
     axes.flat[0].legend()
-    figure.savefig(file)
-    plt.close(figure)
+    save(figure, file)
 
 
 def draw_limits(rows: Sequence[dict[str, Any]], file: Path) -> None:
@@ -133,5 +132,4 @@ def draw_limits(rows: Sequence[dict[str, Any]], file: Path) -> None:
         ncols=6,
         fontsize=7,
     )
-    figure.savefig(file)
-    plt.close(figure)
+    save(figure, file)

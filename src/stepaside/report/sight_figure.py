@@ -13,7 +13,7 @@ from ..games.track import Track
 from ..poses import Array, wrap_angles
 from ..sensing.images import ColourImage, DepthImage, Pixels
 from .soles import draw_heading
-from .style import COLOURS, THEORY, plt
+from .style import COLOURS, THEORY, plt, save
 
 FOUND = (30, 170, 60)  # red, green and blue of what was detected
 TRUE = (235, 0, 190)  # of where the other truly is
@@ -57,8 +57,7 @@ def draw_sight(run: Run, path: Path) -> None:
         "green, the true direction as a tick",
         fontsize=11,
     )
-    figure.savefig(path)
-    plt.close(figure)
+    save(figure, path)
 
 
 def picture(still: Still) -> Pixels:

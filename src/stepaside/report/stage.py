@@ -3,6 +3,7 @@
 import mujoco
 import numpy as np
 
+from ..errors import ConfigurationError
 from ..games.duel import furnisher_of, walkers_of
 from ..games.run import Run
 from ..games.settings import PURSUER
@@ -21,7 +22,11 @@ class Stage:
     """
 
     def __init__(self, run: Run) -> None:
-        """Build the robots of a run, without its physics."""
+        """Build the robots of a run, without its physics.
+
+        Raises:
+            ConfigurationError: If it is a run of other robots.
+        """
         description = load_robot(run.settings.robot)
         walkers = walkers_of(run.settings)
         self.model = build_model(
@@ -32,9 +37,15 @@ class Stage:
         )
         self.data = mujoco.MjData(self.model)
         postures = [run.tracks[name].qpos for name in walkers]
-        self._postures = np.concatenate(
-            [qpos for qpos in postures if qpos is not None], axis=1
-        ).astype(np.float64)
+        known = [qpos for qpos in postures if qpos is not None]
+        wide = sum(qpos.shape[1] for qpos in known)
+        if len(known) < len(walkers) or wide != self.model.nq:
+            raise ConfigurationError(
+                f"qpos of run {run.name} must have {self.model.nq} columns "
+                f"for {', '.join(walkers)}, as {run.settings.robot!r} has, "
+                f"got {wide}"
+            )
+        self._postures = np.concatenate(known, axis=1).astype(np.float64)
         self._person: dict[str, int] | None = None
         if PURSUER not in walkers:
             self._person = parts_of(self.model, PURSUER)

@@ -7,7 +7,7 @@ import numpy as np
 from ..poses import Array
 from ..unicycle.circling import circle_of
 from ..unicycle.simulate import Run
-from .style import EVADER, PURSUER, plt
+from .style import EVADER, PURSUER, plt, save
 
 TICK = 0.5  # [m], as in Fig. 2
 _FRACTIONS = (0.0, 0.12, 0.4, 1.0)  # of the time shown
@@ -60,8 +60,7 @@ def draw_game(run: Run, path: str, *, shown: float | None = None) -> None:
     handles, labels = axes[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=2)
     figure.suptitle("Pursuer and evader; ticks are 0.5 m apart", fontsize=10)
-    figure.savefig(path)
-    plt.close(figure)
+    save(figure, path)
 
 
 def _ticks(middle: float, half: float) -> Array:

@@ -7,7 +7,7 @@ from matplotlib.colors import ListedColormap
 
 from ..unicycle.circling import Circle
 from ..unicycle.maps import StartMap
-from .style import plt
+from .style import plt, save
 
 _QUANTITIES = (
     ("closest_distance", "closest approach [m]", "viridis"),
@@ -50,8 +50,7 @@ def draw_map(
         ax.set_xlabel("bearing of the pursuer\nseen by the evader [deg]")
     for ax in axes[:, 0]:
         ax.set_ylabel("bearing of the evader\nseen by the pursuer [deg]")
-    figure.savefig(path)
-    plt.close(figure)
+    save(figure, path)
 
 
 def _draw_quantity(

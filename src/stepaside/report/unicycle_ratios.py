@@ -6,7 +6,7 @@ import numpy as np
 
 from ..unicycle.laws import Game, TurningLaw
 from ..unicycle.ratios import RatioMap, map_ratios
-from .style import EVADER, plt
+from .style import EVADER, plt, save
 
 _COUNT = 121
 _SPEEDS = (0.8, 4.0)  # pursuer's over evader's
@@ -69,8 +69,7 @@ def draw_ratios(game: Game, path: str, *, count: int = _COUNT) -> RatioMap:
         "Coloured: a reversed circle that agrees with the side behind the "
         f"evader, angle {degrees:.0f} deg"
     )
-    figure.savefig(path)
-    plt.close(figure)
+    save(figure, path)
     return maps[game.law]
 
 

@@ -11,7 +11,7 @@ from ..unicycle.laws import Game, SideRule, TurningLaw
 from ..unicycle.measure import Measured, measure, settling_time
 from ..unicycle.relative import Start
 from ..unicycle.simulate import simulate
-from .style import EVADER, PURSUER, THEORY, plt
+from .style import EVADER, PURSUER, THEORY, plt, save
 
 _STYLES = {
     TurningLaw.PROPORTIONAL: ("-", "o", EVADER),
@@ -77,8 +77,7 @@ def draw_sweep(game: Game, path: str, *, marks: int = 7) -> None:
         ax.set_ylim(0.0, 6.0 * unit)
     axes[0, 2].legend(fontsize=8)
     figure.suptitle("Circle: equations (lines) and simulation (marks)")
-    figure.savefig(path)
-    plt.close(figure)
+    save(figure, path)
 
 
 def _draw_lines(axes: Any, game: Game, sweep: Sweep, law: TurningLaw) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from ..errors import ModelError
 from ..poses import Array
 from .description import RobotDescription
-from .tree import HINGE, SLIDE, Frame, Link, RobotTree, Triple
+from .tree import HINGE, SLIDE, Frame, Link, RobotTree, Servo, Triple
 
 KINDS = {
     int(mujoco.mjtJoint.mjJNT_HINGE): HINGE,
@@ -80,8 +80,22 @@ class _Reader:
             model.joint(model.actuator_trnid[i, 0]).name
             for i in range(model.nu)
         )
-        followers = self._description.coupled_joints(model)
-        return RobotTree(tuple(self._links), bodies, sites, motors, followers)
+        return RobotTree(
+            tuple(self._links),
+            bodies,
+            sites,
+            motors,
+            tuple(self._servo(i) for i in range(model.nu)),
+            self._description.coupled_joints(model),
+        )
+
+    def _servo(self, actuator: int) -> Servo:
+        """Gains of a position actuator: torque = k (target - q) - d q'."""
+        gain = float(self._model.actuator_gainprm[actuator, 0])
+        _, by_angle, by_speed = self._model.actuator_biasprm[actuator, :3]
+        if gain <= 0.0 or by_angle != -gain:
+            return Servo(0.0, 0.0)
+        return Servo(gain, -float(by_speed))
 
     def _add_torso(self) -> None:
         nothing = (0.0, 0.0, 0.0)

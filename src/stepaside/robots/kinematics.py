@@ -19,7 +19,7 @@ from .description import RobotDescription
 from .leg_solver import move_within, solver_of
 from .legs import BASE, FIXED_ROWS
 from .reach import Heights
-from .reference import BodyReference
+from .reference import BodyReference, Stance
 from .stored import load_tree
 
 __all__ = ["ROWS", "BodyReference", "LegKinematics"]
@@ -42,6 +42,7 @@ class LegKinematics:
     Attributes:
         description: The robot.
         joint_names: Actuated joints, in the order of the joint targets.
+        legs: What of it moves.
     """
 
     def __init__(self, description: RobotDescription, *, tick: float) -> None:
@@ -58,7 +59,7 @@ class LegKinematics:
         self._tree = tree = load_tree(description)
         self.joint_names = tree.motors
         self._solver = solver_of(description, tree)
-        self._legs = legs = self._solver.legs
+        self.legs = legs = self._solver.legs
         self._reach = legs.speeds * tick
         self._limits = list(
             zip(
@@ -103,8 +104,14 @@ class LegKinematics:
         """Position and quaternion of the torso, then all joints."""
         half = 0.5 * self._heading
         turned = (cos(half), 0.0, 0.0, sin(half))
-        joints = self._legs.angles(self._free)
+        joints = self.legs.angles(self._free)
         return np.array([*self._place, *turned, *joints], dtype=np.float64)
+
+    @property
+    def stance(self) -> Stance:
+        """Torso and free joints as they are asked for now."""
+        x, y, z = self._place
+        return Stance((x, y, z), self._heading, self._free)
 
     @property
     def torso_heading(self) -> float:
@@ -156,9 +163,9 @@ class LegKinematics:
     @cached_property
     def _natural_height(self) -> float:
         """Height of the CoM over the soles in the natural stance, in [m]."""
-        joints = np.array(self._legs.angles(self._start))
+        joints = np.array(self.legs.angles(self._start))
         stance = Configuration(self._tree, joints)
-        soles = [stance.place_of_site(name)[2] for name in self._legs.sites]
+        soles = [stance.place_of_site(name)[2] for name in self.legs.sites]
         return float(stance.com[2] - max(soles))
 
     def _heights(self, reference: BodyReference) -> Heights:
@@ -275,7 +282,7 @@ class LegKinematics:
         No joint moves by more than ``reach``, in [rad]: near a straight knee
         an unlimited step would land on the other branch of the leg.
         """
-        legs = self._legs
+        legs = self.legs
         error, jacobian = self._solver.linearise(*self._arguments(reference))
         angles = np.array(self._free)
         low = np.clip(legs.low - angles, -reach, reach)

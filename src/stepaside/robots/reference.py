@@ -27,3 +27,17 @@ class BodyReference(NamedTuple):
         """Heading between those of the feet, in [rad]."""
         left, right = self.left_foot[3], self.right_foot[3]
         return left + 0.5 * remainder(right - left, tau)
+
+
+class Stance(NamedTuple):
+    """A posture by what joint motion moves.
+
+    Attributes:
+        place: Origin of the torso in the frame of the reference, in [m].
+        heading: Heading of the torso, in [rad].
+        free: Angles of the legs' free joints, in [rad].
+    """
+
+    place: tuple[float, float, float]
+    heading: float
+    free: tuple[float, ...]

@@ -9,7 +9,7 @@ from .description import RobotDescription
 from .tree import RobotTree, write_tree
 
 FILE = "tree.json"
-VERSION = 1  # of the file; rises with what it means
+VERSION = 2  # of the file; rises with what it means
 KEPT = 16  # trees that are kept
 _KNOWN: dict[tuple[Path, str], RobotTree] = {}
 

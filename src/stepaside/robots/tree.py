@@ -43,6 +43,19 @@ class Link(NamedTuple):
     com: Triple
 
 
+class Servo(NamedTuple):
+    """What holds an actuated joint at its target.
+
+    Attributes:
+        stiffness: Torque by angle, in [N m/rad]; 0 if it is no position
+            servo.
+        damping: Torque by speed, in [N m s/rad].
+    """
+
+    stiffness: float
+    damping: float
+
+
 class Frame(NamedTuple):
     """A frame that is fixed to a link.
 
@@ -66,6 +79,7 @@ class RobotTree:
         bodies: Frames of the model's bodies, by name.
         sites: Frames of its sites, by name.
         motors: Joints that have an actuator, in the order of those.
+        servos: How stiff each is.
         followers: Joints that share a motor, as follower to leader.
     """
 
@@ -73,6 +87,7 @@ class RobotTree:
     bodies: dict[str, Frame]
     sites: dict[str, Frame]
     motors: tuple[str, ...]
+    servos: tuple[Servo, ...]
     followers: dict[str, str]
 
     @property
@@ -104,6 +119,7 @@ class RobotTree:
             "bodies": {n: f._asdict() for n, f in self.bodies.items()},
             "sites": {n: f._asdict() for n, f in self.sites.items()},
             "motors": list(self.motors),
+            "servos": [list(servo) for servo in self.servos],
             "followers": self.followers,
         }
 
@@ -125,6 +141,9 @@ class RobotTree:
             for kind in ("bodies", "sites"):
                 known[kind] = {n: _frame(x) for n, x in known[kind].items()}
             known["motors"] = tuple(known["motors"])
+            known["servos"] = tuple(
+                Servo(float(s), float(d)) for s, d in known["servos"]
+            )
             return cls(**known)
         except (KeyError, TypeError, ValueError, AttributeError) as error:
             raise ModelError(f"no tree of a robot: {error!r}") from error
@@ -153,5 +172,6 @@ def write_tree(tree: RobotTree, digest: str, version: int) -> str:
         )
         lines.append(f' "{kind}": {{\n  {rows}}},')
     lines.append(f' "motors": {json.dumps(entries["motors"])},')
+    lines.append(f' "servos": {json.dumps(entries["servos"])},')
     lines.append(f' "followers": {json.dumps(entries["followers"])}}}')
     return "\n".join(lines) + "\n"

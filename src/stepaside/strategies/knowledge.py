@@ -30,14 +30,16 @@ class Limits:
 class Knowledge:
     """What a player knows of the other and of itself.
 
-    The frame is that of the body that decides: of a walker the support
-    foot, from which the next maneuver starts.
+    The frame is that of the unicycle that stands for the body, where it was
+    when the other was seen: of a walker midway between its feet, along the
+    path that it walks. So the bearing compares a line of sight with a
+    heading of the same instant.
 
     Attributes:
         time: Now, in [s].
         bearing: Direction of the other in the frame, in [-pi, pi], in
             [rad], positive to the left.
-        distance: Horizontal distance to the other, in [m].
+        distance: Horizontal distance to the other when it was seen, in [m].
         limits: What the own gait can do.
         bearing_rate: How fast the line of sight turns on the floor, in
             [rad/s]; None where it is not known yet.
@@ -66,7 +68,8 @@ class Intent:
     """What a player wants.
 
     Attributes:
-        heading: Desired heading in the frame of the knowledge, in [rad].
+        heading: Desired heading in the frame of the knowledge, in [rad]: it
+            sets the turning rate, from the next step on.
         speed_factor: Share of the gait's speed, in [0, 1]; 0 stops.
         moving: Whether to move at all.
     """

@@ -87,7 +87,7 @@ def play_record(settings: DuelSettings) -> Record:
 def _evasion(run: Run) -> Record:
     """Closest approach while evading, and what is certain of the template.
 
-    The certificate is that of two unicycles that start like the torsos at
+    The certificate is that of two unicycles that start like the players at
     the moment evasion begins, with an evader that keeps its side.
     """
     found: Record = {"evading_min_distance_m": None, "certified_m": None}
@@ -101,8 +101,8 @@ def _evasion(run: Run) -> Record:
     found["evading_min_distance_m"] = float(apart.min())
     first = int(np.argmax(since))
     start = Start.from_world(
-        Pose(*run.pursuer.torso[first].tolist()),
-        Pose(*run.evader.torso[first].tolist()),
+        Pose(*run.pursuer.unicycle[first].tolist()),
+        Pose(*run.evader.unicycle[first].tolist()),
     )
     if not run.settings.is_of_the_paper:
         return found

@@ -6,6 +6,7 @@ from math import isfinite, nan
 from pathlib import Path
 from typing import Any
 
+from ..outputs import writing
 from .readings import Readings
 
 Key = dict[str, Any]
@@ -50,12 +51,10 @@ class Kept:
         file = self._file(name)
         if file is None:
             return
-        file.parent.mkdir(parents=True, exist_ok=True)
         values = {k: v if isfinite(v) else None for k, v in readings.items()}
-        draft = file.with_suffix(".part")
         text = json.dumps({"key": key, "readings": values}, indent=1)
-        draft.write_text(text, encoding="utf-8")
-        draft.replace(file)
+        with writing(file) as draft:
+            draft.write_text(text, encoding="utf-8")
 
     def _file(self, name: str) -> Path | None:
         return None if self.folder is None else self.folder / f"{name}.json"

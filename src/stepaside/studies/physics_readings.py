@@ -86,11 +86,11 @@ def last_circle(duel: Watched) -> Readings:
     if duel.outcome is not Outcome.COMPLETED:
         return dict.fromkeys(keys, nan)
     times = duel.times
-    pursuer, evader = (duel.tracks[name].torso for name in PLAYERS)
+    pursuer, evader = (duel.tracks[name].unicycle for name in PLAYERS)
     theory = theory_of(duel.settings)
     since = converged_at(times, pursuer, evader, duel.settings, theory)
     tail = times >= times[-1] * 2.0 / 3.0
-    circles = [fit_circle(duel.tracks[n].com[tail, :2]) for n in PLAYERS]
+    circles = [fit_circle(duel.tracks[n].unicycle[tail, :2]) for n in PLAYERS]
     speed, other = (walking_speed(duel, name) for name in PLAYERS)
     apart = circles[0][0] - circles[1][0]
     values = (

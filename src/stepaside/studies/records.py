@@ -5,6 +5,8 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
+from ..outputs import writing
+
 DIGITS = 12
 
 
@@ -50,13 +52,9 @@ class RecordFile:
 
     def write(self, records: dict[str, dict[str, Any]]) -> None:
         """Replace the file by these records, whole or not at all."""
-        self.path.parent.mkdir(parents=True, exist_ok=True)
-        draft = self.path.with_name(self.path.name + ".draft")
-        draft.write_text(
-            "".join(_line(key, record) for key, record in records.items()),
-            encoding="utf-8",
-        )
-        draft.replace(self.path)
+        lines = [_line(key, record) for key, record in records.items()]
+        with writing(self.path) as draft:
+            draft.write_text("".join(lines), encoding="utf-8")
 
     def _set_aside(
         self, lines: list[str], good: dict[str, dict[str, Any]]

@@ -5,16 +5,15 @@ tables and figures only reads it.
 """
 
 import json
-import os
 import shlex
 import sys
 from collections.abc import Mapping, Sequence
 from math import isfinite
 from pathlib import Path
-from tempfile import NamedTemporaryFile
 from typing import Any
 
 from ..errors import ConfigurationError
+from ..outputs import writing
 from .version import LIBRARIES, PHYSICS, code_version, library_versions
 
 # What every result names, before what was found.
@@ -83,6 +82,7 @@ def write_result(
 
     Raises:
         ConfigurationError: If the head is not one, or a value not finite.
+        OutputError: If it cannot be written.
     """
     missing = [name for name in HEADER if name not in head]
     if missing:
@@ -91,19 +91,9 @@ def write_result(
             f"{file.name} lacks {', '.join(missing)}"
         )
     result: dict[str, Any] = _rounded({**head, **found}, file.name)
-    file.parent.mkdir(parents=True, exist_ok=True)
-    with NamedTemporaryFile(
-        "w", encoding="utf-8", dir=file.parent, prefix=".draft-", delete=False
-    ) as draft:
-        try:
-            json.dump(result, draft, indent=1, ensure_ascii=False)
-            draft.write("\n")
-            draft.close()
-            os.chmod(draft.name, 0o644)
-            os.replace(draft.name, file)
-        except BaseException:
-            Path(draft.name).unlink(missing_ok=True)
-            raise
+    text = json.dumps(result, indent=1, ensure_ascii=False)
+    with writing(file) as draft:
+        draft.write_text(text + "\n", encoding="utf-8")
     return result
 
 

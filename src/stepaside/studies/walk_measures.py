@@ -12,6 +12,7 @@ from .watching import WalkedPlan, Watched
 
 BEARS = 1.0  # load from which a foot counts as on the floor, in [N]
 SWING = 0.15  # a foot that is off it for longer swings, in [s]
+LEAVES = 0.02  # at the end of double support the plan loads one foot, [s]
 ENDS = 6  # ticks on either side of a replan, for velocities there
 
 
@@ -48,6 +49,10 @@ def steps_of(duel: Watched, name: str) -> list[float]:
 def both_feet(duel: Watched, name: str) -> tuple[float, float]:
     """Whether plans are replaced as the paper says, by the foot forces.
 
+    At the end of a double support the plan leaves nothing on the foot that
+    is about to swing: one that lost its load only just before still counts
+    as on the floor.
+
     Returns:
         Share of the plans that follow exactly one landing after the one
         before, while both feet are on the floor; and the longest time from
@@ -60,15 +65,15 @@ def both_feet(duel: Watched, name: str) -> tuple[float, float]:
     if not len(lifts):
         return nan, nan
     # A plan that no lift-off follows came too late to tell.
-    sent = sent[sent <= lifts[-1]]
+    sent = sent[sent <= lifts[-1] + LEAVES]
     if len(sent) < 2:
         return nan, nan
-    in_air = (flights[:, 0] <= sent[1:, None]) & (
+    in_air = (flights[:, 0] + LEAVES <= sent[1:, None]) & (
         sent[1:, None] < flights[:, 1]
     )
     landed = np.diff(np.searchsorted(landings, sent))
     good = (landed == 1) & ~in_air.any(axis=1)
-    late = lifts[np.searchsorted(lifts, sent[1:])] - sent[1:]
+    late = lifts[np.searchsorted(lifts, sent[1:] - LEAVES)] - sent[1:]
     return float(good.mean()), float(late.max())
 
 
@@ -135,7 +140,7 @@ def walking_speed(duel: Watched, name: str) -> float:
     times = duel.times
     period = float(times[1] - times[0])
     cycle = round(2.0 * duel.settings.gait.step_duration / period)
-    place = duel.tracks[name].torso[len(times) * 2 // 3 :, :2]
+    place = duel.tracks[name].unicycle[len(times) * 2 // 3 :, :2]
     if len(place) <= cycle:
         return nan
     way = np.hypot(*(place[cycle:] - place[:-cycle]).T)

@@ -109,6 +109,11 @@ class PersonTruth(TrueState):
         return self._motion.pose[:2]
 
     @property
+    def place(self) -> tuple[float, float]:
+        """Point that stands for the person: the trunk's axis, in [m]."""
+        return self.position
+
+    @property
     def heading(self) -> float:
         """Direction of the walk, in [rad]."""
         return self._motion.pose.theta

@@ -48,6 +48,7 @@ class SimulatedRobot:
         sight: IdealLineOfSight | None = None,
         eyes: Eyes | None = None,
         averages_imu: bool = False,
+        com_forward: float = 0.0,
     ) -> None:
         """Stand a robot in the posture of its kinematics.
 
@@ -63,6 +64,8 @@ class SimulatedRobot:
             eyes: Cameras and sonars, if it sees with those.
             averages_imu: Whether the IMU averages between readings, as real
                 ones do, instead of sampling.
+            com_forward: How far its gait keeps the CoM ahead of the place
+                that stands for it, in [m].
         """
         body = body or BodySettings()
         self.world = world
@@ -108,7 +111,12 @@ class SimulatedRobot:
         self.servos.reset(kinematics.joint_targets)
         self._torso = root.id
         self.pusher: Pusher | None = None
-        self.truth = TrueState(model, data, f"{name}/{description.torso}")
+        self.truth = TrueState(
+            model,
+            data,
+            f"{name}/{description.torso}",
+            com_forward=com_forward,
+        )
         if averages_imu:
             self._imu = AveragedImu(data, self._gyro, self._accelerometer)
             world.before_step.append(self._imu.before_step)

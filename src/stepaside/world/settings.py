@@ -39,6 +39,7 @@ class PhysicsSettings:
         check_within(self.time_step, 1e-5, 0.01, "time_step", "s", ERROR)
         check_within(self.tick, 1e-5, 0.1, "tick", "s", ERROR)
         check_positive(self.friction, "friction", "1", ERROR)
+        check_within(self.friction, 1e-6, 100.0, "friction", "1", ERROR)
         check_within(self.unevenness, 0.0, 0.1, "unevenness", "m", ERROR)
         check_within(self.slope, 0.0, 0.5, "slope", "rad", ERROR)
         check_within(

@@ -12,10 +12,11 @@ from .truth import TrueState
 
 
 class IdealLineOfSight:
-    """Bearing and distance of the other robot's torso, from the truth.
+    """Bearing and distance of the other's place from the own, by the truth.
 
-    It stands in for cameras: noise, delay and rate are the only ways in
-    which it is not ideal.
+    The bearing counts from the heading of the own torso. It stands in for
+    cameras: noise, delay and rate are the only ways in which it is not
+    ideal.
     """
 
     def __init__(
@@ -47,8 +48,8 @@ class IdealLineOfSight:
         return self._newest
 
     def _look(self, now: float) -> Sighting:
-        x, y = self._own.position
-        u, v = self._other.position
+        x, y = self._own.place
+        u, v = self._other.place
         bearing = atan2(v - y, u - x) - self._own.heading
         distance = hypot(u - x, v - y)
         settings = self._settings

@@ -4,7 +4,9 @@ from pathlib import Path
 
 import click
 
+from ...outputs import FIGURES
 from ..options import NumberType
+from .kinds import OutputFile
 from .option import Declaration
 
 JSON = Declaration(
@@ -19,15 +21,17 @@ FOLDER = Declaration(
 FILE = Declaration(
     "--output",
     "File to write.",
-    kind=click.Path(dir_okay=False, path_type=Path),
+    kind=OutputFile(),
 )
 FIGURE = Declaration(
     "--figure",
     "Write a figure (.png, .svg or .pdf).",
-    kind=click.Path(dir_okay=False),
+    kind=OutputFile(*FIGURES),
 )
 WORKERS = Declaration(
-    "--workers", "Processes; all cores by default.", kind=click.IntRange(1)
+    "--workers",
+    "Processes; all cores by default.",
+    kind=click.IntRange(1, 1024),  # more only wait for each other
 )
 FIRST_SEED = Declaration(
     "--seed", "Of every random draw.", kind=click.IntRange(0)

@@ -1,6 +1,7 @@
 """Kinds of values that options take."""
 
 from collections.abc import Callable, Collection, Mapping
+from pathlib import Path
 from typing import Any
 
 import click
@@ -93,3 +94,25 @@ class WordedType(click.ParamType[Any]):
         if value in self.words:
             return self.words[value]
         return self.kind.convert(value, param, ctx)
+
+
+class OutputFile(click.ParamType[str]):
+    """A file to write; one without a suffix gets the usual one."""
+
+    name = "file"
+
+    def __init__(self, *suffixes: str) -> None:
+        """Note what it may end in, the usual first; anything if none."""
+        self.suffixes = suffixes
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> str:
+        """Take a path as it is written then."""
+        file = Path(value)
+        if self.suffixes and file.name and not file.suffix:
+            return f"{value}{self.suffixes[0]}"
+        return str(value)

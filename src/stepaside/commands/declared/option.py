@@ -74,7 +74,8 @@ class Declaration:
         Args:
             settings: Class that it sets an entry of, for its default.
             extra: What click is told in this command alone; ``help``
-                replaces what it means, ``more_names`` adds spellings.
+                replaces what it means, ``type`` how it is read, and
+                ``more_names`` adds spellings.
         """
         names = (self.name, *self.more_names, *extra.pop("more_names", ()))
         if self.path:
@@ -85,7 +86,7 @@ class Declaration:
             cls=DeclaredOption,
             declaration=self,
             settings=settings if self.path else None,
-            type=self.type,
+            type=extra.pop("type", self.type),
             **extra,
         )
 

@@ -12,6 +12,7 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
+from ..terminal import echo
 from .build import changed, with_control
 from .option import Declaration, DeclaredOption, Group, Kind
 
@@ -80,7 +81,7 @@ def takes_settings(
             if values.pop("print_config"):
                 from .print_config import commented
 
-                click.echo(commented(settings), nl=False)
+                echo(commented(settings), nl=False)
                 return None
             return function(settings=settings, **values)
 

@@ -9,6 +9,7 @@ from ...robots.kinematics import BodyReference
 from ...sensing.measurement import Measurement
 from ..reference import ReferenceSample
 from .estimation import BodyState
+from .feedforward import LoadFeedforward
 from .mpc import MpcResult
 from .stabiliser import Stabiliser
 from .step import Step
@@ -69,14 +70,6 @@ class Balance(Protocol):
     def correct(self, measurement: Measurement, targets: Array) -> Array:
         """Joint targets with what the joints miss, in [rad]."""
 
-    def ahead(self, time: float, direction: float) -> float:
-        """Direction of the other when a plan takes effect, in [rad].
-
-        Args:
-            time: When it was seen, in [s].
-            direction: Where it was then, in odometry, in [rad].
-        """
-
     def land(
         self, landed: Pose, position: Vector, velocity: Vector, step: Step
     ) -> tuple[Pose, Vector, Vector]:
@@ -109,19 +102,24 @@ class OpenLoop:
     tilt: Vector | None = None
     torso_heading: float | None = None
 
+    def __init__(self, feedforward: LoadFeedforward | None = None) -> None:
+        """Trust the joints, or know how they give way under load."""
+        self._feedforward = feedforward
+        self._sample: ReferenceSample | None = None
+
     def update(
         self, measurement: Measurement, sample: ReferenceSample, step: StepAt
     ) -> BodyReference:
         """Pass the reference on."""
+        self._sample = sample
         return sample.body
 
     def correct(self, measurement: Measurement, targets: Array) -> Array:
-        """Pass the targets on."""
-        return targets
-
-    def ahead(self, time: float, direction: float) -> float:
-        """Take the direction of now: the paper's way."""
-        return direction
+        """Pass the targets on, with what the servos give way."""
+        if self._feedforward is None or self._sample is None:
+            return targets
+        body, zmp = self._sample.body, self._sample.zmp
+        return targets + self._feedforward.added(body, zmp)
 
     def land(
         self, landed: Pose, position: Vector, velocity: Vector, step: Step
@@ -194,10 +192,6 @@ class ClosedLoop:
         """Ask on top for what the joints miss."""
         angles = measurement.joint_positions
         return self.stabiliser.joints.update(angles, targets)
-
-    def ahead(self, time: float, direction: float) -> float:
-        """Extrapolate the line of sight."""
-        return self.stabiliser.prediction.ahead(time, direction)
 
     def land(
         self, landed: Pose, position: Vector, velocity: Vector, step: Step

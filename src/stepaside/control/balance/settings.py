@@ -40,7 +40,6 @@ class StabiliserSettings:
         step_speed: Greatest speed at which an adapted footstep moves, [m/s].
         freeze: Part of the swing after which the footstep stays.
         stride_gain: Share of a footstep's shortfall that is learned.
-        prediction_blend: Weight of the newest rate of the line of sight.
         joint_gain: Of the integral of what the joints miss, in [1/s].
         joint_bound: Greatest correction of a joint, in [rad].
         joint_leak: Rate at which it is forgotten, in [1/s].
@@ -60,7 +59,6 @@ class StabiliserSettings:
     step_speed: float = 1.5
     freeze: float = 0.95
     stride_gain: float = 0.3
-    prediction_blend: float = 0.3
     joint_gain: float = 10.0
     joint_bound: float = 0.03
     joint_leak: float = 1.0
@@ -86,7 +84,6 @@ _NOT_NEGATIVE = {
     "gap": "m",
     "step_speed": "m/s",
     "stride_gain": "1",
-    "prediction_blend": "1",
     "joint_gain": "1/s",
     "joint_bound": "rad",
     "joint_leak": "1/s",

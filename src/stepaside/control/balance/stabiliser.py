@@ -22,7 +22,6 @@ from ...planning import CenterState, GaitSettings, ManeuverPlan
 from ...poses import Pose
 from ...robots.kinematics import BodyReference
 from ...sensing.measurement import Measurement
-from ..prediction import LineOfSightPrediction
 from ..reference import ReferenceSample
 from .ankles import Ankles
 from .estimation import BodyState, StateEstimator
@@ -74,7 +73,6 @@ class Stabiliser:
         joints: Correction of the joint targets.
         zmp_feedback: How the ZMP brings the shifts back.
         stride: What the feet fall short by.
-        prediction: Line of sight of the time for which a plan is made.
     """
 
     def __init__(
@@ -112,9 +110,6 @@ class Stabiliser:
             gains.joint_leak,
             tick=tick,
             delay=delay,
-        )
-        self.prediction = LineOfSightPrediction(
-            0.5 * gait.step_duration + delay, gains.prediction_blend
         )
         self.zmp_feedback = zmp_feedback(settings, gait, tick)
         self.stride = StrideLearning(gait, gains.stride_gain)

@@ -129,5 +129,8 @@ class DuelPanel:
         except StepAsideError as error:
             self._say(str(error))
             return False
+        except (ArithmeticError, ValueError) as error:  # no range names it
+            self._say(f"no duel can begin so: {error}")
+            return False
         self._say("")
         return True

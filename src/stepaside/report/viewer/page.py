@@ -5,9 +5,8 @@ import threading
 from math import inf
 from time import perf_counter, sleep
 
-import viser
-
 from ...games.settings import DuelSettings
+from ..inert import for_markdown
 from .bodies import Bodies
 from .camera_panel import CameraPanel
 from .drawing import draw_session
@@ -16,6 +15,7 @@ from .duel_panel import DuelPanel
 from .layers import LAYERS, Layers
 from .plots import Plots
 from .push_panel import add_push
+from .serving import open_server
 from .session import Session
 from .words import phases_of, words_of
 
@@ -30,6 +30,7 @@ class Page:
 
     Attributes:
         server: The server.
+        gate: Its door.
         session: The duel.
     """
 
@@ -41,12 +42,20 @@ class Page:
         Args:
             settings: Of the duel.
             host: Address to serve at.
-            port: Port to serve at.
+            port: Port to serve at, or the next that is free.
+
+        Raises:
+            StepAsideError: If nothing can be served there, or the settings
+                ask for what cannot be.
         """
-        self.session = Session(settings)
-        self.server = viser.ViserServer(
-            host=host, port=port, label="stepaside", verbose=False
-        )
+        served = open_server(host, port)
+        self.server, self.gate = served.server, served.gate
+        try:
+            self.session = Session(settings)
+        except BaseException:
+            self.server.stop()
+            raise
+        served.listener.say = self._say
         self._closing = threading.Event()
         scene, gui = self.server.scene, self.server.gui
         scene.set_up_direction("+z")
@@ -60,7 +69,6 @@ class Page:
         )
         self.server.initial_camera.position = (-0.5, -1.6, 1.3)
         self.server.initial_camera.look_at = (0.5, 0.0, 0.2)
-        gui.configure_theme(dark_mode=False)
         self._layers = Layers(scene)
         self._bodies = Bodies(scene, self.session.duel.world.model)
         self._generation = self.session.generation
@@ -116,7 +124,7 @@ class Page:
 
         @dark.on_update
         def _(_: object) -> None:
-            gui.configure_theme(dark_mode=dark.value)
+            gui.configure_theme(dark_mode=dark.value, show_share_button=False)
 
     def _add_layers(self) -> None:
         gui = self.server.gui
@@ -137,7 +145,7 @@ class Page:
         self._cameras.forget(visible=with_cameras)
 
     def _say(self, text: str) -> None:
-        self._message.content = f"**{text}**" if text else ""
+        self._message.content = f"**{for_markdown(text)}**" if text else ""
         self._message.visible = bool(text)
 
     def _publish(self) -> None:
@@ -185,8 +193,9 @@ class Page:
         )
         if session.outcome is not None:
             text += f"\n\n**over: {session.outcome.value}**; reset to go on"
+            text += f"\n\n{duel.message}"
         if session.error is not None:
-            text += f"\n\n**stopped: {session.error}**"
+            text += f"\n\n**stopped: {for_markdown(session.error)}**"
         if self._status.content != text:
             self._status.content = text
         self._drive.show(moment.time, distance)

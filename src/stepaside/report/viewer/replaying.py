@@ -10,10 +10,12 @@ from viser import uplot
 
 from ...games.run import Run
 from ...games.settings import PLAYERS
+from ..inert import for_markdown
 from ..stage import Stage
 from ..style import COLOURS, EVADER, PURSUER, THEORY
 from .bodies import Bodies
 from .layers import HEIGHTS, Layers, chain, ring, safety_of
+from .serving import open_server
 
 LOG = logging.getLogger(__name__)
 RATE = 30.0  # updates of the scene a second
@@ -31,9 +33,7 @@ class ReplayPage:
     def __init__(self, run: Run, *, port: int) -> None:
         """Serve a run on this machine alone."""
         self._run, self._stage = run, Stage(run)
-        self.server = viser.ViserServer(
-            host="127.0.0.1", port=port, label="stepaside", verbose=False
-        )
+        self.server = open_server("127.0.0.1", port).server
         self._closing = threading.Event()
         self._playing = False
         scene, gui = self.server.scene, self.server.gui
@@ -142,7 +142,8 @@ class ReplayPage:
             self._draw(index)
         self._play.label = "Pause" if self._playing else "Play"
         text = (
-            f"**{run.name}**: {run.words(index)}\n\n{run.times[index]:.2f} s, "
+            f"**{for_markdown(run.name)}**: "
+            f"{for_markdown(run.words(index))}\n\n{run.times[index]:.2f} s, "
             f"distance {run.distance[index]:.2f} m, between the headings "
             f"{run.orientation[index]:.0f}\u00b0"
         )

@@ -45,7 +45,7 @@ class Trail:
         if match.world.ticks == 0 or match.world.ticks % every:
             return
         seen = [player.snapshot() for player in match.players]
-        pursuer, evader = (np.array([s.torso]) for s in seen)
+        pursuer, evader = (np.array([s.place]) for s in seen)
         apart = float(angle_between(pursuer, evader)[0])
         assert match.distance is not None
         now = match.world.time

@@ -1,21 +1,21 @@
-"""Test past headings of the torso, for sightings that arrive late."""
+"""Test what a robot was a moment ago, for sightings that arrive late."""
 
 import pytest
 
-from stepaside.control.headings import MEMORY, HeadingMemory
+from stepaside.control.memory import KEPT, Memory
 
 TICK = 0.02
 
 
-def filled(ticks: int) -> HeadingMemory:
+def filled(ticks: int) -> Memory[float]:
     """Memory of a torso that turns by 1 rad/s."""
-    memory = HeadingMemory(TICK)
+    memory: Memory[float] = Memory(TICK)
     for i in range(ticks):
         memory.note(TICK * i, TICK * i)
     return memory
 
 
-def test_heading_is_that_of_the_last_tick_before_a_time() -> None:
+def test_a_value_is_that_of_the_last_tick_before_a_time() -> None:
     memory = filled(50)
     assert memory.at(0.40) == pytest.approx(0.40)
     assert memory.at(0.40 + 0.99 * TICK) == pytest.approx(0.40)
@@ -39,13 +39,13 @@ def test_two_seconds_are_kept_and_no_more() -> None:
     memory = filled(500)
     newest = 499 * TICK
     assert memory.at(newest - 1.9) == pytest.approx(newest - 1.9)
-    oldest = newest - MEMORY + TICK
+    oldest = newest - KEPT + TICK
     assert memory.at(0.0) == pytest.approx(oldest)
-    assert MEMORY == 2.0
+    assert KEPT == 2.0
 
 
 def test_a_slow_clock_keeps_at_least_one() -> None:
-    memory = HeadingMemory(10.0)
+    memory: Memory[float] = Memory(10.0)
     memory.note(0.0, 1.0)
     memory.note(10.0, 2.0)
     assert memory.at(0.0) == 2.0

@@ -1,0 +1,84 @@
+"""Files that commands write: checked first, and told of at the end."""
+
+from collections.abc import Callable
+from functools import wraps
+from pathlib import Path
+from typing import Any
+
+import click
+
+from ..errors import ConfigurationError, OutputError
+from ..outputs import check_file
+from .declared.kinds import OutputFile
+from .declared.option import Declaration
+
+OVERWRITE = Declaration(
+    "--overwrite/--no-overwrite", "Replace files that are there already."
+)
+FAILED = "stepaside.outputs.failed"
+
+
+def writes_files(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Let a command with files to write check them, and ask before loss.
+
+    What fails later is told when the command is through; see
+    :func:`attempt`.
+    """
+
+    @OVERWRITE.option(default=False)
+    @wraps(function)
+    def command(overwrite: bool, **values: Any) -> Any:
+        context = click.get_current_context()
+        try:
+            _check(context, overwrite)
+        except ConfigurationError as error:
+            raise click.UsageError(str(error)) from error
+        answer = function(**values)
+        for failed in context.meta.get(FAILED, ())[:1]:
+            raise failed
+        return answer
+
+    return command
+
+
+def _check(context: click.Context, overwrite: bool) -> None:
+    """Refuse files of a command that it could not write, or only one of."""
+    taken: dict[Path, str] = {}
+    for param in context.command.params:
+        value = context.params.get(param.name or "")
+        if not isinstance(param.type, OutputFile) or value is None:
+            continue
+        file, name = Path(value), param.opts[0]
+        check_file(
+            file,
+            name,
+            suffixes=param.type.suffixes,
+            overwrite=overwrite,
+        )
+        other = taken.setdefault(file.resolve(), name)
+        if other != name:
+            raise ConfigurationError(
+                f"{name} must be another file than that of {other}, got "
+                f"{value!r}"
+            )
+
+
+def attempt(write: Callable[[], Any]) -> bool:
+    """Write what can be written; what cannot is told when all else is.
+
+    Args:
+        write: Writes it.
+
+    Returns:
+        Whether it is written.
+    """
+    try:
+        write()
+    except OutputError as error:
+        context = click.get_current_context()
+        context.meta.setdefault(FAILED, []).append(error)
+        return False
+    return True
+
+
+__all__ = ["OutputFile", "attempt", "writes_files"]

@@ -1,0 +1,65 @@
+"""Where a body is on the path of its template.
+
+The place of a robot is midway between its feet: that is where the unicycle
+of (1) and (3) stands. While it walks the place moves on with the CoM, and
+the CoM is ahead of it by as much as the ZMP is ahead of the ankles.
+"""
+
+import numpy as np
+
+from ..poses import Array
+from .footsteps import Foot
+
+STILL = 1e-6  # samples nearer than this are one, in [m]
+
+
+def path_samples(
+    placements: Array, first_foot: Foot, foot_spacing: float
+) -> Array:
+    """Samples of the path beside which feet stand.
+
+    Each is half a spacing beside its foot, and has its heading.
+
+    Args:
+        placements: Feet in turn, the first is ``first_foot``'s: rows
+            (x [m], y [m], theta [rad]). Shape (n, 3).
+        first_foot: Side of the first.
+        foot_spacing: Coronal distance between feet, in [m].
+
+    Returns:
+        Poses of the unicycle in the same frame. Shape (n, 3).
+    """
+    samples: Array = np.array(placements, dtype=np.float64)
+    half = np.full(len(samples), 0.5 * foot_spacing * first_foot.value)
+    half[1::2] *= -1.0
+    theta = samples[:, 2]
+    samples[:, 0] += half * np.sin(theta)
+    samples[:, 1] -= half * np.cos(theta)
+    return samples
+
+
+def poses_on_path(samples: Array, com: Array, zmp_forward: float) -> Array:
+    """Poses of the unicycle where the CoM has come to.
+
+    A sample belongs to a foot, and the body passes it in the middle of the
+    support by that foot. In between, way and heading are shared out by how
+    far the CoM, less its lead, has come from one sample to the next.
+
+    Args:
+        samples: Of the path, in the order of the steps. Shape (n, 3).
+        com: CoM in the same frame, in [m]. Shape (m, 2).
+        zmp_forward: Lead of the CoM over the place, in [m].
+
+    Returns:
+        Rows (x [m], y [m], theta [rad]). Shape (m, 3).
+    """
+    ways = np.diff(samples, axis=0)
+    middle = samples[:-1, 2] + 0.5 * ways[:, 2]
+    lead = ways[:, 0] * np.cos(middle) + ways[:, 1] * np.sin(middle)
+    offset = com[:, None, :] - samples[None, :-1, :2]
+    come = (offset * ways[None, :, :2]).sum(axis=2) - zmp_forward * lead
+    length = (ways[:, :2] ** 2).sum(axis=1)
+    moves = length > STILL**2
+    shares = np.where(moves, come / np.where(moves, length, 1.0), 1.0)
+    poses: Array = samples[0] + np.clip(shares, 0.0, 1.0) @ ways
+    return poses

@@ -1,0 +1,259 @@
+"""Run folders that are not as they were written are refused in one line."""
+
+import json
+import os
+import struct
+from collections.abc import Callable
+from dataclasses import replace
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+from zipfile import ZIP_DEFLATED, ZipFile
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from stepaside.cli import main
+from stepaside.errors import ConfigurationError
+from stepaside.games import reading
+from stepaside.games.checking import KINDS
+from stepaside.games.duel import run_duel
+from stepaside.games.folder import (
+    CONFIGURATION,
+    SUMMARY,
+    TRAJECTORIES,
+    load_run,
+    write_record,
+)
+from stepaside.games.run import Run
+from stepaside.games.settings import DuelSettings
+from stepaside.games.track import Track
+from stepaside.report.stage import Stage
+
+Damage = Callable[[Path], None]
+
+
+@pytest.fixture(scope="module")
+def played() -> Run:
+    return run_duel(DuelSettings(duration=0.2))
+
+
+@pytest.fixture
+def folder(tmp_path: Path, played: Run) -> Path:
+    made = tmp_path / "run"
+    made.mkdir()
+    write_record(made, played)
+    return made
+
+
+def text(name: str, content: str | bytes) -> Damage:
+    raw = content if isinstance(content, bytes) else content.encode()
+    return lambda folder: void((folder / name).write_bytes(raw))
+
+
+def void(_: Any) -> None:
+    """Give nothing back."""
+
+
+def arrays(change: Callable[[dict[str, Any]], Any]) -> Damage:
+    def damage(folder: Path) -> None:
+        with np.load(folder / TRAJECTORIES) as stored:
+            found = {name: stored[name] for name in stored.files}
+        change(found)
+        np.savez_compressed(folder / TRAJECTORIES, allow_pickle=True, **found)
+
+    return damage
+
+
+def each(name: str, change: Callable[[Any], Any]) -> Damage:
+    """Change one array."""
+    return arrays(lambda found: found.update({name: change(found[name])}))
+
+
+def put(name: str, at: Any, value: float) -> Damage:
+    return arrays(lambda found: found[name].__setitem__(at, value))
+
+
+def member(name: str, content: bytes) -> Damage:
+    """Replace the bytes of one array in the archive."""
+
+    def damage(folder: Path) -> None:
+        with ZipFile(folder / TRAJECTORIES) as archive:
+            held = {n: archive.read(n) for n in archive.namelist()}
+        held[f"{name}.npy"] = content
+        with ZipFile(folder / TRAJECTORIES, "w", ZIP_DEFLATED) as archive:
+            for each, raw in held.items():
+                archive.writestr(each, raw)
+
+    return damage
+
+
+def header(shape: str, descr: str = "'<f8'", body: bytes = b"") -> bytes:
+    told = f"{{'descr': {descr}, 'fortran_order': False, 'shape': {shape}}}"
+    return (
+        b"\x93NUMPY\x01\x00"
+        + struct.pack("<H", len(told))
+        + (told.encode() + body)
+    )
+
+
+def linked(name: str) -> Damage:
+    def damage(folder: Path) -> None:
+        (folder / name).rename(folder / "real")
+        (folder / name).symlink_to(folder / "real")
+
+    return damage
+
+
+def piped(name: str) -> Damage:
+    def damage(folder: Path) -> None:
+        (folder / name).unlink()
+        os.mkfifo(folder / name)
+
+    return damage
+
+
+def empty_archive(folder: Path) -> None:
+    buffer = BytesIO()
+    ZipFile(buffer, "w").close()
+    (folder / TRAJECTORIES).write_bytes(buffer.getvalue())
+
+
+def twice(folder: Path) -> None:
+    with ZipFile(folder / TRAJECTORIES, "a") as archive:
+        with pytest.warns(UserWarning, match="Duplicate"):
+            archive.writestr("times_s.npy", header("(1,)", body=bytes(8)))
+
+
+def crowded(folder: Path) -> None:
+    with ZipFile(folder / TRAJECTORIES, "a") as archive:
+        for number in range(100):
+            archive.writestr(f"x{number}.npy", b"")
+
+
+def figure(key: str, value: Any) -> Damage:
+    def damage(folder: Path) -> None:
+        plain = json.loads((folder / SUMMARY).read_text())
+        plain[key] = value
+        (folder / SUMMARY).write_text(json.dumps(plain))
+
+    return damage
+
+
+DEEP = 100_000
+WORDS = ("[]", "null", "", "{", "1", '"a"', "[" * DEEP, '{"a":' * DEEP)
+DAMAGES: dict[str, Damage] = {
+    **{f"summary {w[:8]!r}": text(SUMMARY, w) for w in WORDS},
+    "summary of bytes": text(SUMMARY, b"\xff\xfe"),
+    "summary without end": text(SUMMARY, " " * 2**21 + "{}"),
+    "summary with many digits": text(SUMMARY, '{"seed": ' + "9" * 5000 + "}"),
+    "summary infinite": figure("distance_m", float("inf")),
+    "summary NaN": figure("distance_m", float("nan")),
+    "summary far": text(SUMMARY, '{"format": 2, "distance_m": 1e999}'),
+    "summary true": figure("distance_m", True),
+    "summary player": figure("pursuer", None),
+    "summary players": figure("pursuer", [1]),
+    "summary message": figure("message", 7),
+    "configuration empty key": text(CONFIGURATION, "= 1"),
+    "configuration nested": text(CONFIGURATION, "a = " + "[" * 5000),
+    "configuration digits": text(CONFIGURATION, "seed = " + "9" * 5000),
+    "configuration bytes": text(CONFIGURATION, b"\xff"),
+    "configuration long": text(CONFIGURATION, "#" * (2**20 + 1)),
+    "no archive": text(TRAJECTORIES, "nothing"),
+    "empty file": text(TRAJECTORIES, ""),
+    "only a start": text(TRAJECTORIES, "PK\x05\x06"),
+    "empty archive": empty_archive,
+    "array twice": twice,
+    "crowded": crowded,
+    "terabytes": member("times_s", header("(1000000000000,)")),
+    "terabytes wide": member("pursuer_com", header("(10, 10**12)")),
+    "overflow": member("times_s", header("(4294967296, 4294967296)")),
+    "negative": member("times_s", header("(-1,)")),
+    "objects": member("times_s", header("(1,)", "'|O'", b"\x80\x04N.")),
+    "whole numbers": member("times_s", header("(1,)", "'<i8'", bytes(8))),
+    "words": member("times_s", header("(1,)", "'<U2'", bytes(8))),
+    "fields": member("times_s", header("(1,)", "[('a', '<f8')]", bytes(8))),
+    "complex": member("times_s", header("(1,)", "'<c16'", bytes(16))),
+    "too short": member("times_s", header("(2,)", body=bytes(8))),
+    "too long": member("times_s", header("(1,)", body=bytes(16))),
+    "no header": member("times_s", b"\x93NUMPY\x01\x00\xff\xff"),
+    "no magic": member("times_s", b"1,2,3"),
+    "nothing in it": member("times_s", b""),
+    "header that runs": member("times_s", header("__import__('os')")),
+    "deep header": member("times_s", header("(" * 9000)),
+    "times backwards": arrays(lambda a: a.update(times_s=-a["times_s"])),
+    "times still": arrays(lambda a: a.update(times_s=0.0 * a["times_s"])),
+    "times none": arrays(lambda a: a.update(times_s=np.zeros(0))),
+    "times wide": arrays(lambda a: a.update(times_s=np.zeros((3, 3)))),
+    "times NaN": put("times_s", 2, np.nan),
+    "times short": arrays(lambda a: a.update(times_s=a["times_s"][:-1])),
+    "times far": put("times_s", -1, 1e300),
+    **{f"{n} is a link": linked(n) for n in (SUMMARY, TRAJECTORIES)},
+    **{f"{n} is a pipe": piped(n) for n in (SUMMARY, CONFIGURATION)},
+    "configuration is a link": linked(CONFIGURATION),
+}
+for key, kind in KINDS.items():
+    if key == "sight":
+        continue
+    name = f"evader_{key}"
+    DAMAGES[f"{name} flat"] = each(name, lambda v: v.ravel())
+    DAMAGES[f"{name} narrow"] = each(name, lambda v: v[:, :1])
+    DAMAGES[f"{name} deep"] = each(name, lambda v: v[:, :, None])
+    DAMAGES[f"{name} without kind"] = each(name, lambda v: np.array(None))
+    if kind.per_sample:
+        DAMAGES[f"{name} short"] = each(name, lambda v: v[1:])
+        DAMAGES[f"{name} infinite"] = put(name, (2, 1), np.inf)
+        DAMAGES[f"{name} far"] = put(name, (2, 1), 1e30)
+        if not kind.may_lack:
+            DAMAGES[f"{name} NaN"] = put(name, (2, 1), np.nan)
+
+
+@pytest.mark.parametrize("kind", DAMAGES)
+def test_a_damaged_folder_is_refused(folder: Path, kind: str) -> None:
+    DAMAGES[kind](folder)
+    with pytest.raises(ConfigurationError) as refused:
+        load_run(folder)
+    assert "\n" not in str(refused.value) and len(str(refused.value)) < 600
+
+
+@pytest.mark.parametrize("kind", ["terabytes", "summary 'null'", "no archive"])
+@pytest.mark.parametrize("command", ["replay --html x", "compare --output x"])
+def test_commands_refuse_it_in_one_line(
+    folder: Path, kind: str, command: str
+) -> None:
+    DAMAGES[kind](folder)
+    name, option, file = command.split()
+    words = [name, str(folder), option, str(folder.parent / file)]
+    result = CliRunner().invoke(main, words)
+    assert result.exit_code == 2 and result.output.count("\n") == 1
+    assert list(folder.parent.iterdir()) == [folder]
+
+
+def test_arrays_of_nobody_are_refused_by_name(folder: Path) -> None:
+    member("strange", header("(10**12,)"))(folder)
+    with pytest.raises(ConfigurationError, match="holds 'strange'"):
+        load_run(folder)
+
+
+def test_more_than_all_arrays_may_have_is_not_read(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    each("evader_landings", lambda rows: np.zeros((1000, 5)))(folder)
+    size = (folder / TRAJECTORIES).stat().st_size
+    monkeypatch.setattr(reading, "LARGEST", size + 1)
+    with pytest.raises(ConfigurationError, match="at most .* bytes"):
+        load_run(folder)
+    monkeypatch.setattr(reading, "LARGEST", size - 1)
+    with pytest.raises(ConfigurationError, match="must be a file of"):
+        load_run(folder)
+
+
+def test_a_run_of_other_robots_has_no_stage(played: Run) -> None:
+    qpos = played.pursuer.qpos
+    assert qpos is not None
+    for changed in (qpos[:, :-1], None):
+        track: Track = replace(played.pursuer, qpos=changed)
+        run = replace(played, tracks={**played.tracks, "pursuer": track})
+        with pytest.raises(ConfigurationError, match="columns"):
+            Stage(run)

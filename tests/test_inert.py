@@ -1,0 +1,140 @@
+"""Text of anybody does nothing where it is shown."""
+
+import html
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from hypothesis import given
+from hypothesis import strategies as st
+
+import stepaside
+from hostile import HOSTILE
+from invented_run import run_of
+from stepaside.cli import main
+from stepaside.games.folder import write_record
+from stepaside.games.run import Run
+from stepaside.games.track import Track
+from stepaside.report.inert import (
+    UNSEEN,
+    fill_page,
+    for_figure,
+    for_markdown,
+    for_script,
+    policy_of,
+    visible,
+)
+
+TEXTS = st.text() | st.sampled_from(HOSTILE)
+UNPAIRED = st.text(st.characters()) | st.sampled_from(HOSTILE)
+
+
+def small_run(message: str) -> Run:
+    """A run of two players who slide."""
+    times = np.arange(0.0, 3.0, 0.5)
+    rows = np.column_stack([times, 0.0 * times, 0.0 * times])
+    tracks = {
+        name: Track(com=rows, torso=rows + side)
+        for name, side in (("pursuer", 0.0), ("evader", 1.0))
+    }
+    return run_of(times, tracks, message=message)
+
+
+@given(UNPAIRED)
+def test_what_is_written_out_holds_nothing_unseen(text: str) -> None:
+    from unicodedata import category
+
+    assert not any(category(c) in UNSEEN for c in visible(text))
+    plain = "plain text, \u00e4 \u4e2d!"
+    assert visible(plain) == plain
+    assert visible("a\tb\n", but="\n\t") == "a\tb\n"
+
+
+@given(TEXTS)
+def test_json_in_a_script_holds_no_mark_and_is_the_same(text: str) -> None:
+    value = {"a": [text, 1.5, None], text: True}
+    written = for_script(value)
+    assert not set("<>&\u2028\u2029") & set(written)
+    assert json.loads(written) == value
+
+
+def test_json_in_a_script_refuses_what_is_no_number() -> None:
+    with pytest.raises(ValueError, match="JSON"):
+        for_script(float("nan"))
+
+
+@given(UNPAIRED)
+def test_markdown_holds_none_of_its_marks(text: str) -> None:
+    written = for_markdown(text)
+    entities = re.sub(r"&#\d+;", "", written)
+    assert all(c.isalnum() or c == " " or not c.isascii() for c in entities)
+    assert html.unescape(written) == visible(text)
+
+
+@given(UNPAIRED, UNPAIRED)
+def test_a_page_is_filled_in_one_pass(name: str, word: str) -> None:
+    template = "<h1>@@NAME@@</h1>\0@@RUN@@\0<i title='@@POLICY@@'>"
+    page = fill_page(template, {"NAME": name}, [word])
+    title, run, rest = page.split("\0")
+    assert html.unescape(title[4:-5]) == visible(name)
+    assert json.loads(run) == [word]
+    assert page.count("<") == 3 and rest.count("'none'") == 3
+
+
+def test_a_policy_allows_what_stands_in_the_page_alone() -> None:
+    page = "<style>a</style><script>b</script><script id='d'>c</script>"
+    policy = policy_of(page)
+    assert policy.count("sha256-") == 2
+    assert "default-src 'none'" in policy
+    # Digests as any tool gives them for "a" and for "b".
+    assert "ypeBEsobvcr6wjGzmiPcTaeG7/gUfE5yuYB3ha/uSLs=" in policy
+    assert "PiPoFgA5WUoziU9lZOGxNIu9egCI1CxKy3PurtWcAJ0=" in policy
+    assert policy_of(page.replace("b", "x")) != policy
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_name_is_shown_literally_in_a_figure(name: str) -> None:
+    from stepaside.report.style import plt
+
+    figure, axes = plt.subplots()
+    axes.plot([0, 1], label=for_figure(name))
+    (entry,) = axes.legend().get_texts()
+    text: Any = entry
+    shown, mathematics = text._preprocess_math(entry.get_text())
+    assert not mathematics
+    assert shown.lstrip(" ") == visible(name).lstrip(" ")
+    figure.canvas.draw()
+    plt.close(figure)
+
+
+@pytest.mark.parametrize("text", ["$\\frac{$", "\x1b[2J\x07", "_name", "a\nb"])
+def test_runs_of_any_name_are_compared(tmp_path: Path, text: str) -> None:
+    folder = tmp_path / text
+    folder.mkdir()
+    write_record(folder, small_run(message=text))
+    output = tmp_path / "c.png"
+    arguments = ["compare", str(folder), "--output", str(output)]
+    result = CliRunner().invoke(main, arguments)
+    assert result.exit_code == 0, result.output
+    assert output.stat().st_size > 1000
+    assert "\x1b" not in result.output and "\x07" not in result.output
+    assert f"\n{visible(text)} " in result.output
+
+
+def test_a_refusal_writes_escape_sequences_out() -> None:
+    result = CliRunner().invoke(main, ["replay", "\x1b[2Jx\x9b"])
+    assert result.exit_code == 2
+    assert "\x1b" not in result.output and "\x9b" not in result.output
+    assert "\\x1b[2Jx\\x9b" in result.output
+
+
+def test_all_commands_write_through_the_terminal_s_door() -> None:
+    root = Path(stepaside.__file__).parent
+    for file in (root / "commands").rglob("*.py"):
+        text = file.read_text(encoding="utf-8")
+        writes = re.search(r"\bclick\.s?echo\(|(?<!\w)print\(", text)
+        assert writes is None or file.name == "terminal.py", file

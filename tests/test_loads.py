@@ -1,0 +1,219 @@
+"""Test what leg joints bear, against MuJoCo and by laws."""
+
+from math import cos, sin
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.constants import GRAVITY
+from stepaside.control.balance.feedforward import LoadFeedforward
+from stepaside.planning import GaitSettings
+from stepaside.poses import Array
+from stepaside.robots.compiling import compile_tree
+from stepaside.robots.description import load_robot
+from stepaside.robots.kinematics import BodyReference, LegKinematics
+from stepaside.robots.loads import LegLoads
+from stepaside.robots.reference import Stance
+
+NAO = load_robot("nao")
+GAIT = GaitSettings()
+TICK = 0.004
+AHEAD = GAIT.zmp_forward
+
+
+def standing(sway: float = 0.0, lift: float = 0.0) -> BodyReference:
+    """NAO over its feet, the CoM to one side, the right foot lifted."""
+    return BodyReference(
+        (AHEAD + 0.003, sway, GAIT.com_height),
+        (0.0, 0.05, 0.0, 0.1),
+        (-0.03, -0.05, lift, 0.04),
+    )
+
+
+def loads_of(reference: BodyReference) -> tuple[LegKinematics, LegLoads]:
+    """Joint motion that stands, and what it bears."""
+    kinematics = LegKinematics(NAO, tick=TICK)
+    kinematics.stand(reference)
+    return kinematics, LegLoads(kinematics, zmp_forward=AHEAD, tick=TICK)
+
+
+def by_mujoco(
+    kinematics: LegKinematics, reference: BodyReference, share: float
+) -> Array:
+    """Torques at rest, with forces on the anchors by share of the left."""
+    model = NAO.compile()
+    data = mujoco.MjData(model)
+    data.qpos[:] = kinematics.posture
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    torques = np.zeros(model.nv)
+    mujoco.mj_rne(model, data, 0, torques)
+    weight = np.array([0.0, 0.0, GRAVITY * model.body_subtreemass[0]])
+    jacobian, turning = np.zeros((3, model.nv)), np.zeros((3, model.nv))
+    pressed = np.zeros(model.nv)
+    rows = []
+    for name, foot, part in (
+        (NAO.left_foot, reference.left_foot, share),
+        (NAO.right_foot, reference.right_foot, 1.0 - share),
+    ):
+        x, y, z, yaw = foot
+        anchor = np.array([x + AHEAD * cos(yaw), y + AHEAD * sin(yaw), z])
+        body = model.site_bodyid[model.site(name).id]
+        mujoco.mj_jac(model, data, jacobian, turning, anchor, body)
+        pressed += part * jacobian.T @ weight
+        rows.append((part, turning.copy()))
+    # The torso rests: what moment is missing, the feet bear by their share.
+    missed = (
+        data.xmat[model.body("torso").id].reshape(3, 3)
+        @ (torques - pressed)[3:6]
+    )
+    for part, turning in rows:
+        pressed += part * turning.T @ missed
+    borne = torques - pressed
+    np.testing.assert_allclose(borne[:6], 0.0, atol=1e-9)
+    found = []
+    for name in kinematics.joint_names:
+        total = borne[model.joint(name).dofadr[0]]
+        for follower, leader in NAO.coupled_joints(model).items():
+            if leader == name:
+                total += borne[model.joint(follower).dofadr[0]]
+        found.append(total if name in NAO.legs else 0.0)
+    return np.array(found)
+
+
+def test_at_rest_the_torques_are_those_of_mujoco() -> None:
+    """Whatever the stance and the ZMP: on one foot, on the other, between."""
+    for lift, sway in ((0.0, 0.0), (0.0, 0.02), (0.01, 0.05), (0.02, 0.04)):
+        reference = standing(sway, lift)
+        kinematics, loads = loads_of(reference)
+        zmp = (reference.com[0], reference.com[1])
+        found = loads.torques(reference, zmp)
+        share = loads._floor(reference, zmp)[-1]
+        assert (share == 1.0) is (lift > 0.0)
+        wanted = by_mujoco(kinematics, reference, share)
+        np.testing.assert_allclose(found, wanted, atol=2e-4)
+        assert 0.5 < np.abs(found).max() < 6.0
+
+
+def test_a_hip_bears_the_body_over_the_other_side() -> None:
+    """On the left foot the body hangs to its right, as heavy as it is."""
+    reference = standing(0.05, 0.02)
+    kinematics, loads = loads_of(reference)
+    found = dict(
+        zip(
+            kinematics.joint_names,
+            loads.torques(reference, (0.02, 0.05)).tolist(),
+            strict=True,
+        )
+    )
+    weight = GRAVITY * kinematics.legs.tree.mass
+    assert abs(found["LHipRoll"]) > 0.6 * weight * 0.05
+    assert abs(found["RHipRoll"]) < 0.2 * weight * 0.05
+
+
+class Moved:
+    """Joint motion whose posture is moved as a whole."""
+
+    def __init__(self, kinematics: LegKinematics) -> None:
+        self._kinematics, self.legs = kinematics, kinematics.legs
+        self.by = np.zeros(3)
+
+    @property
+    def stance(self) -> Stance:
+        """The stance, somewhere else."""
+        stance = self._kinematics.stance
+        x, y, z = (np.array(stance.place) + self.by).tolist()
+        return stance._replace(place=(x, y, z))
+
+
+@pytest.mark.parametrize("rise", [0.0, 2.0, -3.0])
+def test_who_is_lifted_faster_weighs_more(rise: float) -> None:
+    reference = standing(0.01)
+    kinematics, still = loads_of(reference)
+    zmp = (AHEAD, 0.01)
+    moved: Any = Moved(kinematics)
+    loads = LegLoads(moved, zmp_forward=AHEAD, tick=TICK)
+    found = []
+    for tick in range(4):
+        # The floor comes along, so that levers stay.
+        moved.by[2] = 0.5 * rise * (tick * TICK) ** 2
+        found.append(loads.torques(_lifted(reference, moved.by[2]), zmp))
+    wanted = still.torques(reference, zmp)
+    np.testing.assert_allclose(found[0], wanted, atol=1e-9)
+    for lifted in found[2:]:
+        np.testing.assert_allclose(
+            lifted, wanted * (1.0 + rise / GRAVITY), atol=1e-6
+        )
+
+
+def _lifted(reference: BodyReference, by: float) -> BodyReference:
+    (x, y, z), left, right, *_ = reference
+    # Feet that count as standing, whatever they stand on.
+    return reference._replace(com=(x, y, z + by), left_foot=left)
+
+
+def test_mirrored_stances_bear_mirrored_torques() -> None:
+    left, right = (0.0, 0.05, 0.0, 0.1), (-0.03, -0.05, 0.0, 0.04)
+    found = []
+    for side in (1.0, -1.0):
+        one, other = left, right
+        if side < 0.0:
+            one, other = ((x, -y, z, -yaw) for x, y, z, yaw in (right, left))
+        reference = BodyReference((0.02, 0.01 * side, 0.268), one, other)
+        kinematics, loads = loads_of(reference)
+        torques = loads.torques(reference, (0.02, 0.01 * side))
+        found.append(
+            dict(zip(kinematics.joint_names, torques.tolist(), strict=True))
+        )
+    first, second = found
+    for name, torque in first.items():
+        if name in NAO.legs and "YawPitch" not in name:
+            twin = {"L": "R", "R": "L"}[name[0]] + name[1:]
+            sign = -1.0 if "Roll" in name else 1.0
+            assert second[twin] == pytest.approx(sign * torque, abs=1e-3)
+
+
+def test_servos_that_lead_their_targets_stand_where_they_are_wanted() -> None:
+    """The law of a servo: k (sent - q) - d q' with sent led by d / k."""
+    reference = standing()
+    kinematics, loads = loads_of(reference)
+    feedforward = LoadFeedforward(kinematics, zmp_forward=AHEAD, tick=TICK)
+    servos = np.array(kinematics.legs.tree.servos)
+    stiffness, damping = servos.T
+    legs = np.array([name in NAO.legs for name in kinematics.joint_names])
+    np.testing.assert_array_equal(servos[legs], [(200.0, 10.0)] * legs.sum())
+    last = np.zeros(legs.size)
+    for share in np.linspace(-0.03, 0.03, 7):
+        zmp = (AHEAD, float(share))
+        added = feedforward.added(reference, zmp)
+        led = added + damping / stiffness * (added - last) / TICK
+        torques = loads.torques(reference, zmp)
+        np.testing.assert_allclose(stiffness * led, torques, atol=1e-9)
+        last = added
+    for _ in range(500):
+        last = feedforward.added(reference, zmp)
+    np.testing.assert_allclose(stiffness * last, torques, atol=1e-6)
+    assert not last[~legs].any()
+
+
+def test_a_motor_that_is_no_servo_has_no_stiffness() -> None:
+    tree = compile_tree(NAO)
+    assert len(tree.servos) == len(tree.motors)
+    model = NAO.compile()
+    model.actuator_gainprm[0, 0] = 3.0
+
+    class Described:
+        """NAO, one motor of which takes torques."""
+
+        def __getattr__(self, name: str) -> Any:
+            return getattr(NAO, name)
+
+        def compile(self) -> Any:
+            """Changed model."""
+            return model
+
+    described: Any = Described()
+    first, *rest = compile_tree(described).servos
+    assert first == (0.0, 0.0) and tuple(rest) == tree.servos[1:]

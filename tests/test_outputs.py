@@ -1,0 +1,338 @@
+"""Results are written whole, or not at all, and replace nothing unasked."""
+
+import errno
+import json
+import os
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import click
+import pytest
+from click.testing import CliRunner
+
+from stepaside.cli import COMMANDS, main
+from stepaside.commands.outputs import OutputFile
+from stepaside.errors import ConfigurationError, OutputError
+from stepaside.games.duel import run_duel
+from stepaside.games.run import Run
+from stepaside.games.settings import DuelSettings
+from stepaside.outputs import (
+    check_file,
+    check_folder,
+    free_file,
+    writing,
+)
+from stepaside.report import run_folder
+from stepaside.report.run_folder import keep_run, write_run
+
+FULL = OSError(errno.ENOSPC, "No space left on device")
+
+
+def looping(folder: Path) -> Path:
+    (folder / "one").symlink_to(folder / "two")
+    (folder / "two").symlink_to(folder / "one")
+    return folder / "one"
+
+
+def dangling(folder: Path) -> Path:
+    (folder / "link").symlink_to(folder / "nowhere")
+    return folder / "link"
+
+
+def through_a_file(folder: Path) -> Path:
+    (folder / "file").write_text("kept")
+    return folder / "file" / "below"
+
+
+def through_a_link(folder: Path) -> Path:
+    return looping(folder) / "below"
+
+
+def pipe(folder: Path) -> Path:
+    os.mkfifo(folder / "pipe")
+    return folder / "pipe"
+
+
+BAD: dict[str, Callable[[Path], Path]] = {
+    "looping": looping,
+    "dangling": dangling,
+    "through a file": through_a_file,
+    "through a loop": through_a_link,
+    "too long": lambda folder: folder / ("x" * 300),
+    "far too long": lambda folder: folder / ("x/" * 3000) / "y",
+    "pipe": pipe,
+    "device": lambda folder: Path("/dev/full"),
+    "in the system": lambda folder: Path("/proc/x/y"),
+    "nothing": lambda folder: folder / "\0",
+}
+
+
+@pytest.mark.parametrize("kind", BAD)
+def test_what_cannot_be_written_is_refused_before(
+    tmp_path: Path, kind: str
+) -> None:
+    path = BAD[kind](tmp_path)
+    before = sorted(tmp_path.rglob("*"))
+    with pytest.raises(ConfigurationError, match="output must"):
+        check_file(path)
+    with pytest.raises(ConfigurationError, match="output must"):
+        check_folder(path, new=True)
+    if kind not in ("pipe", "device", "nothing", "dangling", "looping"):
+        with pytest.raises(OutputError, match="could not be written"):
+            with writing(path) as draft:
+                draft.write_text("new")
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_a_place_without_room_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(**options: Any) -> Any:
+        raise FULL
+
+    check_file(tmp_path / "a")
+    monkeypatch.setattr("stepaside.outputs.ROOM", 2**62)
+    with pytest.raises(ConfigurationError, match="bytes are free"):
+        check_file(tmp_path / "a")
+    monkeypatch.setattr("tempfile.TemporaryFile", full)
+    with pytest.raises(ConfigurationError, match="no space left"):
+        check_file(tmp_path / "a")
+
+
+def test_nothing_is_replaced_unless_asked(tmp_path: Path) -> None:
+    file = tmp_path / "there"
+    file.write_text("kept")
+    with pytest.raises(ConfigurationError, match="--overwrite"):
+        check_file(file)
+    check_file(file, overwrite=True)
+    with pytest.raises(ConfigurationError, match="must be a file"):
+        check_file(tmp_path, overwrite=True)
+    assert file.read_text() == "kept"
+    assert free_file(file) == tmp_path / "there-2"
+    assert free_file(tmp_path / "new.png") == tmp_path / "new.png"
+    (tmp_path / "new.png").symlink_to("nowhere")
+    assert free_file(tmp_path / "new.png") == tmp_path / "new-2.png"
+
+
+def test_a_link_leads_to_what_is_written(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("old")
+    (tmp_path / "link").symlink_to(tmp_path / "file")
+    with writing(tmp_path / "link") as draft:
+        draft.write_text("new")
+    assert (tmp_path / "link").is_symlink()
+    assert (tmp_path / "file").read_text() == "new"
+
+
+def test_what_fails_half_way_leaves_the_old(tmp_path: Path) -> None:
+    file = tmp_path / "file"
+    file.write_text("old")
+    with pytest.raises(OutputError, match="file could not.*no space left"):
+        with writing(file) as draft:
+            draft.write_text("ne")
+            raise FULL
+    with pytest.raises(KeyboardInterrupt), writing(file) as draft:
+        draft.write_text("ne")
+        raise KeyboardInterrupt
+    assert list(tmp_path.iterdir()) == [file]
+    assert file.read_text() == "old"
+
+
+def test_a_file_has_the_permissions_of_any_other(tmp_path: Path) -> None:
+    (tmp_path / "usual").write_text("")
+    with writing(tmp_path / "ours") as draft:
+        draft.write_text("")
+    modes = {file.stat().st_mode for file in tmp_path.iterdir()}
+    assert len(modes) == 1
+
+
+@pytest.fixture(scope="module")
+def short() -> Run:
+    return run_duel(DuelSettings(duration=0.1))
+
+
+def test_of_two_runs_into_one_folder_both_are_kept(
+    tmp_path: Path, short: Run
+) -> None:
+    figures: list[Path] = []
+
+    def keep() -> None:
+        figures.append(write_run(tmp_path / "run", short))
+
+    keep()
+    # One after the other: what draws figures knows one thread.
+    for _ in range(2):
+        other = threading.Thread(target=keep)
+        other.start()
+        other.join()
+    names = ["run", "run-2", "run-3"]
+    assert [figure.parent.name for figure in figures] == names
+    assert sorted(p.name for p in tmp_path.iterdir()) == names
+    assert all(figure.is_file() for figure in figures)
+
+
+def test_a_run_that_cannot_be_written_is_kept_elsewhere(
+    tmp_path: Path, short: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    there, spare = tmp_path / "there", tmp_path / "spare"
+    there.mkdir()
+    spare.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(spare))
+
+    def full(run: Run, path: Path) -> None:
+        if there in path.parents:
+            raise FULL
+
+    monkeypatch.setattr(run_folder, "draw_duel", full)
+    kept, why = keep_run(there / "run", short)
+    assert kept == spare / "stepaside-run"
+    assert why is not None and "no space left" in str(why)
+    assert list(there.iterdir()) == []
+    monkeypatch.setattr("tempfile.tempdir", str(there))
+    assert keep_run(there / "run", short)[0] is None
+    assert list(there.iterdir()) == []
+
+
+def options() -> list[tuple[str, click.Parameter]]:
+    """Every option of every command that names a file to write."""
+    group: Any = main
+    context = click.Context(group)
+    return [
+        (name, param)
+        for name in COMMANDS
+        for param in group.get_command(context, name).params
+        if isinstance(param.type, OutputFile)
+    ]
+
+
+NEEDED = {
+    "plan": ["--role", "evader", "--bearing", "40deg"],
+    "unicycles": [],
+    "circle": ["--starts", "0"],
+    "bound": ["--grid", "16", "--refine", "0", "--games", "0"],
+    "map": ["--grid", "3", "--distances", "2", "--duration", "1"],
+    "robot": ["nao"],
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory, short: Run) -> Path:
+    place = tmp_path_factory.mktemp("runs") / "run"
+    write_run(place, short)
+    return place
+
+
+def cases() -> list[Any]:
+    return [
+        pytest.param(name, param, kind, id=f"{name}{param.opts[0]}-{kind}")
+        for name, param in options()
+        for kind in (*BAD, "taken")
+        if kind != "device" or not getattr(param.type, "suffixes", ())
+    ]
+
+
+@pytest.mark.parametrize(("name", "param", "kind"), cases())
+def test_every_command_refuses_a_bad_file_in_one_line(
+    tmp_path: Path, folder: Path, name: str, param: Any, kind: str
+) -> None:
+    suffix = (*param.type.suffixes, "")[0]
+    path = BAD[kind](tmp_path) if kind in BAD else tmp_path / "taken"
+    if kind in ("looping", "dangling", "pipe", "taken"):
+        if kind == "taken":
+            path.write_text("kept")
+        path = path.rename(path.with_name(path.name + suffix))
+    words = [name, *NEEDED.get(name, [str(folder)])]
+    before = sorted(tmp_path.rglob("*"))
+    result = CliRunner().invoke(main, [*words, param.opts[0], f"{path}"])
+    assert result.exit_code == 2, result.output
+    assert result.output.count("\n") == 1 and "must" in result.output
+    assert len(result.output) < 500
+    assert sorted(tmp_path.rglob("*")) == before
+    if kind == "taken":
+        assert path.read_text() == "kept"
+
+
+def test_every_option_for_files_is_one_of_these() -> None:
+    """An option that writes a file is of the type that is checked."""
+    group: Any = main
+    context = click.Context(group)
+    for name in COMMANDS:
+        for param in group.get_command(context, name).params:
+            kind = param.type
+            assert not isinstance(kind, click.File), (name, param.name)
+            if isinstance(kind, click.Path) and not kind.exists:
+                assert not kind.file_okay, (name, param.name)
+    assert len(options()) == 12
+
+
+def test_a_figure_without_a_suffix_is_told_as_it_is_written(
+    tmp_path: Path,
+) -> None:
+    words = ["circle", "--starts", "0", "--json"]
+    figure = ["--sweep", str(tmp_path / "a")]
+    result = CliRunner().invoke(main, [*words, *figure])
+    assert json.loads(result.stdout)["sweep"] == str(tmp_path / "a.png")
+    assert [p.name for p in tmp_path.iterdir()] == ["a.png"]
+    again = CliRunner().invoke(main, [*words, *figure])
+    assert again.exit_code == 2 and "--overwrite" in again.output
+    result = CliRunner().invoke(main, [*words, *figure, "--overwrite"])
+    assert result.exit_code == 0
+    both = ["--sweep", str(tmp_path / "b"), "--figure", f"{tmp_path}/b.png"]
+    result = CliRunner().invoke(main, [*words, *both])
+    assert result.exit_code == 2 and "another file" in result.output
+
+
+def test_a_summary_is_printed_even_if_its_figure_is_not_written(
+    tmp_path: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*arguments: Any) -> None:
+        raise FULL
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    for words in (
+        ["compare", str(folder), "--output"],
+        ["plan", *NEEDED["plan"], "--figure"],
+        ["unicycles", "--duration", "1", "--figure"],
+    ):
+        option = [words.pop(), str(tmp_path / "c.png")]
+        result = CliRunner().invoke(main, [*words, *option])
+        assert result.exit_code == 2
+        assert result.stderr.count("\n") == 1, result.stderr
+        assert "no space left" in result.stderr
+        assert len(result.stdout) > 100
+        assert "c.png" not in result.stdout
+        assert list(tmp_path.iterdir()) == []
+
+
+def test_a_duel_is_told_even_if_it_is_not_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*arguments: Any) -> None:
+        raise FULL
+
+    monkeypatch.setattr(run_folder, "draw_duel", full)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    words = ["duel", "--duration", "0.1", "--output", str(tmp_path / "run")]
+    result = CliRunner().invoke(main, words)
+    assert result.exit_code == 2 and "no space left" in result.stderr
+    assert "start distance" in result.stdout
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes of POSIX")
+def test_whoever_stops_reading_gets_no_traceback() -> None:
+    code = "from stepaside.cli import main; main(['robot', '--mjcf'])"
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        stdout=writer,
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+    os.close(writer)
+    assert done.returncode == 1 and done.stderr == ""

@@ -1,0 +1,110 @@
+"""Numbers that are legal and absurd are refused, with the rule they break."""
+
+from dataclasses import fields, replace
+from math import inf, nan
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from stepaside.cli import main
+from stepaside.errors import PlanError, StepAsideError
+from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.planning import (
+    Direction,
+    Foot,
+    GaitSettings,
+    ManeuverPlanner,
+)
+from stepaside.planning.settings import RANGES
+from stepaside.world.settings import PhysicsSettings, SightSettings
+
+ABSURD = (1e18, 1e300, 5e-324, 1e-18, inf, nan, -1.0, True, 0.0)
+
+
+@pytest.mark.parametrize("name", RANGES)
+@pytest.mark.parametrize("value", ABSURD)
+def test_a_gait_is_one_that_can_be_computed(name: str, value: Any) -> None:
+    with pytest.raises(PlanError, match=name):
+        replace(GaitSettings(), **{name: value})
+
+
+@pytest.mark.parametrize("name", RANGES)
+def test_ranges_end_where_they_say(name: str) -> None:
+    low, high, _ = RANGES[name]
+    for value in (low * 0.99, high * 1.01):
+        changes: dict[str, Any] = {name: value}
+        with pytest.raises(PlanError, match=f"{name} must lie in"):
+            replace(GaitSettings(), **changes)
+
+
+def numbers(kind: Any) -> list[Any]:
+    """Every entry of settings that is a number."""
+    return [
+        (kind, field.name)
+        for field in fields(kind)
+        if field.type in (float, int, float | None)
+        or str(field.type) in ("float", "int", "float | None")
+    ]
+
+
+ALL = [
+    entry
+    for kind in (
+        *(DuelSettings, StartSettings, PhysicsSettings, SightSettings),
+        GaitSettings,
+    )
+    for entry in numbers(kind)
+]
+
+
+@pytest.mark.parametrize(("kind", "name"), ALL)
+@pytest.mark.parametrize("value", [True, False, nan])
+def test_no_setting_takes_true_for_a_number(
+    kind: Any, name: str, value: Any
+) -> None:
+    with pytest.raises(StepAsideError, match=name):
+        kind(**{name: value})
+
+
+@pytest.mark.parametrize("power", [(10, 5000), (-1, 1), (2, 128)])
+def test_a_seed_is_a_number_of_some_digits(power: tuple[int, int]) -> None:
+    value = power[0] ** power[1]
+    with pytest.raises(StepAsideError, match="seed") as refused:
+        DuelSettings(seed=value)
+    assert len(str(refused.value)) < 200
+
+
+def test_a_plan_is_asked_for_angles_and_times() -> None:
+    planner = ManeuverPlanner(GaitSettings())
+    for bearing in (1e308, -1e18, nan, inf):
+        with pytest.raises(PlanError, match="bearing"):
+            planner.plan(
+                bearing,
+                Direction.FORWARD,
+                first_foot=Foot.LEFT,
+                standing=True,
+            )
+    plan = planner.plan(
+        0.5, Direction.FORWARD, first_foot=Foot.LEFT, standing=True
+    )
+    for times in ([nan], [0.0, inf]):
+        with pytest.raises(PlanError, match="times"):
+            plan.sample(times)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        *("unicycles --duration 1e18", "unicycles --duration 5e-324"),
+        *("duels --workers 1000000000000", "duel --duration 1e18"),
+        *("duel --gain 1e300", "duel --friction 1e18"),
+        *("duel --start-support 1e-18", "duel --single-support 1e18"),
+        *("replay . --rate 1e18", "replay . --speed 5e-324"),
+        *("view --serve-for 1e18", f"duel --seed {'9' * 4000}"),
+    ],
+)
+def test_commands_refuse_the_absurd_in_one_line(words: str) -> None:
+    result = CliRunner().invoke(main, words.split())
+    assert result.exit_code == 2, result.output
+    assert result.stderr.count("\n") == 1

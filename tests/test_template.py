@@ -1,0 +1,121 @@
+"""Test where a body is on the path of its template."""
+
+from math import cos, sin
+
+import numpy as np
+import pytest
+
+from stepaside.planning import (
+    Direction,
+    Foot,
+    GaitSettings,
+    ManeuverPlanner,
+)
+from stepaside.planning.steady import steady_plan
+from stepaside.planning.template import path_samples, poses_on_path
+from stepaside.poses import Array, Pose
+
+GAIT = GaitSettings()
+STEP = GAIT.step_duration
+
+
+def circle(count: int, turn: float, stride: float) -> Array:
+    """Poses on a circle, one step apart; backward for negative strides."""
+    radius = stride / turn
+    theta = turn * np.arange(count)
+    return np.column_stack(
+        [radius * np.sin(theta), radius * (1.0 - np.cos(theta)), theta]
+    )
+
+
+@pytest.mark.parametrize("first", Foot)
+def test_samples_are_half_a_spacing_beside_their_feet(first: Foot) -> None:
+    path = circle(5, 0.06, 0.04)
+    foot, feet = first, []
+    for pose in path.tolist():
+        beside = Pose(0.0, 0.05 * foot.value, 0.0)
+        feet.append(Pose(*pose).compose(beside))
+        foot = foot.other
+    found = path_samples(np.array(feet), first, 0.1)
+    np.testing.assert_allclose(found, path, atol=1e-15)
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+@pytest.mark.parametrize("turn", [0.06, -0.06])
+def test_way_and_heading_are_shared_out_by_the_way_of_the_com(
+    turn: float, way: float
+) -> None:
+    """The CoM is ahead of the place, whichever way it goes."""
+    path = circle(4, turn, 0.04 * way)
+    for step in range(3):
+        for share in (0.0, 0.2, 0.5, 0.9):
+            place = path[step] + share * (path[step + 1] - path[step])
+            theta = path[step, 2] + 0.5 * turn
+            com = place[:2] + 0.02 * np.array([cos(theta), sin(theta)])
+            (found,) = poses_on_path(path, com[None], 0.02)
+            np.testing.assert_allclose(found, place, atol=1e-4)
+
+
+def test_sway_is_no_way() -> None:
+    path = circle(3, 1e-9, 0.04)
+    for side in (-0.03, 0.0, 0.03):
+        (found,) = poses_on_path(path, np.array([[0.05, side]]), 0.02)
+        np.testing.assert_allclose(found[:2], [0.03, 0.0], atol=1e-8)
+
+
+def test_before_the_first_and_after_the_last_sample_the_body_waits() -> None:
+    path = circle(3, 0.06, 0.04)
+    ends = poses_on_path(path, np.array([[-0.5, 0.0], [0.6, 0.02]]), 0.02)
+    np.testing.assert_allclose(ends, path[[0, 2]], atol=1e-12)
+
+
+def test_feet_abreast_are_one_sample() -> None:
+    """A body that starts or halts has its heading, and no way to make."""
+    path = np.array([[0, 0, 0.0], [0, 0, 0.03], [0.04, 0, 0.07]])
+    (found,) = poses_on_path(path, np.array([[0.03, 0.0]]), 0.02)
+    np.testing.assert_allclose(found, [0.01, 0.0, 0.04], atol=3e-5)
+
+
+@pytest.mark.parametrize("direction", Direction)
+@pytest.mark.parametrize("bearing", [0.8, -0.8])
+def test_a_body_passes_its_sample_in_the_middle_of_single_support(
+    direction: Direction, bearing: float
+) -> None:
+    """A gait is the same backward in time: half before, half after."""
+    plan = steady_plan(
+        ManeuverPlanner(GAIT), bearing, direction, first_foot=Foot.LEFT
+    )
+    middle = 0.5 * GAIT.single_support
+    apart = np.array([0.02, 0.1, 0.2, 0.25])
+    samples = path_samples(plan.placements, Foot.LEFT, GAIT.foot_spacing)
+    headings = [
+        poses_on_path(samples, plan.sample(times).com, GAIT.zmp_forward)[:, 2]
+        for times in ([middle], middle + apart, middle - apart)
+    ]
+    turn = plan.placements[2, 2]
+    assert abs(turn) == pytest.approx(0.08 * 0.8)
+    # To first order in the turn, over which the sway leans.
+    np.testing.assert_allclose(headings[0], 0.0, atol=0.02 * abs(turn))
+    np.testing.assert_allclose(
+        headings[1] + headings[2], 0.0, atol=0.05 * abs(turn)
+    )
+
+
+def test_a_body_is_past_the_middle_of_its_feet_when_a_step_ends() -> None:
+    """In closed form: a pendulum over a ZMP that ramps in double support."""
+    plan = steady_plan(
+        ManeuverPlanner(GAIT), 0.0, Direction.FORWARD, first_foot=Foot.LEFT
+    )
+    samples = path_samples(plan.placements, Foot.LEFT, GAIT.foot_spacing)
+    com = plan.sample([STEP]).com
+    ((x, _, _),) = poses_on_path(samples, com, GAIT.zmp_forward)
+    eta, rest, ramp = GAIT.eta, GAIT.single_support, GAIT.double_support
+    # x - p over a standing foot is odd about the middle of support: a sinh;
+    # during the ramp x - p is odd about its middle, too: a sinh and a line.
+    # Both and their rates meet where the ramp begins.
+    s, c = np.sinh(0.5 * eta * rest), np.cosh(0.5 * eta * rest)
+    u, v = np.sinh(0.5 * eta * ramp), np.cosh(0.5 * eta * ramp)
+    a = np.linalg.solve([[s, u], [c, -v]], [0.0, 1.0 / (eta * ramp)])[0]
+    past = 0.5 - a * s
+    assert x / GAIT.stride - 0.5 == pytest.approx(past, abs=1e-3)
+    assert 1.0 / 7.0 < past < 1.0 / 6.0
