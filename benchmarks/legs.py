@@ -29,10 +29,16 @@ from stepaside.studies.results import header, write_result
 
 CHUNK = 50  # ticks in a turn
 LEGS = "stepaside.control.assembly.LegKinematics"
+# What is added for the load is the same on both sides, and left out.
+LOAD = "stepaside.control.assembly.LoadFeedforward"
 KINDS: dict[str, Callable[..., Any]] = {
     "mujoco": MujocoLegs,
     "numbers": LegKinematics,
 }
+
+
+def _no_load(*_: Any, **__: Any) -> None:
+    """Add nothing."""
 
 
 class Side:
@@ -40,7 +46,7 @@ class Side:
 
     def __init__(self, kind: str, settings: DuelSettings) -> None:
         """Stand the robots up."""
-        with patch(LEGS, KINDS[kind]):
+        with patch(LEGS, KINDS[kind]), patch(LOAD, _no_load):
             self.duel = Duel(settings)
         self.walkers = [p for p in self.duel.players if isinstance(p, Walker)]
         world = self.duel.world

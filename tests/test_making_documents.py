@@ -184,7 +184,7 @@ def test_the_figure_of_the_duel_is_drawn_from_its_tracks() -> None:
     store = Store()
     result = store.result("duel-seed7")
     with np.load(store.folder / result["trajectories"]["file"]) as tracks:
-        apart = tracks["evader_torso"] - tracks["pursuer_torso"]
+        apart = tracks["evader_place"] - tracks["pursuer_place"]
         times = tracks["times_s"]
     last = times >= times[-1] * 2.0 / 3.0
     distance = np.hypot(apart[last, 0], apart[last, 1]).mean()

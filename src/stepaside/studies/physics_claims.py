@@ -86,7 +86,8 @@ REPLANNING = (
         "both_feet",
         "a new plan follows each landing, and replaces the old one while "
         "both feet are on the ground (share of the plans, by the foot "
-        "forces)",
+        "forces; the plan unloads one foot at that very moment, so one "
+        "that was unloaded less than 30 ms before counts as on the ground)",
         "III-E",
         LEVEL,
         1.0,

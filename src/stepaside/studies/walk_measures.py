@@ -12,7 +12,7 @@ from .watching import WalkedPlan, Watched
 
 BEARS = 1.0  # load from which a foot counts as on the floor, in [N]
 SWING = 0.15  # a foot that is off it for longer swings, in [s]
-LEAVES = 0.02  # at the end of double support the plan loads one foot, [s]
+LEAVES = 0.03  # a foot is unloaded this near the end of double support, [s]
 ENDS = 6  # ticks on either side of a replan, for velocities there
 
 
