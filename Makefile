@@ -1,17 +1,26 @@
 # Everything that a newcomer needs: `make duel` and `make test`.
-PYTHON ?= python3.11
+SUPPORTED := 3.13 3.12 3.11
+# The newest that is there: a name alone may be a shim of nothing.
+works = $(shell python$(1) -c "import venv" >/dev/null 2>&1 && echo python$(1))
+PYTHON ?= $(firstword $(foreach version,$(SUPPORTED),$(call works,$(version))))
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
+INSTALL := -m pip install --disable-pip-version-check --no-warn-script-location \
+	--root-user-action=ignore --constraint constraints.txt
 
-.PHONY: setup duel test mutate bench figures clean constraints
+.PHONY: setup duel test other mutate fuzz bench figures wheel clean constraints
 
 setup: $(STAMP)
 
 $(STAMP): pyproject.toml constraints.txt
-	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check \
-		--constraint constraints.txt --editable ".[dev]"
+	@test -x $(BIN)/python || test -n "$(PYTHON)" || { echo "stepaside needs \
+	Python 3.13, 3.12 or 3.11 with venv, as python3.13 and so on on the path; \
+	or make PYTHON=/path/to/python" >&2; exit 1; }
+	@test -x $(BIN)/python || echo "making $(VENV) with $(PYTHON)"
+	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	@echo "installing what pyproject.toml names into $(VENV): some minutes"
+	$(BIN)/python $(INSTALL) --editable ".[dev]"
 	touch $(STAMP)
 
 duel: setup
@@ -23,13 +32,34 @@ test: setup
 	$(BIN)/mypy
 	$(BIN)/pytest --numprocesses auto
 
+# A selection of the tests under another Python: make other PYTHON=python3.13
+other:
+	$(PYTHON) -m venv .venv-other
+	.venv-other/bin/python $(INSTALL) --editable ".[dev]"
+	.venv-other/bin/pytest --numprocesses auto tests/test_cli.py \
+		tests/test_configuration.py tests/test_duel.py tests/test_plan.py \
+		tests/test_structure.py tests/test_walk.py
+
+# Bad input for a while: make fuzz MINUTES=60
+MINUTES ?= 10
+fuzz: setup
+	$(BIN)/python -m tests.fuzz --minutes $(MINUTES)
+
+# The wheel, installed with nothing optional: commands work, or say what lacks.
+wheel: setup
+	rm -rf dist .venv-wheel
+	$(BIN)/python -m pip wheel --disable-pip-version-check --no-deps \
+		--wheel-dir dist .
+	$(BIN)/python -m venv .venv-wheel
+	.venv-wheel/bin/python $(INSTALL) dist/*.whl
+	.venv-wheel/bin/python tests/from_wheel.py
+
 # Faults that the tests should notice; goes on where it was cut short.
 mutate: setup
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m tests.mutation --write
 
 bench: setup
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check \
-		--constraint constraints.txt --editable ".[bench]"
+	$(BIN)/python $(INSTALL) --editable ".[bench]"
 	$(BIN)/python benchmarks/run.py
 	$(BIN)/python benchmarks/kernel.py
 	$(BIN)/python -m documents
@@ -44,4 +74,4 @@ constraints:
 		pyproject.toml
 
 clean:
-	rm -rf $(VENV) runs
+	rm -rf $(VENV) .venv-other .venv-wheel dist runs

@@ -1,4 +1,8 @@
-"""Time a whole duel, beside bare physics of the same motion."""
+"""Time a whole duel, beside bare physics of the same motion.
+
+Once with the formulas of the legs in Python, as a robot has them, and once
+as machine code, as long games and campaigns do.
+"""
 
 from time import process_time
 
@@ -7,9 +11,20 @@ import numpy as np
 
 from stepaside.games.duel import Duel
 from stepaside.games.settings import DuelSettings
+from stepaside.robots.machine import Machine, prefer
+
+OURS = ("real_time_factor", "duel_over_bare_physics", "control_tick_us")
 
 
 def measure_duel(duration: float = 60.0) -> dict[str, float]:
+    """Times of a duel, in Python, then by machine code; see there."""
+    plain = _measure_duel(duration)
+    prefer(Machine.COMPILED)
+    swift = _measure_duel(duration)
+    return plain | {f"{name}_machine_code": swift[name] for name in OURS}
+
+
+def _measure_duel(duration: float) -> dict[str, float]:
     """Real-time factor, ratio to mj_step, and control tick.
 
     The bare run repeats the commands of the duel, tick by tick, from the

@@ -19,7 +19,7 @@ from asking import ask, seeds_of
 from gathering import finished, gather
 
 from stepaside.control import ControlScheme
-from stepaside.games import Run, run_duel
+from stepaside.games import DuelRun, run_duel
 from stepaside.games.circle import theory_of
 from stepaside.games.configuration import plain_settings
 from stepaside.games.settings import DuelSettings
@@ -118,7 +118,7 @@ def play(job: Job) -> dict[str, Any]:
     }
 
 
-def _between_torsos(run: Run) -> float:
+def _between_torsos(run: DuelRun) -> float:
     """Mean distance of the torsos in the last third, in [m]."""
     last = run.times >= run.times[-1] * 2.0 / 3.0
     apart = run.pursuer.torso[last] - run.evader.torso[last]

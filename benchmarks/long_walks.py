@@ -12,8 +12,8 @@ from asking import ask
 from gathering import Row, finished, gather
 
 from stepaside.control.balance.settings import STABILISED
-from stepaside.games.walk import WalkSettings, run_walk
-from stepaside.games.walk_summary import summarise_walk
+from stepaside.games.walk import run_walk
+from stepaside.games.walk_settings import WalkSettings
 from stepaside.studies.results import header, write_result
 from stepaside.world.body_settings import BODIES
 
@@ -22,7 +22,7 @@ KEPT = ("outcome", "duration_s", "steps", "speed_ratio", "yaw_ratio")
 
 def walk(settings: WalkSettings) -> Row:
     """Figures of one walk."""
-    found = summarise_walk(run_walk(settings))
+    found = run_walk(settings).summary.to_json()
     return {key: found[key] for key in KEPT}
 
 

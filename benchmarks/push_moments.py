@@ -16,7 +16,8 @@ import mujoco
 import numpy as np
 from asking import RESULTS, ask
 
-from stepaside.games.walk import NAME, Walking
+from stepaside.games.walk import Walking
+from stepaside.games.walk_settings import WALKER
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -81,7 +82,7 @@ def follow(trial: Trial) -> dict[str, float | str | bool]:
     world, walker = walking.world, walking.walker
     robot, scheme = walker.robot, walker.scheme
     model, data = world.model, world.data
-    torso = model.body(f"{NAME}/torso").id
+    torso = model.body(f"{WALKER}/torso").id
     [push] = walking.settings.pushes
     heading = np.array([cos(push.direction), sin(push.direction)])
     mass = float(model.body_subtreemass[torso])
@@ -102,12 +103,12 @@ def follow(trial: Trial) -> dict[str, float | str | bool]:
             landing = now + step.remaining
             foot = step.swing.other.name.lower()
             site = getattr(scheme.kinematics.description, f"{foot}_foot")
-            stands = model.site(f"{NAME}/{site}").id
+            stands = model.site(f"{WALKER}/{site}").id
             site = getattr(
                 scheme.kinematics.description,
                 f"{step.swing.name.lower()}_foot",
             )
-            swings = int(model.site(f"{NAME}/{site}").bodyid[0])
+            swings = int(model.site(f"{WALKER}/{site}").bodyid[0])
             sole, left = GAIT.sole, foot == "left"
             sides = (sole.outer, sole.inner)
             edge = (heading[0] > 0.5) * sole.front

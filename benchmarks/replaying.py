@@ -21,12 +21,12 @@ from stepaside.studies.results import header, write_result
 from stepaside.studies.version import PHYSICS
 
 GIF = (
-    "--begin 4 --duration 16 --speed 2 --camera following --rate 8 "
-    "--width 320 --height 240"
+    "--begin 4 --duration 16 --speed 2 --camera follow --rate 8 "
+    "--width 480 --height 270"
 )
 FILES = {
     "html": ("--html", "run.html", ""),
-    "video": ("--video", "run.mp4", "--duration 60"),
+    "video": ("--video", "run.mp4", "--duration 60 --width 1280 --height 720"),
     "gif": ("--gif", "run.gif", GIF),
 }
 

@@ -10,8 +10,8 @@ from math import degrees, radians
 from asking import ask
 from gathering import Row, finished, gather, spread
 
-from stepaside.games.walk import WalkSettings, run_walk
-from stepaside.games.walk_summary import summarise_walk
+from stepaside.games.walk import run_walk
+from stepaside.games.walk_settings import WalkSettings
 from stepaside.studies.results import header, write_result
 
 DURATION = 40.0  # [s]
@@ -23,7 +23,7 @@ KEYS = ("speed_ratio", "yaw_ratio", "slip_per_step_m")
 
 def walk(settings: WalkSettings) -> Row:
     """Figures of one walk."""
-    summary = summarise_walk(run_walk(settings))
+    summary = run_walk(settings).summary.to_json()
     return {key: summary[key] for key in ("outcome", *KEYS)}
 
 

@@ -14,8 +14,8 @@ from asking import ask, seeds_of
 from gathering import Row, finished, gather, spread
 
 from stepaside.control.balance.settings import STABILISED, StabiliserSettings
-from stepaside.games.walk import WalkSettings, run_walk
-from stepaside.games.walk_summary import summarise_walk
+from stepaside.games.walk import run_walk
+from stepaside.games.walk_settings import WalkSettings
 from stepaside.studies.results import header, write_result
 from stepaside.world.body_settings import BODIES, BodySettings
 
@@ -46,7 +46,7 @@ PACE = ("speed_ratio", "yaw_ratio", "slip_per_step_m")
 
 def walk(settings: WalkSettings) -> Row:
     """Figures of one walk."""
-    summary = summarise_walk(run_walk(settings))
+    summary = run_walk(settings).summary.to_json()
     errors = summary["estimation"]
     return {
         "outcome": summary["outcome"],

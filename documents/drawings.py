@@ -28,12 +28,26 @@ def push_limits(store: Store, file: Path) -> None:
     draw_limits(store.result("pushes")["rows"], file)
 
 
+def people(store: Store, file: Path) -> None:
+    """How near people come, by where they come from."""
+    from stepaside.report.people_figure import draw_people
+
+    result = store.result("people-ideal")
+    draw_people(result["origins"], result["clearance_m"], file)
+
+
 def survival_on_hardware(store: Store, file: Path) -> None:
     """Survival over the strength of each disturbance."""
+    from stepaside.commands.robustness import OLD_KINDS
     from stepaside.report.robustness_figure import draw_survival
     from stepaside.studies.robustness import UNITS
 
-    draw_survival(store.result("survival-hardware")["survival"], UNITS, file)
+    rows = [
+        # Results that were made before a kind had its name of today.
+        row | {"kind": OLD_KINDS.get(row["kind"], row["kind"])}
+        for row in store.result("survival-hardware")["survival"]
+    ]
+    draw_survival(rows, UNITS, file)
 
 
 def many_duels(store: Store, file: Path) -> None:

@@ -48,6 +48,7 @@ PICTURES = {
         ("duels-ideal", "duels-hardware", "duels-cameras"),
         drawings.many_duels,
     ),
+    "people.png": Picture(("people-ideal",), drawings.people),
     "push-limits.png": Picture(("pushes",), drawings.push_limits),
     "survival-hardware.png": Picture(
         ("survival-hardware",), drawings.survival_on_hardware

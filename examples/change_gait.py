@@ -7,7 +7,7 @@ Run it alone: ``python examples/change_gait.py``.
 """
 
 import sys
-from math import degrees, hypot
+from math import hypot
 
 from stepaside import (
     ControlSettings,
@@ -36,9 +36,9 @@ for name, gait in gaits.items():
             pushes=(Push(0.6, 0.6 * seconds, 1.57),),
         )
         run = run_walk(walk)
-        x, y = run.arrays["world_x"], run.arrays["world_y"]
+        x, y, _ = run.walker.com.T
         speed = hypot(x[-1] - x[0], y[-1] - y[0]) / run.duration
-        tilt = degrees(max(abs(run.arrays["roll"])))
+        tilt = run.summary.tilt_max_deg or 0.0
         loop = "feedback" if control.feedback else "open loop"
         print(
             f"{name:<16} {loop:<11} {run.outcome.value:<12} {speed:11.3f}"

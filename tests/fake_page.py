@@ -5,6 +5,8 @@ from contextlib import contextmanager
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
+
 
 class Handle:
     """One element of a page, or of its scene."""
@@ -24,12 +26,12 @@ class Handle:
 
     on_update = on_trigger = on_click
 
-    def press(self, value: Any = None) -> None:
+    def press(self, value: Any = None, client: Any = None) -> None:
         """Do what a hand does: perhaps set the value, and press."""
         if value is not None:
             self.value: Any = value
         for call in self.callbacks:
-            call(None)
+            call(SimpleNamespace(client=client))
 
     def remove(self) -> None:
         """Take it off the page."""
@@ -43,6 +45,32 @@ class Handle:
         """End."""
 
 
+class Panel(Handle):
+    """A panel, with its place and its tabs."""
+
+    def __init__(self) -> None:
+        """Begin without a place."""
+        super().__init__("panel", place="", width=0.0)
+        self.tabs: list[Handle] = []
+
+    def dock_left(self) -> None:
+        """Lie to the left of the scene."""
+        self.place = "left"
+
+    def dock_right(self) -> None:
+        """Lie to the right of it."""
+        self.place = "right"
+
+    def set_width(self, width: float) -> None:
+        """Be so wide."""
+        self.width = width
+
+    def add_tab(self, label: str) -> Handle:
+        """Add a tab, to be filled."""
+        self.tabs.append(Handle(label))
+        return self.tabs[-1]
+
+
 class Gui:
     """Controls by label."""
 
@@ -53,6 +81,8 @@ class Gui:
         self.texts: list[Handle] = []
         self.plots: list[Handle] = []
         self.themes: list[bool] = []
+        self.main_panel = Panel()
+        self.panels: list[Panel] = []
 
     def __getitem__(self, label: str) -> Handle:
         """Element with a label."""
@@ -62,6 +92,15 @@ class Gui:
         assert label not in self.items, label
         self.items[label] = Handle(label, **values)
         return self.items[label]
+
+    def set_panel_label(self, label: str) -> None:
+        """Name the page."""
+        self.name = label
+
+    def add_panel(self) -> Panel:
+        """Add a panel."""
+        self.panels.append(Panel())
+        return self.panels[-1]
 
     def add_folder(self, label: str, **options: Any) -> Handle:
         """Add a folder, which may have the label of a button in it."""
@@ -108,7 +147,9 @@ class Gui:
 
     def add_uplot(self, data: Any, series: Any, **options: Any) -> Handle:
         """Add a plot."""
-        made = Handle(options["title"], data=data, series=series)
+        made = Handle(
+            options["title"], data=data, series=series, options=options
+        )
         self.plots.append(made)
         return made
 
@@ -117,7 +158,7 @@ class Gui:
         return self._add(label, image=image)
 
     def configure_theme(
-        self, *, dark_mode: bool, show_share_button: bool
+        self, *, dark_mode: bool, show_share_button: bool, **options: Any
     ) -> None:
         """Note whether the page is dark."""
         assert not show_share_button
@@ -141,6 +182,14 @@ class Scene:
     def set_up_direction(self, up: str) -> None:
         """Note which way is up."""
         self.up = up
+
+    def configure_default_lights(self, *, cast_shadow: bool) -> None:
+        """Note whether there are shadows."""
+        self.shadows = cast_shadow
+
+    def add_label(self, name: str, text: str, **options: Any) -> Handle:
+        """Add a word."""
+        return self._add(name, text=text, **options)
 
     def add_grid(self, name: str, **options: Any) -> Handle:
         """Add a grid."""
@@ -167,8 +216,25 @@ class Scene:
         del self.items[name]
 
 
+class Client:
+    """Somebody who looks."""
+
+    def __init__(self, number: int, aspect: float = 1.8) -> None:
+        """Come with a page of one's own."""
+        self.client_id = number
+        self.gui, self.scene = Gui(), Scene()
+        self.camera = SimpleNamespace(
+            position=np.zeros(3), look_at=np.zeros(3), aspect=aspect
+        )
+
+    @contextmanager
+    def atomic(self) -> Iterator[None]:
+        """Do several things at once."""
+        yield
+
+
 class Server:
-    """A server that serves nobody."""
+    """A server that serves whoever is put there."""
 
     def __init__(self, **options: Any) -> None:
         """Begin with an empty page."""
@@ -176,6 +242,23 @@ class Server:
         self.scene, self.gui = Scene(), Gui()
         self.initial_camera = SimpleNamespace()
         self.stopped = False
+        self.clients: dict[int, Any] = {}
+        self.coming: list[Callable[[Any], None]] = []
+        self.going: list[Callable[[Any], None]] = []
+
+    def on_client_connect(self, call: Callable[[Any], None]) -> None:
+        """Be told who comes."""
+        self.coming.append(call)
+
+    def on_client_disconnect(self, call: Callable[[Any], None]) -> None:
+        """Be told who goes."""
+        self.going.append(call)
+
+    def welcome(self, client: Any) -> None:
+        """Let somebody look."""
+        self.clients[client.client_id] = client
+        for call in self.coming:
+            call(client)
 
     @contextmanager
     def atomic(self) -> Iterator[None]:
@@ -183,8 +266,8 @@ class Server:
         yield
 
     def get_clients(self) -> dict[int, Any]:
-        """Nobody looks."""
-        return {}
+        """Who looks."""
+        return dict(self.clients)
 
     def stop(self) -> None:
         """Stop."""

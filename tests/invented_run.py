@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from stepaside.games.duel_run import DuelRun
 from stepaside.games.figures import (
     DuelSummary,
     PlanTimes,
@@ -58,7 +59,7 @@ def run_of(
     message: str = "played 18.00 s",
     stills: Any = None,
     **changes: Any,
-) -> Run:
+) -> DuelRun:
     """Run with these tracks.
 
     Args:
@@ -71,7 +72,7 @@ def run_of(
         stills: What was seen, by player and camera.
         changes: Of the figures.
     """
-    return Run(
+    return DuelRun(
         name=name,
         settings=settings or DuelSettings(),
         outcome=outcome,
@@ -84,12 +85,12 @@ def run_of(
     )
 
 
-def changed(run: Run, **figures: Any) -> Run:
+def changed(run: DuelRun, **figures: Any) -> DuelRun:
     """The same run with other figures."""
     return replace(run, summary=replace(run.summary, **figures))
 
 
-def drifted(run: Run, times: Array) -> Run:
+def drifted(run: DuelRun, times: Array) -> DuelRun:
     """The same run at other times, in which both players slide apart.
 
     Args:

@@ -14,7 +14,7 @@ from stepaside.drivers.lola.frames import (
     unpack_actuators,
 )
 from stepaside.drivers.lola.joints import NAMES
-from stepaside.drivers.lola.link import SessionLost
+from stepaside.drivers.session import SessionLost
 from stepaside.poses import Array
 from stepaside.sensing.measurement import Measurement, Sighting
 

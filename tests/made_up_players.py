@@ -1,7 +1,6 @@
 """Players and a world that are made up, to test the game itself."""
 
 from collections.abc import Callable, Iterator
-from math import hypot
 from types import SimpleNamespace
 from typing import Any
 
@@ -22,6 +21,8 @@ TICK = 0.004
 class FakeTruth:
     """A place on the floor."""
 
+    reach = 0.4
+
     def __init__(self, x: float, y: float) -> None:
         self.position, self.heading = (x, y), 0.0
 
@@ -29,11 +30,6 @@ class FakeTruth:
     def place(self) -> tuple[float, float]:
         """What stands for it: a hand's breadth to the left."""
         return self.position[0], self.position[1] + 0.1
-
-    def distance_to(self, other: Any) -> float:
-        """Horizontal distance to another, in [m]."""
-        (x, y), (u, v) = self.position, other.position
-        return hypot(u - x, v - y)
 
 
 class FakeWorld:

@@ -58,12 +58,18 @@ class FakeEstimator:
         self.off_com = self.off_dcm = self.tilt = ZERO
         self.left_share = 0.5
         self.told: list[tuple[BodyReference, tuple[float, float]]] = []
+        self.reactions: list[tuple[float, float]] = []
 
     def update(
-        self, measurement: Measurement, feet: BodyReference, asked: Any
+        self,
+        measurement: Measurement,
+        feet: BodyReference,
+        asked: Any,
+        reaction: tuple[float, float],
     ) -> BodyState:
         """Note what is told, and answer with a state."""
         self.told.append((feet, asked))
+        self.reactions.append(reaction)
         (cx, cy), (dx, dy) = self.off_com, self.off_dcm
         return BodyState(
             (COM[0] + cx, COM[1] + cy),

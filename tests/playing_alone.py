@@ -18,6 +18,12 @@ from stepaside.robots.forward import ForwardKinematics
 ROOMS = ("robots", "sensing", "perception", "strategies", "control")
 TICK = 0.004
 
+# Where models are read, changed and compiled.
+WITH_MUJOCO = [
+    f"stepaside.robots.{name}"
+    for name in ("compiling", "meshes", "overlaying")
+]
+
 
 def import_rooms() -> int:
     """Import every module of the rooms that need no simulator."""
@@ -26,7 +32,7 @@ def import_rooms() -> int:
         package = import_module(f"stepaside.{room}")
         found = pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
         for module in found:
-            if module.name != "stepaside.robots.compiling":
+            if module.name not in WITH_MUJOCO:
                 import_module(module.name)
                 count += 1
     return count

@@ -9,7 +9,8 @@ import pytest
 
 from stepaside.control import ControlScheme
 from stepaside.errors import ConfigurationError
-from stepaside.games.walk import Walking, WalkSettings
+from stepaside.games.walk import Walking
+from stepaside.games.walk_settings import WalkSettings
 from stepaside.planning import GaitSettings
 from stepaside.poses import Array, Pose
 from stepaside.randomness import named_generator

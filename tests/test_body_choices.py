@@ -58,7 +58,7 @@ def test_controls_show_a_start_that_is_not_the_usual_one(
         gui: Any = page.server.gui
         assert gui["Law"].value == "saturated (6)"
         assert gui["Body"].value == "delayed"
-        gui["Reset"].press()
+        gui["Duel"].press("reset")
         begun = page.session.settings
         assert (begun.body, begun.control) == (BODIES["delayed"], control)
         assert begun.strategy.saturated

@@ -9,8 +9,9 @@ import pytest
 from stepaside.poses import Array, Pose
 from stepaside.robots.body_pose import BodyKinematics
 from stepaside.robots.description import load_robot
-from stepaside.robots.forward import FOOT_FORCES, ForwardKinematics
+from stepaside.robots.forward import ForwardKinematics
 from stepaside.robots.head import load_head, rotation
+from stepaside.robots.own import FOOT_FORCES
 
 NAO = load_robot("nao")
 TILT, HEADING = (0.06, -0.11), 2.7  # roll and pitch; yaw, in [rad]

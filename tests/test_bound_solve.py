@@ -251,3 +251,9 @@ def test_ghosts_continue_the_game() -> None:
 def test_bad_values_are_refused_by_name(make: Any, words: str) -> None:
     with pytest.raises(PlanError, match=words):
         make()
+
+
+def test_what_does_not_end_is_refused_before_it_begins() -> None:
+    game = against_pursuit(1.0, 1.0, 0.5, 1e9)
+    with pytest.raises(PlanError, match="horizon must be at most .* it does"):
+        solve_bound(game, Grid.cube(0.3, 4.0, 16), horizon=1.0)

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from stepaside.control.balance.settings import STABILISED, StabiliserSettings
-from stepaside.games.walk import WalkSettings
+from stepaside.games.walk_settings import WalkSettings
 from stepaside.planning import GaitSettings
 from stepaside.studies import robustness, survival
 from stepaside.studies.changes import OWN, changed_walk, changes_of
@@ -153,3 +153,10 @@ def test_bound_and_reach_are_those_of_the_walk_that_is_pushed() -> None:
     assert bound_at("backward", 0.1, back) != pytest.approx(
         bound_at("backward", 0.1), rel=1e-3
     )
+
+
+def test_what_is_none_by_default_can_be_changed() -> None:
+    walk = WalkSettings(gait=GaitSettings(outer_stride=0.05))
+    body, changes = changes_of(walk)
+    assert body == "ideal"
+    assert changed_walk(changes).gait.outer_stride == 0.05

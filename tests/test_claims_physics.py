@@ -252,7 +252,7 @@ def test_a_foot_that_bounces_has_not_swung() -> None:
     load = np.full(500, 26.0)
     load[100:200] = 0.0
     load[210:230] = 0.0
-    assert swings(ticks, load).tolist() == [[ticks[100], ticks[200]]]
+    assert swings(ticks, load, 0.425).tolist() == [[ticks[100], ticks[200]]]
 
 
 def test_a_foot_slides_by_what_it_moves_while_it_bears() -> None:

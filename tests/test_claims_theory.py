@@ -25,7 +25,7 @@ from stepaside.studies.claims import Claim
 from stepaside.studies.jobs import JOBS
 from stepaside.unicycle.laws import Game
 from stepaside.unicycle.sampled import simulate_sampled
-from stepaside.unicycle.simulate import Run
+from stepaside.unicycle.simulate import PlayedGame
 
 Patch = Callable[[pytest.MonkeyPatch], None]
 Pair = tuple[Array, Array]
@@ -347,7 +347,7 @@ def test_no_fault_is_left_without_its_claim() -> None:
 def test_the_evader_that_turns_the_wrong_way_ends_on_no_such_circle(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    def wrong(game: Game) -> Run:
+    def wrong(game: Game) -> PlayedGame:
         return play(replace(game, angle=3.0 - game.angle))
 
     monkeypatch.setattr(unicycle_claims, "play", wrong)

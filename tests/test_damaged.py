@@ -19,6 +19,7 @@ from stepaside.errors import ConfigurationError
 from stepaside.games import reading
 from stepaside.games.checking import KINDS
 from stepaside.games.duel import run_duel
+from stepaside.games.duel_run import DuelRun
 from stepaside.games.folder import (
     CONFIGURATION,
     SUMMARY,
@@ -26,7 +27,6 @@ from stepaside.games.folder import (
     load_run,
     write_record,
 )
-from stepaside.games.run import Run
 from stepaside.games.settings import DuelSettings
 from stepaside.games.track import Track
 from stepaside.report.stage import Stage
@@ -35,12 +35,21 @@ Damage = Callable[[Path], None]
 
 
 @pytest.fixture(scope="module")
-def played() -> Run:
-    return run_duel(DuelSettings(duration=0.2))
+def played() -> DuelRun:
+    """A duel, whose evader has all that anybody can have."""
+    run = run_duel(DuelSettings(duration=0.2))
+    rows = {
+        key: np.zeros((len(run.times), kind.columns or 7))
+        for key, kind in KINDS.items()
+        if getattr(run.evader, key) is None and key != "sight"
+    }
+    return replace(
+        run, tracks={**run.tracks, "evader": replace(run.evader, **rows)}
+    )
 
 
 @pytest.fixture
-def folder(tmp_path: Path, played: Run) -> Path:
+def folder(tmp_path: Path, played: DuelRun) -> Path:
     made = tmp_path / "run"
     made.mkdir()
     write_record(made, played)
@@ -155,6 +164,16 @@ DAMAGES: dict[str, Damage] = {
     "summary player": figure("pursuer", None),
     "summary players": figure("pursuer", [1]),
     "summary message": figure("message", 7),
+    "game of nobody": figure("game", "chess"),
+    "game of another kind": figure("game", ["duel"]),
+    "a duel that was a walk": figure("game", "walk"),
+    "no players": figure("players", []),
+    "a player": figure("players", "pursuer"),
+    "players twice": figure("players", ["pursuer", "pursuer"]),
+    "players with a way": figure("players", ["../pursuer", "evader"]),
+    "players of lists": figure("players", [["pursuer"], "evader"]),
+    "many players": figure("players", list("abcdefg")),
+    "other players": figure("players", ["hare", "evader"]),
     "configuration empty key": text(CONFIGURATION, "= 1"),
     "configuration nested": text(CONFIGURATION, "a = " + "[" * 5000),
     "configuration digits": text(CONFIGURATION, "seed = " + "9" * 5000),
@@ -198,15 +217,17 @@ for key, kind in KINDS.items():
         continue
     name = f"evader_{key}"
     DAMAGES[f"{name} flat"] = each(name, lambda v: v.ravel())
-    DAMAGES[f"{name} narrow"] = each(name, lambda v: v[:, :1])
+    DAMAGES[f"{name} narrow"] = each(
+        name, lambda v: v[:, : min(1, v.shape[1] - 1)]
+    )
     DAMAGES[f"{name} deep"] = each(name, lambda v: v[:, :, None])
     DAMAGES[f"{name} without kind"] = each(name, lambda v: np.array(None))
     if kind.per_sample:
         DAMAGES[f"{name} short"] = each(name, lambda v: v[1:])
-        DAMAGES[f"{name} infinite"] = put(name, (2, 1), np.inf)
-        DAMAGES[f"{name} far"] = put(name, (2, 1), 1e30)
+        DAMAGES[f"{name} infinite"] = put(name, (2, 0), np.inf)
+        DAMAGES[f"{name} far"] = put(name, (2, 0), 1e30)
         if not kind.may_lack:
-            DAMAGES[f"{name} NaN"] = put(name, (2, 1), np.nan)
+            DAMAGES[f"{name} NaN"] = put(name, (2, 0), np.nan)
 
 
 @pytest.mark.parametrize("kind", DAMAGES)
@@ -230,6 +251,10 @@ def test_commands_refuse_it_in_one_line(
     assert list(folder.parent.iterdir()) == [folder]
 
 
+def test_every_array_of_a_track_is_checked() -> None:
+    assert set(KINDS) == set(Track.__dataclass_fields__)
+
+
 def test_arrays_of_nobody_are_refused_by_name(folder: Path) -> None:
     member("strange", header("(10**12,)"))(folder)
     with pytest.raises(ConfigurationError, match="holds 'strange'"):
@@ -249,7 +274,7 @@ def test_more_than_all_arrays_may_have_is_not_read(
         load_run(folder)
 
 
-def test_a_run_of_other_robots_has_no_stage(played: Run) -> None:
+def test_a_run_of_other_robots_has_no_stage(played: DuelRun) -> None:
     qpos = played.pursuer.qpos
     assert qpos is not None
     for changed in (qpos[:, :-1], None):

@@ -1,7 +1,7 @@
 """Test how a robot asks its strategy."""
 
 from collections.abc import Callable
-from math import nan, sin
+from math import atan2, hypot, nan, sin
 from typing import Any
 
 import pytest
@@ -56,6 +56,19 @@ def test_it_tells_how_fast_the_other_comes() -> None:
     assert first.bearing_rate is None and first.closing_speed is None
     assert last.bearing_rate == pytest.approx(0.1 / STEP)
     assert last.closing_speed == pytest.approx(0.02 / STEP)
+
+
+def test_it_tells_how_the_other_walks_in_its_own_frame() -> None:
+    """On the floor, whatever line of sight and distance do."""
+    made = decisions()
+    for i in range(6):
+        time = 0.3 * i
+        x, y = 1.2 - 0.5 * time, 0.8 - 0.2 * time  # from PLACE, on its axes
+        seen = Sighting(time, atan2(y, x) + 0.5 - 0.2, hypot(x, y))
+        made.decide(time, seen, moving=True)
+    first, *_, last = made.memory
+    assert first.velocity is None
+    assert last.velocity == pytest.approx((-0.5, -0.2))
 
 
 def test_line_of_sight_and_heading_are_of_one_instant() -> None:

@@ -21,6 +21,38 @@ def test_lola_is_spoken_without_a_simulator(module: str) -> None:
     loads(f"import stepaside.drivers.lola.{module}")
 
 
+@pytest.mark.parametrize(
+    "module",
+    [
+        "velocity.playing",
+        "velocity.guardian",
+        "ros2.body",
+        "naoqi.body",
+        "log",
+    ],
+)
+def test_velocities_are_given_without_a_simulator(module: str) -> None:
+    if module.startswith(("ros2", "naoqi")):
+        needed = {"ros2": "cyclonedds", "naoqi": "qi"}
+        pytest.importorskip(needed[module.partition(".")[0]])
+    loads(f"import stepaside.drivers.{module}")
+
+
+@pytest.mark.parametrize("language", ["cyclonedds", "qi", "msgpack"])
+def test_who_drives_by_one_language_needs_no_other(language: str) -> None:
+    others = {"cyclonedds", "qi", "msgpack"} - {language}
+    door = {
+        "cyclonedds": "stepaside.drivers.ros2.body",
+        "qi": "stepaside.drivers.naoqi.body",
+        "msgpack": "stepaside.drivers.lola.body",
+    }
+    pytest.importorskip(language)
+    loads(
+        f"sys.modules.update(dict.fromkeys({sorted(others)!r}));"
+        f"import stepaside.commands.play, {door[language]}"
+    )
+
+
 def test_help_on_playing_loads_no_simulator() -> None:
     """It shows the defaults of gait and control: numbers, no physics."""
     loads(

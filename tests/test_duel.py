@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.games import DuelSettings, Outcome, Run, run_duel
+from stepaside.games import DuelRun, DuelSettings, Outcome, run_duel
 from stepaside.games.circle import theory_of
 from stepaside.games.settings import StartSettings
 from stepaside.planning import GaitSettings
@@ -19,7 +19,7 @@ from stepaside.world.world import build_model
 
 
 @cache
-def play(seed: int, duration: float = 90.0) -> Run:
+def play(seed: int, duration: float = 90.0) -> DuelRun:
     return run_duel(DuelSettings(seed=seed, duration=duration))
 
 

@@ -2,6 +2,7 @@
 
 import json
 from copy import deepcopy
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -14,6 +15,7 @@ from stepaside.games.figures import (
     PlayerFigures,
     TheoryFigures,
 )
+from stepaside.games.sight_figures import SeeingFigures, SightFigures, Spread
 
 BLIND = figures(
     seed=3,
@@ -28,15 +30,18 @@ BLIND = figures(
     pursuer=PlayerFigures(0.63),
     evader=PlayerFigures(0.64),
 )
-EYES = {
-    "bearing_error_deg": {"median": 0.7, "p95": None},
-    "false_detections": 2,
-    "lost_s": 0.0,
-}
+EYES = SightFigures(
+    bearing_error_deg=Spread(0.7, None),
+    distance_error_m=Spread(None, None),
+    detection_rate=0.9,
+    false_detections=2,
+    misled_s=0.5,
+    lost_s=0.0,
+)
 SEEING = figures(
-    pursuer=PlayerFigures(0.63, {**EYES, "detection_rate": 0.9}),
-    evader=PlayerFigures(None, {**EYES, "depth_detection_rate": 1}),
-    sight={"camera": "raycast", "detection_rate": 0.97, "lost_s": 1.5},
+    pursuer=PlayerFigures(0.63, EYES),
+    evader=PlayerFigures(None, replace(EYES, depth_detection_rate=1.0)),
+    sight=SeeingFigures("raycast", 0.97, 4, 1.5),
     run_folder="/some/where",
 )
 WITH_A_PERSON = figures(
@@ -57,7 +62,16 @@ def test_figures_are_read_as_they_were_told(told: DuelSummary) -> None:
 
 def test_what_was_seen_lies_beside_the_other_figures() -> None:
     plain = SEEING.to_json()
-    assert plain["pursuer"] == {"radius_m": 0.63, "detection_rate": 0.9} | EYES
+    assert plain["pursuer"] == {
+        "radius_m": 0.63,
+        "bearing_error_deg": {"median": 0.7, "p95": None},
+        "distance_error_m": {"median": None, "p95": None},
+        "detection_rate": 0.9,
+        "false_detections": 2,
+        "misled_s": 0.5,
+        "lost_s": 0.0,
+    }
+    assert plain["evader"]["depth_detection_rate"] == 1.0
     assert plain["camera"] == "raycast" and plain["lost_s"] == 1.5
     assert "sight" not in plain and plain["run_folder"] == "/some/where"
     blind = BLIND.to_json()
@@ -67,7 +81,8 @@ def test_what_was_seen_lies_beside_the_other_figures() -> None:
 
 def test_telling_figures_leaves_them_as_they_are() -> None:
     SEEING.to_json()["pursuer"]["lost_s"] = 9.0
-    assert SEEING.pursuer.sight["lost_s"] == 0.0
+    assert SEEING.pursuer.sight is not None
+    assert SEEING.pursuer.sight.lost_s == 0.0
     plain = SEEING.to_json()
     before = deepcopy(plain)
     DuelSummary.from_json(plain, "test")
@@ -99,6 +114,8 @@ def test_whole_numbers_are_real_ones_where_those_are_asked_for() -> None:
         ({"start": 1.0}, "start"),
         ({"pursuer": 0.6}, "pursuer"),
         ({"evader": {"radius_m": "wide"}}, "radius_m"),
+        ({"evader": {"radius_m": 0.6, "lost_s": 1.0}}, "sight"),
+        ({"camera": "raycast"}, "sight"),
     ],
 )
 def test_a_damaged_figure_is_refused_by_name(

@@ -10,8 +10,8 @@ import pytest
 from stepaside.control.balance.loop import ClosedLoop
 from stepaside.control.balance.settings import STABILISED
 from stepaside.games.duel import Duel, run_duel
+from stepaside.games.duel_run import DuelRun
 from stepaside.games.outcome import Outcome
-from stepaside.games.run import Run
 from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.games.walker import Walker
 from stepaside.world.body_settings import BODIES
@@ -59,7 +59,7 @@ def test_both_robots_of_a_hardware_duel_have_honest_bodies() -> None:
 
 
 @cache
-def hardware_duel() -> Run:
+def hardware_duel() -> DuelRun:
     return run_duel(hardware())
 
 

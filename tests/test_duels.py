@@ -34,10 +34,12 @@ from stepaside.studies.duels import (
     key_of,
     play_record,
     run_duels,
+    settings_hash,
     stamps_of,
     verify_duels,
 )
 from stepaside.studies.records import RecordFile
+from stepaside.world.push import Push
 
 SETTINGS = DuelSettings(duration=120.0)
 NOW = {"version": "new", "libraries": {"mujoco": "1"}}
@@ -141,6 +143,30 @@ def test_records_of_other_versions_are_done_again(
     file.append(key_of(replace(SETTINGS, seed=1)), made(1, **change))
     run_duels(SETTINGS, range(1, 2), file, quick)
     assert quick.seeds == [1]
+
+
+def test_a_strategy_that_was_rewritten_is_another(tmp_path: Path) -> None:
+    """By its file's content; and pushes, which came later, count if any."""
+    file = tmp_path / "own.py"
+    file.write_text("first")
+    own = replace(SETTINGS, evader_strategy=f"{file}:Own")
+    before = settings_hash(own)
+    assert settings_hash(own) == before != settings_hash(SETTINGS)
+    file.write_text("second")
+    after = settings_hash(own)
+    assert after != before
+    file.unlink()
+    assert settings_hash(own) not in (before, after)
+    pushed = replace(SETTINGS, pushes=(Push(1.0, 2.0, 0.0),))
+    assert settings_hash(pushed) != settings_hash(SETTINGS)
+
+
+def test_the_key_of_a_default_duel_is_that_of_its_records() -> None:
+    """Entries that came after the records do not make them strange."""
+    results = Path(__file__).parents[1] / "docs" / "results"
+    records = (results / "duels-ideal.jsonl").read_text("utf-8")
+    key = json.loads(records.splitlines()[0])["key"]
+    assert key.split("/")[1] == settings_hash(DuelSettings())
 
 
 def test_records_of_other_settings_are_not_these(

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from stepaside.strategies import load_strategy
+from stepaside.strategies.evasion import EvasionMemory
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
 
@@ -75,4 +76,4 @@ def test_an_own_strategy_is_about_twenty_lines() -> None:
     text = (EXAMPLES / "own_strategy.py").read_text(encoding="utf-8")
     body = text.split("class BackAndAside")[1].split("\ndef ")[0]
     assert len(body.strip().splitlines()) <= 25
-    assert strategy.begin() == (False, 0)
+    assert strategy.begin() == EvasionMemory()

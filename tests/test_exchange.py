@@ -16,9 +16,9 @@ from lola_fakes import Clock  # isort: skip
 class FakeServer:
     """A server whose client answers at once, or never."""
 
-    def __init__(self, *, answers: bool = True, stiff: float = 1.0) -> None:
+    def __init__(self, *, answers: bool = True, ready: bool = True) -> None:
         self.answers, self.connected = answers, True
-        self.stiffness = np.full(25, stiff)
+        self.ready = ready
         self.pair = socket.socketpair()
         self.log: list[str] = []
 
@@ -92,7 +92,7 @@ def test_a_world_that_was_frozen_does_not_race_to_catch_up() -> None:
     assert clock.now - resumed == pytest.approx(10 * TICK)
 
 
-def test_buttons_are_pressed_once_all_are_stiff_and_let_go_for_the_start() -> (
+def test_buttons_are_pressed_once_all_are_ready_and_let_go_for_the_start() -> (
     None
 ):
     first, second = FakeServer(), FakeServer()
@@ -106,7 +106,7 @@ def test_buttons_are_pressed_once_all_are_stiff_and_let_go_for_the_start() -> (
 
 
 def test_who_is_not_ready_in_time_is_not_waited_for() -> None:
-    exchange, clock = exchange_of(FakeServer(), FakeServer(stiff=0.5))
+    exchange, clock = exchange_of(FakeServer(), FakeServer(ready=False))
     began = clock.now
     with pytest.raises(ConfigurationError, match="1 of 2 robots .* within 2"):
         exchange.gather(2.0)

@@ -12,11 +12,12 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
+from matplotlib.text import Annotation
 
 from invented_run import run_of
-from stepaside.games.circle import cycle_mean, theory_of
+from stepaside.games.circle import theory_of
+from stepaside.games.duel_run import DuelRun
 from stepaside.games.figures import TheoryFigures
-from stepaside.games.run import Run
 from stepaside.games.settings import DuelSettings
 from stepaside.games.track import Track
 from stepaside.planning import (
@@ -29,6 +30,7 @@ from stepaside.planning import (
 from stepaside.planning.support import sole_corners
 from stepaside.poses import Array
 from stepaside.report import compare_figure, duel_figure, plan_figure
+from stepaside.report.averages import whole_cycles
 from stepaside.report.soles import draw_heading, draw_soles
 from stepaside.report.style import COLOURS, EVADER, PURSUER, THEORY, plt
 
@@ -71,8 +73,8 @@ def kept(
     figures: list[Figure] = []
     monkeypatch.chdir(tmp_path)
 
-    def save(figure: Figure, file: Any, *, format: str) -> None:
-        assert format == "png"
+    def save(figure: Figure, file: Any, *, format: str, metadata: Any) -> None:
+        assert (format, metadata) == ("png", None)
         figures.append(figure)
 
     closed: list[Figure] = []
@@ -144,10 +146,27 @@ def test_a_duel_is_shown_at_four_times_with_the_way_so_far(
         )
         for axis, limits in enumerate((axes.get_xlim(), axes.get_ylim())):
             low, high = every[:, axis].min(), every[:, axis].max()
-            np.testing.assert_allclose(limits, (low - 0.2, high + 0.2))
+            np.testing.assert_allclose(np.mean(limits), 0.5 * (low + high))
+            assert limits[0] <= low - 0.199 and limits[1] >= high + 0.199
+            sides = np.ptp(every, axis=0) + 0.4
+            side = max(sides[axis], 0.5 * sides.max())
+            assert np.ptp(limits) == pytest.approx(side)
     assert [bool(axes.get_ylabel()) for axes in figure.axes[:4]] == [
         *(True, False, False, False)
     ]
+
+
+def test_no_side_of_a_snapshot_is_less_than_half_the_other(
+    kept: list[Figure],
+) -> None:
+    far = dict(record())
+    com = far["evader"].com * [30.0, 1.0, 1.0]
+    far["evader"] = replace(far["evader"], com=com)
+    made = run_of(TIMES, far, settings=SETTINGS, theory=THEORY_OF_IT)
+    duel_figure.draw_duel(made, Path("figure.png"))
+    axes = kept[-1].axes[0]
+    x, y = np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())
+    assert x > 40.0 and y == pytest.approx(0.5 * x)
 
 
 def test_paths_have_their_starts_ends_and_footsteps(
@@ -184,15 +203,21 @@ def test_distance_and_angle_are_drawn_beside_theory(
         np.testing.assert_allclose(
             points_of(plain), np.column_stack([TIMES, values])
         )
-        smooth = cycle_mean(values, TIMES, CYCLE)
+        smooth = whole_cycles(values, TIMES, CYCLE)
         np.testing.assert_allclose(
             points_of(mean), np.column_stack([TIMES, smooth])
         )
     assert levels(distance) == {0.9: THEORY, 0.8: EVADER}
     assert levels(angle) == {90.0: THEORY}
-    assert "theory 0.9" in [t.get_text() for t in distance.texts]
+    for text, name in zip(
+        distance.texts, ("theory 0.9 m", "safety 0.8 m"), strict=True
+    ):
+        assert text.get_text() == name
+        # To the right of the axes, where no curve is.
+        assert isinstance(text, Annotation)
+        assert text.xy[0] == 1.0 and text.get_position()[0] > 0.0
     assert distance.get_ylabel() == "distance [m]"
-    assert angle.get_ylabel() == "between headings [deg]"
+    assert angle.get_ylabel() == "headings [deg]"
     assert (distance.get_xlabel(), angle.get_xlabel()) == ("", "time [s]")
     none = duel(kept, distance_m=None, relative_orientation_deg=None)
     assert levels(none.axes[5]) == {0.8: EVADER}
@@ -237,9 +262,8 @@ def test_a_person_has_a_way_but_neither_footsteps_nor_balance(
     assert balance.get_title() == "evader: last steps"
     assert len(balance.lines) == 4
     spans = [axes.get_subplotspec() for axes in (balance, both.axes[-1])]
-    wide, half = (spec.colspan for spec in spans if spec is not None)
-    assert (wide.start, wide.stop) == (0, 4)
-    assert (half.start, half.stop) == (2, 4)
+    columns = [spec.get_gridspec().ncols for spec in spans if spec is not None]
+    assert columns == [1, 2]
     for ours, theirs in zip(balance.lines, both.axes[-1].lines, strict=True):
         np.testing.assert_array_equal(points_of(ours), points_of(theirs))
     paths = figure.axes[4]
@@ -349,11 +373,11 @@ def test_a_plan_is_drawn_from_above_and_over_time(kept: list[Figure]) -> None:
         foot = foot.other
 
 
-def run(name: str, settings: DuelSettings = SETTINGS) -> Run:
+def run(name: str, settings: DuelSettings = SETTINGS) -> DuelRun:
     return run_of(TIMES, record(), settings=settings, name=name)
 
 
-def test_a_comparison_has_every_run_and_the_first_ones_theory(
+def test_a_comparison_has_every_run_and_the_theory_that_they_share(
     kept: list[Figure],
 ) -> None:
     runs = [run(f"run {i}") for i in range(5)]
@@ -376,7 +400,7 @@ def test_a_comparison_has_every_run_and_the_first_ones_theory(
     ):
         for number, drawn in enumerate(axes.lines[:5]):
             assert drawn.get_label() == f"run {number}"
-            smooth = cycle_mean(values, TIMES, CYCLE)
+            smooth = whole_cycles(values, TIMES, CYCLE)
             np.testing.assert_allclose(
                 points_of(drawn), np.column_stack([TIMES, smooth])
             )
@@ -390,6 +414,33 @@ def test_a_comparison_has_every_run_and_the_first_ones_theory(
     back = run("back", replace(SETTINGS, strategy=strategy))
     compare_figure.draw_comparison([back], Path("figure.png"))
     assert levels(kept[-1].axes[1]) == {} == levels(kept[-1].axes[2])
+
+
+def test_a_comparison_has_the_theory_of_every_run(
+    kept: list[Figure],
+) -> None:
+    faster = replace(SETTINGS, gait=replace(SETTINGS.gait, speed=0.12))
+    runs = [run("a"), run("b", faster), run("c")]
+    compare_figure.draw_comparison(runs, Path("figure.png"))
+    _, distance, angle = kept[-1].axes
+    found = levels(distance)
+    wanted = [theory_of(each).distance_m for each in (SETTINGS, faster)]
+    np.testing.assert_allclose(list(found), wanted, atol=1e-5)
+    assert list(found.values()) == list(compare_figure.RUNS[:2])
+    ((height, colour),) = levels(angle).items()
+    assert height == pytest.approx(90.0) and colour == THEORY
+
+
+@pytest.mark.parametrize("count", [1, 2, 20, 41, 300])
+def test_a_mean_has_no_hook_at_its_ends(count: int) -> None:
+    """On a slope the mean of whole cycles is the slope itself."""
+    times: Array = 0.02 * np.arange(count, dtype=float)
+    values: Array = 0.3 * times + 1.0
+    mean = whole_cycles(values, times, 0.8)
+    known = np.isfinite(mean)
+    assert known.sum() == max(0, count - 40) * (count > 40)
+    # An even number of samples lies half a sample to one side.
+    np.testing.assert_allclose(mean[known], values[known], atol=0.0031)
 
 
 def test_figures_are_drawn_without_a_screen() -> None:

@@ -11,13 +11,14 @@ import pytest
 
 from invented_run import run_of
 from stepaside.errors import ConfigurationError
+from stepaside.games.duel_run import DuelRun
 from stepaside.games.folder import (
-    FORMAT,
     SUMMARY,
     TRAJECTORIES,
     load_run,
     write_record,
 )
+from stepaside.games.folder_head import FORMAT
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import Run
 from stepaside.games.settings import DuelSettings, StartSettings
@@ -55,7 +56,7 @@ def person() -> Track:
     return Track(track.com, track.torso)
 
 
-def duel(pursuer: Track, **changes: Any) -> Run:
+def duel(pursuer: Track, **changes: Any) -> DuelRun:
     return run_of(
         TIMES,
         {"pursuer": pursuer, "evader": robot(2.0, sees=True)},
@@ -79,7 +80,7 @@ RUNS = {
 by_run = pytest.mark.parametrize("run", RUNS.values(), ids=RUNS.keys())
 
 
-def folder_of(tmp_path: Path, run: Run) -> Path:
+def folder_of(tmp_path: Path, run: DuelRun) -> Path:
     folder = tmp_path / "run"
     folder.mkdir()
     write_record(folder, run)
@@ -97,13 +98,28 @@ def restore(folder: Path, arrays: dict[str, Array]) -> None:
     np.savez_compressed(folder / TRAJECTORIES, allow_pickle=False, **arrays)
 
 
-def as_first_format(folder: Path, run: Run) -> None:
+def as_older_format(folder: Path) -> None:
+    """Turn a folder into what the second format would have been.
+
+    Every run was a duel, and said neither that nor who played.
+    """
+
+    def older(plain: dict[str, Any]) -> None:
+        assert plain.pop("game") == "duel"
+        assert plain.pop("players") == ["pursuer", "evader"]
+        plain["format"] = 2
+
+    damage(folder, older)
+
+
+def as_first_format(folder: Path, run: DuelRun) -> None:
     """Turn a folder into what the first format would have been.
 
     Its summary has no number. Every player has all arrays but that of what
     it saw: those of a person are NaN, its posture has no columns and its
     landings no rows.
     """
+    as_older_format(folder)
     damage(folder, lambda plain: plain.pop("format"))
     arrays = run.arrays()
     fillers = {
@@ -138,13 +154,15 @@ def check_same(found: Run, run: Run) -> None:
 
 
 @by_run
-def test_a_run_comes_back_as_it_was_written(tmp_path: Path, run: Run) -> None:
+def test_a_run_comes_back_as_it_was_written(
+    tmp_path: Path, run: DuelRun
+) -> None:
     check_same(load_run(folder_of(tmp_path, run)), run)
 
 
 @by_run
 def test_a_run_of_the_first_format_is_the_same(
-    tmp_path: Path, run: Run
+    tmp_path: Path, run: DuelRun
 ) -> None:
     """What stood for nothing there is None: a person has no plan."""
     folder = folder_of(tmp_path, run)
@@ -152,14 +170,24 @@ def test_a_run_of_the_first_format_is_the_same(
     check_same(load_run(folder), run)
 
 
+@by_run
+def test_a_run_of_the_second_format_is_the_same(
+    tmp_path: Path, run: DuelRun
+) -> None:
+    folder = folder_of(tmp_path, run)
+    as_older_format(folder)
+    check_same(load_run(folder, DuelRun), run)
+
+
 def test_the_format_has_a_number_which_is_no_figure(tmp_path: Path) -> None:
     folder = folder_of(tmp_path, RUNS["seeing robots"])
     told = json.loads((folder / SUMMARY).read_text())
-    assert told["format"] == FORMAT == 2
-    assert "format" not in load_run(folder).summary.sight
+    assert told["format"] == FORMAT == 3
+    plain = load_run(folder, DuelRun).summary.to_json()
+    assert not {"format", "game", "players"} & plain.keys()
 
 
-@pytest.mark.parametrize("number", [3, 0, -1, 1.5, "2", None, [1]])
+@pytest.mark.parametrize("number", [4, 0, -1, 1.5, "2", True, None, [1]])
 def test_a_format_that_is_not_known_is_refused_by_its_number(
     tmp_path: Path, number: Any
 ) -> None:
@@ -174,7 +202,7 @@ def test_a_format_that_is_not_known_is_refused_by_its_number(
     with pytest.raises(ConfigurationError) as refused:
         load_run(folder)
     message = str(refused.value)
-    assert f"has format {number!r}" in message and "reads 1 to 2" in message
+    assert f"has format {number!r}" in message and "reads 1 to 3" in message
     assert "run run" in message and "\n" not in message
 
 

@@ -36,7 +36,7 @@ def test_soles_are_those_of_the_nao_model() -> None:
 def test_a_sole_that_does_not_hold_its_frame_is_refused(
     name: str, value: float
 ) -> None:
-    with pytest.raises(PlanError, match=f"sole.{name} must be"):
+    with pytest.raises(PlanError, match=f"sole.{name} must lie in"):
         replace(Sole(), **{name: value})
 
 
@@ -44,7 +44,7 @@ def test_horizons_from_two_to_a_thousand_are_allowed() -> None:
     for horizon in (2, 1000):
         assert replace(GaitSettings(), horizon=horizon).horizon == horizon
     for horizon in (1, 1001):
-        with pytest.raises(PlanError, match="horizon must be 2 to 1000"):
+        with pytest.raises(PlanError, match=r"horizon must .*\[2, 1000"):
             replace(GaitSettings(), horizon=horizon)
     with pytest.raises(PlanError, match="horizon"):
         replace(GaitSettings(), horizon=2.5)  # type: ignore[arg-type]

@@ -83,6 +83,18 @@ def until(true: Any) -> None:
     raise AssertionError("it did not happen")
 
 
+def test_who_knocks_with_nonsense_leaves_no_word(
+    served: Served, caplog: pytest.LogCaptureFixture
+) -> None:
+    for raw in (b"\r\n\r\n", b"\xff" * 90 + b"\n", b"GET / HTTP/1.1\n"):
+        with socket.create_connection(("127.0.0.1", port_of(served)), 9) as s:
+            s.sendall(raw)
+            s.shutdown(socket.SHUT_WR)
+            while s.recv(4096):
+                pass
+    assert not caplog.records
+
+
 @pytest.mark.parametrize("name", ["127.0.0.1", "localhost", "LOCALHOST"])
 def test_the_page_is_served_under_its_names(served: Served, name: str) -> None:
     answer = ask(port_of(served), "/", f"Host: {name}:{port_of(served)}")

@@ -16,7 +16,7 @@ from stepaside.control.balance.settings import StabiliserSettings
 from stepaside.errors import ConfigurationError
 from stepaside.games.configuration import dump_configuration, parse_settings
 from stepaside.games.settings import DuelSettings
-from stepaside.games.walk import WalkSettings
+from stepaside.games.walk_settings import WalkSettings
 from stepaside.planning import PRESETS
 from stepaside.world.body_settings import BODIES
 from stepaside.world.camera_settings import CLUTTER
@@ -82,7 +82,8 @@ def test_the_printed_configuration_explains_each_entry(name: str) -> None:
         if line and not line.startswith("# "):
             assert before.startswith("# ") and len(before) > 5, line
     text = "\n".join(lines)
-    assert "# Step size along the trajectory, in [m].\nstride = " in text
+    step = "# Step size along the trajectory, in [m]; 0.0001 to 10.\nstride = "
+    assert step in text
 
 
 def test_the_printed_configuration_is_what_is_played(tmp_path: Path) -> None:
@@ -179,11 +180,54 @@ def test_a_body_that_is_not_ideal_is_stabilised_unless_told_otherwise() -> (
         assert (control.method, control.feedback) == (method, feedback), line
 
 
+def test_the_fast_gait_brings_feedback_unless_it_is_refused() -> None:
+    for line, method, feedback in (
+        ("walk --gait fast", "closed-form", True),
+        ("duel --gait fast --body hardware", "closed-form", True),
+        ("duel --gait fast --method measured", "measured", True),
+        ("view --gait fast --open-loop", "closed-form", False),
+        ("duel --gait nao", "closed-form", False),
+    ):
+        found = settings(line)
+        wanted = PRESETS["nao" if "nao" in line else "fast"]
+        assert found.gait == wanted, line
+        control = found.control
+        assert (control.method, control.feedback) == (method, feedback), line
+
+
+def test_a_person_and_a_fast_gait_bring_the_trigger_by_time() -> None:
+    for line, trigger in (
+        ("duel --gait fast --pursuer person", "time"),
+        ("duel --gait fast --pursuer person --trigger distance", "distance"),
+        ("duel --gait fast", "distance"),
+        ("duel --pursuer person", "distance"),
+        ("duel --trigger time", "time"),
+    ):
+        assert settings(line).strategy.trigger == trigger, line
+
+
 def test_feedback_of_a_file_stays_where_only_the_method_changes(
     file: Path,
 ) -> None:
     found = settings(f"duel --config {file} --method closed-form").control
     assert (found.method, found.feedback) == ("closed-form", True)
+
+
+def test_feedback_beside_a_file_changes_nothing_else_of_its_control(
+    file: Path,
+) -> None:
+    for told, words, method, feedback in (
+        ('method = "closed-form"', "--feedback", "closed-form", True),
+        ('method = "closed-form"', "--body hardware", "measured", True),
+        ('method = "mpc"\nfeedback = true', "--feedback", "mpc", True),
+        ('method = "mpc"\nfeedback = true', "--open-loop", "closed-form", 0),
+        ("feedback = false", "--feedback", "measured", True),
+    ):
+        text = f"seed = 3\n[control]\n{told}\n[control.mpc]\nsteps = 3\n"
+        file.write_text(text, encoding="utf-8")
+        found = settings(f"duel --config {file} {words}").control
+        assert (found.method, found.feedback) == (method, feedback), words
+        assert found.mpc.steps == 3
 
 
 def test_a_file_of_a_walk_has_its_own_entries(tmp_path: Path) -> None:
@@ -202,7 +246,35 @@ def test_a_file_of_a_walk_has_its_own_entries(tmp_path: Path) -> None:
     assert ahead.pushes == (Push(1.0, 2.0, pi / 2),)
     refused = run(f"duel --config {file}")
     assert refused.exit_code == 2
-    assert "unknown entry backward, bearing, pushes" in refused.stderr
+    assert "unknown entry backward, bearing" in refused.stderr
+
+
+def test_pushes_are_replaced_or_taken_away_and_say_who_is_meant(
+    file: Path,
+) -> None:
+    file.write_text(
+        "[[pushes]]\nimpulse = 1.0\ntime = 2.0\ndirection = 0.0\n"
+        'player = "pursuer"\n',
+        encoding="utf-8",
+    )
+    kept = Push(1.0, 2.0, 0.0, player="pursuer")
+    assert settings(f"duel --config {file}").pushes == (kept,)
+    for words, pushes in (
+        ("--push none", ()),
+        ("--push 2@3:0", (Push(2.0, 3.0, 0.0),)),
+        ("--push none --push evader=2@3:0", (Push(2, 3, 0, 0.1, "evader"),)),
+    ):
+        assert settings(f"duel --config {file} {words}").pushes == pushes
+    assert settings("duel").pushes == settings("walk").pushes == ()
+    for words, who in (
+        ("walk --push evader=1@2:0", "walker"),
+        ("duel --push walker=1@2:0", "pursuer, evader"),
+        ("duel --pursuer person --push pursuer=1@2:0", "evader"),
+        (f"walk --config {file}", "walker"),
+    ):
+        refused = run(words)
+        assert refused.exit_code == 2 and refused.stderr.count("\n") == 1
+        assert f"push player must be one of {who}," in refused.stderr
 
 
 def test_plans_and_campaigns_take_files_of_duels(file: Path) -> None:
@@ -251,7 +323,7 @@ def test_a_file_that_lacks_what_it_must_say_is_refused(
 @pytest.mark.parametrize(
     ("line", "message"),
     [
-        ("walk --stride 0", r"stride must be finite and > 0 [m], got 0.0"),
+        ("walk --stride 0", r"stride must lie in [0.0001, 10] [m], got 0.0"),
         ("walk --foot-spacing 0.05", "foot_spacing must exceed"),
         ("duel --efficiency nan", "must be a number [1], got 'nan'"),
         ("duel --safety-radius wide", "must be a number [m], got 'wide'"),

@@ -16,8 +16,8 @@ import stepaside
 from hostile import HOSTILE
 from invented_run import run_of
 from stepaside.cli import main
+from stepaside.games.duel_run import DuelRun
 from stepaside.games.folder import write_record
-from stepaside.games.run import Run
 from stepaside.games.track import Track
 from stepaside.report.inert import (
     UNSEEN,
@@ -33,7 +33,7 @@ TEXTS = st.text() | st.sampled_from(HOSTILE)
 UNPAIRED = st.text(st.characters()) | st.sampled_from(HOSTILE)
 
 
-def small_run(message: str) -> Run:
+def small_run(message: str) -> DuelRun:
     """A run of two players who slide."""
     times = np.arange(0.0, 3.0, 0.5)
     rows = np.column_stack([times, 0.0 * times, 0.0 * times])

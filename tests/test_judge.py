@@ -1,5 +1,6 @@
 """Test the judge of sight on beliefs and images whose truth is known."""
 
+from dataclasses import astuple
 from math import atan2, cos, hypot, inf, nan, radians, sin
 from types import SimpleNamespace
 from typing import Any
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 
 from stepaside.games.judge import Judge, Tally
+from stepaside.games.sight_figures import Spread
 from stepaside.perception.perception import FrameReport
 from stepaside.robots.head import Mount, rotation
 from stepaside.sensing.camera_model import CameraModel
@@ -28,11 +30,6 @@ class Truth:
     def __init__(self, x: float, y: float, heading: float, z: float) -> None:
         self.position, self.heading = (x, y), heading
         self.com = np.array([x, y, z])
-
-    def distance_to(self, other: "Truth") -> float:
-        """Horizontal distance to another, in [m]."""
-        x, y = self.position
-        return hypot(other.position[0] - x, other.position[1] - y)
 
 
 def thoughtless() -> Any:
@@ -121,8 +118,8 @@ def test_time_with_a_belief_far_off_is_misled_time() -> None:
     scene = Scene()
     rows(scene, [0.0, 21.0, -21.0, 30.0, 19.0, -19.0, None, 180.0])
     figures = scene.judge.figures()
-    assert figures["misled_s"] == pytest.approx(4 * PERIOD)
-    assert figures["lost_s"] == pytest.approx(1 * PERIOD)
+    assert figures.misled_s == pytest.approx(4 * PERIOD)
+    assert figures.lost_s == pytest.approx(1 * PERIOD)
 
 
 def test_errors_of_bearing_are_taken_the_short_way() -> None:
@@ -134,8 +131,8 @@ def test_errors_of_bearing_are_taken_the_short_way() -> None:
     true = scene.judge.array()[:, 3]
     np.testing.assert_allclose(true, radians(175.0))
     figures = scene.judge.figures()
-    assert figures["bearing_error_deg"]["median"] == pytest.approx(3.0)
-    assert figures["misled_s"] == 0.0
+    assert figures.bearing_error_deg.median == pytest.approx(3.0)
+    assert figures.misled_s == 0.0
 
 
 def test_who_searches_is_lost_even_with_a_belief() -> None:
@@ -144,7 +141,7 @@ def test_who_searches_is_lost_even_with_a_belief() -> None:
     for i in range(5):
         scene.mind.searching = i < 2
         scene.judge.sample(i * PERIOD)
-    assert scene.judge.figures()["lost_s"] == pytest.approx(2 * PERIOD)
+    assert scene.judge.figures().lost_s == pytest.approx(2 * PERIOD)
 
 
 def test_samples_hold_beliefs_beside_the_truth() -> None:
@@ -171,23 +168,19 @@ def test_spread_of_errors_leaves_out_when_all_was_lost() -> None:
         scene.believe(atan2(0.2, 1.2) + radians(0.1 * i), true - 0.01 * i)
         scene.judge.sample((i + 2) * PERIOD)
     figures = scene.judge.figures()
-    assert figures["bearing_error_deg"] == pytest.approx(
-        {"median": 5.0, "p95": 9.5}
-    )
-    assert figures["distance_error_m"] == pytest.approx(
-        {"median": 0.5, "p95": 0.95}
-    )
+    assert astuple(figures.bearing_error_deg) == pytest.approx((5.0, 9.5))
+    assert astuple(figures.distance_error_m) == pytest.approx((0.5, 0.95))
 
 
 def test_without_samples_there_are_no_errors() -> None:
     scene = Scene()
     assert scene.judge.array().shape == (0, 6)
     figures = scene.judge.figures()
-    assert figures["bearing_error_deg"] == {"median": None, "p95": None}
-    assert figures["misled_s"] == figures["lost_s"] == 0.0
-    assert figures["detection_rate"] is None
+    assert figures.bearing_error_deg == Spread(None, None)
+    assert figures.misled_s == figures.lost_s == 0.0
+    assert figures.detection_rate is None
     rows(scene, [90.0])
-    assert scene.judge.figures()["misled_s"] == 0.0  # one sample lasts nil
+    assert scene.judge.figures().misled_s == 0.0  # one sample lasts nil
 
 
 def test_rates_are_shares_of_the_frames_that_could_have_found_it() -> None:
@@ -215,9 +208,10 @@ def test_frames_count_as_shown_found_and_false(
     assert scene.judge.colour == Tally(shown=6, found=4, false=4)
     assert scene.judge.depth == Tally()
     figures = scene.judge.figures()
-    assert figures["detection_rate"] == pytest.approx(4 / 6)
-    assert figures["false_detections"] == 4
-    assert "depth_detection_rate" not in figures
+    assert figures.detection_rate == pytest.approx(4 / 6)
+    assert figures.false_detections == 4
+    assert figures.depth_detection_rate is None
+    assert "depth_detection_rate" not in figures.to_json()
 
 
 def test_both_cameras_count_separately_and_false_ones_together() -> None:
@@ -229,9 +223,9 @@ def test_both_cameras_count_separately_and_false_ones_together() -> None:
     assert scene.judge.colour == Tally(1, 1, 1)
     assert scene.judge.depth == Tally(2, 1, 2)
     figures = scene.judge.figures()
-    assert figures["false_detections"] == 3
-    assert figures["detection_rate"] == 1.0
-    assert figures["depth_detection_rate"] == 0.5
+    assert figures.false_detections == 3
+    assert figures.detection_rate == 1.0
+    assert figures.depth_detection_rate == 0.5
 
 
 @pytest.mark.parametrize(

@@ -20,10 +20,10 @@ from stepaside.drivers.lola.frame_clock import TICK
 from stepaside.drivers.lola.frames import pack_sensors
 from stepaside.drivers.lola.joints import NAMES
 from stepaside.drivers.lola.lights import COLOURS
-from stepaside.drivers.lola.link import SessionLost
 from stepaside.drivers.lola.safety import State
 from stepaside.drivers.lola.sight import SightMessage, pack_sight
 from stepaside.drivers.lola.sight_channel import SightChannel
+from stepaside.drivers.session import SessionLost
 from stepaside.sensing.measurement import Sighting
 
 FINE = pack_sensors(sensor_frame())

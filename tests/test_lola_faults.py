@@ -28,11 +28,12 @@ from stepaside.drivers.lola.frames import (
     pack_actuators,
     pack_sensors,
 )
-from stepaside.drivers.lola.link import SessionLost, SocketLink
+from stepaside.drivers.lola.link import SocketLink
 from stepaside.drivers.lola.opening import open_lola
 from stepaside.drivers.lola.safety import State
 from stepaside.drivers.lola.server import FADING, SILENT, LolaServer
 from stepaside.drivers.lola.wire import SENSOR_BYTES
+from stepaside.drivers.session import SessionLost
 
 FRAME = pack_sensors(sensor_frame())
 ANSWER = pack_actuators(
@@ -50,7 +51,7 @@ import sys
 import numpy as np
 from stepaside.drivers.lola.address import Address
 from stepaside.drivers.lola.joints import NAMES
-from stepaside.drivers.lola.link import SessionLost
+from stepaside.drivers.session import SessionLost
 from stepaside.drivers.lola.opening import open_lola
 stance = np.array({STANCE.tolist()})
 body = open_lola(Address(sys.argv[1]), NAMES[:23], stance)

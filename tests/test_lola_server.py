@@ -16,10 +16,11 @@ from stepaside.drivers.lola.frames import (
     pack_actuators,
     unpack_sensors,
 )
-from stepaside.drivers.lola.link import SessionLost, SocketLink, connect
+from stepaside.drivers.lola.link import SocketLink, connect
 from stepaside.drivers.lola.server import FADING, SILENT, LolaServer
 from stepaside.drivers.lola.sight import MESSAGE, unpack_sight
 from stepaside.drivers.lola.wire import SENSOR_BYTES
+from stepaside.drivers.session import SessionLost
 from stepaside.errors import ConfigurationError
 from stepaside.sensing.measurement import Sighting
 

@@ -5,6 +5,7 @@ of these has its own tests elsewhere; here none of them may have forgotten a
 combination.
 """
 
+import re
 from collections.abc import Iterator
 from itertools import product
 from math import pi
@@ -21,9 +22,9 @@ from stepaside.commands.duel import _print
 from stepaside.control.balance.settings import METHODS, ControlSettings
 from stepaside.errors import ConfigurationError
 from stepaside.games.duel import Duel, run_duel
+from stepaside.games.duel_run import DuelRun
 from stepaside.games.folder import load_run, write_record
 from stepaside.games.outcome import Outcome
-from stepaside.games.run import Run
 from stepaside.games.settings import (
     PLAYERS,
     SENSING,
@@ -119,7 +120,7 @@ class Played(NamedTuple):
     """A duel of a case, and where it was written."""
 
     case: Case
-    run: Run
+    run: DuelRun
     folder: Path
 
 
@@ -163,6 +164,11 @@ def test_only_what_needs_feedback_and_has_none_is_refused() -> None:
         Case("robot", "ideal", "ideal", "mpc").settings()
 
 
+# What only a walk is looked at for, and pushes, which nobody gives here.
+NEAR = {"velocity", "tilt", "sole", "support", "heading_reference"}
+NEAR |= {"estimate", "pushes"}
+
+
 def test_everybody_leaves_what_it_has(played: Played) -> None:
     case, run, _ = played
     assert run.outcome is Outcome.COMPLETED
@@ -181,7 +187,8 @@ def test_everybody_leaves_what_it_has(played: Played) -> None:
                 *("com", "place", "torso")
             }
             continue
-        assert lacking == ({"sight"} if case.sensing == "ideal" else set())
+        blind = {"sight"} if case.sensing == "ideal" else set()
+        assert lacking == blind | NEAR
         assert track.landings is not None and len(track.landings) == 1
     for name, track in run.tracks.items():
         for field in ("com", "torso", "com_reference", "zmp", "qpos"):
@@ -205,7 +212,7 @@ def test_a_run_folder_is_complete_and_read_as_it_was(
     case, run, folder = played
     strip = ["sight.png"] if case.cameras else []
     assert sorted(file.name for file in folder.iterdir()) == [
-        *("configuration.toml", "duel.png", *strip),
+        *("checksums.txt", "configuration.toml", "duel.png", *strip),
         *("summary.json", "trajectories.npz"),
     ]
     for file in folder.glob("*.png"):
@@ -240,8 +247,9 @@ def test_an_offline_page_is_written(played: Played, tmp_path: Path) -> None:
     file = tmp_path / "run.html"
     write_page(load_run(folder), file)
     text = file.read_text(encoding="utf-8")
+    (told,) = re.findall(r"(\{\"times\".*\})", text)
     assert "@@" not in text and folder.name in text
-    assert "NaN" not in text and "Infinity" not in text
+    assert "NaN" not in told and "Infinity" not in told
 
 
 @pytest.mark.skipif(
@@ -334,4 +342,4 @@ def test_a_live_duel_is_played_pushed_and_drawn(
     for label, report in frames.items():
         size = (120, 160, 3) if "colour" in label else (180, 240, 3)
         assert picture(report).shape == size
-    assert len(session.duel.recorder.times) == 0
+    assert len(session.duel.recorder.times) > 20

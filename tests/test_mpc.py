@@ -17,8 +17,9 @@ from stepaside.control.balance.settings import (
     MpcSettings,
 )
 from stepaside.errors import ConfigurationError
-from stepaside.games.walk import WalkSettings, run_walk
-from stepaside.games.walk_summary import summarise_walk
+from stepaside.games.match import play
+from stepaside.games.walk import Walking, run_walk
+from stepaside.games.walk_settings import WalkSettings
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -238,16 +239,16 @@ def test_the_closed_loop_stays_bounded(tail: str) -> None:
 def test_a_pushed_walk_reports_what_the_solver_said() -> None:
     """The solver is asked at every tick that has a shift."""
     control = replace(STABILISED, method="mpc")
-    result = run_walk(
+    walking = Walking(
         WalkSettings(
             duration=6.0, control=control, pushes=(Push(1.0, 3.0, 1.57),)
         )
     )
-    summary = summarise_walk(result)
-    assert summary["outcome"] == "completed"
-    qp, answers = summary["qp"], result.answers
-    assert qp["solves"] == len(answers) > 100
-    assert qp["infeasible"] == sum(not a.feasible for a in answers)
+    summary = walking.run(*play(walking, 6.0)).summary
+    assert summary.outcome == "completed"
+    qp, answers = summary.qp, walking.tally.solved
+    assert qp is not None and qp.solves == len(answers) > 100
+    assert qp.infeasible == sum(not a.feasible for a in answers)
     for answer in answers:
         assert answer.feasible == (answer.excess == (0.0, 0.0))
         assert answer.time > 0.0 and answer.iterations >= 1
@@ -258,7 +259,7 @@ def test_a_pushed_walk_reports_what_the_solver_said() -> None:
 def test_an_undisturbed_walk_never_asks_the_solver() -> None:
     control = replace(STABILISED, method="mpc")
     result = run_walk(WalkSettings(duration=3.0, control=control))
-    assert result.answers == () and summarise_walk(result)["qp"] is None
+    assert result.summary.qp is None
 
 
 def test_nonsense_is_refused() -> None:

@@ -18,7 +18,7 @@ from stepaside.cli import COMMANDS, main
 from stepaside.commands.outputs import OutputFile
 from stepaside.errors import ConfigurationError, OutputError
 from stepaside.games.duel import run_duel
-from stepaside.games.run import Run
+from stepaside.games.duel_run import DuelRun
 from stepaside.games.settings import DuelSettings
 from stepaside.outputs import (
     check_file,
@@ -150,12 +150,12 @@ def test_a_file_has_the_permissions_of_any_other(tmp_path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def short() -> Run:
+def short() -> DuelRun:
     return run_duel(DuelSettings(duration=0.1))
 
 
 def test_of_two_runs_into_one_folder_both_are_kept(
-    tmp_path: Path, short: Run
+    tmp_path: Path, short: DuelRun
 ) -> None:
     figures: list[Path] = []
 
@@ -175,14 +175,14 @@ def test_of_two_runs_into_one_folder_both_are_kept(
 
 
 def test_a_run_that_cannot_be_written_is_kept_elsewhere(
-    tmp_path: Path, short: Run, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, short: DuelRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     there, spare = tmp_path / "there", tmp_path / "spare"
     there.mkdir()
     spare.mkdir()
     monkeypatch.setattr("tempfile.tempdir", str(spare))
 
-    def full(run: Run, path: Path) -> None:
+    def full(run: DuelRun, path: Path) -> None:
         if there in path.parents:
             raise FULL
 
@@ -200,10 +200,14 @@ def options() -> list[tuple[str, click.Parameter]]:
     """Every option of every command that names a file to write."""
     group: Any = main
     context = click.Context(group)
+    commands = {name: group.get_command(context, name) for name in COMMANDS}
+    for name, command in list(commands.items()):
+        for part, inner in getattr(command, "commands", {}).items():
+            commands[f"{name} {part}"] = inner
     return [
         (name, param)
-        for name in COMMANDS
-        for param in group.get_command(context, name).params
+        for name, command in commands.items()
+        for param in command.params
         if isinstance(param.type, OutputFile)
     ]
 
@@ -214,12 +218,19 @@ NEEDED = {
     "circle": ["--starts", "0"],
     "bound": ["--grid", "16", "--refine", "0", "--games", "0"],
     "map": ["--grid", "3", "--distances", "2", "--duration", "1"],
-    "robot": ["nao"],
+    "robot show": ["nao"],
+    "robot check": ["nao", "--workers", "1"],
+    "duel": ["--duration", "1", "--json"],
+    "duels": ["--seeds", "0:1", "--duration", "1"],
+    "robustness": ["--kind", "delay"],
+    "room": [],
+    "walk": [],
+    "tournament": ["--seeds", "0:1", "--duration", "1", "--room", "open"],
 }
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory, short: Run) -> Path:
+def folder(tmp_path_factory: pytest.TempPathFactory, short: DuelRun) -> Path:
     place = tmp_path_factory.mktemp("runs") / "run"
     write_run(place, short)
     return place
@@ -244,7 +255,7 @@ def test_every_command_refuses_a_bad_file_in_one_line(
         if kind == "taken":
             path.write_text("kept")
         path = path.rename(path.with_name(path.name + suffix))
-    words = [name, *NEEDED.get(name, [str(folder)])]
+    words = [*name.split(), *NEEDED.get(name, [str(folder)])]
     before = sorted(tmp_path.rglob("*"))
     result = CliRunner().invoke(main, [*words, param.opts[0], f"{path}"])
     assert result.exit_code == 2, result.output
@@ -265,7 +276,7 @@ def test_every_option_for_files_is_one_of_these() -> None:
             assert not isinstance(kind, click.File), (name, param.name)
             if isinstance(kind, click.Path) and not kind.exists:
                 assert not kind.file_okay, (name, param.name)
-    assert len(options()) == 12
+    assert len(options()) == 21
 
 
 def test_a_figure_without_a_suffix_is_told_as_it_is_written(

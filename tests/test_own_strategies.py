@@ -19,13 +19,14 @@ from stepaside.games.settings import StartSettings
 from stepaside.planning import Direction
 from stepaside.strategies import (
     STRATEGIES,
+    Deflected,
     Evasion,
     Pursuit,
     Stand,
     Walk,
     load_strategy,
 )
-from stepaside.strategies.registry import absolute_name
+from stepaside.strategies.registry import absolute_name, file_of
 
 OWN = '''
 from dataclasses import dataclass
@@ -123,7 +124,23 @@ def test_strategies_have_names() -> None:
     assert load_strategy("pursuit") == Pursuit()
     assert load_strategy("stand") == Stand()
     assert load_strategy("walk") == Walk()
-    assert set(STRATEGIES) == {"evasion", "pursuit", "stand", "walk"}
+    assert load_strategy("deflected", evader) == Deflected(evader)
+    others = {"look-ahead", "optimal", "lead", "optimal-pursuit"}
+    paper = {"evasion", "deflected", "pursuit", "stand", "walk"}
+    assert set(STRATEGIES) == paper | others
+
+
+def test_only_strategies_of_files_have_a_file(tmp_path: Path) -> None:
+    assert all(file_of(name) is None for name in STRATEGIES)
+    assert file_of(f"{tmp_path}/own.py:Timid") == tmp_path / "own.py"
+
+
+def test_a_file_without_strategies_says_so(tmp_path: Path) -> None:
+    """What it imports is none of its own."""
+    file = tmp_path / "empty.py"
+    file.write_text("from stepaside.strategies import Evasion, Intent\nX = 3")
+    with pytest.raises(ConfigurationError, match="but no strategy at all$"):
+        load_strategy(f"{file}:Nobody")
 
 
 @pytest.mark.parametrize(
@@ -152,6 +169,11 @@ def test_a_file_gives_a_class_a_value_or_what_makes_one(
         ("NUMBER", "must be a strategy, or a class or function.*got 3"),
         ("Nobody", "the file has no Nobody, but .*Timid"),
         ("Path", "the file has no Path"),
+        (
+            "None_",
+            "but Broken, Forgetful, Lost, Moody, Mute, Timid, Wild, picky, "
+            "quick, sideways, timid, vague$",
+        ),
     ],
 )
 def test_what_is_no_strategy_is_refused_in_one_line(
@@ -189,7 +211,7 @@ def test_what_names_no_strategy_is_refused_at_once(
     with pytest.raises(ConfigurationError) as caught:
         DuelSettings(**{key: name})  # type: ignore[arg-type]
     assert str(caught.value) == (
-        f"{key} must be one of evasion, pursuit, stand, walk or "
+        f"{key} must be one of {', '.join(STRATEGIES)} or "
         f"FILE.py:NAME, got {name!r}"
     )
 

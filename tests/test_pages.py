@@ -8,18 +8,22 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
 from hostile import HOSTILE
 from onlooker import look_away, look_on
 from stepaside.cli import main
+from stepaside.games.configuration import dump_configuration
 from stepaside.games.duel import Duel
+from stepaside.games.duel_run import DuelRun
 from stepaside.games.folder import load_run
 from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.games.walker import Walker
 from stepaside.report.inert import visible
 from stepaside.report.replay_page import write_page
+from stepaside.report.stage import Stage
 from stepaside.report.viewer.session import Session
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -48,6 +52,19 @@ def browser() -> Iterator[Any]:
         )
         yield chromium
         chromium.close()
+
+
+@pytest.fixture(scope="module")
+def flat(browser: Any) -> Iterator[Any]:
+    """A browser that draws no 3D: all else is quicker there."""
+    chromium = browser.browser_type.launch(
+        executable_path=CHROMIUM,
+        headless=True,
+        args=["--no-sandbox", "--disable-3d-apis"],
+        timeout=WAIT,
+    )
+    yield chromium
+    chromium.close()
 
 
 def press(page: Any, label: str) -> None:
@@ -105,11 +122,13 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
         until(page, lambda: (p := mind.plan) is not None and p.bearing > 0.8)
         page.get_by_text("the evader survived").wait_for()
 
+        tab = page.get_by_role("tab", name="Settings").first
+        tab.click(force=True)
         field = page.get_by_label("Distance [m]").first
         field.fill("0.1")
         field.press("Enter")
         until(page, lambda: live._duel._distance.value == 0.1)
-        press(page, "Reset")
+        press(page, "reset")
         page.get_by_text("distance must lie in").first.wait_for()
         page.screenshot(path=ARTEFACTS / "refused.png")
         page.close()
@@ -175,7 +194,7 @@ def test_a_replay_can_be_scrubbed(browser: Any, run: Path) -> None:
 
 @pytest.mark.parametrize(
     ("width", "height", "scheme"),
-    [(1280, 720, "light"), (390, 800, "dark")],
+    [(860, 420, "light"), (390, 560, "dark")],
 )
 def test_the_written_page_opens_without_a_network(
     browser: Any,
@@ -207,6 +226,7 @@ def test_the_written_page_opens_without_a_network(
     after = page.evaluate("document.getElementById('world').toDataURL()")
     assert after != before
     page.get_by_label("footsteps").uncheck()
+    page.evaluate("stepaside.seek(8)")
     bare = page.evaluate("document.getElementById('world').toDataURL()")
     assert bare != after
     wide = page.evaluate("document.documentElement.scrollWidth")
@@ -216,6 +236,32 @@ def test_the_written_page_opens_without_a_network(
     context.close()
 
 
+def test_robots_stand_on_the_page_where_the_numbers_say(
+    browser: Any, tmp_path: Path
+) -> None:
+    """Eight metres apart: read back from what is drawn."""
+    folder = tmp_path / "far"
+    asked = ["duel", "--distance", "8", "--duration", "2", "--json"]
+    result = CliRunner().invoke(main, [*asked, "--output", str(folder)])
+    assert result.exit_code == 0
+    run = load_run(folder)
+    file = tmp_path / "far.html"
+    write_page(run, file)
+    page = open_page(browser)
+    page.goto(file.as_uri())
+    stage = Stage(run)
+    for time in (0.0, 1.0, 2.0):
+        page.evaluate(f"stepaside.seek({time})")
+        places = page.evaluate("stepaside.places()")
+        index = min(round(time / 0.02), len(run.times) - 1)
+        for name in ("pursuer", "evader"):
+            body = stage.model.body(f"{name}/torso").id
+            place = run.tracks[name].torso[index, :2]
+            np.testing.assert_allclose(places[str(body)][:2], place, atol=2e-3)
+    assert run.tracks["evader"].torso[-1, 0] > 7.0
+    page.close()
+
+
 def hostile_run(folder: Path, run: Path, text: str) -> Path:
     """The run, with this for every text in it that is free."""
     name = text.replace("/", "%2f")
@@ -223,38 +269,46 @@ def hostile_run(folder: Path, run: Path, text: str) -> Path:
     shutil.copytree(run, there)
     file = there / "summary.json"
     summary = json.loads(file.read_text(encoding="utf-8"))
-    summary |= {"outcome": "fall", "message": text, "camera": text}
+    summary |= {"outcome": "fall", "message": text}
     summary |= {"run_folder": text, text: text}
     summary["pursuer"] |= {text: [text]}
     file.write_text(json.dumps(summary), encoding="utf-8")
+    (there / "checksums.txt").unlink(missing_ok=True)
+    if text.isprintable():
+        own = load_run(run, DuelRun).settings
+        settings = replace(own, person=replace(own.person, path=text))
+        (there / "configuration.toml").write_text(
+            dump_configuration(settings), encoding="utf-8"
+        )
     return there
 
 
 @pytest.mark.parametrize("text", HOSTILE)
 def test_nothing_in_a_run_folder_runs_in_its_page(
-    browser: Any, run: Path, tmp_path: Path, text: str
+    flat: Any, run: Path, tmp_path: Path, text: str
 ) -> None:
     there = hostile_run(tmp_path, run, text)
     write_page(load_run(there), tmp_path / "run.html")
-    page = open_page(browser)
+    page = open_page(flat)
     wrong: list[str] = []
     page.on("pageerror", lambda error: wrong.append(str(error)))
     page.on("console", lambda told: wrong.append(told.text))
     page.on("dialog", lambda dialog: wrong.append(dialog.message))
     page.goto((tmp_path / "run.html").as_uri())
     assert page.inner_text("#clock") == "0.0 s"
+    page.get_by_text("draws no 3D").wait_for()
     page.fill("#time", page.get_attribute("#time", "max"))
     assert page.text_content("#words") == visible(text)
     assert page.text_content("h1") == visible(there.name)
     assert page.locator("img, iframe, svg").count() == 0
-    assert page.locator("script").count() == 2
+    assert page.locator("script").count() == 3
     assert page.evaluate("window.ran") is None
     assert wrong == []
     page.close()
 
 
 def test_a_page_s_policy_lets_nothing_else_run(
-    browser: Any, run: Path, tmp_path: Path
+    flat: Any, run: Path, tmp_path: Path
 ) -> None:
     """Even what would get past the writing does nothing."""
     file = tmp_path / "run.html"
@@ -262,7 +316,7 @@ def test_a_page_s_policy_lets_nothing_else_run(
     text = file.read_text(encoding="utf-8")
     extra = "<script>ran=1</script><img src='x:' onerror='ran=2'>"
     file.write_text(text.replace("<h1>", extra + "<h1>"), encoding="utf-8")
-    page = open_page(browser)
+    page = open_page(flat)
     page.goto(file.as_uri())
     page.wait_for_timeout(200)
     assert page.inner_text("#clock") == "0.0 s"

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from stepaside.errors import ConfigurationError
-from stepaside.games.duel import Duel, furnisher_of, walkers_of
+from stepaside.games.duel import Duel, furnisher_of
 from stepaside.games.pedestrian import Pedestrian
 from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.games.walker import Walker
@@ -27,6 +27,7 @@ from stepaside.world.person import (
 from stepaside.world.person_motion import Motion
 from stepaside.world.person_settings import PersonSettings
 from stepaside.world.push import Push
+from stepaside.world.truth import torsos_apart
 
 TICK = 0.05
 
@@ -223,7 +224,7 @@ def test_truth_of_a_person_is_that_of_the_walk() -> None:
     assert truth.com.tolist() == [1.0, 2.0, 1.0]
     assert truth.has_fallen is False
     other: Any = SimpleNamespace(position=(4.0, -2.0))
-    assert truth.distance_to(other) == 5.0
+    assert torsos_apart(truth, other) == 5.0
 
 
 def test_nothing_is_known_of_a_person_but_where_it_is() -> None:
@@ -274,8 +275,8 @@ WITH = DuelSettings(pursuer="person")
 
 
 def test_only_robots_walk_by_control() -> None:
-    assert walkers_of(DuelSettings()) == ("pursuer", "evader")
-    assert walkers_of(WITH) == ("evader",)
+    assert DuelSettings().robots == ("pursuer", "evader")
+    assert WITH.robots == ("evader",)
 
 
 def test_a_world_is_furnished_with_all_that_there_is() -> None:

@@ -19,7 +19,7 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
     with pytest.raises(SystemExit) as left:
         main(list(words))
     assert left.value.code == 2
-    said = capsys.readouterr().err.strip().splitlines()[-1]
+    (said,) = capsys.readouterr().err.strip().splitlines()
     assert said.startswith("stepaside: ")
     return said
 
@@ -87,3 +87,34 @@ def test_a_dry_run_looks_on_and_writes_down_what_it_saw(
     assert words["role"] == "evader" and words["dry_run"]
     states = [change["state"] for change in words["changes"]]
     assert states[:2] == ["limp", "reaching"]
+
+
+def test_a_session_that_is_lost_is_got_again_for_a_while(
+    tmp_path: Path,
+) -> None:
+    """It begins limp, as the first did, and waits for the button."""
+    place, log = tmp_path / "e", tmp_path / "log"
+    address = Address(str(place))
+
+    def play() -> None:
+        words = ["play", "--role", "evader", "--robot", f"lola:{place}"]
+        words += ["--record", str(log), "--reconnect", "2"]
+        with pytest.raises(SystemExit):
+            main([*words, "--dry-run"])
+
+    player = Thread(target=play)
+    player.start()
+    for _ in range(2):
+        server = LolaServer(address, MadeUpRobot(), JOINTS, lock_step=True)
+        while server.count < 30 and player.is_alive():
+            server.speak()
+            while not server.hear():
+                select([server], [], [], 10.0)
+            server.act()
+        assert server.count == 30
+        server.close()
+    player.join(60.0)
+    assert not player.is_alive()
+    words = json.loads((log / "play.json").read_text())
+    states = [change["state"] for change in words["changes"]]
+    assert states == 2 * ["limp", "reaching", "ready"]

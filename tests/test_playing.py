@@ -17,6 +17,7 @@ from stepaside.drivers.lola.body import LolaBody
 from stepaside.drivers.lola.frames import pack_sensors
 from stepaside.drivers.lola.safety import State
 from stepaside.drivers.playing import Playing
+from stepaside.drivers.rows import read_rows
 from stepaside.drivers.status_line import StatusLine
 from stepaside.errors import ConfigurationError, ReachError, StrategyError
 from stepaside.planning import GaitSettings
@@ -143,14 +144,14 @@ def test_the_log_keeps_every_tick_and_why_states_changed(
     for _ in range(102):
         log.note(game.playing.tick())
     log.close()
-    arrays = np.load(tmp_path / "log" / "play.npz")
+    arrays = read_rows(tmp_path / "log")
     assert arrays["joint_positions"].shape == (102, 23)
     assert arrays["sighting"].shape == (102, 3)
     words = json.loads((tmp_path / "log" / "play.json").read_text())
     changes = [change["state"] for change in words["changes"]]
     assert changes == ["limp", "reaching", "ready", "walking"]
     assert words["changes"][-1]["reason"] == "chest button"
-    assert words["states"][arrays["state"][-1]] == "walking"
+    assert words["states"][int(arrays["state"][-1])] == "walking"
     assert words["role"] == "pursuer"
 
 
@@ -158,7 +159,9 @@ def test_a_folder_with_something_in_it_is_not_written_over(
     tmp_path: Path,
 ) -> None:
     (tmp_path / "mine").write_text("")
-    with pytest.raises(ConfigurationError, match="must be empty"):
+    with pytest.raises(
+        ConfigurationError, match="record must be a new or an empty folder"
+    ):
         PlayLog(tmp_path, {})
 
 

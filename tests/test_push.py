@@ -1,6 +1,7 @@
 """Pushes: begin, end, direction and impulse, on one free body."""
 
 from math import cos, inf, nan, pi, sin
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -8,7 +9,8 @@ import pytest
 
 from stepaside.errors import ConfigurationError
 from stepaside.poses import Array
-from stepaside.world.push import Push, Pusher
+from stepaside.world.push import Push, check_pushes, pushes_of
+from stepaside.world.pusher import Pusher
 
 STEP = 0.002
 MODEL = f"""
@@ -137,7 +139,33 @@ def test_the_edges_of_a_push_are_taken() -> None:
     ],
 )
 def test_pushes_that_nobody_can_give_are_refused(
-    values: tuple[float, ...], name: str
+    values: Any, name: str
 ) -> None:
     with pytest.raises(ConfigurationError, match=name):
         Push(*values)
+
+
+def test_pushes_are_sorted_by_who_is_meant() -> None:
+    """Who is not named is the last: the walker, or the evader."""
+    one, other = Push(1.0, 2.0, 0.0), Push(2.0, 1.0, 0.0, player="pursuer")
+    players = ("pursuer", "evader")
+    found = pushes_of([one, other], players)
+    assert found == {"pursuer": (other,), "evader": (one,)}
+    assert pushes_of([], players) == {"pursuer": (), "evader": ()}
+    check_pushes([one, other], players)
+    with pytest.raises(ConfigurationError, match="one of evader.*'pursuer'"):
+        check_pushes([one, other], ("evader",))
+
+
+def test_what_was_given_is_remembered_with_its_place_and_way() -> None:
+    bench = Bench(turned(0.7), Push(1.5, 0.01, pi / 2), Push(1.0, 0.03, 0.0))
+    assert list(bench.pusher.given) == []
+    bench.forces(5)
+    assert list(bench.pusher.given) == []  # it begins at the sixth step
+    bench.forces(20)
+    first, second = bench.pusher.given
+    assert (first.time, first.duration) == (0.01, 0.1)
+    assert (first.x, first.y) == pytest.approx((5.0, 0.0), abs=1e-6)
+    given = 1.5 * np.array([-sin(0.7), cos(0.7)])
+    np.testing.assert_allclose(first[4:], given, atol=1e-9)
+    assert second.time == 0.03 and second.x < 5.0 < 5.0 + second.y

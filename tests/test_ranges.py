@@ -16,22 +16,26 @@ from stepaside.planning import (
     GaitSettings,
     ManeuverPlanner,
 )
-from stepaside.planning.settings import RANGES
 from stepaside.world.settings import PhysicsSettings, SightSettings
 
+GAIT = [  # without those that may be zero
+    name
+    for name, r in GaitSettings.ranges.items()
+    if r.low > 0 and not r.whole
+]
 ABSURD = (1e18, 1e300, 5e-324, 1e-18, inf, nan, -1.0, True, 0.0)
 
 
-@pytest.mark.parametrize("name", RANGES)
+@pytest.mark.parametrize("name", GAIT)
 @pytest.mark.parametrize("value", ABSURD)
 def test_a_gait_is_one_that_can_be_computed(name: str, value: Any) -> None:
     with pytest.raises(PlanError, match=name):
         replace(GaitSettings(), **{name: value})
 
 
-@pytest.mark.parametrize("name", RANGES)
+@pytest.mark.parametrize("name", GAIT)
 def test_ranges_end_where_they_say(name: str) -> None:
-    low, high, _ = RANGES[name]
+    low, high = GaitSettings.ranges[name][:2]
     for value in (low * 0.99, high * 1.01):
         changes: dict[str, Any] = {name: value}
         with pytest.raises(PlanError, match=f"{name} must lie in"):

@@ -4,7 +4,7 @@ from math import pi, sin
 
 import pytest
 
-from stepaside.strategies.rates import Rates, SightRates
+from stepaside.strategies.rates import FloorVelocity, Rates, SightRates
 
 STEP = 0.5
 
@@ -56,3 +56,34 @@ def test_few_sightings_are_kept_for_however_long() -> None:
     for tick in range(5000):
         rates.note(0.004 * tick, 0.0, 1.0)
     assert len(rates._seen) <= 20
+
+
+@pytest.mark.parametrize("every", [0.004, 0.1, STEP])
+def test_somebody_who_walks_straight_on_has_one_velocity(
+    every: float,
+) -> None:
+    drift, time = FloorVelocity(STEP), 0.0
+    while time < 3.0:
+        found = drift.note(time, 1.0 - 0.8 * time, 0.3 * time)
+        assert (found is None) == (time <= 0.75 * STEP)
+        if found is not None:
+            assert found == pytest.approx((-0.8, 0.3))
+        time += every
+
+
+def test_one_bad_sighting_counts_less_than_a_difference_would() -> None:
+    drift = FloorVelocity(STEP)
+    for i in range(30):
+        found = drift.note(0.1 * i, 0.0, 0.1 if i == 29 else 0.0)
+    assert found is not None and found[0] == pytest.approx(0.0)
+    assert 0.0 < found[1] < 0.1 / (3.25 * STEP) * 1.5
+
+
+def test_a_velocity_needs_sightings_of_late() -> None:
+    drift = FloorVelocity(STEP)
+    for i in range(20):
+        drift.note(0.1 * i, 0.1 * i, 0.0)
+    assert drift.note(60.0, 9.0, 0.0) is None
+    assert drift.note(60.0 + STEP, 9.0, 0.4 * STEP) == pytest.approx(
+        (0.0, 0.4)
+    )

@@ -16,13 +16,15 @@ import pytest
 from invented_run import changed, drifted
 from stepaside.errors import ConfigurationError
 from stepaside.games.duel import run_duel
-from stepaside.games.run import Run
+from stepaside.games.duel_run import DuelRun
 from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.games.track import Track
 from stepaside.poses import Array
 from stepaside.report import film, film_layers
+from stepaside.report.averages import whole_cycles
 from stepaside.report.film import Cinema, Shot
-from stepaside.report.replay_page import shapes_of, write_page
+from stepaside.report.parts import parts_of
+from stepaside.report.replay_page import write_page
 from stepaside.report.stage import Stage
 from stepaside.report.style import COLOURS, THEORY
 from stepaside.world.graphics import RAYCAST
@@ -31,7 +33,7 @@ TIMES: Array = 0.02 * np.arange(102, dtype=float)  # 2.02 s
 
 
 @cache
-def made() -> Run:
+def made() -> DuelRun:
     """A short run whose robots then are moved by hand."""
     settings = DuelSettings(
         seed=3, duration=2.01, start=StartSettings(1.2, 0.4, -0.2)
@@ -58,7 +60,7 @@ def thinned(track: Track, every: int) -> Track:
     )
 
 
-def content(run: Run, folder: Path) -> Any:
+def content(run: DuelRun, folder: Path) -> Any:
     """What the page's script is given."""
     file = folder / "run.html"
     write_page(run, file)
@@ -87,20 +89,42 @@ def test_a_page_without_frequent_samples_shows_them_all(
     np.testing.assert_allclose(shown["times"], TIMES[::25], atol=1e-9)
 
 
-def test_bodies_on_the_page_are_where_they_were(tmp_path: Path) -> None:
+def poses(shown: Any) -> tuple[Array, Array]:
+    """Places [m] and turns of the page's bodies, by sample and body."""
+    shape = (len(shown["times"]), len(shown["bodies"]))
+    places = np.frombuffer(b64decode(shown["places"]), dtype="<f4")
+    turns = np.frombuffer(b64decode(shown["turns"]), dtype="<i2")
+    return places.reshape(*shape, 3), turns.reshape(*shape, 4) / 32767.0
+
+
+@pytest.mark.parametrize("away", [0.0, 7.0, -3000.0])
+def test_bodies_on_the_page_are_where_they_were(
+    tmp_path: Path, away: float
+) -> None:
+    """However far from the middle of the world that is."""
     run = made()
+    tracks = {n: moved(track, away) for n, track in run.tracks.items()}
+    run = replace(run, tracks=tracks)
     shown = content(run, tmp_path)
-    raw = np.frombuffer(b64decode(shown["poses"]), dtype="<i2")
-    poses = raw.reshape(len(shown["times"]), shown["bodies"], 7)
+    places, turns = poses(shown)
     stage = Stage(run)
-    assert shown["bodies"] == stage.model.nbody
+    seen = {part.body for part in parts_of(stage.model)} - {0}
+    assert shown["bodies"] == sorted(seen)
     for row, index in ((0, 0), (20, 40), (51, 101)):
         stage.put(index)
-        places = poses[row, :, :3] * shown["unit"]
-        np.testing.assert_allclose(places, stage.data.xpos, atol=1.1e-4)
-        turns = poses[row, :, 3:] / 32767.0
-        np.testing.assert_allclose(turns, stage.data.xquat, atol=2e-5)
-    assert 0.5 < 32767 * shown["unit"] < 10.0
+        there = stage.data.xpos[shown["bodies"]]
+        assert abs(there[:, 0] - away).max() < 3.0
+        np.testing.assert_allclose(places[row], there, atol=3e-4, rtol=0.0)
+        turned = stage.data.xquat[shown["bodies"]]
+        np.testing.assert_allclose(turns[row], turned, atol=2e-5)
+
+
+def moved(track: Track, away: float) -> Track:
+    """Track of a robot that stands somewhere else."""
+    assert track.qpos is not None
+    qpos = np.array(track.qpos, dtype=np.float64)
+    qpos[:, 0] += away
+    return replace(track, qpos=qpos)
 
 
 def test_a_page_tells_what_the_run_tells(tmp_path: Path) -> None:
@@ -110,10 +134,15 @@ def test_a_page_tells_what_the_run_tells(tmp_path: Path) -> None:
     said = [shown["words"][number] for number in shown["says"]]
     assert said == [run.words(index) for index in chosen]
     assert len(set(said)) == 4 == len(shown["words"])
+    cycle = 2.0 * run.settings.gait.step_duration
     for key, values, size in (
         ("distance", run.distance, 5e-4),
         ("angle", run.orientation, 0.05),
     ):
+        means = whole_cycles(values, run.times, cycle)[chosen]
+        told = np.array(shown["means"][key], dtype=float)
+        np.testing.assert_allclose(told, means, atol=size + 1e-9)
+        assert np.isnan(told[[0, -1]]).all() and np.isfinite(told[25])
         np.testing.assert_allclose(
             shown[key], values[chosen], atol=size + 1e-9
         )
@@ -127,12 +156,12 @@ def test_a_page_tells_what_the_run_tells(tmp_path: Path) -> None:
     middle = 0.5 * (both.min(axis=0) + both.max(axis=0))
     np.testing.assert_allclose(shown["middle"], middle, atol=6e-4)
     size = np.hypot(*(both.max(axis=0) - both.min(axis=0)))
-    assert shown["away"] == pytest.approx(1.2 + 0.9 * size)
+    assert shown["away"] == pytest.approx(1.4 + 1.05 * size)
     stage = Stage(run)
     for robot, name in zip(
         shown["robots"], ("pursuer", "evader"), strict=True
     ):
-        assert robot["name"] == name and robot["colour"] == COLOURS[name]
+        assert robot["name"] == name
         assert stage.model.body(robot["torso"]).name == f"{name}/torso"
         np.testing.assert_allclose(
             robot["trace"], run.tracks[name].com[chosen, :2], atol=6e-4
@@ -146,7 +175,7 @@ def test_a_page_tells_what_the_run_tells(tmp_path: Path) -> None:
     assert content(never, other)["circle"] is None
 
 
-def _landings(run: Run, name: str) -> Array:
+def _landings(run: DuelRun, name: str) -> Array:
     """Footsteps of a robot."""
     landings = run.tracks[name].landings
     assert landings is not None and len(landings)
@@ -171,45 +200,10 @@ def test_a_page_of_a_person_has_its_way_but_no_footsteps(
     np.testing.assert_allclose(
         person["trace"], run.pursuer.com[chosen, :2], atol=6e-4
     )
-    bodies = {shape["body"] for shape in shown["shapes"]}
-    assert {person["torso"], robot["torso"]} <= bodies
-
-
-SHAPES = """
-<mujoco>
-<asset><material name="grass" rgba="0 0.5 0 1"/></asset>
-<worldbody><geom type="plane" size="1 1 1"/>
-<body pos="1 2 3">
-<geom type="capsule" size="0.02 0.1" pos="0.5 0 0" rgba="1 0 0 1"
-quat="0.7071067811865476 0 0.7071067811865476 0"/>
-<geom type="sphere" size="0.3" material="grass"/>
-<geom type="box" size="0.1 0.4 0.025" pos="0 0 1" rgba="0 0 1 1"/>
-<geom type="cylinder" size="0.05 0.2" rgba="0 0 0 1"/>
-<geom type="box" size="0.1 0.1 0.4" group="3"/>
-</body></worldbody></mujoco>
-"""
-
-
-def test_shapes_are_thick_lines_in_the_frame_of_their_body() -> None:
-    model = mujoco.MjModel.from_xml_string(SHAPES)
-    capsule, sphere, box, cylinder = shapes_of(model)
-    assert {s["body"] for s in (capsule, sphere, box, cylinder)} == {1}
-    np.testing.assert_allclose(
-        sorted([capsule["a"], capsule["b"]]),
-        [[0.4, 0.0, 0.0], [0.6, 0.0, 0.0]],
-        atol=1e-9,
-    )
-    assert capsule["r"] == 0.02 and capsule["colour"] == "#ff0000"
-    np.testing.assert_allclose([sphere["a"], sphere["b"]], 0.0)
-    assert sphere["r"] == 0.3 and sphere["colour"] == "#007f00"
-    # As thick as its smaller sides, as long as its longest.
-    assert box["r"] == pytest.approx(0.05)
-    np.testing.assert_allclose(
-        [box["a"], box["b"]], [[0, -0.35, 1.0], [0, 0.35, 1.0]]
-    )
-    np.testing.assert_allclose(
-        [cylinder["a"], cylinder["b"]], [[0, 0, -0.2], [0, 0, 0.2]]
-    )
+    bodies = {part["body"] for part in shown["parts"]}
+    assert {person["torso"], robot["torso"]} <= bodies & set(shown["bodies"])
+    # A person's name stands higher than a robot's.
+    assert person["head"] + 1.0 > robot["head"] > 0.1
 
 
 @pytest.mark.parametrize(
@@ -232,15 +226,15 @@ def test_pictures_of_a_film_are_evenly_spaced(
 class FakeScreen:
     """Keeps what it was asked to draw."""
 
-    def __init__(self, model: Any, width: int, height: int, backend: str):
-        """Note the size."""
-        self.size = (width, height, backend)
+    def __init__(self, model: Any, *asked: Any):
+        """Note size, backend and look."""
+        self.asked = asked
         self.drawn: list[tuple[Any, Any, Any]] = []
 
     def draw(self, data: Any, camera: Any, add: Any = None) -> Any:
         """Keep the bodies' places, the camera and what adds lines."""
         self.drawn.append((data.xpos.copy(), camera, add))
-        return len(self.drawn)
+        return np.zeros((72, 128, 3), dtype=np.uint8)
 
     def close(self) -> None:
         """Be closed."""
@@ -255,7 +249,9 @@ def screened(monkeypatch: pytest.MonkeyPatch) -> None:
 def filmed(shot: Shot, time: float) -> tuple[Any, Any, Any]:
     cinema = Cinema(made(), shot, "egl")
     screen: Any = cinema._screen
-    assert screen.size == (shot.width, shot.height, "egl")
+    width, height, backend, look = screen.asked
+    assert (width, height, backend) == (shot.width, shot.height, "egl")
+    assert look.samples >= 4 and look.shadow >= 1024
     cinema.picture(time)
     (found,) = screen.drawn
     cinema.close()
@@ -268,31 +264,17 @@ def filmed(shot: Shot, time: float) -> tuple[Any, Any, Any]:
     ("time", "index"), [(0.0, 0), (1.0, 50), (1.01, 51), (2.02, 101), (9, 101)]
 )
 def test_a_picture_is_of_the_time_asked_for(time: float, index: int) -> None:
-    places, camera, add = filmed(Shot(), time)
+    places, _, add = filmed(Shot(), time)
     stage = Stage(made())
     stage.put(index)
     np.testing.assert_array_equal(places, stage.data.xpos)
-    assert add.keywords["index"] == index
-    assert add.keywords["trail"] == 20.0
-    assert camera.azimuth == 60.0 and camera.elevation == -38.0
-
-
-@pytest.mark.usefixtures("screened")
-def test_the_camera_sees_the_whole_way_or_follows() -> None:
-    run = made()
-    torsos = [run.tracks[n].torso[:, :2] for n in ("pursuer", "evader")]
-    both = np.concatenate(torsos)
-    low, high = both.min(axis=0), both.max(axis=0)
-    _, camera, _ = filmed(Shot(), 1.0)
-    np.testing.assert_allclose(camera.lookat, [*(low + high) / 2, 0.2])
-    size = float(np.hypot(*(high - low)))
-    assert camera.distance == pytest.approx(0.9 + 0.95 * size)
-    _, camera, add = filmed(Shot(following=True, layers=False), 1.0)
-    pursuer, evader = torsos[0][50], torsos[1][50]
-    np.testing.assert_allclose(camera.lookat, [*(pursuer + evader) / 2, 0.2])
-    apart = float(np.hypot(*(evader - pursuer)))
-    assert camera.distance == pytest.approx(1.1 + apart)
-    assert add is None
+    bare, full = scene(), scene()
+    add(full)
+    film_layers.decorate(bare, run=made(), index=index, trail=20.0)
+    assert full.ngeom == bare.ngeom
+    _, _, add = filmed(Shot(layers=False), time)
+    add(empty := scene())
+    assert empty.ngeom == 0
 
 
 def scene() -> mujoco.MjvScene:
@@ -334,8 +316,7 @@ def test_lines_of_a_film_lie_where_the_run_was() -> None:
     assert len(circle) == 60
     np.testing.assert_allclose(corners[:, 2], 0.002, atol=1e-6)
     blue = lines_of(drawn, COLOURS["evader"])
-    boxes = [g for g in blue if g.type == mujoco.mjtGeom.mjGEOM_BOX]
-    (foot,) = boxes
+    (foot,) = [g for g in blue if g.rgba[3] < 0.9]
     heading = 0.3
     at = np.array([1.1 + 0.02 * np.cos(heading), 0.2 + 0.02 * np.sin(heading)])
     np.testing.assert_allclose(foot.pos[:2], at, atol=1e-5)
@@ -346,7 +327,7 @@ def test_lines_of_a_film_lie_where_the_run_was() -> None:
     np.testing.assert_allclose(np.linalg.det(frame), 1.0, atol=1e-5)
     np.testing.assert_allclose(foot.size[:2], film_layers.PRINT, atol=1e-6)
     assert foot.rgba[3] == pytest.approx(0.55)
-    rest = [ends(g) for g in blue if g.type != mujoco.mjtGeom.mjGEOM_BOX]
+    rest = [ends(g) for g in blue if g.rgba[3] > 0.9]
     safety = [e for e in rest if abs(e[0, 2] - 0.003) < 1e-6]
     assert len(safety) == 60
     away = np.hypot(*(np.concatenate(safety)[:, :2] - places[1]).T)
@@ -372,7 +353,7 @@ def test_footprints_come_half_a_second_early_and_go_with_the_trail(
     boxes = [
         geom
         for geom in lines_of(drawn, COLOURS["evader"])
-        if geom.type == mujoco.mjtGeom.mjGEOM_BOX
+        if geom.rgba[3] < 0.9
     ]
     assert len(boxes) == shown
 
@@ -386,7 +367,7 @@ def test_a_full_scene_takes_no_more() -> None:
 class InlinePool:
     """A pool of processes that are none."""
 
-    def __init__(self, count: int, context: Any) -> None:
+    def __init__(self, count: int) -> None:
         """Note nothing."""
 
     def __enter__(self) -> "InlinePool":
@@ -411,7 +392,7 @@ def test_pictures_come_in_order_and_all_of_them(
 ) -> None:
     monkeypatch.setattr(film, "choose_renderer", lambda wanted: "egl")
     monkeypatch.setattr(film, "load_run", lambda folder: made())
-    monkeypatch.setattr(film, "ProcessPoolExecutor", InlinePool)
+    monkeypatch.setattr(film, "worker_pool", InlinePool)
     monkeypatch.setattr(film, "_draw", lambda f, s, b, times: list(times))
     shot = Shot(rate=100.0)
     for workers in (1, 2, 30):

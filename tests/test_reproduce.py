@@ -17,6 +17,7 @@ from stepaside.report.claims_page import markdown_page
 from stepaside.studies import reproduce, workers
 from stepaside.studies.claims import Claim, Job, Row
 from stepaside.studies.jobs import JOBS
+from stepaside.studies.kept import Kept
 from stepaside.studies.paper_figures import paper_figures
 from stepaside.studies.readings import Readings, farthest
 from stepaside.studies.version import code_version
@@ -208,9 +209,9 @@ def test_what_another_version_made_is_replaced_without_a_copy(
     again(bench, tmp_path, 1, 2)
     file = tmp_path / "seeded-seed1.json"
     whole = file.read_text()
-    older = whole.replace(ours, others).replace('"it"', '"it_was"')
+    older = json.loads(whole.replace(ours, others).replace('"it"', '"it_was"'))
     assert whole.replace(ours, others) != whole
-    file.write_text(older)
+    Kept(tmp_path).store(file.stem, older["key"], older["readings"])
     assert again(bench, tmp_path, 1, 2) == [("seeded", 1)]
     assert file.read_text() == whole
     assert not list(tmp_path.glob("*.aside"))

@@ -75,6 +75,7 @@ def test_a_result_is_current_while_its_code_is() -> None:
     assert HEAD["version"] == code_version(PLANNER)
     assert is_current(HEAD)
     assert not is_current(HEAD | {"version": "0" * 12})
+    assert not is_current(HEAD | {"rooms": ["cellar"]})
 
 
 def test_the_command_is_what_one_types_in_the_repository(
@@ -85,6 +86,6 @@ def test_the_command_is_what_one_types_in_the_repository(
     words = ["benchmarks/x.py", "--output", inside, "--name", "a b"]
     wanted = "python benchmarks/x.py --output docs/x.json --name 'a b'"
     assert running_command(words) == wanted
-    assert running_command(["/opt/bin/stepaside", "duels"]) == (
-        "stepaside duels"
-    )
+    for program in ("bin/stepaside", "lib/stepaside/__main__.py"):
+        found = running_command([f"/opt/{program}", "duels"])
+        assert found == "stepaside duels"

@@ -33,7 +33,7 @@ def survive_a_newton_second(
 
 @pytest.fixture(autouse=True)
 def no_walks(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(command, "_run", survive_a_newton_second)
+    monkeypatch.setattr(command, "run_walks", survive_a_newton_second)
 
 
 def run(*arguments: str) -> str:
@@ -118,7 +118,7 @@ def test_a_stopped_campaign_writes_no_result_over_another(
     ) -> tuple[dict[str, bool], bool]:
         return survive_a_newton_second(grid[:7], cases[:1])[0], True
 
-    monkeypatch.setattr(command, "_run", stopped)
+    monkeypatch.setattr(command, "run_walks", stopped)
     asked = ("robustness", *ASKED, "--output", str(tmp_path))
     result = CliRunner().invoke(main, asked)
     assert result.exit_code == 130

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.report import style
+from stepaside.report import robustness_figure, style
 from stepaside.report.robustness_figure import draw_limits, draw_survival
 
 
@@ -14,14 +14,13 @@ from stepaside.report.robustness_figure import draw_limits, draw_survival
 def drawn(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     """Figures that were made, kept open to be read."""
     figures: list[Any] = []
-    subplots = style.plt.subplots
+    begin = style.new_figure
 
-    def keep(*arguments: Any, **options: Any) -> Any:
-        figure, axes = subplots(*arguments, **options)
-        figures.append(figure)
-        return figure, axes
+    def keep(width: float, height: float) -> Any:
+        figures.append(begin(width, height))
+        return figures[-1]
 
-    monkeypatch.setattr(style.plt, "subplots", keep)
+    monkeypatch.setattr(robustness_figure, "new_figure", keep)
     monkeypatch.setattr(style.plt, "close", lambda figure: None)
     return figures
 

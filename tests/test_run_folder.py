@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from hashlib import sha256
 from math import degrees
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,9 @@ from invented_run import check_same, run_of
 from stepaside.errors import ConfigurationError, OutputError
 from stepaside.games.circle import theory_of
 from stepaside.games.duel import run_duel
-from stepaside.games.folder import FORMAT, load_run
+from stepaside.games.duel_run import DuelRun
+from stepaside.games.folder import load_run
+from stepaside.games.folder_head import FORMAT
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import Run
 from stepaside.games.settings import (
@@ -34,7 +37,7 @@ SETTINGS = DuelSettings(
 
 
 @pytest.fixture(scope="module")
-def result() -> Run:
+def result() -> DuelRun:
     return run_duel(SETTINGS)
 
 
@@ -47,12 +50,12 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(run_folder, "draw_duel", draw_nothing)
 
 
-def test_a_run_comes_back_as_it_was(tmp_path: Path, result: Run) -> None:
+def test_a_run_comes_back_as_it_was(tmp_path: Path, result: DuelRun) -> None:
     folder = tmp_path / "runs" / "first"
     figure = write_run(folder, result)
     assert figure == folder / "duel.png" and figure.is_file()
     assert sorted(p.name for p in folder.iterdir()) == [
-        *("configuration.toml", "duel.png"),
+        *("checksums.txt", "configuration.toml", "duel.png"),
         *("summary.json", "trajectories.npz"),
     ]
     assert folder.stat().st_mode & 0o777 == 0o755
@@ -73,12 +76,14 @@ def test_a_duration_of_many_cycles_comes_back_to_the_last_digit(
     check_same(load_run(tmp_path / "run"), run)
 
 
-def test_an_empty_folder_is_taken(tmp_path: Path, result: Run) -> None:
+def test_an_empty_folder_is_taken(tmp_path: Path, result: DuelRun) -> None:
     folder = tmp_path / "empty"
     folder.mkdir()
     write_run(folder, result)
     text = (folder / "summary.json").read_text(encoding="utf-8")
-    told = {"format": FORMAT, **result.summary.to_json()}
+    players = ["pursuer", "evader"]
+    told = {"format": FORMAT, "game": "duel", "players": players}
+    told |= result.summary.to_json()
     assert text == json.dumps(told, indent=2) + "\n"
 
 
@@ -86,7 +91,7 @@ def test_an_empty_folder_is_taken(tmp_path: Path, result: Run) -> None:
 def test_an_error_leaves_nothing_behind(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
-    result: Run,
+    result: DuelRun,
     error: BaseException,
 ) -> None:
     def fail(*arguments: Any) -> None:
@@ -100,7 +105,7 @@ def test_an_error_leaves_nothing_behind(
 
 
 def test_a_full_disk_is_told_in_one_line(
-    tmp_path: Path, result: Run, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, result: DuelRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(*_: Any) -> None:
         raise OSError(28, "No space left on device")
@@ -113,7 +118,7 @@ def test_a_full_disk_is_told_in_one_line(
 
 
 def test_a_film_strip_is_there_if_they_saw(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, result: Run
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, result: DuelRun
 ) -> None:
     monkeypatch.setattr(sight_figure, "draw_sight", draw_nothing)
     seen = replace(result, stills={"pursuer": {}})
@@ -154,11 +159,47 @@ def test_the_next_free_name_is_counted_from_two(tmp_path: Path) -> None:
         folder.mkdir()
 
 
+READ = ("configuration.toml", "summary.json", "trajectories.npz")
+
+
+@pytest.mark.parametrize("name", READ)
+def test_a_file_that_was_altered_is_named(
+    tmp_path: Path, result: Run, name: str
+) -> None:
+    folder = write_run(tmp_path / "run", result).parent
+    raw = (folder / name).read_bytes()
+    (folder / name).write_bytes(raw + b"\n")
+    with pytest.raises(ConfigurationError, match=f"{name} of run .* differs"):
+        load_run(folder)
+    (folder / name).write_bytes(raw)
+    load_run(folder)
+    sums = (folder / "checksums.txt").read_text()
+    for torn in ("", sums[:200], sums.replace("  ", " "), "\0" * 90):
+        (folder / "checksums.txt").write_text(torn)
+        with pytest.raises(ConfigurationError, match="checksum differs"):
+            load_run(folder)
+    (folder / "checksums.txt").unlink()
+    load_run(folder)
+
+
+def test_checksums_are_those_of_everybody_else(
+    tmp_path: Path, result: Run
+) -> None:
+    folder = write_run(tmp_path / "run", result).parent
+    lines = (folder / "checksums.txt").read_text().splitlines()
+    pairs = [line.split("  ") for line in lines]
+    assert {name: checksum for checksum, name in pairs} == {
+        file.name: sha256(file.read_bytes()).hexdigest()
+        for file in folder.iterdir()
+        if file.name != "checksums.txt"
+    }
+
+
 @pytest.mark.parametrize(
     "name", ["configuration.toml", "summary.json", "trajectories.npz"]
 )
 def test_a_folder_that_lacks_a_file_is_no_run(
-    tmp_path: Path, result: Run, name: str
+    tmp_path: Path, result: DuelRun, name: str
 ) -> None:
     folder = tmp_path / "run"
     write_run(folder, result)
@@ -169,11 +210,12 @@ def test_a_folder_that_lacks_a_file_is_no_run(
 
 @pytest.mark.parametrize("name", ["summary.json", "trajectories.npz"])
 def test_a_broken_file_is_refused(
-    tmp_path: Path, result: Run, name: str
+    tmp_path: Path, result: DuelRun, name: str
 ) -> None:
     folder = tmp_path / "run"
     write_run(folder, result)
     (folder / name).write_bytes(b"{ broken")
+    (folder / "checksums.txt").unlink()  # which would tell before
     with pytest.raises(ConfigurationError, match="cannot be read"):
         load_run(folder)
 
@@ -181,7 +223,7 @@ def test_a_broken_file_is_refused(
 TIMES = np.linspace(0.0, 40.0, 401)
 
 
-def invented(**told: Any) -> Run:
+def invented(**told: Any) -> DuelRun:
     """Robots that wander, and then go round (3, -2) by halves."""
     angle = 0.5 * TIMES
     away = np.where(TIMES < 20.0, 5.0, 0.0)[:, None]
@@ -273,7 +315,7 @@ def test_the_last_words_are_how_it_ended(
 
 
 def test_the_stage_puts_the_bodies_where_they_were(
-    result: Run,
+    result: DuelRun,
 ) -> None:
     """At every sample: torsos, CoMs and the cameras of the bodies."""
     tracks = {}
@@ -338,3 +380,17 @@ def _legs(stage: Stage, heading: float) -> Array:
     turn = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
     seen: Array = turn @ stage.data.xmat[own].reshape(-1, 3, 3)
     return seen
+
+
+def test_words_of_a_duel_with_a_person_speak_of_players() -> None:
+    zero = np.zeros((2, 3))
+    tracks = {name: Track(zero, zero) for name in ("pursuer", "evader")}
+    for pursuer, who in (("robot", "robots"), ("person", "players")):
+        run = run_of(
+            np.arange(2.0),
+            tracks,
+            settings=DuelSettings(pursuer=pursuer),
+            triggered_at_s=-5.0,
+            converged_at_s=0.0,
+        )
+        assert run.words(1) == f"both {who} are on the circle"

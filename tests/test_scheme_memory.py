@@ -57,10 +57,13 @@ class DullEstimator(FakeEstimator):
 
     torso_heading = 0.0
 
-    def update(self, measurement: Any, feet: Any, asked: Any) -> Any:
+    def update(
+        self, measurement: Any, feet: Any, asked: Any, reaction: Any
+    ) -> Any:
         """Answer with a state."""
-        state = super().update(measurement, feet, asked)
+        state = super().update(measurement, feet, asked, reaction)
         self.told.clear()
+        self.reactions.clear()
         x, y, _ = feet.com
         dx, dy = self.off_dcm
         return state._replace(com=(x, y), dcm=(x + dx, y + dy))

@@ -16,6 +16,7 @@ from stepaside.games.outcome import Outcome
 from stepaside.games.pedestrian import Pedestrian
 from stepaside.games.seeing import Seeing, Witness
 from stepaside.games.settings import PLAYERS, DuelSettings
+from stepaside.games.sight_figures import SightFigures, Spread
 from stepaside.games.walker import Walker
 from stepaside.robots.description import load_robot
 from stepaside.world.camera_settings import (
@@ -35,13 +36,19 @@ SETTINGS = DuelSettings(
 )
 
 
+def saw(lost: float) -> SightFigures:
+    """Figures of a robot that was lost for a time, in [s]."""
+    none = Spread(None, None)
+    return SightFigures(none, none, None, 0, 0.0, lost)
+
+
 def judged(colour: Tally, depth: Tally, lost: float) -> Any:
     """A judge of a robot that was lost for a time."""
     return SimpleNamespace(
         colour=colour,
         depth=depth,
         stills={"colour": []},
-        figures=lambda: {"lost_s": lost},
+        figures=lambda: saw(lost),
         array=lambda: np.full((2, 6), lost),
     )
 
@@ -64,19 +71,18 @@ def test_figures_are_of_both_robots_and_both_cameras() -> None:
         "evader": judged(Tally(20, 12, 3), Tally(10, 3, 5), 1.25),
     }
     both = Witness(judges, "raycast", every=5)
-    figures = both.figures()
-    assert figures["camera"] == "raycast"
-    assert figures["detection_rate"] == pytest.approx(24 / 40)
-    assert figures["false_detections"] == 9
-    assert figures["lost_s"] == 1.75
-    assert figures["evader"] == {"lost_s": 1.25}
+    figures, each = both.figures()
+    assert figures.camera == "raycast"
+    assert figures.detection_rate == pytest.approx(24 / 40)
+    assert figures.false_detections == 9
+    assert figures.lost_s == 1.75
+    assert each["evader"] == saw(1.25)
     assert set(both.sight()) == {"pursuer", "evader"}
     assert both.sight()["evader"][0, 0] == 1.25
     assert both.stills()["pursuer"] is judges["pursuer"].stills
     blind = {"evader": judged(Tally(), Tally(), 0.0)}
-    nothing = Witness(blind, "raycast", every=5).figures()
-    assert nothing["detection_rate"] is None
-    assert list(nothing)[-1] == "evader" and "pursuer" not in nothing
+    nothing, each = Witness(blind, "raycast", every=5).figures()
+    assert nothing.detection_rate is None and list(each) == ["evader"]
 
 
 def test_seeing_takes_one_core() -> None:
@@ -173,8 +179,9 @@ def test_a_person_opens_no_eyes() -> None:
     assert duel.tick() is None
     run = duel.run(Outcome.COMPLETED, 1.0)
     assert run.evader.sight is not None and run.pursuer.sight is None
-    assert run.summary.pursuer.sight == {}
-    assert run.summary.evader.sight["lost_s"] >= 0.0
+    assert run.summary.pursuer.sight is None
+    assert run.summary.evader.sight is not None
+    assert run.summary.evader.sight.lost_s >= 0.0
     duel.close()
 
 

@@ -5,21 +5,28 @@ from contextlib import contextmanager
 from pathlib import Path
 from threading import Thread
 
+import numpy as np
 import pytest
 
+from invented_run import check_same
 from stepaside.control.balance.settings import ControlSettings
 from stepaside.drivers.lola.address import Address
 from stepaside.drivers.lola.body import LolaBody
-from stepaside.drivers.lola.link import SessionLost
 from stepaside.drivers.lola.opening import open_lola
 from stepaside.drivers.lola.safety import State
 from stepaside.drivers.minds import mind_maker
 from stepaside.drivers.playing import Playing, Tick
+from stepaside.drivers.session import SessionLost
 from stepaside.errors import ConfigurationError
 from stepaside.games.duel import run_duel
+from stepaside.games.duel_run import DuelRun
+from stepaside.games.folder import load_run
+from stepaside.games.offers import LolaOffer
 from stepaside.games.serving import serve_duel
 from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.planning import GaitSettings
+from stepaside.report.run_folder import write_run
+from stepaside.report.stage import Stage
 from stepaside.robots.description import load_robot
 from stepaside.strategies import Evasion, Pursuit, Strategy
 from stepaside.world.body_settings import BODIES
@@ -80,8 +87,11 @@ def test_in_lock_step_the_duel_is_the_one_played_in_one_process(
         control=FEEDBACK,
     )
     with clients(tmp_path) as (addresses, ticks):
-        served = serve_duel(settings, addresses, lock_step=True).to_json()
-    alone = run_duel(settings).summary.to_json()
+        offers = {name: LolaOffer(a) for name, a in addresses.items()}
+        over = serve_duel(settings, offers, lock_step=True)
+    served, played = over.to_json(), run_duel(settings)
+    alone = played.summary.to_json()
+    check_record(over.run, played, tmp_path / "kept")
     assert served["outcome"] == alone["outcome"] == "completed"
     assert served["duration_s"] == alone["duration_s"]
     for key in ("distance_m", "min_distance_m"):
@@ -95,13 +105,28 @@ def test_in_lock_step_the_duel_is_the_one_played_in_one_process(
     assert not any(Path(a.path).exists() for a in addresses.values())
 
 
+def check_record(served: DuelRun, played: DuelRun, folder: Path) -> None:
+    """It is kept as any duel, but for what only control knows."""
+    assert served.settings == played.settings
+    np.testing.assert_array_equal(served.times, played.times)
+    for name, track in served.tracks.items():
+        for key in ("com", "torso", "place", "qpos"):
+            wanted = getattr(played.tracks[name], key)
+            found = getattr(track, key)
+            np.testing.assert_allclose(found, wanted, atol=2e-3)
+        assert track.zmp is not None and track.com_reference is None
+    write_run(folder, served)
+    check_same(load_run(folder), served)
+    Stage(served).put(len(served.times) - 1)
+
+
 def test_a_world_waits_for_clients_no_longer_than_it_is_told(
     tmp_path: Path,
 ) -> None:
-    addresses = {"evader": Address(path=str(tmp_path / "e"))}
+    offers = {"evader": LolaOffer(Address(path=str(tmp_path / "e")))}
     settings = DuelSettings(body=BODIES["delayed"])
     with pytest.raises(ConfigurationError, match="1 of 1 robots had no"):
-        serve_duel(settings, addresses, patience=0.02)
+        serve_duel(settings, offers, patience=0.02)
     assert list(tmp_path.iterdir()) == []
 
 

@@ -1,21 +1,27 @@
 """A live duel behind a page, without a browser."""
 
+import json
 from collections.abc import Callable, Iterator
 from math import inf, pi
+from pathlib import Path
 from threading import Event, Thread, current_thread
+from time import sleep
 
+import numpy as np
 import pytest
 
 from onlooker import look_away, look_on
 from stepaside.control import Phase
-from stepaside.errors import ConfigurationError
+from stepaside.errors import ConfigurationError, StepAsideError
 from stepaside.games.duel import Duel
+from stepaside.games.folder import load_run
 from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.games.walker import Walker
+from stepaside.report.viewer import saving
 from stepaside.report.viewer import session as live
 from stepaside.report.viewer import trail as trails
 from stepaside.report.viewer.session import Session
-from stepaside.report.viewer.words import words_of
+from stepaside.report.viewer.words import outlook, words_of
 from stepaside.strategies.driven import TURN, Driven
 
 START = StartSettings(distance=1.0, pursuer_offset=0.0, evader_offset=0.0)
@@ -95,14 +101,21 @@ def test_a_step_is_as_long_as_asked(session: Session) -> None:
 
 
 class Clock:
-    """Time that passes only by sleeping, and by what a tick costs."""
+    """Time that passes only by sleeping, and by what a tick costs.
+
+    Who sleeps for other tests' sake in this process does not count.
+    """
 
     def __init__(self) -> None:
         self.now = 100.0
+        self.sleeper: Thread | None = None
 
     def sleep(self, duration: float) -> None:
         """Let time pass."""
-        self.now += duration
+        if current_thread() is self.sleeper:
+            self.now += duration
+        else:
+            sleep(duration)
 
 
 @pytest.fixture
@@ -120,6 +133,7 @@ def time_for(
 ) -> tuple[float, Session]:
     """Time of the clock that 1.5 s of a duel take."""
     made = Session(SETTINGS)
+    clock.sleeper = made._thread
     made.speed = speed
     times = []
 
@@ -282,10 +296,71 @@ def test_words_say_what_goes_on(
     assert expected in words
 
 
-def test_a_live_duel_keeps_no_record_that_grows(session: Session) -> None:
+def test_of_a_live_duel_the_first_minutes_are_kept(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What would grow for ever is cut."""
+    monkeypatch.setattr(saving, "KEPT", 1.0)
     run_until(session, 2.0)
     duel = session.duel
     assert duel.world.time >= 2.0
-    assert len(duel.recorder.times) == 0
-    assert all(len(t.com) == 0 for t in duel.recorder.tracks().values())
-    assert duel.observers == (session.trail,) and duel.witness is None
+    np.testing.assert_allclose(duel.recorder.times, 0.02 * np.arange(51))
+    assert all(len(t.com) == 51 for t in duel.recorder.tracks().values())
+    assert duel.observers[0] is session.trail and duel.witness is None
+
+
+def test_what_was_played_is_saved_with_pushes_and_commands(
+    session: Session, tmp_path: Path
+) -> None:
+    kept = saving.Saving(tmp_path)
+    with pytest.raises(StepAsideError, match="nothing has been played"):
+        session.save(kept)
+    run_until(session, 0.6)
+    session.push(1, 0.2, 0.0)
+    session.note(turn=1.0, going=True)
+    run_until(session, 1.2)
+    folder = session.save(kept)
+    run = load_run(folder)
+    assert run.tracks["evader"].pushes is not None
+    assert run.times[-1] >= 1.0 and folder.parent == tmp_path
+    (asked,) = json.loads((folder / saving.HAND).read_text())
+    assert asked["turn"] == 1.0 and 0.5 < asked["time_s"] <= 1.2
+    again = session.save(kept)
+    assert again.name == f"{folder.name}-2"
+
+
+def test_a_page_saves_a_few_runs_at_most(
+    session: Session, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(saving, "MOST", 0)
+    with pytest.raises(StepAsideError, match="must be at most 0"):
+        session.save(saving.Saving(tmp_path))
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("phase", "distance", "theory", "settling", "told"),
+    [
+        (Phase.STANDING, 1.53, (0.9, 90.0), 14.0, "in about 10 s"),
+        (Phase.WALKING, 0.60, (0.9, 90.0), 10.0, "about 19 s more"),
+        (Phase.WALKING, 0.91, (0.9, 90.0), 10.0, "so it is"),
+        (Phase.WALKING, 0.91, None, None, "no circle"),
+    ],
+)
+def test_the_outlook_says_what_comes_next_and_when(
+    phase: Phase,
+    distance: float,
+    theory: tuple[float, float] | None,
+    settling: float | None,
+    told: str,
+) -> None:
+    """Off by a third, five hundredths are log(6.7) times the slowest mode."""
+    words = outlook(
+        distance,
+        phase,
+        safety=0.8,
+        speed=0.073,
+        theory=theory,
+        settling=settling,
+    )
+    assert told in words

@@ -118,12 +118,13 @@ def test_of_a_person_only_its_way_is_drawn(session: Session) -> None:
     layers.draw = draw
     draw_session(layers, session)
     of_person = {layer for layer, owner in drawn if owner == "pursuer"}
-    assert of_person == {"CoM trace", "ZMP trace"}
+    assert of_person == {"CoM trace", "ZMP trace", "pushes"}
     assert len(drawn["CoM trace", "pursuer"]) == 3
     assert len(drawn["ZMP trace", "pursuer"]) == 0
+    assert len(drawn["pushes", "pursuer"]) == 0
     of_robot = {layer for layer, owner in drawn if owner == "evader"}
     assert of_robot == {
-        *("CoM trace", "ZMP trace", "safety area"),
+        *("CoM trace", "ZMP trace", "pushes", "safety area"),
         *("planned path", "footsteps", "support polygon"),
     }
     places = [player.truth.position for player in session.duel.players]

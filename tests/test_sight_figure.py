@@ -11,8 +11,8 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from invented_run import run_of
+from stepaside.games.duel_run import DuelRun
 from stepaside.games.judge import Still
-from stepaside.games.run import Run
 from stepaside.games.settings import DuelSettings
 from stepaside.games.track import Track
 from stepaside.poses import Array
@@ -127,7 +127,7 @@ SETTINGS = DuelSettings(
 )
 
 
-def result(**changes: Any) -> Run:
+def result(**changes: Any) -> DuelRun:
     """A duel with three moments of which pictures were kept."""
     tracks = {}
     for name, x, heading in (("pursuer", 0.0, 0.3), ("evader", 2.0, 2.0)):

@@ -19,8 +19,8 @@ from stepaside.planning import GaitSettings
 from stepaside.poses import Array, Pose
 from stepaside.randomness import named_generator
 from stepaside.robots.description import load_robot
-from stepaside.robots.forward import FOOT_FORCES
 from stepaside.robots.kinematics import LegKinematics
+from stepaside.robots.own import FOOT_FORCES
 from stepaside.sensing.measurement import Sighting
 from stepaside.strategies import Pursuit
 from stepaside.world.body_settings import BodySettings
@@ -29,7 +29,7 @@ from stepaside.world.robot import SimulatedRobot
 from stepaside.world.sensor_errors import SensorErrors
 from stepaside.world.servos import HonestServos
 from stepaside.world.settings import PhysicsSettings
-from stepaside.world.truth import TrueState
+from stepaside.world.truth import TrueState, torsos_apart
 from stepaside.world.world import World
 
 NAO = load_robot("nao")
@@ -170,8 +170,8 @@ def test_distance_is_level_and_the_same_from_both_sides() -> None:
     at = robot.qpos_slice.start
     world.data.qpos[at : at + 3] = (0.7, -2.3, 0.3)
     mujoco.mj_kinematics(world.model, world.data)
-    assert robot.truth.distance_to(other) == pytest.approx(5.0)
-    assert other.distance_to(robot.truth) == pytest.approx(5.0)
+    assert torsos_apart(robot.truth, other) == pytest.approx(5.0)
+    assert torsos_apart(other, robot.truth) == pytest.approx(5.0)
     assert other.position == (-2.3, 1.7)
 
 

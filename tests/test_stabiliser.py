@@ -93,7 +93,7 @@ def test_a_shift_is_brought_back_by_the_zmp() -> None:
 
 
 def test_giving_way_is_never_faster_than_the_error() -> None:
-    feedback, fake = stabiliser(gains=replace(GAINS, yielding=1e6))
+    feedback, fake = stabiliser(gains=replace(GAINS, yielding=1e3))
     fake.off_com = (0.0, 0.0175)
     feedback.update(MEASUREMENT, ROW, step())
     same(feedback.com_shift, (0.0, 0.01 * (1.0 - TICK * ETA)))
@@ -118,6 +118,24 @@ def test_the_estimator_is_told_what_was_asked() -> None:
         ),
     )
     assert feedback.error == feedback.com_error == ZERO
+
+
+@pytest.mark.parametrize("late", [0, 2])
+def test_the_estimator_knows_what_the_swing_leg_does(late: int) -> None:
+    """The CoM falls away from a point behind the ZMP, as late as all else."""
+    feedback, fake = stabiliser(delay=late * TICK)
+    for i in range(4):
+        swung = ROW._replace(reaction=(0.01 * i, -0.02))
+        feedback.update(MEASUREMENT, swung, step())
+        ahead = 0.01 * max(i - late, 0)
+        same(fake.reactions[i], (ahead, -0.02))
+        same(
+            fake.told[i][1],
+            (
+                ETA**2 * (COM[0] - ZMP[0] + ahead),
+                ETA**2 * (COM[1] - ZMP[1] - 0.02),
+            ),
+        )
 
 
 @pytest.mark.parametrize("late", [0, 1, 3])
@@ -180,7 +198,7 @@ def test_an_error_that_joints_have_not_followed_is_stepped_out_too(
 ) -> None:
     """The part that the shift has not taken over yet, and the shift."""
     gains = replace(
-        GAINS, yielding=rate / TICK, step_speed=1e6, reach_forward=1.0
+        GAINS, yielding=rate / TICK, step_speed=100.0, reach_forward=1.0
     )
     feedback, fake = stabiliser(gains=gains)
     fake.off_dcm = step().from_support(0.105, 0.0)

@@ -16,6 +16,12 @@ from stepaside.games.settings import (
     DuelSettings,
     StartSettings,
 )
+from stepaside.games.sight_figures import (
+    SeeingFigures,
+    Seen,
+    SightFigures,
+    Spread,
+)
 from stepaside.games.summary import summarise
 from stepaside.games.track import Planning
 from stepaside.poses import Array, Pose
@@ -42,7 +48,7 @@ def figures(
     outcome: Outcome = Outcome.COMPLETED,
     duration: float = 60.0,
     planning: dict[str, Planning] | None = None,
-    sight: dict[str, Any] | None = None,
+    sight: Seen | None = None,
     wall_time: float = 3.0,
 ) -> dict[str, Any]:
     """Figures of a duel, as they are told."""
@@ -52,6 +58,7 @@ def figures(
         min_distance=0.61,
         triggered_at=2.5,
         triggered_distance=0.79,
+        touched=(),
     )
     return summarise(
         settings,
@@ -60,7 +67,7 @@ def figures(
         record.times,
         record.tracks(),
         PLANNED if planning is None else planning,
-        sight or {},
+        sight,
         wall_time,
     ).to_json()
 
@@ -124,6 +131,7 @@ def test_a_summary_says_what_the_duel_was() -> None:
         "radius_m": pytest.approx(THEORY.radius_evader_m),
         "distance_m": pytest.approx(THEORY.distance_m),
         "relative_orientation_deg": pytest.approx(90.0),
+        "pursuer_radius_m": pytest.approx(THEORY.radius_pursuer_m),
     }
 
 
@@ -178,12 +186,14 @@ def test_a_figure_that_does_not_exist_is_none() -> None:
 
 
 def test_what_was_seen_is_told_for_each_robot_and_both() -> None:
-    sight = {"evader": {"seen": 0.9}, "processing_ms": 3.0}
-    found = figures(Record(), sight=sight)
-    assert found["evader"]["seen"] == 0.9
+    none = Spread(None, None)
+    eyes = SightFigures(none, none, 0.9, 0, 0.0, 2.0)
+    both = SeeingFigures("raycast", 0.8, 1, 2.0)
+    found = figures(Record(), sight=Seen(both, {"evader": eyes}))
+    assert found["evader"]["detection_rate"] == 0.9
     assert found["evader"]["radius_m"] == pytest.approx(0.4)
     assert found["pursuer"] == {"radius_m": pytest.approx(0.4)}
-    assert found["processing_ms"] == 3.0
+    assert (found["camera"], found["detection_rate"]) == ("raycast", 0.8)
 
 
 def test_a_person_is_compared_with_the_template_at_its_pace(

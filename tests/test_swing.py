@@ -1,14 +1,22 @@
 """Test swing-foot trajectories that lift off and touch down at rest."""
 
+from typing import get_args
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stepaside.planning.swing import swing_height, swing_progress
+from stepaside.planning.swing import (
+    SwingProfile,
+    swing_acceleration,
+    swing_height,
+    swing_progress,
+)
 from stepaside.poses import Array
 
 H = 1e-3
+PROFILES: tuple[SwingProfile, ...] = get_args(SwingProfile)
 
 
 def derivative(values: Array, order: int, h: float) -> Array:
@@ -26,17 +34,49 @@ def test_progress_is_the_minimum_jerk_polynomial() -> None:
     np.testing.assert_array_equal(swing_progress([0.0, 1.0]), [0.0, 1.0])
 
 
+@pytest.mark.parametrize("profile", PROFILES)
 @given(st.floats(-1.0, 2.0))
-def test_progress_mirrors_about_the_middle(phase: float) -> None:
-    there, back = swing_progress([phase, 1.0 - phase])
+def test_progress_mirrors_about_the_middle(
+    profile: SwingProfile, phase: float
+) -> None:
+    there, back = swing_progress([phase, 1.0 - phase], profile)
     assert there + back == pytest.approx(1.0, abs=1e-12)
 
 
-def test_progress_only_grows() -> None:
-    progress = swing_progress(np.linspace(0.0, 1.0, 101))
+@pytest.mark.parametrize(
+    ("profile", "fastest"), [("minimum-jerk", 15 / 8), ("even", 35 / 24)]
+)
+def test_progress_only_grows_and_is_fastest_half_way(
+    profile: SwingProfile, fastest: float
+) -> None:
+    progress = swing_progress(np.linspace(0.0, 1.0, 101), profile)
     assert (np.diff(progress) > 0.0).all()
-    # Peak speed of minimum jerk: 15 / 8 of the mean.
-    assert np.diff(progress).max() == pytest.approx(0.01875, rel=1e-3)
+    assert 100.0 * np.diff(progress).max() == pytest.approx(fastest, rel=1e-3)
+    middle = np.diff(swing_progress([0.5 - H, 0.5 + H], profile))
+    assert middle / (2.0 * H) == pytest.approx(fastest, rel=1e-5)
+
+
+def test_the_even_progress_is_flat_where_it_is_fastest() -> None:
+    """The curvature of its speed vanishes half-way, too."""
+    phases = 0.5 + 0.01 * np.arange(-4, 5)
+    jolt = derivative(swing_progress(phases, "even"), 3, 0.01)
+    assert np.abs(jolt).max() < 0.5
+    assert (derivative(swing_progress(phases), 3, 0.01) < -25.0).all()
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_acceleration_is_the_second_derivative(profile: SwingProfile) -> None:
+    s = np.array([0.0, 0.05, 0.3, 0.5, 0.8, 1.0])
+    told = np.polynomial.polynomial.polyval(s, swing_acceleration(profile))
+    inside = np.clip(s, 0.05, 0.95)
+    bent = [
+        derivative(swing_progress(x + H * np.arange(-2, 3), profile), 2, H)
+        for x in inside
+    ]
+    np.testing.assert_allclose(
+        told[1:-1], np.ravel(bent)[1:-1], rtol=1e-4, atol=1e-3
+    )
+    np.testing.assert_allclose(told[[0, -1]], 0.0, atol=1e-12)
 
 
 @pytest.mark.parametrize("order", [1, 2])
@@ -52,6 +92,7 @@ def test_speed_and_acceleration_vanish_at_both_ends(
     phases = end + H * np.arange(-order, order + 1)
     for values, third in (
         (swing_progress(phases), 60.0),
+        (swing_progress(phases, "even"), 6.0 * 70.0 / 3.0),
         (swing_height(phases, 0.02), 0.02 * 6.0 * 64.0),
     ):
         rate = derivative(values, order, H)
@@ -73,7 +114,19 @@ def test_height_is_that_of_a_cubed_parabola() -> None:
     np.testing.assert_allclose(heights, [0.421875, 0.421875, 0.36**3])
 
 
+def test_the_even_height_rises_more_slowly_and_stays_up_longer() -> None:
+    """That of a squared parabola: (3/4)^2 of the apex, a quarter through."""
+    phases = np.linspace(0.0, 1.0, 201)
+    even = swing_height(phases, 1.0, "even")
+    np.testing.assert_allclose(even[[50, 100, 150]], [0.5625, 1.0, 0.5625])
+    rises = [np.diff(h).max() for h in (even, swing_height(phases, 1.0))]
+    assert rises[0] < 0.9 * rises[1]
+    assert abs(even[1]) < 1e-2 * even[100]  # no jolt of speed
+
+
 @pytest.mark.parametrize("phase", [-5.0, -1e-9, 0.0, 1.0, 1.0 + 1e-9, 7.0])
 def test_a_foot_stands_before_and_after(phase: float) -> None:
-    assert float(swing_height(phase, 0.02)) == 0.0
-    assert float(swing_progress(phase)) == (0.0 if phase < 0.5 else 1.0)
+    for profile in PROFILES:
+        assert float(swing_height(phase, 0.02, profile)) == 0.0
+        there = 0.0 if phase < 0.5 else 1.0
+        assert float(swing_progress(phase, profile)) == there

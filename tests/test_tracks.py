@@ -23,6 +23,13 @@ SHAPES = {
     "qpos": (5, 30),
     "landings": (2, 5),
     "sight": (4, 6),
+    "pushes": (2, 6),
+    "velocity": (5, 2),
+    "tilt": (5, 2),
+    "sole": (5, 3),
+    "support": (5, 5),
+    "heading_reference": (5, 1),
+    "estimate": (5, 8),
 }
 
 

@@ -10,7 +10,7 @@ from stepaside.poses import Pose
 from stepaside.unicycle.circling import circle_of
 from stepaside.unicycle.laws import Game, make_game
 from stepaside.unicycle.relative import Start
-from stepaside.unicycle.simulate import Run, simulate
+from stepaside.unicycle.simulate import PlayedGame, simulate
 
 GAMES = [
     make_game(1.0, 1.0, 0.5, 0.5),
@@ -23,7 +23,7 @@ GAMES = [
 LATCHED = make_game(1.0, 1.0, 0.5, 0.5, side_rule="latched")
 
 
-def last_state(run: Run) -> np.ndarray:
+def last_state(run: PlayedGame) -> np.ndarray:
     state: np.ndarray = run.states([run.end_time])[0]
     return state
 

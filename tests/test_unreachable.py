@@ -16,9 +16,9 @@ from stepaside.cli import main
 from stepaside.errors import ReachError
 from stepaside.games.configuration import dump_configuration
 from stepaside.games.duel import run_duel
+from stepaside.games.duel_run import DuelRun
 from stepaside.games.folder import load_run
 from stepaside.games.outcome import Outcome
-from stepaside.games.run import Run
 from stepaside.games.settings import PLAYERS, DuelSettings, StartSettings
 from stepaside.planning import GaitSettings
 from stepaside.report.replay_page import write_page
@@ -53,12 +53,12 @@ def impatient() -> Iterator[None]:
 
 
 @pytest.fixture(scope="module", params=["robot", "person"])
-def run(request: pytest.FixtureRequest) -> Run:
+def run(request: pytest.FixtureRequest) -> DuelRun:
     pursuer: str = request.param
     return run_duel(settings_of(pursuer))
 
 
-def test_legs_that_lose_the_reference_end_the_duel(run: Run) -> None:
+def test_legs_that_lose_the_reference_end_the_duel(run: DuelRun) -> None:
     """Everything up to then is recorded, and it is told who it was."""
     assert run.outcome is Outcome.UNREACHABLE
     assert run.summary.outcome == "unreachable"
@@ -82,7 +82,7 @@ def test_legs_that_lose_the_reference_end_the_duel(run: Run) -> None:
     assert run.words(last) == run.message != run.words(last - 1)
 
 
-def test_its_run_folder_is_whole(run: Run, tmp_path: Path) -> None:
+def test_its_run_folder_is_whole(run: DuelRun, tmp_path: Path) -> None:
     folder = tmp_path / "lost"
     figure = write_run(folder, run)
     assert figure.is_file() and figure.stat().st_size > 10_000

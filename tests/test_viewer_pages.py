@@ -17,8 +17,8 @@ from stepaside.control.balance.settings import OPEN_LOOP, STABILISED
 from stepaside.control.deciding import Decisions
 from stepaside.errors import ConfigurationError, StepAsideError
 from stepaside.games.duel import Duel, run_duel
+from stepaside.games.duel_run import DuelRun
 from stepaside.games.outcome import Outcome
-from stepaside.games.run import Run
 from stepaside.games.settings import (
     DuelSettings,
     StartSettings,
@@ -26,6 +26,7 @@ from stepaside.games.settings import (
 from stepaside.games.walker import Walker
 from stepaside.planning import GaitSettings
 from stepaside.poses import Array, wrap_angle
+from stepaside.report.palette import FOR_BOTH
 from stepaside.report.stage import Stage
 from stepaside.report.style import EVADER, PURSUER
 from stepaside.report.viewer import page as pages
@@ -262,12 +263,17 @@ class FakeSession:
             world=SimpleNamespace(time=5.0), players=(pursuer, None)
         )
         self.pushes: list[tuple[int, float, float]] = []
+        self.asked: list[dict[str, Any]] = []
         self.trail: Any = SimpleNamespace(history=[])
         self.theory: tuple[float, float] | None = (0.9, 90.0)
 
     def change(self, request: Any) -> None:
         """Change at once."""
         request(self.duel)
+
+    def note(self, **asked: Any) -> None:
+        """Keep what a hand asks."""
+        self.asked.append(asked)
 
     def push(self, robot: int, impulse: float, direction: float) -> None:
         """Note a push, or refuse it."""
@@ -343,6 +349,8 @@ def test_a_hand_takes_the_pursuer_over_and_gives_it_back() -> None:
     gui["Drive straight"].press()
     panel.show(21.0, 0.7)
     assert "survived 1.0 s; closest approach 0.70 m" in score.content
+    assert session.asked[0] == {"turn": -1.0, "going": True}
+    assert {"released": True} in session.asked
     panel.forget()
     assert score.content == ""
     panel.show(30.0, 0.1)
@@ -356,7 +364,9 @@ def test_plots_show_the_history_beside_theory() -> None:
     assert distance.label == "Distance [m]"
     assert angle.label == "Angle between the headings [deg]"
     colours = [plot.series[1]["stroke"] for plot in gui.plots]
-    assert colours == [PURSUER, EVADER]
+    assert colours == [PURSUER, FOR_BOTH[EVADER]]
+    for plot in gui.plots:  # seconds, and no date
+        assert plot.options["scales"]["x"]["time"] is False
     session.trail.history = [(0.1, 1.0, 170.0)]
     before = distance.data
     plots.show(session)
@@ -433,7 +443,7 @@ def test_buttons_start_step_and_set_the_speed(
 ) -> None:
     page, server = live
     session, gui = page.session, server.gui
-    gui["Step 0.1 s"].press()
+    gui["Duel"].press("step")
     played(session, 0)
     assert session.duel.world.ticks == 25
     session._advance = lambda ticks: None  # type: ignore[method-assign]
@@ -445,6 +455,9 @@ def test_buttons_start_step_and_set_the_speed(
     session.step = asked.append  # type: ignore
     gui["Step 0.1 s"].press()
     assert asked == []
+    gui["Play or pause"].press()
+    assert not session.running
+    gui["Play or pause"].press()
     gui["Start"].press()
     assert not session.running
     for value, speed in (("0.25", 0.25), ("4", 4.0)):
@@ -452,8 +465,6 @@ def test_buttons_start_step_and_set_the_speed(
         assert session.speed == speed
     gui["Speed"].press("as fast as it goes")
     assert session.speed == inf
-    gui["Dark"].press(True)
-    assert gui.themes == [True]
     gui["Footsteps"].press(False)
     assert page._layers.shown["footsteps"] is False
     assert page._layers.shown["CoM trace"] is True
@@ -470,7 +481,7 @@ def test_controls_begin_with_the_duels_own_values(
         "Distance [m]": 1.0,
         "Pursuer turned by [deg]": round(degrees(0.3), 1),
         "Evader turned by [deg]": round(degrees(-0.2), 1),
-        "Driving speed [m/s]": 0.1,
+        "Template speed [m/s]": 0.1,
         "Gain k [1/s]": 0.2,
         "Sensing": "ideal",
         "Body": "ideal",
@@ -511,13 +522,13 @@ def test_a_reset_takes_what_the_controls_say(live: tuple[Page, Any]) -> None:
         ("Distance [m]", 1.4),
         ("Pursuer turned by [deg]", 45.0),
         ("Evader turned by [deg]", -10.0),
-        ("Driving speed [m/s]", 0.08),
+        ("Template speed [m/s]", 0.08),
         ("Gain k [1/s]", 0.25),
         ("Body", "hardware"),
     ):
         gui[label].value = value
     gui["Drive straight"].press()
-    gui["Reset"].press()
+    gui["Duel"].press("reset")
     settings = session.settings
     assert settings.seed == 9
     start = settings.start
@@ -531,17 +542,17 @@ def test_a_reset_takes_what_the_controls_say(live: tuple[Page, Any]) -> None:
     assert decisions.strategy == Pursuit()
     assert page._drive._hand is None
     gui["Body"].value = "ideal"
-    gui["Reset"].press()
+    gui["Duel"].press("reset")
     assert session.settings.control == OPEN_LOOP
     gui["Distance [m]"].value = 0.1
-    gui["Reset"].press()
+    gui["Duel"].press("reset")
     message = gui.texts[1]
     assert message.visible and "distance must lie in" in message.content
     assert session.settings.start.distance == 1.4
 
 
 @pytest.fixture(scope="module")
-def run() -> Run:
+def run() -> DuelRun:
     """A short run whose robots then are moved by hand."""
     run = run_duel(replace(SETTINGS, duration=2.0))
     times: Array = 0.02 * np.arange(len(run.times), dtype=float)
@@ -550,7 +561,7 @@ def run() -> Run:
 
 
 @pytest.fixture
-def replay(monkeypatch: pytest.MonkeyPatch, run: Run) -> tuple[Any, Any]:
+def replay(monkeypatch: pytest.MonkeyPatch, run: DuelRun) -> tuple[Any, Any]:
     monkeypatch.setattr(replaying, "open_server", open_fake)
     made = ReplayPage(run, port=99)
     return made, made.server
@@ -561,7 +572,7 @@ def replay(monkeypatch: pytest.MonkeyPatch, run: Run) -> tuple[Any, Any]:
     [(0.0, 0), (0.5, 25), (0.51, 26), (1.7, 85), (2.0, 100), (9.0, 100)],
 )
 def test_a_replay_shows_the_sample_of_its_time(
-    replay: tuple[Any, Any], run: Run, time: float, index: int
+    replay: tuple[Any, Any], run: DuelRun, time: float, index: int
 ) -> None:
     """Bodies, lines and words are those of that moment."""
     page, server = replay
@@ -608,7 +619,7 @@ def test_a_replay_shows_the_sample_of_its_time(
 
 
 def test_a_replay_has_its_slider_plots_and_layers(
-    replay: tuple[Any, Any], run: Run
+    replay: tuple[Any, Any], run: DuelRun
 ) -> None:
     page, server = replay
     assert server.options == {

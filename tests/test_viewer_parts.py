@@ -18,9 +18,11 @@ from stepaside.games.walker import Walker
 from stepaside.planning import Foot, Sole
 from stepaside.planning.support import sole_corners
 from stepaside.poses import Array, Pose
+from stepaside.report.palette import FOR_BOTH
+from stepaside.report.parts import colour_of, parts_of
 from stepaside.report.style import COLOURS, EVADER, THEORY
 from stepaside.report.viewer import drawing
-from stepaside.report.viewer.bodies import Bodies, colour_of, joined, shape_of
+from stepaside.report.viewer.bodies import Bodies, joined, shape_of
 from stepaside.report.viewer.camera_panel import FOUND, CameraPanel, picture
 from stepaside.report.viewer.drawing import ZMP_COLOURS, draw_session
 from stepaside.report.viewer.layers import (
@@ -57,17 +59,19 @@ quat="0.7071067811865476 0 0.7071067811865476 0"/>
 
 
 def test_meshes_are_as_large_as_their_shapes_and_in_their_place() -> None:
-    model = mujoco.MjModel.from_xml_string(SHAPES)
-    assert shape_of(model, 0) is None  # a plane
-    for geom, middle, half, close in (
-        (1, (0.5, 0, 0), (0.12, 0.02, 0.02), 1e-3),
-        (2, (0, 1, 0), (0.3, 0.3, 0.3), 2e-2),
-        (3, (0, 0, 1), (0.1, 0.4, 0.025), 1e-9),
-        (4, (0, 0, 0), (0.05, 0.05, 0.2), 2e-3),
-        (5, (0, 0, 0), (0.1, 0.2, 0.3), 2e-2),
+    parts = parts_of(mujoco.MjModel.from_xml_string(SHAPES))
+    for part, (middle, half, close) in zip(
+        parts,
+        (
+            ((0.5, 0, 0), (0.12, 0.02, 0.02), 1e-3),
+            ((0, 1, 0), (0.3, 0.3, 0.3), 2e-2),
+            ((0, 0, 1), (0.1, 0.4, 0.025), 1e-9),
+            ((0, 0, 0), (0.05, 0.05, 0.2), 2e-3),
+            ((0, 0, 0), (0.1, 0.2, 0.3), 2e-2),
+        ),
+        strict=True,
     ):
-        mesh = shape_of(model, geom)
-        assert mesh is not None
+        mesh = shape_of(part)
         low, high = mesh.bounds
         np.testing.assert_allclose(0.5 * (low + high), middle, atol=close)
         np.testing.assert_allclose(0.5 * (high - low), half, atol=close)
@@ -92,8 +96,9 @@ def test_every_visible_body_is_on_the_page_once_for_each_colour() -> None:
     assert set(meshes) >= {(255, 0, 0), (0, 127, 255), (0, 0, 0)}
     red = meshes[255, 0, 0]
     # Capsule and box are one mesh; every triangle has its own corners.
-    alone = [shape_of(model, geom) for geom in (1, 3)]
-    assert len(red.corners) == sum(len(m.vertices) for m in alone if m)
+    parts = parts_of(model)
+    alone = [shape_of(parts[i]) for i in (0, 2)]
+    assert len(red.corners) == sum(len(m.vertices) for m in alone)
     assert red.faces.max() == len(red.corners) - 1
     sizes = red.corners.max(axis=0)
     np.testing.assert_allclose(sizes, [0.62, 0.4, 1.025], atol=1e-3)
@@ -106,8 +111,8 @@ def test_every_visible_body_is_on_the_page_once_for_each_colour() -> None:
 
 
 def test_joined_meshes_keep_their_triangles() -> None:
-    model = mujoco.MjModel.from_xml_string(SHAPES)
-    meshes = [m for m in (shape_of(model, 3), shape_of(model, 4)) if m]
+    parts = parts_of(mujoco.MjModel.from_xml_string(SHAPES))
+    meshes = [shape_of(part) for part in parts[2:4]]
     corners, faces = joined(meshes)
     triangles = np.concatenate([m.vertices[m.faces] for m in meshes])
     np.testing.assert_allclose(corners[faces], triangles, atol=1e-6)
@@ -156,7 +161,8 @@ def test_lines_are_drawn_when_they_change_and_go_when_hidden() -> None:
     layers.draw("footsteps", "evader", lines, "#1f5fbf")
     assert scene.drawn == 1 and set(scene.items) == {name}
     np.testing.assert_allclose(scene.items[name].points, lines, atol=1e-6)
-    assert scene.items[name].colors == (0x1F, 0x5F, 0xBF)
+    # A blue that is seen on the dark floor, too.
+    assert scene.items[name].colors == rgb(FOR_BOTH["#1f5fbf"])
     layers.draw("footsteps", "evader", 2.0 * lines, "#1f5fbf")
     assert scene.drawn == 2
     layers.shown["footsteps"] = False
@@ -385,7 +391,7 @@ def test_every_layer_of_the_present_moment_is_drawn(
     assert shade == EVADER
     circle, shade = found["circle of theory", "both"]
     assert circle.shape == (72, 2, 3) and shade == THEORY
-    assert duel.triggered_at is not None and len(found) == 13
+    assert duel.triggered_at is not None and len(found) == 15
     sight, shade = found["line of sight", "both"]
     np.testing.assert_allclose(sight[0, :, :2], places)
     np.testing.assert_allclose(sight[0, :, 2], 0.25)

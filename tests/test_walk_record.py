@@ -12,10 +12,16 @@ from stepaside.control.balance.estimation import BodyState
 from stepaside.control.balance.loop import ClosedLoop
 from stepaside.control.balance.settings import STABILISED
 from stepaside.games.outcome import Outcome
-from stepaside.games.walk import Walking, WalkSettings
-from stepaside.games.walk_record import COLUMNS, WalkRecorder
+from stepaside.games.record import Recorder
+from stepaside.games.walk import Walking
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.games.walk_view import (
+    COLUMNS,
+    on_its_feet,
+    seen_from_foot,
+)
 from stepaside.planning import Foot
-from stepaside.poses import Pose
+from stepaside.poses import Array, Pose
 from stepaside.world.settings import PhysicsSettings
 
 
@@ -28,11 +34,21 @@ def walking() -> Walking:
     return made
 
 
+def recorder(walking: Walking) -> Recorder:
+    """One more recorder of a walk."""
+    tick = walking.world.physics.tick
+    return Recorder([walking.walker], tick=tick, closely=True)
+
+
+def columns(made: Recorder) -> dict[str, Array]:
+    return seen_from_foot(made.times, made.tracks()["walker"])
+
+
 def last(walking: Walking) -> dict[str, float]:
-    made = WalkRecorder(walking.walker)
+    made = recorder(walking)
     made.every = 1
     made.before(walking)
-    arrays = made.arrays()
+    arrays = columns(made)
     assert tuple(arrays) == COLUMNS
     return {name: float(values[0]) for name, values in arrays.items()}
 
@@ -161,8 +177,7 @@ def test_what_was_estimated_is_seen_from_the_foot_too(
 def test_single_support_lasts_while_a_foot_swings() -> None:
     """Not before the walk, and not while both feet stand."""
     walking = Walking(WalkSettings())
-    resting = WalkRecorder(walking.walker)._row(0.0)
-    assert resting[COLUMNS.index("single")] == 0.0
+    assert last(walking)["single"] == 0.0
     gait = walking.settings.gait
     singles, heights = [], []
     while walking.world.time < 3.0:
@@ -184,41 +199,77 @@ def test_samples_of_a_walk_are_about_20_ms_apart(
     tick: float, every: int
 ) -> None:
     walking = Walking(WalkSettings(physics=PhysicsSettings(tick=tick)))
-    made = WalkRecorder(walking.walker)
-    assert made.every == every
-    assert made.arrays()["time"].shape == (0,)
+    assert walking.recorder.every == every
+    assert walking.recorder.times.shape == (0,)
 
 
-def test_a_walk_is_sampled_when_due_but_not_before_it_begins() -> None:
-    """At the end once, and not if the robot lies."""
-    for outcome, last_one in (
+def test_what_is_asked_and_believed_is_placed_with_the_odometry() -> None:
+    """Seen from the foot, it is the same wherever odometry began."""
+    walking = Walking(WalkSettings(bearing=0.6, control=STABILISED))
+    for _ in range(700):
+        assert walking.tick() is None
+    here = last(walking)
+    frame = Pose(2.0, -1.0, 0.7)
+    walking.walker.frame = frame
+    made = recorder(walking)
+    made.every = 1
+    made.before(walking)
+    track = made.tracks()["walker"]
+    assert track.support is not None and track.estimate is not None
+    step = walking.walker.scheme.step(walking.world.time)
+    wanted = frame.compose(step.support)
+    np.testing.assert_allclose(track.support[0, 2:], wanted)
+    there = columns(made)
+    for name in ("reference", "zmp_reference", "estimated_com"):
+        for axis in "xy":
+            key = f"{name}_{axis}"
+            assert there[key][0] == pytest.approx(here[key]), key
+    for key in ("estimated_velocity_x", "estimated_velocity_y"):
+        assert there[key][0] == pytest.approx(here[key]), key
+    turned = there["asked_heading"][0] - here["asked_heading"]
+    assert turned == pytest.approx(frame.theta)
+
+
+def test_a_duel_is_not_looked_at_closely() -> None:
+    """Nor is anybody who believes nothing said to believe something."""
+    walking = Walking(WalkSettings())
+    tick = walking.world.physics.tick
+    plain = Recorder([walking.walker], tick=tick)
+    for made in (plain, walking.recorder):
+        made.before(walking)
+    far = plain.tracks()["walker"]
+    near = walking.recorder.tracks()["walker"]
+    assert far.sole is far.support is far.velocity is far.estimate is None
+    assert near.sole is not None and near.estimate is None
+    with pytest.raises(ValueError, match="if the record has it"):
+        seen_from_foot(plain.times, far)
+
+
+def test_the_last_sample_counts_if_it_is_one_more_of_those_on_its_feet() -> (
+    None
+):
+    even: Array = 0.02 * np.arange(4, dtype=float)
+    cut: Array = np.array([0.0, 0.02, 0.04, 0.044])
+    for outcome, stands in (
         *((Outcome.COMPLETED, True), (Outcome.INTERRUPTED, True)),
-        *((Outcome.FALL, False), (Outcome.UNREACHABLE, False)),
+        *((Outcome.UNREACHABLE, True), (Outcome.FALL, False)),
     ):
-        walking = Walking(WalkSettings(), recorded=False)
-        made = WalkRecorder(walking.walker)
-        for _ in range(10):
-            made.before(walking)
-            walking.world.ticks += 1
-        for _ in range(2):
-            made.ended(walking, outcome)
-        expected = [0.02, 0.04] if last_one else [0.02]
-        np.testing.assert_allclose(made.arrays()["time"], expected)
-        walking.world.ticks += 1  # not due
-        made.ended(walking, outcome)
-        assert len(made.arrays()["time"]) == len(expected)
+        for times, due in ((even, True), (cut, False)):
+            expected = [True, True, True, stands and due]
+            assert on_its_feet(times, outcome).tolist() == expected
+    assert on_its_feet(even[:0], Outcome.FALL).tolist() == []
 
 
 def test_what_a_walk_begins_and_a_solver_answers_is_noted() -> None:
-    walking = Walking(WalkSettings(), recorded=False)
-    made = WalkRecorder(walking.walker)
-    scheme: Any = walking.walker.scheme
-    answers: list[Any] = ["one", None, "two"]
-    step = begun()
-    for answer, began in zip(answers, (step, None, step), strict=True):
-        scheme.balance = SimpleNamespace(solved=answer)
-        scheme.begun = began
-        made.acted(walking)
-    assert made.steps == 2 and made.plans == [step.plan] * 2
-    solved: list[Any] = list(made.solved)
-    assert solved == ["one", "two"]
+    for keeps in (True, False):
+        walking = Walking(WalkSettings(), recorded=keeps)
+        scheme: Any = walking.walker.scheme
+        answers: list[Any] = ["one", None, "two"]
+        step = begun()
+        for answer, began in zip(answers, (step, None, step), strict=True):
+            scheme.balance = SimpleNamespace(solved=answer)
+            scheme.begun = began
+            walking.tally.acted(walking)
+        assert walking.tally.steps == 2
+        solved: list[Any] = list(walking.tally.solved)
+        assert solved == (["one", "two"] if keeps else [])

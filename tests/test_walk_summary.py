@@ -1,6 +1,5 @@
 """Figures of a walk, from records whose figures are known."""
 
-from dataclasses import replace
 from math import degrees, pi, sin
 from typing import Any
 
@@ -9,9 +8,10 @@ import pytest
 
 from stepaside.control.balance.mpc import MpcResult
 from stepaside.games.outcome import Outcome
-from stepaside.games.walk import WalkRun, WalkSettings
-from stepaside.games.walk_record import COLUMNS
-from stepaside.games.walk_summary import summarise_walk
+from stepaside.games.walk_figures import WalkSummary
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.games.walk_summary import Counted, figures_of
+from stepaside.games.walk_view import COLUMNS
 from stepaside.poses import Array
 
 SETTINGS = WalkSettings(seed=4)
@@ -31,25 +31,20 @@ def record(times: Array = TIMES) -> dict[str, Array]:
     return arrays
 
 
-def result(arrays: dict[str, Array], **changes: Any) -> WalkRun:
-    made = WalkRun(
-        settings=SETTINGS,
-        outcome=Outcome.COMPLETED,
-        message="played 12.00 s",
-        duration=12.0,
-        arrays=arrays,
-        steps=20,
-        adapted=3,
-        zmp_margin=0.02,
-        answers=(),
-        push_impulse=(0.1, 0.2),
-        wall_time=3.0,
-    )
-    return replace(made, **changes)
-
-
 def figures(arrays: dict[str, Array], **changes: Any) -> dict[str, Any]:
-    return summarise_walk(result(arrays, **changes))
+    duration = changes.pop("duration", 12.0)
+    counted = Counted(20, 3, (0.1, 0.2), 0.02, (), 3.0)._replace(**changes)
+    found = figures_of(
+        SETTINGS,
+        Outcome.COMPLETED,
+        "played 12.00 s",
+        duration,
+        arrays,
+        counted,
+    )
+    told = found.to_json()
+    assert WalkSummary.from_json(told, "test") == found
+    return told
 
 
 def test_a_summary_says_what_the_walk_was() -> None:

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from stepaside.games.walk import Walking, WalkSettings
+from stepaside.games.walk import Walking
+from stepaside.games.walk_settings import WalkSettings
 
 CYCLES = 12
 

@@ -17,6 +17,14 @@ def figures(viewer: Mapping[str, Any], replay: Mapping[str, Any]) -> str:
             return text
         return f"{text}, {found['updates_per_s']:.0f} updates a second"
 
+    def size(name: str, usual: str) -> str:
+        """Width and height that were asked for."""
+        words = files[name].get("options", "").split()
+        asked = dict(zip(words[::2], words[1::2], strict=True))
+        if "--width" not in asked:
+            return usual
+        return f"{asked['--width']}x{asked['--height']}"
+
     return table(
         ("what", "measured"),
         [
@@ -24,7 +32,8 @@ def figures(viewer: Mapping[str, Any], replay: Mapping[str, Any]) -> str:
             ("the same, one page open", speed("one_page")),
             ("at speed 1, one page open", speed("real_time")),
             (
-                "film of 60 s, 640x480, 30 pictures a second",
+                f"film of 60 s, {size('video', '640x480')}, "
+                "30 pictures a second",
                 f"{files['video']['wall_s']:.0f} s, "
                 f"{files['video']['bytes'] / 1e6:.1f} MB",
             ),
@@ -33,7 +42,7 @@ def figures(viewer: Mapping[str, Any], replay: Mapping[str, Any]) -> str:
                 f"{files['html']['bytes'] / 1e6:.1f} MB",
             ),
             (
-                "GIF above, 16 s of a run",
+                f"GIF of 16 s of a run, {size('gif', '320x240')}",
                 f"{files['gif']['bytes'] / 1e6:.1f} MB",
             ),
         ],

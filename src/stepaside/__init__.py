@@ -17,15 +17,17 @@ if TYPE_CHECKING:
     from .control.balance.settings import ControlSettings as ControlSettings
     from .errors import StepAsideError as StepAsideError
     from .games import Duel as Duel
+    from .games import DuelRun as DuelRun
     from .games import DuelSettings as DuelSettings
     from .games import Outcome as Outcome
     from .games import Run as Run
+    from .games import WalkRun as WalkRun
     from .games import run_duel as run_duel
     from .games.configuration import load_configuration as load_configuration
     from .games.folder import load_run as load_run
     from .games.settings import StartSettings as StartSettings
-    from .games.walk import WalkSettings as WalkSettings
     from .games.walk import run_walk as run_walk
+    from .games.walk_settings import WalkSettings as WalkSettings
     from .planning import Direction as Direction
     from .planning import Foot as Foot
     from .planning import GaitSettings as GaitSettings
@@ -36,7 +38,9 @@ if TYPE_CHECKING:
     from .report.plan_figure import draw_plan as draw_plan
     from .report.replay_page import write_page as write_page
     from .report.run_folder import write_run as write_run
+    from .robots.configuration import Configuration as Configuration
     from .robots.description import load_robot as load_robot
+    from .robots.stored import load_tree as load_tree
     from .sensing.measurement import Measurement as Measurement
     from .sensing.measurement import Sighting as Sighting
     from .strategies import Evasion as Evasion
@@ -60,11 +64,20 @@ _HOMES = {
     "control.assembly": ("build_scheme",),
     "control.balance.settings": ("ControlSettings",),
     "errors": ("StepAsideError",),
-    "games": ("Duel", "DuelSettings", "Outcome", "Run", "run_duel"),
+    "games": (
+        "Duel",
+        "DuelRun",
+        "DuelSettings",
+        "Outcome",
+        "Run",
+        "WalkRun",
+        "run_duel",
+    ),
     "games.configuration": ("load_configuration",),
     "games.folder": ("load_run",),
     "games.settings": ("StartSettings",),
-    "games.walk": ("WalkSettings", "run_walk"),
+    "games.walk": ("run_walk",),
+    "games.walk_settings": ("WalkSettings",),
     "planning": (
         "Direction",
         "Foot",
@@ -77,7 +90,9 @@ _HOMES = {
     "report.plan_figure": ("draw_plan",),
     "report.replay_page": ("write_page",),
     "report.run_folder": ("write_run",),
+    "robots.configuration": ("Configuration",),
     "robots.description": ("load_robot",),
+    "robots.stored": ("load_tree",),
     "sensing.measurement": ("Measurement", "Sighting"),
     "strategies": (
         "Evasion",

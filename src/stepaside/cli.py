@@ -1,14 +1,21 @@
 """The command line: words in, tables and files out."""
 
+import signal
 import sys
+import threading
+from collections.abc import Iterator
+from concurrent.futures import BrokenExecutor
+from contextlib import contextmanager
 from importlib import import_module
 from typing import Any, NoReturn
 
 import click
 
 from . import __version__
-from .errors import StepAsideError
+from .errors import StepAsideError, shortened
+from .extras import remedy
 
+INTERRUPTED = 130  # exit status
 COMMANDS = {
     "duel": "Let two humanoids chase each other in physics.",
     "duels": "Play many duels, on all cores, and say what came out.",
@@ -22,11 +29,30 @@ COMMANDS = {
     "circle": "Find all circles of a game, and which starts end on which.",
     "map": "Map games over their starts: closest approach, worst start.",
     "bound": "Compute the best that any evader can do.",
+    "tournament": "Let evaders play pursuers, in rooms by seed.",
+    "room": "Make a room by seed: walls, doors, discs, boxes, polygons.",
     "play": "Let control drive a robot that speaks LoLA.",
     "serve": "Let others play in our world, over LoLA.",
     "reproduce": "Measure every claim of the paper and write a page.",
     "robot": "Show a robot, or write its model.",
 }
+
+
+@contextmanager
+def stoppable() -> Iterator[None]:
+    """Let SIGTERM end a command as Ctrl-C does: what is done is kept."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, _interrupt)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _interrupt(*_: Any) -> NoReturn:
+    raise KeyboardInterrupt
 
 
 class LazyGroup(click.Group):
@@ -57,24 +83,56 @@ class LazyGroup(click.Group):
         """Turn every refusal into one line and exit status 2."""
         extra["standalone_mode"] = False
         try:
-            status = super().main(*args, **extra)
+            with stoppable():
+                status = super().main(*args, **extra)
         except click.ClickException as error:
             _refuse(error.format_message())
         except StepAsideError as error:
             _refuse(str(error))
+        except ModuleNotFoundError as error:
+            _refuse(remedy(error))
+        except BrokenExecutor:
+            _refuse(
+                "a worker was killed, perhaps for memory; what is done is kept"
+            )
         except OSError as error:
             place = f"{error.filename}: " if error.filename else ""
             _refuse(f"{place}{(error.strerror or str(error)).lower()}")
         except (click.Abort, KeyboardInterrupt):
             click.echo("stepaside: interrupted", err=True)
-            sys.exit(130)
+            sys.exit(INTERRUPTED)
         sys.exit(status if isinstance(status, int) else 0)
+
+
+def all_commands() -> dict[str, click.Command]:
+    """Every command by the words that call it, like ``duel``.
+
+    Of a group whose commands have names of their own, each is there, and the
+    group itself if it does something alone.
+    """
+    found: dict[str, click.Command] = {}
+    waiting: list[tuple[str, click.Group]] = [("", main)]
+    while waiting:
+        before, group = waiting.pop(0)
+        context = click.Context(group)
+        for name in group.list_commands(context):
+            command = group.get_command(context, name)
+            assert command is not None
+            words = f"{before} {name}".strip()
+            alone = True
+            if isinstance(command, click.Group):
+                waiting.append((words, command))
+                alone = command.invoke_without_command
+            if alone:
+                found[words] = command
+    return found
 
 
 def _refuse(message: str) -> NoReturn:
     from .commands.terminal import echo
 
-    echo(f"stepaside: {' '.join(message.split())}", err=True)
+    said = shortened(" ".join(message.split()))
+    echo(f"stepaside: {said}", err=True)
     sys.exit(2)
 
 

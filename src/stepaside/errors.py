@@ -1,10 +1,21 @@
 """Errors raised by this package, and the checks that raise them."""
 
-from math import isfinite
+import sys
+from numbers import Integral, Real
+
+# Of what is greater or smaller, cubes and ratios leave the numbers that a
+# computer has; no length, time or rate of a robot is.
+LARGEST, LEAST = 1e12, 1e-12
+GREATEST = sys.float_info.max
+LONGEST_WORD = 240  # of a message; paths are shorter
 
 
 class StepAsideError(Exception):
     """Base class of every error that this package raises."""
+
+    def __str__(self) -> str:
+        """Message, short whatever was given."""
+        return shortened(super().__str__())
 
 
 class PlanError(StepAsideError, ValueError):
@@ -31,6 +42,56 @@ class OutputError(StepAsideError, OSError):
     """The system did not let a result be written."""
 
 
+def shortened(text: str) -> str:
+    """Text without words that nobody reads, like a number of 1,000 digits.
+
+    Args:
+        text: Of any length.
+    """
+    if len(text) <= LONGEST_WORD:
+        return text
+    words = text.split(" ")
+    return " ".join(
+        w if len(w) <= LONGEST_WORD else f"{w[:60]}..." for w in words
+    )
+
+
+def shown(value: object) -> str:
+    """A value for a message: short, for Python writes no number of any length.
+
+    Args:
+        value: Whatever was given.
+    """
+    if isinstance(value, int) and abs(value) >= 2**128:
+        return "an integer of more than 38 digits"
+    text = _spelled(value)
+    return text if len(text) <= 80 else f"{text[:60]}..."
+
+
+def _spelled(value: object) -> str:
+    if isinstance(value, Real):
+        return str(value)  # 0.5 even where NumPy writes np.float64(0.5)
+    try:
+        return " ".join(repr(value).split())
+    except (ValueError, RecursionError):
+        return f"a {type(value).__name__}"
+
+
+def number_in(value: object, *, whole: bool = False) -> float | None:
+    """A value that is a number; None for truth, text and all else.
+
+    Args:
+        value: Whatever was given.
+        whole: Whether it must be an integer.
+    """
+    if type(value) is float and not whole:
+        return value
+    kind = Integral if whole else Real
+    if isinstance(value, bool) or not isinstance(value, kind):
+        return None
+    return value  # type: ignore[return-value]
+
+
 def check_finite(
     value: float,
     name: str,
@@ -38,9 +99,9 @@ def check_finite(
     error: type[StepAsideError] = PlanError,
 ) -> None:
     """Raise ``error`` unless ``value`` is a finite number."""
-    _check_type(value, name, unit, error)
-    if not isfinite(value):
-        raise error(f"{name} must be finite [{unit}], got {value}")
+    number = number_in(value)
+    if number is None or not -GREATEST <= number <= GREATEST:
+        raise error(f"{name} must be finite [{unit}], got {shown(value)}")
 
 
 def check_positive(
@@ -50,9 +111,12 @@ def check_positive(
     error: type[StepAsideError] = PlanError,
 ) -> None:
     """Raise ``error`` unless ``value`` is finite and above zero."""
-    _check_type(value, name, unit, error)
-    if not 0.0 < value < float("inf"):
-        raise error(f"{name} must be finite and > 0 [{unit}], got {value}")
+    number = number_in(value)
+    if number is None or not LEAST <= number <= LARGEST:
+        raise error(
+            f"{name} must be finite and > 0 [{unit}], {LEAST:g} to "
+            f"{LARGEST:g}, got {shown(value)}"
+        )
 
 
 def check_not_negative(
@@ -62,9 +126,12 @@ def check_not_negative(
     error: type[StepAsideError] = PlanError,
 ) -> None:
     """Raise ``error`` unless ``value`` is finite and at least zero."""
-    _check_type(value, name, unit, error)
-    if not 0.0 <= value < float("inf"):
-        raise error(f"{name} must be finite and >= 0 [{unit}], got {value}")
+    number = number_in(value)
+    if number is None or not 0.0 <= number <= LARGEST:
+        raise error(
+            f"{name} must be finite and >= 0 [{unit}], at most "
+            f"{LARGEST:g}, got {shown(value)}"
+        )
 
 
 def check_within(
@@ -76,16 +143,9 @@ def check_within(
     error: type[StepAsideError] = PlanError,
 ) -> None:
     """Raise ``error`` unless ``low <= value <= high``."""
-    _check_type(value, name, unit, error)
-    if not low <= value <= high:
+    number = number_in(value)
+    if number is None or not low <= number <= high:
         raise error(
-            f"{name} must lie in [{low:g}, {high:g}] [{unit}], got {value}"
+            f"{name} must lie in [{low:g}, {high:g}] [{unit}], "
+            f"got {shown(value)}"
         )
-
-
-def _check_type(
-    value: object, name: str, unit: str, error: type[StepAsideError]
-) -> None:
-    """Refuse true and false, which Python takes for one and zero."""
-    if isinstance(value, bool):
-        raise error(f"{name} must be a number [{unit}], got {value}")

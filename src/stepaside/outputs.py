@@ -1,16 +1,19 @@
 """Where results go: tried before work begins, written whole or not at all."""
 
 import os
+import platform
 import shutil
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
+from hashlib import sha256
 from pathlib import Path
 from stat import S_ISREG
 
 from .errors import ConfigurationError, OutputError
 
 FIGURES = (".png", ".svg", ".pdf")
+DRAFT = ".draft-"  # begins the names of what is not whole yet
 ROOM = 2**20  # that must be free for a result, in [bytes]
 
 
@@ -98,8 +101,9 @@ def writing(file: Path) -> Iterator[Path]:
     try:
         target = _target(file)
         target.parent.mkdir(parents=True, exist_ok=True)
+        sweep(target.parent)
         handle, draft = tempfile.mkstemp(
-            prefix=".draft-", suffix=file.suffix, dir=target.parent
+            prefix=draft_prefix(), suffix=file.suffix, dir=target.parent
         )
         os.close(handle)
         yield Path(draft)
@@ -115,6 +119,48 @@ def writing(file: Path) -> Iterator[Path]:
         if draft is not None:
             with suppress(OSError):
                 os.unlink(draft)
+
+
+def draft_prefix() -> str:
+    """Beginning of a draft's name: whose it is."""
+    return f"{DRAFT}{_machine()}-{os.getpid()}-"
+
+
+def sweep(folder: Path) -> None:
+    """Remove drafts of processes of this machine that are no more.
+
+    One that was killed at once could not do it itself.
+
+    Args:
+        folder: Where drafts may lie; it exists.
+    """
+    mine = f"{DRAFT}{_machine()}-"
+    for entry in os.scandir(folder):
+        number = entry.name.removeprefix(mine).partition("-")[0]
+        if not entry.name.startswith(mine) or not number.isdigit():
+            continue
+        if _lives(int(number)):
+            continue
+        if entry.is_dir(follow_symlinks=False):
+            shutil.rmtree(entry.path, ignore_errors=True)
+        else:
+            with suppress(OSError):
+                os.unlink(entry.path)
+
+
+def _machine() -> str:
+    """Name of this machine, as a part of a file's name."""
+    return sha256(platform.node().encode()).hexdigest()[:8]
+
+
+def _lives(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except (ProcessLookupError, OverflowError):
+        return False
+    except OSError:  # it is somebody else's
+        return True
+    return True
 
 
 def reason_of(error: BaseException) -> str:
@@ -161,7 +207,7 @@ def _check_room(folder: Path, wanted: Path, name: str) -> None:
         folder = folder.parent
     try:
         # Permissions do not tell everything: only writing does.
-        with tempfile.TemporaryFile(prefix=".draft-", dir=folder):
+        with tempfile.TemporaryFile(prefix=DRAFT, dir=folder):
             free = shutil.disk_usage(folder).free
     except OSError as error:
         raise ConfigurationError(

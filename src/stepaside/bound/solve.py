@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import check_positive
+from ..errors import PlanError, check_positive
 from ..unicycle.compiled import load_numba
 from .arrays import stage_arrays
 from .blocks import FIFTH, FIRST, Setting, stage_blocks, wake_neighbours
@@ -16,6 +16,7 @@ from .game import BoundGame
 from .grid import PAD, Grid, Values, fill_ghosts
 from .table import Bound
 
+MOST_STEPS = 1_000_000  # in time: more never end
 COURANT = 0.75  # share of the largest stable step
 SMOOTH = 1e-6  # square of a slope below which WENO sees no kink
 STILL = 2e-3  # rate of the value that counts as none, in speeds
@@ -118,6 +119,12 @@ def march(
     setting, rate = make_setting(game, grid, scheme, precision)
     stage = stage_blocks if load_numba() is not None else stage_arrays
     count = max(1, ceil(horizon * rate / COURANT - 1e-6))
+    if count > MOST_STEPS:
+        raise PlanError(
+            f"horizon must be at most {MOST_STEPS * COURANT / rate:g} [s] for "
+            f"these speeds and rates on this grid, {MOST_STEPS} steps, or it "
+            f"does not end, got {horizon:g}"
+        )
     stable = precision(COURANT / rate)
     times = 1 if scheme.first_order else 3
     arm = 3 if setting.order == FIFTH else 1

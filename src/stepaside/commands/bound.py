@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from .bound_tables import IN_METERS, describe, print_bound
-from .declared.common import FIGURE, json_option
+from .declared.common import FIGURE, figure_width, json_option
 from .declared.kinds import NameType, OutputFile
 from .declared.option import Declaration
 from .options import METERS, SECONDS, NumberType, print_json
@@ -111,13 +111,14 @@ def _schemes() -> tuple[str, ...]:
 )
 @click.option(
     "--games",
-    type=click.IntRange(0),
+    type=click.IntRange(0, 1_000_000),
     default=1000,
     show_default=True,
     help="Random games played to check the table; 0 for none.",
 )
 @TABLE.option()
 @FIGURE.option()
+@figure_width
 @json_option
 @writes_files
 def bound(
@@ -163,7 +164,9 @@ def bound(
         )
     grid = Grid.cube(nearest, farthest, cells)
     look = "{l_bar}{bar}| {elapsed}<{remaining}"
-    with tqdm(total=1.0, bar_format=look, disable=as_json, leave=False) as bar:
+    with tqdm(
+        total=1.0, bar_format=look, disable=as_json or None, leave=False
+    ) as bar:
         table, rows = refine_bound(
             game,
             grid,

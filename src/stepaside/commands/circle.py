@@ -13,6 +13,7 @@ from .declared.common import (
     FIGURE,
     FIRST_SEED,
     SAMPLE_TIME,
+    figure_width,
     json_option,
 )
 from .game_options import (
@@ -33,6 +34,7 @@ from .outputs import OutputFile, attempt, writes_files
     type=OutputFile(*FIGURES),
     help="Write a figure over angle and ratios of gains and speeds.",
 )
+@figure_width
 @FIGURE.option(help="Write a map of the reversed circle over both ratios.")
 @click.option(
     "--starts",
@@ -132,9 +134,7 @@ def _describe_sampling(
         "largest_stable_sample_time_s": finite(
             sampled.largest_stable_sample_time(game, delay)
         ),
-        "largest_stable_delay_s": finite(
-            sampled.largest_stable_delay(game, sample_time)
-        ),
+        "largest_stable_delay_s": _largest_delay(game, sample_time),
     }
     if sample_time > 0.0:
         from math import log
@@ -152,6 +152,17 @@ def _describe_sampling(
         result["stable"] = rate < 0.0
         result["time_constant_s"] = -1.0 / rate if rate < 0.0 else None
     return result
+
+
+def _largest_delay(game: Game, sample_time: float) -> float | None:
+    """Delay that is still stable; None if sampling is too fine to find it."""
+    from ..errors import PlanError
+    from ..unicycle.sampled_stability import largest_stable_delay
+
+    try:
+        return finite(largest_stable_delay(game, sample_time))
+    except PlanError:
+        return None
 
 
 def _pairs(values: tuple[complex, ...]) -> list[list[float]]:

@@ -1,15 +1,19 @@
 """``stepaside compare``: several runs on one figure."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from ..outputs import FIGURES, free_file
 from ..report.inert import visible
-from .declared.common import FILE, json_option
+from .declared.common import FILE, figure_width, json_option
 from .options import print_json
 from .outputs import OutputFile, attempt, writes_files
 from .terminal import echo
+
+if TYPE_CHECKING:
+    from ..games.run import Run
 
 DEFAULT = Path("comparison.png")
 
@@ -26,16 +30,24 @@ DEFAULT = Path("comparison.png")
     help="Figure to write; comparison.png by default, or comparison-2.png "
     "and so on if there is one.",
 )
+@figure_width
 @json_option
 @writes_files
 def compare(runs: tuple[Path, ...], output: str | None, as_json: bool) -> None:
-    """Draw the paths, distances and orientations of several RUNs."""
+    """Draw the paths of several RUNs, and what they did over time.
+
+    Of duels distance and angle, of walks tilt and speed.
+    """
     from ..games.folder import load_run
-    from ..report.compare_figure import draw_comparison
 
     loaded = [load_run(folder) for folder in runs]
+    games = sorted({run.game for run in loaded})
+    if len(games) > 1:
+        raise click.UsageError(
+            f"runs to compare must be of one game, got {' and '.join(games)}"
+        )
     file = free_file(DEFAULT) if output is None else Path(output)
-    drawn = attempt(lambda: draw_comparison(loaded, file))
+    drawn = attempt(lambda: _draw(loaded, file))
     if as_json:
         print_json(
             {
@@ -47,16 +59,59 @@ def compare(runs: tuple[Path, ...], output: str | None, as_json: bool) -> None:
             }
         )
         return
-    head = ("run", "outcome", "distance", "angle", "closest", "since")
-    echo("{:<28} {:<11} {:>9} {:>7} {:>9} {:>8}".format(*head))
-    for run in loaded:
-        s = run.summary
-        since = s.converged_at_s
-        echo(
-            f"{visible(run.name):<28} {s.outcome:<11} {s.distance_m:>7.3f} m "
-            f"{s.relative_orientation_deg:>5.1f}\u00b0 "
-            f"{s.min_distance_m:>7.3f} m "
-            f"{'-' if since is None else f'{since:.1f} s':>8}"
-        )
+    _print(loaded)
     if drawn:
         echo(f"\nfigure: {file}")
+
+
+def _draw(runs: "list[Run]", file: Path) -> None:
+    if runs[0].pair is None:
+        from ..report.walks_figure import draw_walks
+
+        draw_walks(runs, file)
+    else:
+        from ..report.compare_figure import draw_comparison
+
+        draw_comparison(runs, file)
+
+
+def _print(runs: "list[Run]") -> None:
+    """One line for each run, with what can be compared."""
+    from ..games.duel_run import DuelRun
+    from ..games.walk_run import WalkRun
+
+    head: tuple[str, ...] = ("outcome", "distance", "angle", "closest")
+    rows = [
+        (
+            run.summary.outcome,
+            _number(run.summary.distance_m, "{:.3f} m"),
+            _number(run.summary.relative_orientation_deg, "{:.1f}\u00b0"),
+            _number(run.summary.min_distance_m, "{:.3f} m"),
+            _number(run.summary.converged_at_s, "{:.1f} s"),
+        )
+        for run in runs
+        if isinstance(run, DuelRun)
+    ]
+    if rows:
+        head = (*head, "since")
+    else:
+        head = ("outcome", "speed", "planned", "turned", "tilt")
+        rows = [
+            (
+                run.summary.outcome,
+                _number(run.summary.speed_m_s, "{:.4f} m/s"),
+                _number(run.summary.speed_ratio, "x {:.3f}"),
+                _number(run.summary.yaw_ratio, "x {:.3f}"),
+                _number(run.summary.tilt_max_deg, "{:.1f}\u00b0"),
+            )
+            for run in runs
+            if isinstance(run, WalkRun)
+        ]
+    line = "{:<28} {:<11} {:>11} {:>8} {:>9} {:>8}"
+    echo(line.format("run", *head))
+    for run, row in zip(runs, rows, strict=True):
+        echo(line.format(visible(run.name), *row))
+
+
+def _number(value: float | None, text: str) -> str:
+    return "-" if value is None else text.format(value)

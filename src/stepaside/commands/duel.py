@@ -1,19 +1,20 @@
 """``stepaside duel``: two humanoids chase each other in physics."""
 
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from .declared.common import FOLDER, json_option
+from .declared.common import FIGURE, FOLDER, figure_width, json_option
 from .declared.take import SettingsCommand
 from .duel_options import duel_options
+from .effort import SIMULATED, tell_effort
+from .keeping import keep
 from .options import print_json, print_table
-from .terminal import echo
+from .outputs import attempt, writes_files
 
 if TYPE_CHECKING:
-    from ..games.run import Run
+    from ..games.duel_run import DuelRun
     from ..games.settings import DuelSettings
 
 
@@ -22,8 +23,16 @@ if TYPE_CHECKING:
 @FOLDER.option(
     help="Run folder; a new one in runs/ by default, none with --json."
 )
+@FIGURE.option(help="Write the figure here, too (.png, .svg or .pdf).")
+@figure_width
 @json_option
-def duel(settings: "DuelSettings", output: Path | None, as_json: bool) -> None:
+@writes_files
+def duel(
+    settings: "DuelSettings",
+    output: Path | None,
+    figure: str | None,
+    as_json: bool,
+) -> None:
     """Let two humanoids chase each other until they walk the circle.
 
     Prints the figures of the last third of the duel beside theory's, and
@@ -31,41 +40,32 @@ def duel(settings: "DuelSettings", output: Path | None, as_json: bool) -> None:
     trajectories and a figure.
     """
     from ..games.outcome import Outcome
-    from ..report.run_folder import FIGURE, check_output, free_folder
+    from ..report.run_folder import check_output, figure_of, free_folder
+    from ..report.settling import settling_words
 
     if output is None and not as_json:
         output = free_folder(Path("runs"), f"duel-seed{settings.seed}")
     if output is not None:
         check_output(output)
-    run = _play(settings)
-    kept, failed = None, None
-    if output is not None:
-        from ..report.run_folder import keep_run
+    seconds = settings.duration
+    tell_effort(f"a duel of {seconds:g} s", seconds / SIMULATED)
+    run, kept = keep(output, _play(settings))
+    if figure is not None:
+        from ..report.duel_figure import draw_duel
 
-        kept, failed = keep_run(output, run)
-        _tell_elsewhere(output, kept)
-        where = None if kept is None else str(kept)
-        run = replace(run, summary=replace(run.summary, run_folder=where))
+        attempt(lambda: draw_duel(run, Path(figure)))
     summary = run.summary.to_json()
     if as_json:
         print_json(summary)
     else:
-        _print(summary)
-        if kept is not None:
-            echo(f"\nfigure:     {kept / FIGURE}\nrun folder: {kept}")
-    if failed is not None:
-        raise failed
+        _print(summary, settling_words(run))
+        kept.tell(figure_of(run))
+    kept.check()
     if run.outcome is Outcome.INTERRUPTED:
         raise SystemExit(130)
 
 
-def _tell_elsewhere(output: Path, kept: Path | None) -> None:
-    """Say where a duel is, if not where it was asked for."""
-    if kept is not None and kept != output:
-        echo(f"stepaside: not in {output}; the run is in {kept}", err=True)
-
-
-def _play(settings: "DuelSettings") -> "Run":
+def _play(settings: "DuelSettings") -> "DuelRun":
     """Play with a progress bar on standard error."""
     from tqdm import tqdm
 
@@ -93,7 +93,7 @@ def _play(settings: "DuelSettings") -> "Run":
     return result
 
 
-def _print(summary: dict[str, Any]) -> None:
+def _print(summary: dict[str, Any], unsettled: str = "not reached") -> None:
     theory = summary["theory"]
 
     def beside(value: float | None, wanted: float | None, unit: str) -> str:
@@ -108,7 +108,11 @@ def _print(summary: dict[str, Any]) -> None:
         ("start distance", f"{start['distance_m']:.3f} m"),
         (
             "pursuer radius",
-            beside(summary["pursuer"]["radius_m"], theory["radius_m"], "m"),
+            beside(
+                summary["pursuer"]["radius_m"],
+                theory["pursuer_radius_m"],
+                "m",
+            ),
         ),
         (
             "evader radius",
@@ -131,7 +135,7 @@ def _print(summary: dict[str, Any]) -> None:
         ),
         (
             "on the circle",
-            "not reached" if converged is None else f"since {converged:.1f} s",
+            unsettled if converged is None else f"since {converged:.1f} s",
         ),
         ("maneuvers planned", str(summary["replans"])),
         (

@@ -8,17 +8,22 @@ from .declared.gait import GAIT
 from .declared.game import (
     CAMERAS,
     PERSON,
+    ROBOTS,
     RUN,
     SIGHT,
     START,
     STRATEGY,
 )
-from .declared.option import Declaration
+from .declared.option import Declaration, Group
+from .declared.push import PUSHES
+from .declared.rooms import PLAYED_IN
 from .declared.take import takes_settings
 
 GROUPS = (
     RUN,
+    ROBOTS,
     START,
+    PLAYED_IN,
     STRATEGY,
     GAIT,
     BODY,
@@ -27,6 +32,7 @@ GROUPS = (
     SIGHT,
     CAMERAS,
     PERSON,
+    Group("Pushes", (PUSHES,)),
 )
 
 

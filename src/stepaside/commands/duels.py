@@ -8,18 +8,28 @@ import click
 
 from ..errors import OutputError
 from ..outputs import check_folder
-from .declared.common import FOLDER, WORKERS, json_option
+from .campaigns import tell_aside
+from .declared.common import (
+    FIGURE,
+    FOLDER,
+    WORKERS,
+    figure_width,
+    json_option,
+)
 from .declared.game import SEED
+from .declared.option import Declaration
 from .declared.take import SettingsCommand
 from .duel_options import duel_options
+from .effort import SIMULATED, tell_effort
 from .options import print_json
+from .outputs import attempt, writes_files
 from .terminal import echo
 
 if TYPE_CHECKING:
     from ..games.settings import DuelSettings
 
 LARGEST = 100_000  # duels of one call
-RECORDS, SUMMARY, FIGURE = "duels.jsonl", "summary.json", "duels.png"
+RECORDS, SUMMARY, DRAWN = "duels.jsonl", "summary.json", "duels.png"
 
 
 class SeedsType(click.ParamType[range]):
@@ -55,19 +65,18 @@ class SeedsType(click.ParamType[range]):
         return range(first, end)
 
 
-@click.command("duels", cls=SettingsCommand)
-@click.option(
-    "--seeds",
-    type=SeedsType(),
-    default="0:40",
-    show_default=True,
-    help="One duel each; the end is not among them.",
+SEEDS = Declaration(
+    "--seeds", "One duel each; the end is not among them.", kind=SeedsType()
 )
+
+
+@click.command("duels", cls=SettingsCommand)
+@SEEDS.option(default="0:40", show_default=True)
 @duel_options(SEED)
 @WORKERS.option()
 @click.option(
     "--verify",
-    type=click.IntRange(1),
+    type=click.IntRange(1, 100_000),
     metavar="N",
     help="Play N recorded duels again; if all come out the same, take over "
     "the records that an older version of the code made, else end with exit "
@@ -77,13 +86,17 @@ class SeedsType(click.ParamType[range]):
     help="Folder of results, which goes on with what it holds; runs/duels "
     "by default, none with --json."
 )
+@FIGURE.option(help="Write the figure here, too (.png, .svg or .pdf).")
+@figure_width
 @json_option
+@writes_files
 def duels(
     settings: "DuelSettings",
     seeds: range,
     workers: int | None,
     verify: int | None,
     output: Path | None,
+    figure: str | None,
     as_json: bool,
 ) -> None:
     """Play many duels and say what came out, how surely, what was worst.
@@ -99,6 +112,12 @@ def duels(
         check_folder(output, new=False)
     if verify is not None:
         _verify(settings, output, verify, workers)
+    each = settings.duration
+    tell_effort(
+        f"{len(seeds)} duels of {each:g} s, less those that are recorded",
+        len(seeds) * each / SIMULATED,
+        workers,
+    )
     records, stopped = _play(settings, seeds, output, workers)
     answer = _answer(settings, seeds, records)
     failed: OutputError | None = None
@@ -108,9 +127,15 @@ def duels(
 
         try:
             answer = write_result(output / SUMMARY, answer)
-            draw_duels({"": records}, answer["summary"], output / FIGURE)
+            draw_duels({"": records}, answer["summary"], output / DRAWN)
         except OutputError as error:
             failed = error
+    if figure is not None and records:
+        from ..report.duels_figure import draw_duels
+
+        attempt(
+            lambda: draw_duels({"": records}, answer["summary"], Path(figure))
+        )
     if as_json:
         print_json(answer)
     else:
@@ -186,11 +211,7 @@ def _play(
         except KeyboardInterrupt:
             stopped = True
     if file is not None and file.aside:
-        echo(
-            f"{file.aside} records were torn or foreign: set aside beside "
-            f"{file.path}",
-            err=True,
-        )
+        tell_aside(file.path.with_name(file.path.name + ".aside"))
     return sorted(done.values(), key=lambda r: int(r["seed"])), stopped
 
 

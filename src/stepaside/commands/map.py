@@ -6,7 +6,14 @@ from typing import Any
 import click
 
 from ..unicycle.laws import Game
-from .declared.common import CAPTURE, FIGURE, GAME_TIME, json_option
+from .declared.common import (
+    CAPTURE,
+    FIGURE,
+    GAME_TIME,
+    figure_width,
+    json_option,
+)
+from .effort import STEPS, tell_effort
 from .game_options import (
     describe_game,
     finite,
@@ -68,6 +75,7 @@ TIME = NumberType("s")
     "--step", type=TIME, help="Of the integration, in [s]. [default: .01/k]"
 )
 @FIGURE.option()
+@figure_width
 @json_option
 @writes_files
 def map(  # noqa: A001 (the command's name)
@@ -108,7 +116,11 @@ def map(  # noqa: A001 (the command's name)
     step = 0.01 / gain if step is None else step
     shape = (distances, grid, grid)
     total = distances * grid * grid
-    with tqdm(total=total, unit="game", disable=as_json, leave=False) as bar:
+    steps = duration / step
+    tell_effort(f"{total} games of {steps:.0f} steps", total * steps / STEPS)
+    with tqdm(
+        total=total, unit="game", disable=as_json or None, leave=False
+    ) as bar:
         found = map_starts(
             game,
             box,

@@ -1,14 +1,18 @@
 """Types and habits that all commands share."""
 
 import json
-from math import isfinite, radians
+from math import pi, radians
 from typing import Any
 
 import click
 
+from ..errors import shown
+from ..ranges import Range
 from .terminal import echo
 
 UNITS = {"rad": 1.0, "deg": radians(1.0)}
+USUAL = "of what is smaller or greater, squares and ratios are no numbers"
+TURNS = Range(-4 * pi, 4 * pi, "rad", "who means more turns means seconds")
 
 
 class AngleType(click.ParamType[float]):
@@ -30,12 +34,12 @@ class AngleType(click.ParamType[float]):
                 break
         try:
             angle = float(text) * scale
-        except ValueError:
+        except (ValueError, OverflowError):
             angle = float("nan")
-        if not isfinite(angle):
+        if not TURNS.low <= angle <= TURNS.high:
             self.fail(
-                "must be a finite angle like 1.2, 1.2rad or 70deg, "
-                f"got {value!r}",
+                "must be a finite angle like 1.2, 1.2rad or 70deg, at most "
+                f"two turns, got {shown(value)}",
                 param,
                 ctx,
             )
@@ -43,13 +47,26 @@ class AngleType(click.ParamType[float]):
 
 
 class NumberType(click.ParamType[float]):
-    """A finite number above a bound, or at it."""
+    """A number in a range."""
 
     name = "number"
 
-    def __init__(self, unit: str, *, allow_zero: bool = False) -> None:
-        """Name the unit for messages."""
-        self.unit, self.allow_zero = unit, allow_zero
+    def __init__(
+        self, unit: str, *, allow_zero: bool = False, bounded: bool = True
+    ) -> None:
+        """Name the unit, for messages.
+
+        Args:
+            unit: Of the number.
+            allow_zero: Whether it may be zero, too.
+            bounded: Whether it lies in the range of all numbers of commands;
+                those of settings have ranges of their own, which the
+                settings refuse to leave.
+        """
+        also = (0.0,) if allow_zero else ()
+        self.unit = unit
+        self.range = Range(1e-9, 1e9, unit, USUAL, also=also)
+        self.is_bounded = bounded
 
     def convert(
         self,
@@ -60,16 +77,18 @@ class NumberType(click.ParamType[float]):
         """Parse a number."""
         try:
             number = float(value)
-        except ValueError:
+        except (ValueError, OverflowError):
             number = float("nan")
-        low_enough = number >= 0.0 if self.allow_zero else number > 0.0
-        # Of what is smaller or greater, squares and ratios are no numbers.
-        small = 0.0 < number < 1e-9
-        if small or number > 1e9 or not (isfinite(number) and low_enough):
-            rule = ">= 0" if self.allow_zero else "> 0"
+        if number != number:
             self.fail(
-                f"must be finite and {rule}, 1e-9 to 1e9 [{self.unit}], "
-                f"got {value!r:.60}",
+                f"must be a number [{self.unit}], got {shown(value)}",
+                param,
+                ctx,
+            )
+        if self.is_bounded and not self.range.holds(number):
+            self.fail(
+                f"must lie in {self.range.text} [{self.unit}], "
+                f"got {shown(value)}",
                 param,
                 ctx,
             )

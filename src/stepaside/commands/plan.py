@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from .declared.common import FIGURE, json_option
+from .declared.common import FIGURE, figure_width, json_option
 from .declared.gait import BEARING, GAIT, HORIZON
 from .declared.option import Declaration, Group
 from .declared.take import SettingsCommand, takes_settings
@@ -71,6 +71,7 @@ MANEUVER = Group(
 @click.command("plan", cls=SettingsCommand)
 @takes_settings(_plan_settings, MANEUVER, GAIT.without(HORIZON), aside=_others)
 @FIGURE.option()
+@figure_width
 @json_option
 @writes_files
 def plan(settings: "PlanSettings", figure: str | None, as_json: bool) -> None:

@@ -3,13 +3,14 @@
 from collections.abc import Collection
 from dataclasses import dataclass, field, fields, replace
 from math import pi
+from typing import ClassVar
 
-from ..errors import PlanError, check_within
+from ..errors import PlanError
 from ..planning import PRESETS, Direction, Foot, GaitSettings
+from ..ranges import Range, Ranges, check_settings
 
 ROLES = {"pursuer": Direction.FORWARD, "evader": Direction.BACKWARD}
 FEET = {foot.name.lower(): foot for foot in Foot}
-MOST_STEPS = 200  # of a maneuver
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,8 +19,9 @@ class PlanSettings:
 
     Attributes:
         role: "pursuer" walks forward, "evader" backward.
-        bearing: Desired heading in the frame of the support foot, in [rad].
-        steps: Footsteps.
+        bearing: Desired heading in the frame of the support foot, in [rad];
+            -3.14159 to 3.14159 or none.
+        steps: Footsteps; 1 to 200.
         first_foot: "left" or "right" lands first.
         saturated: Whether the robot turns by (6) instead of (8).
         gait: How it walks.
@@ -32,8 +34,14 @@ class PlanSettings:
     saturated: bool = False
     gait: GaitSettings = field(default_factory=GaitSettings)
 
+    ranges: ClassVar[Ranges] = {
+        "bearing": Range(-pi, pi, "rad", "half a turn", also=(None,)),
+        "steps": Range(1, 200, "steps", "more cannot be drawn", whole=True),
+    }
+
     def __post_init__(self) -> None:
         """Refuse what cannot be planned."""
+        check_settings(self, PlanError)
         for name, value, known in (
             ("role", self.role, ROLES),
             ("first_foot", self.first_foot, FEET),
@@ -42,9 +50,6 @@ class PlanSettings:
                 raise PlanError(
                     f"{name} must be one of {', '.join(known)}, got {value!r}"
                 )
-        if self.bearing is not None:
-            check_within(self.bearing, -pi, pi, "bearing", "rad", PlanError)
-        check_within(self.steps, 1, MOST_STEPS, "steps", "1", PlanError)
 
     @property
     def preset(self) -> str | None:
@@ -59,7 +64,7 @@ class PlanSettings:
 def entries_of_others() -> Collection[str]:
     """Entries of a file that belong to walks and duels."""
     from ..games.settings import DuelSettings
-    from ..games.walk import WalkSettings
+    from ..games.walk_settings import WalkSettings
 
     return {
         f.name for kind in (DuelSettings, WalkSettings) for f in fields(kind)

@@ -2,26 +2,36 @@
 
 import logging
 import sys
+from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
-from click.core import ParameterSource
 
 from .declared.body import CONTROL
 from .declared.gait import GAIT
 from .declared.game import STRATEGY
 from .declared.kinds import NameType
 from .declared.take import SettingsCommand, takes_settings
+from .declared.wires import (
+    DOMAIN,
+    MAX_SPEED,
+    MAX_TURN,
+    NETWORK,
+    SIM_TIME,
+)
 from .duel_options import duel_kind
 from .options import SECONDS
 
 if TYPE_CHECKING:
     from ..drivers.playing import Playing
+    from ..drivers.velocity.playing import VelocityPlaying
     from ..games.settings import DuelSettings
 
 ROLES = ("pursuer", "evader")
+TRYING = 6.0  # longest time that connecting takes, in [s]
+PAUSE = 0.3  # between two tries, in [s]
 
 
 @click.command("play", cls=SettingsCommand)
@@ -35,7 +45,8 @@ ROLES = ("pursuer", "evader")
 @click.option(
     "--robot",
     required=True,
-    help="lola:PATH or lola:HOST:PORT; lola: alone is the robot itself.",
+    help="lola:PATH or lola:HOST:PORT, lola: alone for the robot itself; "
+    "naoqi:tcp://HOST:PORT or ros2:/NAMESPACE, where it walks by itself.",
 )
 @click.option(
     "--description",
@@ -50,8 +61,18 @@ ROLES = ("pursuer", "evader")
     show_default=True,
     help="Ticks of 12 ms from a request to the motion.",
 )
+@MAX_SPEED.option()
+@MAX_TURN.option()
+@DOMAIN.option()
+@NETWORK.option(default=False)
+@SIM_TIME.option(default=False)
 @click.option(
     "--duration", type=SECONDS, help="Stop and rest after this walk [s]."
+)
+@click.option(
+    "--reconnect",
+    type=SECONDS,
+    help="Over LoLA: try for so long to get a session that was lost [s].",
 )
 @click.option(
     "--record",
@@ -64,38 +85,87 @@ ROLES = ("pursuer", "evader")
     help="Connect, read and plan, but command nothing but lights.",
 )
 def play(
-    settings: "DuelSettings", duration: float | None, **options: Any
+    settings: "DuelSettings",
+    duration: float | None,
+    reconnect: float | None,
+    **options: Any,
 ) -> None:
     """Let control drive a robot: the player is this process.
 
-    The robot takes its stance slowly, shows green, and walks from when its
-    chest button is pressed until it is pressed again. Interrupt once to let
-    it stop and rest, twice to let it go limp.
+    A robot whose joints are moved takes its stance slowly, shows green, and
+    walks from when its chest button is pressed until it is pressed again.
+    One that walks by itself goes at once when it knows where the other is.
+    Interrupt once to let it stop and rest, twice to let it go limp, or
+    stand.
     """
     logging.basicConfig(
         format="stepaside: %(message)s", level=logging.INFO, stream=sys.stderr
     )
     from ..drivers.log import PlayLog
-    from ..drivers.lola.link import SessionLost
-    from ..drivers.playing import Onlooker
+    from ..drivers.session import SessionLost
     from ..drivers.status_line import StatusLine
+    from .playing import LOLA, open_joints, open_velocity
 
     folder = options.pop("record")
+    by_joints = options["robot"].startswith(LOLA)
     with ExitStack() as stack:
         line = StatusLine(sys.stderr)
         stack.callback(line.close)
-        onlookers: list[Onlooker] = [line]
+        onlookers: list[Any] = [line]
         if folder is not None:
-            about = options | _spelled(settings)
-            kept = PlayLog(folder, about)
+            kept = PlayLog(folder, options | _spelled(settings))
             stack.callback(kept.close)
             onlookers.append(kept)
-        playing = _open(settings, **options)
-        stack.callback(playing.body.close)
+
+        def session() -> None:
+            with ExitStack() as within:
+                if by_joints:
+                    playing = open_joints(settings, options)
+                    within.callback(playing.body.close)
+                    _play(playing, onlookers, duration)
+                else:
+                    driving = open_velocity(settings, options)
+                    within.callback(driving.body.close)
+                    _drive(driving, onlookers, duration)
+
         try:
-            _play(playing, onlookers, duration)
+            _again_and_again(session, reconnect if by_joints else None)
         except SessionLost as error:
             raise click.ClickException(str(error)) from error
+
+
+def _again_and_again(
+    session: Callable[[], None], reconnect: float | None
+) -> None:
+    """Play until a session ends well, or none can be had for some time.
+
+    A robot whose joints are moved begins each session limp, stands up
+    slowly if it is upright, and waits for its chest button.
+
+    Args:
+        session: Connects and plays.
+        reconnect: How long to try for a new session, in [s].
+
+    Raises:
+        SessionLost: If the last one was lost.
+    """
+    from time import monotonic, sleep
+
+    from ..drivers.session import SessionLost
+
+    until: float | None = None
+    while True:
+        began = monotonic()
+        try:
+            return session()
+        except SessionLost as error:
+            lost = monotonic()
+            if until is None or lost - began > TRYING:
+                until = lost + (reconnect or 0.0)  # it was a session
+            if reconnect is None or lost >= until:
+                raise
+            logging.warning("%s; tries again", error)
+            sleep(PAUSE)
 
 
 def _spelled(settings: "DuelSettings") -> dict[str, Any]:
@@ -106,65 +176,6 @@ def _spelled(settings: "DuelSettings") -> dict[str, Any]:
     return {name: spelled[name] for name in ("strategy", "gait", "control")}
 
 
-def _with_feedback(settings: "DuelSettings") -> "DuelSettings":
-    """Settings with feedback, unless they say what control is to be."""
-    from dataclasses import replace
-
-    from ..control.balance.settings import OPEN_LOOP, STABILISED
-
-    source = click.get_current_context().get_parameter_source
-    asked = (source("control__feedback"), source("control__method"))
-    said = any(one is not ParameterSource.DEFAULT for one in asked)
-    if said or settings.control != OPEN_LOOP:
-        return settings
-    return replace(settings, control=STABILISED)
-
-
-def _open(
-    settings: "DuelSettings",
-    role: str,
-    robot: str,
-    description: str,
-    delay_ticks: int,
-    dry_run: bool,
-) -> "Playing":
-    """Connect to the robot, with the mind that the settings ask for."""
-    from ..control import ControlScheme
-    from ..drivers.lola.address import parse_address
-    from ..drivers.lola.body import LolaBody
-    from ..drivers.lola.opening import open_lola
-    from ..drivers.minds import mind_maker
-    from ..drivers.playing import Playing
-    from ..robots.description import load_robot
-    from ..strategies import load_strategy
-
-    address = parse_address(robot)
-    settings = _with_feedback(settings)
-    names = {
-        "pursuer": settings.pursuer_strategy,
-        "evader": settings.evader_strategy,
-    }
-    strategy = load_strategy(names[role], settings.strategy)
-
-    def open_body(scheme: ControlScheme) -> LolaBody:
-        return open_lola(
-            address,
-            scheme.kinematics.joint_names,
-            scheme.joint_targets,
-            dry_run=dry_run,
-            guarded=True,
-        )
-
-    make = mind_maker(
-        load_robot(description),
-        settings.gait,
-        settings.control,
-        tick=LolaBody.tick,
-        delay_ticks=delay_ticks,
-    )
-    return Playing(open_body, strategy, make, dry_run=dry_run)
-
-
 def _play(
     playing: "Playing", onlookers: list[Any], duration: float | None
 ) -> None:
@@ -172,6 +183,7 @@ def _play(
     import gc
 
     from ..drivers.lola.safety import State
+    from ..drivers.session import SessionLost
 
     gc.collect()
     gc.freeze()  # what is loaded stays: collections stay short
@@ -194,3 +206,34 @@ def _play(
                 raise
             leaving = True
             body.rest("interrupted")
+        except SessionLost:
+            if not leaving:
+                raise
+            return  # it was to rest, and is limp
+
+
+def _drive(
+    driving: "VelocityPlaying", onlookers: list[Any], duration: float | None
+) -> None:
+    """Drive until the session ends, or the robot rests when asked to."""
+    from ..drivers.velocity.playing import Driving
+
+    began: float | None = None
+    leaving = False
+    while True:
+        try:
+            tick = driving.tick()
+            for onlooker in onlookers:
+                onlooker.note(tick)
+            if tick.state is Driving.RESTING:
+                return
+            if began is None and tick.state is Driving.WALKING:
+                began = tick.time
+            if duration is not None and began is not None:
+                if tick.time - began >= duration - 1e-9:
+                    driving.leave("played long enough")
+        except KeyboardInterrupt:
+            if leaving:
+                raise
+            leaving = True
+            driving.leave("interrupted")

@@ -14,7 +14,13 @@ from .options import POSITIVE, SECONDS, NumberType, print_json
 from .outputs import OutputFile, attempt, writes_files
 from .terminal import echo
 
-VIEWS = {"fixed": False, "following": True}
+FORMER = {"following": "follow"}  # names of today by former ones
+
+
+def _views() -> tuple[str, ...]:
+    from ..report.film_camera import VIEWS
+
+    return VIEWS
 
 
 @click.command("replay")
@@ -48,11 +54,24 @@ VIEWS = {"fixed": False, "following": True}
 @click.option("--height", type=click.IntRange(64, 2160), help="Likewise.")
 @click.option(
     "--camera",
-    type=NameType(lambda: VIEWS),
+    type=NameType(_views, FORMER),
     default="fixed",
     show_default=True,
-    help="It stands, or goes along with the robots.",
+    help="It stands and sees all, goes along, looks from above, or through "
+    "the evader's eyes.",
 )
+@click.option(
+    "--slow-motion/--no-slow-motion",
+    "slow",
+    default=False,
+    help="A film lasts longer about the closest approach.",
+)
+@click.option(
+    "--words/--no-words",
+    default=True,
+    help="A film says who is who, the time and the distance.",
+)
+@click.option("--title", default="", help="In a film's upper left corner.")
 @click.option("--layers/--no-layers", default=True, help="Lines in a film.")
 @PORT.option(default=8080, show_default=True)
 @BROWSER.option(default=True)
@@ -80,12 +99,12 @@ def replay(run: Path, as_json: bool, **options: Any) -> None:
     if video is not None:
         from ..report.film import write_video
 
-        shot = _shot(options, 60.0, 30.0, 640, 480)
+        shot = _shot(options, 60.0, 30.0, 1280, 720)
         _film("video", write_video, run, video, shot, written)
     if gif is not None:
         from ..report.film import write_gif
 
-        shot = _shot(options, 12.0, 10.0, 360, 270)
+        shot = _shot(options, 12.0, 10.0, 480, 270)
         _film("gif", write_gif, run, gif, shot, written)
     if html is video is gif is None:
         _serve(loaded, options)
@@ -119,8 +138,11 @@ def _shot(
         speed=options["speed"],
         begin=options["begin"],
         duration=options["duration"] or duration,
-        following=VIEWS[options["camera"]],
+        camera=options["camera"],
         layers=options["layers"],
+        slow=options["slow"],
+        words=options["words"],
+        title=options["title"],
     )
 
 

@@ -7,7 +7,15 @@ from typing import Any
 import click
 
 from ..outputs import check_folder, writing
-from .declared.common import FIRST_SEED, FOLDER, WORKERS, json_option
+from .campaigns import tell_aside
+from .declared.common import (
+    FIRST_SEED,
+    FOLDER,
+    INTERRUPTED,
+    WORKERS,
+    json_option,
+)
+from .effort import tell_effort
 from .options import print_json
 from .terminal import echo
 
@@ -20,7 +28,7 @@ from .terminal import echo
 )
 @click.option(
     "--runs",
-    type=click.IntRange(1),
+    type=click.IntRange(1, 1_000),
     default=10,
     show_default=True,
     help="Runs of each claim that is measured in physics.",
@@ -47,6 +55,11 @@ def reproduce(
     from .reproduce_figures import draw_figures, turns_shown
 
     check_folder(output, new=False)
+    tell_effort(
+        f"every claim of the paper, {runs} runs of those in physics",
+        60.0 + 120.0 * runs,
+        workers,
+    )
     rows = _measure(output / "rows", range(seed, seed + runs), workers)
     figures = draw_figures(output, seed)
     made = {"seed": seed, "runs": runs, "jobs": provenance(seed)}
@@ -89,4 +102,12 @@ def _measure(
             bar.total, bar.n = total, number
             bar.refresh()
 
-        return measure(folder, seeds, executor, report)
+        try:
+            return measure(folder, seeds, executor, report, tell_aside)
+        except KeyboardInterrupt:
+            echo(
+                f"stepaside: interrupted; {bar.n} of {bar.total} runs are "
+                f"kept in {folder}, and the same command goes on",
+                err=True,
+            )
+            raise SystemExit(INTERRUPTED) from None

@@ -1,6 +1,7 @@
 """Figures of ``stepaside reproduce``, drawn again when their code changes."""
 
 from collections.abc import Callable
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +31,7 @@ def draw_figures(
         code_version,
         library_versions,
     )
+    from .campaigns import tell_aside
 
     games = f"{FIG_2!r}; {START!r}"
     figures: list[tuple[str, str, Callable[[Path], None], Any, Any]] = [
@@ -56,7 +58,7 @@ def draw_figures(
             (*PHYSICS, *FIGURE_CODE),
         ),
     ]
-    kept = Kept(folder / "rows")
+    kept = Kept(folder / "rows", tell_aside)
     folder.mkdir(parents=True, exist_ok=True)
     for name, _, draw, settings, rooms in figures:
         key = {
@@ -66,11 +68,19 @@ def draw_figures(
             "libraries": library_versions(("matplotlib", "mujoco", "numpy")),
         }
         stamp = f"figure-{name.removesuffix('.png')}"
-        drawn = kept.load(stamp, key, ()) is not None
-        if not (drawn and (folder / name).exists()):
+        found = key | {"picture": _fingerprint(folder / name)}
+        if kept.load(stamp, found, ()) is None:
             draw(folder / name)
-            kept.store(stamp, key, {})
+            found["picture"] = _fingerprint(folder / name)
+            kept.store(stamp, found, {})
     return [(caption, name) for name, caption, *_ in figures]
+
+
+def _fingerprint(file: Path) -> str | None:
+    """Of what a file holds; None if there is none."""
+    if not file.is_file():
+        return None
+    return sha256(file.read_bytes()).hexdigest()[:12]
 
 
 def turns_shown() -> tuple[float, float]:

@@ -1,69 +1,34 @@
-"""``stepaside robot``: show a robot, or write its model."""
+"""``stepaside robot``: show a robot, and fit a stranger's."""
 
-from pathlib import Path
+from typing import Any
 
 import click
 
-from ..outputs import writing
-from .declared.common import FILE, json_option
-from .options import print_json, print_table
-from .outputs import writes_files
-from .terminal import echo
+from .robot_check import check
+from .robot_init import init
+from .robot_show import show
+from .robot_tune import tune
 
 
-@click.command("robot")
-@click.argument("name", default="nao")
-@click.option(
-    "--mjcf/--no-mjcf",
-    default=False,
-    help="Write the MuJoCo model and nothing else.",
-)
-@FILE.option(help="File for the model; standard output by default.")
-@click.option(
-    "--compile/--no-compile",
-    "stores",
-    default=False,
-    help="Write its kinematic tree beside its description: with it, the "
-    "robot is controlled where MuJoCo is not installed.",
-)
-@json_option
-@writes_files
-def robot(
-    name: str, mjcf: bool, output: str | None, stores: bool, as_json: bool
-) -> None:
-    """Show the robot NAME, or write its model for MuJoCo's own viewer.
+class _ShowsByDefault(click.Group):
+    """A group whose first word may be left out: then it shows a robot."""
 
-    NAME is a robot that comes with the package (nao), or a folder with a
-    robot.toml and a model.
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Take a first word that is no command for the name of a robot."""
+        names = (*self.commands, *self.get_help_option_names(ctx))
+        if not args or args[0] not in names:
+            args = ["show", *args]
+        return super().parse_args(ctx, args)
+
+
+@click.group("robot", cls=_ShowsByDefault)
+def robot(**_: Any) -> None:
+    """Show a robot, or fit one from its published model.
+
+    ``stepaside robot NAME`` shows the robot NAME: one that comes with the
+    package (nao), or a folder with a robot.toml and a model.
     """
-    from ..robots.description import load_robot
 
-    description = load_robot(name)
-    if mjcf or output is not None:
-        text = description.mjcf()
-        if output is None:
-            echo(text)
-        else:
-            with writing(Path(output)) as draft:
-                draft.write_text(text, encoding="utf-8")
-            echo(f"wrote {output}", err=True)
-        return
-    if stores:
-        from ..robots.stored import store_tree
 
-        echo(f"wrote {store_tree(description)}", err=True)
-        return
-    model = description.compile()
-    facts = {
-        "name": description.name,
-        "mass_kg": round(float(model.body_subtreemass[0]), 6),
-        "links": int(model.nbody - 1),
-        "hinges": int(model.njnt - 1),
-        "motors": int(model.nu),
-        "coupled": description.coupled_joints(model),
-        "folder": str(description.folder),
-    }
-    if as_json:
-        print_json(facts)
-    else:
-        print_table([(key, str(value)) for key, value in facts.items()])
+for command in (show, init, check, tune):
+    robot.add_command(command)

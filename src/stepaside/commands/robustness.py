@@ -2,48 +2,55 @@
 
 from collections.abc import Collection
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..errors import OutputError
 from ..outputs import check_folder
 from .declared.body import BODY, CONTROL, FEEDBACK, METHOD, PHYSICS
-from .declared.common import FOLDER, WORKERS, json_option
-from .declared.gait import GAIT, PUSHES, WALK
+from .declared.common import (
+    FIGURE,
+    FOLDER,
+    WORKERS,
+    figure_width,
+    json_option,
+)
+from .declared.gait import GAIT, WALK
 from .declared.game import DURATION, RUN, SEED
 from .declared.kinds import NameType
+from .declared.push import PUSHES
 from .declared.take import SettingsCommand, takes_settings
 from .options import print_json
+from .outputs import attempt, writes_files
+from .robustness_people import meet_people, print_people, write_people
 from .robustness_tables import print_campaign, tell_stopped
+from .robustness_walks import (
+    Asked,
+    answer_walks,
+    plan_walks,
+    run_walks,
+    write_walks,
+)
 from .terminal import echo
 
 if TYPE_CHECKING:
-    from ..games.walk import WalkSettings
+    from ..games.walk_settings import WalkSettings
 
+PERSON = "person"
 OLD_KINDS = {"play": "backlash"}  # names of today by former ones
 
 
-class Asked(NamedTuple):
-    """What a campaign is asked for; see the options for each."""
-
-    kinds: tuple[str, ...]
-    methods: tuple[str, ...]
-    body: str
-    phases: int
-    seeds: int
-    seed: int
-    changes: str = ""
-
-    def settings(self) -> dict[str, Any]:
-        """What a result says of it; changes only where there are any."""
-        return {k: v for k, v in self._asdict().items() if v != ""}
-
-
 def _kinds() -> Collection[str]:
-    from ..studies.robustness import STRENGTHS
+    from ..studies.robustness import KINDS
 
-    return tuple(STRENGTHS)
+    return KINDS
+
+
+def _senses() -> Collection[str]:
+    from ..games.settings import SENSING
+
+    return SENSING
 
 
 def _methods() -> Collection[str]:
@@ -53,7 +60,7 @@ def _methods() -> Collection[str]:
 
 
 def _walk() -> "type[WalkSettings]":
-    from ..games.walk import WalkSettings
+    from ..games.walk_settings import WalkSettings
 
     return WalkSettings
 
@@ -70,8 +77,17 @@ def _others() -> Collection[str]:
     "kinds",
     type=NameType(_kinds, OLD_KINDS),
     multiple=True,
-    help="Disturbance, any number of times; all by default. Of pushes the "
-    "largest one survived is searched, to 0.1 N s for a robot of NAO's mass.",
+    help="Disturbance, any number of times; all but persons by default. Of "
+    "pushes the largest one survived is searched, to 0.1 N s for a robot of "
+    "NAO's mass. Persons come from all around at one who stands.",
+)
+@click.option(
+    "--sensing",
+    "sensings",
+    type=NameType(_senses),
+    multiple=True,
+    default=("ideal",),
+    help="How persons are seen, any number of times; ideal by default.",
 )
 @click.option(
     "--method",
@@ -91,7 +107,7 @@ def _others() -> Collection[str]:
 )
 @click.option(
     "--seeds",
-    type=click.IntRange(1),
+    type=click.IntRange(1, 1_000),
     default=8,
     show_default=True,
     help="Walks of each other disturbance.",
@@ -101,7 +117,10 @@ def _others() -> Collection[str]:
     help="Folder of results, which goes on with what it holds; "
     "runs/robustness-BODY by default, none with --json."
 )
+@FIGURE.option(help="Write survival here, too (.png, .svg or .pdf).")
+@figure_width
 @json_option
+@writes_files
 @takes_settings(
     _walk,
     RUN.without(DURATION),
@@ -119,11 +138,13 @@ def _others() -> Collection[str]:
 def robustness(
     settings: "WalkSettings",
     kinds: tuple[str, ...],
+    sensings: tuple[str, ...],
     methods: tuple[str, ...],
     phases: int,
     seeds: int,
     workers: int | None,
     output: Path | None,
+    figure: str | None,
     as_json: bool,
 ) -> None:
     """Walk many times under one disturbance after the other.
@@ -134,166 +155,95 @@ def robustness(
     """
     from ..studies.changes import changes_of
 
-    kinds = kinds or tuple(_kinds())
+    kinds = _once(kinds) or tuple(k for k in _kinds() if k != PERSON)
     body, changes = changes_of(settings)
-    seed = settings.seed
-    asked = Asked(
-        *(_once(kinds), _once(methods), body, phases, seeds, seed), changes
-    )
     if output is None and not as_json:
         output = Path("runs") / f"robustness-{body}"
     if output is not None:
         check_folder(output, new=False)
-        output.mkdir(parents=True, exist_ok=True)
-    grid, cases = _plan(asked)
-    file = None if output is None else output / "trials.jsonl"
-    results, stopped = _run(grid, cases, file, workers)
-    answer = _answer(settings, body, grid, cases, results)
-    failed: OutputError | None = None
-    if output is not None and not stopped:
-        try:
-            _write(output, settings, asked, answer)
-        except OutputError as error:
-            failed = error
-    if as_json:
-        print_json(answer)
-    else:
-        print_campaign(answer)
-    if stopped:
-        tell_stopped(answer)
-        raise SystemExit(130)
+    asked = Asked(
+        tuple(kind for kind in kinds if kind != PERSON),
+        *(_once(methods), body, phases, seeds, settings.seed, changes),
+    )
+    answer, stopped, failed = _walk_on(settings, asked, output, workers)
+    if PERSON in kinds and not stopped:
+        people = {
+            "kind": PERSON,
+            "sensings": _once(sensings),
+            "body": body,
+            "seeds": seeds,
+            "seed": settings.seed,
+            **({"changes": changes} if changes else {}),
+        }
+        file = None if output is None else output / "encounters.jsonl"
+        found, stopped = meet_people(
+            settings, _once(sensings), seeds, file, workers
+        )
+        answer["person"] = found
+        if output is not None and not stopped:
+            try:
+                write_people(output, people, found)
+            except OutputError as error:
+                failed = error
+    if figure is not None and not stopped and "survival" in answer:
+        from ..report.robustness_figure import draw_survival
+        from ..studies.robustness import UNITS
+
+        attempt(lambda: draw_survival(answer["survival"], UNITS, Path(figure)))
+    _tell(answer, stopped=stopped, as_json=as_json)
     if failed is not None:
         raise failed
     if not as_json:
         echo(f"\nresults: {output}")
 
 
-def _once(names: tuple[str, ...]) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(names))
-
-
-def _plan(asked: Asked) -> tuple[list[Any], list[Any]]:
-    """Trials of a grid, and pushes whose limit is to be searched."""
-    from ..studies.limits import push_cases
-    from ..studies.robustness import trials
-
-    kinds, methods, body, phases, seeds, seed, changes = asked
-    grid = trials(
-        *(kinds, methods, body),
-        seeds=seeds,
-        first_seed=seed,
-        changes=changes,
-    )
-    if "push" not in kinds:
-        return list(grid), []
-    cases = push_cases(
-        methods, body, phases=phases, seed=seed, changes=changes
-    )
-    return list(grid), list(cases)
-
-
-def _answer(
-    settings: "WalkSettings",
-    body: str,
-    grid: list[Any],
-    cases: list[Any],
-    results: dict[str, bool],
-) -> dict[str, Any]:
-    """What was found so far, and how much that is of what is planned.
-
-    How many walks the limits of the pushes take is not known before.
-    """
-    from ..studies.limits import outcomes_of
-    from ..studies.robustness import mass_of, push_scale
-    from ..studies.survival import (
-        limit_rows,
-        push_survival_rows,
-        summarise_limits,
-        survival_rows,
-    )
-
-    limits = limit_rows(cases, results)
-    scale = push_scale(settings.robot)
-    walks = sum(map(len, outcomes_of(cases, results).values()))
-    return {
-        "body": body,
-        "robot": settings.robot,
-        "mass_kg": mass_of(settings.robot),
-        "planned": {"trials": len(grid), "push_limits": len(cases)},
-        "done": {
-            "trials": sum(trial.key in results for trial in grid),
-            "push_limits": len(limits),
-            "push_walks": walks,
-        },
-        "survival": survival_rows(grid, results)
-        + push_survival_rows(limits, scale),
-        "limits": limits,
-        "limits_by_method": summarise_limits(limits),
-    }
-
-
-def _write(
-    output: Path,
+def _walk_on(
     settings: "WalkSettings",
     asked: Asked,
-    answer: dict[str, Any],
-) -> None:
-    """Write the results of a whole campaign, each file at one stroke."""
-    from ..report.robustness_figure import draw_limits, draw_survival
-    from ..studies.pushes import pushes_result
-    from ..studies.results import header, write_result
-    from ..studies.robustness import UNITS
-    from ..studies.trial_results import ROOMS
+    output: Path | None,
+    workers: int | None,
+) -> tuple[dict[str, Any], bool, OutputError | None]:
+    """Walk under disturbances, if any are asked for.
 
-    head = header(asked.settings(), rooms=ROOMS)
-    write_result(output / "survival.json", head, **answer)
-    draw_survival(answer["survival"], UNITS, output / "survival.png")
-    limits = answer["limits"]
-    if limits:
-        draw_limits(limits, output / "limits.png")
-        made = pushes_result(
-            *(limits, asked.methods, asked.body),
-            phases=asked.phases,
-            seed=asked.seed,
-            walk=settings,
-        )
-        write_result(output / "pushes.json", made)
-
-
-def _run(
-    grid: list[Any], cases: list[Any], file: Path | None, workers: int | None
-) -> tuple[dict[str, bool], bool]:
-    """Run with a progress bar; whether Ctrl-C stopped it."""
-    from tqdm import tqdm
-
-    from ..studies.limits import search_limits
-    from ..studies.robustness import run_campaign
-    from ..studies.workers import worker_pool
-
-    done: dict[str, bool] = {}
-    with (
-        tqdm(
-            total=len(grid) + len(cases),
-            desc="robustness",
-            unit="job",
-            disable=None,
-        ) as bar,
-        worker_pool(workers) as executor,
-    ):
-
-        def report(number: int) -> None:
-            bar.n = number
-            bar.refresh()
-
+    Returns:
+        What was found, whether Ctrl-C stopped it, and what went wrong when
+        it was written.
+    """
+    if not asked.kinds:
+        return {}, False, None
+    grid, cases = plan_walks(asked)
+    file = None if output is None else output / "trials.jsonl"
+    results, stopped = run_walks(grid, cases, file, workers)
+    answer = answer_walks(settings, asked.body, grid, cases, results)
+    if output is not None and not stopped:
         try:
-            run_campaign(grid, file, executor, report, done)
-            search_limits(
-                cases,
-                file,
-                executor,
-                lambda number: report(len(grid) + number),
-                done,
-            )
-        except KeyboardInterrupt:
-            return done, True
-    return done, False
+            write_walks(output, settings, asked, answer)
+        except OutputError as error:
+            return answer, stopped, error
+    return answer, stopped, None
+
+
+def _tell(answer: dict[str, Any], *, stopped: bool, as_json: bool) -> None:
+    """Print what was found; leave with 130 after a Ctrl-C."""
+    people = answer.get(PERSON)
+    if as_json:
+        print_json(answer)
+    else:
+        if "survival" in answer:
+            print_campaign(answer)
+        if people is not None:
+            print_people(people)
+    if not stopped:
+        return
+    if people is None:
+        tell_stopped(answer)
+    else:
+        echo(
+            f"stopped after {people['done']} of {people['planned']} persons",
+            err=True,
+        )
+    raise SystemExit(130)
+
+
+def _once(names: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(names))

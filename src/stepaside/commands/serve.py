@@ -1,14 +1,18 @@
 """``stepaside serve``: our world, for control that is elsewhere."""
 
+from contextlib import ExitStack
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from .declared.common import json_option
+from .declared.common import FOLDER, json_option
 from .declared.kinds import NameType
 from .declared.take import SettingsCommand
+from .declared.wires import DOMAIN, NETWORK
 from .duel_options import duel_options
+from .keeping import check_kept, keep
 from .options import SECONDS, print_json, print_table
 
 if TYPE_CHECKING:
@@ -23,16 +27,32 @@ SIGHTS = ("ideal", "none")
     "--lola",
     "lola",
     multiple=True,
-    required=True,
     metavar="PLAYER=ADDRESS",
-    help="Where a player's robot listens: a path, or HOST:PORT.",
+    help="Where a player's robot speaks LoLA: a path, or HOST:PORT.",
 )
+@click.option(
+    "--naoqi",
+    "naoqi",
+    multiple=True,
+    metavar="PLAYER=URL",
+    help="Where a player's robot walks by itself, on NAOqi's services: "
+    "tcp://127.0.0.1:PORT.",
+)
+@click.option(
+    "--ros2",
+    "ros2",
+    multiple=True,
+    metavar="PLAYER=/NAMESPACE",
+    help="Where a player's robot walks by itself, on ROS 2 topics.",
+)
+@DOMAIN.option()
+@NETWORK.option(default=False)
 @click.option(
     "--sight",
     type=NameType(lambda: SIGHTS),
     default=SIGHTS[0],
     show_default=True,
-    help="Offer the true line of sight beside each path.",
+    help="Offer the true line of sight beside each robot.",
 )
 @click.option(
     "--lockstep/--no-lockstep",
@@ -46,54 +66,47 @@ SIGHTS = ("ideal", "none")
     show_default=True,
     help="For clients to come and be ready [s].",
 )
+@FOLDER.option(help="Run folder; nothing is kept by default.")
 @json_option
 def serve(
     settings: "DuelSettings",
-    lola: tuple[str, ...],
     sight: str,
     lockstep: bool,
     wait: float,
+    output: Path | None,
     as_json: bool,
+    **languages: Any,
 ) -> None:
-    """Let others play a duel in our world: each robot speaks LoLA.
+    """Let others play a duel in our world.
 
-    The world stands still until every robot has a client that holds it
-    stiff; then the chest buttons are pressed, and time passes. A robot
-    without an address is played here. LoLA has a cycle of 12 ms: an ideal
-    body is served as the delayed one.
+    A robot on LoLA is moved by its joints; one on NAOqi or on ROS 2 topics
+    walks by itself, by our own control, at the velocities that it is told.
+    The world stands still until every robot that is offered has somebody to
+    move it: a client that holds it stiff, or a commander. Then the chest
+    buttons are pressed, and time passes. A robot that is not offered is
+    played here. LoLA has a cycle of 12 ms: an ideal body is served as the
+    delayed one.
     """
     import gc
 
-    from ..drivers.lola.address import parse_address
     from ..games.outcome import Outcome
     from ..games.serving import serve_duel
-    from ..games.settings import PLAYERS
-    from ..world.body_settings import BODIES
+    from .feedback import with_feedback
+    from .offering import offers_of
 
-    if settings.body == BODIES["ideal"]:
-        settings = replace(settings, body=BODIES["delayed"])
-    if settings.body.cycle == 0.0:
-        settings = replace(settings, body=replace(settings.body, cycle=0.012))
-    addresses = {}
-    for entry in lola:
-        name, _, place = entry.partition("=")
-        if name not in PLAYERS or not place or name in addresses:
-            raise click.BadParameter(
-                f"must be {' or '.join(PLAYERS)}=ADDRESS, each once, "
-                f"got {entry!r}",
-                param_hint="--lola",
-            )
-        addresses[name] = parse_address(place)
-    gc.collect()
-    gc.freeze()
-    served = serve_duel(
-        settings,
-        addresses,
-        lock_step=lockstep,
-        ideal_sight=sight == "ideal",
-        patience=wait,
-    )
-    plain = served.to_json()
+    check_kept(output)
+    with ExitStack() as stack:
+        offers = offers_of(languages, stack, ideal_sight=sight == "ideal")
+        gc.collect()
+        gc.freeze()
+        served = serve_duel(
+            with_feedback(_with_cycle(settings)),
+            offers,
+            lock_step=lockstep,
+            patience=wait,
+        )
+    run, kept = keep(output, served.run)
+    plain = served._replace(run=run).to_json()
     if as_json:
         print_json(plain)
     else:
@@ -108,5 +121,18 @@ def serve(
                 ("lateness", late),
             ]
         )
-    if served.outcome is Outcome.INTERRUPTED:
+        kept.tell(f"{run.game}.png")
+    kept.check()
+    if run.outcome is Outcome.INTERRUPTED:
         raise SystemExit(130)
+
+
+def _with_cycle(settings: "DuelSettings") -> "DuelSettings":
+    """Settings of a duel whose bodies have LoLA's cycle."""
+    from ..world.body_settings import BODIES
+
+    if settings.body == BODIES["ideal"]:
+        settings = replace(settings, body=BODIES["delayed"])
+    if settings.body.cycle == 0.0:
+        settings = replace(settings, body=replace(settings.body, cycle=0.012))
+    return settings

@@ -12,6 +12,7 @@ from .declared.common import (
     FIGURE,
     GAME_TIME,
     SAMPLE_TIME,
+    figure_width,
     json_option,
 )
 from .declared.strategies import PURSUER_STRATEGY, UNICYCLE_STRATEGY
@@ -66,6 +67,7 @@ SHORT = 0.01  # time between decisions that are not held, in [s]
 @UNICYCLE_STRATEGY.option(default=None)
 @PURSUER_STRATEGY.option(default=None)
 @FIGURE.option()
+@figure_width
 @json_option
 @writes_files
 def unicycles(

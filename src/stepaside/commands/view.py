@@ -28,7 +28,7 @@ RUNNING = Declaration("--run/--no-run", "Let time pass at once.")
 @HOST.option(default="127.0.0.1", show_default=True)
 @PORT.option(default=8080, show_default=True)
 @BROWSER.option(default=True)
-@RUNNING.option(default=False)
+@RUNNING.option(default=True, show_default=True)
 @SERVE_FOR.option(more_names=("--duration",))
 @duel_options(DURATION)
 def view(

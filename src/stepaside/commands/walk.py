@@ -1,44 +1,67 @@
 """``stepaside walk``: one humanoid walks, and somebody pushes it."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from .declared.body import BODY, CONTROL, PHYSICS
-from .declared.common import json_option
+from .declared.common import FIGURE, FOLDER, json_option
 from .declared.gait import GAIT, WALK
 from .declared.game import RUN
 from .declared.take import SettingsCommand, takes_settings
+from .effort import SIMULATED, tell_effort
+from .keeping import check_kept, keep
 from .options import print_json, print_table
+from .outputs import attempt, writes_files
 
 if TYPE_CHECKING:
-    from ..games.walk import WalkRun, WalkSettings
+    from ..games.walk_run import WalkRun
+    from ..games.walk_settings import WalkSettings
 
 
 def _walk_settings() -> "type[WalkSettings]":
-    from ..games.walk import WalkSettings
+    from ..games.walk_settings import WalkSettings
 
     return WalkSettings
 
 
 @click.command("walk", cls=SettingsCommand)
 @takes_settings(_walk_settings, RUN, WALK, GAIT, BODY, CONTROL, PHYSICS)
+@FOLDER.option(help="Run folder; nothing is kept by default.")
+@FIGURE.option()
 @json_option
-def walk(settings: "WalkSettings", as_json: bool) -> None:
+@writes_files
+def walk(
+    settings: "WalkSettings",
+    output: Path | None,
+    figure: str | None,
+    as_json: bool,
+) -> None:
     """Let one humanoid walk, and say how well it does.
 
     Speed, turning, slip, tracking and estimation are those after the first
-    three seconds, in the frame of the support foot.
+    three seconds, in the frame of the support foot. A run folder can be
+    replayed, as that of a duel.
     """
-    from ..games.walk_summary import summarise_walk
+    from ..games.outcome import Outcome
 
-    result = _walk(settings)
-    summary = summarise_walk(result)
+    check_kept(output)
+    seconds = settings.duration
+    tell_effort(f"a walk of {seconds:g} s", seconds / SIMULATED)
+    run, kept = keep(output, _walk(settings))
+    if figure is not None:
+        from ..report.walk_figure import draw_walk
+
+        attempt(lambda: draw_walk(run, Path(figure)))
+    summary = run.summary.to_json()
     if as_json:
         print_json(summary)
     else:
         _print(summary)
-    if summary["outcome"] == "interrupted":
+        kept.tell(f"{run.game}.png")
+    kept.check()
+    if run.outcome is Outcome.INTERRUPTED:
         raise SystemExit(130)
 
 

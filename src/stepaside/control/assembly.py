@@ -1,8 +1,8 @@
 """Putting a mind together: kinematics, balance, senses and scheme."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from ..planning import GaitSettings
+from ..planning import GaitSettings, ManeuverPlanner
 from ..robots.description import RobotDescription
 from ..robots.forward import ForwardKinematics
 from ..robots.kinematics import LegKinematics
@@ -13,6 +13,9 @@ from .balance.feedforward import LoadFeedforward
 from .balance.loop import Balance, ClosedLoop, OpenLoop
 from .balance.settings import ControlSettings
 from .balance.stabiliser import Stabiliser
+from .clearance.guard import Guard
+from .clearance.outline import BodyOutline
+from .clearance.surroundings import Surroundings
 from .scheme import ControlScheme
 from .senses import CameraSight, GivenSight
 
@@ -56,6 +59,20 @@ def build_balance(
     )
 
 
+class Clearance(NamedTuple):
+    """What a robot knows of a room, and how clear it keeps.
+
+    Attributes:
+        surroundings: What it knows.
+        outline: Of its body.
+        margin: Distance that it keeps, in [m].
+    """
+
+    surroundings: Surroundings
+    outline: BodyOutline
+    margin: float
+
+
 def build_scheme(
     strategy: Strategy,
     description: RobotDescription,
@@ -66,6 +83,7 @@ def build_scheme(
     delay: float = 0.0,
     sighting: Sighting | None = None,
     perception: "Perception | None" = None,
+    clearance: Clearance | None = None,
 ) -> ControlScheme:
     """Control of one robot, whatever body it will move.
 
@@ -78,6 +96,7 @@ def build_scheme(
         delay: Time from a request to the motion, in [s].
         sighting: What is known of the other before anything is seen.
         perception: What turns its images into sightings, if it has eyes.
+        clearance: What it knows of a room, and how clear it keeps.
 
     Raises:
         ReachError: If the robot cannot stand as the gait asks.
@@ -101,4 +120,12 @@ def build_scheme(
         senses=GivenSight(sighting)
         if perception is None
         else CameraSight(perception, tick=tick),
+        guard=None
+        if clearance is None
+        else Guard(
+            clearance.surroundings,
+            clearance.outline,
+            ManeuverPlanner(gait),
+            margin=clearance.margin,
+        ),
     )

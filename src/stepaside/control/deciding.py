@@ -1,5 +1,7 @@
 """Asking the strategy of one robot, with what it remembers."""
 
+from dataclasses import replace
+from math import cos, sin
 from typing import Any
 
 from ..errors import StrategyError
@@ -7,9 +9,11 @@ from ..planning import GaitSettings
 from ..poses import Pose, wrap_angle
 from ..sensing.measurement import Sighting
 from ..strategies.knowledge import Intent, Knowledge, Limits
-from ..strategies.rates import SightRates
+from ..strategies.rates import FloorVelocity, SightRates
 from ..strategies.strategy import Strategy
+from .clearance.surroundings import OpenFloor, Surroundings
 from .memory import Memory
+from .pace import next_pace
 
 
 class Decisions:
@@ -18,13 +22,18 @@ class Decisions:
     Attributes:
         strategy: From what the robot knows to what it wants.
         memory: What the strategy remembers.
+        pace: Of the last step that was decided, see :class:`Intent`.
         headings: Past headings of the torso in odometry, in [rad], from
             which sightings count.
         templates: Past poses of the unicycle that stands for the body.
     """
 
     def __init__(
-        self, strategy: Strategy, gait: GaitSettings, tick: float
+        self,
+        strategy: Strategy,
+        gait: GaitSettings,
+        tick: float,
+        surroundings: Surroundings | None = None,
     ) -> None:
         """Begin with nobody seen yet.
 
@@ -32,12 +41,16 @@ class Decisions:
             strategy: From what the robot knows to what it wants.
             gait: How it walks.
             tick: Control period, in [s].
+            surroundings: What the robot knows of what stands around.
         """
+        self._around = surroundings or OpenFloor()
         self.strategy = strategy
         self.memory: Any = strategy.begin()
+        self.pace = 1.0
         self.headings: Memory[float] = Memory(tick)
         self.templates: Memory[Pose] = Memory(tick)
         self._rates = SightRates(gait.step_duration)
+        self._drift = FloorVelocity(gait.step_duration)
         self._limits = Limits(
             gait.speed, gait.gain, gait.stride, gait.step_duration
         )
@@ -85,6 +98,9 @@ class Decisions:
         """
         known = self._knowledge(now, seen, moving=moving)
         intent, self.memory = self._ask(known)
+        self.pace = next_pace(self.pace, intent.pace, standing=not moving)
+        if intent.pace != self.pace:
+            intent = replace(intent, pace=self.pace)
         return intent
 
     def _ask(self, known: Knowledge) -> tuple[Intent, Any]:
@@ -109,6 +125,17 @@ class Decisions:
         template = self.templates.at(seen.time)
         sight = self.headings.at(seen.time) + seen.bearing
         rates = self._rates.note(seen.time, sight, seen.distance)
+        place = template.compose(
+            Pose(
+                seen.distance * cos(sight - template.theta),
+                seen.distance * sin(sight - template.theta),
+                0.0,
+            )
+        )
+        drift = self._drift.note(seen.time, place.x, place.y)
+        if drift is not None:
+            turned = Pose(0.0, 0.0, -template.theta)
+            drift = turned.compose(Pose(*drift, 0.0))[:2]
         return Knowledge(
             now,
             wrap_angle(sight - template.theta),
@@ -117,6 +144,8 @@ class Decisions:
             rates.bearing_rate,
             rates.closing_speed,
             max(0.0, now - seen.time),
-            template,
+            self._around.frame.compose(template),
             moving,
+            self._around.solids.known,
+            drift,
         )

@@ -22,12 +22,15 @@ class ReferenceSample(NamedTuple):
         zmp: ZMP reference, in [m].
         dcm: DCM reference, in [m].
         template: Pose of the unicycle that stands for the body.
+        reaction: What the swing leg shifts the ZMP by, in [m]: the CoM
+            falls away from a point that is so far behind the ZMP.
     """
 
     body: BodyReference
     zmp: tuple[float, float]
     dcm: tuple[float, float]
     template: Pose
+    reaction: tuple[float, float] = (0.0, 0.0)
 
 
 def standing_reference(
@@ -115,6 +118,9 @@ class ReferenceTable:
         )
         points = points @ turn
         points += plan_frame[:2]
+        reaction = [(0.0, 0.0)] * count
+        if plan.schedule.feels_swing:
+            reaction = ((samples.zmp - samples.pivot) @ turn).tolist()
         com, left, right, zmp, dcm, place = points.reshape(
             6, count, 2
         ).tolist()
@@ -134,6 +140,7 @@ class ReferenceTable:
                 (zmp[i][0], zmp[i][1]),
                 (dcm[i][0], dcm[i][1]),
                 Pose(place[i][0], place[i][1], heading[i]),
+                (reaction[i][0], reaction[i][1]),
             )
             for i in range(count)
         ]

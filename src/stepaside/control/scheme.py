@@ -2,13 +2,7 @@
 
 from time import process_time
 
-from ..planning import (
-    CenterState,
-    Foot,
-    GaitSettings,
-    ManeuverPlan,
-    ManeuverPlanner,
-)
+from ..planning import CenterState, Foot, GaitSettings, ManeuverPlan
 from ..planning.steady import landing_state
 from ..poses import Array, Pose
 from ..robots.kinematics import BodyReference, LegKinematics
@@ -16,23 +10,24 @@ from ..sensing.measurement import Measurement, Sighting
 from ..strategies.strategy import Strategy
 from .balance.loop import Balance, OpenLoop
 from .balance.step import Step, resting_step, step_of
+from .clearance.guard import Guard
 from .deciding import Decisions
+from .maneuvers import Maneuvers
 from .phase import Phase
 from .reference import ReferenceSample, ReferenceTable, resting_sample
 from .senses import GivenSight, Senses
 from .walking import StepBegun, WalkState
 
 SETTLING = 1.0  # how long a halted robot takes to come to rest, in [s]
+PATIENCE = 0.2  # until one that cannot move asks again, in [s]
 
 
 class ControlScheme:
     """Perceives the other, plans at the end of each double support, moves.
 
     Everything is kept in the robot's own odometry: the frame that lay
-    midway between its feet when it began.
-
-    What has been is not kept: who wants to know looks after each tick at
-    the step that it began, if it began one.
+    midway between its feet when it began. What has been is not kept: who
+    wants to know looks after each tick at the step that it began.
 
     Attributes:
         decisions: Its strategy, and what that remembers.
@@ -64,6 +59,7 @@ class ControlScheme:
         first_foot: Foot = Foot.LEFT,
         balance: Balance | None = None,
         senses: Senses | None = None,
+        guard: Guard | None = None,
     ) -> None:
         """Take the standing posture.
 
@@ -77,11 +73,14 @@ class ControlScheme:
             balance: What keeps the robot up; the plan alone by default.
             senses: How it learns where the other is; by the sightings that
                 measurements bring by default.
+            guard: What keeps it clear of what stands around; nothing by
+                default.
 
         Raises:
             ReachError: If the robot cannot stand as the gait asks.
         """
-        self.decisions = Decisions(strategy, settings, tick)
+        around = None if guard is None else guard.surroundings
+        self.decisions = Decisions(strategy, settings, tick, around)
         self.settings = settings
         self.kinematics = kinematics
         self.balance: Balance = OpenLoop() if balance is None else balance
@@ -98,7 +97,8 @@ class ControlScheme:
         self.right_foot = Pose(0.0, -half, 0.0)
         self.begun: StepBegun | None = None
         self._delay, self._late = delay, delay + tick
-        self._planner = ManeuverPlanner(settings)
+        self._maneuvers = Maneuvers(settings, self.balance, guard)
+        self._blocked_until = 0.0
         self._first_foot = first_foot
         self._table = ReferenceTable(tick)
         self._plan_ends = 0.0
@@ -128,6 +128,9 @@ class ControlScheme:
         late = self._delay if measured is None else 0.0
         self.decisions.headings.note(now + late, known)
         self.sighting = self.senses.see(measurement, self.step, balance.tilt)
+        if self._maneuvers.guard is not None:
+            around = self._maneuvers.guard.surroundings
+            around.note(measurement, self.reference)
         if self.plan is None:
             self._wait(now)
         elif now >= self._plan_ends - 1e-9:
@@ -178,15 +181,20 @@ class ControlScheme:
     def _wait(self, now: float) -> None:
         """Stand until the other is a reason to move."""
         seen = self.sighting
-        if not self.balance.ready:
+        if not self.balance.ready or now < self._blocked_until:
             return
         if seen is None or not self.decisions.starts(now, seen):
             return
-        support = self._support(self._first_foot)
         x, y, _ = self.reference.com
-        rest = support.inverse().compose(Pose(x, y, 0.0))
-        state = CenterState(rest[:2], (0.0, 0.0))
-        self._replan(now, support, state, seen, standing=True)
+        for _ in Foot:
+            support = self._support(self._first_foot)
+            rest = support.inverse().compose(Pose(x, y, 0.0))
+            state = CenterState(rest[:2], (0.0, 0.0))
+            self._replan(now, support, state, seen, standing=True)
+            if self.plan is not None or not self._blocked_until > now:
+                return
+            # Who sways to the other side first may have more room there.
+            self._first_foot = self._first_foot.other
 
     def _finish(self, plan: ManeuverPlan) -> None:
         """End a step: the foot that landed supports, and a plan follows."""
@@ -224,30 +232,19 @@ class ControlScheme:
         """Plan from what was seen last, or come to rest (Sec. III-E)."""
         clock = process_time()
         intent = self.decisions.decide(started, seen, moving=not standing)
-        if not intent.walks:
+        foot, who = self._first_foot, self.decisions.strategy
+        feet = support, self._support(foot.other)
+        planned = None
+        if intent.walks:
+            planned = self._maneuvers.plan(
+                intent, who, state, feet, foot, standing=standing
+            )
+        if planned is None:
+            self._blocked_until = started + PATIENCE if intent.walks else 0.0
             if not standing:
                 self._halt(started, support, state)
             return
-        strategy = self.decisions.strategy
-        foot = self._first_foot
-        swing_start = support.inverse().compose(self._support(foot.other))
-
-        def plan_from(state: CenterState) -> ManeuverPlan:
-            return self._planner.plan(
-                intent.heading,
-                strategy.direction,
-                first_foot=foot,
-                state=state,
-                swing_start=swing_start,
-                standing=standing,
-                saturated=strategy.saturated,
-                speed_factor=intent.speed_factor,
-            )
-
-        if standing:
-            plan = plan_from(state)
-        else:
-            plan, state = self.balance.fit(plan_from, state, support)
+        plan, state = planned
         spent = process_time() - clock
         self.phase = Phase.WALKING
         duration = plan.schedule.first_step_duration
@@ -256,10 +253,11 @@ class ControlScheme:
     def _halt(self, started: float, support: Pose, state: CenterState) -> None:
         """Bring the feet abreast and come to rest."""
         foot = self._first_foot
-        plan = self._planner.plan_halt(
+        plan = self._maneuvers.planner.plan_halt(
             first_foot=foot,
             state=state,
             swing_start=support.inverse().compose(self._support(foot.other)),
+            pace=self.decisions.pace,
         )
         self.phase = Phase.HALTING
         duration = plan.schedule.duration + SETTLING
@@ -279,7 +277,7 @@ class ControlScheme:
         self._plan_ends = started + duration
         self._table.load(plan, frame, started, duration)
         landing = plan.schedule.first_step_duration
-        landing += started - self.settings.double_support
+        landing += started - plan.gait.double_support
         landed = frame.compose(Pose(*plan.placements[2].tolist()))
         vx, vy = plan.start_velocity.tolist()
         jump = max(abs(vx - state.velocity[0]), abs(vy - state.velocity[1]))

@@ -1,102 +1,119 @@
-"""What a player noted while it played, as one file of arrays."""
+"""What a player noted while it played, on disk as it goes."""
 
 import json
+from collections.abc import Mapping
+from enum import Enum
 from pathlib import Path
 
 import numpy as np
 
 from ..control import Phase
-from ..errors import ConfigurationError
+from ..outputs import check_folder, writing
+from ..poses import Array
 from .lola.safety import State
 from .playing import Tick
+from .rows import RowWriter
+from .velocity.playing import Driving, VelocityTick
 
-ARRAYS, WORDS = "play.npz", "play.json"
-STATES, PHASES = list(State), list(Phase)
+WORDS = "play.json"
+STATES: dict[type[Enum], list[Enum]] = {
+    kind: list(kind) for kind in (State, Driving)
+}
+PHASES = list(Phase)
+UNSEEN = np.full(3, np.nan)
 
 
 class PlayLog:
-    """Keeps every tick: what was measured, wanted and allowed.
+    """Keeps every tick, as rows (:mod:`stepaside.drivers.rows`).
 
-    ``play.npz`` holds ``times_s`` (n,), ``joint_positions``, ``targets``
-    (n, joints), ``gyro``, ``accelerometer`` (n, 3), ``foot_forces`` (n, 8),
-    ``sighting`` (n, 3: time, bearing, distance; NaN without one), ``state``
-    and ``phase`` (n,), numbers into the lists of ``play.json``, which also
-    says what changed when, and why.
+    Every tick has ``times_s``, ``sighting`` (time, bearing, distance; NaN
+    without one) and ``state``. One that moves joints has
+    ``joint_positions``, ``targets``, ``gyro``, ``accelerometer``,
+    ``foot_forces`` and ``phase``; one that gives velocities has ``pose``,
+    its odometry, ``wanted``, what the template would do, and ``velocity``,
+    what was asked for (forward [m/s], turn [rad/s]). States and phases are
+    numbers into the lists of ``play.json``, which also says what changed
+    when, and why.
     """
 
-    def __init__(self, folder: Path, about: dict[str, object]) -> None:
-        """Make the folder.
+    def __init__(self, folder: Path, about: Mapping[str, object]) -> None:
+        """Try the folder, which is made when there is something to keep.
 
         Args:
             folder: Must not exist yet, or be empty.
-            about: What to write down beside the arrays.
+            about: What to write down beside the rows.
 
         Raises:
             ConfigurationError: If it cannot be written.
         """
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            if any(folder.iterdir()):
-                raise ConfigurationError(f"{folder} must be empty")
-        except OSError as error:
-            raise ConfigurationError(
-                f"cannot write {folder}: {error}"
-            ) from error
-        self._folder, self._about = folder, about
-        self._rows: list[tuple[np.ndarray, ...]] = []
+        check_folder(folder, "record", new=True)
+        self._rows: RowWriter | None = None
+        self._folder, self._about = folder, dict(about)
         self._changes: list[dict[str, object]] = []
-        self._state: State | None = None
+        self._state: Enum | None = None
 
-    def note(self, tick: Tick) -> None:
+    def note(self, tick: Tick | VelocityTick) -> None:
         """Keep a tick."""
-        m, seen = tick.measurement, tick.sighting
-        self._rows.append(
-            (
-                np.array(m.time),
-                m.joint_positions,
-                tick.targets,
-                m.gyro,
-                m.accelerometer,
-                m.foot_forces,
-                np.full(3, np.nan) if seen is None else np.array(seen),
-                np.array(STATES.index(tick.state)),
-                np.array(PHASES.index(tick.phase)),
-            )
-        )
-        if tick.state is not self._state:
-            self._state = tick.state
+        seen, state = tick.sighting, tick.state
+        row: dict[str, Array | float] = {
+            "times_s": tick.time,
+            "sighting": UNSEEN if seen is None else np.array(seen),
+            "state": float(STATES[type(state)].index(state)),
+        }
+        row |= _moved(tick) if isinstance(tick, Tick) else _driven(tick)
+        rows = self._rows = self._rows or RowWriter(self._folder)
+        rows.add(row)
+        if state is not self._state:
+            self._state = state
             self._changes.append(
                 {
-                    "tick": len(self._rows) - 1,
-                    "time_s": m.time,
-                    "state": tick.state.value,
+                    "tick": rows.count - 1,
+                    "time_s": tick.time,
+                    "state": state.value,
                     "reason": tick.reason,
                 }
             )
+            self._write_words()
 
     def close(self) -> None:
-        """Write what was kept."""
-        names = (
-            "times_s",
-            "joint_positions",
-            "targets",
-            "gyro",
-            "accelerometer",
-            "foot_forces",
-            "sighting",
-            "state",
-            "phase",
-        )
-        columns = zip(*self._rows, strict=True) if self._rows else ()
-        arrays = {
-            name: np.array(column)
-            for name, column in zip(names, columns, strict=False)
-        }
-        np.savez_compressed(self._folder / ARRAYS, **arrays)  # type: ignore[arg-type]
+        """Write what is left; nothing if there is nothing.
+
+        Raises:
+            OutputError: If the system does not let it be written.
+        """
+        if self._rows is not None:
+            self._rows.close()
+            self._write_words()
+
+    def _write_words(self) -> None:
+        kind = type(self._state) if self._state is not None else State
         words = self._about | {
-            "states": [state.value for state in STATES],
-            "phases": [str(phase.value) for phase in PHASES],
+            "states": [state.value for state in STATES[kind]],
+            "phases": [phase.value for phase in PHASES],
             "changes": self._changes,
         }
         text = json.dumps(words, indent=1, allow_nan=False)
-        (self._folder / WORDS).write_text(text + "\n", encoding="utf-8")
+        with writing(self._folder / WORDS) as draft:
+            draft.write_text(text + "\n", encoding="utf-8")
+
+
+def _moved(tick: Tick) -> dict[str, Array | float]:
+    """What is known of a robot whose joints are moved."""
+    m = tick.measurement
+    return {
+        "joint_positions": m.joint_positions,
+        "targets": tick.targets,
+        "gyro": m.gyro,
+        "accelerometer": m.accelerometer,
+        "foot_forces": m.foot_forces,
+        "phase": float(PHASES.index(tick.phase)),
+    }
+
+
+def _driven(tick: VelocityTick) -> dict[str, Array | float]:
+    """What is known of a robot that walks by itself."""
+    return {
+        "pose": np.array(tick.pose),
+        "wanted": np.array(tick.wanted),
+        "velocity": np.array(tick.velocity),
+    }

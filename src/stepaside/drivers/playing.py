@@ -37,6 +37,19 @@ class Tick:
     sighting: Sighting | None
     refused: int
 
+    @property
+    def time(self) -> float:
+        """When it was, in [s]."""
+        return self.measurement.time
+
+    @property
+    def words(self) -> str:
+        """What it was, in a few words."""
+        text = f"{self.state.value} ({self.reason}), {self.phase.value}"
+        if self.refused:
+            text += f", {self.refused} frames refused"
+        return text
+
 
 class Onlooker(Protocol):
     """Whoever looks on: a status line, a log."""

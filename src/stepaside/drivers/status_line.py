@@ -1,17 +1,37 @@
 """One line on the terminal that says what the robot does."""
 
 from collections.abc import Callable
+from enum import Enum
 from math import degrees
 from time import monotonic
-from typing import TextIO
+from typing import Protocol, TextIO
 
-from .lola.safety import State
-from .playing import Tick
+from ..sensing.measurement import Sighting
 
 PERIOD = 0.2  # between two looks of the line, in [s]
 
 
-def words_of(tick: Tick) -> str:
+class Shown(Protocol):
+    """What a tick says of itself."""
+
+    @property
+    def state(self) -> Enum:
+        """What the robot is doing."""
+
+    @property
+    def time(self) -> float:
+        """When, in [s]."""
+
+    @property
+    def words(self) -> str:
+        """All of it, in a few words."""
+
+    @property
+    def sighting(self) -> Sighting | None:
+        """The other, as far as is known."""
+
+
+def words_of(tick: Shown) -> str:
     """What one tick was, in one line."""
     seen = tick.sighting
     other = "sees nobody"
@@ -19,10 +39,7 @@ def words_of(tick: Tick) -> str:
         other = (
             f"other at {seen.distance:.2f} m, {degrees(seen.bearing):+.0f} deg"
         )
-    text = f"{tick.state.value} ({tick.reason}), {tick.phase.value}, {other}"
-    if tick.refused:
-        text += f", {tick.refused} frames refused"
-    return f"{tick.measurement.time:7.1f} s  {text}"
+    return f"{tick.time:7.1f} s  {tick.words}, {other}"
 
 
 class StatusLine:
@@ -35,9 +52,9 @@ class StatusLine:
         self._stream, self._clock = stream, clock
         self._is_terminal = stream.isatty()
         self._said = -PERIOD
-        self._state: State | None = None
+        self._state: Enum | None = None
 
-    def note(self, tick: Tick) -> None:
+    def note(self, tick: Shown) -> None:
         """Say what a tick was, if it is time to."""
         now = self._clock()
         changed = tick.state is not self._state

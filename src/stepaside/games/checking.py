@@ -29,12 +29,20 @@ class Kind(NamedTuple):
 KINDS = {
     "com": Kind(3),
     "torso": Kind(3),
+    "place": Kind(3),
     "com_reference": Kind(2),
     "zmp_reference": Kind(2),
     "zmp": Kind(2, may_lack=True),
     "qpos": Kind(None),
     "landings": Kind(5, per_sample=False),
     "sight": Kind(6, per_sample=False, may_lack=True),
+    "pushes": Kind(6, per_sample=False),
+    "velocity": Kind(2),
+    "tilt": Kind(2),
+    "sole": Kind(3),
+    "support": Kind(5),
+    "heading_reference": Kind(1),
+    "estimate": Kind(8, may_lack=True),
 }
 
 

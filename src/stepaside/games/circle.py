@@ -4,9 +4,10 @@ from math import degrees
 
 import numpy as np
 
+from ..planning import GaitSettings
 from ..poses import Array
 from ..unicycle.circling import Circle, find_circle
-from .settings import DuelSettings
+from .settings import EVADER, PURSUER, DuelSettings
 
 DISTANCE_BAND = 0.05  # of theory's distance
 ORIENTATION_BAND = 5.0  # of theory's angle, in [deg]
@@ -19,21 +20,33 @@ def theory_of(settings: DuelSettings) -> Circle:
     """
     if not settings.is_of_the_paper:
         return Circle(exists=False)
-    gait, strategy = settings.gait, settings.strategy
+    strategy = settings.strategy
+    gait = settings.robot_of(EVADER).gait
     speeds = gait.speed, gait.speed
     gains = gait.gain, gait.gain
+    chasing = settings.robot_of(PURSUER).gait
     if settings.pursuer == "person":
         # A person lives in real time, the gait in its own.
-        pace = gait.path_interval / gait.step_duration
+        pace = pace_of(gait)
         person = settings.person
         speeds = person.speed, gait.speed * pace
         gains = person.gain, gait.gain * pace
+    elif chasing != gait:
+        # So do two gaits that differ.
+        paces = pace_of(chasing), pace_of(gait)
+        speeds = chasing.speed * paces[0], gait.speed * paces[1]
+        gains = chasing.gain * paces[0], gait.gain * paces[1]
     return find_circle(
         *speeds,
         *gains,
         strategy.angle,
         "saturated" if strategy.saturated else "proportional",
     )
+
+
+def pace_of(gait: GaitSettings) -> float:
+    """How much of its path time a gait walks in a time, as a ratio."""
+    return gait.path_interval / gait.step_duration
 
 
 def distance_between(first: Array, second: Array) -> Array:
@@ -101,7 +114,7 @@ def converged_at(
     """
     if not theory.exists or len(times) < 3:
         return None
-    period = 2.0 * settings.gait.step_duration
+    period = settings.cycle
     distance = cycle_mean(distance_between(pursuer, evader), times, period)
     angle = np.degrees(
         cycle_mean(angle_between(pursuer, evader), times, period)

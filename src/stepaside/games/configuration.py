@@ -2,16 +2,18 @@
 
 import tomllib
 from collections.abc import Callable, Collection
-from dataclasses import asdict, fields, is_dataclass
+from dataclasses import fields, is_dataclass
 from enum import Enum
 from math import isfinite
 from pathlib import Path
-from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints
+from typing import Any, Literal, TypeVar, get_args, get_origin
 
 import dacite
 import tomli_w
 
-from ..errors import ConfigurationError
+from ..errors import ConfigurationError, StepAsideError, shown
+from ..rooms import Room, room_entries, room_of_entries
+from .entries import over, renamed, with_tuples, without
 from .settings import DuelSettings
 
 S = TypeVar("S")  # a frozen dataclass of settings
@@ -32,7 +34,11 @@ RETIRED = (
 
 
 def load_settings(
-    kind: type[S], path: Path, *, aside: Collection[str] = ()
+    kind: type[S],
+    path: Path,
+    *,
+    aside: Collection[str] = (),
+    base: S | None = None,
 ) -> S:
     """Read settings.
 
@@ -40,17 +46,44 @@ def load_settings(
         kind: Class of the settings.
         path: TOML file; what it leaves out keeps its default.
         aside: Entries that are left aside, for they belong to others.
+        base: Settings whose values are the defaults; those of the class by
+            default.
 
     Raises:
         ConfigurationError: If it is not TOML, or an entry is unknown, of
             the wrong type or out of its range.
+    """
+    entries = load_entries(path)
+    return parse_settings(kind, entries, str(path), aside=aside, base=base)
+
+
+def load_entries(path: Path) -> dict[str, Any]:
+    """Nested entries of a TOML file.
+
+    Raises:
+        ConfigurationError: If it cannot be read, or is no TOML.
     """
     try:
         with path.open("rb") as file:
             text = file.read(LONGEST + 1).decode("utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise ConfigurationError(f"{path}: {error}") from error
-    return read_settings(kind, text, str(path), aside=aside)
+    return read_entries(text, str(path))
+
+
+def says(path: Path, entry: str) -> bool:
+    """Whether a configuration that was read has an entry.
+
+    Args:
+        path: TOML file.
+        entry: Like ``control.method``.
+    """
+    found: Any = tomllib.loads(path.read_text(encoding="utf-8"))
+    for name in entry.split("."):
+        if not isinstance(found, dict) or name not in found:
+            return False
+        found = found[name]
+    return True
 
 
 def read_settings(
@@ -67,17 +100,31 @@ def read_settings(
     Raises:
         ConfigurationError: As :func:`load_settings`.
     """
+    return parse_settings(
+        kind, read_entries(text, source), source, aside=aside
+    )
+
+
+def read_entries(text: str, source: str) -> dict[str, Any]:
+    """Nested entries of TOML.
+
+    Args:
+        text: TOML.
+        source: Where it comes from, for messages.
+
+    Raises:
+        ConfigurationError: If it is none, or too long.
+    """
     if len(text) > LONGEST:
         raise ConfigurationError(
             f"{source} must have at most {LONGEST} characters"
         )
     try:
-        entries = tomllib.loads(text)
+        return tomllib.loads(text)
     except RecursionError as error:
         raise ConfigurationError(f"{source} is nested too deep") from error
     except ValueError as error:  # no TOML, or a number without end
         raise ConfigurationError(f"{source}: {error}") from error
-    return parse_settings(kind, entries, source, aside=aside)
 
 
 def parse_settings(
@@ -86,6 +133,7 @@ def parse_settings(
     source: str,
     *,
     aside: Collection[str] = (),
+    base: S | None = None,
 ) -> S:
     """Turn nested entries into settings.
 
@@ -94,6 +142,7 @@ def parse_settings(
         entries: Sections and values; old names are taken for new ones.
         source: Where they come from, for messages.
         aside: As :func:`load_settings`.
+        base: Likewise.
 
     Raises:
         ConfigurationError: As :func:`load_settings`.
@@ -103,17 +152,19 @@ def parse_settings(
     entries = {key: v for key, v in entries.items() if key not in left}
     for old, new in RENAMED.items():
         try:
-            entries = _renamed(entries, old, new)
+            entries = renamed(entries, old, new)
         except KeyError:
             raise ConfigurationError(
                 f"{source}: {old} is the old name of {new}, "
                 "give one of them, not both"
             ) from None
     for old in RETIRED:
-        entries = _without(entries, old)
-    entries = _with_tuples(kind, entries)
+        entries = without(entries, old)
+    if base is not None:
+        entries = over(plain_settings(base), entries)
+    entries = with_tuples(kind, entries)
     hooks: dict[type[Any], Callable[[Any], Any]]
-    hooks = {float: _as_float, int: _as_int}
+    hooks = {float: _as_float, int: _as_int, Room: _as_room}
     config = dacite.Config(strict=True, type_hooks=hooks, cast=[Enum])
     try:
         return dacite.from_dict(kind, entries, config)
@@ -129,7 +180,13 @@ def parse_settings(
     except dacite.WrongTypeError as error:
         raise ConfigurationError(
             f"{source}: {error.field_path} must be "
-            f"{_type_name(error.field_type)}, got {error.value!r}"
+            f"{_type_name(error.field_type)}, got {shown(error.value)}"
+        ) from error
+    except StepAsideError:
+        raise
+    except (AttributeError, TypeError, ValueError) as error:
+        raise ConfigurationError(  # a section where a list is due, or so
+            f"{source}: entries are not of their kinds: {error}"
         ) from error
 
 
@@ -150,7 +207,7 @@ def dump_configuration(settings: Any) -> str:
 
 def plain_settings(settings: Any) -> dict[str, Any]:
     """Nested entries of settings, as a configuration has them."""
-    entries: dict[str, Any] = _plain(asdict(settings))
+    entries: dict[str, Any] = _plain(_unfolded(settings))
     return entries
 
 
@@ -158,46 +215,6 @@ def spelled_settings(settings: Any) -> dict[str, Any]:
     """Settings for JSON, with what it has no number for spelled out."""
     entries: dict[str, Any] = _spelled(plain_settings(settings))
     return entries
-
-
-def _renamed(entries: dict[str, Any], old: str, new: str) -> dict[str, Any]:
-    """Entries with an old name, if it is there, replaced by the new one.
-
-    Raises:
-        KeyError: If both are there.
-    """
-    section, deeper, old_rest = old.partition(".")
-    new_rest = new.partition(".")[2]
-    if deeper:
-        inner = entries.get(section)
-        if not isinstance(inner, dict):
-            return entries
-        return entries | {section: _renamed(inner, old_rest, new_rest)}
-    if old in entries and new in entries:
-        raise KeyError(old)
-    return {new if key == old else key: v for key, v in entries.items()}
-
-
-def _without(entries: dict[str, Any], old: str) -> dict[str, Any]:
-    """Entries without one."""
-    section, deeper, rest = old.partition(".")
-    inner = entries.get(section)
-    if deeper and isinstance(inner, dict):
-        return entries | {section: _without(inner, rest)}
-    return {key: v for key, v in entries.items() if key != old}
-
-
-def _with_tuples(kind: Any, entries: dict[str, Any]) -> dict[str, Any]:
-    """Entries with tuples for the lists that settings keep as such."""
-    changed = dict(entries)
-    hints = get_type_hints(kind)
-    for key in entries.keys() & hints.keys():
-        value, hint = entries[key], hints[key]
-        if isinstance(value, list) and get_origin(hint) is tuple:
-            changed[key] = tuple(value)
-        elif isinstance(value, dict) and is_dataclass(hint):
-            changed[key] = _with_tuples(hint, value)
-    return changed
 
 
 def _type_name(kind: Any) -> str:
@@ -219,7 +236,10 @@ def _as_float(value: Any) -> Any:
     """Take whole numbers for real ones."""
     if isinstance(value, bool):
         raise dacite.WrongTypeError(float, value)
-    return float(value) if isinstance(value, int) else value
+    try:
+        return float(value) if isinstance(value, int) else value
+    except OverflowError as error:
+        raise dacite.WrongTypeError(float, value) from error
 
 
 def _as_int(value: Any) -> Any:
@@ -231,6 +251,22 @@ def _as_int(value: Any) -> Any:
 
 HOOKS: dict[type[Any], Callable[[Any], Any]]
 HOOKS = {float: _as_float, int: _as_int}  # what files have for numbers
+
+
+def _as_room(value: Any) -> Any:
+    """Take the entries of a room file for a room."""
+    return room_of_entries(value) if isinstance(value, dict) else value
+
+
+def _unfolded(value: Any) -> Any:
+    """Settings as nested entries, and rooms as their files have them."""
+    if isinstance(value, Room):
+        return room_entries(value)
+    if isinstance(value, list | tuple):
+        return [_unfolded(entry) for entry in value]
+    if not is_dataclass(value):
+        return value
+    return {f.name: _unfolded(getattr(value, f.name)) for f in fields(value)}
 
 
 def _plain(value: Any) -> Any:

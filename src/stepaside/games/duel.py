@@ -1,32 +1,34 @@
 """The game of pursuit and evasion, played in physics (paper, Sec. IV)."""
 
-from collections.abc import Callable
-from dataclasses import replace
-from math import pi
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 import mujoco
 
+from ..errors import ConfigurationError
 from ..poses import Pose
 from ..randomness import named_generator
 from ..robots.description import RobotDescription, load_robot
+from ..robots.machine import prefer_for
 from ..strategies import load_strategy
 from ..world.body_settings import with_cycle
 from ..world.person import Person, add_person
 from ..world.person_motion import Motion
+from ..world.push import pushes_of
 from ..world.sight import IdealLineOfSight
-from ..world.truth import TrueState
+from ..world.solids import add_solids
+from ..world.truth import Truth
 from ..world.world import World
+from .duel_end import ended_duel
+from .duel_run import DuelRun
 from .match import Match, Observer, Progress, play
 from .outcome import Outcome
 from .pedestrian import Pedestrian
 from .player import Player
 from .record import Recorder
-from .run import Run
 from .settings import EVADER, PLAYERS, PURSUER, DuelSettings
-from .standing import stand_walker
-from .start import draw_start
-from .summary import summarise
+from .standing import clearance_in, stand_walker, watch
+from .start import frames_of, with_start
 from .walker import Walker
 
 if TYPE_CHECKING:
@@ -60,12 +62,15 @@ class Duel(Match):
         Raises:
             StepAsideError: If the settings ask for what cannot be.
         """
-        self.settings = settings = replace(
-            settings, start=draw_start(settings)
-        )
-        self.frames = frames = _frames(settings)
+        self.settings = settings = with_start(settings)
+        self.frames = frames = frames_of(settings)
         setting = _Setting(settings, frames)
         mujoco.mj_forward(setting.world.model, setting.world.data)
+        for name, pushes in pushes_of(
+            settings.pushes, settings.robots
+        ).items():
+            if pushes:
+                setting.players[PLAYERS.index(name)].push(*pushes)
         tick = setting.world.physics.tick
         self.recorder = Recorder(setting.players, tick=tick)
         self.witness = (
@@ -78,42 +83,23 @@ class Duel(Match):
             setting.world,
             setting.players,
             (*(kept if recorded else ()), *observers),
-            has_things=bool(settings.room.things),
+            has_things=bool(settings.room.things or settings.room.plan),
         )
 
-    def run(self, outcome: Outcome, wall_time: float) -> Run:
+    def run(self, outcome: Outcome, wall_time: float) -> DuelRun:
         """What was played, as a value.
 
         Args:
             outcome: How it ended.
             wall_time: Time that it took, in [s].
         """
-        tracks = self.recorder.tracks()
-        witness = self.witness
-        if witness is not None:
-            for name, rows in witness.sight().items():
-                tracks[name] = replace(tracks[name], sight=rows)
-        times = self.recorder.times
-        summary = summarise(
+        return ended_duel(
             self.settings,
             self,
             outcome,
-            times,
-            tracks,
-            self.recorder.planning(),
-            {} if witness is None else witness.figures(),
+            self.recorder,
+            self.witness,
             wall_time,
-        )
-        return Run(
-            name=f"duel-seed{self.settings.seed}",
-            settings=self.settings,
-            outcome=outcome,
-            message=self.message,
-            duration=summary.duration_s,
-            times=times,
-            tracks=tracks,
-            summary=summary,
-            stills={} if witness is None else witness.stills(),
         )
 
 
@@ -124,15 +110,18 @@ class _Setting:
         self, settings: DuelSettings, frames: tuple[Pose, Pose]
     ) -> None:
         self._settings, self._frames = settings, frames
-        walkers = walkers_of(settings)
-        self._description = load_robot(settings.robot)
+        walkers = settings.robots
+        self._robots = {name: settings.robot_of(name) for name in walkers}
+        self._descriptions = {
+            name: load_robot(own.robot) for name, own in self._robots.items()
+        }
         physics = with_cycle(settings.physics, settings.body)
         self._seeing = _seeing(
-            settings, self._description, walkers, physics.tick
+            settings, self._descriptions, walkers, physics.tick
         )
         furnish = None if self._seeing is None else self._seeing.furnish
         self.world = World(
-            dict.fromkeys(walkers, self._description),
+            self._descriptions,
             physics,
             settings.body,
             settings.seed,
@@ -142,15 +131,12 @@ class _Setting:
         if PURSUER not in walkers:
             motion = Motion(settings.person, frames[0], frames[1][:2])
             person = Person(self.world, PURSUER, motion)
-        self._truths = {
-            name: TrueState(
-                self.world.model,
-                self.world.data,
-                f"{name}/{self._description.torso}",
-                com_forward=settings.gait.zmp_forward,
-            )
-            for name in walkers
+        # Each must know the other before it stands: truths come first.
+        self._watched = {
+            name: watch(self.world, name, description, self._robots[name].gait)
+            for name, description in self._descriptions.items()
         }
+        self._truths: dict[str, Truth] = {**self._watched}
         if person is not None:
             self._truths[PURSUER] = person.truth
         pursuer: Player = (
@@ -164,6 +150,8 @@ class _Setting:
     def _walker(self, name: str, strategy: str) -> Walker:
         """Stand a robot, with the senses that the settings give it."""
         settings, seeing = self._settings, self._seeing
+        own, description = self._robots[name], self._descriptions[name]
+        frame = self._frames[PLAYERS.index(name)]
         ideal = None
         if seeing is None:
             other = PURSUER if name == EVADER else EVADER
@@ -176,16 +164,25 @@ class _Setting:
         return stand_walker(
             self.world,
             name,
-            self._description,
-            self._frames[PLAYERS.index(name)],
+            description,
+            frame,
             load_strategy(strategy, settings.strategy),
-            gait=settings.gait,
-            control=settings.control,
+            gait=own.gait,
+            control=own.control,
             body=settings.body,
             seed=settings.seed,
             sight=ideal,
             eyes=None if seeing is None else seeing.eyes(self.world, name),
             perception=None if seeing is None else seeing.perceptions[name],
+            truth=self._watched[name],
+            clearance=clearance_in(
+                settings.room.plan,
+                settings.map,
+                description,
+                own.gait,
+                frame,
+                None if seeing is None else seeing.perceptions[name],
+            ),
         )
 
     def witness(self, *, every: int) -> "Witness | None":
@@ -205,11 +202,6 @@ class _Setting:
         return Witness(judges, self._seeing.renderer, every=every)
 
 
-def walkers_of(settings: DuelSettings) -> tuple[str, ...]:
-    """Names of those that are robots."""
-    return PLAYERS if settings.pursuer == "robot" else (EVADER,)
-
-
 def furnisher_of(
     settings: DuelSettings,
     furnish: Callable[[mujoco.MjSpec], None] | None = None,
@@ -220,21 +212,25 @@ def furnisher_of(
         settings: Of the duel.
         furnish: Puts in what the senses need.
     """
-    if settings.pursuer == "robot":
+    plan, comes = settings.room.plan, settings.pursuer == "person"
+    if plan is None and not comes:
         return furnish
 
-    def both(spec: mujoco.MjSpec) -> None:
+    def all_of_it(spec: mujoco.MjSpec) -> None:
         if furnish is not None:
             furnish(spec)
-        add_person(spec, PURSUER)
+        if plan is not None:
+            add_solids(spec, plan)
+        if comes:
+            add_person(spec, PURSUER)
 
-    return both
+    return all_of_it
 
 
 def run_duel(
     settings: DuelSettings,
     report: Callable[[Progress], None] | None = None,
-) -> Run:
+) -> DuelRun:
     """Play a duel to its end.
 
     Args:
@@ -248,26 +244,15 @@ def run_duel(
     Raises:
         StepAsideError: If the settings ask for what cannot be.
     """
+    prefer_for(settings.duration)
     duel = Duel(settings)
     outcome, wall_time = play(duel, settings.duration, report)
     return duel.run(outcome, wall_time)
 
 
-def _frames(settings: DuelSettings) -> tuple[Pose, Pose]:
-    """Where pursuer and evader stand at first."""
-    start = settings.start
-    assert start.distance is not None
-    assert start.pursuer_offset is not None
-    assert start.evader_offset is not None
-    return (
-        Pose(0.0, 0.0, start.pursuer_offset),
-        Pose(start.distance, 0.0, pi + start.evader_offset),
-    )
-
-
 def _seeing(
     settings: DuelSettings,
-    description: RobotDescription,
+    descriptions: Mapping[str, RobotDescription],
     names: tuple[str, ...],
     tick: float,
 ) -> "Seeing | None":
@@ -276,4 +261,9 @@ def _seeing(
         return None
     from .seeing import Seeing
 
-    return Seeing(settings, description, names, tick=tick)
+    if len({d.folder for d in descriptions.values()}) > 1:
+        raise ConfigurationError(
+            "sensing must be ideal for different robots, got 'cameras' for "
+            f"{', '.join(d.name for d in descriptions.values())}"
+        )
+    return Seeing(settings, descriptions[names[0]], names, tick=tick)

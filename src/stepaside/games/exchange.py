@@ -3,12 +3,11 @@
 import select
 from collections.abc import Callable, Sequence
 from time import monotonic, sleep
+from typing import Protocol
 
 import numpy as np
 
 from ..drivers.lola.frame_clock import TICK
-from ..drivers.lola.joints import LEGS
-from ..drivers.lola.server import LolaServer
 from ..errors import ConfigurationError
 from .match import Match
 from .outcome import Outcome
@@ -19,6 +18,40 @@ STALLED = 0.1  # lag that is not caught up with, in [s]
 PATIENCE = 5.0  # for an answer in lock step, in [s]
 STEADY = 10  # ticks for which clients must hold their robots stiff
 PRESSED = 5  # ticks for which the chest buttons are pressed
+POLL = 0.0005  # between looks at who has no descriptor to wait on, in [s]
+
+
+class Server(Protocol):
+    """What speaks for one robot that is played elsewhere."""
+
+    @property
+    def connected(self) -> bool:
+        """Whether somebody is there to play it."""
+
+    @property
+    def ready(self) -> bool:
+        """Whether the game may begin for it."""
+
+    def fileno(self) -> int:
+        """Descriptor to wait on for answers; -1 without one."""
+
+    def press(self, pressed: bool) -> None:
+        """Press the chest button, or let it go."""
+
+    def speak(self) -> None:
+        """Say what the robot's sensors give."""
+
+    def hear(self) -> bool:
+        """Take answers that have come; whether nobody is waited for."""
+
+    def act(self) -> object:
+        """Let the robot do what was asked."""
+
+    def drop(self, why: str) -> None:
+        """Let go of who is there, and say why."""
+
+    def close(self) -> None:
+        """Stop speaking."""
 
 
 class Exchange:
@@ -32,7 +65,7 @@ class Exchange:
 
     def __init__(
         self,
-        servers: Sequence[LolaServer],
+        servers: Sequence[Server],
         *,
         lock_step: bool = False,
         clock: Callable[[], float] = monotonic,
@@ -65,7 +98,7 @@ class Exchange:
         return dict(zip(names, counts.tolist(), strict=True))
 
     def gather(self, longest: float) -> None:
-        """Wait until every robot is held stiff, then press the buttons.
+        """Wait until every robot is ready, then press the buttons.
 
         The world stands still meanwhile. Walking begins with the frame
         that says that the button was let go: the first of the match.
@@ -80,13 +113,13 @@ class Exchange:
         steady = 0
         while steady < STEADY:
             if self._clock() > until:
-                idle = sum(not _is_stiff(s) for s in self._servers)
+                idle = sum(not s.ready for s in self._servers)
                 raise ConfigurationError(
                     f"{idle} of {len(self._servers)} robots had no client "
                     f"that was ready within {longest:g} s"
                 )
             self._round()
-            ready = all(_is_stiff(server) for server in self._servers)
+            ready = all(server.ready for server in self._servers)
             steady = steady + 1 if ready else 0
         for server in self._servers:
             server.press(True)
@@ -142,7 +175,10 @@ class Exchange:
                 return
             if left <= 0.0:
                 break
-            select.select(missing, [], [], left)
+            waited = [s for s in missing if s.fileno() >= 0]
+            if len(waited) < len(missing):
+                left = min(left, POLL)
+            select.select(waited, [], [], left)
         self.unanswered += len(missing)
         if self._lock_step:
             for server in missing:
@@ -150,7 +186,3 @@ class Exchange:
 
     def _any_connected(self) -> bool:
         return any(server.connected for server in self._servers)
-
-
-def _is_stiff(server: LolaServer) -> bool:
-    return server.connected and bool(server.stiffness[LEGS].min() > 0.99)

@@ -1,13 +1,10 @@
 """The figures of a duel: what is said of it in numbers."""
 
-from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-import dacite
-
-from ..errors import ConfigurationError
-from .configuration import HOOKS
+from .plain import check_object, read_figures
+from .sight_figures import SEEING, SIGHT, SeeingFigures, SightFigures, lift
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,9 +24,11 @@ class TheoryFigures:
         closest_approach_m: Of a person to the evader's template, in [m];
             None if two robots play.
         exists: Whether there is a circle.
-        radius_m: Its radius, in [m].
+        radius_m: Radius of the evader's circle, in [m].
         distance_m: Between the players on it, in [m].
         relative_orientation_deg: Between their headings, in [deg].
+        pursuer_radius_m: Radius of the pursuer's circle, in [m]; the same
+            for equal players.
     """
 
     closest_approach_m: float | None
@@ -37,6 +36,7 @@ class TheoryFigures:
     radius_m: float | None
     distance_m: float | None
     relative_orientation_deg: float | None
+    pursuer_radius_m: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ class PlayerFigures:
     """
 
     radius_m: float | None
-    sight: Mapping[str, Any] = field(default_factory=dict)
+    sight: SightFigures | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,6 +90,7 @@ class DuelSummary:
         pursuer: Figures of the pursuer.
         evader: Figures of the evader.
         sight: Of both as to what they saw, if with cameras.
+        touched: Names of who and what met, if that ended it.
         run_folder: Where the run lies, if it was written.
     """
 
@@ -112,17 +113,23 @@ class DuelSummary:
     real_time_factor: float
     pursuer: PlayerFigures
     evader: PlayerFigures
-    sight: Mapping[str, Any] = field(default_factory=dict)
+    sight: SeeingFigures | None = None
+    touched: list[str] = field(default_factory=list)
     run_folder: str | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Plain values by name, as ``--json`` prints them."""
         plain = asdict(self)
-        for name in ("pursuer", "evader"):
-            plain[name] |= plain[name].pop("sight")
-        plain |= plain.pop("sight")
+        both = {"pursuer": self.pursuer, "evader": self.evader}
+        for name, player in both.items():
+            del plain[name]["sight"]
+            if player.sight is not None:
+                plain[name] |= player.sight.to_json()
+        plain |= plain.pop("sight") or {}
         if self.run_folder is None:
             del plain["run_folder"]
+        if not self.touched:
+            del plain["touched"]
         return plain
 
     @classmethod
@@ -136,25 +143,8 @@ class DuelSummary:
         Raises:
             ConfigurationError: If it is no such thing; names what is off.
         """
-        if not isinstance(plain, dict):
-            raise ConfigurationError(
-                f"{source} must hold one JSON object, got "
-                f"{type(plain).__name__}"
-            )
-        known = set(cls.__dataclass_fields__)
-        plain = {k: v for k, v in plain.items() if k != "format"}
-        entries = {k: v for k, v in plain.items() if k in known}
-        entries["sight"] = {k: v for k, v in plain.items() if k not in known}
+        entries = lift(check_object(plain, source), SEEING)
         for name in ("pursuer", "evader"):
-            each = entries.get(name)
-            if isinstance(each, dict):
-                seen = {k: v for k, v in each.items() if k != "radius_m"}
-                entries[name] = {
-                    "radius_m": each.get("radius_m"),
-                    "sight": seen,
-                }
-        config = dacite.Config(type_hooks=HOOKS)
-        try:
-            return dacite.from_dict(cls, entries, config)
-        except (dacite.DaciteError, TypeError, AttributeError) as error:
-            raise ConfigurationError(f"{source}: {error}") from error
+            if isinstance(entries.get(name), dict):
+                entries[name] = lift(entries[name], SIGHT)
+        return read_figures(cls, entries, source)

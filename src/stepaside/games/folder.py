@@ -1,9 +1,8 @@
-"""Run folders: a duel on disk, read and written as a whole."""
+"""Run folders: a game on disk, read and written as a whole."""
 
 import json
-from dataclasses import fields
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar, overload
 from zipfile import BadZipFile
 from zlib import error as DeflateError
 
@@ -13,21 +12,24 @@ from ..errors import ConfigurationError
 from ..poses import Array
 from .checking import check_times, check_tracks
 from .configuration import dump_configuration, read_settings
-from .figures import DuelSummary
+from .duel_run import DuelRun
+from .folder_head import FORMAT, Head, read_head
+from .older import without_fillers
 from .outcome import Outcome
+from .plain import check_object
 from .reading import read_arrays, read_json, read_text
 from .run import Run
-from .settings import PLAYERS, DuelSettings
-from .track import Track, tracks_in
+from .sealing import check_seal
+from .track import FIELDS, Track, tracks_in
+from .walk_run import WalkRun
+
+R = TypeVar("R", bound=Run)
 
 CONFIGURATION = "configuration.toml"
 SUMMARY = "summary.json"
 TRAJECTORIES = "trajectories.npz"
-ARRAYS = frozenset(
-    {"times_s"}
-    | {f"{name}_{field.name}" for name in PLAYERS for field in fields(Track)}
-)
-FORMAT = 2  # of a run folder; 1 had no number and filled gaps with NaN
+KINDS: dict[str, type[DuelRun] | type[WalkRun]]
+KINDS = {kind.game: kind for kind in (DuelRun, WalkRun)}  # by game
 BROKEN = (  # what reading a file can raise, if it is not as it was written
     *(ValueError, OSError, EOFError, KeyError, NotImplementedError),
     *(BadZipFile, DeflateError, RuntimeError, MemoryError),
@@ -39,12 +41,13 @@ def write_record(folder: Path, run: Run) -> None:
 
     Args:
         folder: It exists, and is nobody's yet.
-        run: The duel.
+        run: The game.
     """
     (folder / CONFIGURATION).write_text(
         dump_configuration(run.settings), encoding="utf-8"
     )
-    summary = {"format": FORMAT, **run.summary.to_json()}
+    head = Head(FORMAT, run.game, run.players)
+    summary = {**head.to_json(), **run.summary.to_json()}
     (folder / SUMMARY).write_text(
         json.dumps(summary, indent=2) + "\n", encoding="utf-8"
     )
@@ -53,11 +56,20 @@ def write_record(folder: Path, run: Run) -> None:
     )
 
 
-def load_run(folder: Path) -> Run:
+@overload
+def load_run(folder: Path) -> Run: ...
+@overload
+def load_run(folder: Path, kind: type[R]) -> R: ...
+def load_run(folder: Path, kind: type[Run] = Run) -> Run:
     """Read a run folder.
 
+    Args:
+        folder: What somebody wrote.
+        kind: What it must be a run of; of any game by default.
+
     Raises:
-        ConfigurationError: If it is none, or of a later format.
+        ConfigurationError: If it is none, of another game, or of a later
+            format.
     """
     for name in (CONFIGURATION, SUMMARY, TRAJECTORIES):
         if not (folder / name).is_file():
@@ -65,21 +77,34 @@ def load_run(folder: Path) -> Run:
                 f"run must be a folder with {CONFIGURATION}, {SUMMARY} and "
                 f"{TRAJECTORIES}; {folder} has no {name}"
             )
+    name = folder.resolve().name
     try:
+        check_seal(folder, (CONFIGURATION, SUMMARY, TRAJECTORIES))
         plain = read_json(folder / SUMMARY)
-        arrays = read_arrays(folder / TRAJECTORIES, ARRAYS)
         text = read_text(folder / CONFIGURATION)
+        head = read_head(plain, name, tuple(KINDS))
+        known = {f"{n}_{key}" for n in head.players for key in FIELDS}
+        known.add("times_s")
+        arrays = read_arrays(folder / TRAJECTORIES, frozenset(known))
+    except ConfigurationError:
+        raise
     except BROKEN as error:
         raise ConfigurationError(
             f"run {folder} cannot be read: {error or type(error).__name__}"
         ) from error
+    found = KINDS[head.game]
+    if not issubclass(found, kind):
+        raise ConfigurationError(
+            f"run {folder} must be one of a {kind.game}, got one of a "
+            f"{head.game}"
+        )
     source = str(folder / CONFIGURATION)
-    settings = read_settings(DuelSettings, text, source)
-    return read_record(folder.resolve().name, settings, plain, arrays)
+    settings = read_settings(found.settings_kind, text, source)
+    return read_record(name, settings, plain, arrays)
 
 
 def read_record(
-    name: str, settings: DuelSettings, plain: Any, arrays: dict[str, Array]
+    name: str, settings: Any, plain: Any, arrays: dict[str, Array]
 ) -> Run:
     """Turn what a folder holds into a run.
 
@@ -92,42 +117,34 @@ def read_record(
     Raises:
         ConfigurationError: If they are none, or of a later format.
     """
-    version = _version(plain, name)
-    times, tracks = _times(arrays, name), _tracks(arrays, name, version)
+    head = read_head(plain, name, tuple(KINDS))
+    times, tracks = _times(arrays, name), _tracks(arrays, name, head)
     check_times(times, name)
     check_tracks(tracks, len(times), name)
-    summary = DuelSummary.from_json(plain, f"{SUMMARY} of run {name}")
-    return Run(
+    source = f"{SUMMARY} of run {name}"
+    told = head.without(check_object(plain, source))
+    kind: Any = KINDS[head.game]
+    summary = kind.summary_kind.from_json(told, source)
+    run: Run = kind(
         name=name,
         settings=settings,
-        outcome=_outcome(summary, name),
+        outcome=_outcome(summary.outcome, name),
         message=summary.message,
         duration=summary.duration_s,
         times=times,
         tracks=tracks,
         summary=summary,
     )
+    return run
 
 
-def _version(plain: Any, name: str) -> int:
-    """Format of a folder; those without a number are of the first."""
-    version = plain.get("format", 1) if isinstance(plain, dict) else 1
-    if version not in range(1, FORMAT + 1):
-        raise ConfigurationError(
-            f"run {name} has format {version!r}; this version reads 1 to "
-            f"{FORMAT}: a later stepaside wrote it"
-        )
-    return int(version)
-
-
-def _outcome(summary: DuelSummary, name: str) -> Outcome:
+def _outcome(told: str, name: str) -> Outcome:
     try:
-        return Outcome(summary.outcome)
+        return Outcome(told)
     except ValueError as error:
         known = ", ".join(outcome.value for outcome in Outcome)
         raise ConfigurationError(
-            f"outcome of run {name} must be one of {known}, got "
-            f"{summary.outcome!r}"
+            f"outcome of run {name} must be one of {known}, got {told!r}"
         ) from error
 
 
@@ -140,39 +157,15 @@ def _times(arrays: dict[str, Array], name: str) -> Array:
 
 
 def _tracks(
-    arrays: dict[str, Array], name: str, version: int
+    arrays: dict[str, Array], name: str, head: Head
 ) -> dict[str, Track]:
-    """Tracks of both players."""
-    if version == 1:
-        arrays = _without_fillers(arrays)
+    """Tracks of all players."""
+    if head.version == 1:
+        arrays = without_fillers(arrays, head.players)
     try:
-        return tracks_in(arrays, PLAYERS)
+        return tracks_in(arrays, head.players)
     except KeyError as error:
-        names = ", ".join(field.name for field in fields(Track))
         raise ConfigurationError(
             f"{TRAJECTORIES} of run {name} has no array {error}; a player has "
-            f"{names}"
+            f"{', '.join(FIELDS)}"
         ) from error
-
-
-def _without_fillers(arrays: dict[str, Array]) -> dict[str, Array]:
-    """Arrays of the first format that stand for something."""
-    kept = {
-        key: array
-        for key, array in arrays.items()
-        if not _is_filler(key, array)
-    }
-    for name in PLAYERS:
-        if f"{name}_qpos" not in kept:  # a person makes no footsteps of ours
-            kept.pop(f"{name}_landings", None)
-    return kept
-
-
-def _is_filler(name: str, array: Array) -> bool:
-    """Whether an array of the first format stands for what is not there."""
-    optional = not name.endswith(("_com", "_torso", "times_s"))
-    if not optional or array.dtype.kind != "f" or array.ndim != 2:
-        return False
-    if name.endswith("_qpos"):
-        return bool(array.shape[1] == 0)
-    return array.size > 0 and bool(np.isnan(array).all())

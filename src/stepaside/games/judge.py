@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 from math import atan2, radians
-from typing import Any
 
 import numpy as np
 
@@ -11,7 +10,8 @@ from ..poses import Array, wrap_angle, wrap_angles
 from ..robots.head import HeadDescription, Mount
 from ..sensing.images import ColourImage, DepthImage, Percept, SonarEcho
 from ..world.robot import SimulatedRobot
-from ..world.truth import TrueState
+from ..world.truth import Truth, torsos_apart
+from .sight_figures import SightFigures, Spread
 
 AGREES = radians(10.0)  # within which a detection is of what it should be
 ASTRAY = radians(20.0)  # error of a belief that misleads
@@ -64,7 +64,7 @@ class Judge:
     def __init__(
         self,
         robot: SimulatedRobot,
-        other: TrueState,
+        other: Truth,
         perception: Perception,
         head: HeadDescription,
         things: list[tuple[float, float]],
@@ -156,7 +156,7 @@ class Judge:
         x, y = own.position
         u, v = other.position
         bearing = wrap_angle(atan2(v - y, u - x) - own.heading)
-        distance = own.distance_to(other)
+        distance = torsos_apart(own, other)
         seen = self._perception.sighting
         believed = (np.nan, np.nan)
         if seen is not None:
@@ -171,24 +171,22 @@ class Judge:
         """
         return np.array(self._rows, dtype=np.float64).reshape(-1, 6)
 
-    def figures(self) -> dict[str, Any]:
-        """Errors and rates, ready for JSON."""
+    def figures(self) -> SightFigures:
+        """Errors and rates."""
         rows = self.array()
         off = np.abs(wrap_angles(rows[:, 1] - rows[:, 3]))
         away = np.abs(rows[:, 2] - rows[:, 4])
         period = float(np.diff(rows[:2, 0])[0]) if len(rows) > 1 else 0.0
         known = np.isfinite(off)
-        out = {
-            "bearing_error_deg": _spread(np.degrees(off[known])),
-            "distance_error_m": _spread(away[known]),
-            "detection_rate": self.colour.rate,
-            "false_detections": self.colour.false + self.depth.false,
-            "misled_s": float((off[known] > ASTRAY).sum() * period),
-            "lost_s": float(rows[:, 5].sum() * period),
-        }
-        if self.depth.shown:
-            out["depth_detection_rate"] = self.depth.rate
-        return out
+        return SightFigures(
+            bearing_error_deg=_spread(np.degrees(off[known])),
+            distance_error_m=_spread(away[known]),
+            detection_rate=self.colour.rate,
+            false_detections=self.colour.false + self.depth.false,
+            misled_s=float((off[known] > ASTRAY).sum() * period),
+            lost_s=float(rows[:, 5].sum() * period),
+            depth_detection_rate=self.depth.rate,
+        )
 
     def _camera(self, mount: Mount) -> tuple[Array, Array]:
         data = self._robot.world.data
@@ -204,10 +202,7 @@ class Judge:
         return atan2(float(point[1]), float(point[0]))
 
 
-def _spread(errors: Array) -> dict[str, float | None]:
+def _spread(errors: Array) -> Spread:
     if not errors.size:
-        return {"median": None, "p95": None}
-    return {
-        "median": float(np.median(errors)),
-        "p95": float(np.quantile(errors, 0.95)),
-    }
+        return Spread(None, None)
+    return Spread(float(np.median(errors)), float(np.quantile(errors, 0.95)))

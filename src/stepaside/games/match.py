@@ -7,11 +7,11 @@ from time import perf_counter
 from typing import NamedTuple, Protocol
 
 from ..errors import ReachError, StrategyError
+from ..world.truth import torsos_apart
 from ..world.world import World
 from .outcome import Outcome
 from .player import Player
 
-CHECK_NEAR = 0.8  # torsos farther apart than two arm spans cannot touch, [m]
 TOLD = 0.2  # time that passes between two words of progress, in [s]
 
 
@@ -51,6 +51,7 @@ class Match:
         players: Who plays, in the order in which they act.
         observers: Who looks on.
         message: What ended the game, in words; empty while it goes on.
+        touched: Names of who and what met, if that ended it.
         min_distance: Least distance between the first two torsos, in [m].
         triggered_at: When the last player began to move, in [s]; None if it
             never did.
@@ -77,6 +78,7 @@ class Match:
         self.players = tuple(players)
         self.observers = tuple(observers)
         self.message = ""
+        self.touched: tuple[str, ...] = ()
         self._has_things = has_things
         self.min_distance = self.torsos_apart
         self.triggered_at: float | None = None
@@ -96,7 +98,7 @@ class Match:
         if len(self.players) < 2:
             return None
         first, second = self.players[:2]
-        return first.truth.distance_to(second.truth)
+        return torsos_apart(first.truth, second.truth)
 
     def player(self, name: str) -> Player:
         """Player with a name.
@@ -147,21 +149,19 @@ class Match:
             self.message = f"{' and '.join(fallen)} fell at {now:.2f} s"
             return Outcome.FALL
         if self._can_touch() and self.world.robots_touch():
-            self.message = f"{self._who_touched()} touched at {now:.2f} s"
+            self.touched = self.world.touching()
+            self.message = f"{' and '.join(self.touched)} touched at "
+            self.message += f"{now:.2f} s"
             return Outcome.CONTACT
         return None
 
     def _can_touch(self) -> bool:
         """Whether anybody is near enough to touch another, or a thing."""
         return self._has_things or any(
-            one.truth.distance_to(other.truth) < CHECK_NEAR
+            torsos_apart(one.truth, other.truth)
+            < one.truth.reach + other.truth.reach
             for one, other in combinations(self.players, 2)
         )
-
-    def _who_touched(self) -> str:
-        """What met, in words."""
-        names = self.world.touching()
-        return " and ".join(names)
 
     def close(self) -> None:
         """Let everybody go."""

@@ -8,7 +8,7 @@ from ..errors import ConfigurationError
 from ..poses import Pose
 from ..world.person import Person
 from ..world.push import Push
-from ..world.truth import TrueState
+from ..world.truth import Truth
 from .player import Snapshot
 
 if TYPE_CHECKING:
@@ -33,10 +33,10 @@ class Pedestrian:
     is_moving = True
     has_fallen = False
 
-    def __init__(self, person: Person, other: TrueState) -> None:
+    def __init__(self, person: Person, other: Truth) -> None:
         """Let a person know where the other is: people see."""
         self.name, self.person = person.name, person
-        self.truth: TrueState = person.truth
+        self.truth: Truth = person.truth
         self._other = other
 
     def tick(self) -> None:

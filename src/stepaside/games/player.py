@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Protocol
 
 from ..control.walking import StepBegun, WalkState
 from ..poses import Array, Pose
-from ..world.push import Push
-from ..world.truth import TrueState
+from ..world.push import GivenPush, Push
+from ..world.stance import Stance
+from ..world.truth import Truth
 
 if TYPE_CHECKING:
     from ..perception.perception import FrameReport
@@ -33,6 +34,8 @@ class Snapshot:
         zmp: Center of its foot forces in the world, in [m]; NaN in flight.
         posture: Position and quaternion of the torso, then its joints.
             Shape (7 + joints,).
+        stance: How its torso and feet truly stand.
+        pushes: Last pushes that it was given.
     """
 
     name: str
@@ -44,6 +47,8 @@ class Snapshot:
     walk: WalkState | None = None
     zmp: tuple[float, float] | None = None
     posture: Array | None = None
+    stance: Stance | None = None
+    pushes: tuple[GivenPush, ...] = ()
 
 
 class Player(Protocol):
@@ -59,7 +64,7 @@ class Player(Protocol):
     name: str
 
     @property
-    def truth(self) -> TrueState:
+    def truth(self) -> Truth:
         """Where it really is."""
 
     @property

@@ -21,7 +21,7 @@ from ..poses import Array
 
 LONGEST_TEXT = 2**20  # of a configuration or a summary, in [bytes]
 LARGEST = 2**30  # of all arrays together, in [bytes]; a day has less
-MOST = 64  # arrays in a file
+MOST = 128  # arrays in a file
 HEADER = 512  # of an array, in [bytes]
 
 
@@ -32,7 +32,7 @@ def read_text(file: Path) -> str:
         ValueError: If it is longer, no file or no text.
         OSError: If it cannot be read.
     """
-    return _bytes_of(file, LONGEST_TEXT).decode("utf-8")
+    return bytes_of(file, LONGEST_TEXT).decode("utf-8")
 
 
 def read_json(file: Path) -> Any:
@@ -61,7 +61,7 @@ def read_arrays(file: Path, known: frozenset[str]) -> dict[str, Array]:
         ValueError: If an array is none, or larger than it may be.
         OSError: If it cannot be read; zipfile raises others, too.
     """
-    content = BytesIO(_bytes_of(file, LARGEST))
+    content = BytesIO(bytes_of(file, LARGEST))
     with ZipFile(content) as archive:
         members = archive.infolist()
         names = [member.filename for member in members]
@@ -80,7 +80,7 @@ def read_arrays(file: Path, known: frozenset[str]) -> dict[str, Array]:
         }
 
 
-def _bytes_of(file: Path, most: int) -> bytes:
+def bytes_of(file: Path, most: int) -> bytes:
     """All of a file; it is not followed elsewhere, nor waited for."""
     flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0)
     handle = os.open(file, flags | getattr(os, "O_NONBLOCK", 0))

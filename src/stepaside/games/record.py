@@ -4,13 +4,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..control.walking import StepBegun
-from ..planning import Foot, ManeuverPlan
-from ..poses import Array, Pose
+from ..poses import Array
 from .match import Match
 from .outcome import Outcome
-from .player import Player, Snapshot
-from .track import Planning, Track, margin_of
+from .player import Player
+from .player_record import Record
+from .track import Planning, Track
 
 PERIOD = 0.02  # between samples, in [s]
 
@@ -22,11 +21,20 @@ class Recorder:
         every: Control ticks between samples.
     """
 
-    def __init__(self, players: Sequence[Player], *, tick: float) -> None:
-        """Record players at a control period, in [s]."""
+    def __init__(
+        self, players: Sequence[Player], *, tick: float, closely: bool = False
+    ) -> None:
+        """Record players.
+
+        Args:
+            players: Who play.
+            tick: Control period, in [s].
+            closely: Whether to keep how their feet stand, and what they
+                believe of themselves.
+        """
         self.every = max(1, round(PERIOD / tick))
         self._times: list[float] = []
-        self._records = {player.name: _Record() for player in players}
+        self._records = {player.name: Record(closely) for player in players}
 
     @property
     def times(self) -> Array:
@@ -61,68 +69,3 @@ class Recorder:
     def planning(self) -> dict[str, Planning]:
         """How everybody planned, by name of the player."""
         return {name: rec.planning() for name, rec in self._records.items()}
-
-
-class _Record:
-    """What is known of one player, by name of what it becomes."""
-
-    def __init__(self) -> None:
-        self.begun: list[StepBegun] = []
-        self._rows: dict[str, list[Sequence[float] | Array]] = {}
-        self._frame: Pose | None = None
-
-    def add(self, seen: Snapshot) -> None:
-        """Keep a snapshot as rows."""
-        rows: dict[str, Sequence[float] | Array] = {
-            "com": seen.com,
-            "place": seen.place,
-            "torso": seen.torso,
-        }
-        if seen.walk is not None:
-            rows["com_reference"] = seen.walk.reference.com[:2]
-            rows["zmp_reference"] = seen.walk.zmp_reference
-        if seen.zmp is not None:
-            rows["zmp"] = seen.zmp
-        if seen.posture is not None:
-            rows["qpos"] = seen.posture.astype(np.float32)
-        self._frame = seen.frame
-        for name, row in rows.items():
-            self._rows.setdefault(name, []).append(row)
-
-    def track(self) -> Track:
-        """Rows as arrays."""
-        arrays = {name: np.array(rows) for name, rows in self._rows.items()}
-        for name in ("com", "torso"):
-            arrays.setdefault(name, np.zeros((0, 3)))
-        for name in ("place", "torso"):
-            if name in arrays:
-                arrays[name][:, 2] = np.unwrap(arrays[name][:, 2])
-        if self._frame is not None:
-            for name in ("com_reference", "zmp_reference"):
-                if name in arrays:
-                    points = self._frame.transform_points(arrays[name])
-                    arrays[name] = points
-            arrays["landings"] = self._landings(self._frame)
-        return Track(**arrays)
-
-    def _landings(self, frame: Pose) -> Array:
-        rows = [
-            (
-                step.landing_time,
-                1.0 if step.foot is Foot.LEFT else -1.0,
-                *frame.compose(step.landing),
-            )
-            for step in self.begun
-        ]
-        return np.array(rows, dtype=np.float64).reshape(-1, 5)
-
-    def planning(self) -> Planning:
-        """How the player planned."""
-        times = [s.planning_time for s in self.begun]
-        plans: list[ManeuverPlan] = [step.plan for step in self.begun]
-        return Planning(
-            len(self.begun),
-            np.array([t for t in times if t is not None], dtype=np.float64),
-            max((s.velocity_jump for s in self.begun), default=0.0),
-            margin_of(plans),
-        )

@@ -1,121 +1,205 @@
-"""A duel that was played, as a value."""
+"""A game that was played, as a value, whoever and how many played."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import degrees
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
+from ..planning import GaitSettings
 from ..poses import Array
-from .circle import angle_between, distance_between, theory_of
-from .figures import DuelSummary
+from ..world.body_settings import BodySettings
+from ..world.camera_settings import Thing
+from ..world.settings import PhysicsSettings
+from .circle import angle_between, distance_between
 from .outcome import Outcome
-from .settings import DuelSettings
+from .settings import RobotSettings
 from .track import Track
 
 if TYPE_CHECKING:
     from .judge import Still
 
 
+class GameSettings(Protocol):
+    """What decides a game, as far as every game has it."""
+
+    @property
+    def seed(self) -> int:
+        """Seed of every random draw."""
+
+    @property
+    def robot(self) -> str:
+        """Name of a robot or folder of its description."""
+
+    @property
+    def gait(self) -> GaitSettings:
+        """How its robots walk."""
+
+    def robot_of(self, player: str) -> RobotSettings:
+        """What a player is, and how it walks."""
+
+    @property
+    def cycle(self) -> float:
+        """Duration of a gait cycle of the slowest robot, in [s]."""
+
+    @property
+    def physics(self) -> PhysicsSettings:
+        """Physics, floor and clock."""
+
+    @property
+    def body(self) -> BodySettings:
+        """How far its bodies are from ideal ones."""
+
+
+class Figures(Protocol):
+    """What is said of a game in numbers."""
+
+    @property
+    def outcome(self) -> str:
+        """How it ended."""
+
+    @property
+    def message(self) -> str:
+        """What ended it, in words."""
+
+    @property
+    def duration_s(self) -> float:
+        """Simulated time, in [s]."""
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain values by name."""
+
+
+class Area(NamedTuple):
+    """A round area that a player keeps free.
+
+    Attributes:
+        player: Whose it is.
+        radius: In [m].
+    """
+
+    player: str
+    radius: float
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Run:
-    """A duel that was played: what decided it, how it went, its figures.
+    """A game that was played: what decided it, how it went, its figures.
 
     Attributes:
         name: What it is called; that of its folder if it came from one.
-        settings: What decided it, with the start that was drawn.
+        settings: What decided it.
         outcome: How it ended.
         message: What ended it, in words.
         duration: Simulated time, in [s].
         times: Times of the samples, in [s]. Shape (n,).
-        tracks: Record of each player, by name.
+        tracks: Record of each player, by name, in the order in which they
+            act.
         summary: Its figures.
         stills: Some of what robots with cameras saw, by robot and camera;
             not kept on disk.
     """
 
+    game: ClassVar[str] = "game"  # what was played, in a word
+
     name: str
-    settings: DuelSettings
+    settings: GameSettings
     outcome: Outcome
     message: str
     duration: float
     times: Array
     tracks: Mapping[str, Track]
-    summary: DuelSummary
+    summary: Figures
     stills: "Mapping[str, Mapping[str, list[Still]]]" = field(
         default_factory=dict
     )
 
     @property
-    def pursuer(self) -> Track:
-        """Record of the pursuer."""
-        return self.tracks["pursuer"]
+    def players(self) -> tuple[str, ...]:
+        """Who played."""
+        return tuple(self.tracks)
 
     @property
-    def evader(self) -> Track:
-        """Record of the evader."""
-        return self.tracks["evader"]
+    def robots(self) -> tuple[str, ...]:
+        """Those of them that are robots; the others are persons."""
+        return tuple(n for n, t in self.tracks.items() if t.qpos is not None)
 
     @property
-    def distance(self) -> Array:
-        """Distance between the places, in [m]. Shape (n,)."""
-        return distance_between(self.pursuer.unicycle, self.evader.unicycle)
+    def pair(self) -> tuple[Track, Track] | None:
+        """Records of the first two; None if one played alone."""
+        if len(self.tracks) < 2:
+            return None
+        first, second, *_ = self.tracks.values()
+        return first, second
 
     @property
-    def orientation(self) -> Array:
-        """Angle between the headings, in [deg]. Shape (n,)."""
-        angle = angle_between(self.pursuer.unicycle, self.evader.unicycle)
-        degs: Array = np.degrees(angle)
+    def distance(self) -> Array | None:
+        """Between the places of the first two, in [m]. Shape (n,)."""
+        if self.pair is None:
+            return None
+        first, second = self.pair
+        return distance_between(first.unicycle, second.unicycle)
+
+    @property
+    def orientation(self) -> Array | None:
+        """Angle between the headings of the first two, in [deg]. (n,)."""
+        if self.pair is None:
+            return None
+        first, second = self.pair
+        degs: Array = np.degrees(
+            angle_between(first.unicycle, second.unicycle)
+        )
         return degs
 
     @property
     def theory(self) -> tuple[float, float, float] | None:
         """Radius [m], distance [m] and angle [deg] of theory's circle."""
-        circle = theory_of(self.settings)
-        if not circle.exists:
-            return None
-        return (
-            circle.radius_evader_m,
-            circle.distance_m,
-            degrees(circle.headings_apart_rad),
-        )
+        return None
 
     @property
     def circle(self) -> tuple[float, float, float] | None:
-        """Theory's circle, round where the players went in the end.
+        """Center (x, y) and radius of theory's circle, in [m]."""
+        return None
 
-        Returns:
-            Center (x, y) in the world and radius, in [m]; None if they were
-            never on it.
-        """
-        theory, since = self.theory, self.summary.converged_at_s
-        if theory is None or since is None:
-            return None
-        tail = self.times >= since
-        middles = [
-            track.unicycle[tail, :2].mean(axis=0)
-            for track in self.tracks.values()
-        ]
-        x, y = np.mean(middles, axis=0).tolist()
-        return x, y, theory[0]
+    @property
+    def safety(self) -> Area | None:
+        """Area that somebody keeps free, if there is one."""
+        return None
+
+    @property
+    def things(self) -> tuple[Thing, ...]:
+        """What stands about."""
+        return ()
+
+    def index_at(self, time: float) -> int:
+        """Number of the first sample at a time, in [s], or after it."""
+        index = int(np.searchsorted(self.times, time - 1e-9))
+        return min(index, len(self.times) - 1)
+
+    def has_ended_at(self, index: int) -> bool:
+        """Whether a sample is the last of a game that something ended."""
+        last = index >= len(self.times) - 1
+        goes_on = (Outcome.COMPLETED, Outcome.INTERRUPTED)
+        return last and self.outcome not in goes_on
 
     def words(self, index: int) -> str:
         """What goes on at a sample."""
-        time = float(self.times[index])
-        triggered = self.summary.triggered_at_s
-        converged = self.summary.converged_at_s
-        last = index >= len(self.times) - 1
-        goes_on = (Outcome.COMPLETED, Outcome.INTERRUPTED)
-        if last and self.outcome not in goes_on:
+        if self.has_ended_at(index):
             return self.message
-        if triggered is None or time < triggered:
-            return "the pursuer comes; the evader stands"
-        if time < triggered + 1.0:
-            return "the evader is triggered"
-        if converged is not None and time >= converged:
-            return "both robots are on the circle"
-        return "the evader is evading"
+        pushed = self.pushed_at(float(self.times[index]))
+        if pushed:
+            return f"{' and '.join(pushed)} is pushed"
+        return f"{' and '.join(self.players)} in motion"
+
+    def pushed_at(self, time: float) -> tuple[str, ...]:
+        """Who was pushed in the last second before a time, in [s]."""
+        found = []
+        for name, track in self.tracks.items():
+            if track.pushes is not None:
+                since = time - track.pushes[:, 0]
+                if ((since >= 0.0) & (since < 1.0)).any():
+                    found.append(name)
+        return tuple(found)
 
     def arrays(self) -> dict[str, Array]:
         """Record as arrays by name: ``times_s``, ``pursuer_com``, ..."""

@@ -1,7 +1,6 @@
 """A duel of robots that see: eyes, perception and their judges."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from ..errors import ConfigurationError
 
@@ -12,6 +11,7 @@ except ImportError as error:
         "sensing with cameras needs OpenCV: pip install 'stepaside[vision]'"
     ) from error
 
+from ..perception.floor_map import FloorMap
 from ..perception.perception import Perception
 from ..poses import Array
 from ..robots.description import RobotDescription
@@ -21,12 +21,13 @@ from ..world.eyes import Eyes
 from ..world.graphics import choose_renderer
 from ..world.robot import SimulatedRobot
 from ..world.room import furnisher
-from ..world.truth import TrueState
+from ..world.truth import Truth
 from ..world.world import World
 from .judge import Judge, Still
 from .match import Match
 from .outcome import Outcome
 from .settings import DuelSettings
+from .sight_figures import SeeingFigures, Seen
 
 LOOKS = {"pursuer": BLUE, "evader": RED}  # what each looks for
 STILLS = 5  # images that a duel keeps of each camera
@@ -67,8 +68,18 @@ class Seeing:
         self._head = load_head(description)
         self.renderer = choose_renderer(settings.cameras.colour.renderer)
         self.furnish = furnisher(settings.room, "evader", self._head)
+        self._maps = (
+            settings.room.plan is not None and settings.map.source == "seen"
+        )
         self.perceptions = {
-            name: Perception(description, self._head, LOOKS[name], tick=tick)
+            name: Perception(
+                description,
+                self._head,
+                LOOKS[name],
+                tick=tick,
+                floor=FloorMap() if self._maps else None,
+                glances=self._maps and name == "evader",
+            )
             for name in names
         }
 
@@ -82,11 +93,11 @@ class Seeing:
             self._settings.cameras,
             self.renderer,
             self._settings.seed,
-            with_depth=name == "evader",
+            with_depth=self._maps or name == "evader",
         )
 
     def judge(
-        self, robot: SimulatedRobot, other: TrueState, *, wears_trim: bool
+        self, robot: SimulatedRobot, other: Truth, *, wears_trim: bool
     ) -> Judge:
         """Judge of what a robot sees of another, who may wear its trim."""
         settings = self._settings
@@ -150,8 +161,8 @@ class Witness:
         """Images kept to be looked at, by robot and camera."""
         return {name: judge.stills for name, judge in self.judges.items()}
 
-    def figures(self) -> dict[str, Any]:
-        """Errors and rates, ready for JSON."""
+    def figures(self) -> Seen:
+        """Errors and rates."""
         tallies = [
             tally
             for judge in self.judges.values()
@@ -159,12 +170,11 @@ class Witness:
         ]
         shown = sum(t.shown for t in tallies)
         each = {name: j.figures() for name, j in self.judges.items()}
-        return {
-            "camera": self._renderer,
-            "detection_rate": (
-                sum(t.found for t in tallies) / shown if shown else None
-            ),
-            "false_detections": sum(t.false for t in tallies),
-            "lost_s": sum(f["lost_s"] for f in each.values()),
-            **each,
-        }
+        found = sum(t.found for t in tallies)
+        together = SeeingFigures(
+            camera=self._renderer,
+            detection_rate=found / shown if shown else None,
+            false_detections=sum(t.false for t in tallies),
+            lost_s=sum(f.lost_s for f in each.values()),
+        )
+        return Seen(together, each)

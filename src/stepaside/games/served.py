@@ -11,7 +11,7 @@ from ..poses import Array, Pose
 from ..sensing.measurement import Measurement
 from ..world.push import Push
 from ..world.robot import SimulatedRobot
-from ..world.truth import TrueState
+from ..world.truth import Truth
 from .player import Snapshot
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ class ServedPlayer:
         """Join a robot and what speaks for it."""
         self.name = robot.name
         self.robot, self.body, self.server = robot, body, server
-        self.truth: TrueState = robot.truth
+        self.truth: Truth = robot.truth
 
     @property
     def is_moving(self) -> bool:
@@ -101,13 +101,18 @@ class ServedPlayer:
 
     def snapshot(self) -> Snapshot:
         """State of this instant, as far as it is known here."""
+        robot = self.robot
         x, y, z = self.truth.com.tolist()
         return Snapshot(
             name=self.name,
-            time=self.robot.world.time,
+            time=robot.world.time,
             place=Pose(*self.truth.place, self.truth.heading),
             torso=Pose(*self.truth.position, self.truth.heading),
             com=(x, y, z),
+            zmp=robot.measured_zmp(),
+            posture=robot.posture,
+            stance=robot.stance,
+            pushes=robot.pushes,
         )
 
     def push(self, *pushes: Push) -> None:

@@ -4,20 +4,18 @@ from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from typing import Any, NamedTuple
 
-from ..drivers.lola.address import Address
 from ..drivers.lola.frame_clock import TICK
-from ..drivers.lola.server import LolaServer
 from ..errors import ConfigurationError
 from .duel import Duel
-from .exchange import Exchange
-from .figures import DuelSummary
+from .duel_end import ended_duel
+from .duel_run import DuelRun
+from .exchange import Exchange, Server
 from .match import Match, Progress, play
-from .outcome import Outcome
+from .offers import Offer
 from .player import Player
 from .record import Recorder
-from .served import ServedBody, ServedPlayer
+from .served import ServedPlayer
 from .settings import DuelSettings
-from .summary import summarise
 from .walker import Walker
 
 
@@ -25,22 +23,20 @@ class Served(NamedTuple):
     """A served duel that is over.
 
     Attributes:
-        summary: Its figures, those of a duel.
-        outcome: How it ended.
+        run: What was played, as any other duel.
         late_ticks: Ticks that began more than 6 ms late.
         lateness_ms: Ticks by how late they began.
         unanswered: Frames whose answer did not come in their tick.
     """
 
-    summary: DuelSummary
-    outcome: Outcome
+    run: DuelRun
     late_ticks: int
     lateness_ms: dict[str, int]
     unanswered: int
 
     def to_json(self) -> dict[str, Any]:
         """Plain values, those of a duel and the clock's."""
-        return self.summary.to_json() | {
+        return self.run.summary.to_json() | {
             "late_ticks": self.late_ticks,
             "lateness_ms": self.lateness_ms,
             "unanswered_frames": self.unanswered,
@@ -49,29 +45,27 @@ class Served(NamedTuple):
 
 def serve_duel(
     settings: DuelSettings,
-    addresses: Mapping[str, Address],
+    offers: Mapping[str, Offer],
     *,
     lock_step: bool = False,
-    ideal_sight: bool = True,
     patience: float = 60.0,
     report: Callable[[Progress], None] | None = None,
 ) -> Served:
     """Let other processes play a duel in our world.
 
-    Who has no address is played here, by its own control.
+    Who is not offered is played here, by its own control.
 
     Args:
         settings: What decides the duel; its clock must be LoLA's.
-        addresses: Where each robot listens, by name of the player.
+        offers: How robots are offered, by name of the player.
         lock_step: Whether the world waits for answers instead of for the
             clock.
-        ideal_sight: Whether the true line of sight is offered beside.
         patience: How long to wait for clients, in [s].
         report: Called about five times a second with the progress.
 
     Raises:
-        StepAsideError: If the settings ask for what cannot be, an address
-            cannot be listened on, or a client does not come.
+        StepAsideError: If the settings ask for what cannot be, a robot
+            cannot be offered, or a client does not come.
     """
     duel = Duel(settings, recorded=False)
     if duel.world.physics.tick != TICK:
@@ -82,44 +76,24 @@ def serve_duel(
         )
     with ExitStack() as stack:
         players: list[Player] = []
-        served: list[ServedPlayer] = []
+        servers: list[Server] = []
         for player in duel.players:
-            if player.name in addresses and isinstance(player, Walker):
-                body = ServedBody(player.robot)
-                server = LolaServer(
-                    addresses[player.name],
-                    body,
-                    player.scheme.kinematics.joint_names,
-                    lock_step=lock_step,
-                    ideal_sight=ideal_sight,
-                )
+            if player.name in offers and isinstance(player, Walker):
+                offer = offers[player.name]
+                player, server = offer.serve(player, lock_step=lock_step)
                 stack.callback(server.close)
-                served.append(ServedPlayer(player.robot, body, server))
-                players.append(served[-1])
-            else:
-                players.append(player)
-        exchange = Exchange(
-            [player.server for player in served], lock_step=lock_step
-        )
+                servers.append(server)
+            players.append(player)
+        exchange = Exchange(servers, lock_step=lock_step)
         recorder = Recorder(players, tick=TICK)
         exchange.gather(patience)
-        for player in served:
-            player.body.let_go()
+        for player in players:
+            if isinstance(player, ServedPlayer):
+                player.body.let_go()
         match = Match(duel.world, players, (exchange, recorder))
         outcome, wall = play(match, settings.duration, report)
-    summary = summarise(
-        duel.settings,
-        match,
-        outcome,
-        recorder.times,
-        recorder.tracks(),
-        recorder.planning(),
-        {},
-        wall,
-    )
     return Served(
-        summary,
-        outcome,
+        ended_duel(duel.settings, match, outcome, recorder, None, wall),
         exchange.late,
         exchange.histogram(),
         exchange.unanswered,

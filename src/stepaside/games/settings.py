@@ -2,15 +2,19 @@
 
 from dataclasses import dataclass, field
 from math import pi
+from typing import ClassVar
 
 from ..control.balance.settings import ControlSettings
-from ..errors import ConfigurationError, check_positive, check_within
+from ..control.clearance.settings import MapSettings
+from ..errors import ConfigurationError, check_within
 from ..planning import GaitSettings
+from ..ranges import RUNTIME, SEEDS, Range, Ranges, check_count, check_settings
 from ..strategies import Evasion
 from ..strategies.registry import check_strategy_name
 from ..world.body_settings import BodySettings
 from ..world.camera_settings import CameraSettings, RoomSettings
 from ..world.person_settings import PersonSettings, check_pursuer
+from ..world.push import MOST_PUSHES, Push, check_pushes
 from ..world.settings import PhysicsSettings, SightSettings
 
 ERROR = ConfigurationError
@@ -19,37 +23,68 @@ PLAYERS = PURSUER, EVADER = ("pursuer", "evader")
 EVASION, PURSUIT = "evasion", "pursuit"  # strategies of the paper
 
 
-def _short(value: object) -> str:
-    """A value for a message; Python writes no number of any length."""
-    huge = isinstance(value, int) and abs(value) >= 2**128
-    return "one that is longer" if huge else repr(value)
-
-
 @dataclass(frozen=True, slots=True)
 class StartSettings:
     """Where the robots stand at first; what is left out, the seed draws.
 
     Attributes:
-        distance: Distance between the torsos, in [m]; drawn from
-            0.6 m to 1.5 m.
+        distance: Distance between the places of the robots, in [m]; drawn
+            between ``near`` and ``far``; 0 to 100 or none.
         pursuer_offset: Heading of the pursuer from the direction of the
-            evader, in [rad]; drawn from -90 deg to 90 deg.
-        evader_offset: Heading of the evader from the direction of the
-            pursuer, in [rad]; drawn from -30 deg to 30 deg.
+            evader, in [rad]; drawn from -90 deg to 90 deg; -3.14159 to 3.14159
+            or none.
+        evader_offset: Heading of the evader from the direction of the pursuer,
+            in [rad]; drawn from -30 deg to 30 deg; -3.14159 to 3.14159 or
+            none.
+        least: Least distance at which the robots do not overlap, in [m]; 0 to
+            100.
+        near: Least distance that is drawn, in [m]; 0 to 100.
+        far: Greatest one, in [m]; 0 to 100.
     """
 
     distance: float | None = None
     pursuer_offset: float | None = None
     evader_offset: float | None = None
+    least: float = 0.4
+    near: float = 0.6
+    far: float = 1.5
+
+    ranges: ClassVar[Ranges] = {
+        "distance": Range(
+            *(0.0, 100.0, "m"),
+            "at ``least``, or they touch; farther, they never meet",
+            also=(None,),
+        ),
+        "pursuer_offset": Range(-pi, pi, "rad", "half a turn", also=(None,)),
+        "evader_offset": Range(-pi, pi, "rad", "half a turn", also=(None,)),
+        "least": Range(0.0, 100.0, "m", "beyond, they never meet"),
+        "near": Range(0.0, 100.0, "m", "between ``least`` and ``far``"),
+        "far": Range(0.0, 100.0, "m", "beyond, they never meet"),
+    }
 
     def __post_init__(self) -> None:
         """Refuse starts that overlap or are not finite."""
+        check_settings(self)
+        check_within(self.far, self.least, 100.0, "far", "m", ERROR)
+        check_within(self.near, self.least, self.far, "near", "m", ERROR)
         if self.distance is not None:
-            check_within(self.distance, 0.4, 100.0, "distance", "m", ERROR)
-        for name in ("pursuer_offset", "evader_offset"):
-            value = getattr(self, name)
-            if value is not None:
-                check_within(value, -pi, pi, name, "rad", ERROR)
+            low = self.least
+            check_within(self.distance, low, 100.0, "distance", "m", ERROR)
+
+
+@dataclass(frozen=True, slots=True)
+class RobotSettings:
+    """A robot, and how it walks.
+
+    Attributes:
+        robot: Name of a robot or folder of its description.
+        gait: How it walks.
+        control: How it controls its walk.
+    """
+
+    robot: str = "nao"
+    gait: GaitSettings = field(default_factory=GaitSettings)
+    control: ControlSettings = field(default_factory=ControlSettings)
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,25 +92,30 @@ class DuelSettings:
     """Everything that decides a duel.
 
     Attributes:
-        seed: Seed of every random draw.
-        duration: Simulated time, in [s].
+        seed: Seed of every random draw; 0 to 3.40282e+38.
+        duration: Simulated time, in [s]; 0.001 to 86400.
         robot: Name of a robot or folder of its description.
+        pursuer_robot: What the pursuer is and how it walks, if it is
+            another robot than ``robot``.
+        evader_robot: What the evader is, likewise.
         start: Where the robots stand at first.
         strategy: How an evader of the paper evades.
         evader_strategy: What the evader plays: "evasion" as the paper's,
             another name of :data:`~stepaside.strategies.STRATEGIES`, or
             FILE.py:NAME.
         pursuer_strategy: What a pursuing robot plays, likewise.
-        gait: How both walk.
+        gait: How both walk, but for one that is another robot.
         sight: What they see.
         physics: Physics, floor and clock.
         body: How far the bodies are from ideal ones.
-        control: How both control their walk.
+        control: How both control their walk, likewise.
         sensing: "ideal" for the line of sight of ``sight``, or "cameras".
         cameras: What they see with, if with cameras.
-        room: What stands around them, if they see with cameras.
+        room: What stands around them.
+        map: What they know of the room that they play in.
         pursuer: "robot", or "person".
         person: How a person walks.
+        pushes: Who bumps into the robots.
     """
 
     seed: int = 1
@@ -93,11 +133,18 @@ class DuelSettings:
     sensing: str = "ideal"
     cameras: CameraSettings = field(default_factory=CameraSettings)
     room: RoomSettings = field(default_factory=RoomSettings)
+    map: MapSettings = field(default_factory=MapSettings)
     pursuer: str = "robot"
     person: PersonSettings = field(default_factory=PersonSettings)
+    pursuer_robot: RobotSettings | None = None
+    evader_robot: RobotSettings | None = None
+    pushes: tuple[Push, ...] = ()
+
+    ranges: ClassVar[Ranges] = {"seed": SEEDS, "duration": RUNTIME}
 
     def __post_init__(self) -> None:
         """Refuse a negative seed, a duration that is none, other senses."""
+        check_settings(self)
         check_pursuer(self.pursuer)
         check_strategy_name(self.evader_strategy, "evader_strategy")
         check_strategy_name(self.pursuer_strategy, "pursuer_strategy")
@@ -106,24 +153,52 @@ class DuelSettings:
                 f"pursuer_strategy must be {PURSUIT!r} for a person, who "
                 f"walks as person.path says, got {self.pursuer_strategy!r}"
             )
+        if self.pursuer == "person" and self.room.plan is not None:
+            raise ConfigurationError(
+                "room.plan must be left out for a person, who walks on an "
+                "open floor"
+            )
+        if self.room.plan is not None and self.map.source == "seen":
+            if self.sensing != "cameras":
+                raise ConfigurationError(
+                    "sensing must be 'cameras' where the map is seen, "
+                    f"got {self.sensing!r}"
+                )
         if self.sensing not in SENSING:
             raise ConfigurationError(
                 f"sensing must be one of {', '.join(SENSING)}, "
                 f"got {self.sensing!r}"
             )
-        whole = type(self.seed) is int
-        if not whole or not 0 <= self.seed < 2**128:
-            raise ConfigurationError(
-                f"seed must be an integer >= 0 [1] of at most 128 bits, got "
-                f"{_short(self.seed)}"
-            )
-        check_within(self.duration, 0.0, 86400.0, "duration", "s", ERROR)
-        check_positive(self.duration, "duration", "s", ERROR)
+        check_count(self.pushes, MOST_PUSHES, "pushes")
+        check_pushes(self.pushes, self.robots)
+
+    def robot_of(self, player: str) -> RobotSettings:
+        """What a player is, and how it walks.
+
+        Args:
+            player: "pursuer" or "evader".
+        """
+        own = self.pursuer_robot if player == PURSUER else self.evader_robot
+        return own or RobotSettings(self.robot, self.gait, self.control)
+
+    @property
+    def cycle(self) -> float:
+        """Duration of a gait cycle, two steps of the slower robot, in [s]."""
+        robots = [self.robot_of(player) for player in PLAYERS]
+        return 2.0 * max(own.gait.step_duration for own in robots)
+
+    @property
+    def robots(self) -> tuple[str, ...]:
+        """Names of the players that are robots."""
+        return PLAYERS if self.pursuer == "robot" else (EVADER,)
+
+    @property
+    def both(self) -> str:
+        """Both players, in words."""
+        return "both robots" if self.pursuer == "robot" else "both players"
 
     @property
     def is_of_the_paper(self) -> bool:
         """Whether both play as in the paper, so that its theory holds."""
-        return (self.evader_strategy, self.pursuer_strategy) == (
-            EVASION,
-            PURSUIT,
-        )
+        played = (self.evader_strategy, self.pursuer_strategy)
+        return self.room.plan is None and played == (EVASION, PURSUIT)

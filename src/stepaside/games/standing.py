@@ -1,24 +1,48 @@
 """Standing a robot with its mind in a world."""
 
+from dataclasses import is_dataclass, replace
 from typing import TYPE_CHECKING
 
-from ..control.assembly import build_scheme
+from ..control.assembly import Clearance, build_scheme
 from ..control.balance.settings import ControlSettings
+from ..control.clearance.outline import sway_of
+from ..control.clearance.settings import MapSettings
+from ..control.clearance.surroundings import (
+    GivenRoom,
+    SeenRoom,
+    Surroundings,
+)
 from ..planning import GaitSettings
 from ..poses import Pose
 from ..randomness import named_generator
 from ..robots.description import RobotDescription
+from ..rooms import Room
 from ..sensing.measurement import Sighting
 from ..strategies import Strategy
 from ..world.body_settings import BodySettings
+from ..world.outline import measure_outline
 from ..world.robot import SimulatedRobot
 from ..world.sight import IdealLineOfSight
+from ..world.truth import TrueState
 from ..world.world import World
 from .walker import Walker
 
 if TYPE_CHECKING:
     from ..perception.perception import Perception
     from ..world.eyes import Eyes
+
+
+def watch(
+    world: World, name: str, description: RobotDescription, gait: GaitSettings
+) -> TrueState:
+    """True state of a robot of a world, which walks with a gait."""
+    return TrueState(
+        world.model,
+        world.data,
+        f"{name}/{description.torso}",
+        com_forward=gait.zmp_forward,
+        place=description.place,
+    )
 
 
 def stand_walker(
@@ -36,6 +60,8 @@ def stand_walker(
     sight: IdealLineOfSight | None = None,
     eyes: "Eyes | None" = None,
     perception: "Perception | None" = None,
+    truth: TrueState | None = None,
+    clearance: Clearance | None = None,
 ) -> Walker:
     """Stand one robot in a world, and give it a mind.
 
@@ -53,13 +79,15 @@ def stand_walker(
         sight: Ideal sensor of the other, if it has one.
         eyes: Cameras and sonars, if it sees with those.
         perception: What turns its images into sightings, likewise.
+        truth: Its true state, if somebody watches that already.
+        clearance: What it knows of a room, and how clear it keeps.
 
     Raises:
         ReachError: If it cannot stand as the gait asks.
     """
     tick = world.physics.tick
     scheme = build_scheme(
-        strategy,
+        fitting(strategy, clearance, gait),
         description,
         gait,
         control,
@@ -67,6 +95,7 @@ def stand_walker(
         delay=body.delay_cycles * tick,
         sighting=sighting,
         perception=perception,
+        clearance=clearance,
     )
     robot = SimulatedRobot(
         world,
@@ -79,6 +108,58 @@ def stand_walker(
         sight=sight,
         eyes=eyes,
         averages_imu=control.feedback,
-        com_forward=gait.zmp_forward,
+        truth=truth or watch(world, name, description, gait),
+        knows_place=clearance is not None
+        and isinstance(clearance.surroundings, GivenRoom),
     )
     return Walker(robot, scheme, frame)
+
+
+def clearance_in(
+    room: Room | None,
+    known: MapSettings,
+    description: RobotDescription,
+    gait: GaitSettings,
+    frame: Pose,
+    perception: "Perception | None" = None,
+) -> Clearance | None:
+    """What a robot knows of the room that it plays in, if anything.
+
+    Args:
+        room: The room, if it plays in one.
+        known: What it is to know.
+        description: The robot.
+        gait: How it walks.
+        frame: Pose of its odometry in the room.
+        perception: What keeps a map of the floor, if the room is seen.
+    """
+    if room is None or known.source == "none":
+        return None
+    surroundings: Surroundings = GivenRoom(room, frame)
+    if known.source == "seen":
+        assert perception is not None and perception.floor is not None
+        surroundings = SeenRoom(
+            perception.floor, unseen_is_free=known.unseen == "free"
+        )
+    outline = measure_outline(description, gait)
+    return Clearance(surroundings, outline, known.margin)
+
+
+def fitting(
+    strategy: Strategy, clearance: Clearance | None, gait: GaitSettings
+) -> Strategy:
+    """A strategy that reckons with as much room as the body needs.
+
+    Args:
+        strategy: Any; who reckons with a body radius has an attribute of
+            that name.
+        clearance: How clear the body keeps.
+        gait: How it walks: with each step it sways.
+    """
+    if clearance is None or not is_dataclass(strategy):
+        return strategy
+    needs = clearance.outline.radius + clearance.margin + sway_of(gait)
+    if getattr(strategy, "body_radius", needs) >= needs:
+        return strategy
+    wider: Strategy = replace(strategy, body_radius=needs)
+    return wider

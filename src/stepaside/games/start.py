@@ -1,17 +1,27 @@
 """Where the players stand at first."""
 
-from math import pi, radians
+from dataclasses import fields, replace
+from math import atan2, hypot, pi, radians
 
+from ..errors import ConfigurationError
+from ..poses import Pose, wrap_angle
 from ..randomness import named_generator
+from ..rooms import Room, check_starts, draw_starts
 from .settings import DuelSettings, StartSettings
+
+LEISURELY = 0.15  # speed up to which a person begins near by, in [m/s]
+AHEAD = 5.0  # time by which a faster one begins earlier, in [s]
+SAME = 1e-6  # starts that differ less are one, in [m] and [rad]
 
 
 def draw_start(settings: DuelSettings) -> StartSettings:
     """Fill in what a start leaves out, from the seed."""
     generator = named_generator(settings.seed, "start")
-    distance = generator.uniform(0.6, 1.5)
+    distance = generator.uniform(settings.start.near, settings.start.far)
     if settings.pursuer == "person":
         distance += 1.5  # whole strides away
+        # Who walks faster comes from farther, so as to be seen coming.
+        distance += AHEAD * max(0.0, settings.person.speed - LEISURELY)
     pursuer = generator.uniform(-pi / 2, pi / 2)
     evader = generator.uniform(-radians(30.0), radians(30.0))
     start = settings.start
@@ -19,4 +29,67 @@ def draw_start(settings: DuelSettings) -> StartSettings:
         distance if start.distance is None else start.distance,
         pursuer if start.pursuer_offset is None else start.pursuer_offset,
         evader if start.evader_offset is None else start.evader_offset,
+        start.least,
+        start.near,
+        start.far,
     )
+
+
+def with_start(settings: DuelSettings) -> DuelSettings:
+    """Settings of the same duel with its start filled in.
+
+    Raises:
+        ConfigurationError: If a room has no place for the start.
+    """
+    plan = settings.room.plan
+    if plan is None:
+        return replace(settings, start=draw_start(settings))
+    starts = plan.starts or draw_starts(plan, settings.seed)
+    check_starts(plan, starts)
+    plan = Room(plan.width, plan.depth, plan.obstacles, plan.doors, starts)
+    return replace(
+        settings,
+        start=_agreeing(settings.start, start_of(starts)),
+        room=replace(settings.room, plan=plan),
+    )
+
+
+def start_of(starts: tuple[Pose, Pose]) -> StartSettings:
+    """How two players who stand somewhere stand to each other."""
+    (x, y, pursuer), (u, v, evader) = starts
+    sight = atan2(v - y, u - x)
+    return StartSettings(
+        hypot(u - x, v - y),
+        wrap_angle(pursuer - sight),
+        wrap_angle(evader - sight - pi),
+    )
+
+
+def frames_of(settings: DuelSettings) -> tuple[Pose, Pose]:
+    """Where pursuer and evader stand at first, in the world.
+
+    Args:
+        settings: With the start filled in.
+    """
+    plan, start = settings.room.plan, settings.start
+    if plan is not None and plan.starts is not None:
+        return plan.starts
+    assert start.distance is not None
+    assert start.pursuer_offset is not None
+    assert start.evader_offset is not None
+    return (
+        Pose(0.0, 0.0, start.pursuer_offset),
+        Pose(start.distance, 0.0, pi + start.evader_offset),
+    )
+
+
+def _agreeing(asked: StartSettings, drawn: StartSettings) -> StartSettings:
+    """The start of a room, unless another one was asked for."""
+    for field in fields(StartSettings):
+        wanted, there = getattr(asked, field.name), getattr(drawn, field.name)
+        if wanted is not None and not abs(wanted - there) < SAME:
+            raise ConfigurationError(
+                f"start.{field.name} must be left out in a room, which says "
+                f"where the players stand, got {wanted:g}"
+            )
+    return drawn

@@ -2,14 +2,19 @@
 
 from collections.abc import Mapping
 from math import degrees, isfinite, pi
-from typing import Any
 
 import numpy as np
 
 from ..poses import Array, Pose
 from ..unicycle.measure import fit_circle
 from ..world.person_motion import Motion, template_approach
-from .circle import angle_between, converged_at, distance_between, theory_of
+from .circle import (
+    angle_between,
+    converged_at,
+    distance_between,
+    pace_of,
+    theory_of,
+)
 from .figures import (
     DuelSummary,
     PlanTimes,
@@ -18,8 +23,10 @@ from .figures import (
     TheoryFigures,
 )
 from .match import Match
+from .meeting import template_meeting
 from .outcome import Outcome
-from .settings import PLAYERS, DuelSettings
+from .settings import EVADER, PLAYERS, DuelSettings
+from .sight_figures import Seen
 from .track import Planning, Track
 
 
@@ -30,7 +37,7 @@ def summarise(
     times: Array,
     tracks: Mapping[str, Track],
     planning: Mapping[str, Planning],
-    sight: Mapping[str, Any],
+    seen: Seen | None,
     wall_time: float,
 ) -> DuelSummary:
     """Figures of a duel that is over.
@@ -42,8 +49,7 @@ def summarise(
         times: Of the samples, in [s]. Shape (n,).
         tracks: Record of each player, by name.
         planning: How each planned, by name.
-        sight: Figures of what they saw, if with cameras; those of one
-            player under its name.
+        seen: Figures of what they saw, if with cameras.
         wall_time: Time that it took, in [s].
     """
     pursuer, evader = (tracks[name].unicycle for name in PLAYERS)
@@ -84,12 +90,14 @@ def summarise(
             _number(theory.radius_evader_m),
             _number(theory.distance_m),
             _number(degrees(theory.headings_apart_rad)),
+            _number(theory.radius_pursuer_m),
         ),
         plan_time_us=_plan_times(planning),
         real_time_factor=now / max(wall_time, 1e-9),
-        pursuer=_player(tracks["pursuer"], tail, sight.get("pursuer", {})),
-        evader=_player(tracks["evader"], tail, sight.get("evader", {})),
-        sight={k: v for k, v in sight.items() if k not in PLAYERS},
+        pursuer=_player("pursuer", tracks, tail, seen),
+        evader=_player("evader", tracks, tail, seen),
+        sight=None if seen is None else seen.all,
+        touched=list(match.touched),
     )
 
 
@@ -104,24 +112,32 @@ def _plan_times(planning: Mapping[str, Planning]) -> PlanTimes:
 
 
 def _player(
-    track: Track, tail: Array, sight: Mapping[str, Any]
+    name: str, tracks: Mapping[str, Track], tail: Array, seen: Seen | None
 ) -> PlayerFigures:
-    radius = fit_circle(track.unicycle[tail, :2])[1]
+    radius = fit_circle(tracks[name].unicycle[tail, :2])[1]
+    sight = None if seen is None else seen.each.get(name)
     return PlayerFigures(_number(radius), sight)
 
 
 def _closest_approach(settings: DuelSettings) -> float | None:
     """Closest approach of a person to the evader's template, in [m]."""
-    start, gait = settings.start, settings.gait
+    start, gait = settings.start, settings.robot_of(EVADER).gait
     if settings.pursuer == "robot" or start.distance is None:
         return None
     if not settings.is_of_the_paper:
         return None
-    pace = gait.path_interval / gait.step_duration
-    return template_approach(
+    places = (
         lambda pose, evader: Motion(settings.person, pose, evader),
         Pose(0.0, 0.0, start.pursuer_offset or 0.0),
         Pose(start.distance, 0.0, pi + (start.evader_offset or 0.0)),
+    )
+    if settings.strategy.trigger == "time":
+        return template_meeting(
+            *places, settings.strategy, gait, duration=settings.duration
+        )
+    pace = pace_of(gait)
+    return template_approach(
+        *places,
         speed=gait.speed * pace,
         gain=gait.gain * pace,
         angle=settings.strategy.angle,

@@ -29,6 +29,17 @@ class Track:
             footstep. Shape (m, 5).
         sight: Time [s], believed bearing and distance, true ones, whether
             the other was lost. Shape (k, 6).
+        pushes: Of those that were given: time and duration [s], place of the
+            torso (x, y) [m], impulse (x, y) [N s]. Shape (j, 6).
+        velocity: Of the CoM (x, y), in [m/s], where a walk is looked at
+            closely, as is all that follows. Shape (n, 2).
+        tilt: Roll and pitch of the torso. Shape (n, 2).
+        sole: Place and heading of the sole that bears. Shape (n, 3).
+        support: Which foot bears (1 left, -1 right), whether it does so
+            alone, and where its plan has it (x, y, heading). Shape (n, 5).
+        heading_reference: What is asked of the torso. Shape (n, 1).
+        estimate: What feedback believes: CoM, its velocity and ZMP (x, y
+            each), roll and pitch; NaN before it does. Shape (n, 8).
     """
 
     com: Array
@@ -40,6 +51,13 @@ class Track:
     qpos: Array | None = None
     landings: Array | None = None
     sight: Array | None = None
+    pushes: Array | None = None
+    velocity: Array | None = None
+    tilt: Array | None = None
+    sole: Array | None = None
+    support: Array | None = None
+    heading_reference: Array | None = None
+    estimate: Array | None = None
 
     def __post_init__(self) -> None:
         """Close what is written for good."""
@@ -64,6 +82,9 @@ class Track:
             if value is not None:
                 found[f"{name}_{field.name}"] = value
         return found
+
+
+FIELDS = tuple(field.name for field in fields(Track))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,13 +121,12 @@ def tracks_in(
     Raises:
         KeyError: If one that everybody has is missing.
     """
-    known = [field.name for field in fields(Track)]
     needed = ("com", "torso")
     return {
         name: Track(
             **{
                 key: np.asarray(arrays[f"{name}_{key}"])
-                for key in known
+                for key in FIELDS
                 if key in needed or f"{name}_{key}" in arrays
             }
         )

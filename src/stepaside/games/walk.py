@@ -1,98 +1,26 @@
 """One robot that walks, and somebody who pushes it."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from math import inf
 
 import mujoco
 
-from ..control.balance.mpc import MpcResult
-from ..control.balance.settings import ControlSettings
-from ..errors import ConfigurationError, check_positive, check_within
-from ..planning import Direction, GaitSettings
-from ..poses import Array, Pose
-from ..robots.description import load_robot
+from ..planning import Direction
+from ..poses import Pose
+from ..robots.description import RobotDescription, load_robot
+from ..robots.machine import prefer_for
 from ..sensing.measurement import Sighting
 from ..strategies import Walk
-from ..world.body_settings import BodySettings, with_cycle
-from ..world.push import Push
-from ..world.settings import PhysicsSettings
+from ..world.body_settings import with_cycle
 from ..world.world import World
 from .match import Match, Observer, play
 from .outcome import Outcome
+from .record import Recorder
 from .standing import stand_walker
-from .track import margin_of
-from .walk_record import WalkRecorder
-
-NAME = "walker"
-ERROR = ConfigurationError
-
-
-@dataclass(frozen=True, slots=True)
-class WalkSettings:
-    """Everything that decides a walk.
-
-    Attributes:
-        seed: Seed of every random draw.
-        duration: Simulated time, in [s].
-        robot: Name of a robot or folder of its description.
-        bearing: Desired heading in the frame of each support foot, in
-            [rad]: 0 walks straight on, others in a circle.
-        backward: Whether it walks backward.
-        gait: How it walks.
-        physics: Physics, floor and clock.
-        body: How far its body is from an ideal one.
-        control: How it controls its walk.
-        pushes: Who bumps into it.
-    """
-
-    seed: int = 1
-    duration: float = 20.0
-    robot: str = "nao"
-    bearing: float = 0.0
-    backward: bool = False
-    gait: GaitSettings = field(default_factory=GaitSettings)
-    physics: PhysicsSettings = field(default_factory=PhysicsSettings)
-    body: BodySettings = field(default_factory=BodySettings)
-    control: ControlSettings = field(default_factory=ControlSettings)
-    pushes: tuple[Push, ...] = ()
-
-    def __post_init__(self) -> None:
-        """Refuse a negative seed and a duration that is none."""
-        check_within(self.seed, 0, 2**63, "seed", "1", ERROR)
-        check_positive(self.duration, "duration", "s", ERROR)
-        check_within(self.bearing, -3.2, 3.2, "bearing", "rad", ERROR)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class WalkRun:
-    """A walk as it went.
-
-    Attributes:
-        settings: What decided it.
-        outcome: How it ended.
-        message: What ended it, in words.
-        duration: Simulated time, in [s].
-        arrays: The record, by name; see :class:`WalkRecorder`.
-        steps: Footsteps made.
-        adapted: Footsteps that feedback moved.
-        zmp_margin: Least ZMP margin of the plans walked, in [m].
-        answers: Of the solver of the MPC, if there is one.
-        push_impulse: Impulse given, in [N s], in the world.
-        wall_time: Time that it took, in [s].
-    """
-
-    settings: WalkSettings
-    outcome: Outcome
-    message: str
-    duration: float
-    arrays: dict[str, Array]
-    steps: int
-    adapted: int
-    zmp_margin: float | None
-    answers: tuple[MpcResult, ...]
-    push_impulse: tuple[float, float]
-    wall_time: float
+from .walk_run import WalkRun
+from .walk_settings import WALKER, WalkSettings
+from .walk_summary import Counted, summarise_walk
+from .walk_tally import WalkTally
 
 
 class Walking(Match):
@@ -102,24 +30,33 @@ class Walking(Match):
         settings: What decides the walk.
         walker: Who walks.
         recorder: What keeps the record.
+        tally: What counts.
     """
 
     def __init__(
-        self, settings: WalkSettings, *, recorded: bool = True
+        self,
+        settings: WalkSettings,
+        *,
+        recorded: bool = True,
+        description: RobotDescription | None = None,
+        observers: tuple[Observer, ...] = (),
     ) -> None:
         """Build the world and stand the robot in it.
 
         Args:
             settings: What decides the walk.
             recorded: Whether to keep what the figures need.
+            description: Of the robot, if it is another one than its folder
+                has.
+            observers: Who looks on besides.
 
         Raises:
             StepAsideError: If the settings ask for what cannot be.
         """
         self.settings = settings
-        description = load_robot(settings.robot)
+        description = description or load_robot(settings.robot)
         world = World(
-            {NAME: description},
+            {WALKER: description},
             with_cycle(settings.physics, settings.body),
             settings.body,
             settings.seed,
@@ -127,7 +64,7 @@ class Walking(Match):
         back, ahead = Direction.BACKWARD, Direction.FORWARD
         self.walker = stand_walker(
             world,
-            NAME,
+            WALKER,
             description,
             Pose(0.0, 0.0, 0.0),
             Walk(settings.bearing, back if settings.backward else ahead),
@@ -140,9 +77,14 @@ class Walking(Match):
         mujoco.mj_forward(world.model, world.data)
         if settings.pushes:
             self.walker.push(*settings.pushes)
-        self.recorder = WalkRecorder(self.walker)
-        observers: list[Observer] = [self.recorder] if recorded else []
-        super().__init__(world, [self.walker], observers)
+        self.recorder = Recorder(
+            [self.walker], tick=world.physics.tick, closely=True
+        )
+        self.tally = WalkTally(self.walker, keeps_answers=recorded)
+        kept: list[Observer] = [self.tally]
+        if recorded:
+            kept.append(self.recorder)
+        super().__init__(world, [self.walker], [*kept, *observers])
 
     def run(self, outcome: Outcome, wall_time: float) -> WalkRun:
         """What was walked, as a value.
@@ -153,18 +95,32 @@ class Walking(Match):
         """
         recorder, walker = self.recorder, self.walker
         pusher = walker.robot.pusher
+        times, tracks = recorder.times, recorder.tracks()
+        summary = summarise_walk(
+            self.settings,
+            outcome,
+            self.message,
+            self.world.time,
+            times,
+            tracks[WALKER],
+            Counted(
+                self.tally.steps,
+                walker.scheme.balance.adapted,
+                (0.0, 0.0) if pusher is None else pusher.impulse,
+                recorder.planning()[WALKER].zmp_margin,
+                tuple(self.tally.solved),
+                wall_time,
+            ),
+        )
         return WalkRun(
+            name=f"walk-seed{self.settings.seed}",
             settings=self.settings,
             outcome=outcome,
             message=self.message,
-            duration=self.world.time,
-            arrays=recorder.arrays(),
-            steps=recorder.steps,
-            adapted=walker.scheme.balance.adapted,
-            zmp_margin=margin_of(recorder.plans),
-            answers=tuple(recorder.solved),
-            push_impulse=(0.0, 0.0) if pusher is None else pusher.impulse,
-            wall_time=wall_time,
+            duration=summary.duration_s,
+            times=times,
+            tracks=tracks,
+            summary=summary,
         )
 
 
@@ -185,6 +141,7 @@ def run_walk(
     Raises:
         StepAsideError: If the settings ask for what cannot be.
     """
+    prefer_for(settings.duration)
     walking = Walking(settings, recorded=record)
     told = report
     outcome, wall_time = play(

@@ -9,7 +9,7 @@ from ..control.walking import StepBegun
 from ..poses import Pose
 from ..world.push import Push
 from ..world.robot import SimulatedRobot
-from ..world.truth import TrueState
+from ..world.truth import Truth
 from .player import Snapshot
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ class Walker:
         """Join body and mind."""
         self.name = robot.name
         self.robot, self.scheme, self.frame = robot, scheme, frame
-        self.truth: TrueState = robot.truth
+        self.truth: Truth = robot.truth
 
     @property
     def begun(self) -> StepBegun | None:
@@ -77,6 +77,8 @@ class Walker:
             walk=self.scheme.state,
             zmp=robot.measured_zmp(),
             posture=robot.posture,
+            stance=robot.stance,
+            pushes=robot.pushes,
         )
 
     def push(self, *pushes: Push) -> None:

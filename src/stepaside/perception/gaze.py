@@ -14,6 +14,9 @@ MIDDLE = 0.28  # height of a robot that is looked at, in [m]
 CROWN = 0.54  # height of the upper end of a robot's trim, in [m]
 HALF = radians(20.0)  # upward from the middle of an image, still in it
 LOOKOUT = 0.46  # height of the eyes, in [m]
+EVERY = 2.0  # between two glances over the shoulder, in [s]
+LONG = 0.9  # of a glance, the way there included, in [s]
+TOO_NEAR = 0.45  # to look away, in [m]
 
 
 class Gaze:
@@ -74,3 +77,35 @@ class Gaze:
         low = float(np.interp(self.yaw, self._yaws, self._low))
         high = float(np.interp(self.yaw, self._yaws, self._high))
         self.pitch = min(max(self.pitch, low), high)
+
+
+class Glances:
+    """Looks over one shoulder and the other, while somebody is followed."""
+
+    def __init__(self, tick: float) -> None:
+        """Begin with a while of looking at the other.
+
+        Args:
+            tick: Control period, in [s].
+        """
+        self._every, self._long = round(EVERY / tick), round(LONG / tick)
+        self._passed = 0
+        self._side = 1.0
+
+    def turned(self, bearing: float, distance: float) -> float:
+        """Where to look at a tick instead of at somebody.
+
+        Args:
+            bearing: Direction of who is followed, from the torso, in [rad].
+            distance: Distance, in [m]; from one who is very near, nobody
+                looks away.
+
+        Returns:
+            Direction to look in, in [rad].
+        """
+        self._passed += 1
+        if self._passed < self._every or distance < TOO_NEAR:
+            return bearing
+        if self._passed >= self._every + self._long:
+            self._passed, self._side = 0, -self._side
+        return self._side * REACH

@@ -19,7 +19,8 @@ from ..sensing.images import ColourImage, DepthImage, Percept, SonarEcho
 from ..sensing.measurement import Measurement, Sighting
 from ..sensing.track import Observation, Track
 from ..sensing.tracker import Tracker
-from .gaze import Gaze
+from .floor_map import FloorMap
+from .gaze import Gaze, Glances
 from .observing import angle_of, observe_obstacle, observe_shadow, observe_trim
 
 MEMORY = 1.0  # how long past poses are kept, in [s]
@@ -60,6 +61,7 @@ class Perception:
         searching: Whether it is lost and looked for.
         reports: What the images that arrived at the last tick show.
         forward: Kinematics of the measured body, for balance to share.
+        floor: Map of the floor, if it keeps one.
     """
 
     def __init__(
@@ -69,6 +71,8 @@ class Perception:
         appearance: Appearance,
         *,
         tick: float,
+        floor: FloorMap | None = None,
+        glances: bool = False,
     ) -> None:
         """Know the own body and what the other looks like.
 
@@ -77,7 +81,12 @@ class Perception:
             head: Its head.
             appearance: The other's look, if it is the one that is known.
             tick: Control period, in [s].
+            floor: Map of the floor to keep.
+            glances: Whether it looks over its shoulders now and then, to
+                see the floor that it walks backward onto.
         """
+        self.floor = floor
+        self._glances = Glances(tick) if glances else None
         self._head = head
         self.forward = ForwardKinematics(description, head.body)
         self._kinematics = BodyKinematics(description, head, self.forward)
@@ -144,6 +153,8 @@ class Perception:
             moves = moves and candidate.confirmed
             if named or distance < STARE or moves:
                 bearing = candidate.turned_to(x, y, now) - heading
+                if self._glances is not None:
+                    bearing = self._glances.turned(bearing, distance)
                 self._gaze.follow(bearing, distance)
                 self.searching = False
                 return
@@ -187,6 +198,10 @@ class Perception:
         azimuths = tuple(o.azimuth for o in scene.obstacles)
         azimuths += tuple(s.azimuth for s in scene.shadows)
         self.reports.append(FrameReport(image, azimuths, depth=scene))
+        if self.floor is not None:
+            other = self._tracker.main(now, *own)
+            there = None if other is None else other.place_at(image.time)
+            self.floor.take(image, place, axes, own, there)
         seen = [observe_obstacle(image, o) for o in scene.obstacles]
         self._observe(seen, image, place, axes, named=False)
         for shadow in scene.shadows:

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from .maneuver import CenterState, ManeuverPlanner
     from .path import Direction, UnicycleTrajectory
     from .plan import ManeuverPlan, PlanSamples
-    from .settings import PRESETS, GaitSettings, Sole
+    from .settings import PRESETS, STABILISED, GaitSettings, Sole
 else:
     __getattr__ = door(
         __name__,
@@ -23,6 +23,7 @@ else:
             "ManeuverPlan": "plan",
             "PlanSamples": "plan",
             "PRESETS": "settings",
+            "STABILISED": "settings",
             "GaitSettings": "settings",
             "Sole": "settings",
         },
@@ -30,6 +31,7 @@ else:
 
 __all__ = [
     "PRESETS",
+    "STABILISED",
     "CenterState",
     "Direction",
     "Foot",

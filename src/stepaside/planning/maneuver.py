@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .. import laws
 from ..errors import (
     PlanError,
     check_finite,
@@ -12,13 +13,15 @@ from ..errors import (
     check_within,
 )
 from ..poses import Array, Pose
+from ..ranges import HEADINGS
 from .footsteps import Foot, place_footsteps
 from .path import Direction, UnicycleTrajectory
 from .plan import ManeuverPlan
 from .schedule import Schedule
 from .settings import GaitSettings
 
-FARTHEST = 1e3  # bearing, in [rad]; of greater ones the digits are no angle
+PACES = 8  # steps of the pace, from standing to the gait's own
+CALMEST = 0.5  # least pace of a walk
 
 
 class CenterState(NamedTuple):
@@ -43,15 +46,28 @@ class ManeuverPlanner:
     def __init__(self, settings: GaitSettings) -> None:
         """Prepare a planner; the maps of each schedule are made once."""
         self.settings = settings
-        self._schedules: dict[tuple[int, bool], Schedule] = {}
+        self._schedules: dict[tuple[int, bool, float], Schedule] = {}
 
-    def schedule(self, count: int, *, standing: bool) -> Schedule:
-        """Timing of ``count`` footsteps, made at first use."""
-        key = (count, standing)
+    def schedule(
+        self, count: int, *, standing: bool, pace: float = 1.0
+    ) -> Schedule:
+        """Timing of ``count`` footsteps, made at first use.
+
+        Args:
+            count: Footsteps.
+            standing: Whether the robot starts from standing.
+            pace: Share of the gait's step rate; taken in eighths, of which
+                half of it is the least, so that a handful of schedules
+                serve.
+        """
+        check_positive(pace, "pace", "1")
+        check_within(pace, 0.0, 1.0, "pace", "1")
+        pace = max(CALMEST, round(PACES * pace) / PACES)
+        key = (count, standing, pace)
         if key not in self._schedules:
             check_positive(count, "count", "steps")
             self._schedules[key] = Schedule(
-                self.settings, count, standing=standing
+                self.settings.at_pace(pace), count, standing=standing
             )
         return self._schedules[key]
 
@@ -66,6 +82,7 @@ class ManeuverPlanner:
         standing: bool = False,
         saturated: bool = False,
         speed_factor: float = 1.0,
+        pace: float = 1.0,
         count: int | None = None,
     ) -> ManeuverPlan:
         r"""Plan one maneuver (Fig. 4, red box).
@@ -84,7 +101,10 @@ class ManeuverPlanner:
             saturated: Whether the template turns by (6) instead of (8).
             speed_factor: Share of the gait's speed and stride, above 0 and
                 up to 1. The steps take as long as ever, so the turning is
-                the same; to stop, plan a halt.
+                the same; to stop, plan a halt. A sharp turn can leave less
+                of it; see :meth:`.settings.GaitSettings.stride_share`.
+            pace: Share of the gait's step rate; see :meth:`schedule`. The
+                footsteps are the same, whatever the pace.
             count: Footsteps; by default the horizon of the settings.
 
         Returns:
@@ -96,25 +116,26 @@ class ManeuverPlanner:
                 missing, or the speed factor is none.
         """
         check_finite(bearing, "bearing", "rad")
-        check_within(bearing, -FARTHEST, FARTHEST, "bearing", "rad")
+        HEADINGS.check(bearing, "bearing", PlanError)
         check_positive(speed_factor, "speed_factor", "1")
         check_within(speed_factor, 0.0, 1.0, "speed_factor", "1")
         gait = self.settings
         schedule = self.schedule(
-            gait.horizon if count is None else count, standing=standing
+            gait.horizon if count is None else count,
+            standing=standing,
+            pace=pace,
         )
+        turning = laws.saturated_rate if saturated else laws.proportional_rate
+        turn = turning(bearing, gait.gain) * gait.path_interval
+        share = min(speed_factor, gait.stride_share(turn))
         trajectory = UnicycleTrajectory(
-            bearing,
-            speed_factor * gait.speed,
-            gait.gain,
-            direction,
-            saturated,
+            bearing, share * gait.speed, gait.gain, direction, saturated
         )
         placements = np.zeros((schedule.count + 2, 3))
         placements[2:] = place_footsteps(
             trajectory,
             count=schedule.count,
-            stride=speed_factor * gait.stride,
+            stride=share * gait.stride,
             foot_spacing=gait.foot_spacing,
             first_foot=first_foot,
         )
@@ -129,7 +150,12 @@ class ManeuverPlanner:
         )
 
     def plan_halt(
-        self, *, first_foot: Foot, state: CenterState, swing_start: Pose
+        self,
+        *,
+        first_foot: Foot,
+        state: CenterState,
+        swing_start: Pose,
+        pace: float = 1.0,
     ) -> ManeuverPlan:
         """Plan one last step that brings the feet abreast, and stand.
 
@@ -137,8 +163,9 @@ class ManeuverPlanner:
             first_foot: Foot that lands.
             state: Present CoM in the frame of the support foot.
             swing_start: Pose of the swing foot in that frame.
+            pace: Share of the gait's step rate.
         """
-        schedule = self.schedule(1, standing=False)
+        schedule = self.schedule(1, standing=False, pace=pace)
         spacing = self.settings.foot_spacing * first_foot.value
         placements = np.array(
             [swing_start, (0.0, 0.0, 0.0), (0.0, spacing, 0.0)]
@@ -155,7 +182,7 @@ def _inputs(
     """Assemble what the constant maps are applied to."""
     gait = schedule.settings
     n = schedule.count
-    inputs = np.zeros((n + 4, 2))
+    inputs = np.zeros((schedule.inputs, 2))
     theta = placements[1:, 2]
     ahead = gait.zmp_forward
     inputs[: n + 1, 0] = placements[1:, 0] + ahead * np.cos(theta)
@@ -168,13 +195,16 @@ def _inputs(
     check_finite(x + y, "CoM position", "m")
     check_finite(vx + vy, "CoM velocity", "m/s")
     inputs[n + 1] = (x, y) if schedule.standing else inputs[0]
+    if schedule.feels_swing:
+        u, v, turned = placements[0].tolist()
+        inputs[n + 2] = u + ahead * cos(turned), v + ahead * sin(turned)
     inputs[-1] = x, y
     row = schedule.dcm_start_map
     planned = row @ inputs
     eta = gait.eta
-    scale = 1.0 / float(row[n + 2])
-    inputs[n + 2, 0] = (x + vx / eta - planned[0]) * scale
-    inputs[n + 2, 1] = (y + vy / eta - planned[1]) * scale
+    scale = 1.0 / float(row[-2])
+    inputs[-2, 0] = (x + vx / eta - planned[0]) * scale
+    inputs[-2, 1] = (y + vy / eta - planned[1]) * scale
     return inputs
 
 

@@ -7,13 +7,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import PlanError
+from ..errors import PlanError, shown
 from ..poses import Array
 from .footsteps import Foot, Footstep
 from .path import Direction
 from .schedule import Sampler, Schedule
+from .settings import GaitSettings
 from .support import SupportPhase, support_phases
 from .zmp import least_values
+
+LONGEST = 86400.0  # time of a sample, in [s]: nobody walks on for a day
 
 
 class PlanSamples(NamedTuple):
@@ -29,6 +32,8 @@ class PlanSamples(NamedTuple):
         left_height: Height of the left foot, in [m]. Shape (m,).
         right_foot: Right foot, likewise. Shape (m, 3).
         right_height: Height of the right foot, in [m]. Shape (m,).
+        pivot: Point that the CoM falls away from, in [m]; the ZMP, but for
+            what the swing leg takes. Shape (m, 2).
     """
 
     times: Array
@@ -40,6 +45,7 @@ class PlanSamples(NamedTuple):
     left_height: Array
     right_foot: Array
     right_height: Array
+    pivot: Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +64,7 @@ class ManeuverPlan:
             Shape (count + 2, 3).
         inputs: Anchors, ZMP at the start, correction, CoM at the start, in
             [m]; see :class:`~stepaside.planning.schedule.Schedule`.
-            Shape (count + 4, 2).
+            Shape (count + 4, 2), one more if the swing leg is felt.
     """
 
     schedule: Schedule
@@ -67,6 +73,11 @@ class ManeuverPlan:
     first_foot: Foot
     placements: Array
     inputs: Array
+
+    @property
+    def gait(self) -> GaitSettings:
+        """Gait at the pace of the plan."""
+        return self.schedule.settings
 
     @property
     def correction(self) -> Array:
@@ -137,19 +148,18 @@ class ManeuverPlan:
                 sampler of this plan's schedule, which is faster.
 
         Raises:
-            PlanError: If a time is not finite.
+            PlanError: If they are no row of numbers from 0 to a day.
         """
-        if not isinstance(times, Sampler) and not np.isfinite(times).all():
-            raise PlanError("times must be finite [s]")
         sampler = (
             times
             if isinstance(times, Sampler)
-            else self.schedule.sampler(times)
+            else self.schedule.sampler(_checked(times))
         )
         m = sampler.times.size
-        pendulum = (sampler.pendulum @ self.inputs).reshape(3, m, 2)
+        pendulum = (sampler.pendulum @ self.inputs).reshape(-1, m, 2)
         feet = (sampler.feet @ self.placements).reshape(2, m, 3)
-        zmp, dcm, com = pendulum
+        zmp, dcm, com = pendulum[:3]
+        pivot = pendulum[3] if len(pendulum) > 3 else zmp
         velocity = dcm - com
         velocity *= self.schedule.settings.eta
         support = (feet[0], sampler.support_height)
@@ -160,5 +170,20 @@ class ManeuverPlan:
             else (support, swing)
         )
         return PlanSamples(
-            sampler.times, zmp, dcm, com, velocity, *left, *right
+            sampler.times, zmp, dcm, com, velocity, *left, *right, pivot
         )
+
+
+def _checked(times: ArrayLike) -> Array:
+    """Times, if they are some that a plan has a value for."""
+    try:
+        row = np.asarray(times)
+    except ValueError:  # rows of several lengths
+        row = np.zeros(())
+    numbers = row.ndim == 1 and row.dtype.kind in "iuf"
+    if not numbers or not np.all((row >= -1e-6) & (row <= LONGEST)):
+        raise PlanError(
+            f"times must be a row of numbers in [0, {LONGEST:g}] [s], got "
+            f"{shown(times)}"
+        )
+    return row.astype(np.float64)

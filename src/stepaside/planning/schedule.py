@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike
 from ..poses import Array
 from .com import BoundedCom
 from .settings import GaitSettings
-from .swing import swing_height, swing_progress
-from .zmp import PiecewisePolynomial
+from .swing import swing_acceleration, swing_height, swing_progress
+from .zmp import PiecewisePolynomial, evaluate
 
 DEGREE = 3
 
@@ -27,8 +27,9 @@ class Sampler:
 
     Attributes:
         times: Times since the plan began, in [s]. Shape (m,).
-        pendulum: Map to ZMP, DCM and CoM, one under the other.
-            Shape (3 m, inputs).
+        pendulum: Map to ZMP, DCM and CoM, one under the other, and to the
+            pivot if that is another point than the ZMP.
+            Shape (3 m or 4 m, inputs).
         feet: Map from placements to the first support foot and then to the
             foot that swings first. Shape (2 m, placements).
         support_height: Height of the first support foot, in [m]. Shape (m,).
@@ -76,7 +77,8 @@ class Schedule:
         self.standing = standing
         self.durations = self._durations()
         self.starts = np.concatenate([[0.0], np.cumsum(self.durations)])
-        self.inputs = count + 4
+        self.feels_swing = settings.swing_reaction > 0.0
+        self.inputs = count + 4 + self.feels_swing
 
     @property
     def duration(self) -> float:
@@ -107,7 +109,7 @@ class Schedule:
             target = {i + 1: 1.0} if i < n - 1 else {i: 0.5, i + 1: 0.5}
             self._join(w, single + 1, {i: 1.0}, target)
         bump = 6.75 * np.array([0.0, 1.0, -2.0, 1.0])
-        w[:, 0, n + 2] = bump / self.durations[0] ** np.arange(DEGREE + 1)
+        w[:, 0, -2] = bump / self.durations[0] ** np.arange(DEGREE + 1)
         return PiecewisePolynomial(self.durations, w)
 
     def _join(
@@ -129,11 +131,31 @@ class Schedule:
             w[3, piece] = -2.0 * change / duration**3
 
     @cached_property
+    def pivot_map(self) -> PiecewisePolynomial:
+        """Pivot of unit inputs: coefficients (degree + 1, pieces, inputs)."""
+        zmp, gait = self.zmp_map, self.settings
+        if not self.feels_swing:
+            return zmp
+        duration = gait.single_support
+        bent = swing_acceleration(gait.swing_profile)
+        powers = np.arange(bent.size)
+        # By the time since lift-off, for a way of 1 m, in [m].
+        bent = gait.swing_reaction * bent / duration ** (powers + 2.0)
+        w = np.zeros((max(DEGREE + 1, bent.size), *zmp.coefficients.shape[1:]))
+        w[: DEGREE + 1] = zmp.coefficients
+        first = 1 if self.standing else 0
+        for i in range(self.count):
+            lifted = i - 1 if i > 0 else self.count + 2
+            w[: bent.size, first + 2 * i, i + 1] -= bent
+            w[: bent.size, first + 2 * i, lifted] += bent
+        return PiecewisePolynomial(self.durations, w)
+
+    @cached_property
     def pendulum_map(self) -> BoundedCom:
         """Closed form for unit inputs."""
         com_start = np.zeros(self.inputs)
         com_start[-1] = 1.0
-        return BoundedCom.solve(self.zmp_map, self.settings.eta, com_start)
+        return BoundedCom.solve(self.pivot_map, self.settings.eta, com_start)
 
     @cached_property
     def dcm_start_map(self) -> Array:
@@ -170,10 +192,11 @@ class Schedule:
             times: Times since the plan began, in [s]. Shape (m,).
         """
         t = np.asarray(times, dtype=np.float64)
-        pendulum = np.concatenate(self.pendulum_map.sample(t))
+        pendulum = np.concatenate(self._pendulum(t))
         step, phase = self.swing_phases(t)
-        progress = swing_progress(phase)
-        lift = swing_height(phase, self.settings.step_height)
+        gait = self.settings
+        progress = swing_progress(phase, gait.swing_profile)
+        lift = swing_height(phase, gait.step_height, gait.swing_profile)
         m = t.size
         # Row j of the placements: swing foot at the start, support foot, then
         # the footsteps. Step i takes a foot from row i to row i + 2.
@@ -187,7 +210,17 @@ class Schedule:
         return Sampler(
             t,
             pendulum,
-            feet.reshape(2 * m, -1),
+            feet.reshape(2 * m, self.count + 2),
             np.where(even, 0.0, lift),
             np.where(even, lift, 0.0),
         )
+
+    def _pendulum(self, times: Array) -> tuple[Array, ...]:
+        """Maps to ZMP, DCM, CoM and, if it is another point, the pivot."""
+        pivot, dcm, com = self.pendulum_map.sample(times)
+        if not self.feels_swing:
+            return pivot, dcm, com
+        index, local = self.zmp_map.locate(times)
+        local = np.minimum(local, self.durations[index])
+        zmp = evaluate(self.zmp_map.coefficients[:, index], local)
+        return zmp, dcm, com, pivot

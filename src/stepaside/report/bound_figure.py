@@ -7,7 +7,8 @@ import numpy as np
 
 from ..bound import Bound
 from ..bound.barrier import barrier_slice
-from .style import EVADER, PURSUER, THEORY, plt, save
+from .sizes import sheet
+from .style import EVADER, PURSUER, THEORY, new_figure, save
 
 HEADINGS = (0.25, 0.5, 0.75, 1.0)  # between the motions, in pi
 POINTS = 161  # along each side of a slice
@@ -28,9 +29,13 @@ def draw_bound(bound: Bound, capture: float, path: str) -> None:
     side = np.linspace(-far, far, POINTS)
     x, y = np.meshgrid(side, side)
     r, sight = np.hypot(x, y), np.arctan2(y, x)
-    figure, axes = plt.subplots(
-        1, len(HEADINGS), figsize=(3.1 * len(HEADINGS) + 0.9, 3.5), sharey=True
+    lines = 2 if sheet().narrow else 1
+    columns = len(HEADINGS) // lines
+    figure = new_figure(3.1 * columns + 0.9, 0.3 + 3.2 * lines)
+    grid = figure.subplots(
+        lines, columns, sharex=True, sharey=True, squeeze=False
     )
+    axes = grid.ravel()
     image: Any = None
     for ax, share in zip(axes, HEADINGS, strict=True):
         theta = share * pi
@@ -52,8 +57,10 @@ def draw_bound(bound: Bound, capture: float, path: str) -> None:
         ax.set_title(f"motions {np.rad2deg(theta):.0f}° apart")
         ax.set_aspect("equal")
         ax.grid(visible=False)
+    for ax in grid[-1]:
         ax.set_xlabel("ahead of the pursuer [m]")
-    axes[0].set_ylabel("to its left [m]")
+    for ax in grid[:, 0]:
+        ax.set_ylabel("to its left [m]")
     figure.colorbar(
         image, ax=list(axes), label="best closest approach [m]", shrink=0.8
     )

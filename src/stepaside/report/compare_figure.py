@@ -2,11 +2,13 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
-from ..games.circle import cycle_mean
 from ..games.run import Run
+from .averages import whole_cycles
 from .inert import for_figure
-from .style import EVADER, PURSUER, THEORY, plt, save
+from .sizes import sheet
+from .style import THEORY, colours_of, mark_level, new_figure, save
 
 LINES = ("-", "--", ":", "-.")
 RUNS = ("#222222", "#0f7b6c", "#b5651d", "#6a3d9a")
@@ -19,14 +21,18 @@ def draw_comparison(runs: Sequence[Run], file: Path) -> None:
         runs: The runs; each has its own kind of line.
         file: Picture to write.
     """
-    figure, axes = plt.subplot_mosaic(
-        [["path", "distance"], ["path", "angle"]], figsize=(9.5, 4.8)
-    )
+    if sheet().narrow:
+        figure = new_figure(4.2, 6.8)
+        places = [["path"], ["distance"], ["angle"]]
+        axes = figure.subplot_mosaic(places, height_ratios=[2, 1, 1])
+    else:
+        figure = new_figure(9.5, 5.2)
+        axes = figure.subplot_mosaic([["path", "distance"], ["path", "angle"]])
     for number, run in enumerate(runs):
         line = LINES[number % len(LINES)]
-        cycle = 2.0 * run.settings.gait.step_duration
+        cycle = run.settings.cycle
         shade = 1.0 - 0.6 * (number // len(LINES)) / max(1, len(runs))
-        for name, colour in (("pursuer", PURSUER), ("evader", EVADER)):
+        for name, colour in colours_of(run.players).items():
             place = run.tracks[name].torso
             axes["path"].plot(
                 place[:, 0],
@@ -40,27 +46,50 @@ def draw_comparison(runs: Sequence[Run], file: Path) -> None:
             ("distance", run.distance),
             ("angle", run.orientation),
         ):
+            if values is None:
+                continue
             axes[key].plot(
                 run.times,
-                cycle_mean(values, run.times, cycle),
+                whole_cycles(values, run.times, cycle),
                 color=RUNS[number % len(RUNS)],
                 linestyle=line,
                 alpha=shade,
                 linewidth=1.1,
                 label=for_figure(run.name),
             )
-    theory = runs[0].theory
-    if theory is not None:
-        for key, level in (("distance", theory[1]), ("angle", theory[2])):
-            axes[key].axhline(
-                level, color=THEORY, linewidth=0.8, label="theory"
-            )
-    axes["path"].set_aspect("equal")
+    _draw_theories(axes, runs)
+    axes["path"].set_aspect("equal", adjustable="datalim")
     axes["path"].set_title("torsos: pursuer red, evader blue")
     axes["path"].set_xlabel("x [m]")
     axes["path"].set_ylabel("y [m]")
     axes["distance"].set_ylabel("distance [m]")
     axes["angle"].set_ylabel("between headings [deg]")
     axes["angle"].set_xlabel("time [s]")
-    axes["distance"].legend(fontsize=7)
+    handles, labels = axes["distance"].get_legend_handles_labels()
+    columns = 1 if sheet().narrow else 3
+    figure.legend(handles, labels, loc="outside lower center", ncols=columns)
     save(figure, file)
+
+
+def _draw_theories(axes: Any, runs: Sequence[Run]) -> None:
+    """Draw the level of every circle that a run has, each once.
+
+    A level that is not everybody's has the colour and the line of the first
+    run whose it is.
+    """
+    for key, column, unit in (("distance", 1, " m"), ("angle", 2, "°")):
+        levels: dict[float, int] = {}
+        for number, run in enumerate(runs):
+            if run.theory is not None:
+                levels.setdefault(round(run.theory[column], 6), number)
+        shared = len(levels) == 1 and all(run.theory for run in runs)
+        low, high = axes[key].get_ylim()
+        near = 0.08 * (max(high, *levels, low) - min(low, *levels, high))
+        for level, number in levels.items():
+            colour = THEORY if shared else RUNS[number % len(RUNS)]
+            line = "--" if shared else LINES[number % len(LINES)]
+            # Of levels too near for a name each, the first names all.
+            close = [x for x in levels if abs(x - level) < near]
+            told = ", ".join(f"{x:.3g}" for x in sorted(close))
+            name = f"theory {told}{unit}" if level == close[0] else ""
+            mark_level(axes[key], level, name, colour, line)

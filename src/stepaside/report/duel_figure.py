@@ -5,172 +5,230 @@ from typing import Any
 
 import numpy as np
 
-from ..games.circle import cycle_mean
+from ..games.duel_run import DuelRun
 from ..games.run import Run
+from ..poses import Array
+from ..rooms import Room
+from .averages import whole_cycles
 from .inert import for_figure
+from .pushed import draw_pushes, mark_pushes
+from .room_figure import solid_patches
+from .sizes import sheet
 from .soles import draw_heading, draw_soles
-from .style import COLOURS, THEORY, plt, save
+from .style import (
+    MEAN,
+    SWAY,
+    THEORY,
+    colours_of,
+    mark_level,
+    new_figure,
+    save,
+)
 
 SNAPSHOTS = 4
+STEPS = 6.0  # of the balance that is shown
 
 
 def draw_duel(
     run: Run,
     path: Path,
 ) -> None:
-    """Write the figure of a duel.
+    """Write the figure of a duel, or of another game of two or more.
 
     Args:
         run: The duel.
         path: File, of a format that its suffix tells.
     """
-    figure = plt.figure(figsize=(11.0, 8.2))
-    grid = figure.add_gridspec(3, 4, height_ratios=[1.0, 1.7, 1.1])
-    _draw_snapshots(figure, grid, run)
-    _draw_paths(figure.add_subplot(grid[1, :2]), run)
-    over_time = grid[1, 2:].subgridspec(2, 1)
-    _draw_over_time(figure, over_time, run)
-    walkers = [n for n, t in run.tracks.items() if t.zmp is not None]
-    for name, place in zip(walkers, _places(grid, len(walkers)), strict=True):
-        _draw_balance(figure.add_subplot(place), run, name)
+    # Of robots that are played elsewhere nobody here knows the plans.
+    walkers = [n for n, t in run.tracks.items() if t.zmp_reference is not None]
+    if sheet().narrow:
+        figure = new_figure(4.2, 8.6 + 1.5 * len(walkers))
+        rows = [2.3, 2.5, 2.0] + [1.2] * len(walkers)
+        parts = figure.subfigures(len(rows), 1, height_ratios=rows)
+        above, paths, over_time, *below = parts
+        places = [(part, (1, 1, 1)) for part in below]
+    else:
+        figure = new_figure(11.0, 8.2)
+        above, middle, low = figure.subfigures(
+            3, 1, height_ratios=[1.0, 1.7, 1.1]
+        )
+        paths, over_time = middle.subfigures(1, 2, width_ratios=[1.0, 1.15])
+        count = len(walkers)
+        places = [(low, (1, count, i + 1)) for i in range(count)]
+    _draw_snapshots(above, run)
+    draw_paths(paths.add_subplot(), run)
+    _draw_over_time(over_time, run)
+    for name, (part, place) in zip(walkers, places, strict=True):
+        _draw_balance(part.add_subplot(*place), run, name)
     figure.suptitle(
-        f"Duel, seed {run.settings.seed}: {for_figure(run.message)}",
-        fontsize=11,
+        f"{run.game.capitalize()}, seed {run.settings.seed}: "
+        f"{for_figure(run.message)}"
     )
     save(figure, path)
 
 
-def _places(grid: Any, count: int) -> list[Any]:
-    """Parts of the lowest row, for one robot or two."""
-    if count == 1:
-        return [grid[2, :]]
-    return [grid[2, 0:2], grid[2, 2:4]][:count]
-
-
-def _draw_snapshots(figure: Any, grid: Any, run: Run) -> None:
+def _draw_snapshots(figure: Any, run: Run) -> None:
     """Top views at four times, with the path walked so far."""
     times = run.times
-    every = np.concatenate([track.com[:, :2] for track in run.tracks.values()])
-    low, high = every.min(axis=0) - 0.2, every.max(axis=0) + 0.2
+    low, high = _frame(run)
+    size = max(0.28, 0.07 * float((high - low).max()))
     # Early on more happens: the times grow as squares.
     fractions = (np.arange(SNAPSHOTS) / (SNAPSHOTS - 1)) ** 2
-    for column, time in enumerate(fractions * times[-1]):
-        axes = figure.add_subplot(grid[0, column])
+    lines = 2 if sheet().narrow else 1
+    shown = figure.subplots(
+        lines, SNAPSHOTS // lines, sharex=True, sharey=True, squeeze=False
+    )
+    for axes, time in zip(shown.flat, fractions * times[-1], strict=True):
         index = min(int(np.searchsorted(times, time)), len(times) - 1)
-        for name, colour in COLOURS.items():
+        _draw_solids(axes, run)
+        for name, colour in colours_of(run.players).items():
             com = run.tracks[name].com
-            axes.plot(*com[: index + 1, :2].T, color=colour, lw=1.2)
+            axes.plot(*com[: index + 1, :2].T, color=colour, lw=1.0)
             torso = run.tracks[name].torso[index]
-            draw_heading(axes, torso, colour, 0.28)
+            draw_heading(axes, torso, colour, size)
         axes.set(
             xlim=(low[0], high[0]),
             ylim=(low[1], high[1]),
             aspect="equal",
             title=f"{times[index]:.1f} s",
-            xlabel="x [m]",
         )
-        if column == 0:
-            axes.set_ylabel("y [m]")
+    for axes in shown[-1]:
+        axes.set_xlabel("x [m]")
+    for axes in shown[:, 0]:
+        axes.set_ylabel("y [m]")
 
 
-def _draw_paths(axes: Any, run: Run) -> None:
-    """Both CoM paths with every footstep."""
-    for name, colour in COLOURS.items():
+def _frame(run: Run) -> tuple[Array, Array]:
+    """Corners of what snapshots show: no side less than half the other."""
+    every = np.concatenate([track.com[:, :2] for track in run.tracks.values()])
+    low, high = every.min(axis=0) - 0.2, every.max(axis=0) + 0.2
+    plan = _plan_of(run)
+    if plan is not None and plan.has_walls:
+        half = 0.5 * np.array([plan.width, plan.depth]) + 0.15
+        low, high = np.minimum(low, -half), np.maximum(high, half)
+    lacks = 0.5 * (high - low).max() - (high - low)
+    grown = 0.5 * np.maximum(lacks, 0.0)
+    return low - grown, high + grown
+
+
+def _plan_of(run: Run) -> Room | None:
+    """Room that they play in, if they play in one."""
+    return run.settings.room.plan if isinstance(run, DuelRun) else None
+
+
+def _draw_solids(axes: Any, run: Run) -> None:
+    """What stands in the room, if they play in one."""
+    plan = _plan_of(run)
+    for patch in () if plan is None else solid_patches(plan.solids):
+        axes.add_patch(patch)
+
+
+def draw_paths(axes: Any, run: Run) -> None:
+    """CoM paths with every footstep, and the pushes."""
+    _draw_solids(axes, run)
+    every = np.concatenate([track.com[:, :2] for track in run.tracks.values()])
+    wide = float(np.ptp(every, axis=0).max())
+    # A wedge is as large as its robot, or can be seen where ways are long.
+    size = min(max(0.2, 0.04 * wide), 0.1 * wide + 0.02)
+    colours = colours_of(run.players)
+    for name, colour in colours.items():
         track = run.tracks[name]
         if track.landings is not None:
-            sole = run.settings.gait.sole
-            draw_soles(axes, track.landings, sole, colour, alpha=0.3, lw=0.5)
+            sole = run.settings.robot_of(name).gait.sole
+            draw_soles(axes, track.landings, sole, colour, alpha=0.25, lw=0.4)
         com = track.com
-        axes.plot(*com[:, :2].T, color=colour, lw=1.3, label=f"{name}, CoM")
+        axes.plot(*com[:, :2].T, color=colour, lw=1.2, label=f"{name}, CoM")
         axes.plot(*com[0, :2], "o", color=colour, ms=5)
-        draw_heading(axes, track.torso[-1], colour, 0.2)
-    axes.set(
-        xlabel="x [m]",
-        ylabel="y [m]",
-        aspect="equal",
-        title="CoM paths, planned footsteps; ● start, ➤ end",
+        draw_heading(axes, track.torso[-1], colour, size)
+        draw_pushes(axes, track.pushes)
+    axes.set(xlabel="x [m]", ylabel="y [m]")
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.set_title("paths and footsteps; dot: start, arrow: end", pad=18)
+    axes.legend(
+        loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=len(colours)
     )
-    axes.legend(loc="center", fontsize=8)
 
 
-def _draw_over_time(figure: Any, grid: Any, run: Run) -> None:
+def _draw_over_time(figure: Any, run: Run) -> None:
     """Distance and relative orientation, beside theory's values."""
-    times, theory = run.times, run.summary.theory
-    period = 2.0 * run.settings.gait.step_duration
+    times = run.times
+    apart = turned = None
+    if isinstance(run, DuelRun):
+        theory = run.summary.theory
+        apart, turned = theory.distance_m, theory.relative_orientation_deg
+    period = run.settings.cycle
     panels = (
-        (run.distance, theory.distance_m, "distance [m]"),
-        (
-            run.orientation,
-            theory.relative_orientation_deg,
-            "between headings [deg]",
-        ),
+        (run.distance, apart, "distance [m]", "{:.3g} m"),
+        (run.orientation, turned, "headings [deg]", "{:.3g}°"),
     )
-    first = None
-    for row, (values, value, label) in enumerate(panels):
-        axes = figure.add_subplot(grid[row, 0], sharex=first)
-        first = first or axes
-        axes.plot(times, values, color="#9a7fb8", lw=0.7)
-        axes.plot(
-            times, cycle_mean(values, times, period), color="#5b2a86", lw=1.6
-        )
+    shown = figure.subplots(2, 1, sharex=True)
+    who, radius = run.safety or ("", np.inf)
+    for axes, (values, value, label, word) in zip(shown, panels, strict=True):
+        assert values is not None
+        axes.plot(times, values, color=SWAY, lw=0.6)
+        mean = whole_cycles(values, times, period)
+        axes.plot(times, mean, color=MEAN, lw=1.6)
         if value is not None:
-            axes.axhline(value, color=THEORY, ls="--", lw=1.0)
-            axes.annotate(
-                f"theory {value:.3g}",
-                (1.0, value),
-                xycoords=("axes fraction", "data"),
-                ha="right",
-                va="bottom",
-                fontsize=8,
-                color=THEORY,
-            )
-        if row == 0:
-            safety = run.settings.strategy.safety_radius
-            axes.axhline(safety, color=COLOURS["evader"], ls=":", lw=1.0)
-            axes.annotate(
-                "safety area",
-                (0.0, safety),
-                xycoords=("axes fraction", "data"),
-                va="bottom",
-                fontsize=8,
-                color=COLOURS["evader"],
-            )
+            # Two names never lie on each other: one is over its line.
+            stands = "center"
+            if axes is shown[0]:
+                stands = "bottom" if value > radius else "top"
+            name = f"theory {word.format(value)}"
+            mark_level(axes, value, name, THEORY, stands=stands)
+        mark_pushes(axes, run)
         axes.set_ylabel(label)
-    if first is not None:
-        axes.set_xlabel("time [s]")
+        axes.margins(x=0.0)
+    if np.isfinite(radius):
+        name = f"safety {radius:.3g} m"
+        guard = colours_of(run.players)[who]
+        stands = "top" if apart is None or apart > radius else "bottom"
+        mark_level(shown[0], radius, name, guard, ":", stands=stands)
+    shown[0].set_title(
+        "distance and angle between the headings: each step, mean of a cycle"
+        if not sheet().narrow
+        else "each step, and the mean of a gait cycle"
+    )
+    shown[1].set_xlabel("time [s]")
 
 
 def _draw_balance(axes: Any, run: Run, name: str) -> None:
     """CoM against ZMP of one robot for the last few steps."""
     times, track = run.times, run.tracks[name]
-    colour = COLOURS[name]
-    span = 6.0 * run.settings.gait.step_duration
+    colour = colours_of(run.players)[name]
+    span = 0.5 * STEPS * run.settings.cycle
     show = times >= times[-1] - span
     heading = float(track.torso[show][:, 2].mean())
     left = np.array([-np.sin(heading), np.cos(heading)])
     assert track.com_reference is not None
     origin = track.com_reference[show].mean(axis=0)
     shift = track.com[show, :2].mean(axis=0)
-    for label, points, centre, style in (
-        ("ZMP", track.zmp, shift, {"color": "#b0b0b0", "lw": 0.8}),
-        (
-            "ZMP reference",
-            track.zmp_reference,
-            origin,
-            {"color": THEORY, "lw": 1.2},
-        ),
-        (
-            "CoM reference",
-            track.com_reference,
-            origin,
-            {"color": "#8a5fbf", "lw": 1.6},
-        ),
-        ("CoM", track.com, shift, {"color": colour, "lw": 1.6}),
-    ):
+
+    def line(
+        label: str, points: Array | None, centre: Array, **style: Any
+    ) -> None:
         assert points is not None
         across = (points[show, :2] - centre) @ left
         axes.plot(times[show], 1e3 * across, label=label, **style)
-    axes.set(xlabel="time [s]", title=f"{name}: last steps")
-    axes.set_ylabel("leftward [mm]")
-    axes.legend(ncols=4, fontsize=7, loc="upper center")
-    axes.margins(y=0.25)
+
+    line("ZMP", track.zmp, shift, color="#a0a0a0", lw=0.8)
+    line("ZMP reference", track.zmp_reference, origin, color=THEORY, lw=1.2)
+    # Dashed and on top: where the reference is kept, both are seen.
+    line("CoM", track.com, shift, color=colour, lw=2.0)
+    line(
+        "CoM reference",
+        track.com_reference,
+        origin,
+        color="#e0a400",
+        lw=1.2,
+        ls=(0, (3, 2)),
+    )
+    axes.set(xlabel="time [s]", ylabel="leftward [mm]")
+    axes.margins(x=0.0)
+    axes.set_title(f"{name}: last steps", pad=18)
+    axes.legend(
+        ncols=4,
+        loc="lower center",
+        bbox_to_anchor=(0.5, 0.97),
+        columnspacing=1.2,
+        handlelength=1.6,
+    )

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .style import COLOURS, LEFT, RIGHT, THEORY, plt, save
+from .style import COLOURS, LEFT, RIGHT, THEORY, new_figure, save
 
 # Record, label, unit, colour and where theory stands, panel by panel.
 PANELS = (
@@ -35,12 +35,9 @@ def draw_duels(
         summary: Of one of them; theory is taken from it.
         file: Picture to write.
     """
-    figure, axes = plt.subplots(
-        len(groups),
-        len(PANELS),
-        figsize=(2.6 * len(PANELS), 0.6 + 2.0 * len(groups)),
-        squeeze=False,
-        sharex="col",
+    figure = new_figure(2.6 * len(PANELS), 0.6 + 2.0 * len(groups))
+    axes = figure.subplots(
+        len(groups), len(PANELS), squeeze=False, sharex="col"
     )
     *_, last = groups
     for row, (name, records) in zip(axes, groups.items(), strict=True):
@@ -51,9 +48,14 @@ def draw_duels(
             if name == last:
                 axis.set_xlabel(label)
         row[0].set_ylabel(f"{name}\n{len(played)} duels".strip())
-    for axis in axes[0][:2]:  # the others draw what the second does
-        if axis.get_legend_handles_labels()[0]:
-            axis.legend(fontsize=7)
+    named: dict[str, Any] = {}
+    for axis in axes[0]:
+        handles, labels = axis.get_legend_handles_labels()
+        named |= dict(zip(labels, handles, strict=True))
+    if named:
+        figure.legend(
+            named.values(), named.keys(), loc="outside lower center", ncols=4
+        )
     save(figure, file)
 
 

@@ -2,11 +2,9 @@
 
 import os
 from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
 from fractions import Fraction
 from functools import partial
 from math import floor
-from multiprocessing import get_context
 from pathlib import Path
 from typing import NamedTuple
 
@@ -16,15 +14,22 @@ import numpy as np
 from ..errors import ConfigurationError, OutputError
 from ..games.folder import load_run
 from ..games.run import Run
-from ..games.settings import PLAYERS
 from ..outputs import reason_of, writing
 from ..sensing.images import Pixels
-from ..world.graphics import RAYCAST, Screen, choose_renderer
-from .film_layers import decorate
+from ..workers import worker_pool
+from ..world.graphics import RAYCAST, Look, Screen, choose_renderer
+from .film_camera import CameraMan
+from .film_layers import decorate, light_up
+from .film_words import caption, title_of
 from .stage import Stage
 
 CHUNK = 15  # pictures that one worker draws at a time
 TRAIL = 20.0  # how long traces are, in [s]
+FINE = Look(samples=4, shadow=2048, slices=18, stacks=10)
+# Beyond, nothing has shadows; who looks far must not see where that is.
+REACH = {"fixed": 4.0, "follow": 4.0, "top": 4.0, "eyes": 12.0}
+SLOWEST = 0.25  # pace about the closest approach, of the film's own
+AROUND = 2.0  # time before and after it that is slower, in [s]
 
 
 class Shot(NamedTuple):
@@ -37,26 +42,55 @@ class Shot(NamedTuple):
         speed: Time of the run per time of the film.
         begin: When it begins, in [s] of the run.
         duration: How much of the run it shows, in [s].
-        following: Whether the camera follows the robots.
+        camera: One of :data:`~stepaside.report.film_camera.VIEWS`.
         layers: Whether lines are drawn in.
+        slow: Whether time passes slowly about the closest approach.
+        words: Whether it says who is who and what goes on.
+        title: Written into the upper left corner; empty for none.
     """
 
-    width: int = 640
-    height: int = 480
+    width: int = 1280
+    height: int = 720
     rate: float = 30.0
     speed: float = 1.0
     begin: float = 0.0
     duration: float = 60.0
-    following: bool = False
+    camera: str = "fixed"
     layers: bool = True
+    slow: bool = False
+    words: bool = True
+    title: str = ""
 
-    def instants(self, last: float) -> list[float]:
+    def pace(self, time: float, closest: float | None) -> float:
+        """Time of the run per time of the film at a moment.
+
+        Args:
+            time: In the run, in [s].
+            closest: When the players were closest, in [s].
+        """
+        if closest is None or not self.slow:
+            return self.speed
+        # From one to the slowest and back, without a jerk.
+        away = min(1.0, max(0.0, abs(time - closest) / AROUND - 0.5) * 2.0)
+        share = away * away * (3.0 - 2.0 * away)
+        return self.speed * (SLOWEST + (1.0 - SLOWEST) * share)
+
+    def instants(
+        self, last: float, closest: float | None = None
+    ) -> list[float]:
         """Times of the pictures in the run, in [s].
 
         Args:
             last: End of the run, in [s].
+            closest: When the players were closest, in [s].
         """
         end = min(last, self.begin + self.duration)
+        if closest is not None and self.slow:
+            times, time = [], self.begin
+            while time <= end + 1e-9:
+                times.append(time)
+                time += self.pace(time, closest) / self.rate
+            return times
         step = self.speed / self.rate
         number = floor((end - self.begin) / step + 1e-9) + 1
         return [self.begin + i * step for i in range(max(number, 0))]
@@ -69,40 +103,68 @@ class Cinema:
         """Set up graphics."""
         self._run, self._shot = run, shot
         self._stage = Stage(run)
+        model = self._stage.model
+        _dim(model)
+        self._fovy = float(model.vis.global_.fovy)
+        aspect = shot.width / shot.height
+        self._man = CameraMan(run, shot.camera, self._fovy, aspect)
         self._screen = Screen(
-            self._stage.model, shot.width, shot.height, backend
+            model,
+            shot.width,
+            shot.height,
+            backend,
+            FINE._replace(reach=max(REACH[shot.camera], self._man.reach)),
         )
-        middle = np.concatenate(
-            [run.tracks[name].torso[:, :2] for name in PLAYERS]
-        )
-        low, high = middle.min(axis=0), middle.max(axis=0)
-        self._center = 0.5 * (low + high)
-        self._extent = float(np.hypot(*(high - low)))
+        self._closest = closest_time(run)
 
     def picture(self, time: float) -> Pixels:
         """Picture of a time, in [s]. Shape (height, width, 3)."""
         run, shot = self._run, self._shot
-        index = int(np.searchsorted(run.times, time - 1e-9))
-        index = min(index, len(run.times) - 1)
+        index = run.index_at(time)
         self._stage.put(index)
-        camera = mujoco.MjvCamera()
-        camera.type = mujoco.mjtCamera.mjCAMERA_FREE
-        camera.azimuth, camera.elevation = 60.0, -38.0
-        center, away = self._center, 0.9 + 0.95 * self._extent
-        if shot.following:
-            places = [run.tracks[n].torso[index, :2] for n in PLAYERS]
-            center = 0.5 * (places[0] + places[1])
-            away = 1.1 + float(np.hypot(*(places[1] - places[0])))
-        camera.lookat[:] = [*center, 0.2]
-        camera.distance = away
-        if not shot.layers:
-            return self._screen.draw(self._stage.data, camera)
-        add = partial(decorate, run=run, index=index, trail=TRAIL)
-        return self._screen.draw(self._stage.data, camera, add)
+        view = self._man.view(index)
+
+        def add(scene: mujoco.MjvScene) -> None:
+            light_up(scene, view.target)
+            if shot.layers:
+                decorate(scene, run=run, index=index, trail=TRAIL)
+
+        drawn = self._screen.draw(self._stage.data, view.camera(), add)
+        if shot.words:
+            drawn = caption(
+                drawn,
+                run,
+                index,
+                view=view,
+                fovy=self._fovy,
+                pace=shot.pace(time, self._closest),
+            )
+        return title_of(drawn, shot.title)
 
     def close(self) -> None:
         """Let go of the graphics."""
         self._screen.close()
+
+
+def _dim(model: mujoco.MjModel) -> None:
+    """Let light fall so that a pale floor is not white, seen from above."""
+    model.vis.headlight.ambient[:] = 0.3
+    model.vis.headlight.diffuse[:] = 0.2
+    model.vis.headlight.specular[:] = 0.0
+    model.light_diffuse[:] = 0.5
+    model.light_specular[:] = 0.1
+
+
+def closest_time(run: Run) -> float | None:
+    """When the first two of a run were closest, in [s]; None for one."""
+    if run.distance is None:
+        return None
+    return float(run.times[int(np.argmin(run.distance))])
+
+
+def instants_of(run: Run, shot: Shot) -> list[float]:
+    """Times of the pictures of a film of a run, in [s]."""
+    return shot.instants(float(run.times[-1]), closest_time(run))
 
 
 _cinemas: dict[tuple[Path, Shot, str], Cinema] = {}
@@ -138,7 +200,7 @@ def pictures(
             "films need EGL or OSMesa, and neither works here: install "
             "libegl1 or libosmesa6"
         )
-    times = shot.instants(float(load_run(folder).times[-1]))
+    times = instants_of(load_run(folder), shot)
     if not times:
         raise ConfigurationError(
             f"film must begin before the run's end, got {shot.begin:g} [s]"
@@ -146,7 +208,7 @@ def pictures(
     chunks = [times[i : i + CHUNK] for i in range(0, len(times), CHUNK)]
     draw = partial(_draw, folder, shot, backend)
     count = workers or os.cpu_count() or 1
-    with ProcessPoolExecutor(count, get_context("spawn")) as pool:
+    with worker_pool(count) as pool:
         # A few chunks ahead of what was taken, so that memory is bounded.
         ahead = [pool.submit(draw, c) for c in chunks[: 2 * count]]
         following = iter(chunks[2 * count :])
@@ -177,7 +239,7 @@ def write_video(
     """
     import av
 
-    number = len(shot.instants(float(load_run(folder).times[-1])))
+    number = len(instants_of(load_run(folder), shot))
     done = 0
     with writing(file) as draft:
         try:
@@ -212,7 +274,7 @@ def write_gif(
     """Write a short film as GIF; see :func:`write_video`."""
     from PIL import Image
 
-    number = len(shot.instants(float(load_run(folder).times[-1])))
+    number = len(instants_of(load_run(folder), shot))
     frames = []
     for picture in pictures(folder, shot):
         image = Image.fromarray(picture)

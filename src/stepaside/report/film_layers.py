@@ -4,18 +4,22 @@ import mujoco
 import numpy as np
 
 from ..games.run import Run
-from ..games.settings import PLAYERS
 from ..poses import Array
-from .style import COLOURS, EVADER, THEORY
+from .style import PUSHED, THEORY, colours_of
 
 THICK = 0.005  # of a line, in [m]
+POINTS = 80  # of a trace, at most about
+LIGHT_AWAY = 4.0  # of a light from what it shines on, in [m]
+PUSH_HEIGHT = 0.3  # of an arrow over the floor, in [m]
+PUSH_LENGTH = 0.25  # in [m] per [N s]
+PUSH_SHOWN = 1.0  # how long it is seen, in [s]
 PRINT = (0.045, 0.025)  # half sizes of a footprint, in [m]
 
 
 def decorate(
     scene: mujoco.MjvScene, *, run: Run, index: int, trail: float
 ) -> None:
-    """Add traces, footprints, line of sight, safety area and circle.
+    """Add traces, footprints, pushes, line of sight, areas and circle.
 
     Args:
         scene: Scene to add to.
@@ -25,26 +29,55 @@ def decorate(
     """
     now = float(run.times[index])
     first = int(np.searchsorted(run.times, now - trail))
-    every = max(1, (index - first) // 120)
-    for name in PLAYERS:
-        com = run.tracks[name].com[first : index + 1 : every, :2]
-        _lines(scene, com, 0.004, COLOURS[name])
-        landings = run.tracks[name].landings
+    every = max(1, (index - first) // POINTS)
+    for name, colour in colours_of(run.players).items():
+        track = run.tracks[name]
+        com = track.com[first : index + 1 : every, :2]
+        _lines(scene, com, 0.004, colour)
+        _pushes(scene, track.pushes, now)
+        landings = track.landings
         if landings is None:
             continue
         shown = landings[
             (landings[:, 0] <= now + 0.5) & (landings[:, 0] > now - trail)
         ]
         for _, _, x, y, heading in shown.tolist():
-            _print(scene, x, y, heading, COLOURS[name])
-    places = [run.tracks[n].torso[index, :2] for n in PLAYERS]
-    sight = np.array([[*places[0], 0.25], [*places[1], 0.25]])
-    _line(scene, sight[0], sight[1], 0.5 * THICK, THEORY)
-    radius = run.settings.strategy.safety_radius
-    _lines(scene, _ring(places[1], radius), 0.003, EVADER)
+            _print(scene, x, y, heading, colour)
+    if run.pair is not None:
+        one, other = (
+            np.array([*track.torso[index, :2], 0.25]) for track in run.pair
+        )
+        _line(scene, one, other, 0.5 * THICK, THEORY)
+    if run.safety is not None:
+        who, radius = run.safety
+        place = run.tracks[who].torso[index, :2]
+        colour = colours_of(run.players)[who]
+        _lines(scene, _ring(place, radius), 0.003, colour)
     if run.circle is not None:
         x, y, size = run.circle
         _lines(scene, _ring(np.array([x, y]), size), 0.002, THEORY)
+
+
+def light_up(scene: mujoco.MjvScene, target: Array) -> None:
+    """Let the light that casts shadows shine on what is looked at.
+
+    Args:
+        scene: Whose lights lie where the model has them.
+        target: Middle of what has shadows, in [m]. Shape (3,).
+    """
+    for light in scene.lights[: scene.nlight]:
+        if light.castshadow:
+            light.pos[:] = target - LIGHT_AWAY * np.asarray(light.dir)
+
+
+def _pushes(scene: mujoco.MjvScene, pushes: Array | None, now: float) -> None:
+    """Arrows of the pushes of the last second."""
+    for time, _, x, y, *impulse in () if pushes is None else pushes.tolist():
+        if 0.0 <= now - time < PUSH_SHOWN:
+            way = PUSH_LENGTH * np.array(impulse)
+            end = np.array([x, y, PUSH_HEIGHT])
+            start = end - [*way, 0.0]
+            _arrow(scene, start, end, 3.0 * THICK, PUSHED)
 
 
 def _ring(center: Array, radius: float) -> Array:
@@ -66,10 +99,34 @@ def _lines(
 def _line(
     scene: mujoco.MjvScene, a: Array, b: Array, width: float, colour: str
 ) -> None:
+    """Add a square bar, of far fewer corners than a round one."""
+    away = b - a
+    long = float(np.linalg.norm(away))
+    if scene.ngeom >= scene.maxgeom or long < 1e-9:
+        return
+    ahead = away / long
+    # Flat on the floor, whichever way it lies there.
+    over = np.array([0.0, 0.0, 1.0]) if abs(ahead[2]) < 0.9 else np.eye(3)[0]
+    aside = np.cross(over, ahead)
+    aside /= np.linalg.norm(aside)
+    turn = np.column_stack([aside, np.cross(ahead, aside), ahead])
+    mujoco.mjv_initGeom(
+        scene.geoms[scene.ngeom],
+        mujoco.mjtGeom.mjGEOM_BOX,
+        np.array([width, 0.3 * width, 0.5 * long]),
+        0.5 * (a + b),
+        turn.ravel(),
+        _rgba(colour),
+    )
+    scene.ngeom += 1
+
+
+def _arrow(
+    scene: mujoco.MjvScene, a: Array, b: Array, width: float, colour: str
+) -> None:
     if scene.ngeom >= scene.maxgeom:
         return
-    geom = scene.geoms[scene.ngeom]
-    kind = mujoco.mjtGeom.mjGEOM_CAPSULE
+    geom, kind = scene.geoms[scene.ngeom], mujoco.mjtGeom.mjGEOM_ARROW
     mujoco.mjv_initGeom(
         geom, kind, np.zeros(3), np.zeros(3), np.eye(3).ravel(), _rgba(colour)
     )

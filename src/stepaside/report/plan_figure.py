@@ -5,8 +5,9 @@ from pathlib import Path
 import numpy as np
 
 from ..planning import ManeuverPlan
+from .sizes import sheet
 from .soles import draw_soles
-from .style import COLOURS, THEORY, plt, save
+from .style import COLOURS, MEAN, THEORY, new_figure, save
 
 
 def draw_plan(plan: ManeuverPlan, role: str, path: Path) -> None:
@@ -20,9 +21,14 @@ def draw_plan(plan: ManeuverPlan, role: str, path: Path) -> None:
     colour = COLOURS[role]
     gait = plan.schedule.settings
     samples = plan.sample(np.arange(0.0, plan.schedule.duration, 0.01))
-    figure = plt.figure(figsize=(9.5, 4.8))
-    grid = figure.add_gridspec(2, 2, width_ratios=[1.25, 1.0])
-    above = figure.add_subplot(grid[:, 0])
+    if sheet().narrow:
+        figure = new_figure(4.2, 6.6)
+        above, *over_time = figure.subplots(3, 1, height_ratios=[2, 1, 1])
+    else:
+        figure = new_figure(9.5, 4.8)
+        grid = figure.add_gridspec(2, 2, width_ratios=[1.25, 1.0])
+        above = figure.add_subplot(grid[:, 0])
+        over_time = [figure.add_subplot(grid[i, 1]) for i in range(2)]
     side = plan.first_foot.value
     rows = [
         (0.0, side if i % 2 == 0 else -side, *pose)
@@ -35,12 +41,16 @@ def draw_plan(plan: ManeuverPlan, role: str, path: Path) -> None:
     above.set(
         xlabel="x in the support foot frame [m]",
         ylabel="y [m]",
-        aspect="equal",
-        title=f"{role}: desired heading {np.degrees(plan.bearing):.1f}°",
     )
-    above.legend(loc="best")
-    for index, name in enumerate(("x", "y")):
-        axes = figure.add_subplot(grid[index, 1])
+    above.set_aspect("equal", adjustable="datalim")
+    # What is drawn is named above the axes, where nothing is drawn.
+    above.set_title(
+        f"{role}: desired heading {np.degrees(plan.bearing):.1f}°", pad=18
+    )
+    above.legend(loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=2)
+    for index, (axes, name) in enumerate(
+        zip(over_time, ("x", "y"), strict=True)
+    ):
         axes.plot(
             samples.times,
             samples.zmp[:, index],
@@ -51,7 +61,7 @@ def draw_plan(plan: ManeuverPlan, role: str, path: Path) -> None:
         axes.plot(
             samples.times,
             samples.dcm[:, index],
-            color="#8a5fbf",
+            color=MEAN,
             lw=0.9,
             ls="--",
             label="DCM",
@@ -66,5 +76,7 @@ def draw_plan(plan: ManeuverPlan, role: str, path: Path) -> None:
         axes.set_ylabel(f"{name} [m]")
         axes.set_xlabel("time [s]" if index else "")
         if index == 0:
-            axes.legend(ncols=3, loc="best")
+            axes.legend(
+                ncols=3, loc="lower center", bbox_to_anchor=(0.5, 0.985)
+            )
     save(figure, path)

@@ -5,67 +5,34 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-import mujoco
 import numpy as np
 
-from ..games.duel import walkers_of
 from ..games.run import Run
-from ..games.settings import PLAYERS
-from ..games.track import Track
 from ..outputs import writing
 from ..poses import Array
 from ..robots.description import load_robot
+from .averages import whole_cycles
 from .inert import fill_page, visible
+from .library import three
+from .palette import PALETTES, colours_in
+from .parts import parts_of
 from .stage import Stage
-from .style import COLOURS
 
 RATE = 20.0  # frames a second
-UNIT = 2e-4  # of a stored position, in [m]
-VISIBLE = 2  # last geom group that is seen
+SCRIPTS = ("scene.js", "plots.js", "page.js")
+HEAD = 0.12  # of a robot's label over its highest part, in [m]
 
 
-def shapes_of(model: mujoco.MjModel) -> list[dict[str, Any]]:
-    """Visible geoms as thick lines: body, ends, radius and colour."""
-    shapes = []
-    types = mujoco.mjtGeom
-    for geom in range(model.ngeom):
-        body = int(model.geom_bodyid[geom])
-        if body == 0 or model.geom_group[geom] > VISIBLE:
-            continue
-        size = model.geom_size[geom]
-        frame = np.zeros(9)
-        mujoco.mju_quat2Mat(frame, model.geom_quat[geom])
-        axes = frame.reshape(3, 3)
-        # As int: an enumeration does not equal a number of numpy.
-        kind = int(model.geom_type[geom])
-        if kind in (types.mjGEOM_CAPSULE, types.mjGEOM_CYLINDER):
-            axis, half, radius = axes[:, 2], size[1], size[0]
-        elif kind == types.mjGEOM_SPHERE:
-            axis, half, radius = axes[:, 2], 0.0, size[0]
-        else:
-            longest = int(np.argmax(size))
-            others = np.delete(size, longest)
-            radius = float(np.sqrt(others[0] * others[1]))
-            axis = axes[:, longest]
-            half = max(0.0, float(size[longest]) - radius)
-        material = model.geom_matid[geom]
-        rgba = (
-            model.mat_rgba[material]
-            if material >= 0
-            else model.geom_rgba[geom]
-        )
-        red, green, blue = (rgba[:3] * 255).astype(int).tolist()
-        center = model.geom_pos[geom]
-        shapes.append(
-            {
-                "body": body,
-                "a": np.round(center - half * axis, 4).tolist(),
-                "b": np.round(center + half * axis, 4).tolist(),
-                "r": round(float(radius), 4),
-                "colour": f"#{red:02x}{green:02x}{blue:02x}",
-            }
-        )
-    return shapes
+def template() -> str:
+    """The page without a run: markup, three.js and the page's own scripts."""
+    folder = files(__package__).joinpath("page")
+    text, *scripts = (
+        folder.joinpath(name).read_text(encoding="utf-8")
+        for name in ("page.html", *SCRIPTS)
+    )
+    text = text.replace("@@THREE@@", three())
+    # The last one holds the page together, and says how strict all are.
+    return text.replace("@@SCRIPT@@", '"use strict";\n' + "".join(scripts))
 
 
 def write_page(run: Run, file: Path) -> None:
@@ -76,69 +43,120 @@ def write_page(run: Run, file: Path) -> None:
         file: Page to write; it appears when it is complete.
 
     Raises:
+        ConfigurationError: If the library that draws is not there.
         OutputError: If it cannot be written.
     """
-    template = files(__package__).joinpath("replay_page.html")
-    text = template.read_text(encoding="utf-8")
-    text = fill_page(text, {"NAME": run.name}, _content(run))
+    text = fill_page(template(), {"NAME": run.name}, _content(run))
     with writing(file) as draft:
         draft.write_text(text, encoding="utf-8", newline="\n")
 
 
 def _content(run: Run) -> dict[str, Any]:
+    """What the page's scripts are given."""
     stage = Stage(run)
+    parts = parts_of(stage.model)
+    # Only what moves and is seen is told over time.
+    bodies = sorted({part.body for part in parts} - {0})
     chosen = _chosen(run.times)
-    poses = np.empty((len(chosen), stage.model.nbody, 7))
+    places = np.empty((len(chosen), len(bodies), 3), "<f4")
+    turns = np.empty((len(chosen), len(bodies), 4), "<i2")
     for row, index in enumerate(chosen):
         stage.put(int(index))
-        poses[row, :, :3] = stage.data.xpos / UNIT
-        poses[row, :, 3:] = stage.data.xquat * 32767
-    stored = np.clip(np.rint(poses), -32767, 32767).astype("<i2")
-    torso = load_robot(run.settings.robot).torso
+        places[row] = stage.data.xpos[bodies]
+        turns[row] = np.rint(32767.0 * stage.data.xquat[bodies])
     words = [visible(run.words(int(index))) for index in chosen]
     known = list(dict.fromkeys(words))
-    both = np.concatenate([t.torso[:, :2] for t in run.tracks.values()])
-    low, high = both.min(axis=0), both.max(axis=0)
+    low, high = _extent(run)
+    sole = run.settings.gait.sole
     return {
         "times": np.round(run.times[chosen], 3).tolist(),
-        "poses": b64encode(stored.tobytes()).decode("ascii"),
-        "unit": UNIT,
-        "bodies": stage.model.nbody,
-        "shapes": shapes_of(stage.model),
-        "robots": [
-            {
-                "name": name,
-                "colour": COLOURS[name],
-                "torso": stage.model.body(
-                    f"{name}/{torso}"
-                    if name in walkers_of(run.settings)
-                    else f"{name}/trunk"
-                ).id,
-                "trace": np.round(
-                    run.tracks[name].com[chosen, :2], 3
-                ).tolist(),
-                "landings": _landings(run.tracks[name]),
-            }
-            for name in PLAYERS
-        ],
-        "distance": np.round(run.distance[chosen], 3).tolist(),
-        "angle": np.round(run.orientation[chosen], 1).tolist(),
+        "places": b64encode(places.tobytes()).decode("ascii"),
+        "turns": b64encode(turns.tobytes()).decode("ascii"),
+        "bodies": bodies,
+        "parts": [part.to_json() for part in parts],
+        "palettes": {n: p._asdict() for n, p in PALETTES.items()},
+        "sole": [sole.back, sole.front, -sole.inner, sole.outer],
+        "robots": [_robot(run, stage, name, chosen) for name in run.players],
+        "distance": _series(run.distance, chosen, 3),
+        "angle": _series(run.orientation, chosen, 1),
+        "means": {
+            "distance": _means(run, run.distance, chosen, 3),
+            "angle": _means(run, run.orientation, chosen, 1),
+        },
         "theory": None if run.theory is None else list(run.theory),
         "circle": run.circle and [round(v, 3) for v in run.circle],
-        "safety": run.settings.strategy.safety_radius,
+        "safety": run.safety and run.safety.radius,
+        "guarded": run.safety and run.players.index(run.safety.player),
         "words": known,
         "says": [known.index(text) for text in words],
         "middle": np.round(0.5 * (low + high), 3).tolist(),
-        "away": 1.2 + 0.9 * float(np.hypot(*(high - low))),
+        "away": 1.4 + 1.05 * float(np.hypot(*(high - low))),
     }
 
 
-def _landings(track: Track) -> list[list[float]]:
-    """Footsteps of a player; none of one who plans none."""
-    if track.landings is None:
+def _means(
+    run: Run, values: Array | None, chosen: np.ndarray, digits: int
+) -> list[float | None] | None:
+    """Means of whole gait cycles; None where there is none."""
+    if values is None:
+        return None
+    period = 2.0 * run.settings.gait.step_duration
+    means = whole_cycles(values, run.times, period)[chosen].tolist()
+    return [round(v, digits) if np.isfinite(v) else None for v in means]
+
+
+def _robot(
+    run: Run, stage: Stage, name: str, chosen: np.ndarray
+) -> dict[str, Any]:
+    """What the page shows of one player."""
+    torso = "trunk"
+    if name in run.robots:
+        torso = load_robot(run.settings.robot_of(name).robot).torso
+    track, body = run.tracks[name], stage.model.body(f"{name}/{torso}").id
+    stage.put(0)
+    own = [
+        i
+        for i in range(stage.model.ngeom)
+        if stage.model.body(stage.model.geom_bodyid[i]).name.startswith(
+            f"{name}/"
+        )
+    ]
+    over = stage.data.xpos[stage.model.geom_bodyid[own], 2].max()
+    return {
+        "name": name,
+        "torso": body,
+        "head": round(float(over - stage.data.xpos[body, 2]) + HEAD, 3),
+        "trace": np.round(track.com[chosen, :2], 3).tolist(),
+        "landings": _rows(track.landings),
+        "pushes": _rows(track.pushes),
+        "colours": {
+            light: colours_in(light, run.players)[name] for light in PALETTES
+        },
+    }
+
+
+def _extent(run: Run) -> tuple[Array, Array]:
+    """Corners of where the players went, in [m]. Shape (2,) each."""
+    both = np.concatenate([t.torso[:, :2] for t in run.tracks.values()])
+    return both.min(axis=0), both.max(axis=0)
+
+
+def _rows(table: Array | None) -> list[list[float]]:
+    """Footsteps or pushes of a player; none of one who has none."""
+    if table is None:
         return []
-    rows: list[list[float]] = np.round(track.landings, 3).tolist()
+    rows: list[list[float]] = np.round(table, 3).tolist()
     return rows
+
+
+def _series(
+    values: Array | None, chosen: np.ndarray, digits: int
+) -> list[float] | None:
+    """Values at the samples that are shown; None where there are none."""
+    if values is None:
+        return None
+    shown: list[float] = np.round(values[chosen], digits).tolist()
+    return shown
 
 
 def _chosen(times: Array) -> np.ndarray:

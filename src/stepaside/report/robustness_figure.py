@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from .style import THEORY, plt, save
+from .sizes import sheet
+from .style import THEORY, new_figure, save
 
 METHOD_STYLES = {
     "open-loop": ("#8a8a8a", "o", ":"),
@@ -31,15 +32,10 @@ def draw_survival(
         file: Picture to write.
     """
     panels = list(dict.fromkeys((r["kind"], r["direction"]) for r in rows))
-    columns = min(4, len(panels))
+    columns = min(2 if sheet().narrow else 4, len(panels))
     lines = -(-len(panels) // columns)
-    figure, axes = plt.subplots(
-        lines,
-        columns,
-        figsize=(3.1 * columns, 2.6 * lines),
-        squeeze=False,
-        sharey=True,
-    )
+    figure = new_figure(3.1 * columns, 2.6 * lines)
+    axes = figure.subplots(lines, columns, squeeze=False, sharey=True)
     for axis in axes.flat[len(panels) :]:
         axis.set_visible(False)
     for axis, (kind, direction) in zip(axes.flat, panels, strict=False):
@@ -76,7 +72,11 @@ def draw_survival(
         axis.set_ylim(-4, 104)
     for row in axes:
         row[0].set_ylabel("survived [%]")
-    axes.flat[0].legend()
+    figure.legend(
+        *axes.flat[0].get_legend_handles_labels(),
+        loc="outside lower center",
+        ncols=2 if sheet().narrow else 4,
+    )
     save(figure, file)
 
 
@@ -88,14 +88,13 @@ def draw_limits(rows: Sequence[dict[str, Any]], file: Path) -> None:
         file: Picture to write.
     """
     directions = list(dict.fromkeys(r["direction"] for r in rows))
-    figure, axes = plt.subplots(
-        1,
-        len(directions),
-        figsize=(3.1 * len(directions), 2.8),
-        squeeze=False,
-        sharey=True,
-    )
-    for axis, direction in zip(axes.flat, directions, strict=True):
+    columns = min(2 if sheet().narrow else 8, len(directions))
+    lines = -(-len(directions) // columns)
+    figure = new_figure(3.1 * columns, 0.4 + 2.6 * lines)
+    axes = figure.subplots(lines, columns, squeeze=False, sharey=True)
+    for axis in axes.flat[len(directions) :]:
+        axis.set_visible(False)
+    for axis, direction in zip(axes.flat, directions, strict=False):
         here = [r for r in rows if r["direction"] == direction]
         for method in dict.fromkeys(r["method"] for r in here):
             colour, marker, line = METHOD_STYLES[method]
@@ -125,11 +124,11 @@ def draw_limits(rows: Sequence[dict[str, Any]], file: Path) -> None:
         axis.set_xlabel("phase of the gait cycle [1]")
     # Once all is drawn: a limit that is set ends the scaling of all axes.
     axes.flat[0].set_ylim(bottom=0.0)
-    axes.flat[0].set_ylabel("largest push survived [N s]")
+    for row in axes:
+        row[0].set_ylabel("largest push survived [N s]")
     figure.legend(
         *axes.flat[0].get_legend_handles_labels(),
         loc="outside lower center",
-        ncols=6,
-        fontsize=7,
+        ncols=2 if sheet().narrow else 6,
     )
     save(figure, file)

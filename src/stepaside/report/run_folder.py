@@ -1,4 +1,4 @@
-"""Run folders: a duel on disk, whole or not at all."""
+"""Run folders: a game on disk, whole or not at all."""
 
 import errno
 import os
@@ -9,10 +9,11 @@ from pathlib import Path
 from ..errors import OutputError
 from ..games.folder import write_record
 from ..games.run import Run
-from ..outputs import check_folder, reason_of
+from ..games.sealing import seal
+from ..outputs import check_folder, draft_prefix, reason_of, sweep
 from .duel_figure import draw_duel
+from .walk_figure import draw_walk
 
-FIGURE = "duel.png"
 SIGHT = "sight.png"
 
 
@@ -23,6 +24,7 @@ def check_output(folder: Path) -> None:
         ConfigurationError: If it holds something already, or cannot be.
     """
     check_folder(folder, new=True)
+    check_folder(folder.absolute().parent, new=False)  # of the draft
 
 
 def free_folder(parent: Path, name: str) -> Path:
@@ -34,34 +36,57 @@ def free_folder(parent: Path, name: str) -> Path:
     return folder
 
 
+def figure_of(run: Run) -> str:
+    """Name of the figure in a run's folder: ``duel.png``, ``walk.png``."""
+    return f"{run.game}.png"
+
+
+def draw_run(run: Run, file: Path) -> None:
+    """Write the figure of a game, whatever was played.
+
+    Args:
+        run: The game.
+        file: File, of a format that its suffix tells.
+    """
+    draw = draw_walk if run.pair is None else draw_duel
+    draw(run, file)
+
+
 def write_run(folder: Path, run: Run) -> Path:
-    """Write a duel: configuration, summary, trajectories and figures.
+    """Write a game: configuration, summary, trajectories and figures.
 
     The folder appears when it is complete. If somebody else was first, it
     lies beside theirs, as ``NAME-2``.
 
     Args:
         folder: Where it shall lie.
-        run: The duel.
+        run: The game.
 
     Returns:
-        Path of the figure, in the folder where the duel is.
+        Path of the figure, in the folder where the game is.
 
     Raises:
         OutputError: If it cannot be written; nothing of it is left then.
     """
     draft = None
+    if folder.name in ("", ".."):
+        folder = folder.resolve()  # ``.`` has neither name nor parent
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
-        draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=folder.parent))
+        sweep(folder.parent)
+        draft = Path(
+            tempfile.mkdtemp(prefix=draft_prefix(), dir=folder.parent)
+        )
         write_record(draft, run)
-        draw_duel(run, draft / FIGURE)
+        figure = figure_of(run)
+        draw_run(run, draft / figure)
         if run.stills:
             from .sight_figure import draw_sight
 
             draw_sight(run, draft / SIGHT)
+        seal(draft)
         draft.chmod(0o755)
-        return _move(draft, folder) / FIGURE
+        return _move(draft, folder) / figure
     except OutputError:
         raise
     except OSError as error:
@@ -86,11 +111,11 @@ def _move(draft: Path, folder: Path) -> Path:
 
 
 def keep_run(folder: Path, run: Run) -> tuple[Path | None, OutputError | None]:
-    """Write a duel, or keep it elsewhere if it cannot be written there.
+    """Write a game, or keep it elsewhere if it cannot be written there.
 
     Args:
         folder: Where it shall lie.
-        run: The duel.
+        run: The game.
 
     Returns:
         Folder in which it lies; None if it lies nowhere. And why it does not

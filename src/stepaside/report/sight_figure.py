@@ -7,21 +7,18 @@ from typing import Any
 import cv2
 import numpy as np
 
+from ..games.duel_run import DuelRun
 from ..games.judge import Still
 from ..games.run import Run
 from ..games.track import Track
 from ..poses import Array, wrap_angles
 from ..sensing.images import ColourImage, DepthImage, Pixels
+from .sizes import sheet
 from .soles import draw_heading
-from .style import COLOURS, THEORY, plt, save
+from .style import THEORY, colours_of, new_figure, save
 
 FOUND = (30, 170, 60)  # red, green and blue of what was detected
 TRUE = (235, 0, 190)  # of where the other truly is
-ROWS = (
-    ("pursuer", "colour", "pursuer sees"),
-    ("evader", "colour", "evader sees"),
-    ("evader", "depth", "its depth"),
-)
 SCALE = 3  # by which depth images are enlarged
 
 
@@ -32,11 +29,11 @@ def draw_sight(run: Run, path: Path) -> None:
         run: The duel.
         path: File, of a format that its suffix tells.
     """
-    rows = [row for row in ROWS if row[0] in run.stills]
+    rows = _rows(run)
     count = max(1, *(len(run.stills[name][kind]) for name, kind, _ in rows))
     ratios = [1.0] * len(rows) + [1.1, 0.8, 0.8]
     height = 1.86 * sum(ratios)
-    figure = plt.figure(figsize=(2.45 * count, height))
+    figure = new_figure(2.45 * count, height)
     grid = figure.add_gridspec(len(ratios), count, height_ratios=ratios)
     for row, (name, kind, label) in enumerate(rows):
         for column, still in enumerate(run.stills[name][kind]):
@@ -48,16 +45,28 @@ def draw_sight(run: Run, path: Path) -> None:
                 axes.set_title(f"{still.report.image.time:.1f} s")
             if column == 0:
                 axes.set_ylabel(label)
-    for column, still in enumerate(run.stills[rows[0][0]]["colour"]):
+    first, kind, _ = rows[0]
+    for column, still in enumerate(run.stills[first][kind]):
         axes = figure.add_subplot(grid[len(rows), column])
         _draw_top(axes, run, still.report.image.time)
     _draw_errors(figure, grid, run)
     figure.suptitle(
         f"What the robots saw, seed {run.settings.seed}: detections in "
         "green, the true direction as a tick",
-        fontsize=11,
     )
     save(figure, path)
+
+
+def _rows(run: Run) -> list[tuple[str, str, str]]:
+    """Player, camera and label of each row of pictures."""
+    rows = []
+    for name, stills in run.stills.items():
+        if stills["colour"] or not stills["depth"]:
+            rows.append((name, "colour", f"{name} sees"))
+        if stills["depth"]:
+            said = "its" if stills["colour"] else f"{name}'s"
+            rows.append((name, "depth", f"{said} depth"))
+    return rows
 
 
 def picture(still: Still) -> Pixels:
@@ -123,18 +132,18 @@ def _draw_top(axes: Any, run: Run, time: float) -> None:
     """Top view at a time, with the way so far."""
     times = run.times
     index = min(int(np.searchsorted(times, time)), len(times) - 1)
-    for name, colour in COLOURS.items():
+    for name, colour in colours_of(run.players).items():
         track = run.tracks[name]
         way = track.torso[: index + 1]
         axes.plot(way[:, 0], way[:, 1], color=colour, lw=1.0)
         draw_heading(axes, way[-1], colour, 0.28)
         _draw_belief(axes, track, colour, time, way[-1])
     every = np.concatenate([t.torso[:, :2] for t in run.tracks.values()])
-    for thing in run.settings.room.things:
+    for thing in run.things:
         axes.plot(thing.x, thing.y, "s", color="#888888", ms=5)
     low, high = every.min(axis=0) - 0.3, every.max(axis=0) + 0.3
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
-    axes.tick_params(labelsize=6)
+    axes.tick_params(labelsize=sheet().font - 2.0)
 
 
 def _draw_belief(
@@ -163,7 +172,7 @@ def _draw_errors(figure: Any, grid: Any, run: Run) -> None:
     """Bearing and distance against the truth, over time."""
     upper = figure.add_subplot(grid[-2, :])
     lower = figure.add_subplot(grid[-1, :], sharex=upper)
-    for name, colour in COLOURS.items():
+    for name, colour in colours_of(run.players).items():
         rows = run.tracks[name].sight
         if rows is None:
             continue
@@ -177,7 +186,8 @@ def _draw_errors(figure: Any, grid: Any, run: Run) -> None:
     ):
         axes.axhline(0.0, color=THEORY, lw=0.6)
         axes.set(ylabel=label, ylim=(-limit, limit))
-    if run.summary.triggered_at_s is not None:
-        upper.axvline(run.summary.triggered_at_s, color=THEORY, ls=":", lw=0.8)
-    upper.legend(loc="upper right", ncols=2, fontsize=8)
+    since = run.summary.triggered_at_s if isinstance(run, DuelRun) else None
+    if since is not None:
+        upper.axvline(since, color=THEORY, ls=":", lw=0.8)
+    upper.legend(loc="lower right", bbox_to_anchor=(1.0, 0.97), ncols=2)
     lower.set_xlabel("time [s]")

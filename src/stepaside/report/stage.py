@@ -4,12 +4,10 @@ import mujoco
 import numpy as np
 
 from ..errors import ConfigurationError
-from ..games.duel import furnisher_of, walkers_of
 from ..games.run import Run
-from ..games.settings import PURSUER
 from ..poses import Pose
 from ..robots.description import load_robot
-from ..world.person import parts_of, pose_figure
+from ..world.person import add_person, parts_of, pose_figure
 from ..world.world import build_model
 
 
@@ -27,37 +25,44 @@ class Stage:
         Raises:
             ConfigurationError: If it is a run of other robots.
         """
-        description = load_robot(run.settings.robot)
-        walkers = walkers_of(run.settings)
+        robots = run.robots
+        names = {name: run.settings.robot_of(name).robot for name in robots}
+        persons = [name for name in run.players if name not in robots]
+
+        def furnish(spec: mujoco.MjSpec) -> None:
+            for name in persons:
+                add_person(spec, name)
+
         self.model = build_model(
-            dict.fromkeys(walkers, description),
+            {name: load_robot(robot) for name, robot in names.items()},
             run.settings.physics,
             seed=run.settings.seed,
-            furnish=furnisher_of(run.settings),
+            furnish=furnish,
         )
         self.data = mujoco.MjData(self.model)
-        postures = [run.tracks[name].qpos for name in walkers]
+        postures = [run.tracks[name].qpos for name in robots]
         known = [qpos for qpos in postures if qpos is not None]
         wide = sum(qpos.shape[1] for qpos in known)
-        if len(known) < len(walkers) or wide != self.model.nq:
+        if len(known) < len(robots) or wide != self.model.nq:
             raise ConfigurationError(
                 f"qpos of run {run.name} must have {self.model.nq} columns "
-                f"for {', '.join(walkers)}, as {run.settings.robot!r} has, "
+                f"for {', '.join(robots)}, as "
+                f"{' and '.join(dict.fromkeys(names.values()))} have, "
                 f"got {wide}"
             )
-        self._postures = np.concatenate(known, axis=1).astype(np.float64)
-        self._person: dict[str, int] | None = None
-        if PURSUER not in walkers:
-            self._person = parts_of(self.model, PURSUER)
-        self._walked = run.pursuer.torso
+        none = np.zeros((len(run.times), 0))
+        self._postures = np.concatenate([none, *known], axis=1)
+        self._persons = {name: parts_of(self.model, name) for name in persons}
+        self._tracks = run.tracks
 
     def put(self, index: int) -> None:
         """Put the bodies where they were at a sample."""
         self.data.qpos[:] = self._postures[index]
-        if self._person is not None:
-            frame = Pose(*self._walked[index].tolist())
-            steps = np.diff(self._walked[: index + 1, :2], axis=0)
+        for name, parts in self._persons.items():
+            walked = self._tracks[name].torso
+            frame = Pose(*walked[index].tolist())
+            steps = np.diff(walked[: index + 1, :2], axis=0)
             way = float(np.hypot(steps[:, 0], steps[:, 1]).sum())
-            pose_figure(self.data, self._person, frame, way)
+            pose_figure(self.data, parts, frame, way)
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_camlight(self.model, self.data)

@@ -6,14 +6,14 @@ import numpy as np
 
 from ..poses import Array
 from ..unicycle.circling import circle_of
-from ..unicycle.simulate import Run
-from .style import EVADER, PURSUER, plt, save
+from ..unicycle.simulate import PlayedGame
+from .style import EVADER, PURSUER, new_figure, save
 
 TICK = 0.5  # [m], as in Fig. 2
 _FRACTIONS = (0.0, 0.12, 0.4, 1.0)  # of the time shown
 
 
-def time_shown(run: Run) -> float:
+def time_shown(run: PlayedGame) -> float:
     """Time of the last snapshot of a game, in [s].
 
     Five time constants of the circle and one turn, at most the whole game.
@@ -25,7 +25,9 @@ def time_shown(run: Run) -> float:
     return min(run.end_time, 5.0 * circle.time_constant_s + turn)
 
 
-def draw_game(run: Run, path: str, *, shown: float | None = None) -> None:
+def draw_game(
+    run: PlayedGame, path: str, *, shown: float | None = None
+) -> None:
     """Write four snapshots of a game, ticks 0.5 m apart.
 
     Args:
@@ -41,7 +43,8 @@ def draw_game(run: Run, path: str, *, shown: float | None = None) -> None:
     both = np.vstack([pursuer[:, :2], evader[:, :2]])
     middle = 0.5 * (both.min(axis=0) + both.max(axis=0))
     half = 0.55 * float(np.ptp(both, axis=0).max()) + TICK
-    figure, axes = plt.subplots(2, 2, figsize=(7.4, 7.6), sharex=True)
+    figure = new_figure(7.4, 7.6)
+    axes = figure.subplots(2, 2, sharex=True)
     for ax, fraction in zip(axes.flat, _FRACTIONS, strict=True):
         end = max(1, round(fraction * len(times)))
         _draw_paths(ax, pursuer[:end], evader[:end], 0.06 * half)
@@ -59,7 +62,7 @@ def draw_game(run: Run, path: str, *, shown: float | None = None) -> None:
         ax.set_ylabel("y [m]")
     handles, labels = axes[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=2)
-    figure.suptitle("Pursuer and evader; ticks are 0.5 m apart", fontsize=10)
+    figure.suptitle("Pursuer and evader; ticks are 0.5 m apart")
     save(figure, path)
 
 

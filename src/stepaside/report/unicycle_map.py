@@ -7,7 +7,7 @@ from matplotlib.colors import ListedColormap
 
 from ..unicycle.circling import Circle
 from ..unicycle.maps import StartMap
-from .style import plt, save
+from .style import new_figure, save
 
 _QUANTITIES = (
     ("closest_distance", "closest approach [m]", "viridis"),
@@ -32,13 +32,9 @@ def draw_map(
     count = len(found.distances)
     picks = np.unique(np.linspace(0, count - 1, min(4, count)).astype(int))
     count = 3 if len(circles) > 1 else 2
-    figure, axes = plt.subplots(
-        count,
-        len(picks),
-        figsize=(2.7 * len(picks) + 1.2, 2.4 * count + 1.0),
-        sharex=True,
-        sharey=True,
-        squeeze=False,
+    figure = new_figure(2.7 * len(picks) + 1.2, 2.4 * count + 1.0)
+    axes = figure.subplots(
+        count, len(picks), sharex=True, sharey=True, squeeze=False
     )
     for row, quantity in zip(axes, _QUANTITIES, strict=False):
         _draw_quantity(figure, row, found, picks, quantity, body)

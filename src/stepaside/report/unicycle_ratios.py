@@ -6,7 +6,8 @@ import numpy as np
 
 from ..unicycle.laws import Game, TurningLaw
 from ..unicycle.ratios import RatioMap, map_ratios
-from .style import EVADER, plt, save
+from .sizes import sheet
+from .style import EVADER, new_figure, save
 
 _COUNT = 121
 _SPEEDS = (0.8, 4.0)  # pursuer's over evader's
@@ -31,9 +32,10 @@ def draw_ratios(game: Game, path: str, *, count: int = _COUNT) -> RatioMap:
     stacked = [m.reversed_stable for m in maps.values()]
     finite = np.isfinite(stacked)
     high = float(np.max(stacked, where=finite, initial=1e-9))
-    figure, axes = plt.subplots(
-        1, 2, figsize=(9.6, 4.9), sharex=True, sharey=True
-    )
+    narrow = sheet().narrow
+    figure = new_figure(4.8, 7.6) if narrow else new_figure(9.6, 4.9)
+    places = (2, 1) if narrow else (1, 2)
+    axes = figure.subplots(*places, sharex=True, sharey=True)
     for ax, (law, found) in zip(axes, maps.items(), strict=True):
         image = _draw(ax, found, high)
         ax.plot(
@@ -62,7 +64,10 @@ def draw_ratios(game: Game, path: str, *, count: int = _COUNT) -> RatioMap:
         handles, labels = ax.get_legend_handles_labels()
         named |= dict(zip(labels, handles, strict=True))
     figure.legend(
-        named.values(), named.keys(), loc="outside lower center", ncols=4
+        named.values(),
+        named.keys(),
+        loc="outside lower center",
+        ncols=2 if narrow else 4,
     )
     degrees = np.rad2deg(game.angle)
     figure.suptitle(

@@ -11,7 +11,8 @@ from ..unicycle.laws import Game, SideRule, TurningLaw
 from ..unicycle.measure import Measured, measure, settling_time
 from ..unicycle.relative import Start
 from ..unicycle.simulate import simulate
-from .style import EVADER, PURSUER, THEORY, plt, save
+from .sizes import sheet
+from .style import EVADER, PURSUER, THEORY, new_figure, save
 
 _STYLES = {
     TurningLaw.PROPORTIONAL: ("-", "o", EVADER),
@@ -62,9 +63,8 @@ def draw_sweep(game: Game, path: str, *, marks: int = 7) -> None:
         path: File, of a format that its suffix tells.
         marks: Simulated games along each line.
     """
-    figure, axes = plt.subplots(
-        2, 3, figsize=(10.0, 5.6), sharex="col", sharey="row"
-    )
+    figure = new_figure(10.0, 5.6)
+    axes = figure.subplots(2, 3, sharex="col", sharey="row")
     for column, sweep in zip(axes.T, _SWEEPS, strict=True):
         for law in TurningLaw:
             _draw_lines(column, game, sweep, law)
@@ -75,7 +75,11 @@ def draw_sweep(game: Game, path: str, *, marks: int = 7) -> None:
     unit = game.evader.speed / game.evader.gain
     for ax in axes[:, 0]:
         ax.set_ylim(0.0, 6.0 * unit)
-    axes[0, 2].legend(fontsize=8)
+    figure.legend(
+        *axes[0, 2].get_legend_handles_labels(),
+        loc="outside lower center",
+        ncols=2 if sheet().narrow else 4,
+    )
     figure.suptitle("Circle: equations (lines) and simulation (marks)")
     save(figure, path)
 

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from importlib.resources import files
+from os.path import normpath
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..errors import ModelError
+from .description_file import read_entries
+from .own import NO_OVERLAY, Overlay, Place, Sensors
 
 if TYPE_CHECKING:
     import mujoco
 
 FILE = "robot.toml"
+REMEDY = "`stepaside robot init` writes an overlay that mends a model"
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,12 +31,22 @@ class RobotDescription:
         torso: Body that carries the free joint.
         left_foot: Site at the sole under the left ankle: the foot frame.
         right_foot: Site at the sole under the right ankle.
-        accent: Material whose colour tells robots apart.
+        accent: Material whose colour tells robots apart; empty if there is
+            none, and the torso is coloured.
         legs: Leg joints.
         standing: Angles of a natural stance, by joint, in [rad].
         speed_limits: Greatest speed of each actuated joint, in [rad/s].
         working_limits: Narrower ranges that joint motion keeps to, in
             [rad], by joint; knees stay bent by them. Optional.
+        gait: How it walks, as the gait of a configuration is written;
+            what is left out is the paper's.
+        sole: Outline of its soles, likewise.
+        control: How it is controlled, likewise.
+        game: Distances of its games, and its unit of pushes; see
+            :class:`stepaside.games.robot_settings.GameOfRobot`.
+        sensors: Its sensors, by the names in the model.
+        place: The point that stands for it, and how far it reaches.
+        overlay: What is put on the model when it is read.
     """
 
     folder: Path
@@ -49,20 +62,52 @@ class RobotDescription:
     working_limits: dict[str, tuple[float, float]] = field(
         default_factory=dict
     )
+    gait: dict[str, Any] = field(default_factory=dict)
+    sole: dict[str, float] = field(default_factory=dict)
+    control: dict[str, Any] = field(default_factory=dict)
+    game: dict[str, float] = field(default_factory=dict)
+    sensors: Sensors = Sensors()
+    place: Place = Place()
+    overlay: Overlay = NO_OVERLAY
+
+    @property
+    def path(self) -> Path:
+        """File of the model."""
+        return self.path_of(self.model)
+
+    def path_of(self, name: str) -> Path:
+        """A path as the file of the description names it."""
+        return Path(normpath(self.folder / name))
 
     def mjcf(self) -> str:
-        """Text of the MuJoCo model."""
-        return (self.folder / self.model).read_text(encoding="utf-8")
+        """Text of the MuJoCo model, with what the overlay puts on it."""
+        if self.overlay is NO_OVERLAY:
+            return self.path.read_text(encoding="utf-8")
+        spec = self.spec()
+        spec.compile()
+        text: str = spec.to_xml()
+        return text
 
     def spec(self) -> mujoco.MjSpec:
-        """Editable MuJoCo model."""
+        """Editable MuJoCo model, with what the overlay puts on it.
+
+        Raises:
+            ModelError: If the file is no model, or lacks what the overlay
+                is put on.
+        """
         import mujoco
 
-        path = self.folder / self.model
         try:
-            return mujoco.MjSpec.from_file(str(path))
+            spec = mujoco.MjSpec.from_file(str(self.path))
         except ValueError as error:
-            raise ModelError(f"{path} is no MuJoCo model: {error}") from error
+            raise ModelError(
+                f"{self.path} is no MuJoCo model: {error}"
+            ) from error
+        if self.overlay is not NO_OVERLAY:
+            from .overlaying import put_overlay
+
+            put_overlay(spec, self)
+        return spec
 
     def compile(self) -> mujoco.MjModel:
         """Compile the model and check that it has what is described.
@@ -74,15 +119,40 @@ class RobotDescription:
         try:
             model = self.spec().compile()
         except ValueError as error:
-            path = self.folder / self.model
-            raise ModelError(f"{path} does not compile: {error}") from error
+            raise ModelError(
+                f"{self.path} does not compile: {error}"
+            ) from error
         self.check(
             {model.body(i).name for i in range(model.nbody)},
             {model.site(i).name for i in range(model.nsite)},
             {model.joint(i).name for i in range(model.njnt)},
-            {model.actuator(i).name for i in range(model.nu)},
+            self._motors(model),
         )
         return model
+
+    def _motors(self, model: mujoco.MjModel) -> set[str]:
+        """Joints that have an actuator, by name.
+
+        Raises:
+            ModelError: If one has several, or an actuator moves no joint.
+        """
+        import mujoco
+
+        motors: set[str] = set()
+        for i in range(model.nu):
+            if model.actuator_trntype[i] != mujoco.mjtTrn.mjTRN_JOINT:
+                raise ModelError(
+                    f"actuator {model.actuator(i).name!r} of {self.name} "
+                    f"must move a joint; {REMEDY}"
+                )
+            joint = model.joint(model.actuator_trnid[i, 0]).name
+            if joint in motors:
+                raise ModelError(
+                    f"joint {joint!r} of {self.name} must have one actuator, "
+                    f"got several; {REMEDY}"
+                )
+            motors.add(joint)
+        return motors
 
     def coupled_joints(self, model: mujoco.MjModel) -> dict[str, str]:
         """Joints that share a motor, as follower to leader.
@@ -158,6 +228,14 @@ def known_robots() -> list[str]:
     return sorted(p.name for p in root.iterdir() if (p / FILE).is_file())
 
 
+def _is_file(path: Path) -> bool:
+    """Whether a file is there; what can be no name of one is none."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
 def load_robot(robot: str | Path) -> RobotDescription:
     """Load a robot by name, or from a folder.
 
@@ -170,27 +248,11 @@ def load_robot(robot: str | Path) -> RobotDescription:
             ill-typed entries.
     """
     folder = Path(str(files(__package__))) / str(robot)
-    if not (folder / FILE).is_file():
+    if not _is_file(folder / FILE):
         folder = Path(robot)
-    if not (folder / FILE).is_file():
+    if not _is_file(folder / FILE):
         raise ModelError(
             f"robot must be one of {', '.join(known_robots())} or a folder "
             f"with a {FILE}, got {str(robot)!r}"
         )
-    try:
-        text = (folder / FILE).read_text(encoding="utf-8")
-        entries = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise ModelError(f"{folder / FILE}: {error}") from error
-    names = [f.name for f in fields(RobotDescription) if f.name != "folder"]
-    for key in entries:
-        if key not in names:
-            raise ModelError(
-                f"{folder / FILE}: unknown entry {key!r}; there are "
-                f"{', '.join(names)}"
-            )
-    for key in names:
-        if key not in entries and key != "working_limits":
-            raise ModelError(f"{folder / FILE}: entry {key!r} is missing")
-    entries["legs"] = tuple(entries["legs"])
-    return RobotDescription(folder=folder, **entries)
+    return RobotDescription(folder=folder, **read_entries(folder / FILE))

@@ -5,19 +5,15 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..errors import ModelError
 from ..poses import Array
-from .description import RobotDescription
-from .leg_solver import Function
+from .description import REMEDY, RobotDescription
 from .links import gather_moments, place_links
+from .machine import Function
 from .stored import load_tree
 from .tracing import Number, Trace
 from .tree import RobotTree
 
-FOOT_FORCES = tuple(
-    f"{side}_fsr_{place}"
-    for side in "lr"
-    for place in ("front_left", "front_right", "rear_left", "rear_right")
-)
 FEET = 27  # numbers of CoM and feet
 
 
@@ -104,11 +100,18 @@ class ForwardKinematics:
         Returns:
             Left front-left, front-right, rear-left, rear-right, then right.
             Shape (8, 2).
+
+        Raises:
+            ModelError: If the robot lacks one.
         """
-        feet = dict(zip("lr", self._feet, strict=True))
         corners = []
-        for name in FOOT_FORCES:
-            foot = feet[name[0]]
+        for i, name in enumerate(self.description.sensors.feet):
+            foot = self._feet[i // 4]
+            if name not in self.tree.sites:
+                raise ModelError(
+                    f"{self.description.name} needs a site {name!r} with a "
+                    f"touch sensor under a foot; {REMEDY}"
+                )
             off = np.subtract(self.tree.sites[name].place, foot.place)
             corners.append((np.array(foot.axes).T @ off)[:2])
         return np.array(corners)

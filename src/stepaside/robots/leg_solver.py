@@ -1,6 +1,5 @@
 """Moves of torso and legs towards what is asked, for one robot."""
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -10,10 +9,10 @@ from .description import RobotDescription
 from .leg_rows import trace_rows
 from .leg_step import trace_step
 from .legs import BASE, FIXED_ROWS, Legs
+from .machine import Function, preferred
 from .tree import RobotTree
 
 DAMPING = 1e-4  # squared, of the pseudo-inverse; rows in [m] and [rad]
-Function = Callable[..., tuple[float, ...]]
 
 
 class LegSolver(NamedTuple):
@@ -55,7 +54,8 @@ def solver_of(description: RobotDescription, tree: RobotTree) -> LegSolver:
     """Solver of a robot's legs; formulas are written once for each tree."""
     legs = Legs.of(description, tree)
     hints = description.standing
-    key = (tree, legs.columns, legs.fixed, legs.sites, tuple(hints.items()))
+    legs_key = (tree, legs.columns, legs.fixed, legs.sites)
+    key = (*legs_key, tuple(hints.items()), preferred())
     if key not in _KNOWN:
         if len(_KNOWN) >= KEPT:
             _KNOWN.clear()

@@ -14,9 +14,9 @@ from ..constants import GRAVITY
 from ..poses import Array
 from .algebra import Vector, add, cross, dot, scale, subtract, turn
 from .kinematics import LegKinematics
-from .leg_solver import Function
 from .legs import Legs
 from .links import place_links
+from .machine import Function, preferred
 from .reference import BodyReference
 from .tracing import Number, Trace
 
@@ -133,7 +133,7 @@ KEPT = 16  # robots whose formulas are kept
 
 def _written(legs: Legs) -> Function:
     """Torques of a robot's legs; formulas are written once for each tree."""
-    key = (legs.tree, legs.columns, legs.fixed, legs.sites)
+    key = (legs.tree, legs.columns, legs.fixed, legs.sites, preferred())
     if key not in _KNOWN:
         if len(_KNOWN) >= KEPT:
             _KNOWN.clear()

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from ..errors import ModelError
 from .description import RobotDescription
+from .own import NO_OVERLAY
 from .tree import RobotTree, write_tree
 
 FILE = "tree.json"
@@ -52,14 +53,19 @@ def store_tree(description: RobotDescription) -> Path:
 def digest_of(description: RobotDescription) -> str:
     """Digest of all that a tree is compiled from.
 
-    That is the MJCF files of the folder, with their names, and which body
-    is the torso. Meshes are not looked into.
+    That is the MJCF files of the folder, with their names, which body is
+    the torso, and the overlay with the model that it is put on, wherever
+    that lies. Meshes are not looked into.
     """
     digest = sha256(f"{description.model} {description.torso}\n".encode())
     for path in sorted(description.folder.rglob("*.xml")):
         name = path.relative_to(description.folder).as_posix()
         digest.update(name.encode())
         digest.update(path.read_bytes())
+    if description.overlay is not NO_OVERLAY:
+        digest.update(description.path.read_bytes())
+        overlay, sole = description.overlay, description.sole
+        digest.update(f"{overlay} {sole} {description.sensors}".encode())
     return digest.hexdigest()[:16]
 
 

@@ -12,7 +12,8 @@ import re
 from collections import Counter
 from collections.abc import Callable, Sequence
 from math import cos, sin
-from typing import Any
+
+from .machine import function_of
 
 DEPTH = 12  # of an expression before it gets a name
 
@@ -187,11 +188,7 @@ class Trace:
         self, name: str, results: Sequence[Number]
     ) -> Callable[..., tuple[float, ...]]:
         """Function of all variables, in their order, that gives results."""
-        made: dict[str, Any] = {"sin": sin, "cos": cos}
-        text = self.source(name, results)
-        exec(compile(text, f"<{name}>", "exec"), made)
-        function: Callable[..., tuple[float, ...]] = made[name]
-        return function
+        return function_of(name, self.source(name, results))
 
 
 Number = Traced | float

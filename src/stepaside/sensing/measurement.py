@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..poses import Array
+from ..poses import Array, Pose
 
 if TYPE_CHECKING:
     from .images import Percept
@@ -39,6 +39,8 @@ class Measurement(NamedTuple):
             Shape (8,).
         sighting: Newest sighting of the other robot, if there is any.
         percepts: Images and echoes that have arrived since the last tick.
+        place: CoM and heading of the torso on the floor of a room that is
+            known, from a sensor that tells them.
     """
 
     time: float
@@ -48,3 +50,4 @@ class Measurement(NamedTuple):
     foot_forces: Array
     sighting: Sighting | None
     percepts: tuple["Percept", ...] = ()
+    place: Pose | None = None

@@ -1,10 +1,19 @@
 """What a player knows when it decides, and what it decides."""
 
 from dataclasses import dataclass
-from typing import Any
 
-from ..errors import check_finite, check_within
+import numpy as np
+
+from ..errors import (
+    PlanError,
+    check_finite,
+    check_positive,
+    check_within,
+    shown,
+)
 from ..poses import Pose
+from ..ranges import HEADINGS
+from ..rooms import Obstacle
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,9 +55,13 @@ class Knowledge:
         closing_speed: How fast the distance shrinks, in [m/s]; None where
             it is not known yet.
         age: Time since the other was seen, in [s].
-        pose: The frame in the own odometry.
+        pose: The frame in the own odometry, or in the frame of a room that
+            is known.
         moving: Whether the body is under way.
-        obstacles: What stands around, if it is known; nothing yet.
+        obstacles: What is known to stand around, walls as well, in the
+            frame in which the pose is.
+        velocity: Of the other on the floor, ahead and to the left in the
+            frame, in [m/s]; None where it is not known yet.
     """
 
     time: float
@@ -60,7 +73,8 @@ class Knowledge:
     age: float = 0.0
     pose: Pose = Pose(0.0, 0.0, 0.0)
     moving: bool = False
-    obstacles: tuple[Any, ...] = ()
+    obstacles: tuple[Obstacle, ...] = ()
+    velocity: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,20 +86,33 @@ class Intent:
             sets the turning rate, from the next step on.
         speed_factor: Share of the gait's speed, in [0, 1]; 0 stops.
         moving: Whether to move at all.
+        pace: Share of the gait's step rate, in (0, 1]: the same steps, and
+            turns, in more time. Half of it is the least that is walked.
     """
 
     heading: float = 0.0
     speed_factor: float = 1.0
     moving: bool = True
+    pace: float = 1.0
 
     def __post_init__(self) -> None:
         """Refuse what no body can do.
 
         Raises:
-            PlanError: If a value is not finite, or the factor is not one.
+            PlanError: If the heading is no angle of some turns, the factor
+                is not one, or moving is neither true nor false.
         """
         check_finite(self.heading, "heading", "rad")
+        HEADINGS.check(self.heading, "heading", PlanError)
+        if type(self.moving) is not bool and not isinstance(
+            self.moving, np.bool_
+        ):
+            raise PlanError(
+                f"moving must be true or false, got {shown(self.moving)}"
+            )
         check_within(self.speed_factor, 0.0, 1.0, "speed_factor", "1")
+        check_positive(self.pace, "pace", "1")
+        check_within(self.pace, 0.0, 1.0, "pace", "1")
 
     @property
     def walks(self) -> bool:

@@ -1,32 +1,74 @@
 """Head for the other (paper, Sec. II-A)."""
 
 from dataclasses import dataclass
+from math import atan2, cos, sin
+from typing import ClassVar
 
 from .. import laws
 from ..planning import Direction
+from ..poses import wrap_angle
+from ..ranges import Range, Ranges, check_settings
+from ..rooms import BODY_RADIUS
+from ..rooms.paths import first_point
 from .knowledge import Intent, Knowledge
+
+ASIDE = 1e-3  # of the other, from which on it goes around something, [rad]
 
 
 @dataclass(frozen=True, slots=True)
 class Pursuit:
     """Head for the other, always: the pursuer knows of the evader.
 
+    Where it knows what stands around, it heads for the first point of the
+    shortest way there that it sees.
+
     Attributes:
         saturated: Whether to turn by (6) instead of (8).
+        body_radius: Distance that its way keeps from what stands around, in
+            [m]; above 0 to 10.
     """
 
     saturated: bool = False
+    body_radius: float = BODY_RADIUS
+
+    ranges: ClassVar[Ranges] = {
+        "body_radius": Range(0.0, 10.0, "m", "a body has some", above=True)
+    }
+
+    def __post_init__(self) -> None:
+        """Refuse bodies that are none."""
+        check_settings(self)
 
     @property
     def direction(self) -> Direction:
         """Forward, eq. (1)."""
         return Direction.FORWARD
 
-    def begin(self) -> None:
-        """It remembers nothing."""
+    def begin(self) -> int | None:
+        """Side on which it goes around something: none yet."""
+        return None
 
     def decide(
-        self, knowledge: Knowledge, memory: None
-    ) -> tuple[Intent, None]:
-        """Point at the other, eq. (2)."""
-        return Intent(laws.pursuit_heading(knowledge.bearing)), None
+        self, knowledge: Knowledge, memory: int | None
+    ) -> tuple[Intent, int | None]:
+        """Point at the other, eq. (2), or at where the way to it leads."""
+        bearing, side = knowledge.bearing, None
+        if knowledge.obstacles:
+            bearing = self._around(knowledge, memory or 0)
+            aside = wrap_angle(bearing - knowledge.bearing)
+            if abs(aside) > ASIDE:
+                side = 1 if aside > 0.0 else -1
+        return Intent(laws.pursuit_heading(bearing)), side
+
+    def _around(self, knowledge: Knowledge, side: int) -> float:
+        """Bearing of the first point of the shortest way, in [rad]."""
+        x, y, theta = knowledge.pose
+        sight = theta + knowledge.bearing
+        other = (
+            x + knowledge.distance * cos(sight),
+            y + knowledge.distance * sin(sight),
+        )
+        u, v = first_point(
+            knowledge.obstacles, (x, y), other, self.body_radius, side
+        )
+        return wrap_angle(atan2(v - y, u - x) - theta)

@@ -1,4 +1,4 @@
-"""How fast the line of sight turns and shortens, from what was seen."""
+"""How the other moves, from what was seen."""
 
 from collections import deque
 from typing import NamedTuple
@@ -59,3 +59,48 @@ class SightRates:
         if not seen or time - seen[-1][0] >= 0.125 * step:
             seen.append((time, direction, distance))
         return rates
+
+
+class FloorVelocity:
+    """Velocity of the other on the floor over the last three steps.
+
+    It is the slope of the straight line that fits its places best, so that
+    sway and one bad sighting count little.
+    """
+
+    def __init__(self, step_duration: float) -> None:
+        """Begin without a sighting, for steps of a duration, in [s]."""
+        self._step = step_duration
+        self._seen: deque[tuple[float, float, float]] = deque()
+
+    def note(
+        self, time: float, x: float, y: float
+    ) -> tuple[float, float] | None:
+        """Take a place in.
+
+        Args:
+            time: When the other was there, in [s].
+            x: Where, in a frame that stays, in [m].
+            y: Likewise.
+
+        Returns:
+            Velocity in that frame, in [m/s]; None until the places span
+            most of a step.
+        """
+        seen, step = self._seen, self._step
+        while seen and time - seen[0][0] > 3.25 * step:
+            seen.popleft()
+        if not seen or time - seen[-1][0] >= 0.2 * step:
+            seen.append((time, x, y))
+        if time - seen[0][0] <= 0.75 * step:
+            return None
+        rows = [*seen, (time, x, y)]
+        count = len(rows)
+        middle = [sum(row[i] for row in rows) / count for i in range(3)]
+        square = along = across = 0.0
+        for t, u, v in rows:
+            late = t - middle[0]
+            square += late * late
+            along += late * (u - middle[1])
+            across += late * (v - middle[2])
+        return along / square, across / square

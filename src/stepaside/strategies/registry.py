@@ -5,10 +5,16 @@ import sys
 from collections.abc import Callable, Mapping
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
+from types import FunctionType, ModuleType
 from typing import Any
 
 from ..errors import ConfigurationError
+from .deflected import Deflected
 from .evasion import Evasion
+from .lead import LeadPursuit
+from .look_ahead import LookAhead
+from .optimal import Optimal
+from .optimal_pursuit import OptimalPursuit
 from .pursuit import Pursuit
 from .strategy import Strategy
 from .trial import try_strategy
@@ -16,7 +22,12 @@ from .walk import Stand, Walk
 
 STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "evasion": lambda evasion: evasion,
+    "deflected": lambda evasion: Deflected(evasion),
+    "look-ahead": lambda evasion: LookAhead(),
+    "optimal": lambda evasion: Optimal(),
     "pursuit": lambda evasion: Pursuit(),
+    "lead": lambda evasion: LeadPursuit(),
+    "optimal-pursuit": lambda evasion: OptimalPursuit(),
     "stand": lambda evasion: Stand(),
     "walk": lambda evasion: Walk(),
 }
@@ -77,8 +88,39 @@ def absolute_name(name: str) -> str:
     return f"{file}:{found['name']}"
 
 
+def file_of(name: str) -> Path | None:
+    """File that a strategy is in; None for one of :data:`STRATEGIES`."""
+    found = None if name in STRATEGIES else _IN_FILE.fullmatch(name)
+    return None if found is None else Path(found["file"]).expanduser()
+
+
 def _made(path: str, name: str) -> Any:
     """What a name in a file stands for, made if it has to be."""
+    loaded = _load(path, name)
+    if not hasattr(loaded, name):
+        there = ", ".join(_strategies_in(loaded)) or "no strategy at all"
+        raise ConfigurationError(
+            f"strategy {path}:{name}: the file has no {name}, but {there}"
+        )
+    thing = getattr(loaded, name)
+    if not isinstance(thing, type) and hasattr(thing, "decide"):
+        return thing
+    if not callable(thing):
+        raise ConfigurationError(
+            f"strategy {path}:{name}: must be a strategy, or a class or "
+            f"function that makes one, got {_brief(thing)}"
+        )
+    try:
+        return thing()
+    except Exception as error:
+        raise ConfigurationError(
+            f"strategy {path}:{name}: {name}() must make a strategy, got "
+            f"{type(error).__name__}: {error}"
+        ) from error
+
+
+def _load(path: str, name: str) -> ModuleType:
+    """Run the file of a strategy."""
     file = Path(path).expanduser()
     if not file.is_file():
         raise ConfigurationError(
@@ -101,27 +143,25 @@ def _made(path: str, name: str) -> Any:
             f"strategy {path}:{name}: the file does not run: "
             f"{type(error).__name__}: {error}"
         ) from error
-    if not hasattr(loaded, name):
-        there = sorted(n for n in vars(loaded) if not n.startswith("_"))
-        raise ConfigurationError(
-            f"strategy {path}:{name}: the file has no {name}, "
-            f"but {', '.join(there) or 'nothing'}"
-        )
-    thing = getattr(loaded, name)
-    if not isinstance(thing, type) and hasattr(thing, "decide"):
-        return thing
-    if not callable(thing):
-        raise ConfigurationError(
-            f"strategy {path}:{name}: must be a strategy, or a class or "
-            f"function that makes one, got {_brief(thing)}"
-        )
-    try:
-        return thing()
-    except Exception as error:
-        raise ConfigurationError(
-            f"strategy {path}:{name}: {name}() must make a strategy, got "
-            f"{type(error).__name__}: {error}"
-        ) from error
+    return loaded
+
+
+def _strategies_in(loaded: ModuleType) -> list[str]:
+    """Names of what may be a strategy of a file's own, not what it imports.
+
+    A function may make one; which does is known when it is called.
+    """
+    found = []
+    for name, thing in vars(loaded).items():
+        own = getattr(thing, "__module__", None) == loaded.__name__
+        decides = hasattr(thing, "decide")
+        if isinstance(thing, type):
+            fits = own and decides
+        else:
+            fits = decides or (own and isinstance(thing, FunctionType))
+        if fits and not name.startswith("_"):
+            found.append(name)
+    return sorted(found)
 
 
 def _brief(thing: Any) -> str:

@@ -17,7 +17,15 @@ def questions() -> Iterator[Knowledge]:
     for i, bearing in enumerate((0.4, -0.4, pi, -pi)):
         time, distance = 0.5 * (i + 1), 1.5 - 0.4 * i
         yield Knowledge(
-            time, bearing, distance, LIMITS, 0.1, 0.2, 0.05, moving=i > 0
+            time,
+            bearing,
+            distance,
+            LIMITS,
+            0.1,
+            0.2,
+            0.05,
+            moving=i > 0,
+            velocity=(-0.3, 0.1),
         )
 
 

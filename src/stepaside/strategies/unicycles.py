@@ -1,7 +1,7 @@
 """Any two strategies, played by unicycles that decide step by step."""
 
 from dataclasses import dataclass
-from math import ceil
+from math import ceil, cos, sin
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from ..poses import Array, Pose
 from ..unicycle.laws import Unicycle
 from ..unicycle.relative import Start
 from .knowledge import Intent, Knowledge, Limits
-from .rates import SightRates
+from .rates import FloorVelocity, SightRates
 from .strategy import Strategy
 
 PARTS = 8  # samples of the record between two decisions
@@ -57,6 +57,7 @@ class _Player:
         self.strategy, self.body, self.pose = strategy, body, pose
         self._memory: Any = strategy.begin()
         self._rates = SightRates(period)
+        self._drift = FloorVelocity(period)
         self._limits = Limits(
             body.speed, body.gain, body.speed * period, period
         )
@@ -65,6 +66,13 @@ class _Player:
     def decide(self, time: float, bearing: float, distance: float) -> Intent:
         sight = self.pose.theta + bearing
         rates = self._rates.note(time, sight, distance)
+        there = self.pose.compose(
+            Pose(distance * cos(bearing), distance * sin(bearing), 0.0)
+        )
+        drift = self._drift.note(time, there.x, there.y)
+        if drift is not None:
+            turned = Pose(0.0, 0.0, -self.pose.theta)
+            drift = turned.compose(Pose(*drift, 0.0))[:2]
         known = Knowledge(
             time,
             bearing,
@@ -75,6 +83,7 @@ class _Player:
             0.0,
             self.pose,
             self._moving,
+            velocity=drift,
         )
         intent, self._memory = self.strategy.decide(known, self._memory)
         self._moving = intent.walks
@@ -90,7 +99,7 @@ class _Player:
             self.body.gain,
             self.strategy.direction,
             self.strategy.saturated,
-        ).poses(times)
+        ).poses(intent.pace * times)
         path[:, :2] = self.pose.transform_points(path[:, :2])
         path[:, 2] += self.pose.theta
         self.pose = Pose(*path[-1].tolist())

@@ -15,16 +15,18 @@ class Walk:
         direction: Whether the robot walks forward or backward.
         saturated: Whether it turns by (6) instead of (8).
         speed_factor: Share of the gait's speed, in [0, 1]; 0 stands.
+        pace: Share of its step rate, in (0, 1].
     """
 
     bearing: float = 0.0
     direction: Direction = Direction.FORWARD
     saturated: bool = False
     speed_factor: float = 1.0
+    pace: float = 1.0
 
     def __post_init__(self) -> None:
         """Refuse what no robot can do."""
-        Intent(self.bearing, self.speed_factor)
+        Intent(self.bearing, self.speed_factor, pace=self.pace)
 
     def begin(self) -> None:
         """It remembers nothing."""
@@ -33,7 +35,7 @@ class Walk:
         self, knowledge: Knowledge, memory: None
     ) -> tuple[Intent, None]:
         """Walk on."""
-        return Intent(self.bearing, self.speed_factor), None
+        return Intent(self.bearing, self.speed_factor, pace=self.pace), None
 
 
 @dataclass(frozen=True, slots=True)

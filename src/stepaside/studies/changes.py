@@ -6,7 +6,7 @@ from functools import cache
 from typing import Any
 
 from ..games.configuration import parse_settings, plain_settings
-from ..games.walk import WalkSettings
+from ..games.walk_settings import WalkSettings
 from ..world.body_settings import BODIES
 
 OWN = "own"  # body that is no preset
@@ -57,13 +57,16 @@ def changed_walk(changes: str) -> WalkSettings:
 def _differences(
     entries: dict[str, Any], default: dict[str, Any]
 ) -> dict[str, Any]:
-    """Entries that are not as by default, section by section."""
+    """Entries that are not as by default, section by section.
+
+    What is None by default has no entry there.
+    """
     found = {}
     for name, value in entries.items():
         if isinstance(value, dict):
             value = _differences(value, default[name])
             if value:
                 found[name] = value
-        elif value != default[name]:
+        elif name not in default or value != default[name]:
             found[name] = value
     return found

@@ -13,10 +13,12 @@ import numpy as np
 
 from ..errors import PlanError
 from ..games.duel import run_duel
-from ..games.run import Run
+from ..games.duel_run import DuelRun
 from ..games.settings import DuelSettings
 from ..poses import Pose
 from ..randomness import named_generator
+from ..robots.machine import prefer_for
+from ..strategies.registry import file_of
 from ..unicycle.certificate import certify
 from ..unicycle.laws import make_game
 from ..unicycle.relative import Start
@@ -27,11 +29,41 @@ from .workers import give_up
 Record = dict[str, Any]
 # Of a record, what depends on the machine and not on the duel alone.
 MACHINE = ("version", "libraries", "verified", "wall_s")
+# Settings that came after the first records, which go on without them where
+# they are what they are by default.
+LATER = (
+    *("start.least", "start.near", "start.far"),
+    *("strategy.trigger", "strategy.contact_time", "strategy.clearance"),
+    *("strategy.calmest", "control.stabiliser.stride_bound"),
+    *("gait.outer_stride", "gait.swing_profile", "gait.swing_reaction"),
+    *("room.plan", "map", "pursuer_robot", "evader_robot", "pushes"),
+)
+
+
+def _drop(entries: Record, plain: Record, path: list[str]) -> None:
+    """Leave an entry out if it is the plain one."""
+    name, *deeper = path
+    if deeper:
+        _drop(entries[name], plain[name], deeper)
+    elif entries[name] == plain[name]:
+        del entries[name]
 
 
 def settings_hash(settings: DuelSettings) -> str:
-    """Fingerprint of everything that decides a duel but its seed."""
-    text = json.dumps(asdict(replace(settings, seed=0)), sort_keys=True)
+    """Fingerprint of everything that decides a duel but its seed.
+
+    Of strategies in files, what the files hold counts, too; what they import
+    does not.
+    """
+    entries = asdict(replace(settings, seed=0))
+    plain = asdict(DuelSettings(seed=0))
+    for path in LATER:
+        _drop(entries, plain, path.split("."))
+    for name in (settings.evader_strategy, settings.pursuer_strategy):
+        file = file_of(name)
+        if file is not None and file.is_file():
+            entries[f"content of {name}"] = file.read_bytes().hex()
+    text = json.dumps(entries, sort_keys=True)
     return sha256(text.encode()).hexdigest()[:12]
 
 
@@ -56,6 +88,7 @@ def play_record(settings: DuelSettings) -> Record:
         whole trajectories, versions of code and libraries.
     """
     began = perf_counter()
+    prefer_for(settings.duration, many=True)
     run = run_duel(settings)
     summary = run.summary
     record = {
@@ -76,15 +109,15 @@ def play_record(settings: DuelSettings) -> Record:
         "max_com_velocity_jump_m_s": summary.max_com_velocity_jump_m_s,
         **_evasion(run),
     }
-    for name in ("lost_s", "detection_rate", "false_detections"):
-        if name in summary.sight:
-            record[name] = summary.sight[name]
+    if summary.sight is not None:
+        for name in ("lost_s", "detection_rate", "false_detections"):
+            record[name] = getattr(summary.sight, name)
     record["digest"] = digest_of(run)
     record["wall_s"] = round(perf_counter() - began, 3)
     return record | _stamp()
 
 
-def _evasion(run: Run) -> Record:
+def _evasion(run: DuelRun) -> Record:
     """Closest approach while evading, and what is certain of the template.
 
     The certificate is that of two unicycles that start like the players at
@@ -122,7 +155,7 @@ def _evasion(run: Run) -> Record:
     return found
 
 
-def digest_of(run: Run) -> str:
+def digest_of(run: DuelRun) -> str:
     """Fingerprint of every number that was recorded of a duel."""
     digest = sha256()
     for name, array in sorted(run.arrays().items()):

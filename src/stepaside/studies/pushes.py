@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from ..games.walk import WalkSettings
+from ..games.walk_settings import WalkSettings
 from .changes import changes_of
 from .limits import RESOLUTION
 from .results import header

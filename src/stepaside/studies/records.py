@@ -1,11 +1,20 @@
 """Results of a long study on disk: one whole, checked record a line."""
 
 import json
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from ..outputs import writing
+from ..errors import OutputError
+from ..outputs import reason_of, writing
+
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None  # type: ignore[assignment]
 
 DIGITS = 12
 
@@ -31,10 +40,14 @@ class RecordFile:
         """Records by key; of several with one key, the last."""
         if not self.path.exists():
             return {}
+        with alone_in(self.path.parent):
+            return self._read()
+
+    def _read(self) -> dict[str, dict[str, Any]]:
         found: dict[str, dict[str, Any]] = {}
         bad: list[str] = []
         text = self.path.read_text(encoding="utf-8", errors="replace")
-        for line in text.splitlines():
+        for line in filter(None, text.split("\n")):
             entry = _parse(line)
             if entry is None:
                 bad.append(line)
@@ -45,10 +58,29 @@ class RecordFile:
         return found
 
     def append(self, key: str, record: dict[str, Any]) -> None:
-        """Add one record."""
-        self.path.parent.mkdir(parents=True, exist_ok=True)
-        with self.path.open("a", encoding="utf-8") as out:
-            out.write(_line(key, record))
+        """Add one record, on a line of its own whatever was before.
+
+        Raises:
+            OutputError: If the system does not let it be written.
+        """
+        line = _line(key, record).encode()
+        try:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            with alone_in(self.path.parent), self.path.open("ab+") as out:
+                end = out.seek(0, os.SEEK_END)
+                if end:
+                    out.seek(-1, os.SEEK_END)
+                    line = line if out.read(1) == b"\n" else b"\n" + line
+                try:
+                    out.write(line)
+                    out.flush()
+                except OSError:  # no half of it stays where room ran out
+                    os.truncate(self.path, end)
+                    raise
+        except OSError as error:
+            raise OutputError(
+                f"{self.path} could not be written: {reason_of(error)}"
+            ) from error
 
     def write(self, records: dict[str, dict[str, Any]]) -> None:
         """Replace the file by these records, whole or not at all."""
@@ -65,6 +97,27 @@ class RecordFile:
         with place.open("a", encoding="utf-8") as out:
             out.writelines(line + "\n" for line in lines)
         self.write(good)
+
+
+@contextmanager
+def alone_in(folder: Path) -> Iterator[None]:
+    """Wait until no other process reads or writes records of a folder.
+
+    Where the system knows no such locks, nobody waits.
+
+    Args:
+        folder: It exists.
+    """
+    if fcntl is None:
+        yield
+        return
+    place = os.open(folder, os.O_RDONLY)
+    try:
+        with suppress(OSError):  # some file systems have none
+            fcntl.flock(place, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(place)
 
 
 def _line(key: str, record: dict[str, Any]) -> str:

@@ -61,6 +61,7 @@ def reproduce(
     seeds: Sequence[int],
     executor: Executor | None = None,
     report: Callable[[int, int], None] | None = None,
+    tell: Callable[[Path], None] = lambda file: None,
 ) -> list[dict[str, Any]]:
     """Measure every claim; what a folder holds already is kept.
 
@@ -73,11 +74,12 @@ def reproduce(
         seeds: Seeds of the physical runs.
         executor: Any executor of ``concurrent.futures``; None measures here.
         report: Called with the number of runs done and of all runs.
+        tell: Told which files were torn or foreign, and set aside.
 
     Returns:
         Rows, as JSON objects.
     """
-    kept, plan = Kept(folder), trials(seeds, JOBS)
+    kept, plan = Kept(folder, tell), trials(seeds, JOBS)
     found: dict[Trial, Readings] = {}
     missing: list[Trial] = []
     total = sum(len(runs) for runs in plan.values())

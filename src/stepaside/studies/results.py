@@ -57,6 +57,8 @@ def running_command(arguments: Sequence[str] | None = None) -> str:
             and files below the working folder by their way from there.
     """
     program, *rest = sys.argv if arguments is None else arguments
+    if Path(program).parts[-2:] == ("stepaside", "__main__.py"):
+        program = "stepaside"  # python -m stepaside
     words = (
         ["python", _relative(program)]
         if program.endswith(".py")
@@ -121,7 +123,10 @@ def read_result(file: Path) -> dict[str, Any]:
 
 def is_current(result: Mapping[str, Any]) -> bool:
     """Whether the code that a result depends on is what made it."""
-    return bool(result["version"] == code_version(tuple(result["rooms"])))
+    try:
+        return bool(result["version"] == code_version(tuple(result["rooms"])))
+    except FileNotFoundError:  # of rooms that are no more
+        return False
 
 
 def _relative(word: str) -> str:

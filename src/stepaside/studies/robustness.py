@@ -11,7 +11,8 @@ from pathlib import Path
 from ..control.balance.settings import ControlSettings, Method
 from ..errors import ConfigurationError
 from ..games.outcome import Outcome
-from ..games.walk import WalkSettings, run_walk
+from ..games.walk import run_walk
+from ..games.walk_settings import WalkSettings
 from ..planning import GaitSettings
 from ..robots.description import load_robot
 from ..robots.forward import ForwardKinematics
@@ -31,6 +32,7 @@ STRENGTHS: dict[str, tuple[float, ...]] = {
     "noise": (0.0, 1.0, 2.0, 4.0, 8.0),
     "model": (0.0, 0.03, 0.06, 0.1, 0.2),
 }
+KINDS = (*STRENGTHS, "person")  # of the last see .encounters
 UNITS = {
     "push": "N s",
     "friction": "1",

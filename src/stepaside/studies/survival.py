@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..games.walk import WalkSettings
+from ..games.walk_settings import WalkSettings
 from ..planning import Direction, Foot, ManeuverPlanner
 from ..planning.capture import Reach, push_bound
 from ..planning.steady import steady_plan

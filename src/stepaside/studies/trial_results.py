@@ -19,7 +19,7 @@ def read_results(file: Path | None) -> dict[str, bool]:
     """
     if file is None:
         return {}
-    now = _stamp()
+    now = stamp()
     return {
         key: bool(record["survived"])
         for key, record in RecordFile(file).read().items()
@@ -30,8 +30,9 @@ def read_results(file: Path | None) -> dict[str, bool]:
 def note_result(file: Path | None, key: str, survived: bool) -> None:
     """Add a result, at once, so that a campaign can be stopped any time."""
     if file is not None:
-        RecordFile(file).append(key, {"survived": survived} | _stamp())
+        RecordFile(file).append(key, {"survived": survived} | stamp())
 
 
-def _stamp() -> dict[str, Any]:
+def stamp() -> dict[str, Any]:
+    """Versions of the code and the libraries that a result is of."""
     return {"version": code_version(ROOMS), "libraries": library_versions()}

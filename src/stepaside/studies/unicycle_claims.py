@@ -10,7 +10,7 @@ from ..unicycle.laws import Game, TurningLaw, Unicycle
 from ..unicycle.measure import Measured, fit_circle, measure, settling_time
 from ..unicycle.relative import Start
 from ..unicycle.sampled import SampledRun, simulate_sampled
-from ..unicycle.simulate import Run, simulate
+from ..unicycle.simulate import PlayedGame, simulate
 from .claims import Claim
 from .readings import Readings
 
@@ -25,12 +25,12 @@ RADIUS = 4.0 / (pi * 0.5)  # of Fig. 2, in [m]
 NAO_RADIUS = 4.0 * 0.1 / (pi * 0.2)
 
 
-def play(game: Game) -> Run:
+def play(game: Game) -> PlayedGame:
     """Play a game until its last turn is the circle."""
     return simulate(game, START, settling_time(game))
 
 
-def _speeds(run: Run) -> tuple[float, float]:
+def _speeds(run: PlayedGame) -> tuple[float, float]:
     """Speeds on the floor over the last tenth, in [m/s]."""
     times = np.linspace(0.9 * run.end_time, run.end_time, 2001)
     ways = [

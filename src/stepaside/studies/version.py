@@ -15,7 +15,7 @@ UNICYCLES = (*GROUND, "unicycle")
 PHYSICS = (
     *PLANNER,
     *("unicycle", "robots", "sensing", "perception", "strategies"),
-    *("control", "world", "games", "randomness"),
+    *("control", "world", "games", "randomness", "rooms", "steps"),
 )
 LIBRARIES = ("mujoco", "numpy")
 DIGITS = 12

@@ -11,12 +11,12 @@ from ..poses import Array
 from .watching import WalkedPlan, Watched
 
 BEARS = 1.0  # load from which a foot counts as on the floor, in [N]
-SWING = 0.15  # a foot that is off it for longer swings, in [s]
+SWING = 0.35  # of a single support: a foot that is off it longer swings
 LEAVES = 0.03  # a foot is unloaded this near the end of double support, [s]
 ENDS = 6  # ticks on either side of a replan, for velocities there
 
 
-def swings(ticks: Array, load: Array) -> Array:
+def swings(ticks: Array, load: Array, single_support: float) -> Array:
     """When a foot left the floor and came down again, by its load.
 
     Shorter times without load belong to a foot that comes down or lifts off.
@@ -24,16 +24,17 @@ def swings(ticks: Array, load: Array) -> Array:
     Args:
         ticks: Times, in [s]. Shape (n,).
         load: Load of the foot, in [N]. Shape (n,).
+        single_support: How long a swing shall last, in [s].
 
     Returns:
         Rows (lift-off, landing), in [s]. Shape (m, 2).
     """
-    on = load > BEARS
+    on, least = load > BEARS, SWING * single_support
     changes = np.flatnonzero(on[1:] != on[:-1]) + 1
     rows = [
         (ticks[a], ticks[b])
         for a, b in zip(changes, changes[1:], strict=False)
-        if not on[a] and ticks[b] - ticks[a] > SWING
+        if not on[a] and ticks[b] - ticks[a] > least
     ]
     return np.array(rows, dtype=np.float64).reshape(-1, 2)
 
@@ -41,7 +42,9 @@ def swings(ticks: Array, load: Array) -> Array:
 def steps_of(duel: Watched, name: str) -> list[float]:
     """Times between landings, whichever foot's, in [s]; inf if none."""
     feet = duel.loads[name].T
-    landings = np.concatenate([swings(duel.ticks, f)[:, 1] for f in feet])
+    lasts = duel.settings.gait.single_support
+    found = [swings(duel.ticks, load, lasts)[:, 1] for load in feet]
+    landings = np.concatenate(found)
     between: list[float] = np.diff(np.sort(landings)).tolist()
     return between or [inf]
 
@@ -58,7 +61,9 @@ def both_feet(duel: Watched, name: str) -> tuple[float, float]:
         before, while both feet are on the floor; and the longest time from
         such a plan to the next lift-off, in [s]. NaN without such plans.
     """
-    found = [swings(duel.ticks, load) for load in duel.loads[name].T]
+    lasts = duel.settings.gait.single_support
+    feet = duel.loads[name].T
+    found = [swings(duel.ticks, load, lasts) for load in feet]
     flights = np.concatenate(found)
     lifts, landings = np.sort(flights[:, 0]), np.sort(flights[:, 1])
     sent = np.array([plan.sent for plan in duel.plans[name]])
@@ -173,7 +178,8 @@ def mean_slide(duel: Watched) -> float:
     ways = []
     for name in PLAYERS:
         for side, load in enumerate(duel.loads[name].T):
-            flights = swings(duel.ticks, load)
+            lasts = duel.settings.gait.single_support
+            flights = swings(duel.ticks, load, lasts)
             feet = duel.feet[name][:, side]
             landed = np.searchsorted(duel.ticks, flights[:-1, 1])
             lifted = np.searchsorted(duel.ticks, flights[1:, 0]) - 1

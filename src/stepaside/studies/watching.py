@@ -16,7 +16,6 @@ from ..games.walker import Walker
 from ..planning import ManeuverPlan
 from ..poses import Array
 from ..robots.description import load_robot
-from ..robots.forward import FOOT_FORCES
 
 
 class WalkedPlan(NamedTuple):
@@ -113,8 +112,9 @@ class _Watcher:
         self._scheme: ControlScheme = walker.scheme
         self._plan: ManeuverPlan | None = None
         model, self._data = duel.world.model, duel.world.data
-        robot = load_robot(duel.settings.robot)
-        sensors = [model.sensor(f"{self.name}/{f}") for f in FOOT_FORCES]
+        robot = load_robot(duel.settings.robot_of(self.name).robot)
+        feet = robot.sensors.feet
+        sensors = [model.sensor(f"{self.name}/{f}") for f in feet]
         addresses = [int(sensor.adr[0]) for sensor in sensors]
         self._sensors = np.array(addresses).reshape(2, -1)  # left, right
         soles = (robot.left_foot, robot.right_foot)

@@ -6,7 +6,7 @@ from .kernel import Outcomes, play_games
 from .laws import MOVE_ASIDE, MOVE_BACK, Game, SideRule, TurningLaw, make_game
 from .relative import Start
 from .sampled import simulate_sampled
-from .simulate import Run, simulate
+from .simulate import PlayedGame, simulate
 
 __all__ = [
     "MOVE_ASIDE",
@@ -14,7 +14,7 @@ __all__ = [
     "Circle",
     "Game",
     "Outcomes",
-    "Run",
+    "PlayedGame",
     "SideRule",
     "Start",
     "TurningLaw",

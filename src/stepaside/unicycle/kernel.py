@@ -7,7 +7,7 @@ from math import ceil, inf
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import PlanError, check_positive
+from ..errors import PlanError, check_positive, shown
 from ..poses import wrap_angles
 from .batch import Array, Clock, deviations
 from .circles import circles_of
@@ -17,6 +17,7 @@ from .laws import Game
 from .motion import State
 from .rules import rules_of
 
+MOST_STEPS = 1e8  # of one game: some seconds of a fast machine
 _RESULTS = (
     *State._fields,
     *("side", "closest", "closest_time", "capture_time", "settled"),
@@ -88,6 +89,11 @@ def play_games(
     check_positive(duration, "duration", "s")
     check_positive(step, "step", "s")
     check_positive(capture_distance, "capture_distance", "m")
+    if duration > MOST_STEPS * step:
+        raise PlanError(
+            f"duration must be at most {MOST_STEPS:g} steps of {step:g} [s], "
+            f"or it does not end, got {duration:g}"
+        )
     fast = _compiles(backend)
     play = compiled_batch.play_blocks if fast else numpy_batch.play_blocks
     states = _wrapped(starts)
@@ -138,13 +144,21 @@ def _compiles(backend: str) -> bool:
     if backend not in ("auto", "numba", "numpy"):
         raise PlanError(f"backend must be auto, numba or numpy, got {backend}")
     if backend == "numba" and load_numba() is None:
-        raise PlanError("backend numba is not installed; pip install numba")
+        raise PlanError(
+            "backend numba needs numba: pip install 'stepaside[fast]'"
+        )
     return backend != "numpy" and load_numba() is not None
 
 
 def _wrapped(starts: ArrayLike) -> Array:
     """Starts with both angles wrapped. Shape (n, 3)."""
-    states = np.array(starts, dtype=np.float64).reshape(-1, 3)
+    try:
+        states = np.array(starts, dtype=np.float64).reshape(-1, 3)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise PlanError(
+            "starts must be rows of distance [m] and two bearings [rad], got "
+            f"{shown(starts)}"
+        ) from error
     if not (np.isfinite(states).all() and (states[:, 0] > 0.0).all()):
         raise PlanError("starts must be finite with distance > 0 [m]")
     angles = states[:, 1:]

@@ -12,7 +12,7 @@ from .circles import circles_of
 from .circling import Circle
 from .kernel import circle_states, circles_off
 from .laws import Game
-from .simulate import Run
+from .simulate import PlayedGame
 
 Array = NDArray[np.float64]
 
@@ -83,7 +83,7 @@ def settling_time(game: Game, *, precision: float = 1e-6) -> float:
     return float(30.0 / gain + max(ends))
 
 
-def measure(run: Run, *, count: int = 361) -> Measured:
+def measure(run: PlayedGame, *, count: int = 361) -> Measured:
     """Fit circles to the last turn of a game, or its last tenth if shorter.
 
     Args:

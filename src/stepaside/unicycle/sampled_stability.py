@@ -17,6 +17,9 @@ from .roots import bisect
 from .stability import feedback_matrix, geometry_jacobian, sorted_eigenvalues
 
 Array = NDArray[np.float64]
+# Sample times in a delay: each is two rows more of a matrix whose eigenvalues
+# are searched for.
+DEEPEST = 200
 
 
 def smooth_circle(game: Game) -> Circle:
@@ -77,6 +80,11 @@ def step_map(game: Game, sample_time: float, delay: float = 0.0) -> Array:
     state, turning = _geometry(game, smooth_circle(game))
     feedback = feedback_matrix(game)
     whole = floor(delay / sample_time + 1e-12)
+    if whole > DEEPEST:
+        raise PlanError(
+            f"delay must be at most {DEEPEST} sample times, "
+            f"{DEEPEST * sample_time:g} [s], got {delay:g}"
+        )
     late = max(0.0, delay - whole * sample_time)
     early_state, early_turning = _held(state, turning, late)
     rest_state, rest_turning = _held(state, turning, sample_time - late)

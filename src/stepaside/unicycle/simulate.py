@@ -32,7 +32,7 @@ _SLACK = 1e-12  # how far beyond an edge counts as left
 
 
 @dataclass(frozen=True)
-class Run:
+class PlayedGame:
     """A game that was played.
 
     Attributes:
@@ -166,7 +166,7 @@ class _Play:
 
 @dataclass
 class _Kept:
-    """What is kept of a game under way; see :class:`Run`."""
+    """What is kept of a game under way; see :class:`PlayedGame`."""
 
     best: tuple[float, float]
     times: list[float]
@@ -174,13 +174,13 @@ class _Kept:
     switches: list[float] = field(default_factory=list)
     pieces: list[Callable[[float], Array]] = field(default_factory=list)
 
-    def run(self, game: Game, state: Array, captured: bool) -> Run:
+    def run(self, game: Game, state: Array, captured: bool) -> PlayedGame:
         """The game as it was played."""
         times, pieces = list(self.times), list(self.pieces)
         if not pieces:
             pieces.append(lambda _: state)
             times.append(times[-1])
-        return Run(
+        return PlayedGame(
             game,
             np.array(times),
             captured,
@@ -201,7 +201,7 @@ def simulate(
     capture_distance: float = 1e-6,
     pursuer: Pose = Pose(0.0, 0.0, 0.0),  # noqa: B008 (immutable)
     tolerance: float = 1e-11,
-) -> Run:
+) -> PlayedGame:
     """Play one game.
 
     Args:
@@ -234,7 +234,7 @@ def simulate(
 
 def _integrate(
     play: _Play, game: Game, state: Array, duration: float, tolerance: float
-) -> Run:
+) -> PlayedGame:
     """Play a game from a state, piece by piece, until it ends."""
     from scipy.integrate import DOP853
 

@@ -7,11 +7,12 @@ of what they do.
 
 from dataclasses import dataclass, replace
 from math import pi, radians
+from typing import ClassVar
 
-from ..errors import ConfigurationError, check_not_negative, check_within
+from ..ranges import Range, Ranges, check_settings
 from .settings import PhysicsSettings
 
-ERROR = ConfigurationError
+SENSOR = "some hundred times that of NAO's; sensors give nothing beyond"
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,25 +21,29 @@ class BodySettings:
 
     Attributes:
         cycle: Control period that the body asks for, in [s]; 0 leaves it to
-            the physics settings.
-        delay_cycles: Control cycles from a request to the motion.
-        imu_delay_cycles: Control cycles by which gyro and accelerometer lag.
+            the physics settings; 0 to 0.1.
+        delay_cycles: Control cycles from a request to the motion; 0 to 100.
+        imu_delay_cycles: Control cycles by which gyro and accelerometer lag; 0
+            to 100.
         torque_speed: Whether a motor's torque falls with its speed, to zero
             at the no-load speed.
-        efficiency: Share of the motor's ideal stall torque at the joint.
-        stiffness: Torque cap that the robot sets, as a share of the former.
-        servo_gain: Factor on the servos' position gain.
-        backlash: Width of the dead zone of each leg joint, in [rad].
-        encoder_step: Resolution of the encoders, in [rad].
-        gyro_noise: Standard deviation of a reading, in [rad/s].
-        gyro_bias: Greatest constant error, in [rad/s].
-        accelerometer_noise: Standard deviation, in [m/s^2].
-        accelerometer_bias: Greatest constant error, in [m/s^2].
-        force_noise: Standard deviation of a foot force, in [N].
-        force_gain_error: Greatest relative error of each foot force.
-        mass_error: Greatest relative error of the mass of each link.
-        com_error: Greatest horizontal shift of the torso's CoM on each
-            axis, in [m].
+        efficiency: Share of the motor's ideal stall torque at the joint; 0.01
+            to 1.
+        stiffness: Torque cap that the robot sets, as a share of the former; 0
+            to 1.
+        servo_gain: Factor on the servos' position gain; 0.01 to 10.
+        backlash: Width of the dead zone of each leg joint, in [rad]; 0 to 0.2.
+        encoder_step: Resolution of the encoders, in [rad]; 1e-09 to 0.1 or
+            0.
+        gyro_noise: Standard deviation of a reading, in [rad/s]; 0 to 10.
+        gyro_bias: Greatest constant error, in [rad/s]; 0 to 10.
+        accelerometer_noise: Standard deviation, in [m/s^2]; 0 to 100.
+        accelerometer_bias: Greatest constant error, in [m/s^2]; 0 to 100.
+        force_noise: Standard deviation of a foot force, in [N]; 0 to 1000.
+        force_gain_error: Greatest relative error of each foot force; 0 to 1.
+        mass_error: Greatest relative error of the mass of each link; 0 to 0.9.
+        com_error: Greatest horizontal shift of the torso's CoM on each axis,
+            in [m]; 0 to 0.1.
     """
 
     cycle: float = 0.0
@@ -59,19 +64,32 @@ class BodySettings:
     mass_error: float = 0.0
     com_error: float = 0.0
 
+    ranges: ClassVar[Ranges] = {
+        "cycle": Range(0.0, 0.1, "s", "nobody balances ten times a second"),
+        "delay_cycles": Range(0, 100, "cycles", "a second on NAO", whole=True),
+        "imu_delay_cycles": Range(
+            0, 100, "cycles", "a second on NAO", whole=True
+        ),
+        "efficiency": Range(0.01, 1.0, "1", "no motor gives more than it has"),
+        "stiffness": Range(0.0, 1.0, "1", "a share; at 0 joints are limp"),
+        "servo_gain": Range(0.01, 10.0, "1", "stiffer servos ring"),
+        "backlash": Range(0.0, 0.2, "rad", "more is a broken gear"),
+        "encoder_step": Range(
+            1e-9, 0.1, "rad", "finer is a real number's own", also=(0.0,)
+        ),
+        "gyro_noise": Range(0.0, 10.0, "rad/s", SENSOR),
+        "gyro_bias": Range(0.0, 10.0, "rad/s", SENSOR),
+        "accelerometer_noise": Range(0.0, 100.0, "m/s^2", SENSOR),
+        "accelerometer_bias": Range(0.0, 100.0, "m/s^2", SENSOR),
+        "force_noise": Range(0.0, 1000.0, "N", SENSOR),
+        "force_gain_error": Range(0.0, 1.0, "1", "a gain is not negative"),
+        "mass_error": Range(0.0, 0.9, "1", "a link keeps a mass"),
+        "com_error": Range(0.0, 0.1, "m", "the torso ends there"),
+    }
+
     def __post_init__(self) -> None:
         """Refuse what no body is."""
-        check_within(self.cycle, 0.0, 0.1, "cycle", "s", ERROR)
-        for name in ("delay_cycles", "imu_delay_cycles"):
-            check_within(getattr(self, name), 0, 100, name, "cycles", ERROR)
-        check_within(self.efficiency, 0.01, 1.0, "efficiency", "1", ERROR)
-        check_within(self.stiffness, 0.0, 1.0, "stiffness", "1", ERROR)
-        check_within(self.servo_gain, 0.01, 10.0, "servo_gain", "1", ERROR)
-        check_within(self.backlash, 0.0, 0.2, "backlash", "rad", ERROR)
-        check_within(self.mass_error, 0.0, 0.9, "mass_error", "1", ERROR)
-        check_within(self.com_error, 0.0, 0.1, "com_error", "m", ERROR)
-        for name, unit in _NOT_NEGATIVE.items():
-            check_not_negative(getattr(self, name), name, unit, ERROR)
+        check_settings(self)
 
     @property
     def has_ideal_servos(self) -> bool:
@@ -81,7 +99,7 @@ class BodySettings:
     @property
     def has_sensor_errors(self) -> bool:
         """Whether sensors give anything but the truth of the moment."""
-        values = [getattr(self, name) for name in _NOT_NEGATIVE]
+        values = [getattr(self, name) for name in _SENSORS]
         return self.imu_delay_cycles > 0 or any(v > 0.0 for v in values)
 
     @property
@@ -97,15 +115,10 @@ class BodySettings:
         )
 
 
-_NOT_NEGATIVE = {
-    "encoder_step": "rad",
-    "gyro_noise": "rad/s",
-    "gyro_bias": "rad/s",
-    "accelerometer_noise": "m/s^2",
-    "accelerometer_bias": "m/s^2",
-    "force_noise": "N",
-    "force_gain_error": "1",
-}
+_SENSORS = (
+    *("encoder_step", "gyro_noise", "gyro_bias", "accelerometer_noise"),
+    *("accelerometer_bias", "force_noise", "force_gain_error"),
+)
 
 BODIES = {
     "ideal": BodySettings(),

@@ -2,16 +2,22 @@
 
 from dataclasses import dataclass, field
 from math import radians
+from typing import ClassVar
 
-from ..errors import (
-    ConfigurationError,
-    check_not_negative,
-    check_positive,
-    check_within,
-)
+from ..errors import ConfigurationError, check_within
+from ..ranges import Range, Ranges, check_count, check_settings
+from ..rooms import Room
 from ..sensing.camera_model import CameraModel
 
-ERROR = ConfigurationError
+PIXELS = Range(
+    *(8, 4096, "pixels"),
+    "nothing is seen in fewer; more do not fit in memory",
+    whole=True,
+)
+RATE = Range(1.0, 60.0, "1/s", "what such sensors give")
+LATENCY = Range(0.0, 1.0, "s", "what a robot remembers of its way")
+QUANTUM = Range(1e-6, 1.0, "m", "from finer than any noise to useless")
+MOST_THINGS = 100  # in a room
 KINDS = ("red box", "blue box", "white figure")
 # Horizontal and vertical field of view of NAO's top camera, in [deg].
 OPTICS = {"v5": (60.9, 47.6), "v6": (54.7, 42.5)}
@@ -26,11 +32,11 @@ class ColourSettings:
 
     Attributes:
         optics: "v5" or "v6".
-        width: Columns; the V6 offers 320 and more, both offer 160.
-        height: Rows.
-        rate: Images per second, in [1/s]; the sensor gives up to 30.
-        latency: From exposure to the image in hand, in [s].
-        noise: Standard deviation of a pixel, of 255.
+        width: Columns; the V6 offers 320 and more, both offer 160; 8 to 4096.
+        height: Rows; 8 to 4096.
+        rate: Images per second, in [1/s]; the sensor gives up to 30; 1 to 60.
+        latency: From exposure to the image in hand, in [s]; 0 to 1.
+        noise: Standard deviation of a pixel, of 255; 0 to 64.
         renderer: One of ``RENDERERS``.
     """
 
@@ -42,17 +48,22 @@ class ColourSettings:
     noise: float = 4.0
     renderer: str = "auto"
 
+    ranges: ClassVar[Ranges] = {
+        "width": PIXELS,
+        "height": PIXELS,
+        "rate": RATE,
+        "latency": LATENCY,
+        "noise": Range(0.0, 64.0, "1", "a quarter of all levels"),
+    }
+
     def __post_init__(self) -> None:
         """Refuse what no such camera is."""
+        check_settings(self)
         if self.optics not in OPTICS:
             raise ConfigurationError(
                 f"optics must be one of {', '.join(OPTICS)}, "
                 f"got {self.optics!r}"
             )
-        check_within(self.rate, 1.0, 60.0, "rate", "1/s", ERROR)
-        check_within(self.latency, 0.0, 1.0, "latency", "s", ERROR)
-        check_within(self.noise, 0.0, 64.0, "noise", "1", ERROR)
-        self.model()
 
     def model(self) -> CameraModel:
         """Pinhole camera with these optics."""
@@ -66,15 +77,16 @@ class DepthSettings:
     """The ASUS Xtion on the evader's head.
 
     Attributes:
-        width: Columns that are used, of 640.
-        height: Rows that are used, of 480.
-        rate: Images per second, in [1/s]; the sensor gives 30.
-        latency: From exposure to the image in hand, in [s].
-        near: Nothing nearer comes back, in [m].
-        far: Nothing farther comes back, in [m].
-        noise: Standard deviation at 1 m, in [m]; it grows with the square.
-        step: Quantum at 1 m, in [m]; it grows with the square.
-        missing: Share of the pixels that nothing comes back to.
+        width: Columns that are used, of 640; 8 to 4096.
+        height: Rows that are used, of 480; 8 to 4096.
+        rate: Images per second, in [1/s]; the sensor gives 30; 1 to 60.
+        latency: From exposure to the image in hand, in [s]; 0 to 1.
+        near: Nothing nearer comes back, in [m]; 0.01 to 20.
+        far: Nothing farther comes back, in [m]; 0.01 to 20.
+        noise: Standard deviation at 1 m, in [m]; it grows with the square; 0
+            to 1.
+        step: Quantum at 1 m, in [m]; it grows with the square; 1e-06 to 1.
+        missing: Share of the pixels that nothing comes back to; 0 to 1.
     """
 
     width: int = 80
@@ -87,16 +99,22 @@ class DepthSettings:
     step: float = 0.00285
     missing: float = 0.02
 
+    ranges: ClassVar[Ranges] = {
+        "width": PIXELS,
+        "height": PIXELS,
+        "rate": RATE,
+        "latency": LATENCY,
+        "near": Range(0.01, 20.0, "m", "nothing is nearer to a lens"),
+        "far": Range(0.01, 20.0, "m", "from near on, as far as a room goes"),
+        "noise": Range(0.0, 1.0, "m", "more is no distance at all"),
+        "step": QUANTUM,
+        "missing": Range(0.0, 1.0, "1", "a share"),
+    }
+
     def __post_init__(self) -> None:
         """Refuse what no such camera is."""
-        check_within(self.rate, 1.0, 60.0, "rate", "1/s", ERROR)
-        check_within(self.latency, 0.0, 1.0, "latency", "s", ERROR)
-        check_positive(self.near, "near", "m", ERROR)
-        check_within(self.far, self.near, 20.0, "far", "m", ERROR)
-        check_not_negative(self.noise, "noise", "m", ERROR)
-        check_positive(self.step, "step", "m", ERROR)
-        check_within(self.missing, 0.0, 1.0, "missing", "1", ERROR)
-        self.model()
+        check_settings(self)
+        check_within(self.far, self.near, 20.0, "far", "m", ConfigurationError)
 
     def model(self) -> CameraModel:
         """Pinhole camera with the optics of the Xtion."""
@@ -110,12 +128,12 @@ class SonarSettings:
     """NAO's sonars, V5 and V6.
 
     Attributes:
-        rate: Echoes per second of each, in [1/s]; assumed.
-        near: Nearer things sound as near as this, in [m].
-        far: Farther things are not heard, in [m].
-        cone: Opening angle, in [rad].
-        noise: Standard deviation, in [m].
-        step: Quantum, in [m].
+        rate: Echoes per second of each, in [1/s]; assumed; 1 to 40.
+        near: Nearer things sound as near as this, in [m]; 0.01 to 10.
+        far: Farther things are not heard, in [m]; 0.01 to 10.
+        cone: Opening angle, in [rad]; 0.05 to 2.5.
+        noise: Standard deviation, in [m]; 0 to 1.
+        step: Quantum, in [m]; 1e-06 to 1.
     """
 
     rate: float = 10.0
@@ -125,14 +143,19 @@ class SonarSettings:
     noise: float = 0.01
     step: float = 0.01
 
+    ranges: ClassVar[Ranges] = {
+        "rate": Range(1.0, 40.0, "1/s", "the next echo waits for the last"),
+        "near": Range(0.01, 10.0, "m", "nothing is nearer to the chest"),
+        "far": Range(0.01, 10.0, "m", "from near on, as far as echoes come"),
+        "cone": Range(0.05, 2.5, "rad", "from a ray to half the room"),
+        "noise": Range(0.0, 1.0, "m", "more is no distance at all"),
+        "step": QUANTUM,
+    }
+
     def __post_init__(self) -> None:
         """Refuse what no sonar is."""
-        check_within(self.rate, 1.0, 40.0, "rate", "1/s", ERROR)
-        check_positive(self.near, "near", "m", ERROR)
-        check_within(self.far, self.near, 10.0, "far", "m", ERROR)
-        check_within(self.cone, 0.05, 2.5, "cone", "rad", ERROR)
-        check_not_negative(self.noise, "noise", "m", ERROR)
-        check_positive(self.step, "step", "m", ERROR)
+        check_settings(self)
+        check_within(self.far, self.near, 10.0, "far", "m", ConfigurationError)
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,8 +166,8 @@ class CameraSettings:
         colour: The camera in the head of either robot.
         depth: The depth camera on the evader's head.
         sonar: The sonars in the evader's chest.
-        drop_frames: Share of the images that never arrive.
-        added_latency: Latency on top of each camera's own, in [s].
+        drop_frames: Share of the images that never arrive; 0 to 1.
+        added_latency: Latency on top of each camera's own, in [s]; 0 to 0.5.
     """
 
     colour: ColourSettings = field(default_factory=ColourSettings)
@@ -153,10 +176,14 @@ class CameraSettings:
     drop_frames: float = 0.0
     added_latency: float = 0.0
 
+    ranges: ClassVar[Ranges] = {
+        "drop_frames": Range(0.0, 1.0, "1", "a share"),
+        "added_latency": Range(0.0, 0.5, "s", "beside a camera's own"),
+    }
+
     def __post_init__(self) -> None:
         """Refuse shares that are none and latency beyond the memory."""
-        check_within(self.drop_frames, 0.0, 1.0, "drop_frames", "1", ERROR)
-        check_within(self.added_latency, 0.0, 0.5, "added_latency", "s", ERROR)
+        check_settings(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,13 +192,18 @@ class Thing:
 
     Attributes:
         kind: "red box", "blue box" or "white figure".
-        x: Where it stands, in [m].
-        y: Likewise.
+        x: Where it stands, in [m]; -20 to 20.
+        y: Likewise; -20 to 20.
     """
 
     kind: str
     x: float
     y: float
+
+    ranges: ClassVar[Ranges] = {
+        "x": Range(-20.0, 20.0, "m", "outside of any room"),
+        "y": Range(-20.0, 20.0, "m", "outside of any room"),
+    }
 
     def __post_init__(self) -> None:
         """Refuse unknown things and places outside of any room."""
@@ -179,10 +211,7 @@ class Thing:
             raise ConfigurationError(
                 f"a thing must be one of {', '.join(KINDS)}, got {self.kind!r}"
             )
-        for name in ("x", "y"):
-            value = getattr(self, name)
-            where = f"{name} of the {self.kind}"
-            check_within(value, -20.0, 20.0, where, "m", ERROR)
+        check_settings(self, prefix=f"{self.kind} ")
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,17 +219,29 @@ class RoomSettings:
     """What stands around the robots.
 
     Attributes:
-        walls: Distance of the walls from the middle, in [m]; 0 for none.
+        walls: Distance of the walls that cameras see from the middle, in [m];
+            0 for none; 2 to 20 or 0.
         things: Boxes and figures that stand about.
+        plan: Floor plan of the room that they play in, whatever they see
+            with; none by default.
     """
 
     walls: float = 5.0
     things: list[Thing] = field(default_factory=list)
+    plan: Room | None = None
+
+    ranges: ClassVar[Ranges] = {
+        "walls": Range(
+            *(2.0, 20.0, "m"),
+            "nearer, nobody gets by; farther, nobody sees them",
+            also=(0.0,),
+        ),
+    }
 
     def __post_init__(self) -> None:
         """Refuse walls that are too near."""
-        if self.walls:
-            check_within(self.walls, 2.0, 20.0, "walls", "m", ERROR)
+        check_settings(self)
+        check_count(self.things, MOST_THINGS, "things")
 
 
 # In the way of nobody, but in view of both.

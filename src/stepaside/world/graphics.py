@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable
 from functools import lru_cache
 from importlib import import_module
-from typing import Any
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
@@ -24,7 +24,27 @@ PROBE = (
 )
 GEOMS = 2000  # that a scene can hold
 GRID = 10.0  # spacing of the vertices of a plane, in [m]
-DETAIL = (16, 10)  # slices and stacks of round shapes
+
+
+class Look(NamedTuple):
+    """How much trouble is taken over a picture.
+
+    Attributes:
+        samples: Of each pixel, against jagged edges; 0 for one.
+        shadow: Side of the map of shadows, in [pixels]; 0 for none.
+        reach: Half side of the square that has shadows, in [m].
+        slices: Of round shapes.
+        stacks: Likewise, along their axes.
+    """
+
+    samples: int = 0
+    shadow: int = 0
+    reach: float = 1.0
+    slices: int = 16
+    stacks: int = 10
+
+
+PLAIN = Look()  # quick, for sensors
 
 
 def choose_renderer(wanted: str = "auto") -> str:
@@ -87,7 +107,12 @@ class Screen:
     """An off-screen picture of one size, that any camera can draw on."""
 
     def __init__(
-        self, model: mujoco.MjModel, width: int, height: int, backend: str
+        self,
+        model: mujoco.MjModel,
+        width: int,
+        height: int,
+        backend: str,
+        look: Look = PLAIN,
     ) -> None:
         """Set up graphics; only ever one backend in a process."""
         os.environ.update(_environment(backend))
@@ -96,8 +121,10 @@ class Screen:
         self._gl = context(width, height)
         self._gl.make_current()
         quality = model.vis.quality
-        quality.shadowsize = quality.offsamples = 0
-        quality.numslices, quality.numstacks = DETAIL
+        quality.shadowsize, quality.offsamples = look.shadow, look.samples
+        quality.numslices, quality.numstacks = look.slices, look.stacks
+        if look.shadow:
+            model.vis.map.shadowclip = look.reach / model.stat.extent
         # The third size of a plane is how fine its grid is drawn.
         planes = model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE
         model.geom_size[planes, 2] = GRID
@@ -109,7 +136,7 @@ class Screen:
         mujoco.mjr_setBuffer(offscreen, self._context)
         self._scene = mujoco.MjvScene(model, GEOMS)
         flags = self._scene.flags
-        flags[mujoco.mjtRndFlag.mjRND_SHADOW] = 0
+        flags[mujoco.mjtRndFlag.mjRND_SHADOW] = look.shadow > 0
         flags[mujoco.mjtRndFlag.mjRND_REFLECTION] = 0
         self._option = mujoco.MjvOption()
         self._area = mujoco.MjrRect(0, 0, width, height)

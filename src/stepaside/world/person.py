@@ -7,7 +7,6 @@ import numpy as np
 
 from ..poses import Array, Pose
 from .person_motion import Motion
-from .truth import TrueState
 from .world import FLOOR_BIT, World
 
 SHIRT = (0.80, 0.16, 0.14, 1.0)
@@ -91,15 +90,19 @@ def pose_figure(
         data.mocap_quat[at] = _turned(frame.theta, pitch)
 
 
-class PersonTruth(TrueState):
+REACH = 0.4  # arms of a person, who keeps them down, [m]
+
+
+class PersonTruth:
     """True state of a person: the axis of the trunk."""
 
     def __init__(self, motion: Motion) -> None:
         """Watch a walk."""
         self._motion = motion
+        self.reach = REACH
 
     @property
-    def com(self) -> Array:  # type: ignore[override]
+    def com(self) -> Array:
         """A point in the middle of the trunk, in [m]. Shape (3,)."""
         return np.array([*self._motion.pose[:2], 1.0])
 
@@ -122,12 +125,6 @@ class PersonTruth(TrueState):
     def has_fallen(self) -> bool:
         """Return false: this person does not fall."""
         return False
-
-    def distance_to(self, other: TrueState) -> float:
-        """Horizontal distance from the trunk's axis, in [m]."""
-        x, y = self.position
-        u, v = other.position
-        return hypot(u - x, v - y)
 
 
 class Person:

@@ -1,10 +1,11 @@
 """A person instead of the pursuing robot."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
-from ..errors import ConfigurationError, check_positive, check_within
+from ..errors import ConfigurationError
+from ..ranges import Range, Ranges, check_settings
 
-ERROR = ConfigurationError
 PURSUERS = ("robot", "person")
 
 
@@ -17,9 +18,10 @@ class PersonSettings:
             on in the direction in which the walk begins, and everything else
             is a file of a recorded path: CSV lines of time [s], x [m] and
             y [m] with a head line ``time,x,y``.
-        speed: Of the walk, in [m/s].
-        gain: Of the steering (1)-(2), in [1/s] of real time.
-        miss: How far to the left of the evader a straight walk aims, [m].
+        speed: Of the walk, in [m/s]; 0.001 to 3.
+        gain: Of the steering (1)-(2), in [1/s] of real time; 0.0001 to 100.
+        miss: How far to the left of the evader a straight walk aims, [m]; -10
+            to 10.
     """
 
     path: str = "steer"
@@ -27,12 +29,15 @@ class PersonSettings:
     gain: float = 0.2
     miss: float = 0.0
 
+    ranges: ClassVar[Ranges] = {
+        "speed": Range(1e-3, 3.0, "m/s", "whoever is faster runs"),
+        "gain": Range(1e-4, 100.0, "1/s", "as a robot's"),
+        "miss": Range(-10.0, 10.0, "m", "farther by is out of sight"),
+    }
+
     def __post_init__(self) -> None:
         """Refuse a walk that is none."""
-        check_within(self.speed, 0.0, 3.0, "person.speed", "m/s", ERROR)
-        check_positive(self.speed, "person.speed", "m/s", ERROR)
-        check_positive(self.gain, "person.gain", "1/s", ERROR)
-        check_within(self.miss, -10.0, 10.0, "person.miss", "m", ERROR)
+        check_settings(self, prefix="person.")
         if not self.path:
             raise ConfigurationError(
                 "person.path must be steer, straight or a file, got ''"

@@ -1,18 +1,14 @@
 """Somebody bumps into a robot."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import cos, pi, sin
+from math import pi
+from typing import ClassVar, NamedTuple
 
-import mujoco
+from ..errors import ConfigurationError
+from ..ranges import Range, Ranges, check_settings
 
-from ..errors import (
-    ConfigurationError,
-    check_not_negative,
-    check_positive,
-    check_within,
-)
-
-ERROR = ConfigurationError
+MOST_PUSHES = 1000  # of one game
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,76 +16,77 @@ class Push:
     """A constant force at the torso for a short while.
 
     Attributes:
-        impulse: Force times duration, in [N s].
-        time: When it begins, in [s].
-        direction: Where it pushes to, from the robot's heading at that
-            time, in [rad]: 0 forward, pi/2 to the left.
-        duration: How long it lasts, in [s].
+        impulse: Force times duration, in [N s]; 0 to 1000.
+        time: When it begins, in [s]; 0 to 86400.
+        direction: Where it pushes to, from the robot's heading at that time,
+            in [rad]: 0 forward, pi/2 to the left; -6.28319 to 6.28319.
+        duration: How long it lasts, in [s]; 0.0001 to 100.
+        player: Who is pushed; by default the walker, or a duel's evader.
     """
 
     impulse: float
     time: float
     direction: float
     duration: float = 0.1
+    player: str = ""
+
+    ranges: ClassVar[Ranges] = {
+        "impulse": Range(0.0, 1000.0, "N s", "a car does not give more"),
+        "time": Range(0.0, 86400.0, "s", "as long as a walk may be"),
+        "direction": Range(-2 * pi, 2 * pi, "rad", "a whole turn"),
+        "duration": Range(1e-4, 100.0, "s", "some steps of the physics"),
+    }
 
     def __post_init__(self) -> None:
         """Refuse pushes that nobody can give."""
-        check_not_negative(self.impulse, "push impulse", "N s", ERROR)
-        check_within(self.time, 0.0, 86400.0, "push time", "s", ERROR)
-        check_within(
-            self.direction, -2 * pi, 2 * pi, "push direction", "rad", ERROR
-        )
-        check_positive(self.duration, "push duration", "s", ERROR)
+        check_settings(self, prefix="push ")
 
 
-class Pusher:
-    """Applies pushes to one body of a world.
+class GivenPush(NamedTuple):
+    """A push as it was given, in the world.
 
     Attributes:
-        impulse: Impulse given so far in the world, in [N s].
+        time: When it began, in [s].
+        duration: How long it lasts, in [s].
+        x: Place of the torso when it began, in [m].
+        y: Likewise.
+        impulse_x: Impulse, in [N s].
+        impulse_y: Likewise.
     """
 
-    def __init__(
-        self,
-        model: mujoco.MjModel,
-        data: mujoco.MjData,
-        torso: int,
-    ) -> None:
-        """Prepare pushes of the body with a given number."""
-        self._force = data.xfrc_applied[torso]
-        self._frame = data.xmat[torso]
-        self._time_step = model.opt.timestep
-        self._waiting: list[Push] = []
-        self._active: list[tuple[float, float, float]] = []
-        self.impulse = (0.0, 0.0)
+    time: float
+    duration: float
+    x: float
+    y: float
+    impulse_x: float
+    impulse_y: float
 
-    def add(self, push: Push) -> None:
-        """Take one more push."""
-        self._waiting = sorted(
-            [*self._waiting, push], key=lambda push: push.time
-        )
 
-    def before_step(self, time: float) -> None:
-        """Set the force for the physics step that begins at a time, [s]."""
-        if not self._waiting and not self._active:
-            return
-        while self._waiting and self._waiting[0].time <= time + 1e-9:
-            push = self._waiting.pop(0)
-            x, y = self._frame[0], self._frame[3]
-            length = (x * x + y * y) ** 0.5 or 1.0
-            x, y = x / length, y / length
-            c, s = cos(push.direction), sin(push.direction)
-            force = push.impulse / push.duration
-            self._active.append(
-                (
-                    time + push.duration,
-                    force * (c * x - s * y),
-                    force * (c * y + s * x),
-                )
+def check_pushes(pushes: Sequence[Push], robots: Sequence[str]) -> None:
+    """Refuse pushes of somebody who is no robot of a game.
+
+    Args:
+        pushes: Whoever bumps into whom.
+        robots: Names of those who can be pushed; the last is meant by a push
+            that names nobody.
+
+    Raises:
+        ConfigurationError: If a push names somebody else.
+    """
+    for push in pushes:
+        if push.player not in ("", *robots):
+            raise ConfigurationError(
+                f"push player must be one of {', '.join(robots)}, who can be "
+                f"pushed, got {push.player!r}"
             )
-        self._active = [a for a in self._active if a[0] > time + 1e-9]
-        fx = sum(a[1] for a in self._active)
-        fy = sum(a[2] for a in self._active)
-        self._force[0], self._force[1] = fx, fy
-        given, h = self.impulse, self._time_step
-        self.impulse = given[0] + fx * h, given[1] + fy * h
+
+
+def pushes_of(
+    pushes: Sequence[Push], robots: Sequence[str]
+) -> dict[str, tuple[Push, ...]]:
+    """Pushes by name of who is pushed; see :func:`check_pushes`."""
+    named = [(push.player or robots[-1], push) for push in pushes]
+    return {
+        name: tuple(push for who, push in named if who == name)
+        for name in robots
+    }

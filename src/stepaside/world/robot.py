@@ -5,23 +5,44 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
+import mujoco
 import numpy as np
 
+from ..errors import ModelError
 from ..poses import Array, Pose
-from ..robots.description import RobotDescription
-from ..robots.forward import FOOT_FORCES
+from ..robots.description import REMEDY, RobotDescription
 from ..robots.kinematics import LegKinematics
 from ..sensing.measurement import Measurement
 from .body_settings import BodySettings
-from .push import Push, Pusher
+from .push import GivenPush, Push
+from .pusher import Pusher
 from .sensor_errors import AveragedImu, SensorErrors
 from .servos import HonestServos, IdealServos
-from .sight import IdealLineOfSight
+from .sight import IdealLineOfSight, IdealPlace
+from .stance import Stance, StanceWatch
 from .truth import TrueState
 from .world import World, place_free_body
 
 if TYPE_CHECKING:
     from .eyes import Eyes
+
+
+def motor_of(model: mujoco.MjModel, joint: int) -> int:
+    """Number of the actuator that moves a joint, by the joint's number.
+
+    Raises:
+        ModelError: If none does, or several do.
+    """
+    moving = (model.actuator_trnid[:, 0] == joint) & (
+        model.actuator_trntype == mujoco.mjtTrn.mjTRN_JOINT
+    )
+    found = np.flatnonzero(moving)
+    if len(found) != 1:
+        raise ModelError(
+            f"joint {model.joint(joint).name!r} must have one actuator, got "
+            f"{len(found)}"
+        )
+    return int(found[0])
 
 
 class SimulatedRobot:
@@ -32,6 +53,7 @@ class SimulatedRobot:
         tick: Control period, in [s].
         sight: Ideal sensor of the other robot, if it has one.
         eyes: Cameras and sonars, if it sees with those.
+        place: Ideal sensor of its place in a room, if it has one.
         truth: Its true state, for sensors that say so and for the record.
     """
 
@@ -48,7 +70,8 @@ class SimulatedRobot:
         sight: IdealLineOfSight | None = None,
         eyes: Eyes | None = None,
         averages_imu: bool = False,
-        com_forward: float = 0.0,
+        truth: TrueState | None = None,
+        knows_place: bool = False,
     ) -> None:
         """Stand a robot in the posture of its kinematics.
 
@@ -64,8 +87,8 @@ class SimulatedRobot:
             eyes: Cameras and sonars, if it sees with those.
             averages_imu: Whether the IMU averages between readings, as real
                 ones do, instead of sampling.
-            com_forward: How far its gait keeps the CoM ahead of the place
-                that stands for it, in [m].
+            truth: Its true state, if somebody watches that already.
+            knows_place: Whether a sensor tells it its place in the room.
         """
         body = body or BodySettings()
         self.world = world
@@ -77,7 +100,7 @@ class SimulatedRobot:
         names = kinematics.joint_names
         joints = [model.joint(f"{name}/{n}") for n in names]
         self._qpos = np.array([j.qposadr[0] for j in joints])
-        ids = np.array([model.actuator(f"{name}/{n}").id for n in names])
+        ids = np.array([motor_of(model, j.id) for j in joints])
         speeds = np.array([description.speed_limits[n] for n in names])
         self.servos: IdealServos
         if body.has_ideal_servos:
@@ -93,36 +116,37 @@ class SimulatedRobot:
         self._errors: SensorErrors | None = None
         if generator is not None and body.has_sensor_errors:
             self._errors = SensorErrors(body, generator)
-        self._gyro = self._sensor("gyro")
-        self._accelerometer = self._sensor("accelerometer")
+        sensors = description.sensors
+        self._gyro = self._sensor(sensors.gyro)
+        self._accelerometer = self._sensor(sensors.accelerometer)
         # Views of the state, which stays where it is: slicing takes time.
         self._angles: Array = data.qpos
+        self._sensed: Array = data.sensordata
         self._turning: Array = data.sensordata[self._gyro]
         self._pushing: Array = data.sensordata[self._accelerometer]
-        first, last = (
-            self._sensor(FOOT_FORCES[0]),
-            self._sensor(FOOT_FORCES[-1]),
-        )
-        self._pressing: Array = data.sensordata[first.start : last.stop]
-        sites = [model.site(f"{name}/{f}").id for f in FOOT_FORCES]
+        pressing = [self._sensor(foot).start for foot in sensors.feet]
+        self._pressing = np.array(pressing)
+        sites = [model.site(f"{name}/{f}").id for f in sensors.feet]
         self._corners = np.array(sites)
         root = model.body(f"{name}/{description.torso}")
         self._place(kinematics, pose, int(model.jnt_qposadr[root.jntadr[0]]))
         self.servos.reset(kinematics.joint_targets)
         self._torso = root.id
         self.pusher: Pusher | None = None
-        self.truth = TrueState(
-            model,
-            data,
-            f"{name}/{description.torso}",
-            com_forward=com_forward,
-        )
+        self.truth = truth or TrueState(model, data, root.name)
+        self._stance = StanceWatch(model, data, name, description)
+        self.place = IdealPlace(self.truth) if knows_place else None
         if averages_imu:
             self._imu = AveragedImu(data, self._gyro, self._accelerometer)
             world.before_step.append(self._imu.before_step)
 
     def _sensor(self, sensor: str) -> slice:
-        found = self.world.model.sensor(f"{self.name}/{sensor}")
+        try:
+            found = self.world.model.sensor(f"{self.name}/{sensor}")
+        except KeyError:
+            raise ModelError(
+                f"the model of {self.name} has no sensor {sensor!r}; {REMEDY}"
+            ) from None
         return slice(int(found.adr[0]), int(found.adr[0] + found.dim[0]))
 
     def _place(self, kinematics: LegKinematics, pose: Pose, at: int) -> None:
@@ -141,14 +165,15 @@ class SimulatedRobot:
             gyro, force = self._turning.copy(), self._pushing.copy()
         else:
             gyro, force = self._imu.read()
-        forces = self._pressing.copy()
+        forces = self._sensed.take(self._pressing)
         if self._errors is not None:
             angles = self._errors.encoders(angles)
             gyro, force = self._errors.imu(gyro, force)
             forces = self._errors.foot_forces(forces)
         percepts = () if self.eyes is None else self.eyes.read(now)
+        place = None if self.place is None else self.place.read()
         return Measurement(
-            now, angles, gyro, force, forces, sighting, percepts
+            now, angles, gyro, force, forces, sighting, percepts, place
         )
 
     def write(self, joint_targets: Array) -> None:
@@ -164,6 +189,16 @@ class SimulatedRobot:
         for push in pushes:
             self.pusher.add(push)
 
+    @property
+    def stance(self) -> Stance:
+        """How it truly stands at this instant."""
+        return self._stance.read()
+
+    @property
+    def pushes(self) -> tuple[GivenPush, ...]:
+        """Last pushes that began."""
+        return () if self.pusher is None else tuple(self.pusher.given)
+
     def step(self) -> None:
         """Let time pass until the next control tick."""
         self.world.advance()
@@ -177,7 +212,7 @@ class SimulatedRobot:
     def measured_zmp(self) -> tuple[float, float]:
         """Center of the foot forces in the world, in [m]; NaN in flight."""
         data = self.world.data
-        forces = self._pressing
+        forces = self._sensed.take(self._pressing)
         total = float(forces.sum())
         if total <= 0.0:
             return nan, nan

@@ -1,14 +1,14 @@
-"""The ideal line of sight: a sensor that knows the truth and says so."""
+"""Ideal sensors of other and place: they know the truth and say so."""
 
 from collections import deque
 from math import atan2, hypot
 
 import numpy as np
 
-from ..poses import wrap_angle
+from ..poses import Pose, wrap_angle
 from ..sensing.measurement import Sighting
 from .settings import SightSettings
-from .truth import TrueState
+from .truth import Truth
 
 
 class IdealLineOfSight:
@@ -21,8 +21,8 @@ class IdealLineOfSight:
 
     def __init__(
         self,
-        own: TrueState,
-        other: TrueState,
+        own: Truth,
+        other: Truth,
         settings: SightSettings,
         generator: np.random.Generator,
     ) -> None:
@@ -58,3 +58,20 @@ class IdealLineOfSight:
         if settings.distance_noise > 0.0:
             distance += settings.distance_noise * self._generator.normal()
         return Sighting(now, wrap_angle(bearing), max(distance, 0.0))
+
+
+class IdealPlace:
+    """CoM and heading of a robot in its room, by the truth.
+
+    It stands in for whatever tells a robot where it is on a map that it was
+    given.
+    """
+
+    def __init__(self, own: Truth) -> None:
+        """Tell the place of a robot."""
+        self._own = own
+
+    def read(self) -> Pose:
+        """CoM over the floor, in [m], and heading of the torso, in [rad]."""
+        x, y, _ = self._own.com.tolist()
+        return Pose(x, y, self._own.heading)

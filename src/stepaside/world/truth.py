@@ -1,12 +1,48 @@
 """What only the simulator knows of a robot."""
 
 from math import atan2, cos, hypot, radians, sin
+from typing import Protocol
 
 import mujoco
 
 from ..poses import Array
+from ..robots.own import Place
 
 FALLEN = cos(radians(45.0))  # upward component of the torso's axis
+
+
+class Truth(Protocol):
+    """Where a player really is, whatever it is."""
+
+    @property
+    def reach(self) -> float:
+        """Distance from the torso within which all of it lies, in [m]."""
+
+    @property
+    def com(self) -> Array:
+        """CoM, or what stands for it, in [m]. Shape (3,)."""
+
+    @property
+    def position(self) -> tuple[float, float]:
+        """Place of the torso in the world, in [m]."""
+
+    @property
+    def place(self) -> tuple[float, float]:
+        """Point that stands for the player in the game, in [m]."""
+
+    @property
+    def heading(self) -> float:
+        """Where it heads in the world, in [rad]."""
+
+    @property
+    def has_fallen(self) -> bool:
+        """Whether it lies."""
+
+
+def torsos_apart(one: Truth, other: Truth) -> float:
+    """Horizontal distance between two torsos, in [m]."""
+    (x, y), (u, v) = one.position, other.position
+    return hypot(u - x, v - y)
 
 
 class TrueState:
@@ -18,6 +54,7 @@ class TrueState:
 
     Attributes:
         com: CoM of the robot, in [m], as a view. Shape (3,).
+        reach: Distance from its torso within which all of it lies, in [m].
     """
 
     def __init__(
@@ -27,6 +64,7 @@ class TrueState:
         torso: str,
         *,
         com_forward: float = 0.0,
+        place: Place | None = None,
     ) -> None:
         """Watch a robot.
 
@@ -36,8 +74,12 @@ class TrueState:
             torso: Body with its torso.
             com_forward: How far its gait keeps the CoM ahead of the place,
                 in [m].
+            place: Where the hips are in the torso's frame, and how far the
+                robot reaches.
         """
         self._com_forward = com_forward
+        place = place or Place()
+        self._forward, self.reach = place.forward, place.reach
         root = model.body(torso).id
         self._position: Array = data.xpos[root]
         self._frame: Array = data.xmat[root]
@@ -45,9 +87,13 @@ class TrueState:
 
     @property
     def position(self) -> tuple[float, float]:
-        """Place of the torso in the world, in [m]."""
+        """Point of the torso midway between the hips, in the world [m]."""
         x, y, _ = self._position.tolist()
-        return x, y
+        ahead = self._forward
+        if ahead == 0.0:
+            return x, y
+        axis = self._frame
+        return x + ahead * float(axis[0]), y + ahead * float(axis[3])
 
     @property
     def place(self) -> tuple[float, float]:
@@ -65,9 +111,3 @@ class TrueState:
     def has_fallen(self) -> bool:
         """Whether the torso leans by more than 45 degrees."""
         return bool(self._frame[8] < FALLEN)
-
-    def distance_to(self, other: "TrueState") -> float:
-        """Horizontal distance between the torsos, in [m]."""
-        x, y = self.position
-        u, v = other.position
-        return hypot(u - x, v - y)

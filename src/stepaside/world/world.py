@@ -62,14 +62,28 @@ def build_model(
         if body is not None and body.mass_error + body.com_error > 0.0:
             generator = named_generator(seed, f"masses/{name}")
             perturb_masses(part.bodies, body, description.torso, generator)
-        accent = part.material(description.accent)
-        if accent is not None and name in COLOURS:
-            accent.rgba = COLOURS[name]
+        if name in COLOURS:
+            _dye(part, description, COLOURS[name])
         frame = spec.worldbody.add_frame()
         spec.attach(part, prefix=f"{name}/", frame=frame)
     if furnish is not None:
         furnish(spec)
     return spec.compile()
+
+
+def _dye(
+    part: mujoco.MjSpec,
+    description: RobotDescription,
+    colour: tuple[float, float, float, float],
+) -> None:
+    """Give a robot the colour of its role: its accent, or else its torso."""
+    if description.accent:
+        accent = part.material(description.accent)
+        if accent is not None:
+            accent.rgba = colour
+        return
+    for geom in part.body(description.torso).geoms:
+        geom.material, geom.rgba = "", colour
 
 
 class World:

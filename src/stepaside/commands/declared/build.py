@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from .body import BODY_PRESET, FEEDBACK, METHOD
+from .gait import PRESET
 
 if TYPE_CHECKING:
     from ...control.balance.settings import ControlSettings
@@ -43,27 +44,62 @@ def _put(settings: Any, section: tuple[str, ...], values: Any) -> Any:
 
 
 def with_control(
-    given: Mapping[str, Any], control: "ControlSettings"
+    given: Mapping[str, Any],
+    control: "ControlSettings",
+    *,
+    needed: bool = False,
+    told_method: bool = False,
 ) -> dict[str, Any]:
     """Values with the method and the feedback that others imply.
 
     A body other than the ideal one is stabilised unless it is said not to
-    be, as is a walk planned from the measured state.
+    be, as is a walk planned from the measured state, or with a gait that
+    needs it. Such a gait is planned from the planned state: steps so quick
+    have no time for what is measured to come true. Who asks for feedback
+    beside a file that names a method gets that, with feedback.
 
     Args:
         given: Values by path, names of presets not looked up yet.
         control: What holds so far.
+        needed: Whether the robot cannot walk without feedback.
+        told_method: Whether a file said its method.
     """
+    from ...planning import STABILISED
+
     body, method, feedback = (
         given.get(option.path) for option in (BODY_PRESET, METHOD, FEEDBACK)
     )
+    if feedback and method is None and told_method:
+        method = control.method
+    if given.get(PRESET.path) in STABILISED and feedback is not False:
+        method = method or "closed-form"
+        return {**given, METHOD.path: method, FEEDBACK.path: True}
     if feedback is None and (method or body) is not None:
         feedback = body not in (None, "ideal") or (
             method not in (None, "closed-form")
         )
-        feedback = feedback or (body is None and control.feedback)
+        feedback = feedback or needed or (body is None and control.feedback)
     if feedback is None:
         return dict(given)
     if method is None:
         method = "measured" if feedback else "closed-form"
     return {**given, METHOD.path: method, FEEDBACK.path: feedback}
+
+
+def with_trigger(given: Mapping[str, Any], pursuer: str) -> dict[str, Any]:
+    """Values with the trigger that others imply.
+
+    Where a person comes and the gait is a fast one, evasion begins by time:
+    people come at any speed, and a distance suits only one.
+
+    Args:
+        given: Values by path, names of presets not looked up yet.
+        pursuer: Who pursues so far.
+    """
+    from ...planning import STABILISED
+
+    values = dict(given)
+    person = values.get("pursuer", pursuer) == "person"
+    if person and values.get(PRESET.path) in STABILISED:
+        values.setdefault("strategy.trigger", "time")
+    return values

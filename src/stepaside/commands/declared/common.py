@@ -5,10 +5,12 @@ from pathlib import Path
 import click
 
 from ...outputs import FIGURES
+from ...report.sizes import SHEETS, figures_on
 from ..options import NumberType
-from .kinds import OutputFile
+from .kinds import NameType, OutputFile
 from .option import Declaration
 
+INTERRUPTED = 130  # exit status of a command that was stopped
 JSON = Declaration(
     "--json/--no-json", "Print one JSON object.", more_names=("as_json",)
 )
@@ -28,13 +30,19 @@ FIGURE = Declaration(
     "Write a figure (.png, .svg or .pdf).",
     kind=OutputFile(*FIGURES),
 )
+WIDTH = Declaration(
+    "--figure-width",
+    "Of figures: as on a screen, or in the sizes and fonts of papers with "
+    "two columns, across a page or in one column.",
+    kind=NameType(lambda: SHEETS),
+)
 WORKERS = Declaration(
     "--workers",
     "Processes; all cores by default.",
     kind=click.IntRange(1, 1024),  # more only wait for each other
 )
 FIRST_SEED = Declaration(
-    "--seed", "Of every random draw.", kind=click.IntRange(0)
+    "--seed", "Of every random draw.", kind=click.IntRange(0, 2**128 - 1)
 )
 PORT = Declaration(
     "--port", "To serve the page at.", kind=click.IntRange(1, 65535)
@@ -68,4 +76,19 @@ DELAY = Declaration(
     "Age of a perception when it takes effect",
     unit="s",
     kind=NumberType("s", allow_zero=True),
+)
+
+
+def _choose_sheet(
+    context: click.Context, _: click.Parameter, name: str
+) -> None:
+    """Draw on a sheet until the command is through."""
+    context.with_resource(figures_on(name))
+
+
+figure_width = WIDTH.option(
+    default="screen",
+    show_default=True,
+    callback=_choose_sheet,
+    expose_value=False,
 )

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, get_args, get_type_hints
 import click
 
 from .option import Declaration, Group
-from .push import PushType
+from .push import PUSHES
 
 if TYPE_CHECKING:
     from ...planning import GaitSettings
@@ -23,12 +23,20 @@ def _profiles() -> tuple[str, ...]:
     return get_args(get_type_hints(GaitSettings)["zmp_profile"])
 
 
+def _swings() -> tuple[str, ...]:
+    from ...planning import GaitSettings
+
+    return get_args(get_type_hints(GaitSettings)["swing_profile"])
+
+
 PRESET = Declaration(
-    "--preset",
-    "Gait: the NAO that walks, or the durations as printed; other options of "
-    "the gait change it.",
+    "--gait",
+    "Gait: the paper's, its durations as printed, or a fast one, which is "
+    "stabilised unless it is said not to be; other options of the gait "
+    "change it.",
     "gait",
     registry=_gaits,
+    more_names=("--preset",),
 )
 HORIZON = Declaration(
     "--horizon",
@@ -47,6 +55,14 @@ GAIT = Group(
         Declaration("--gain", "Steering gain k", "gait.gain", "1/s"),
         Declaration(
             "--stride", "Step size along the path", "gait.stride", "m"
+        ),
+        Declaration(
+            "--outer-stride",
+            "Longest way {unit} of the outer foot in a step of a turn; "
+            "sharper turns shorten the stride.",
+            "gait.outer_stride",
+            "m",
+            words={"none": None},
         ),
         Declaration(
             "--foot-spacing",
@@ -97,6 +113,18 @@ GAIT = Group(
             registry=_profiles,
             more_names=("--zmp-profile",),
         ),
+        Declaration(
+            "--swing-profile",
+            "Way of the swing foot over time.",
+            "gait.swing_profile",
+            registry=_swings,
+        ),
+        Declaration(
+            "--swing-reaction",
+            "Shift {unit} of the ZMP by an acceleration of the swing foot.",
+            "gait.swing_reaction",
+            "s^2",
+        ),
         HORIZON,
     ),
 )
@@ -106,14 +134,6 @@ BEARING = Declaration(
     "straight.",
     "bearing",
     "rad",
-)
-PUSHES = Declaration(
-    "--push",
-    "Push the torso, any number of times: 1.2@5:90deg is 1.2 N s at "
-    "5 s to the left.",
-    "pushes",
-    kind=PushType(),
-    extra={"multiple": True},
 )
 WALK = Group(
     "Walk",

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..options import SECONDS
 from .option import Declaration, Group
 from .strategies import EVADER_STRATEGY, PURSUER_STRATEGY
 
@@ -18,6 +17,12 @@ def _senses() -> Collection[str]:
     from ...games.settings import SENSING
 
     return SENSING
+
+
+def _triggers() -> Collection[str]:
+    from ...strategies.evasion import TRIGGERS
+
+    return TRIGGERS
 
 
 def _pursuers() -> Collection[str]:
@@ -45,13 +50,26 @@ def _things() -> "dict[bool, list[Thing]]":
 
 
 SEED = Declaration("--seed", "Of every random draw.", "seed", kind=click.INT)
-DURATION = Declaration(
-    "--duration", "Simulated time", "duration", "s", kind=SECONDS
-)
+DURATION = Declaration("--duration", "Simulated time", "duration", "s")
 ROBOT = Declaration(
     "--robot", "Robot, or the folder of its description.", "robot"
 )
 RUN = Group("Run", (SEED, DURATION, ROBOT))
+ROBOTS = Group(
+    "Robots (each with the gait and the control of its description)",
+    (
+        Declaration(
+            "--pursuer-robot",
+            "Robot of the pursuer, if it is another one than --robot.",
+            "pursuer_robot",
+        ),
+        Declaration(
+            "--evader-robot",
+            "Robot of the evader, likewise.",
+            "evader_robot",
+        ),
+    ),
+)
 DRAWN: dict[str, Any] = {"drawn": None}
 START = Group(
     "Start (what is not given, the seed draws)",
@@ -94,6 +112,36 @@ STRATEGY = Group(
             "--saturated/--no-saturated",
             "Whether the evader turns by (6), or by (4).",
             "strategy.saturated",
+        ),
+        Declaration(
+            "--trigger",
+            "What begins evasion: a distance, or the time until somebody who "
+            "walks on would be near; time by default where a person comes "
+            "and the gait is fast.",
+            "strategy.trigger",
+            registry=_triggers,
+            tells_default=False,
+        ),
+        Declaration(
+            "--contact-time",
+            "Time {unit} to contact at which evasion begins; {default} by "
+            "default.",
+            "strategy.contact_time",
+            "s",
+        ),
+        Declaration(
+            "--clearance",
+            "Distance {unit} that counts as contact then; {default} by "
+            "default.",
+            "strategy.clearance",
+            "m",
+        ),
+        Declaration(
+            "--calmest",
+            "Least share of the gait's step rate at which it walks while that "
+            "leaves the other room; {default} by default.",
+            "strategy.calmest",
+            "1",
         ),
         Declaration(
             "--safety-radius",

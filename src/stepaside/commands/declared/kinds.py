@@ -1,35 +1,11 @@
 """Kinds of values that options take."""
 
 from collections.abc import Callable, Collection, Mapping
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
 import click
-
-
-class RealType(click.ParamType[float]):
-    """A number; in which range is up to the settings that it is for."""
-
-    name = "number"
-
-    def __init__(self, unit: str) -> None:
-        """Name the unit for messages."""
-        self.unit = unit
-
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> float:
-        """Parse a number."""
-        try:
-            number = float(value)
-        except ValueError:
-            number = float("nan")
-        if number != number:
-            self.fail(f"must be a number [{self.unit}], got {value!r}")
-        return number
 
 
 class NameType(click.ParamType[str]):
@@ -116,3 +92,36 @@ class OutputFile(click.ParamType[str]):
         if self.suffixes and file.name and not file.suffix:
             return f"{value}{self.suffixes[0]}"
         return str(value)
+
+
+class SizeType(click.ParamType[tuple[float, float] | None]):
+    """Sides of a room like 3x3 or 2.5x4, in [m], or ``open`` for no walls."""
+
+    name = "size"
+
+    def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
+        """How it is written."""
+        return "[WIDTHxDEPTH|open]"
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> tuple[float, float] | None:
+        """Parse two sides."""
+        if value is None or value == "open":
+            return None
+        if isinstance(value, tuple):
+            return value
+        try:
+            width, depth = (float(side) for side in str(value).split("x"))
+        except ValueError:
+            width = depth = float("nan")
+        if not (isfinite(width) and isfinite(depth)):
+            self.fail(
+                f"must be like 3x3 or 2.5x4 [m], or open, got {value!r:.60}",
+                param,
+                ctx,
+            )
+        return width, depth

@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 
 import click
 
-from ..options import ANGLE
-from .kinds import NameType, RealType, WordedType
+from ..options import ANGLE, NumberType
+from .kinds import NameType, WordedType
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 Kind = Callable[[], type[Any]]  # gives a class of settings when it is needed
@@ -37,6 +37,7 @@ class Declaration:
         kind: Kind of value, where none of the former says it.
         tells_default: Whether the default follows the help.
         more_names: Further spellings.
+        gather: Turns what was given into what is set, where it is not that.
         extra: What else click is told.
     """
 
@@ -49,6 +50,7 @@ class Declaration:
     kind: click.ParamType[Any] | None = None
     tells_default: bool = True
     more_names: tuple[str, ...] = ()
+    gather: Callable[[Any], Any] | None = None
     extra: Mapping[str, Any] = field(default_factory=dict)
 
     @property
@@ -63,7 +65,7 @@ class Declaration:
         if kind is None and self.unit == "rad":
             kind = ANGLE
         elif kind is None and self.unit:
-            kind = RealType(self.unit)
+            kind = NumberType(self.unit, bounded=False)
         elif kind is None and self.registry and not self.is_flag:
             kind = NameType(self.registry)
         return WordedType(kind, self.words) if kind and self.words else kind
@@ -91,7 +93,9 @@ class Declaration:
         )
 
     def value_of(self, given: Any) -> Any:
-        """Value for a name of a registry; any other as it is."""
+        """Value for what was given: of a registry, for its name."""
+        if self.gather is not None:
+            return self.gather(given)
         values = self.registry() if self.registry is not None else None
         return values[given] if isinstance(values, Mapping) else given
 

@@ -6,6 +6,8 @@ from enum import Enum
 from textwrap import wrap
 from typing import Any
 
+from ...rooms import Room, room_entries
+
 WIDTH = 76  # characters of a comment
 
 
@@ -52,6 +54,11 @@ def _lines(settings: Any, section: tuple[str, ...]) -> list[str]:
     lines, deeper = [], []
     for field in fields(settings):
         value = getattr(settings, field.name)
+        if isinstance(value, Room):
+            here = (*section, field.name)
+            deeper += ["", _comment(told.get(field.name, ""))]
+            deeper.append(_room(value, here))
+            continue
         if is_dataclass(value):
             here = (*section, field.name)
             deeper += ["", _comment(told.get(field.name, ""))]
@@ -64,6 +71,18 @@ def _lines(settings: Any, section: tuple[str, ...]) -> list[str]:
             else f"{field.name} = {_inline(value)}"
         )
     return lines + deeper
+
+
+def _room(room: Room, section: tuple[str, ...]) -> str:
+    """A room in the way of its files, in a section."""
+    import tomli_w
+
+    entries: dict[str, Any] = room_entries(room)
+    for name in reversed(section):
+        entries = {name: entries}
+    # The section above has been opened already.
+    text = tomli_w.dumps(entries)
+    return text.replace(f"[{section[0]}]\n", "", 1).strip()
 
 
 def _comment(text: str) -> str:

@@ -29,7 +29,10 @@ class StrategyType(click.ParamType[str]):
         return absolute_name(str(value))
 
 
-NAMED = "its name (evasion, pursuit, stand, walk), or FILE.py:NAME"
+NAMED = (
+    "its name (evasion, deflected, look-ahead, optimal, pursuit, lead, "
+    "optimal-pursuit, stand, walk), or FILE.py:NAME"
+)
 
 
 OF_EVADER = f"Of the evader: {NAMED} for one of your own; evasion by default."

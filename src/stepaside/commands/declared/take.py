@@ -13,8 +13,10 @@ import click
 from click.core import ParameterSource
 
 from ..terminal import echo
-from .build import changed, with_control
+from .body import METHOD
+from .build import changed, with_control, with_trigger
 from .option import Declaration, DeclaredOption, Group, Kind
+from .rooms import with_room
 
 CONFIG = Declaration(
     "--config",
@@ -96,6 +98,52 @@ def takes_settings(
     return decorate
 
 
+def _begin(
+    kind: Kind,
+    given: dict[str, Any],
+    config: Path | None,
+    aside: Callable[[], Collection[str]],
+) -> tuple[Any, bool]:
+    """Settings of the robot that is meant, changed by the file.
+
+    Args:
+        kind: Gives the class of the settings.
+        given: Options by path; those that name a player's robot are taken.
+        config: File, if there is one.
+        aside: Gives entries of it that belong to other commands.
+
+    Returns:
+        The settings, and whether the robot needs feedback.
+    """
+    base, entries = kind()(), {}
+    if config is not None:
+        from ...games.configuration import load_entries, parse_settings
+
+        entries = load_entries(config)
+    if hasattr(base, "robot"):
+        from ...games.robot_settings import with_players, with_robot
+
+        robot = given.get("robot", entries.get("robot", base.robot))
+        base = with_robot(base, str(robot))
+        players = {}
+        for player in ("pursuer", "evader"):
+            path = f"{player}_robot"
+            if path in given:
+                entries.pop(path, None)
+                players[player] = given.pop(path)
+            elif isinstance(entries.get(path), dict):
+                players[player] = str(entries[path].get("robot", robot))
+        base = with_players(base, players) if players else base
+        entries.pop("robot", None)
+    needed = hasattr(base, "control") and base.control.feedback
+    if config is not None:
+        source = str(config)
+        base = parse_settings(
+            kind(), entries, source, aside=aside(), base=base
+        )
+    return base, needed
+
+
 def _settings(
     kind: Kind, values: dict[str, Any], aside: Callable[[], Collection[str]]
 ) -> Any:
@@ -115,14 +163,15 @@ def _settings(
             given[declaration.path] = value
             declarations[declaration.path] = declaration
     config = values.pop("config")
-    if config is None:
-        settings = kind()()
-    else:
-        from ...games.configuration import load_settings
-
-        settings = load_settings(kind(), config, aside=aside())
+    settings, needed = _begin(kind, given, config, aside)
     if hasattr(settings, "control"):
-        given = with_control(given, settings.control)
-    for path, declaration in declarations.items():
-        given[path] = declaration.value_of(given[path])
-    return changed(settings, given)
+        from ...games.configuration import says
+
+        told = config is not None and says(config, METHOD.path)
+        control = settings.control
+        given = with_control(given, control, needed=needed, told_method=told)
+    if hasattr(settings, "pursuer"):
+        given = with_trigger(given, settings.pursuer)
+    for path in given.keys() & declarations.keys():
+        given[path] = declarations[path].value_of(given[path])
+    return changed(settings, with_room(given))

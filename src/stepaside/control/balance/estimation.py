@@ -109,6 +109,7 @@ class StateEstimator:
         measurement: Measurement,
         feet: BodyReference,
         acceleration: tuple[float, float],
+        reaction: tuple[float, float] = (0.0, 0.0),
     ) -> BodyState:
         """Estimate the state at one tick.
 
@@ -119,6 +120,7 @@ class StateEstimator:
             acceleration: What was asked of the CoM then, in [m/s^2]. The
                 estimated one would not do: through the lever of the CoM a
                 wrong tilt explains its own acceleration.
+            reaction: Shift of the ZMP by the swing leg then, in [m].
         """
         tick, eta = self._tick, self._eta
         attitude = self._attitude
@@ -168,7 +170,7 @@ class StateEstimator:
                 zmp[1] += pressed * (y + s * u + c * v)
         if self._com is None:
             self._com = com
-        pull = eta * eta * (self._com - zmp)
+        pull = eta * eta * (self._com - (zmp - reaction))
         if weight < 10.0:
             pull = np.zeros(2)
         predicted = self._com + tick * self._velocity

@@ -18,7 +18,9 @@ class LoadFeedforward:
     slide. Servos that feed the speed of their targets forward would do so
     with what is added, too: by :math:`d / k` times its rate, d being their
     damping. So added is a :math:`\delta` with
-    :math:`\delta + (d / k)\, \dot\delta = \tau / k`.
+    :math:`\delta + (d / k)\, \dot\delta = \tau / k`. The torque is that of
+    a tick ahead, by its last change: what is sent acts until the next tick,
+    and the accelerations in it are a tick old.
     """
 
     def __init__(
@@ -30,8 +32,10 @@ class LoadFeedforward:
         stiffness, damping = servos.reshape(-1, 2).T
         stiff = stiffness > 0.0
         self._give = np.where(stiff, 1.0 / np.where(stiff, stiffness, 1.0), 0)
-        self._lead = damping * self._give / tick
+        lead = damping * self._give / tick
+        self._gain, self._kept = 1.0 / (1.0 + lead), lead / (1.0 + lead)
         self._added = np.zeros(stiffness.size)
+        self._bent: Array | None = None
 
     def added(
         self, reference: BodyReference, zmp: tuple[float, float]
@@ -43,6 +47,9 @@ class LoadFeedforward:
             zmp: ZMP of the plan, in [m].
         """
         bent = self._give * self._loads.torques(reference, zmp)
-        np.clip(bent, -BOUND, BOUND, out=bent)
-        self._added = (bent + self._lead * self._added) / (1.0 + self._lead)
+        last = bent if self._bent is None else self._bent
+        self._bent = bent
+        soon = 2.0 * bent - last
+        soon.clip(-BOUND, BOUND, out=soon)
+        self._added = self._gain * soon + self._kept * self._added
         return self._added

@@ -263,6 +263,6 @@ def _solver() -> Any:
         import daqp
     except ImportError as error:
         raise ConfigurationError(
-            "method 'mpc' needs the solver daqp: install stepaside[mpc]"
+            "method 'mpc' needs the solver daqp: pip install 'stepaside[mpc]'"
         ) from error
     return daqp

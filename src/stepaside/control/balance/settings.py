@@ -1,20 +1,17 @@
 """How a robot controls its walk."""
 
 from dataclasses import dataclass, field
-from typing import Literal, get_args
+from typing import ClassVar, Literal, get_args
 
-from ...errors import (
-    ConfigurationError,
-    check_not_negative,
-    check_positive,
-    check_within,
-)
+from ...errors import ConfigurationError
+from ...ranges import Range, Ranges, check_settings
 
-ERROR = ConfigurationError
 Method = Literal["closed-form", "measured", "mpc"]
 METHODS: tuple[str, ...] = get_args(Method)
 Tail = Literal["anticipative", "periodic", "truncated"]
 TAILS: tuple[str, ...] = get_args(Tail)
+SIZE = "some hundred feet long"
+TICKS = "faster than a tick is at once"
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,25 +21,32 @@ class StabiliserSettings:
     They were found by trying pushes of both bodies; see ``docs/walking.md``.
 
     Attributes:
-        dead_zone: Error of the DCM that is left to the stiff joints, in [m].
-        yielding: Rate at which the reference gives way to an error beyond
-            it, in [1/s].
-        feedback: ZMP shift per DCM shift; above 1 brings the shift back.
-        ankle: Tilt of the standing foot per tilt of the torso.
-        ankle_rate: Likewise per rate of tilt, in [s].
-        ankle_bandwidth: Of the filter of that tilt, in [1/s].
-        edge: Distance that the ZMP keeps from the edge of the sole, in [m].
-        reach_forward: Farthest footstep ahead of the support foot, in [m].
-        reach_backward: Farthest footstep behind it, in [m].
-        reach_outward: How much farther than the foot spacing a footstep may
-            be to the side, in [m].
-        gap: Least distance between soles that stand abreast, in [m].
-        step_speed: Greatest speed at which an adapted footstep moves, [m/s].
-        freeze: Part of the swing after which the footstep stays.
-        stride_gain: Share of a footstep's shortfall that is learned.
-        joint_gain: Of the integral of what the joints miss, in [1/s].
-        joint_bound: Greatest correction of a joint, in [rad].
-        joint_leak: Rate at which it is forgotten, in [1/s].
+        dead_zone: Error of the DCM that is left to the stiff joints, in [m]; 0
+            to 10.
+        yielding: Rate at which the reference gives way to an error beyond it,
+            in [1/s]; 0 to 1000.
+        feedback: ZMP shift per DCM shift; above 1 brings the shift back; above
+            1 to 100.
+        ankle: Tilt of the standing foot per tilt of the torso; 0 to 10.
+        ankle_rate: Likewise per rate of tilt, in [s]; 0 to 10.
+        ankle_bandwidth: Of the filter of that tilt, in [1/s]; 0 to 10000.
+        edge: Distance that the ZMP keeps from the edge of the sole, in [m]; 0
+            to 10.
+        reach_forward: Farthest footstep ahead of the support foot, in [m]; 0
+            to 10.
+        reach_backward: Farthest footstep behind it, in [m]; 0 to 10.
+        reach_outward: How much farther than the foot spacing a footstep may be
+            to the side, in [m]; 0 to 10.
+        gap: Least distance between soles that stand abreast, in [m]; 0 to 10.
+        step_speed: Greatest speed at which an adapted footstep moves, [m/s]; 0
+            to 100.
+        freeze: Part of the swing after which the footstep stays; 0 to 1.
+        stride_gain: Share of a footstep's shortfall that is learned; 0 to 1.
+        stride_bound: Most of it that is learned, in [m]; 0 to 10.
+        joint_gain: Of the integral of what the joints miss, in [1/s]; 0 to
+            1000.
+        joint_bound: Greatest correction of a joint, in [rad]; 0 to 3.2.
+        joint_leak: Rate at which it is forgotten, in [1/s]; 0 to 1000.
     """
 
     dead_zone: float = 0.015
@@ -59,35 +63,39 @@ class StabiliserSettings:
     step_speed: float = 1.5
     freeze: float = 0.95
     stride_gain: float = 0.3
+    stride_bound: float = 0.015
     joint_gain: float = 10.0
     joint_bound: float = 0.03
     joint_leak: float = 1.0
 
+    ranges: ClassVar[Ranges] = {
+        "dead_zone": Range(0.0, 10.0, "m", SIZE),
+        "yielding": Range(0.0, 1000.0, "1/s", TICKS),
+        "feedback": Range(
+            *(1.0, 100.0, "1"),
+            "at 1 a shift only stays; a hundredfold is noise",
+            above=True,
+        ),
+        "ankle": Range(0.0, 10.0, "1", "more tilts the foot over"),
+        "ankle_rate": Range(0.0, 10.0, "s", "more tilts the foot over"),
+        "ankle_bandwidth": Range(0.0, 10000.0, "1/s", TICKS),
+        "edge": Range(0.0, 10.0, "m", SIZE),
+        "reach_forward": Range(0.0, 10.0, "m", SIZE),
+        "reach_backward": Range(0.0, 10.0, "m", SIZE),
+        "reach_outward": Range(0.0, 10.0, "m", SIZE),
+        "gap": Range(0.0, 10.0, "m", SIZE),
+        "step_speed": Range(0.0, 100.0, "m/s", "no foot is faster"),
+        "freeze": Range(0.0, 1.0, "1", "a part"),
+        "stride_gain": Range(0.0, 1.0, "1", "a share"),
+        "stride_bound": Range(0.0, 10.0, "m", SIZE),
+        "joint_gain": Range(0.0, 1000.0, "1/s", TICKS),
+        "joint_bound": Range(0.0, 3.2, "rad", "joints turn no farther"),
+        "joint_leak": Range(0.0, 1000.0, "1/s", TICKS),
+    }
+
     def __post_init__(self) -> None:
         """Refuse gains that mean nothing."""
-        for name, unit in _NOT_NEGATIVE.items():
-            check_not_negative(getattr(self, name), name, unit, ERROR)
-        check_positive(self.feedback - 1.0, "feedback - 1", "1", ERROR)
-        check_within(self.freeze, 0.0, 1.0, "freeze", "1", ERROR)
-
-
-_NOT_NEGATIVE = {
-    "dead_zone": "m",
-    "yielding": "1/s",
-    "ankle": "1",
-    "ankle_rate": "s",
-    "ankle_bandwidth": "1/s",
-    "edge": "m",
-    "reach_forward": "m",
-    "reach_backward": "m",
-    "reach_outward": "m",
-    "gap": "m",
-    "step_speed": "m/s",
-    "stride_gain": "1",
-    "joint_gain": "1/s",
-    "joint_bound": "rad",
-    "joint_leak": "1/s",
-}
+        check_settings(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,11 +103,11 @@ class MpcSettings:
     """Horizon and weights.
 
     Attributes:
-        steps: Steps in the horizon.
-        samples: Samples in a step.
+        steps: Steps in the horizon; 1 to 10.
+        samples: Samples in a step; 2 to 100.
         tail: What is assumed beyond the horizon.
         pull: Weight of the distance from the plan's ZMP against that of the
-            added velocity, in [1/s^2].
+            added velocity, in [1/s^2]; 1e-06 to 1e+06.
     """
 
     steps: int = 2
@@ -107,11 +115,25 @@ class MpcSettings:
     tail: Tail = "anticipative"
     pull: float = 100.0
 
+    ranges: ClassVar[Ranges] = {
+        "steps": Range(
+            1,
+            10,
+            "steps",
+            "what the plan holds; more changes no millimetre",
+            whole=True,
+        ),
+        "samples": Range(
+            2, 100, "1", "finer than a tick is for nothing", whole=True
+        ),
+        "pull": Range(
+            1e-6, 1e6, "1/s^2", "beyond, one of the two weights is nothing"
+        ),
+    }
+
     def __post_init__(self) -> None:
         """Refuse an empty horizon and an unknown tail."""
-        check_within(self.steps, 1, 10, "mpc.steps", "steps", ERROR)
-        check_within(self.samples, 2, 100, "mpc.samples", "1", ERROR)
-        check_positive(self.pull, "mpc.pull", "1/s^2", ERROR)
+        check_settings(self, prefix="mpc.")
         if self.tail not in TAILS:
             raise ConfigurationError(
                 f"mpc.tail must be one of {', '.join(TAILS)}, "
@@ -141,6 +163,7 @@ class ControlSettings:
 
     def __post_init__(self) -> None:
         """Refuse an unknown method, and a measured state without sensors."""
+        check_settings(self)
         if self.method not in METHODS:
             raise ConfigurationError(
                 f"method must be one of {', '.join(METHODS)}, "

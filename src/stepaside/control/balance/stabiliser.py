@@ -49,11 +49,13 @@ class Asked(NamedTuple):
         body: CoM and feet.
         dcm: DCM, in [m].
         acceleration: Of the CoM, in [m/s^2].
+        reaction: Shift of the ZMP by the swing leg, in [m].
     """
 
     body: BodyReference
     dcm: Vector
     acceleration: Vector
+    reaction: Vector
 
 
 class Stabiliser:
@@ -112,7 +114,9 @@ class Stabiliser:
             delay=delay,
         )
         self.zmp_feedback = zmp_feedback(settings, gait, tick)
-        self.stride = StrideLearning(gait, gains.stride_gain)
+        self.stride = StrideLearning(
+            gait, gains.stride_gain, gains.stride_bound
+        )
         self._gait, self._tick = gait, tick
         self._grow = exp(gait.eta * tick)
         self._ankles = Ankles(gains, tick)
@@ -160,6 +164,7 @@ class Stabiliser:
         x, y, z = row.body.com
         x, y = x + self.com_shift[0], y + self.com_shift[1]
         square = self._gait.eta**2
+        u, v = row.reaction
         self._asked.append(
             Asked(
                 shifted_swing(row.body, step, self.step_shift)._replace(
@@ -170,14 +175,15 @@ class Stabiliser:
                     row.dcm[1] + self.dcm_shift[1],
                 ),
                 (
-                    square * (x - row.zmp[0] - self.zmp_shift[0]),
-                    square * (y - row.zmp[1] - self.zmp_shift[1]),
+                    square * (x - row.zmp[0] - self.zmp_shift[0] + u),
+                    square * (y - row.zmp[1] - self.zmp_shift[1] + v),
                 ),
+                row.reaction,
             )
         )
         asked = self._asked[0]
         state = self.estimator.update(
-            measurement, asked.body, asked.acceleration
+            measurement, asked.body, asked.acceleration, asked.reaction
         )
         self.state = state
         dead = self.settings.stabiliser.dead_zone
@@ -278,7 +284,7 @@ class Stabiliser:
         plan = plan_from(state)
         edge = self.settings.stabiliser.edge
         box = zmp_box(plan.first_foot, self._gait, edge)
-        weight = float(plan.schedule.dcm_start_map[plan.schedule.count + 2])
+        weight = float(plan.schedule.dcm_start_map[-2])
         x, y = plan.correction.tolist()
         inside = clip_to((x, y), box)
         excess = Pose((x - inside[0]) * weight, (y - inside[1]) * weight, 0.0)

@@ -68,7 +68,9 @@ def step_of(plan: ManeuverPlan, frame: Pose, passed: float) -> Step:
         plan.first_foot,
         frame.compose(Pose(*plan.placements[2].tolist())),
         gait.single_support - walked,
-        float(swing_progress(walked / gait.single_support)),
+        float(
+            swing_progress(walked / gait.single_support, gait.swing_profile)
+        ),
         True,
         plan,
         passed,

@@ -11,7 +11,7 @@ from ...robots.forward import MeasuredPosture
 from ...robots.kinematics import BodyReference
 from .step import Step
 
-BOUNDS = np.array([0.015, 0.015, 0.08])  # of what is learned, in [m] and [rad]
+TURNED = 0.08  # most that is learned of a turn, in [rad]
 
 
 def measured_step(posture: MeasuredPosture, swing: Foot) -> Array:
@@ -44,9 +44,16 @@ class StrideLearning:
             rows (x [m], y [m], theta [rad]).
     """
 
-    def __init__(self, gait: GaitSettings, gain: float) -> None:
-        """Begin with no aim; ``gain`` is the share learned from a step."""
+    def __init__(self, gait: GaitSettings, gain: float, bound: float) -> None:
+        """Begin with no aim.
+
+        Args:
+            gait: Gait.
+            gain: Share that is learned from a step.
+            bound: Most that is learned of a way, in [m].
+        """
         self._gait, self._gain = gait, gain
+        self._bounds = np.array([bound, bound, TURNED])
         self.aim = {Foot.LEFT: np.zeros(3), Foot.RIGHT: np.zeros(3)}
 
     def learn(self, posture: MeasuredPosture, step: Step) -> None:
@@ -60,7 +67,7 @@ class StrideLearning:
         short = planned - measured_step(posture, step.swing)
         short[2] = wrap_angle(float(short[2]))
         aim = self.aim[step.swing] + self._gain * short
-        self.aim[step.swing] = np.clip(aim, -BOUNDS, BOUNDS)
+        self.aim[step.swing] = np.clip(aim, -self._bounds, self._bounds)
 
     def aimed(self, body: BodyReference, step: Step) -> BodyReference:
         """Let the swing foot of a reference head beyond its landing."""
@@ -68,7 +75,8 @@ class StrideLearning:
             return body
         share = step.progress
         if step.remaining < 0.0:
-            stood = -step.remaining / self._gait.double_support
+            gait = self._gait if step.plan is None else step.plan.gait
+            stood = -step.remaining / gait.double_support
             share = 1.0 - float(swing_progress(stood))
         if share <= 0.0:
             return body

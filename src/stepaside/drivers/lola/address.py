@@ -8,6 +8,8 @@ from ...errors import ConfigurationError
 SCHEME = "lola:"
 ON_THE_ROBOT = "/tmp/robocup"  # where every NAO V6 listens
 SIGHT_SUFFIX = ".ideal-sight"  # where a simulated robot offers the truth
+EARLY = ".new"  # of a socket at which nobody listens yet
+LONGEST_PATH = 107 - len(SIGHT_SUFFIX + EARLY)  # in bytes
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +60,7 @@ def parse_address(text: str) -> Address:
     place = text.removeprefix(SCHEME) or ON_THE_ROBOT
     host, colon, port = place.rpartition(":")
     if not colon or "/" in place:
-        if len(place.encode()) + len(SIGHT_SUFFIX) > 107:
+        if len(place.encode()) > LONGEST_PATH:
             raise ConfigurationError(
                 f"path of a socket must be shorter, got {place!r}"
             )

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...poses import Array
 from ...sensing.measurement import Measurement, Sighting
+from ..session import SessionLost
 from .conventions import CHEST_BUTTON, measurement_of
 from .frame_clock import TICK
 from .frames import ActuatorFrame, SensorFrame, pack_actuators
@@ -15,7 +16,7 @@ from .guardian import Guardian
 from .hearing import Hearing
 from .joints import LEGS, JointMap
 from .lights import lights_for
-from .link import Link, SessionLost
+from .link import Link
 from .motion import Motion
 from .safety import Safety, SafetySettings, Seen, State
 from .sight_channel import SightChannel

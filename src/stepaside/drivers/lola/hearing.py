@@ -3,10 +3,11 @@
 import logging
 from collections.abc import Callable
 
+from ..session import SessionLost
 from .conventions import COUNTER, LOCK_STEP, REAL_TIME
 from .frame_clock import FrameClock, FrameOrderError
 from .frames import SensorFrame, unpack_sensors
-from .link import Link, SessionLost
+from .link import Link
 from .wire import WireError
 
 PATIENCE = 10.0  # longest wait for the first frame or in lock step, in [s]

@@ -4,15 +4,11 @@ import select
 import socket
 from typing import Protocol
 
-from ...errors import StepAsideError
+from ..session import SessionLost
 from .address import Address
 
 CONNECTING = 5.0  # longest time to connect, in [s]
 LONGEST_QUEUE = 1 << 20  # bytes of unread frames before it is hopeless
-
-
-class SessionLost(StepAsideError, ConnectionError):
-    """The robot cannot be heard or reached any more."""
 
 
 class Link(Protocol):

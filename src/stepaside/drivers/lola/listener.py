@@ -8,7 +8,7 @@ import stat
 from contextlib import suppress
 
 from ...errors import ConfigurationError
-from .address import Address
+from .address import EARLY, Address
 
 log = logging.getLogger(__name__)
 
@@ -38,12 +38,13 @@ class Listener:
         try:
             if address.path:
                 _remove_stale(address)
+                self._listen_at(address.path)
             else:
                 self._socket.setsockopt(
                     socket.SOL_SOCKET, socket.SO_REUSEADDR, 1
                 )
-            self._socket.bind(address.target)
-            self._socket.listen()
+                self._socket.bind(address.target)
+                self._socket.listen()
         except OSError as error:
             self._socket.close()
             raise ConfigurationError(
@@ -52,6 +53,19 @@ class Listener:
         self._socket.setblocking(False)
         if address.path:
             self._inode = _inode(address.path)
+
+    def _listen_at(self, path: str) -> None:
+        """Listen at a path; once it is there somebody listens."""
+        early = path + EARLY
+        with suppress(FileNotFoundError):
+            os.unlink(early)
+        self._socket.bind(early)
+        try:
+            self._socket.listen()
+            os.rename(early, path)
+        except OSError:
+            os.unlink(early)
+            raise
 
     def accept(self) -> bool:
         """Take whoever has come; whether that is a new client."""

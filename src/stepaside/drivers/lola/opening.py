@@ -4,10 +4,11 @@ import logging
 from collections.abc import Sequence
 
 from ...poses import Array
+from ..session import SessionLost
 from .address import Address
 from .body import LolaBody
 from .guardian import Guardian
-from .link import SessionLost, connect
+from .link import connect
 from .safety import SafetySettings
 from .sight import MESSAGE
 from .sight_channel import SightChannel
@@ -46,6 +47,11 @@ def open_lola(
         if sight is not None:
             sight.close()
         raise
+    # Not before: who finds no robot is told that, and nothing else.
+    if sight is not None:
+        log.warning("sees by the ideal line of sight of %s", address.sight)
+    elif address.sight is not None:
+        log.info("no ideal line of sight at %s", address.sight)
     return LolaBody(
         link,
         joint_names,
@@ -63,9 +69,6 @@ def _ideal_sight(address: Address) -> SightChannel | None:
     if beside is None:
         return None
     try:
-        channel = SightChannel(connect(beside, MESSAGE.size))
+        return SightChannel(connect(beside, MESSAGE.size))
     except SessionLost:
-        log.info("no ideal line of sight at %s", beside)
         return None
-    log.warning("sees by the ideal line of sight of %s", beside)
-    return channel

@@ -14,7 +14,7 @@ from .answers import AnswerReader
 from .conventions import sensor_frame_of
 from .frame_clock import TICK
 from .frames import ActuatorFrame, pack_sensors
-from .joints import JOINT_COUNT, JointMap
+from .joints import JOINT_COUNT, LEGS, JointMap
 from .listener import Listener
 from .sight_offer import SightOffer
 from .wire import LONGEST_ANSWER, WireError
@@ -72,14 +72,16 @@ class LolaServer:
         """
         self._robot, self._joints = robot, JointMap(joint_names)
         self._lock_step = lock_step
-        self._listener = Listener(address)
+        # First, so that who finds the robot finds its sight.
         self._sight: SightOffer | None = None
         if ideal_sight and address.sight is not None:
-            try:
-                self._sight = SightOffer(address.sight)
-            except BaseException:
-                self._listener.close()
-                raise
+            self._sight = SightOffer(address.sight)
+        try:
+            self._listener = Listener(address)
+        except BaseException:
+            if self._sight is not None:
+                self._sight.close()
+            raise
         self._attitude = AttitudeFilter(BELIEF, 0.0, calibration=0.0)
         self._reader = AnswerReader()
         self._chest_pressed = False
@@ -96,6 +98,11 @@ class LolaServer:
     def connected(self) -> bool:
         """Whether a client is there."""
         return self._listener.client is not None
+
+    @property
+    def ready(self) -> bool:
+        """Whether a client is there and holds the robot stiff."""
+        return self.connected and bool(self.stiffness[LEGS].min() > 0.99)
 
     @property
     def refused(self) -> int:

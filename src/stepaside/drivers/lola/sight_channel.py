@@ -4,8 +4,9 @@ import logging
 from collections import deque
 
 from ...sensing.measurement import Sighting
+from ..session import SessionLost
 from .frame_clock import TICK
-from .link import Link, SessionLost
+from .link import Link
 from .sight import SightError, SightMessage, unpack_sight
 
 AHEAD = 8  # frames by which a sighting may come before its frame: 0.1 s

@@ -1,6 +1,7 @@
 """Visible bodies of a model on the page."""
 
 from collections import defaultdict
+from collections.abc import Iterable
 
 import mujoco
 import numpy as np
@@ -9,44 +10,34 @@ import viser
 from numpy.typing import NDArray
 
 from ...poses import Array
+from ..parts import Part, parts_of
 
-VISIBLE = 2  # last geom group that is seen
 RING = 20  # corners of a round shape
+LABEL = 0.14  # of a name over the highest body, in [m]
 
 
-def shape_of(model: mujoco.MjModel, geom: int) -> trimesh.Trimesh | None:
-    """Mesh of one geom in the frame of its body; None if it has none."""
+def shape_of(part: Part) -> trimesh.Trimesh:
+    """Mesh of one part in the frame of its body."""
     mesh: trimesh.Trimesh
-    kind, size = model.geom_type[geom], model.geom_size[geom]
-    types = mujoco.mjtGeom
-    if kind == types.mjGEOM_SPHERE:
-        mesh = trimesh.creation.icosphere(subdivisions=2, radius=size[0])
-    elif kind == types.mjGEOM_ELLIPSOID:
+    a, b, _ = part.size
+    if part.kind == "sphere":
+        mesh = trimesh.creation.icosphere(subdivisions=2, radius=a)
+    elif part.kind == "ellipsoid":
         mesh = trimesh.creation.icosphere(subdivisions=2)
-        mesh.vertices = mesh.vertices * size
-    elif kind == types.mjGEOM_CAPSULE:
-        mesh = trimesh.creation.capsule(2 * size[1], size[0], [RING, RING])
-    elif kind == types.mjGEOM_CYLINDER:
-        mesh = trimesh.creation.cylinder(size[0], 2 * size[1], RING)
-    elif kind == types.mjGEOM_BOX:
-        mesh = trimesh.creation.box(2 * size)
+        mesh.vertices = mesh.vertices * part.size
+    elif part.kind == "capsule":
+        mesh = trimesh.creation.capsule(2 * b, a, [RING, RING])
+    elif part.kind == "cylinder":
+        mesh = trimesh.creation.cylinder(a, 2 * b, RING)
     else:
-        return None
+        mesh = trimesh.creation.box(2 * part.size)
     place = np.eye(4)
     frame = np.zeros(9)
-    mujoco.mju_quat2Mat(frame, model.geom_quat[geom])
+    mujoco.mju_quat2Mat(frame, part.turn)
     place[:3, :3] = frame.reshape(3, 3)
-    place[:3, 3] = model.geom_pos[geom]
+    place[:3, 3] = part.place
     mesh.apply_transform(place)
     return mesh
-
-
-def colour_of(model: mujoco.MjModel, geom: int) -> tuple[int, int, int]:
-    """Colour of one geom, 0 to 255."""
-    material = model.geom_matid[geom]
-    rgba = model.geom_rgba[geom] if material < 0 else model.mat_rgba[material]
-    red, green, blue = (np.clip(rgba[:3], 0.0, 1.0) * 255).astype(int)
-    return int(red), int(green), int(blue)
 
 
 def joined(
@@ -66,18 +57,18 @@ class Bodies:
     """Bodies of one model; what moves is one frame for each body."""
 
     def __init__(self, scene: viser.SceneApi, model: mujoco.MjModel) -> None:
-        """Put every visible geom on the page, once."""
-        parts: dict[int, dict[tuple[int, int, int], list[trimesh.Trimesh]]]
-        parts = defaultdict(lambda: defaultdict(list))
-        for geom in range(model.ngeom):
-            if model.geom_group[geom] > VISIBLE:
-                continue
-            mesh = shape_of(model, geom)
-            if mesh is not None:
-                body = int(model.geom_bodyid[geom])
-                parts[body][colour_of(model, geom)].append(mesh)
+        """Put every part that is seen on the page, once."""
+        looks = defaultdict[
+            int, defaultdict[tuple[int, int, int], list[trimesh.Trimesh]]
+        ](lambda: defaultdict(list))
+        for part in parts_of(model):
+            if not part.is_wall:  # it would hide all from who is outside
+                looks[part.body][part.colour].append(shape_of(part))
         self._frames: dict[int, viser.FrameHandle] = {}
-        for body, colours in parts.items():
+        data = mujoco.MjData(model)
+        mujoco.mj_kinematics(model, data)
+        self._tops = {body: float(data.xpos[body, 2]) for body in looks}
+        for body, colours in looks.items():
             name = f"/bodies/{body}"
             self._frames[body] = scene.add_frame(name, show_axes=False)
             for number, (colour, meshes) in enumerate(colours.items()):
@@ -87,8 +78,33 @@ class Bodies:
                     corners,
                     faces,
                     color=colour,
+                    cast_shadow=True,
                     receive_shadow=False,
                 )
+        self._scene = scene
+
+    def name(self, model: mujoco.MjModel, players: Iterable[str]) -> None:
+        """Write the name of each player over it.
+
+        Args:
+            model: Of the bodies, which begin with the names of their players.
+            players: Their names.
+        """
+        for player in players:
+            own = [
+                body
+                for body in self._frames
+                if model.body(body).name.startswith(f"{player}/")
+            ]
+            high = {body: self._tops[body] for body in own}
+            top = max(high, key=lambda body: high[body])
+            self._scene.add_label(
+                f"/bodies/{top}/name",
+                player,
+                position=(0.0, 0.0, LABEL),
+                anchor="bottom-center",
+                depth_test=False,
+            )
 
     def move(self, positions: Array, quaternions: Array) -> None:
         """Move all bodies.

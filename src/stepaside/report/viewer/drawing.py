@@ -4,7 +4,7 @@ import numpy as np
 
 from ...control.walking import StepBegun, WalkState
 from ...poses import Array, Pose
-from ..style import COLOURS, EVADER, THEORY
+from ..style import COLOURS, EVADER, PUSHED, THEORY
 from .layers import (
     HEIGHTS,
     PRINTS,
@@ -12,6 +12,7 @@ from .layers import (
     chain,
     path_of,
     prints_of,
+    pushes_at,
     ring,
     safety_of,
     support_of,
@@ -19,6 +20,7 @@ from .layers import (
 from .session import Session
 
 Drawn = tuple[str, str, Array, str]  # layer, owner, segments, colour
+PUSHES = 20  # the last that are looked at
 SUPPORT = "#2a9d55"
 ZMP_COLOURS = {"pursuer": "#e8a598", "evader": "#9bb8e8"}
 
@@ -43,6 +45,8 @@ def draw_session(layers: Layers, session: Session) -> None:
                 steps = list(session.trail.steps.get(name, ()))[-PRINTS:]
                 drawn += _walk_of(seen.walk, steps, seen.frame, now, name)
             drawn += _traces(session, name)
+            pushes = np.array(seen.pushes[-PUSHES:]).reshape(-1, 6)
+            drawn.append(("pushes", name, pushes_at(pushes, now), PUSHED))
         radius = session.settings.strategy.safety_radius
         drawn.append(
             ("safety area", "evader", safety_of(places[1], radius), EVADER)

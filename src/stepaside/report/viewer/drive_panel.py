@@ -91,11 +91,13 @@ class DrivePanel:
         if going is not None:
             hand = replace(hand, going=going)
         self._hand = hand
+        self._session.note(turn=hand.turn, going=hand.going)
         self._give(hand)
 
     def _release(self) -> None:
         """Give the pursuer back to itself."""
         self._hand = None
+        self._session.note(released=True)
         self._give(Pursuit())
 
     def _give(self, strategy: Strategy) -> None:

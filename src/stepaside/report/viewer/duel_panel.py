@@ -10,10 +10,20 @@ from ...errors import StepAsideError
 from ...games.duel import Duel
 from ...games.settings import EVASION, SENSING
 from ...games.walker import Walker
+from ...planning import GaitSettings
 from .body_choices import body_choices
 from .session import Session
 
 LAWS = ("proportional (4)", "saturated (6)")
+
+
+def walking_words(gait: GaitSettings) -> str:
+    """Say how fast robots walk, which the template's speed does not set."""
+    walked = gait.stride / gait.step_duration
+    return (
+        f"sets the circle with the gain; the robots walk {walked:.3f} m/s, "
+        f"a stride of {gait.stride:g} m in {gait.step_duration:.3g} s"
+    )
 
 
 class DuelPanel:
@@ -33,14 +43,14 @@ class DuelPanel:
         settings = session.settings
         self._bodies_by_name, self._body_name = body_choices(settings)
         start = self._session.duel.settings.start
-        with gui.add_folder("Strategy (acts at the next step)"):
+        with gui.add_folder("Evader, from its next step on"):
             self._angle = gui.add_number(
                 "Angle [deg]", degrees(settings.strategy.angle), step=5.0
             )
             self._law = gui.add_dropdown(
                 "Law", LAWS, initial_value=LAWS[settings.strategy.saturated]
             )
-        with gui.add_folder("Start (acts at the next reset)"):
+        with gui.add_folder("Next duel, at a reset"):
             self._seed = gui.add_number("Seed", settings.seed, step=1)
             self._distance = gui.add_number(
                 "Distance [m]", round(start.distance or 1.0, 3), step=0.05
@@ -56,8 +66,9 @@ class DuelPanel:
                 step=5.0,
             )
             self._speed_m_s = gui.add_number(
-                "Driving speed [m/s]", settings.gait.speed, step=0.01
+                "Template speed [m/s]", settings.gait.speed, step=0.01
             )
+            self._walks = gui.add_markdown(walking_words(settings.gait))
             self._gain = gui.add_number(
                 "Gain k [1/s]", settings.gait.gain, step=0.05
             )

@@ -7,8 +7,10 @@ import numpy as np
 import viser
 
 from ...control.walking import StepBegun, WalkState
+from ...planning import Foot, Sole
 from ...planning.support import convex_hull, sole_corners
 from ...poses import Array, Pose
+from ..palette import seen_by_all
 from ..style import COLOURS, EVADER, THEORY
 
 LAYERS = (
@@ -20,9 +22,14 @@ LAYERS = (
     "safety area",
     "circle of theory",
     "support polygon",
+    "pushes",
 )
 HEIGHTS = {name: 0.002 + 0.001 * i for i, name in enumerate(LAYERS)}
 PRINTS = 60  # footsteps kept
+COMING = 0.5  # how long before it lands a footstep is shown, in [s]
+PUSH_HEIGHT = 0.3  # of an arrow over the floor, in [m]
+PUSH_LENGTH = 0.25  # in [m] per [N s]
+PUSH_SHOWN = 1.0  # how long it is seen, in [s]
 
 
 def rgb(colour: str) -> tuple[int, int, int]:
@@ -84,8 +91,9 @@ class Layers:
         if self._drawn.get(name) == content:
             return
         self._drawn[name] = content
+        seen = rgb(seen_by_all(colour))
         self._scene.add_line_segments(
-            name, points, colors=rgb(colour), thickness=0.006
+            name, points, colors=seen, thickness=0.008
         )
 
     def clear(self) -> None:
@@ -127,6 +135,50 @@ def prints_of(
     return np.concatenate(outlines) if outlines else np.zeros((0, 2, 3))
 
 
+def prints_at(landings: Array | None, sole: Sole, now: float) -> Array:
+    """Outlines of the last footsteps of a track. Shape (n, 2, 3).
+
+    Args:
+        landings: Of the track, if it has any. Shape (m, 5).
+        sole: Shape of a left sole.
+        now: Time, in [s]; the footstep that comes next is shown, too.
+    """
+    if landings is None:
+        return np.zeros((0, 2, 3))
+    begun = landings[landings[:, 0] <= now + COMING][-PRINTS:]
+    outlines = [
+        chain(
+            sole_corners(np.array(pose), Foot(int(side)), sole),
+            HEIGHTS["footsteps"],
+            closed=True,
+        )
+        for _, side, *pose in begun.tolist()
+    ]
+    return np.concatenate([np.zeros((0, 2, 3)), *outlines])
+
+
+def pushes_at(pushes: Array | None, now: float) -> Array:
+    """Arrows of the pushes of the last second. Shape (n, 2, 3).
+
+    Args:
+        pushes: Of a track, if it has any. Shape (j, 6).
+        now: Time, in [s].
+    """
+    arrows = [np.zeros((0, 2, 3))]
+    for time, _, x, y, *impulse in () if pushes is None else pushes.tolist():
+        if not 0.0 <= now - time < PUSH_SHOWN:
+            continue
+        way = PUSH_LENGTH * np.array(impulse)
+        tip = np.array([x, y])
+        back = 0.25 * np.array([-way[1], way[0]])
+        arrow = [tip - way, tip, tip - 0.3 * way + back, tip]
+        arrow += [tip, tip - 0.3 * way - back]
+        ends = np.array(arrow).reshape(3, 2, 2)
+        high = np.full((3, 2, 1), PUSH_HEIGHT)
+        arrows.append(np.concatenate([ends, high], axis=2))
+    return np.concatenate(arrows)
+
+
 def support_of(walk: WalkState, frame: Pose, now: float) -> Array:
     """Outline of the support polygon."""
     step = walk.step(now)
@@ -160,7 +212,9 @@ __all__ = [
     "Layers",
     "chain",
     "path_of",
+    "prints_at",
     "prints_of",
+    "pushes_at",
     "ring",
     "safety_of",
     "support_of",

@@ -3,21 +3,30 @@
 import logging
 import threading
 from math import inf
+from pathlib import Path
 from time import perf_counter, sleep
+from typing import Any
 
-from ...games.settings import DuelSettings
+import numpy as np
+
+from ...errors import StepAsideError
+from ...games.settings import PLAYERS, DuelSettings
 from ..inert import for_markdown
+from ..palette import LIGHTS
 from .bodies import Bodies
 from .camera_panel import CameraPanel
 from .drawing import draw_session
 from .drive_panel import DrivePanel
 from .duel_panel import DuelPanel
 from .layers import LAYERS, Layers
+from .layout import arrange
 from .plots import Plots
 from .push_panel import add_push
+from .saving import Saving
 from .serving import open_server
 from .session import Session
-from .words import phases_of, words_of
+from .viewers import CAMERAS, Viewers
+from .words import outlook, phases_of, words_of
 
 LOG = logging.getLogger(__name__)
 RATE = 30.0  # updates of the scene a second
@@ -57,32 +66,37 @@ class Page:
             raise
         served.listener.say = self._say
         self._closing = threading.Event()
-        scene, gui = self.server.scene, self.server.gui
-        scene.set_up_direction("+z")
-        scene.add_grid(
-            "/floor",
-            width=12.0,
-            height=12.0,
-            cell_size=0.25,
-            section_size=1.0,
-            plane="xy",
-        )
-        self.server.initial_camera.position = (-0.5, -1.6, 1.3)
-        self.server.initial_camera.look_at = (0.5, 0.0, 0.2)
-        self._layers = Layers(scene)
-        self._bodies = Bodies(scene, self.session.duel.world.model)
+        self._layers, self._viewers = self._set_scene()
         self._generation = self.session.generation
+        gui = self.server.gui
+        layout = arrange(gui)
         self._status = gui.add_markdown("starting")
         self._message = gui.add_markdown("", visible=False)
         self._add_time()
-        self._duel = DuelPanel(gui, self.session, self._say)
-        add_push(gui, self.session, self._say)
-        self._drive = DrivePanel(gui, self.session)
-        self._add_layers()
+        self._add_keys()
         self._plots = Plots(gui)
-        self._cameras = CameraPanel(gui)
+        with layout.play:
+            self._cameras = CameraPanel(gui)
+            add_push(gui, self.session, self._say)
+            self._drive = DrivePanel(gui, self.session)
+        with layout.settings:
+            self._duel = DuelPanel(gui, self.session, self._say)
+        with layout.shown:
+            self._add_layers()
         self._watch_cameras()
+        self._saving = Saving(Path("runs"))
         self._publisher = threading.Thread(target=self._publish, daemon=True)
+
+    def _set_scene(self) -> tuple[Layers, Viewers]:
+        """Put the robots with their names into the scene, with light."""
+        scene, model = self.server.scene, self.session.duel.world.model
+        scene.set_up_direction("+z")
+        scene.configure_default_lights(cast_shadow=True)
+        self.server.initial_camera.position = (-0.5, -1.6, 1.3)
+        self.server.initial_camera.look_at = (0.5, 0.0, 0.2)
+        self._bodies = Bodies(scene, model)
+        self._bodies.name(model, PLAYERS)
+        return Layers(scene), Viewers(self.server)
 
     def start(self) -> None:
         """Start to publish."""
@@ -97,40 +111,82 @@ class Page:
 
     def _add_time(self) -> None:
         gui, session = self.server.gui, self.session
-        self._play = gui.add_button("Start")
-        step = gui.add_button("Step 0.1 s", hint="When paused.")
-        reset = gui.add_button("Reset", hint="Begin again with this start.")
+        self._play = gui.add_button("Start", hint="Key: space.")
+        acting = gui.add_button_group("Duel", ("step", "reset", "save"))
         speed = gui.add_dropdown("Speed", SPEEDS, initial_value="1")
-        dark = gui.add_checkbox("Dark", False)
+        camera = gui.add_button_group("Camera", CAMERAS)
+        light = gui.add_button_group("Light", LIGHTS)
+        acts = {"step": self._step, "reset": self._reset, "save": self._save}
 
         @self._play.on_click
         def _(_: object) -> None:
             session.running = not session.running
 
-        @step.on_click
+        @acting.on_click
         def _(_: object) -> None:
-            if not session.running:
-                session.step(0.1)
-
-        @reset.on_click
-        def _(_: object) -> None:
-            if self._duel.restart():
-                self._drive.forget()
+            acts[acting.value]()
 
         @speed.on_update
         def _(_: object) -> None:
             value = speed.value
             session.speed = inf if value == SPEEDS[-1] else float(value)
 
-        @dark.on_update
+        @camera.on_click
+        def _(event: Any) -> None:
+            self._viewers.choose(event.client, camera.value)
+
+        @light.on_click
+        def _(event: Any) -> None:
+            self._viewers.light_up(event.client, light.value)
+
+    def _add_keys(self) -> None:
+        """Do the same by keys; viser lists them under ctrl-K."""
+        gui, session, viewers = self.server.gui, self.session, self._viewers
+        play = gui.add_command("Play or pause", hotkey="space")
+        step = gui.add_command("Step 0.1 s", hotkey="N")
+        again = gui.add_command("Begin again", hotkey="R")
+        save = gui.add_command("Save this duel", hotkey="S")
+        light = gui.add_command("Light or dark", hotkey="L")
+        free = gui.add_command("Camera: free", hotkey="1")
+        follow = gui.add_command("Camera: follow", hotkey="2")
+        top = gui.add_command("Camera: top", hotkey="3")
+        eyes = gui.add_command("Camera: evader's eyes", hotkey="4")
+
+        @play.on_trigger
         def _(_: object) -> None:
-            gui.configure_theme(dark_mode=dark.value, show_share_button=False)
+            session.running = not session.running
+
+        step.on_trigger(lambda _: self._step())
+        again.on_trigger(lambda _: self._reset())
+        save.on_trigger(lambda _: self._save())
+        light.on_trigger(lambda event: viewers.turn_light(event.client))
+        free.on_trigger(lambda e: viewers.choose(e.client, CAMERAS[0]))
+        follow.on_trigger(lambda e: viewers.choose(e.client, CAMERAS[1]))
+        top.on_trigger(lambda e: viewers.choose(e.client, CAMERAS[2]))
+        eyes.on_trigger(lambda e: viewers.choose(e.client, CAMERAS[3]))
+
+    def _step(self) -> None:
+        """Let a tenth of a second pass, if no time passes."""
+        if not self.session.running:
+            self.session.step(0.1)
+
+    def _reset(self) -> None:
+        """Begin again with what the settings say."""
+        if self._duel.restart():
+            self._drive.forget()
+
+    def _save(self) -> None:
+        """Write a run folder, and say where it is."""
+        try:
+            folder = self.session.save(self._saving)
+        except StepAsideError as error:
+            self._say(str(error))
+        else:
+            self._say(f"saved: stepaside replay {folder}")
 
     def _add_layers(self) -> None:
-        gui = self.server.gui
-        with gui.add_folder("Layers", expand_by_default=False):
-            for layer in LAYERS:
-                self._add_layer(layer)
+        for layer in LAYERS:
+            self._add_layer(layer)
 
     def _add_layer(self, layer: str) -> None:
         box = self.server.gui.add_checkbox(layer[0].upper() + layer[1:], True)
@@ -174,6 +230,12 @@ class Page:
         with self.server.atomic():
             self._bodies.move(moment.positions, moment.quaternions)
             draw_session(self._layers, session)
+        with session.lock:  # what snapshots read must not move meanwhile
+            seen = [player.snapshot() for player in session.duel.players]
+        self._viewers.aim(
+            [np.array(each.torso[:2]) for each in seen],
+            [float(each.com[2]) for each in seen],
+        )
         self._play.label = "Pause" if session.running else "Start"
         duel = session.duel
         history = session.trail.history
@@ -187,7 +249,8 @@ class Page:
             session.theory,
         )
         text = (
-            f"{words}\n\n{moment.time:.1f} s simulated, distance "
+            f"{words}\n\n{self._outlook(distance)}\n\n"
+            f"{moment.time:.1f} s simulated, distance "
             f"{distance:.2f} m, closest {duel.min_distance:.2f} m, "
             f"{session.factor:.1f} x real time"
         )
@@ -199,3 +262,16 @@ class Page:
         if self._status.content != text:
             self._status.content = text
         self._drive.show(moment.time, distance)
+
+    def _outlook(self, distance: float) -> str:
+        """What is expected next."""
+        session = self.session
+        gait = session.settings.gait
+        return outlook(
+            distance,
+            phases_of(session.duel)[1],
+            safety=session.settings.strategy.safety_radius,
+            speed=gait.stride / gait.step_duration,
+            theory=session.theory,
+            settling=session.settling,
+        )

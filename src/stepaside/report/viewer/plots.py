@@ -4,6 +4,7 @@ import numpy as np
 import viser
 from viser import uplot
 
+from ..palette import seen_by_all
 from ..style import EVADER, PURSUER, THEORY
 from .session import Session
 
@@ -19,11 +20,19 @@ class Plots:
                 empty,
                 (
                     uplot.Series(label="time [s]"),
-                    uplot.Series(label=label, stroke=colour, width=2),
-                    uplot.Series(label="theory", stroke=THEORY, dash=(5, 5)),
+                    uplot.Series(
+                        label=label,
+                        stroke=seen_by_all(colour),
+                        width=2,
+                    ),
+                    uplot.Series(
+                        label="theory", stroke=seen_by_all(THEORY), dash=(5, 5)
+                    ),
                 ),
                 title=title,
-                height=170,
+                height=125,
+                # Seconds of the run, which are no date.
+                scales={"x": uplot.Scale(time=False)},
             )
             for title, label, colour in (
                 ("Distance [m]", "distance", PURSUER),

@@ -3,23 +3,37 @@
 import logging
 import threading
 from time import perf_counter, sleep
+from typing import Any
 
 import numpy as np
 import viser
 from viser import uplot
 
 from ...games.run import Run
-from ...games.settings import PLAYERS
 from ..inert import for_markdown
+from ..palette import LIGHTS, seen_by_all
 from ..stage import Stage
-from ..style import COLOURS, EVADER, PURSUER, THEORY
+from ..style import EVADER, PURSUER, PUSHED, THEORY, colours_of
 from .bodies import Bodies
-from .layers import HEIGHTS, Layers, chain, ring, safety_of
+from .layers import (
+    HEIGHTS,
+    Layers,
+    chain,
+    prints_at,
+    pushes_at,
+    ring,
+    safety_of,
+)
+from .layout import WATCH
 from .serving import open_server
+from .viewers import CAMERAS, Viewers
 
 LOG = logging.getLogger(__name__)
 RATE = 30.0  # updates of the scene a second
-REPLAYED = ("CoM trace", "line of sight", "safety area", "circle of theory")
+REPLAYED = (
+    *("CoM trace", "footsteps", "pushes", "line of sight", "safety area"),
+    "circle of theory",
+)
 
 
 class ReplayPage:
@@ -38,10 +52,9 @@ class ReplayPage:
         self._playing = False
         scene, gui = self.server.scene, self.server.gui
         scene.set_up_direction("+z")
-        scene.add_grid(
-            "/floor", width=12.0, height=12.0, cell_size=0.25, plane="xy"
-        )
-        place = run.evader.torso[0]
+        scene.configure_default_lights(cast_shadow=True)
+        self._viewers = Viewers(self.server)
+        place = run.tracks[run.players[-1]].torso[0]
         self.server.initial_camera.position = (
             float(place[0]) - 1.5,
             float(place[1]) - 1.6,
@@ -49,6 +62,10 @@ class ReplayPage:
         )
         self.server.initial_camera.look_at = (*place[:2].tolist(), 0.2)
         self._bodies = Bodies(scene, self._stage.model)
+        self._bodies.name(self._stage.model, run.players)
+        gui.set_panel_label("stepaside")
+        gui.main_panel.dock_right()
+        gui.main_panel.set_width(WATCH)
         self._layers = Layers(scene)
         self._status = gui.add_markdown("")
         self._play = gui.add_button("Play")
@@ -62,9 +79,7 @@ class ReplayPage:
         self._speed = gui.add_slider(
             "Speed", min=0.25, max=8.0, step=0.25, initial_value=1.0
         )
-        with gui.add_folder("Layers"):
-            for layer in REPLAYED:
-                self._add_layer(layer)
+        self._add_views()
         theory = run.theory
         for title, values, level, colour in (
             ("Distance [m]", run.distance, theory and theory[1], PURSUER),
@@ -75,6 +90,8 @@ class ReplayPage:
                 EVADER,
             ),
         ):
+            if values is None:
+                continue
             thin = slice(None, None, max(1, len(run.times) // 1500))
             gui.add_uplot(
                 (
@@ -84,18 +101,45 @@ class ReplayPage:
                 ),
                 (
                     uplot.Series(label="time [s]"),
-                    uplot.Series(label="run", stroke=colour, width=2),
-                    uplot.Series(label="theory", stroke=THEORY, dash=(5, 5)),
+                    uplot.Series(
+                        label="run",
+                        stroke=seen_by_all(colour),
+                        width=2,
+                    ),
+                    uplot.Series(
+                        label="theory", stroke=seen_by_all(THEORY), dash=(5, 5)
+                    ),
                 ),
                 title=title,
-                height=170,
+                height=125,
+                scales={"x": uplot.Scale(time=False)},
             )
+
+        with gui.add_folder("Shown", expand_by_default=False):
+            for layer in REPLAYED:
+                self._add_layer(layer)
 
         @self._play.on_click
         def _(_: object) -> None:
             self._playing = not self._playing
 
         self._thread = threading.Thread(target=self._loop, daemon=True)
+
+    def _add_views(self) -> None:
+        """Let each viewer choose a camera, and a light."""
+        gui, viewers = self.server.gui, self._viewers
+        alone = len(self._run.players) < 2
+        names = CAMERAS[:3] if alone else CAMERAS
+        camera = gui.add_button_group("Camera", names)
+        light = gui.add_button_group("Light", LIGHTS)
+
+        @camera.on_click
+        def _(event: Any) -> None:
+            viewers.choose(event.client, camera.value)
+
+        @light.on_click
+        def _(event: Any) -> None:
+            viewers.light_up(event.client, light.value)
 
     def _add_layer(self, layer: str) -> None:
         box = self.server.gui.add_checkbox(layer[0].upper() + layer[1:], True)
@@ -133,38 +177,49 @@ class ReplayPage:
 
     def _show(self, time: float) -> None:
         run = self._run
-        index = int(np.searchsorted(run.times, time - 1e-9))
-        index = min(index, len(run.times) - 1)
+        index = run.index_at(time)
         self._stage.put(index)
         data = self._stage.data
         with self.server.atomic():
             self._bodies.move(data.xpos, data.xquat)
             self._draw(index)
+        tracks = list(run.tracks.values())
+        self._viewers.aim(
+            [track.torso[index, :2] for track in tracks],
+            [float(track.com[index, 2]) for track in tracks],
+        )
         self._play.label = "Pause" if self._playing else "Play"
         text = (
             f"**{for_markdown(run.name)}**: "
-            f"{for_markdown(run.words(index))}\n\n{run.times[index]:.2f} s, "
-            f"distance {run.distance[index]:.2f} m, between the headings "
-            f"{run.orientation[index]:.0f}\u00b0"
+            f"{for_markdown(run.words(index))}\n\n{run.times[index]:.2f} s"
         )
+        distance, angle = run.distance, run.orientation
+        if distance is not None and angle is not None:
+            text += (
+                f", distance {distance[index]:.2f} m, between the headings "
+                f"{angle[index]:.0f}\u00b0"
+            )
         if self._status.content != text:
             self._status.content = text
 
     def _draw(self, index: int) -> None:
         run, layers = self._run, self._layers
-        first = max(0, index - 1500)
-        places = []
-        for name in PLAYERS:
-            trace = run.tracks[name].com[first : index + 1 : 5, :2]
+        first, now = max(0, index - 1500), float(run.times[index])
+        colours = colours_of(run.players)
+        for name, track in run.tracks.items():
+            trace = track.com[first : index + 1 : 5, :2]
             lines = chain(trace, HEIGHTS["CoM trace"])
-            layers.draw("CoM trace", name, lines, COLOURS[name])
-            places.append(run.tracks[name].torso[index, :2])
-        radius = run.settings.strategy.safety_radius
-        layers.draw(
-            "safety area", "evader", safety_of(places[1], radius), EVADER
-        )
-        sight = np.array([[[*places[0], 0.25], [*places[1], 0.25]]])
-        layers.draw("line of sight", "both", sight, THEORY)
+            layers.draw("CoM trace", name, lines, colours[name])
+            prints = prints_at(track.landings, run.settings.gait.sole, now)
+            layers.draw("footsteps", name, prints, colours[name])
+            layers.draw("pushes", name, pushes_at(track.pushes, now), PUSHED)
+        if run.safety is not None:
+            who, radius = run.safety
+            area = safety_of(run.tracks[who].torso[index, :2], radius)
+            layers.draw("safety area", who, area, colours[who])
+        if run.pair is not None:
+            sight = [[*t.torso[index, :2], 0.25] for t in run.pair]
+            layers.draw("line of sight", "both", np.array([sight]), THEORY)
         if run.circle is not None:
             circle = ring(*run.circle, HEIGHTS["circle of theory"])
             layers.draw("circle of theory", "both", circle, THEORY)

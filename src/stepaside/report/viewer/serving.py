@@ -7,6 +7,7 @@ it starts its server with is ours, which adds them; a viser that starts
 otherwise is not let serve.
 """
 
+import logging
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -19,9 +20,13 @@ import websockets.asyncio.server as sockets
 from ...errors import ConfigurationError
 from .address import Address, listen
 from .gate import Gate
+from .layout import dress
 from .messages import LARGEST, Listener
 
 STARTING = threading.Lock()
+# Whoever knocks with what is no request leaves no traceback on our terminal.
+QUIET = logging.getLogger(f"{__name__}.requests")
+QUIET.addFilter(lambda record: record.msg != "opening handshake failed")
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +68,7 @@ def open_server(host: str, port: int) -> Served:
             f"{viser.__version__} does not, and would be open to all"
         )
     listener.attend(server.gui)
-    server.gui.configure_theme(dark_mode=False, show_share_button=False)
+    dress(server.gui, "light")
     return Served(server, gate, listener)
 
 
@@ -90,6 +95,7 @@ def _behind(
         options |= {
             "process_request": gate.guarded(answer),
             "create_connection": Heard,
+            "logger": QUIET,
             "max_size": LARGEST,
             "sock": address.listening,
         }

@@ -6,6 +6,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import degrees
+from pathlib import Path
 from time import perf_counter, sleep
 from typing import TYPE_CHECKING
 
@@ -16,12 +17,15 @@ from ...games.outcome import Outcome
 from ...games.settings import DuelSettings
 from ...poses import Array
 from ...world.push import Push
+from ..settling import settling_time
+from .saving import Keeping, Saving
 from .trail import Trail
 
 if TYPE_CHECKING:
     from ...perception.perception import FrameReport
 
 LOG = logging.getLogger(__name__)
+MOST_ASKED = 10_000  # commands of a hand that are kept
 BEHIND = 0.25  # delay after which lost time is given up, in [s]
 
 
@@ -56,6 +60,7 @@ class Session:
         error: What went wrong in the loop, if anything did.
         trail: What the page draws of the time that has passed.
         lock: Held while the duel changes.
+        asked: What a hand has asked of the robots.
         factor: Simulated time over time passed, lately.
     """
 
@@ -101,9 +106,9 @@ class Session:
             raise failed[0]
 
     def _begin(self, settings: DuelSettings) -> None:
-        # A live duel has no end: what would grow with it is not kept.
+        # A live duel has no end: of what grows with it, a part is kept.
         trail = Trail()
-        duel = Duel(settings, (trail,), recorded=False)
+        duel = Duel(settings, (trail, Keeping()), recorded=False)
         self._let_go()
         self._open = duel
         self.settings = settings
@@ -116,7 +121,9 @@ class Session:
             if circle.exists
             else None
         )
+        self.settling = settling_time(settings)
         self.theory_radius = circle.radius_evader_m if circle.exists else None
+        self.asked: list[dict[str, float | str | bool]] = []
         self.generation += 1
 
     def close(self) -> None:
@@ -161,6 +168,23 @@ class Session:
         """Change the duel between two ticks; acts at the next replan."""
         duel = self.duel
         self._requests.append(lambda: request(duel))
+
+    def save(self, saving: Saving) -> Path:
+        """Write what was played so far; time stands meanwhile.
+
+        Args:
+            saving: Writes it.
+
+        Raises:
+            StepAsideError: If it cannot be written.
+        """
+        with self.lock:
+            return saving.save(self.duel, self.outcome, self.asked)
+
+    def note(self, **asked: float | str | bool) -> None:
+        """Note what a hand asks of a robot, with the time."""
+        if len(self.asked) < MOST_ASKED:
+            self.asked.append({"time_s": self.duel.world.time, **asked})
 
     def new_frames(self) -> "dict[str, FrameReport]":
         """Newest images of all cameras, once; see :class:`Trail`."""

@@ -21,7 +21,7 @@ KEPT = 100  # footsteps of each player that are kept
 
 
 class Trail:
-    """Looks on while a duel is played, and forgets what is long past.
+    """Looks on while a game is played, and forgets what is long past.
 
     Attributes:
         history: (time [s], distance [m], angle [deg]) of the last minutes.
@@ -45,11 +45,10 @@ class Trail:
         if match.world.ticks == 0 or match.world.ticks % every:
             return
         seen = [player.snapshot() for player in match.players]
-        pursuer, evader = (np.array([s.place]) for s in seen)
-        apart = float(angle_between(pursuer, evader)[0])
-        assert match.distance is not None
-        now = match.world.time
-        self.history.append((now, match.distance, degrees(apart)))
+        if match.distance is not None:
+            first, second = (np.array([s.place]) for s in seen[:2])
+            apart = degrees(float(angle_between(first, second)[0]))
+            self.history.append((match.world.time, match.distance, apart))
         for each in seen:
             self._trace(f"{each.name}/CoM", each.com[:2])
             if each.zmp is not None and np.isfinite(each.zmp[0]):

@@ -1,6 +1,6 @@
 """What is going on, in words."""
 
-from math import inf
+from math import inf, isfinite, log
 
 from ...control import Phase
 from ...games.duel import Duel
@@ -50,6 +50,44 @@ def words_of(
         ):
             return "both robots are **on the circle**"
     return "the evader is **evading**"
+
+
+def outlook(
+    distance: float,
+    phase: Phase,
+    *,
+    safety: float,
+    speed: float,
+    theory: tuple[float, float] | None,
+    settling: float | None,
+) -> str:
+    """Say what is expected next, and when.
+
+    Args:
+        distance: Between the torsos, in [m].
+        phase: Of the evader.
+        safety: Radius of its safety area, in [m].
+        speed: With which the pursuer comes, in [m/s].
+        theory: Distance [m] and angle [deg] of the circle, if there is one.
+        settling: Time in which what is off it shrinks by e, in [s], if it
+            does.
+    """
+    if phase is Phase.STANDING:
+        if not isfinite(safety) or speed <= 0.0:
+            return ""
+        left = max(0.0, (distance - safety) / speed)
+        return (
+            f"The evader moves when the pursuer is within {safety:.2f} m: "
+            f"in about {left:.0f} s."
+        )
+    if theory is None or settling is None:
+        return "Theory has no circle on which this ends."
+    away, angle = theory
+    told = f"Theory ends {away:.2f} m apart, headings {angle:.0f}\u00b0 apart"
+    off = abs(distance - away) / away
+    if off <= NEAR_DISTANCE:
+        return f"{told}: so it is, within 5 %."
+    return f"{told}: about {settling * log(off / NEAR_DISTANCE):.0f} s more."
 
 
 def phases_of(duel: Duel) -> tuple[Phase, Phase]:

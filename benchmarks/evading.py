@@ -1,0 +1,89 @@
+"""Evaders in rooms: who survives, how near, on how much floor.
+
+Plays tournaments in steps and writes what came out::
+
+    python benchmarks/evading.py --seeds 0:200 --small 0:50
+
+Games that are kept in a folder (``--records``) are not played again.
+"""
+
+from pathlib import Path
+from typing import Any
+
+from asking import ask, machine, seeds_of
+
+from stepaside.rooms import RoomRecipe
+from stepaside.studies.entrants import EVADERS
+from stepaside.studies.records import RecordFile
+from stepaside.studies.results import header, write_result
+from stepaside.studies.tournament import (
+    ROOMS,
+    TournamentSettings,
+    play_tournament,
+)
+from stepaside.studies.tournament_rows import tournament_rows
+from stepaside.studies.workers import worker_pool
+
+WORLDS = {
+    "open floor": RoomRecipe(None, None),
+    "3 x 3 m": RoomRecipe(),
+    "3 x 3 m, 3 discs": RoomRecipe(discs=3),
+}
+SIZES = (1.8, 2.0, 2.2, 2.5, 3.0, 4.0, 6.0)  # of square rooms, in [m]
+IN_SMALL = ("look-ahead", "aside", "deflected")
+OTHERS = ("lead", "optimal")  # pursuers that play look-ahead alone
+
+
+def main() -> None:
+    """Play, write."""
+    asked = ask(__doc__, "evading.json")
+    asked.add_argument("--seeds", type=seeds_of, default=range(200))
+    asked.add_argument("--small", type=seeds_of, default=range(50))
+    asked.add_argument("--workers", type=int)
+    asked.add_argument("--records", type=Path)
+    arguments = asked.parse_args()
+    file = arguments.records and RecordFile(arguments.records / "games.jsonl")
+    with worker_pool(arguments.workers) as executor:
+
+        def rows(
+            recipe: RoomRecipe, pairings: list[tuple[str, str]], seeds: range
+        ) -> list[dict[str, Any]]:
+            settings = TournamentSettings(room=recipe)
+            found = play_tournament(settings, pairings, seeds, file, executor)
+            return tournament_rows(list(found.values()))
+
+        pure = [(name, "pure") for name in EVADERS]
+        led = [("look-ahead", name) for name in OTHERS]
+        worlds = {
+            name: rows(recipe, pure, arguments.seeds)
+            for name, recipe in WORLDS.items()
+        }
+        led_rows = rows(WORLDS["3 x 3 m"], led, arguments.small)
+        sizes = [
+            {
+                "size_m": size,
+                "rows": rows(
+                    RoomRecipe(size, size),
+                    [(name, "pure") for name in IN_SMALL],
+                    arguments.small,
+                ),
+            }
+            for size in SIZES
+        ]
+    told = {
+        "seeds": f"{arguments.seeds.start}:{arguments.seeds.stop}",
+        "small": f"{arguments.small.start}:{arguments.small.stop}",
+    }
+    head = header(told, rooms=ROOMS, libraries=("numba", "numpy"))
+    write_result(
+        arguments.output,
+        head,
+        machine=machine(),
+        worlds=worlds,
+        others=led_rows,
+        sizes=sizes,
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,84 @@
+"""Let bodies walk the fast gait: forward, backward, straight and turning.
+
+::
+
+    python benchmarks/fast_walks.py --seeds 20
+"""
+
+from dataclasses import replace
+from math import radians
+
+from asking import ask
+from gathering import Row, finished, gather
+
+from stepaside.control.balance.settings import ControlSettings
+from stepaside.games.walk import run_walk
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.planning import PRESETS
+from stepaside.studies.results import header, write_result
+from stepaside.world.body_settings import BODIES
+
+KEPT = (
+    "outcome",
+    "duration_s",
+    "steps",
+    "adapted_steps",
+    "speed_m_s",
+    "speed_ratio",
+    "yaw_ratio",
+    "slip_per_step_m",
+    "tilt_max_deg",
+)
+BEARINGS = (-90, -45, 0, 45, 90)  # in [deg]
+
+
+def walk(settings: WalkSettings) -> Row:
+    """Figures of one walk."""
+    found = run_walk(settings).summary.to_json()
+    return {key: found[key] for key in KEPT}
+
+
+def main() -> None:
+    """Walk and write."""
+    asked = ask(__doc__, "fast-walks.json")
+    asked.add_argument("--seconds", type=float, default=60.0)
+    asked.add_argument("--seeds", type=int, default=20)
+    asked.add_argument("--workers", type=int)
+    arguments = asked.parse_args()
+    first = WalkSettings(
+        duration=arguments.seconds,
+        gait=PRESETS["fast"],
+        control=ControlSettings("closed-form", feedback=True),
+    )
+    jobs = {
+        f"{body}/{'backward' if backward else 'forward'}/{bearing}/{seed}": (
+            replace(
+                first,
+                seed=seed,
+                body=BODIES[body],
+                bearing=radians(bearing),
+                backward=backward,
+            )
+        )
+        for body in ("ideal", "hardware")
+        # Nothing of an ideal body is drawn.
+        for seed in range(1, 2 if body == "ideal" else 1 + arguments.seeds)
+        for bearing in BEARINGS
+        for backward in (False, True)
+    }
+    settings = {
+        "gait": "fast",
+        "method": "closed-form",
+        "seconds": arguments.seconds,
+        "seeds": arguments.seeds,
+        "bearings_deg": BEARINGS,
+    }
+    head = header(settings)
+    walks = gather(arguments.output, head, jobs, walk, arguments.workers)
+    falls = sum(row["outcome"] != "completed" for row in walks.values())
+    write_result(arguments.output, head, falls=falls, walks=walks)
+    finished(arguments.output)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,65 @@
+"""People who come from all around at a robot that stands."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from .markdown import number, table
+
+
+def people(*results: Mapping[str, Any]) -> str:
+    """Contacts and distances by body, sensing and speed of the people."""
+    rows = [
+        (
+            result["settings"]["body"],
+            row["sensing"],
+            f"{row['speed_m_s']:g}",
+            str(row["number"]),
+            str(row["contacts"]),
+            str(row["falls"]),
+            number(row["closest_m"], 2),
+            number(row["mean_closest_m"], 2),
+            number(row["template_closest_m"], 2),
+            number(row["triggered_at_m"], 1),
+            number(row["theory_room_m"], 2),
+        )
+        for result in results
+        for row in result["people"]
+    ]
+    head = (
+        "body",
+        "seen by",
+        "speed [m/s]",
+        "people",
+        "touched",
+        "fell",
+        "closest [m]",
+        "mean [m]",
+        "template's closest [m]",
+        "begun at [m]",
+        "theory's room at 3.5 m [m]",
+    )
+    return table(head, rows)
+
+
+def passers_by(*results: Mapping[str, Any]) -> str:
+    """False triggers with people who only pass, by body and sensing."""
+    return table(
+        (
+            "body of who is passed",
+            "seen by",
+            "passers-by",
+            "false triggers",
+            "an hour",
+        ),
+        [
+            (
+                result["settings"]["body"],
+                row["sensing"],
+                str(row["number"]),
+                str(row["false_triggers"]),
+                number(row["false_triggers_per_hour"], 1),
+            )
+            for result in results
+            for row in result["passers_by"]
+        ],
+    )

@@ -1,0 +1,43 @@
+"""Duels among obstacles."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from .markdown import interval, number, table
+
+MAPS = {"given": "given", "seen": "seen by cameras", "none": "none"}
+
+
+def outcomes(result: Mapping[str, Any]) -> str:
+    """What the duels of each strategy came to."""
+    return table(
+        (
+            "evader",
+            "map",
+            "duels",
+            "nothing touched",
+            "caught",
+            "touched the room",
+            "fell",
+            "survived [s]",
+            "closest [m]",
+            "clearance [m]",
+        ),
+        [
+            (
+                row["strategy"],
+                MAPS[row["map"]],
+                str(row["duels"]),
+                str(row["untouched"]),
+                str(row["caught"]),
+                str(row["touched_room"]),
+                str(row["fell"]),
+                number(row["survived_s"]["mean"], 0),
+                interval(
+                    row["closest_m"]["least"], row["closest_m"]["greatest"], 2
+                ),
+                number(row["clearance_m"]["least"], 3),
+            )
+            for row in result["summary"]
+        ],
+    )

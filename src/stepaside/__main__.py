@@ -1,0 +1,18 @@
+"""Where ``stepaside`` and ``python -m stepaside`` begin."""
+
+import os
+
+
+def main() -> None:
+    """Run the command line; Ctrl-C is no traceback even while it loads."""
+    try:
+        from .cli import main as run
+
+        run()
+    except KeyboardInterrupt:
+        os.write(2, b"stepaside: interrupted\n")
+        raise SystemExit(130) from None
+
+
+if __name__ == "__main__":
+    main()

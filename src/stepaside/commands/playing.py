@@ -1,0 +1,152 @@
+"""Opening a robot that ``stepaside play`` is told of."""
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from ..control import ControlScheme
+    from ..drivers.lola.body import LolaBody
+    from ..drivers.playing import Playing
+    from ..drivers.velocity.body import VelocityBody
+    from ..drivers.velocity.playing import VelocityPlaying
+    from ..games.settings import DuelSettings
+    from ..strategies import Strategy
+
+LOLA, NAOQI, ROS2 = "lola:", "naoqi:", "ros2:"
+
+
+def strategy_of(settings: "DuelSettings", role: str) -> "Strategy":
+    """What a role plays."""
+    from ..strategies import load_strategy
+
+    names = {
+        "pursuer": settings.pursuer_strategy,
+        "evader": settings.evader_strategy,
+    }
+    return load_strategy(names[role], settings.strategy)
+
+
+def open_joints(
+    settings: "DuelSettings", options: dict[str, Any]
+) -> "Playing":
+    """Connect to a robot whose joints are moved."""
+    from ..drivers.lola.address import parse_address
+    from ..drivers.lola.body import LolaBody
+    from ..drivers.lola.opening import open_lola
+    from ..drivers.minds import mind_maker
+    from ..drivers.playing import Playing
+    from ..robots.description import load_robot
+    from .feedback import with_feedback
+
+    address = parse_address(options["robot"])
+    settings = with_feedback(settings)
+    strategy = strategy_of(settings, options["role"])
+    dry_run = options["dry_run"]
+
+    def open_body(scheme: "ControlScheme") -> "LolaBody":
+        return open_lola(
+            address,
+            scheme.kinematics.joint_names,
+            scheme.joint_targets,
+            dry_run=dry_run,
+            guarded=True,
+        )
+
+    make = mind_maker(
+        load_robot(options["description"]),
+        settings.gait,
+        settings.control,
+        tick=LolaBody.tick,
+        delay_ticks=options["delay_ticks"],
+    )
+    return Playing(open_body, strategy, make, dry_run=dry_run)
+
+
+def open_velocity(
+    settings: "DuelSettings", options: dict[str, Any]
+) -> "VelocityPlaying":
+    """Connect to a robot that walks by itself."""
+    from math import inf
+
+    from ..drivers.velocity.limits import VelocityLimits
+    from ..drivers.velocity.mind import TemplateMind
+    from ..drivers.velocity.playing import VelocityPlaying
+    from ..drivers.velocity.watchdog import WatchSettings
+
+    strategy = strategy_of(settings, options["role"])
+    speed = options["max_speed"] or inf
+    limits = VelocityLimits(speed, speed, options["max_turn"] or inf)
+    watch = WatchSettings(paced=not options["sim_time"])
+    return VelocityPlaying(
+        _guarded(options),
+        lambda: TemplateMind(strategy, settings.gait),
+        limits,
+        watch,
+        dry_run=options["dry_run"],
+    )
+
+
+def _guarded(options: dict[str, Any]) -> "VelocityBody":
+    """A robot, with a guardian where one can be needed."""
+    from ..drivers.velocity.guardian import GuardedBody, Guardian
+
+    open_body, let_go = _line_to(options)
+    if options["dry_run"] or options["sim_time"]:
+        return open_body()
+    # Forked here: what speaks to the robot starts threads.
+    guardian = Guardian(let_go)
+    try:
+        return GuardedBody(open_body(), guardian)
+    except BaseException:
+        guardian.dismiss()
+        raise
+
+
+def _line_to(
+    options: dict[str, Any],
+) -> "tuple[Callable[[], VelocityBody], Callable[[], None]]":
+    """What opens a robot, and what makes it rest without control."""
+    robot, dry_run = options["robot"], options["dry_run"]
+    if robot.startswith(ROS2):
+        from ..drivers.ros2.address import parse_namespace
+
+        namespace = parse_namespace(robot)
+        domain, beyond = options["domain"], options["network"]
+
+        def open_ros2() -> "VelocityBody":
+            from ..drivers.ros2.body import Ros2Body
+            from ..drivers.ros2.domain import Dds
+
+            dds = Dds(domain, beyond=beyond)
+            return Ros2Body(dds, namespace, dry_run=dry_run)
+
+        def rest_ros2() -> None:
+            from ..drivers.ros2.body import rest
+            from ..drivers.ros2.domain import Dds
+
+            rest(Dds(domain, beyond=beyond), namespace)
+
+        return open_ros2, rest_ros2
+    if robot.startswith(NAOQI):
+        from ..drivers.naoqi.address import parse_url
+
+        url = parse_url(robot)
+
+        def open_naoqi() -> "VelocityBody":
+            from ..drivers.naoqi.body import NaoqiBody
+
+            return NaoqiBody(url, dry_run=dry_run)
+
+        def rest_naoqi() -> None:
+            from ..drivers.naoqi.body import stop
+
+            stop(url)
+
+        return open_naoqi, rest_naoqi
+    raise click.BadParameter(
+        f"must begin with {LOLA}, {NAOQI} or {ROS2}, got {robot!r}",
+        param_hint="--robot",
+    )

@@ -1,0 +1,297 @@
+"""``stepaside tournament``: evaders against pursuers, in rooms by seed."""
+
+from math import pi
+from pathlib import Path
+from typing import Any
+
+import click
+
+from ..errors import ConfigurationError, OutputError
+from ..outputs import check_folder
+from .declared.arena import BOXES, DISCS, POLYGONS
+from .declared.common import (
+    FIGURE,
+    FOLDER,
+    GAME_TIME,
+    WORKERS,
+    json_option,
+)
+from .declared.kinds import NameType, OutputFile, SizeType
+from .declared.option import Declaration
+from .duels import SEEDS
+from .options import ANGLE, print_json
+from .outputs import attempt, writes_files
+from .terminal import echo
+
+RECORDS, SUMMARY = "games.jsonl", "summary.json"
+PATHS = Declaration(
+    "--paths",
+    "Draw the worst game of each pairing (.png, .svg or .pdf).",
+    kind=OutputFile(".png", ".svg", ".pdf"),
+)
+
+
+def _levels() -> tuple[str, ...]:
+    from ..studies.tournament import LEVELS
+
+    return LEVELS
+
+
+class RoomType(click.ParamType[Any]):
+    """A size like 3x3, ``open``, or a file of a room."""
+
+    name = "room"
+
+    def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
+        """How it is written."""
+        return "[WIDTHxDEPTH|open|FILE]"
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> Any:
+        """Take a file for its path, and anything else for a size."""
+        file = Path(str(value))
+        if file.suffix.lower() in (".toml", ".json"):
+            if not file.is_file():
+                self.fail(f"must be a file that exists, got {value!r:.80}")
+            return file
+        return SizeType().convert(value, param, ctx)
+
+
+@click.command("tournament")
+@click.option(
+    "--level",
+    type=NameType(_levels),
+    default="steps",
+    show_default=True,
+    help="Steps of the gait, or unicycles, which decide eight times a step.",
+)
+@click.option(
+    "--evader",
+    "evaders",
+    multiple=True,
+    metavar="NAME",
+    help="look-ahead, aside, saturated, alpha, deflected, optimal or "
+    "FILE.py:NAME; may be given more than once.  [default: all]",
+)
+@click.option(
+    "--pursuer",
+    "pursuers",
+    multiple=True,
+    metavar="NAME",
+    help="pure, lead, optimal or FILE.py:NAME; likewise.  [default: pure]",
+)
+@click.option(
+    "--room",
+    type=RoomType(),
+    default="3x3",
+    show_default=True,
+    help="Size of the room [m], open for a floor without walls, or a file.",
+)
+@DISCS.option(default=0, show_default=True)
+@BOXES.option(default=0, show_default=True)
+@POLYGONS.option(default=0, show_default=True)
+@GAME_TIME.option(
+    default=180.0,
+    show_default=True,
+    help="Length of a game in path time {unit}: a step takes 0.4.",
+)
+@SEEDS.option(
+    default="0:100",
+    show_default=True,
+    help="One room each; the end is not among them.",
+)
+@click.option(
+    "--alpha",
+    type=ANGLE,
+    default=pi / 4,
+    help="Strategy angle [rad] of the evader alpha.  [default: 45deg]",
+)
+@WORKERS.option()
+@FOLDER.option(
+    help="Folder of results, which goes on with what it holds; none by "
+    "default."
+)
+@FIGURE.option(help="Draw closest approach against the floor that was used.")
+@PATHS.option()
+@json_option
+@writes_files
+def tournament(
+    level: str,
+    evaders: tuple[str, ...],
+    pursuers: tuple[str, ...],
+    room: Any,
+    discs: int,
+    boxes: int,
+    polygons: int,
+    duration: float,
+    seeds: range,
+    alpha: float,
+    workers: int | None,
+    output: Path | None,
+    figure: str | None,
+    paths: str | None,
+    as_json: bool,
+) -> None:
+    """Let evaders play pursuers in rooms by seed, and tabulate.
+
+    The rules: a step of 4 cm turns by at most 0.25 rad; the pursuer walks
+    through what stands there; the evader is caught at 0.35 m, and touches
+    what its centre comes nearer to than 0.20 m. A tournament that was
+    stopped goes on where it was with the same folder.
+    """
+    from ..rooms import RoomRecipe, load_room
+    from ..strategies.steps import StepGame
+    from ..studies.entrants import EVADERS, evader_of, pursuer_of
+    from ..studies.tournament import TournamentSettings
+
+    evaders, pursuers = evaders or tuple(EVADERS), pursuers or ("pure",)
+    for name in evaders:
+        evader_of(name, alpha)
+    for name in pursuers:
+        pursuer_of(name)
+    arena: Any
+    if isinstance(room, Path):
+        if discs or boxes or polygons:
+            raise ConfigurationError(
+                "discs, boxes and polygons must not be asked for in a room "
+                f"from a file, got {discs}, {boxes} and {polygons}"
+            )
+        arena = load_room(room)
+    else:
+        width, depth = room or (None, None)
+        arena = RoomRecipe(width, depth, discs, boxes, polygons)
+    settings = TournamentSettings(
+        level, arena, StepGame(duration=duration), alpha
+    )
+    settings.arena(seeds[0])  # whether there is such a room
+    if output is not None:
+        check_folder(output, new=False)
+    pairings = [(e, p) for p in pursuers for e in evaders]
+    records, stopped = _play(settings, pairings, seeds, output, workers)
+    result = _answer(settings, seeds, records)
+    failed: OutputError | None = None
+    if output is not None and records:
+        from ..studies.results import write_result
+
+        try:
+            result = write_result(output / SUMMARY, result)
+        except OutputError as error:
+            failed = error
+    if figure is not None and records:
+        from ..report.tournament_figure import draw_front
+
+        if attempt(lambda: draw_front(result["rows"], figure)):
+            result["figure"] = figure
+    if paths is not None and records:
+        from ..report.tournament_figure import draw_worst
+
+        games = _worst(settings, result["rows"])
+        if attempt(lambda: draw_worst(games, paths)):
+            result["paths"] = paths
+    if as_json:
+        print_json(result)
+    else:
+        _print(result["rows"])
+    if failed is not None:
+        raise failed
+    if stopped:
+        raise SystemExit(130)
+
+
+def _play(
+    settings: Any,
+    pairings: list[tuple[str, str]],
+    seeds: range,
+    output: Path | None,
+    workers: int | None,
+) -> tuple[list[dict[str, Any]], bool]:
+    """Play with a progress bar; whether Ctrl-C stopped it."""
+    from contextlib import nullcontext
+
+    from tqdm import tqdm
+
+    from ..studies.records import RecordFile
+    from ..studies.tournament import BLOCK, play_tournament
+    from ..studies.workers import worker_pool
+
+    file = None if output is None else RecordFile(output / RECORDS)
+    total = len(seeds) * len(pairings)
+    # A pool takes longer to begin than a few games.
+    alone = workers == 1 or total <= 2 * BLOCK
+    done: dict[str, dict[str, Any]] = {}
+    stopped = False
+    with (
+        tqdm(total=total, unit="game", disable=None, leave=False) as bar,
+        nullcontext() if alone else worker_pool(workers) as executor,
+    ):
+
+        def report(number: int) -> None:
+            bar.n = number
+            bar.refresh()
+
+        try:
+            play_tournament(
+                settings, pairings, seeds, file, executor, report, done
+            )
+        except KeyboardInterrupt:
+            stopped = True
+    order = {pairing: number for number, pairing in enumerate(pairings)}
+    return sorted(
+        done.values(),
+        key=lambda r: (order[r["evader"], r["pursuer"]], r["seed"]),
+    ), stopped
+
+
+def _answer(
+    settings: Any, seeds: range, records: list[dict[str, Any]]
+) -> dict[str, Any]:
+    from ..studies.results import header
+    from ..studies.tournament import ROOMS
+    from ..studies.tournament_rows import tournament_rows
+
+    return {
+        **header(
+            settings.entries(), rooms=ROOMS, libraries=("numba", "numpy")
+        ),
+        "seeds": f"{seeds.start}:{seeds.stop}",
+        "rows": tournament_rows(records),
+    }
+
+
+def _worst(settings: Any, rows: list[dict[str, Any]]) -> list[Any]:
+    """The worst game of each row: its title, room and track."""
+    from ..studies.tournament import play_track
+
+    games = []
+    for row in rows:
+        seed = row["worst_seeds"][0]
+        room, track = play_track(
+            settings, (row["evader"], row["pursuer"]), seed
+        )
+        title = f"{row['evader']} by {row['pursuer']}, seed {seed}"
+        games.append((f"{title}: {track.outcome}", room, track))
+    return games
+
+
+def _print(rows: list[dict[str, Any]]) -> None:
+    echo(
+        f"{'evader':<12}{'pursuer':<9}{'games':>6}{'survived':>10}"
+        f"{'95 %':>14}{'caught':>8}{'touched':>9}{'closest':>9}"
+        f"{'of bound':>9}{'floor':>7}{'turning':>9}{'unseen':>8}{'ms':>7}"
+    )
+    for row in rows:
+        low, high = row["survived_low"], row["survived_high"]
+        echo(
+            f"{row['evader'][-11:]:<12}{row['pursuer'][-8:]:<9}"
+            f"{row['games']:>6}{100 * row['survived']:>8.1f} %"
+            f"{100 * low:>7.1f}-{100 * high:<6.1f}"
+            f"{100 * row['caught']:>6.1f} %"
+            f"{100 * row['touched_obstacle']:>7.1f} %"
+            f"{row['mean_closest_m']:>7.3f} m{row['closest_over_bound']:>9.3f}"
+            f"{row['floor_used_m2']:>7.2f}{row['turning_rad_s']:>9.3f}"
+            f"{100 * row['out_of_view']:>6.1f} %{row['decision_ms']:>7.2f}"
+        )

@@ -1,0 +1,166 @@
+"""Only maneuvers after which a robot can still stop clear of everything.
+
+Standing is safe against what rests. So a maneuver is walked only if its first
+step *and* the halt after it keep clear of all that is known. Else the robot
+halts, which was found to be clear when the step before was accepted: by
+induction a robot that starts clear touches nothing that rests, whatever its
+strategy wants.
+"""
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from ...planning import ManeuverPlan, ManeuverPlanner
+from ...planning.steady import landing_state
+from ...poses import Pose
+from ...strategies.knowledge import Intent
+from .outline import BodyOutline
+from .surroundings import Surroundings
+
+SLOWER = (1.0, 0.5, 0.05)  # shares of the wanted speed; the last but turns
+NEARER = 1e-6  # than this no robot comes that is too near already, in [m]
+
+
+class Choice(NamedTuple):
+    """What a robot may do instead of what is wanted.
+
+    Attributes:
+        intent: Heading and speed.
+        back: Whether it drives the other way: forward where its strategy
+            drives backward.
+    """
+
+    intent: Intent
+    back: bool = False
+
+
+PlanFor = Callable[[Choice], ManeuverPlan]
+
+
+class Passage(NamedTuple):
+    """How clear a maneuver is.
+
+    Attributes:
+        now: Distance of the body from everything as it stands, in [m].
+        least: Least distance during the first step and the halt, in [m].
+        last: Distance of the body after the halt, in [m].
+    """
+
+    now: float
+    least: float
+    last: float
+
+
+class Guard:
+    """Keeps a robot clear of what it knows of.
+
+    Attributes:
+        surroundings: What it knows of.
+        margin: Distance that it keeps, in [m].
+    """
+
+    def __init__(
+        self,
+        surroundings: Surroundings,
+        outline: BodyOutline,
+        planner: ManeuverPlanner,
+        *,
+        margin: float,
+    ) -> None:
+        """Guard one robot.
+
+        Args:
+            surroundings: What it knows of.
+            outline: Of its body.
+            planner: Of its gait, for the halts.
+            margin: Distance that it keeps, in [m].
+        """
+        self.surroundings, self.margin = surroundings, margin
+        self._outline, self._planner = outline, planner
+
+    def choose(
+        self,
+        intent: Intent,
+        plan_for: PlanFor,
+        support: Pose,
+        *,
+        standing: bool,
+    ) -> Choice | None:
+        """What comes nearest to what is wanted and keeps clear.
+
+        Args:
+            intent: What is wanted.
+            plan_for: Plans from a choice.
+            support: Frame of the plans in odometry.
+            standing: Whether the robot stands; then it may also leave a
+                place that is too near to something.
+
+        Returns:
+            The first choice that keeps clear: as wanted, then slower and
+            slower, down to a turn on the spot, then a turn the other way,
+            and from standing a step back; None if the robot had better
+            stand.
+        """
+        for choice in _choices(intent, standing=standing):
+            if self.accepts(plan_for(choice), support, standing=standing):
+                return choice
+        return None
+
+    def accepts(
+        self, plan: ManeuverPlan, support: Pose, *, standing: bool
+    ) -> bool:
+        """Whether a maneuver may be walked.
+
+        Args:
+            plan: The maneuver.
+            support: Its frame in odometry.
+            standing: Whether the robot stands; if it is nearer to something
+                than the margin, it may then move away.
+        """
+        if not self.surroundings.solids.known:
+            return True
+        passage = self.passage(plan, support)
+        if passage.least >= self.margin:
+            return True
+        leaves = passage.least >= passage.now - NEARER
+        return standing and leaves and passage.last > passage.now + NEARER
+
+    def passage(self, plan: ManeuverPlan, support: Pose) -> Passage:
+        """How clear the first step of a plan and the halt after it are."""
+        frame = self.surroundings.frame.compose(support)
+        landed = Pose(*plan.placements[2].tolist())
+        halt = self.halt_after(plan)
+        solids = self.surroundings.solids
+        step = self._outline.along(plan, frame, "step")
+        rest = self._outline.along(halt, frame.compose(landed), "all")
+        corners = np.concatenate([step, rest])
+        clear = solids.clearances(corners)
+        now, last = (
+            float(solids.clearances(end)[0])
+            for end in (corners[:1], corners[-1:])
+        )
+        return Passage(now, float(clear.min()), last)
+
+    def halt_after(self, plan: ManeuverPlan) -> ManeuverPlan:
+        """Halt with which the robot can end the first step of a plan.
+
+        Its frame is that of the foot that lands.
+        """
+        back = Pose(*plan.placements[2].tolist()).inverse()
+        return self._planner.plan_halt(
+            first_foot=plan.first_foot.other,
+            state=landing_state(plan),
+            swing_start=back.compose(Pose(*plan.placements[1].tolist())),
+        )
+
+
+def _choices(intent: Intent, *, standing: bool) -> Iterator[Choice]:
+    """What comes nearest to an intent, the nearest first."""
+    for share in SLOWER:
+        yield Choice(Intent(intent.heading, share * intent.speed_factor))
+    yield Choice(Intent(-intent.heading, SLOWER[-1] * intent.speed_factor))
+    if standing:
+        for heading in (intent.heading, -intent.heading):
+            yield Choice(Intent(heading), back=True)

@@ -1,0 +1,111 @@
+"""What a robot knows of what stands around it."""
+
+from typing import Protocol
+
+from ...perception.floor_map import FloorMap
+from ...poses import Pose
+from ...robots.reference import BodyReference
+from ...rooms import Room
+from ...sensing.measurement import Measurement
+from .solids import NOTHING, Solids
+
+HERE = Pose(0.0, 0.0, 0.0)
+REFRESHED = 0.25  # how often what was seen is read again, in [s]
+
+
+class Surroundings(Protocol):
+    """What a robot knows of what stands around it.
+
+    Attributes:
+        solids: All that it knows of.
+        frame: Pose of the own odometry in the frame in which they are.
+    """
+
+    @property
+    def solids(self) -> Solids:
+        """All that it knows of."""
+
+    @property
+    def frame(self) -> Pose:
+        """Pose of the own odometry in the frame in which they are."""
+
+    def note(self, measurement: Measurement, body: BodyReference) -> None:
+        """Learn from what the sensors give at a tick.
+
+        Args:
+            measurement: What the sensors give.
+            body: What was asked of the body for this tick, in odometry.
+        """
+
+
+class OpenFloor:
+    """Nothing stands around, as far as anybody knows."""
+
+    solids = NOTHING
+    frame = HERE
+
+    def note(self, measurement: Measurement, body: BodyReference) -> None:
+        """Learn nothing."""
+
+
+class GivenRoom:
+    """A room that is known, and a sensor that tells the place in it.
+
+    Odometry that only counts steps drifts: the place that the sensor tells
+    keeps the frame of odometry where it is in the room.
+
+    Attributes:
+        solids: All that stands in the room.
+        frame: Pose of the own odometry in the room.
+    """
+
+    def __init__(self, room: Room, start: Pose) -> None:
+        """Know a room.
+
+        Args:
+            room: The room.
+            start: Pose of the own odometry in it at first.
+        """
+        self.solids = Solids(room.solids)
+        self.frame = start
+
+    def note(self, measurement: Measurement, body: BodyReference) -> None:
+        """Take the place that is measured for the one that was planned."""
+        if measurement.place is not None:
+            x, y, _ = body.com
+            planned = Pose(x, y, body.heading)
+            self.frame = measurement.place.compose(planned.inverse())
+
+
+class SeenRoom:
+    """A room as far as the own depth camera has seen it, in odometry.
+
+    Attributes:
+        solids: All that was seen to stand there, and, if unseen floor
+            counts as taken, that as well.
+        frame: Odometry itself.
+    """
+
+    frame = HERE
+
+    def __init__(self, floor: FloorMap, *, unseen_is_free: bool) -> None:
+        """Know nothing yet.
+
+        Args:
+            floor: Map that grows.
+            unseen_is_free: Whether unseen floor counts as free.
+        """
+        self._floor, self._unseen_is_free = floor, unseen_is_free
+        self.solids = NOTHING
+        self._read, self._next = 0, 0.0
+
+    def note(self, measurement: Measurement, body: BodyReference) -> None:
+        """Read the map again, a few times in each step."""
+        now, version = measurement.time, self._floor.version
+        if now < self._next - 1e-9 or version == self._read:
+            return
+        self._read, self._next = version, now + REFRESHED
+        known = self._floor.taken()
+        if not self._unseen_is_free:
+            known += self._floor.unseen(body.com[:2])
+        self.solids = Solids(known)

@@ -1,0 +1,98 @@
+"""From what a strategy wants to a plan that the body may walk."""
+
+from ..planning import (
+    CenterState,
+    Direction,
+    Foot,
+    GaitSettings,
+    ManeuverPlan,
+    ManeuverPlanner,
+)
+from ..poses import Pose
+from ..strategies.knowledge import Intent
+from ..strategies.strategy import Strategy
+from .balance.loop import Balance
+from .clearance.guard import Choice, Guard
+
+
+class Maneuvers:
+    """Plans the maneuvers and halts of one robot.
+
+    Attributes:
+        planner: Of its gait.
+        guard: What keeps it clear of what stands around, if anything.
+    """
+
+    def __init__(
+        self, settings: GaitSettings, balance: Balance, guard: Guard | None
+    ) -> None:
+        """Prepare a planner.
+
+        Args:
+            settings: Gait.
+            balance: What keeps the robot up, and fits plans to its state.
+            guard: What keeps it clear of what stands around, if anything.
+        """
+        self.planner = ManeuverPlanner(settings)
+        self.guard, self._balance = guard, balance
+
+    def plan(
+        self,
+        intent: Intent,
+        strategy: Strategy,
+        state: CenterState,
+        feet: tuple[Pose, Pose],
+        foot: Foot,
+        *,
+        standing: bool,
+    ) -> tuple[ManeuverPlan, CenterState] | None:
+        """Plan what is wanted, or what comes nearest to it.
+
+        Args:
+            intent: What is wanted.
+            strategy: Who wants it.
+            state: Present CoM in the frame of the support foot.
+            feet: Support foot and swing foot in odometry.
+            foot: Foot that swings.
+            standing: Whether the robot stands.
+
+        Returns:
+            The plan and the state that it begins with; None if it had
+            better stand.
+        """
+        support = feet[0]
+        swing_start = support.inverse().compose(feet[1])
+
+        def plan_of(choice: Choice, state: CenterState) -> ManeuverPlan:
+            direction, wanted = strategy.direction, choice.intent
+            if choice.back:
+                direction = Direction(-direction.value)
+            return self.planner.plan(
+                wanted.heading,
+                direction,
+                first_foot=foot,
+                state=state,
+                swing_start=swing_start,
+                standing=standing,
+                saturated=strategy.saturated,
+                speed_factor=wanted.speed_factor,
+                pace=wanted.pace,
+            )
+
+        chosen: Choice | None = Choice(intent)
+        if self.guard is not None:
+            # Fitting moves no foot, so it can wait until the choice is made.
+            chosen = self.guard.choose(
+                intent,
+                lambda choice: plan_of(choice, state),
+                support,
+                standing=standing,
+            )
+        if chosen is None:
+            return None
+        walked = chosen
+        if standing:
+            return plan_of(walked, state), state
+        return self._balance.fit(
+            lambda state: plan_of(walked, state), state, support
+        )

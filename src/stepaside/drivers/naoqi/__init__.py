@@ -1,0 +1,1 @@
+"""NAOqi: the services of NAO and Pepper, called over the network."""

@@ -1,0 +1,204 @@
+"""A robot on NAOqi, behind the interface that velocities move."""
+
+import logging
+from collections.abc import Callable
+from math import isfinite
+from time import monotonic, sleep
+from typing import Any
+
+from ...poses import Pose
+from ...sensing.measurement import Sighting
+from ..session import SessionLost
+from ..velocity.body import REST, Report, Velocity
+from .address import IDEAL_SIGHT
+from .session import answer_of, ask, connect
+
+PERIOD = 0.05  # between two looks at the robot, in [s]
+REPEATED = 0.25  # after which the same velocity is asked for again, in [s]
+STUCK = 1.0  # for which a command may be on its way, in [s]
+STANDING_UP = 20.0  # longest time for it, in [s]
+STAND, SLOWLY = "StandInit", 0.4  # posture, and share of the top speed
+PARTING = 2.0  # longest time for stopping at the end, in [s]
+LYING_DOWN = 10.0  # longest time for the crouch in the end, in [s]
+FALLEN, BUTTON = "robotHasFallen", "ChestButtonPressed"
+KEYS = [FALLEN, BUTTON, IDEAL_SIGHT]
+log = logging.getLogger(__name__)
+
+
+class NaoqiBody:
+    """One robot whose ALMotion walks.
+
+    It is woken up and stands before it moves. Its chest button, when it is
+    let go, makes it rest, and lets it go on. ALMotion walks on for ever
+    when nobody tells it to stop: who can die needs a guardian.
+    """
+
+    def __init__(
+        self,
+        url: str,
+        *,
+        dry_run: bool = False,
+        clock: Callable[[], float] = monotonic,
+    ) -> None:
+        """Connect, and let the robot stand up.
+
+        Args:
+            url: Like tcp://HOST:PORT.
+            dry_run: Whether nothing is ever commanded.
+            clock: Time of this computer, in [s]; that of the reports.
+
+        Raises:
+            SessionLost: If there is no such robot, or it has no ALMotion.
+        """
+        self._session = connect(url)
+        self._dry_run, self._clock = dry_run, clock
+        try:
+            self._motion = self._service("ALMotion")
+            self._memory = self._service("ALMemory")
+            self._standing: Any = None
+            if not dry_run:
+                self._stand_up()
+        except BaseException:
+            self._session.close()
+            raise
+        self._call: Any = None
+        self._called = clock()
+        self._asked = REST
+        self._listened = clock() - PERIOD
+        self._pressed = self._held = False
+        self._told_ideal = False
+
+    def listen(self, patience: float) -> Report | None:
+        """Where the robot is, and what it knows; None if it is too slow.
+
+        Args:
+            patience: Longest time to wait for it, in [s].
+
+        Raises:
+            SessionLost: If the robot is gone.
+        """
+        early = self._listened + PERIOD - self._clock()
+        if early > 0.0:
+            sleep(min(early, patience))
+        self._listened = self._clock()
+        try:
+            place = ask(
+                self._motion, "getRobotPosition", True, within=patience
+            )
+            told = ask(self._memory, "getListData", KEYS, within=patience)
+        except TimeoutError:
+            return None
+        now = self._clock()
+        try:
+            x, y, theta = (float(value) for value in place)
+            fallen, pressed, sight = told
+        except (TypeError, ValueError) as error:
+            raise SessionLost(
+                f"the robot says {place!r:.60}, {told!r:.60}"
+            ) from error
+        hindrance = self._hindrance(bool(fallen), bool(pressed))
+        seen = self._sighting(sight, now)
+        return Report(now, Pose(x, y, theta), seen, hindrance)
+
+    def command(self, velocity: Velocity) -> None:
+        """Ask for a velocity, without waiting for the robot.
+
+        Raises:
+            SessionLost: If the robot is gone or stuck.
+        """
+        now = self._clock()
+        if self._dry_run or not self._may_call(now):
+            return
+        same = velocity == self._asked and now - self._called < REPEATED
+        at_rest = velocity == REST and self._asked == REST
+        if same or (at_rest and self._call is not None):
+            return
+        self._called, self._asked = now, velocity
+        forward, turn = velocity
+        if velocity == REST:
+            self._call = self._motion.stopMove(_async=True)
+        else:
+            self._call = self._motion.move(forward, 0.0, turn, _async=True)
+
+    def close(self) -> None:
+        """Stop, crouch and let the motors go, as far as it can be asked."""
+        try:
+            if not self._dry_run:
+                ask(self._motion, "stopMove", within=PARTING)
+                ask(self._motion, "rest", within=LYING_DOWN)
+        except (SessionLost, TimeoutError) as error:
+            log.warning("the robot may still stand: %s", error)
+        finally:
+            self._session.close()
+
+    def _service(self, name: str) -> Any:
+        future = self._session.service(name, _async=True)
+        try:
+            return answer_of(future, name, within=PARTING)
+        except TimeoutError as error:
+            raise SessionLost(f"the robot: {error}") from error
+
+    def _stand_up(self) -> None:
+        """Ask for it; it takes its time."""
+        posture = self._service("ALRobotPosture")
+        motion = self._motion
+        try:
+            ask(motion, "wakeUp", within=STANDING_UP)
+        except TimeoutError as error:
+            raise SessionLost(f"the robot: {error}") from error
+        self._standing = posture.goToPosture(STAND, SLOWLY, _async=True)
+
+    def _hindrance(self, fallen: bool, pressed: bool) -> str:
+        """Why the robot must not move, by its own senses."""
+        if self._pressed and not pressed:
+            self._held = not self._held
+        self._pressed = pressed
+        if fallen:
+            return "has fallen"
+        if self._standing is not None:
+            if not self._standing.isFinished():
+                return "stands up"
+            if not answer_of(self._standing, "goToPosture", within=0.0):
+                return "could not stand up"
+            self._standing = None
+        return "chest button" if self._held or pressed else ""
+
+    def _may_call(self, now: float) -> bool:
+        """Whether the last command has been taken.
+
+        Raises:
+            SessionLost: If it was refused, or is on its way for too long.
+        """
+        if self._call is None:
+            return True
+        if self._call.isFinished():
+            answer_of(self._call, "command", within=0.0)
+            return True
+        if now - self._called > STUCK:
+            raise SessionLost("the robot takes no command")
+        return False
+
+    def _sighting(self, told: Any, now: float) -> Sighting | None:
+        """What a simulated robot tells of the other, if it does."""
+        if not isinstance(told, list | tuple) or len(told) != 3:
+            return None
+        if not self._told_ideal:
+            self._told_ideal = True
+            log.warning("sees by the ideal line of sight of the robot")
+        age, bearing, distance = (float(value) for value in told)
+        time = now - age if isfinite(age) else age
+        return Sighting(time, bearing, distance)
+
+
+def stop(url: str) -> None:
+    """Stop a robot in place of control that is gone.
+
+    It stays stiff: whoever finds it standing can let it crouch.
+    """
+    session = connect(url)
+    try:
+        future = session.service("ALMotion", _async=True)
+        motion = answer_of(future, "ALMotion", within=PARTING)
+        ask(motion, "stopMove", within=PARTING)
+    finally:
+        session.close()

@@ -1,0 +1,1 @@
+"""ROS 2 topics without ROS: DDS with the standard types."""

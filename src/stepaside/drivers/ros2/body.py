@@ -1,0 +1,167 @@
+"""A robot on ROS 2 topics, behind the interface that velocities move."""
+
+import logging
+from math import atan2, hypot
+from time import monotonic, sleep
+from typing import Any
+
+from ...control.memory import Memory
+from ...poses import Pose
+from ...sensing.measurement import Sighting
+from ..session import SessionLost
+from ..velocity.body import REST, Report, Velocity
+from .domain import Dds, taken
+from .messages import Odometry, PointStamped, PoseStamped, Twist
+from .topics import (
+    COMMAND,
+    IDEAL,
+    ODOMETRY,
+    POINT,
+    POSE,
+    dds_topic,
+    place_of,
+    pose_of,
+    vector,
+)
+
+POLL = 0.001  # between two looks for what has arrived, in [s]
+PARTING = 5  # times that rest is asked for at the end
+PARTING_PAUSE = 0.02  # between them, in [s]
+LETTING_GO = 3.0  # how long rest is asked for in control's place, in [s]
+POSE_TICK = 0.01  # of remembered poses, in [s]
+log = logging.getLogger(__name__)
+
+
+class Ros2Body:
+    """One robot in a namespace.
+
+    It hears ``odom`` and where the other is: ``other`` (a point) or
+    ``other_pose``, in the frame of the odometry if that is what the header
+    says, else in the robot's own frame, x ahead and y left; from a
+    simulated robot also ``ideal_sight``. It writes ``cmd_vel``.
+    """
+
+    def __init__(
+        self, dds: Dds, namespace: str, *, dry_run: bool = False
+    ) -> None:
+        """Take part in the topics of a robot.
+
+        Args:
+            dds: Where; it is closed with the body.
+            namespace: Of the robot, with a slash before it, or empty.
+            dry_run: Whether nothing is ever commanded.
+        """
+        self._dds, self._namespace = dds, namespace
+        self._dry_run = dry_run
+
+        def reader(name: str, kind: type[Any]) -> Any:
+            return dds.reader(dds_topic(namespace, name), kind)
+
+        self._odometry = reader(ODOMETRY, Odometry)
+        self._sights = {
+            POINT: reader(POINT, PointStamped),
+            POSE: reader(POSE, PoseStamped),
+            IDEAL: reader(IDEAL, PointStamped),
+        }
+        self._others = reader(COMMAND, Twist)
+        self._command: Any = None
+        if not dry_run:
+            self._command = dds.writer(dds_topic(namespace, COMMAND), Twist)
+        self._poses: Memory[Pose] = Memory(POSE_TICK)
+        self._sighting: Sighting | None = None
+        self._told_ideal = False
+
+    @property
+    def commanders(self) -> int:
+        """How many others command this robot."""
+        all_of_them = len(self._others.get_matched_publications())
+        return all_of_them - (not self._dry_run and all_of_them > 0)
+
+    def listen(self, patience: float) -> Report | None:
+        """Newest report since the last; None if none comes in time.
+
+        Args:
+            patience: Longest time to wait for it, in [s].
+        """
+        until = monotonic() + patience
+        while True:
+            arrived = taken(self._odometry)
+            if arrived:
+                return self._report(arrived[-1])
+            if monotonic() >= until:
+                return None
+            sleep(POLL)
+
+    def command(self, velocity: Velocity) -> None:
+        """Ask for a velocity.
+
+        Raises:
+            SessionLost: If it cannot be written.
+        """
+        if self._dry_run:
+            return
+        taken(self._others)  # what is commanded comes back: nobody reads it
+        try:
+            self._command.write(
+                Twist(vector(velocity.forward), vector(z=velocity.turn))
+            )
+        except Exception as error:
+            raise SessionLost(f"the robot takes no command: {error}") from (
+                error
+            )
+
+    def close(self) -> None:
+        """Ask for rest a few times, and leave."""
+        try:
+            for _ in range(0 if self._dry_run else PARTING):
+                self.command(REST)
+                sleep(PARTING_PAUSE)
+        except SessionLost as error:
+            log.warning("%s", error)
+        finally:
+            del self._odometry, self._sights, self._others, self._command
+            self._dds.close()
+
+    def _report(self, odometry: Odometry) -> Report:
+        pose = pose_of(odometry.pose.pose)
+        time = odometry.header.stamp.seconds
+        self._poses.note(time, pose)
+        for name, reader in self._sights.items():
+            for message in taken(reader):
+                if name == IDEAL and not self._told_ideal:
+                    self._told_ideal = True
+                    log.warning(
+                        "sees by the ideal line of sight of %s",
+                        self._namespace or "/",
+                    )
+                self._note(message, odometry.header.frame_id)
+        others = self.commanders
+        hindrance = f"{others} others command this robot" if others else ""
+        return Report(time, pose, self._sighting, hindrance)
+
+    def _note(
+        self, message: PointStamped | PoseStamped, odometry_frame: str
+    ) -> None:
+        """Turn a place of the other into a sighting."""
+        place, time = place_of(message), message.header.stamp.seconds
+        x, y = place.x, place.y
+        if message.header.frame_id == odometry_frame:
+            own = self._poses.at(time)
+            x, y, _ = own.inverse().compose(Pose(x, y, 0.0))
+        self._sighting = Sighting(time, atan2(y, x), hypot(x, y))
+
+
+def rest(dds: Dds, namespace: str, duration: float = LETTING_GO) -> None:
+    """Ask a robot for rest in place of control that is gone.
+
+    Args:
+        dds: Where; it is closed.
+        namespace: Of the robot.
+        duration: How long, in [s]: it takes a while to be found.
+    """
+    writer = dds.writer(dds_topic(namespace, COMMAND), Twist)
+    for _ in range(round(duration / PARTING_PAUSE)):
+        writer.write(Twist(vector(), vector()))
+        sleep(PARTING_PAUSE)
+    del writer
+    dds.close()

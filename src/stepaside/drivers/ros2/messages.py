@@ -1,0 +1,200 @@
+"""The standard messages that are spoken, as DDS carries them.
+
+Names and order of the fields are those of ROS 2's interface definitions:
+they decide the bytes. A field must not be moved.
+"""
+
+from dataclasses import dataclass
+
+from ...errors import ConfigurationError
+
+try:
+    from cyclonedds.idl import IdlStruct
+    from cyclonedds.idl.types import (
+        array,
+        float64,
+        int32,
+        sequence,
+        uint8,
+        uint32,
+    )
+except ImportError as error:
+    raise ConfigurationError(
+        "ROS 2 topics need CycloneDDS: pip install 'stepaside[ros2]'"
+    ) from error
+
+MATRIX = 36  # numbers in a covariance
+
+
+@dataclass
+class Time(IdlStruct, typename="builtin_interfaces.msg.dds_.Time_"):
+    """An instant."""
+
+    sec: int32
+    nanosec: uint32
+
+    @classmethod
+    def of(cls, time: float) -> "Time":
+        """The message of a time, in [s]."""
+        nanoseconds = round(time * 1e9)
+        return cls(nanoseconds // 10**9, nanoseconds % 10**9)
+
+    @property
+    def seconds(self) -> float:
+        """The instant, in [s]."""
+        return float(self.sec + 1e-9 * self.nanosec)
+
+
+@dataclass
+class Header(IdlStruct, typename="std_msgs.msg.dds_.Header_"):
+    """When and in which frame."""
+
+    stamp: Time
+    frame_id: str
+
+
+@dataclass
+class Vector3(IdlStruct, typename="geometry_msgs.msg.dds_.Vector3_"):
+    """A vector."""
+
+    x: float64 = 0.0
+    y: float64 = 0.0
+    z: float64 = 0.0
+
+
+@dataclass
+class Point(IdlStruct, typename="geometry_msgs.msg.dds_.Point_"):
+    """A point, in [m]."""
+
+    x: float64 = 0.0
+    y: float64 = 0.0
+    z: float64 = 0.0
+
+
+@dataclass
+class Quaternion(IdlStruct, typename="geometry_msgs.msg.dds_.Quaternion_"):
+    """A rotation."""
+
+    x: float64 = 0.0
+    y: float64 = 0.0
+    z: float64 = 0.0
+    w: float64 = 1.0
+
+
+@dataclass
+class PoseMessage(IdlStruct, typename="geometry_msgs.msg.dds_.Pose_"):
+    """Place and rotation."""
+
+    position: Point
+    orientation: Quaternion
+
+
+@dataclass
+class Twist(IdlStruct, typename="geometry_msgs.msg.dds_.Twist_"):
+    """Velocities, in [m/s] and [rad/s]."""
+
+    linear: Vector3
+    angular: Vector3
+
+
+@dataclass
+class PointStamped(IdlStruct, typename="geometry_msgs.msg.dds_.PointStamped_"):
+    """A point at an instant."""
+
+    header: Header
+    point: Point
+
+
+@dataclass
+class PoseStamped(IdlStruct, typename="geometry_msgs.msg.dds_.PoseStamped_"):
+    """A pose at an instant."""
+
+    header: Header
+    pose: PoseMessage
+
+
+@dataclass
+class PoseWithCovariance(
+    IdlStruct, typename="geometry_msgs.msg.dds_.PoseWithCovariance_"
+):
+    """A pose, and how sure it is."""
+
+    pose: PoseMessage
+    covariance: array[float64, MATRIX]
+
+
+@dataclass
+class TwistWithCovariance(
+    IdlStruct, typename="geometry_msgs.msg.dds_.TwistWithCovariance_"
+):
+    """Velocities, and how sure they are."""
+
+    twist: Twist
+    covariance: array[float64, MATRIX]
+
+
+@dataclass
+class Odometry(IdlStruct, typename="nav_msgs.msg.dds_.Odometry_"):
+    """Where a robot believes to be, and how it moves."""
+
+    header: Header
+    child_frame_id: str
+    pose: PoseWithCovariance
+    twist: TwistWithCovariance
+
+
+@dataclass
+class Transform(IdlStruct, typename="geometry_msgs.msg.dds_.Transform_"):
+    """From one frame to another."""
+
+    translation: Vector3
+    rotation: Quaternion
+
+
+@dataclass
+class TransformStamped(
+    IdlStruct, typename="geometry_msgs.msg.dds_.TransformStamped_"
+):
+    """A transform at an instant."""
+
+    header: Header
+    child_frame_id: str
+    transform: Transform
+
+
+@dataclass
+class TFMessage(IdlStruct, typename="tf2_msgs.msg.dds_.TFMessage_"):
+    """Transforms."""
+
+    transforms: sequence[TransformStamped]
+
+
+@dataclass
+class Clock(IdlStruct, typename="rosgraph_msgs.msg.dds_.Clock_"):
+    """Time of a simulated world."""
+
+    clock: Time
+
+
+@dataclass
+class JointState(IdlStruct, typename="sensor_msgs.msg.dds_.JointState_"):
+    """Angles of joints, in [rad]."""
+
+    header: Header
+    name: sequence[str]
+    position: sequence[float64]
+    velocity: sequence[float64]
+    effort: sequence[float64]
+
+
+@dataclass
+class Image(IdlStruct, typename="sensor_msgs.msg.dds_.Image_"):
+    """An image, row by row."""
+
+    header: Header
+    height: uint32
+    width: uint32
+    encoding: str
+    is_bigendian: uint8
+    step: uint32
+    data: sequence[uint8]

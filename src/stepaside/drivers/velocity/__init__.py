@@ -1,0 +1,1 @@
+"""Velocity commands, for any robot that walks by itself."""

@@ -1,0 +1,33 @@
+"""A simulated robot that walks by itself, as its servers see it."""
+
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol
+
+from ...poses import Pose
+from ...sensing.measurement import Sighting
+from .body import Velocity
+
+
+class WalkerState(NamedTuple):
+    """What a simulated robot says of itself.
+
+    Attributes:
+        time: Simulated, in [s].
+        pose: Of its own frame in its odometry.
+        velocity: With which it is asked to walk.
+        joints: Angles of its joints, in [rad].
+        sighting: The other, from its own frame, if that is offered.
+    """
+
+    time: float
+    pose: Pose
+    velocity: Velocity
+    joints: Sequence[float]
+    sighting: Sighting | None
+
+
+class WalkingRobot(Protocol):
+    """A robot that walks by itself, of which servers tell."""
+
+    def state(self) -> WalkerState:
+        """What it says of itself now."""

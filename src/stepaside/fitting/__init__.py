@@ -1,0 +1,1 @@
+"""Fitting a stranger's humanoid: describing, checking and tuning it."""

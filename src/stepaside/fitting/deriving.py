@@ -1,0 +1,263 @@
+"""A description of a stranger's robot, derived from its published model."""
+
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from ..errors import ModelError, ReachError
+from ..robots.description import RobotDescription
+from ..robots.kinematics import BodyReference, LegKinematics
+from ..robots.own import Overlay, Place, ServoGains, SolePlace
+from .lengths import Size, gait_of, game_of_size, stabiliser_of
+from .motors import (
+    SPEED,
+    followers_of,
+    gains_of,
+    published_speeds,
+    published_torques,
+)
+from .posture import knee_limits, reach_of, standing_of
+from .survey import Survey, survey
+
+HIGH = 0.96  # CoM height of a gait by the greatest that is reached
+SPACE = 1.25  # least foot spacing by twice the sole's inner edge
+TICK = 0.004  # of the kinematics that tries heights, in [s]
+FEET = ("stepaside_left_sole", "stepaside_right_sole")
+
+
+@dataclass(frozen=True, eq=False)
+class Derived:
+    """A description, and what it was derived from.
+
+    Attributes:
+        description: Of the robot; its folder need not be there yet.
+        survey: What was found in the model.
+        size: What its gait was scaled by.
+        lowest: Least CoM height in reach, in [m].
+        highest: Greatest one, in [m].
+        told_torques: Joints whose torque the model tells.
+        told_speeds: Joints whose speed it tells.
+    """
+
+    description: RobotDescription
+    survey: Survey
+    size: Size
+    lowest: float
+    highest: float
+    told_torques: frozenset[str]
+    told_speeds: frozenset[str]
+
+
+def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
+    """Derive the description of a robot.
+
+    Args:
+        model: MJCF or URDF file as published; it is only read.
+        folder: Where the description will be.
+        meshes: Folders in which mesh files are looked for.
+
+    Raises:
+        ModelError: If the model is not one of a humanoid that can walk;
+            says what is missing.
+    """
+    if not model.is_file():
+        raise ModelError(f"model must be an MJCF or URDF file, got {model}")
+    places = meshes or [model.parent, model.parent.parent / "meshes"]
+    places = [place for place in places if place.is_dir()]
+    found = survey(model, places)
+    _check_legs(found)
+    torques = published_torques(mujoco.MjSpec.from_file(str(model)))
+    speeds = published_speeds(model)
+    sole = _sole_of(found)
+    spacing = _spacing_of(found, sole[3])
+    guess = 0.9 * found.length
+    description = _structure(
+        found, folder, places, sole, gains_of(found, torques, guess), speeds
+    )
+    lowest, highest = _heights(description, spacing, sole)
+    height = HIGH * highest
+    description = replace(
+        description,
+        overlay=replace(
+            description.overlay, servos=gains_of(found, torques, height)
+        ),
+    )
+    size = Size(height, found.mass, spacing, sole, description.place.reach)
+    gait = gait_of(size)
+    description = replace(
+        description,
+        gait=dict(gait),
+        control={
+            "method": "closed-form",
+            "feedback": False,
+            "stabiliser": stabiliser_of(size),
+        },
+        game=game_of_size(size, gait),
+    )
+    return Derived(
+        description,
+        found,
+        size,
+        lowest,
+        highest,
+        frozenset(torques),
+        frozenset(speeds),
+    )
+
+
+def _check_legs(found: Survey) -> None:
+    """Refuse legs that cannot place a foot."""
+    for side, leg in zip(("left", "right"), found.legs, strict=True):
+        count = len(leg.joints)
+        if count < 6:
+            raise ModelError(
+                f"the {side} leg must have at least 6 joints to place its "
+                f"foot, got {count}: {', '.join(leg.joints)}"
+            )
+    left, right = found.legs
+    if len(left.joints) != len(right.joints):
+        raise ModelError(
+            f"legs must have equally many joints, got {len(left.joints)} and "
+            f"{len(right.joints)}"
+        )
+
+
+def _sole_of(found: Survey) -> tuple[float, float, float, float]:
+    """Back, front, outer and inner edge: what both feet have, in [m]."""
+    left, right = (leg.outline for leg in found.legs)
+    edges = (
+        max(left[0], right[0]),
+        min(left[1], right[1]),
+        min(left[3], -right[2]),
+        min(-left[2], right[3]),
+    )
+    back, front, outer, inner = (round(edge, 4) for edge in edges)
+    return back, front, outer, inner
+
+
+def _spacing_of(found: Survey, inner: float) -> float:
+    """Distance between ankles in the zero posture, or what soles need."""
+    left, right = found.legs
+    return max(float(left.ankle[1] - right.ankle[1]), SPACE * 2.0 * inner)
+
+
+def _structure(
+    found: Survey,
+    folder: Path,
+    meshes: list[Path],
+    sole: tuple[float, float, float, float],
+    servos: dict[str, ServoGains],
+    speeds: dict[str, float],
+) -> RobotDescription:
+    """Description of what a robot is, without how it walks."""
+    standing = standing_of(found)
+    forward = float(np.mean([leg.hip[0] for leg in found.legs]))
+    knees = {leg.pitches[1]: knee_limits(found, leg) for leg in found.legs}
+    reach = reach_of(found, standing, forward)
+    return RobotDescription(
+        folder=folder,
+        name=_name_of(found),
+        model=_path_from(folder, found.path),
+        torso=found.torso,
+        left_foot=FEET[0],
+        right_foot=FEET[1],
+        accent="",
+        legs=tuple(name for leg in found.legs for name in leg.joints),
+        standing=standing,
+        speed_limits={name: speeds.get(name, SPEED) for name in servos},
+        working_limits=knees,
+        sole=dict(zip(("back", "front", "outer", "inner"), sole, strict=True)),
+        place=Place(round(forward, 4), reach),
+        overlay=Overlay(
+            tuple(_sole_place(found, i) for i in (0, 1)),
+            servos,
+            tuple(_path_from(folder, place) for place in meshes),
+        ),
+    )
+
+
+def _sole_place(found: Survey, side: int) -> SolePlace:
+    leg = found.legs[side]
+    under = np.array([leg.ankle[0], leg.ankle[1], leg.sole])
+    x, y, z = (found.place_in(leg.foot, under).round(5) + 0.0).tolist()
+    w, a, b, c = (found.turn_of(leg.foot).round(7) + 0.0).tolist()
+    return SolePlace(leg.foot, (x, y, z), (w, a, b, c))
+
+
+def _heights(
+    description: RobotDescription,
+    spacing: float,
+    sole: tuple[float, float, float, float],
+) -> tuple[float, float]:
+    """Least and greatest height of the CoM with the feet abreast, in [m]."""
+    ahead = 0.45 * (sole[0] + sole[1])
+    half = 0.5 * spacing
+    stance = BodyReference(
+        (ahead, 0.0, 1.0), (0.0, half, 0.0, 0.0), (0.0, -half, 0.0, 0.0)
+    )
+    kinematics = LegKinematics(description, tick=TICK)
+    highest = kinematics.highest_com(stance)
+    if highest == 0.0:
+        try:
+            kinematics.stand(stance)
+        except ReachError as error:
+            raise ModelError(
+                f"{description.name} can stand at no height with its feet "
+                f"{spacing:.3f} m apart: {error}"
+            ) from error
+    return kinematics.lowest_com(stance), highest
+
+
+def _name_of(found: Survey) -> str:
+    """Name of the model, or of its file."""
+    name = found.path.stem
+    return name.replace("_", " ")
+
+
+def _path_from(folder: Path, path: Path) -> str:
+    """Path of a file as the folder of a description names it."""
+    return Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()
+
+
+def coupled_of(found: Survey) -> set[str]:
+    """Joints that follow others."""
+    return followers_of(found.model)
+
+
+def facts_of(derived: Derived) -> dict[str, Any]:
+    """What was found and chosen, for a report."""
+    found, size = derived.survey, derived.size
+    own = derived.description
+    untold = [
+        name for name in own.overlay.servos if name not in derived.told_torques
+    ]
+    unlimited = [
+        name for name in own.speed_limits if name not in derived.told_speeds
+    ]
+    return {
+        "name": own.name,
+        "model": str(found.path),
+        "mass_kg": round(found.mass, 3),
+        "leg_length_m": round(found.length, 4),
+        "com_height_m": round(size.com_height, 4),
+        "com_heights_m": [round(derived.lowest, 4), round(derived.highest, 4)],
+        "foot_spacing_m": round(size.foot_spacing, 4),
+        "hip_width_m": round(
+            float(found.legs[0].hip[1] - found.legs[1].hip[1]), 4
+        ),
+        "sole_m": dict(own.sole),
+        "legs": [list(leg.joints) for leg in found.legs],
+        "gait": dict(own.gait),
+        "game": dict(own.game),
+        "coupled": sorted(coupled_of(found)),
+        "left_out_meshes": len(found.missing),
+        "asked_for": {
+            "sole": any(leg.is_guessed for leg in found.legs),
+            "torques": untold,
+            "speed_limits": unlimited,
+        },
+    }

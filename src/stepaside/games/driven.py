@@ -1,0 +1,109 @@
+"""Robots of our world that walk by themselves, at velocities from outside."""
+
+from typing import Protocol
+
+from ..control import Phase
+from ..control.senses import GivenSight
+from ..control.velocity import accepted, walk_at
+from ..drivers.velocity.body import REST, Velocity
+from ..drivers.velocity.served import WalkerState
+from ..planning import Direction
+from ..poses import wrap_angle
+from ..sensing.measurement import Measurement, Sighting
+from ..strategies import Stand
+from .walker import Walker
+
+SOMEBODY = Sighting(0.0, 0.0, 1.0)  # who is driven looks for nobody
+
+
+class Commander(Protocol):
+    """Where velocities come from."""
+
+    def act(self) -> Velocity:
+        """What the robot is to do at this tick."""
+
+    def close(self) -> None:
+        """Let go of whoever commands."""
+
+
+class DrivenWalker(Walker):
+    """A robot with its own control, which walks as it is told.
+
+    Attributes:
+        commander: Who tells it; none yet, and then it stands.
+    """
+
+    def __init__(self, walker: Walker, *, offers_sight: bool = True) -> None:
+        """Let a walker be driven.
+
+        Args:
+            walker: The robot; it is not to be used any more.
+            offers_sight: Whether it tells where the other is.
+        """
+        super().__init__(walker.robot, walker.scheme, walker.frame)
+        self.commander: Commander | None = None
+        self.scheme.senses = GivenSight(SOMEBODY)
+        self.scheme.decisions.adopt(Stand())
+        self._offers_sight = offers_sight
+        self._under_way: Direction | None = None
+        self._velocity = REST
+        self._seen: Measurement | None = None
+        self._ticks = -1
+        self._updated = False
+
+    def tick(self) -> None:
+        """Walk on, as it was told."""
+        scheme = self.scheme
+        if self.commander is not None:
+            self._velocity = self.commander.act()
+        if scheme.phase is Phase.STANDING:
+            self._under_way = None
+        strategy = walk_at(
+            *self._velocity, scheme.settings, under_way=self._under_way
+        )
+        scheme.decisions.adopt(strategy)
+        measurement = self._measured()
+        self.robot.write(scheme.update(measurement))
+        self._updated = True
+        if self._under_way is None and scheme.phase is Phase.WALKING:
+            self._under_way = strategy.direction
+
+    def state(self) -> WalkerState:
+        """What it says of itself now."""
+        measurement = self._measured()
+        now, scheme = measurement.time, self.scheme
+        pace = accepted(*self._velocity, scheme.settings)
+        return WalkerState(
+            now,
+            scheme.decisions.templates.at(now),
+            Velocity(*pace),
+            measurement.joint_positions.tolist(),
+            self._sighting(measurement),
+        )
+
+    def close(self) -> None:
+        """Let go of the commander and the eyes."""
+        if self.commander is not None:
+            self.commander.close()
+        super().close()
+
+    def _measured(self) -> Measurement:
+        """What the sensors give: read once a tick, as noise is drawn."""
+        ticks = self.robot.world.ticks
+        if self._seen is None or ticks != self._ticks:
+            self._seen, self._ticks = self.robot.read(), ticks
+        return self._seen
+
+    def _sighting(self, measurement: Measurement) -> Sighting | None:
+        """The other as the unicycle sees it that stands for the robot."""
+        seen, decisions = measurement.sighting, self.scheme.decisions
+        if seen is None or not self._offers_sight:
+            return None
+        heading = (
+            decisions.headings.at(seen.time)
+            if self._updated
+            else self.scheme.kinematics.torso_heading
+        )
+        ahead = decisions.templates.at(seen.time).theta
+        bearing = wrap_angle(heading + seen.bearing - ahead)
+        return Sighting(seen.time, bearing, seen.distance)

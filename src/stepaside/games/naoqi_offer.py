@@ -1,0 +1,42 @@
+"""Robots of our world on NAOqi."""
+
+from typing import NamedTuple
+
+from ..control.velocity import fastest
+from ..drivers.lola.frame_clock import TICK
+from ..drivers.naoqi.server import NaoqiServer
+from ..drivers.velocity.body import Velocity
+from ..errors import ConfigurationError
+from .driven import DrivenWalker
+from .offers import Offered
+from .walker import Walker
+
+
+class NaoqiOffer(NamedTuple):
+    """A robot that walks by itself, at velocities that are called for.
+
+    Attributes:
+        url: Where its services are, like tcp://127.0.0.1:PORT.
+        ideal_sight: Whether the true line of sight is told.
+    """
+
+    url: str
+    ideal_sight: bool = True
+
+    def serve(self, walker: Walker, *, lock_step: bool) -> Offered:
+        """Offer a robot that keeps itself up."""
+        if lock_step:
+            raise ConfigurationError(
+                "a robot on NAOqi cannot be played in lock step: its calls "
+                "carry no time"
+            )
+        player = DrivenWalker(walker, offers_sight=self.ideal_sight)
+        server = NaoqiServer(
+            self.url,
+            player,
+            walker.scheme.kinematics.joint_names,
+            Velocity(*fastest(walker.scheme.settings)),
+            tick=TICK,
+        )
+        player.commander = server
+        return Offered(player, server)

@@ -1,0 +1,91 @@
+"""The record of one player."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..control.walking import StepBegun
+from ..planning import Foot, ManeuverPlan
+from ..poses import Array, Pose
+from ..world.push import GivenPush
+from .player import Snapshot
+from .stance_record import near_rows, place_near
+from .track import Planning, Track, margin_of
+
+
+class Record:
+    """What is known of one player, by name of what it becomes."""
+
+    def __init__(self, closely: bool = False) -> None:
+        """Begin with nothing.
+
+        Args:
+            closely: Whether to keep how its feet stand, and what it believes
+                of itself.
+        """
+        self.begun: list[StepBegun] = []
+        self._closely = closely
+        self._pushes: tuple[GivenPush, ...] = ()
+        self._rows: dict[str, list[Sequence[float] | Array]] = {}
+        self._frame: Pose | None = None
+
+    def add(self, seen: Snapshot) -> None:
+        """Keep a snapshot as rows."""
+        rows: dict[str, Sequence[float] | Array] = {
+            "com": seen.com,
+            "place": seen.place,
+            "torso": seen.torso,
+        }
+        if seen.walk is not None:
+            rows["com_reference"] = seen.walk.reference.com[:2]
+            rows["zmp_reference"] = seen.walk.zmp_reference
+        if seen.zmp is not None:
+            rows["zmp"] = seen.zmp
+        if seen.posture is not None:
+            rows["qpos"] = seen.posture.astype(np.float32)
+        if self._closely:
+            rows |= near_rows(seen)
+        self._frame, self._pushes = seen.frame, seen.pushes
+        for name, row in rows.items():
+            self._rows.setdefault(name, []).append(row)
+
+    def track(self) -> Track:
+        """Rows as arrays."""
+        arrays = {name: np.array(rows) for name, rows in self._rows.items()}
+        for name in ("com", "torso"):
+            arrays.setdefault(name, np.zeros((0, 3)))
+        for name in ("place", "torso"):
+            if name in arrays:
+                arrays[name][:, 2] = np.unwrap(arrays[name][:, 2])
+        if self._frame is not None:
+            for name in ("com_reference", "zmp_reference"):
+                if name in arrays:
+                    points = self._frame.transform_points(arrays[name])
+                    arrays[name] = points
+            arrays["landings"] = self._landings(self._frame)
+            place_near(arrays, self._frame)
+        if self._pushes:
+            arrays["pushes"] = np.array(self._pushes)
+        return Track(**arrays)
+
+    def _landings(self, frame: Pose) -> Array:
+        rows = [
+            (
+                step.landing_time,
+                1.0 if step.foot is Foot.LEFT else -1.0,
+                *frame.compose(step.landing),
+            )
+            for step in self.begun
+        ]
+        return np.array(rows, dtype=np.float64).reshape(-1, 5)
+
+    def planning(self) -> Planning:
+        """How the player planned."""
+        times = [s.planning_time for s in self.begun]
+        plans: list[ManeuverPlan] = [step.plan for step in self.begun]
+        return Planning(
+            len(self.begun),
+            np.array([t for t in times if t is not None], dtype=np.float64),
+            max((s.velocity_jump for s in self.begun), default=0.0),
+            margin_of(plans),
+        )

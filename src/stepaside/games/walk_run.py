@@ -1,0 +1,50 @@
+"""A walk that was walked, as a value."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from .run import Run
+from .track import Track
+from .walk_figures import WalkSummary
+from .walk_settings import WalkSettings
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WalkRun(Run):
+    """A walk that was walked; see :class:`Run`.
+
+    Attributes:
+        settings: What decided it.
+        summary: Its figures.
+    """
+
+    game: ClassVar[str] = "walk"
+    settings_kind: ClassVar[type[WalkSettings]] = WalkSettings
+    summary_kind: ClassVar[type[WalkSummary]] = WalkSummary
+
+    settings: WalkSettings
+    summary: WalkSummary
+
+    @property
+    def walker(self) -> Track:
+        """Record of who walked."""
+        return next(iter(self.tracks.values()))
+
+    def words(self, index: int) -> str:
+        """What goes on at a sample."""
+        time = float(self.times[index])
+        if self.has_ended_at(index):
+            return self.message
+        if self.pushed_at(time):
+            return "the robot is pushed"
+        if self.stands_until is None or time < self.stands_until:
+            return "the robot stands"
+        return "the robot walks"
+
+    @property
+    def stands_until(self) -> float | None:
+        """When its first foot left the floor, in [s]; None if none did."""
+        landings = self.walker.landings
+        if landings is None or not len(landings):
+            return None
+        return float(landings[0, 0]) - self.settings.gait.single_support

@@ -1,0 +1,77 @@
+"""Settings of a walk: one value that repeats it."""
+
+from dataclasses import dataclass, field
+from math import pi
+from typing import ClassVar
+
+from ..control.balance.settings import ControlSettings
+from ..planning import GaitSettings
+from ..ranges import (
+    RUNTIME,
+    SEEDS,
+    Range,
+    Ranges,
+    check_count,
+    check_settings,
+)
+from ..world.body_settings import BodySettings
+from ..world.push import MOST_PUSHES, Push, check_pushes
+from ..world.settings import PhysicsSettings
+from .settings import RobotSettings
+
+WALKER = "walker"
+
+
+@dataclass(frozen=True, slots=True)
+class WalkSettings:
+    """Everything that decides a walk.
+
+    Attributes:
+        seed: Seed of every random draw; 0 to 3.40282e+38.
+        duration: Simulated time, in [s]; 0.001 to 86400.
+        robot: Name of a robot or folder of its description.
+        bearing: Desired heading in the frame of each support foot, in [rad]: 0
+            walks straight on, others in a circle; -3.14159 to 3.14159.
+        backward: Whether it walks backward.
+        gait: How it walks.
+        physics: Physics, floor and clock.
+        body: How far its body is from an ideal one.
+        control: How it controls its walk.
+        pushes: Who bumps into it.
+    """
+
+    seed: int = 1
+    duration: float = 20.0
+    robot: str = "nao"
+    bearing: float = 0.0
+    backward: bool = False
+    gait: GaitSettings = field(default_factory=GaitSettings)
+    physics: PhysicsSettings = field(default_factory=PhysicsSettings)
+    body: BodySettings = field(default_factory=BodySettings)
+    control: ControlSettings = field(default_factory=ControlSettings)
+    pushes: tuple[Push, ...] = ()
+
+    ranges: ClassVar[Ranges] = {
+        "seed": SEEDS,
+        "duration": RUNTIME,
+        "bearing": Range(-pi, pi, "rad", "half a turn"),
+    }
+
+    def __post_init__(self) -> None:
+        """Refuse a negative seed and a duration that is none."""
+        check_settings(self)
+        check_count(self.pushes, MOST_PUSHES, "pushes")
+        check_pushes(self.pushes, (WALKER,))
+
+    def robot_of(self, player: str) -> RobotSettings:
+        """What the walker is, and how it walks.
+
+        Args:
+            player: Its name.
+        """
+        return RobotSettings(self.robot, self.gait, self.control)
+
+    @property
+    def cycle(self) -> float:
+        """Duration of a gait cycle, two steps, in [s]."""
+        return 2.0 * self.gait.step_duration

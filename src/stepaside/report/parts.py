@@ -1,0 +1,97 @@
+"""What is seen of a model: one list of parts for every page."""
+
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+
+from ..poses import Array
+
+VISIBLE = 2  # last geom group that is seen
+TALL = 1.5  # height from which on what stands is a wall, in [m]
+_TYPES = mujoco.mjtGeom
+KINDS = {
+    int(_TYPES.mjGEOM_SPHERE): "sphere",
+    int(_TYPES.mjGEOM_ELLIPSOID): "ellipsoid",
+    int(_TYPES.mjGEOM_CAPSULE): "capsule",
+    int(_TYPES.mjGEOM_CYLINDER): "cylinder",
+    int(_TYPES.mjGEOM_BOX): "box",
+}
+
+
+class Part(NamedTuple):
+    """A thing of simple shape, at rest in one body.
+
+    Attributes:
+        body: Number of the body; 0 is the world.
+        kind: One of ``KINDS``, or "box" round what is no simple shape.
+        size: Half sizes along its axes, in [m]: three of a box and of an
+            ellipsoid; radius of a sphere; radius and half length along z of
+            the others. Shape (3,).
+        place: In the body, in [m]. Shape (3,).
+        turn: Quaternion (w, x, y, z) in the body. Shape (4,).
+        colour: Red, green, blue, 0 to 255.
+    """
+
+    body: int
+    kind: str
+    size: Array
+    place: Array
+    turn: Array
+    colour: tuple[int, int, int]
+
+    @property
+    def is_wall(self) -> bool:
+        """Whether it stands in the way of who looks from outside."""
+        high = self.kind == "box" and 2.0 * float(self.size[2]) >= TALL
+        return self.body == 0 and high
+
+    def to_json(self) -> dict[str, Any]:
+        """The same for a page, to a tenth of a millimetre."""
+        red, green, blue = self.colour
+        return {
+            "body": self.body,
+            "kind": self.kind,
+            "size": np.round(self.size, 4).tolist(),
+            "place": np.round(self.place, 4).tolist(),
+            "turn": np.round(self.turn, 5).tolist(),
+            "colour": f"#{red:02x}{green:02x}{blue:02x}",
+            "wall": self.is_wall,
+        }
+
+
+def parts_of(model: mujoco.MjModel) -> list[Part]:
+    """Parts of all that is seen, but the floor, which every page lays."""
+    parts = []
+    for geom in range(model.ngeom):
+        kind = int(model.geom_type[geom])
+        if model.geom_group[geom] > VISIBLE or kind == _TYPES.mjGEOM_PLANE:
+            continue
+        if kind == _TYPES.mjGEOM_HFIELD:
+            continue
+        size, place = model.geom_size[geom], model.geom_pos[geom]
+        turn = model.geom_quat[geom]
+        if kind not in KINDS:
+            middle, size = model.geom_aabb[geom].reshape(2, 3)
+            away = np.zeros(3)
+            mujoco.mju_rotVecQuat(away, middle, turn)
+            place = place + away
+        parts.append(
+            Part(
+                int(model.geom_bodyid[geom]),
+                KINDS.get(kind, "box"),
+                np.array(size, dtype=np.float64),
+                np.array(place, dtype=np.float64),
+                np.array(turn, dtype=np.float64),
+                colour_of(model, geom),
+            )
+        )
+    return parts
+
+
+def colour_of(model: mujoco.MjModel, geom: int) -> tuple[int, int, int]:
+    """Colour of one geom, 0 to 255."""
+    material = model.geom_matid[geom]
+    rgba = model.geom_rgba[geom] if material < 0 else model.mat_rgba[material]
+    red, green, blue = (np.clip(rgba[:3], 0.0, 1.0) * 255).astype(int)
+    return int(red), int(green), int(blue)

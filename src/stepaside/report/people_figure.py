@@ -1,0 +1,71 @@
+"""A map of where people come from, and how near they get."""
+
+from collections.abc import Sequence
+from math import radians
+from pathlib import Path
+from typing import Any
+
+from .style import THEORY, plt, save
+
+
+def draw_people(
+    rows: Sequence[dict[str, Any]], clearance: float, file: Path
+) -> None:
+    """Draw the least distance by direction, a ring for each speed.
+
+    Ahead of the robot is up. A cross marks who touched it.
+
+    Args:
+        rows: Of :func:`~stepaside.studies.people.origin_rows`.
+        clearance: That the robot tries to keep, in [m].
+        file: Picture to write.
+    """
+    ways = list(dict.fromkeys(row["sensing"] for row in rows))
+    speeds = sorted({row["speed_m_s"] for row in rows})
+    figure, axes = plt.subplots(
+        1,
+        len(ways),
+        figsize=(4.2 * len(ways), 4.2),
+        squeeze=False,
+        subplot_kw={"projection": "polar"},
+    )
+    for axis, sensing in zip(axes.flat, ways, strict=True):
+        axis.set_theta_zero_location("N")
+        ring = [radians(3.0 * i) for i in range(121)]
+        axis.plot(ring, [clearance] * 121, color=THEORY, linewidth=0.8)
+        for i, speed in enumerate(speeds):
+            here = sorted(
+                (
+                    row
+                    for row in rows
+                    if (row["sensing"], row["speed_m_s"]) == (sensing, speed)
+                ),
+                key=lambda row: float(row["bearing_deg"]),
+            )
+            colour = plt.cm.viridis(i / max(1, len(speeds) - 1))
+            axis.plot(
+                [radians(row["bearing_deg"]) for row in here],
+                [row["closest_m"] for row in here],
+                color=colour,
+                marker="o",
+                markersize=4,
+                linestyle="none",
+                label=f"{speed:g} m/s",
+            )
+            touched = [row for row in here if row["contacts"]]
+            axis.plot(
+                [radians(row["bearing_deg"]) for row in touched],
+                [row["closest_m"] for row in touched],
+                color=colour,
+                marker="x",
+                markersize=11,
+                linestyle="none",
+            )
+        axis.set_ylim(0.0)
+        axis.set_title(f"{sensing}: closest approach [m]")
+    figure.legend(
+        *axes.flat[0].get_legend_handles_labels(),
+        loc="outside lower center",
+        ncols=4,
+    )
+    save(figure, file)

@@ -1,0 +1,117 @@
+"""Picture of a robot as it stands: links, soles, CoM and frames."""
+
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+from matplotlib.patches import Polygon
+from scipy.spatial import ConvexHull, QhullError
+
+from ..control.reference import standing_reference
+from ..games.robot_settings import settings_of
+from ..poses import Array, Pose
+from ..robots.description import RobotDescription
+from ..robots.kinematics import LegKinematics
+from ..world.shapes import points_of
+from .style import plt, save
+
+VIEWS = (("from the front", 1, "y [m]"), ("from the left", 0, "x [m]"))
+LINK, SOLE, COM = "#9aa4b2", "#d9862b", "#b02a2a"
+AXES = ("#b02a2a", "#2a8a3a", "#2a50b0")  # of x, y and z
+TICK = 0.004  # of the kinematics that stands, in [s]
+
+
+def draw_robot(description: RobotDescription, file: Path) -> None:
+    """Draw a robot in the stance that its gait begins with.
+
+    Args:
+        description: The robot.
+        file: Picture to write.
+
+    Raises:
+        StepAsideError: If it cannot stand so.
+        OutputError: If the picture cannot be written.
+    """
+    gait = settings_of(description).gait
+    half = 0.5 * gait.foot_spacing
+    feet = Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0)
+    stance = standing_reference(*feet, gait)
+    legs = LegKinematics(description, tick=TICK)
+    legs.stand(stance)
+    model = description.compile()
+    data = mujoco.MjData(model)
+    at = int(model.body(description.torso).jntadr[0])
+    first = int(model.jnt_qposadr[at])
+    data.qpos[first : first + legs.posture.size] = legs.posture
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    size = 0.15 * gait.com_height
+    figure, panels = plt.subplots(1, 2, sharey=True, figsize=(9.0, 6.0))
+    for axes, (title, across, label) in zip(panels, VIEWS, strict=True):
+        _draw_links(axes, model, data, across)
+        for side, name in enumerate(
+            (description.left_foot, description.right_foot)
+        ):
+            site = data.site(name)
+            frame = site.xmat.reshape(3, 3)
+            corners = _corners(description, left=side == 0)
+            edge = site.xpos + corners @ frame.T
+            axes.plot(edge[:, across], edge[:, 2], color=SOLE, lw=3)
+            _draw_frame(axes, site.xpos, frame, across, size)
+        torso = data.body(description.torso)
+        _draw_frame(axes, torso.xpos, torso.xmat.reshape(3, 3), across, size)
+        com = data.subtree_com[torso.id]
+        axes.plot(com[across], com[2], "o", color=COM, ms=7, label="CoM")
+        axes.axhline(0.0, color="#606060", lw=0.8)
+        axes.set(title=title, xlabel=label, aspect="equal")
+    panels[0].legend(loc="upper right", fontsize=8)
+    figure.suptitle(
+        f"{description.name}: CoM at {gait.com_height:.3f} m, soles bold, "
+        "frames of torso and feet (x red, y green, z blue)",
+        fontsize=10,
+    )
+    save(figure, file)
+
+
+def _draw_links(
+    axes: Any, model: mujoco.MjModel, data: mujoco.MjData, across: int
+) -> None:
+    """Outlines of all geoms, and lines from joint to joint."""
+    for geom in range(model.ngeom):
+        points = points_of(model, data, geom)[:, [across, 2]]
+        if len(points) < 3:
+            continue
+        try:
+            outline = points[ConvexHull(points).vertices]
+        except QhullError:  # seen from its edge
+            continue
+        axes.add_patch(
+            Polygon(outline, closed=True, fc=LINK, ec="#606a78", alpha=0.25)
+        )
+    for body in range(2, model.nbody):
+        ends = data.xpos[[body, model.body_parentid[body]]]
+        axes.plot(ends[:, across], ends[:, 2], color="#404854", lw=1.0)
+
+
+def _draw_frame(
+    axes: Any, place: Array, frame: Array, across: int, size: float
+) -> None:
+    for axis, colour in zip(frame.T, AXES, strict=True):
+        tip = place + size * axis
+        axes.plot(
+            [place[across], tip[across]],
+            [place[2], tip[2]],
+            color=colour,
+            lw=1.6,
+        )
+
+
+def _corners(description: RobotDescription, *, left: bool) -> Array:
+    """Outline of a sole in its frame, in [m]. Shape (5, 3)."""
+    sole = settings_of(description).gait.sole
+    outer, inner = (sole.outer, -sole.inner)
+    high, low = (outer, inner) if left else (-inner, -outer)
+    x = [sole.back, sole.front, sole.front, sole.back, sole.back]
+    y = [low, low, high, high, low]
+    return np.array([x, y, [0.0] * 5]).T

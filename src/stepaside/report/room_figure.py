@@ -1,0 +1,66 @@
+"""Figure of a room, and solids for other figures."""
+
+from collections.abc import Iterable
+from typing import Any
+
+from matplotlib.patches import Circle, Patch
+from matplotlib.patches import Polygon as Outline
+
+from ..rooms import BODY_RADIUS, Disc, Obstacle, Room
+from .style import EVADER, PURSUER, plt, save
+
+SOLID = "#8a8f98"
+
+
+def solid_patches(solids: Iterable[Obstacle], **look: Any) -> list[Patch]:
+    """Solids as patches of matplotlib.
+
+    Args:
+        solids: In the frame of the axes, in [m].
+        look: How to draw them.
+    """
+    look = {"facecolor": SOLID, "edgecolor": "none", "zorder": 1} | look
+    return [
+        Circle(solid.centre, solid.radius, **look)
+        if isinstance(solid, Disc)
+        else Outline(solid.points, closed=True, **look)
+        for solid in solids
+    ]
+
+
+def draw_room(room: Room, path: str) -> None:
+    """Write a figure of a room with its starts.
+
+    Args:
+        room: The room.
+        path: File, of a format that its suffix tells.
+    """
+    figure, ax = plt.subplots(figsize=(4.0, 4.0))
+    for patch in solid_patches(room.solids):
+        ax.add_patch(patch)
+    if room.starts is not None:
+        for pose, colour, name in zip(
+            room.starts,
+            (PURSUER, EVADER),
+            ("pursuer", "evader"),
+            strict=True,
+        ):
+            draw_body(ax, pose, colour, name)
+        ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2)
+    ax.autoscale_view()
+    ax.set_aspect("equal")
+    ax.set_xlabel("x [m]")
+    ax.set_ylabel("y [m]")
+    save(figure, path)
+
+
+def draw_body(ax: Any, pose: Any, colour: str, name: str = "") -> None:
+    """Draw a body as a disc that looks somewhere."""
+    from math import cos, sin
+
+    x, y, theta = pose
+    ax.add_patch(
+        Circle((x, y), BODY_RADIUS, facecolor=colour, alpha=0.35, lw=0)
+    )
+    nose = (x + BODY_RADIUS * cos(theta), y + BODY_RADIUS * sin(theta))
+    ax.plot((x, nose[0]), (y, nose[1]), color=colour, lw=2, label=name)

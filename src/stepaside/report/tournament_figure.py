@@ -1,0 +1,91 @@
+"""Figures of a tournament: what distance costs in floor, and worst games."""
+
+from collections.abc import Sequence
+from math import ceil
+from typing import Any
+
+from ..rooms import Room
+from ..strategies.steps import StepTrack
+from .room_figure import draw_body, solid_patches
+from .style import EVADER, PURSUER, plt, save
+
+MARKS = "osD^vP*X"
+COLUMNS = 3
+
+
+def draw_front(rows: Sequence[dict[str, Any]], path: str) -> None:
+    """Draw closest approach against the floor used, a mark for each pairing.
+
+    Args:
+        rows: Of a tournament.
+        path: File, of a format that its suffix tells.
+    """
+    figure, ax = plt.subplots(figsize=(5.6, 4.0))
+    pursuers = list(dict.fromkeys(row["pursuer"] for row in rows))
+    evaders = list(dict.fromkeys(row["evader"] for row in rows))
+    for row in rows:
+        n = evaders.index(row["evader"])
+        ax.errorbar(
+            row["floor_used_m2"],
+            row["mean_closest_m"],
+            xerr=row["floor_used_pm_m2"],
+            yerr=row["mean_closest_pm_m"],
+            color=f"C{n}",
+            marker=MARKS[pursuers.index(row["pursuer"]) % len(MARKS)],
+            markersize=7,
+            linestyle="",
+            label=f"{row['evader']} by {row['pursuer']}"
+            if len(pursuers) > 1
+            else row["evader"],
+        )
+        ax.annotate(
+            f" {100 * row['survived']:.0f} %",
+            (row["floor_used_m2"], row["mean_closest_m"]),
+            xytext=(5, 4),
+            textcoords="offset points",
+            fontsize=8,
+        )
+    ax.set_xlabel("floor used [m²], mean and 95 % interval")
+    ax.set_ylabel("closest approach [m], mean and 95 % interval")
+    ax.set_title("what survives stands beside each mark")
+    ax.set_xlim(left=0.0)
+    ax.set_ylim(bottom=0.0)
+    ax.legend(fontsize=8)
+    save(figure, path)
+
+
+def draw_worst(
+    games: Sequence[tuple[str, Room, StepTrack]], path: str
+) -> None:
+    """Draw games in their rooms, from the start to the end.
+
+    Args:
+        games: Title, room and track of each.
+        path: File, of a format that its suffix tells.
+    """
+    columns = min(COLUMNS, len(games))
+    lines = ceil(len(games) / columns)
+    figure, axes = plt.subplots(
+        lines,
+        columns,
+        figsize=(3.4 * columns, 3.5 * lines),
+        squeeze=False,
+    )
+    for ax in axes.flat[len(games) :]:
+        ax.axis("off")
+    for ax, (title, room, track) in zip(axes.flat, games, strict=False):
+        for patch in solid_patches(room.solids):
+            ax.add_patch(patch)
+        for way, colour, name in (
+            (track.pursuer, PURSUER, "pursuer"),
+            (track.evader, EVADER, "evader"),
+        ):
+            ax.plot(way[:, 0], way[:, 1], color=colour, lw=1.0)
+            ax.plot(*way[0, :2], "o", color=colour, ms=4)
+            draw_body(ax, way[-1], colour, name)
+        ax.set_title(title, fontsize=8)
+        ax.set_aspect("equal")
+        ax.set_xlabel("x [m]")
+    for ax in axes[:, 0]:
+        ax.set_ylabel("y [m]")
+    save(figure, path)

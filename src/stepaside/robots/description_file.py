@@ -1,0 +1,182 @@
+"""The file of a robot's description: what it may say, and in which types."""
+
+import tomllib
+from collections.abc import Callable, Mapping
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+from ..errors import ModelError
+from .own import Overlay, Place, Sensors, ServoGains, SolePlace
+
+Entries = dict[str, Any]
+
+
+def read_entries(path: Path) -> Entries:
+    """Read what a description says.
+
+    Returns:
+        Values by the names of :class:`~.description.RobotDescription`.
+
+    Raises:
+        ModelError: If the file is no TOML, or has unknown, missing or
+            ill-typed entries; names the first.
+    """
+    try:
+        entries = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ModelError(f"{path}: {error}") from error
+    names = ", ".join((*REQUIRED, *OPTIONAL))
+    for key in entries:
+        if key not in REQUIRED and key not in OPTIONAL:
+            raise ModelError(
+                f"{path}: unknown entry {key!r}; there are {names}"
+            )
+    for key in REQUIRED:
+        if key not in entries:
+            raise ModelError(f"{path}: entry {key!r} is missing")
+    readers = REQUIRED | OPTIONAL
+    try:
+        return {key: readers[key](key, entries[key]) for key in entries}
+    except ModelError as error:
+        raise ModelError(f"{path}: {error}") from None
+
+
+def _refuse(name: str, wanted: str, got: object) -> ModelError:
+    return ModelError(f"{name} must be {wanted}, got {got!r}")
+
+
+def _text(name: str, value: object) -> str:
+    if not isinstance(value, str):
+        raise _refuse(name, "a name", value)
+    return value
+
+
+def _number(name: str, value: object) -> float:
+    fits = isinstance(value, int | float) and not isinstance(value, bool)
+    if not fits or not isfinite(value):  # type: ignore[arg-type]
+        raise _refuse(name, "a finite number", value)
+    return float(value)  # type: ignore[arg-type]
+
+
+def _positive(name: str, value: object) -> float:
+    number = _number(name, value)
+    if number <= 0.0:
+        raise _refuse(name, "a number > 0", value)
+    return number
+
+
+def _not_negative(name: str, value: object) -> float:
+    number = _number(name, value)
+    if number < 0.0:
+        raise _refuse(name, "a number >= 0", value)
+    return number
+
+
+def _table(name: str, value: object) -> Entries:
+    if not isinstance(value, dict):
+        raise _refuse(name, "a table", value)
+    return value
+
+
+def _row(
+    reader: Callable[[str, object], Any], count: int | None = None
+) -> Callable[[str, object], tuple[Any, ...]]:
+    def read(name: str, value: object) -> tuple[Any, ...]:
+        wide = isinstance(value, list) and count in (None, len(value))
+        if not isinstance(value, list) or not wide:
+            how_many = "" if count is None else f"{count} "
+            raise _refuse(name, f"a row of {how_many}values", value)
+        return tuple(reader(name, entry) for entry in value)
+
+    return read
+
+
+def _range(name: str, value: object) -> tuple[float, float]:
+    low, high = _row(_number, 2)(name, value)
+    if not low < high:
+        raise _refuse(name, "a range [low, high] with low < high", value)
+    return low, high
+
+
+def _by_name(reader: Callable[[str, object], Any]) -> Callable[..., Entries]:
+    def read(name: str, value: object) -> Entries:
+        table = _table(name, value)
+        return {k: reader(f"{name}.{k}", v) for k, v in table.items()}
+
+    return read
+
+
+def _fields(
+    kind: Callable[..., Any],
+    needed: Mapping[str, Callable[[str, object], Any]],
+    others: Mapping[str, Callable[[str, object], Any]],
+) -> Callable[[str, object], Any]:
+    """Reader of a table whose entries are the fields of a value."""
+    readers = {**needed, **others}
+
+    def read(name: str, value: object) -> Any:
+        table = _table(name, value)
+        for key in table:
+            if key not in readers:
+                raise ModelError(
+                    f"unknown entry {name}.{key}; there are "
+                    f"{', '.join(readers)}"
+                )
+        for key in needed:
+            if key not in table:
+                raise ModelError(f"entry {name}.{key} is missing")
+        return kind(
+            **{k: readers[k](f"{name}.{k}", v) for k, v in table.items()}
+        )
+
+    return read
+
+
+_SERVO = _fields(
+    ServoGains,
+    {
+        "stiffness": _positive,
+        "damping": _not_negative,
+        "torque": _positive,
+    },
+    {"armature": _not_negative},
+)
+_SOLE = _fields(
+    SolePlace,
+    {
+        "body": _text,
+        "place": _row(_number, 3),
+        "turn": _row(_number, 4),
+    },
+    {},
+)
+REQUIRED: dict[str, Callable[[str, object], Any]] = {
+    "name": _text,
+    "model": _text,
+    "torso": _text,
+    "left_foot": _text,
+    "right_foot": _text,
+    "legs": _row(_text),
+    "standing": _by_name(_number),
+    "speed_limits": _by_name(_positive),
+    "accent": _text,
+}
+OPTIONAL: dict[str, Callable[[str, object], Any]] = {
+    "working_limits": _by_name(_range),
+    "gait": _table,
+    "sole": _by_name(_number),
+    "control": _table,
+    "game": _by_name(_number),
+    "sensors": _fields(
+        Sensors,
+        {},
+        {"gyro": _text, "accelerometer": _text, "feet": _row(_text, 8)},
+    ),
+    "place": _fields(Place, {}, {"forward": _number, "reach": _positive}),
+    "overlay": _fields(
+        Overlay,
+        {"soles": _row(_SOLE, 2), "servos": _by_name(_SERVO)},
+        {"meshes": _row(_text)},
+    ),
+}

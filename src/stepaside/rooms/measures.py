@@ -1,0 +1,63 @@
+"""What can be said of a room."""
+
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from .distance import clearance_between
+from .files import room_entries
+from .room import Room
+from .shapes import Disc
+from .starts import BODY_RADIUS
+
+CELL = 0.02  # of the grid that measures areas, in [m]
+
+
+def measure_room(room: Room, radius: float = BODY_RADIUS) -> dict[str, Any]:
+    """Measure a room, as an object for other programs.
+
+    Args:
+        room: The room.
+        radius: Of a body in it, in [m].
+
+    Returns:
+        Numbers of things, the areas [m^2] of floor and of where the centre
+        of a body may be, the narrowest gap [m] between solids, its entries.
+    """
+    result: dict[str, Any] = {
+        "obstacles": len(room.obstacles),
+        "doors": len(room.doors),
+        "closed": room.is_closed,
+        "narrowest_gap_m": _narrowest_gap(room),
+    }
+    if room.width is not None and room.depth is not None:
+        sides = [
+            (np.arange(round(side / CELL)) + 0.5) * CELL - 0.5 * side
+            for side in (room.width, room.depth)
+        ]
+        grid = np.stack(np.meshgrid(*sides), axis=-1).reshape(-1, 2)
+        clearance = room.clearance(grid)
+        floor = room.width * room.depth
+        result["floor_m2"] = floor
+        result["free_m2"] = floor * float((clearance > 0.0).mean())
+        result["body_radius_m"] = radius
+        result["free_for_body_m2"] = floor * float((clearance > radius).mean())
+    result["room"] = room_entries(room)
+    return result
+
+
+def _narrowest_gap(room: Room) -> float | None:
+    """Least distance between two solids that do not touch, in [m]."""
+    gaps = []
+    for one, other in combinations(room.solids, 2):
+        if isinstance(one, Disc) and isinstance(other, Disc):
+            apart = float(one.clearance([other.centre])[0]) - other.radius
+        elif isinstance(one, Disc):
+            assert not isinstance(other, Disc)
+            apart = clearance_between(other, one)
+        else:
+            apart = clearance_between(one, other)
+        if apart > 1e-6:
+            gaps.append(apart)
+    return min(gaps) if gaps else None

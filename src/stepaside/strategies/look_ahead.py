@@ -1,0 +1,250 @@
+"""Try maneuvers in the mind, and begin the best of them."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import cos, inf, pi, radians, sin
+from typing import NamedTuple
+
+import numpy as np
+
+from ..errors import (
+    ConfigurationError,
+    check_not_negative,
+    check_positive,
+    check_within,
+)
+from ..planning import Direction
+from ..steps import (
+    NO_VALUE,
+    NOTHING,
+    Aims,
+    Both,
+    Maneuvers,
+    StepRules,
+    pack,
+)
+from ..steps.maneuvers import DEEPEST
+from ..steps.motion import half_turn, step_both
+from ..steps.packed import clearance_at
+from .knowledge import STAND, Intent, Knowledge, Limits
+from .other import Trace, note, pursuer_heading
+from .tables import pursuit_table
+
+ERROR = ConfigurationError
+ON_THE_SPOT = 0.05  # share of the speed at which a body but turns
+MARGIN = 0.005  # beyond the clearance that is asked for, in [m]
+PENALTY = 60.0  # of a metre too near: a centimetre is worth 0.6 m
+LONGEST = 400  # steps of a maneuver
+OPEN = 3  # pieces that are enough where a table says what comes after
+
+
+class LookAheadMemory(NamedTuple):
+    """What an evader that looks ahead remembers.
+
+    Attributes:
+        evading: Whether it evades.
+        trace: Where the pursuer was seen.
+        plan: Turns of steps that it would make, in [rad].
+        planned: When the first of them would be made, in [s].
+    """
+
+    evading: bool = False
+    trace: Trace = ()
+    plan: tuple[float, ...] = ()
+    planned: float = 0.0
+
+    def rest(self, time: float, step: float) -> tuple[float, ...]:
+        """Turns that are left of the plan, for steps of a duration."""
+        return self.plan[max(0, round((time - self.planned) / step)) :]
+
+
+@dataclass(frozen=True, slots=True)
+class LookAhead:
+    """Roll maneuvers out against a model of the pursuer, and take the best.
+
+    A maneuver is a sequence of pieces with a constant turn each, then the
+    paper's law for a while. It is good if the pursuer never comes near,
+    nothing is touched and the pursuer stays in sight. Without pieces, and
+    with nothing on the floor, it is the paper's law.
+
+    Attributes:
+        pieces: Steps of each piece.
+        turns: How many turns each may have, evenly up to the largest.
+        tail: Steps of the law after them.
+        angle: Strategy alpha of the law, in [rad].
+        enough: Distance to the pursuer that is as good as any larger where
+            something stands around, in [m]; on an open floor more is better.
+        body_radius: Least distance of the own centre to solids, in [m].
+        largest_error: Largest desired heading, in [rad]; pi is the most of
+            the paper's law.
+        sight: Largest bearing at which the head sees the pursuer, in [rad].
+        lead: How far ahead the pursuer is thought to aim; see
+            :class:`~stepaside.steps.StepRules`.
+        safety_radius: Distance at which it begins, in [m].
+        cells: Of the table that says, on an open floor, what comes after
+            the last piece; 0 for none, but the law.
+    """
+
+    pieces: tuple[int, ...] = (2, 4, 8, 12, 16)
+    turns: int = 7
+    tail: int = 10
+    angle: float = pi / 2
+    enough: float = 0.8
+    body_radius: float = 0.2
+    largest_error: float = pi
+    sight: float = radians(148.0)
+    lead: float = 0.0
+    safety_radius: float = inf
+    cells: int = 64
+
+    def __post_init__(self) -> None:
+        """Refuse what nobody can look ahead by."""
+        if len(self.pieces) > DEEPEST - 1 or min(self.pieces, default=1) < 1:
+            raise ERROR(
+                f"pieces must be at most {DEEPEST - 1}, of >= 1 steps [1] "
+                f"each, got {self.pieces}"
+            )
+        steps = sum(self.pieces) + self.tail
+        if self.tail < 0 or not 1 <= steps <= LONGEST:
+            raise ERROR(
+                f"pieces and tail must have 1 to {LONGEST} steps [1] "
+                f"together, got {steps}"
+            )
+        check_within(self.turns, 1, 99, "turns", "1", ERROR)
+        check_within(self.angle, 0.0, pi, "angle", "rad", ERROR)
+        check_positive(self.enough, "enough", "m", ERROR)
+        check_not_negative(self.body_radius, "body_radius", "m", ERROR)
+        error = self.largest_error
+        check_within(error, 0.01, pi, "largest_error", "rad", ERROR)
+        check_within(self.sight, 0.1, pi, "sight", "rad", ERROR)
+        check_within(self.lead, 0.0, 10.0, "lead", "1", ERROR)
+        if not self.safety_radius > 0.0:
+            raise ERROR(
+                f"safety_radius must be > 0 [m], got {self.safety_radius}"
+            )
+        if self.cells != 0:
+            check_within(self.cells, 16, 200, "cells", "1", ERROR)
+
+    @property
+    def direction(self) -> Direction:
+        """Backward, eq. (3)."""
+        return Direction.BACKWARD
+
+    @property
+    def saturated(self) -> bool:
+        """It turns by (4)."""
+        return False
+
+    def begin(self) -> LookAheadMemory:
+        """Not evading, nothing seen."""
+        return LookAheadMemory()
+
+    def decide(
+        self, knowledge: Knowledge, memory: LookAheadMemory
+    ) -> tuple[Intent, LookAheadMemory]:
+        """Begin the maneuver that keeps the pursuer farthest."""
+        from ..steps.search import look_ahead  # takes Numba with it
+
+        limits = knowledge.limits
+        rules = rules_of(limits, self.lead)
+        trace = note(memory.trace, knowledge)
+        near = knowledge.distance < self.safety_radius
+        if not (memory.evading or near):
+            return STAND, LookAheadMemory(False, trace)
+        both = place_both(trace, pursuer_heading(trace, rules))
+        bounded = bool(knowledge.obstacles)
+        packed = pack(knowledge.obstacles) if bounded else NOTHING
+        table = NO_VALUE
+        if not bounded and self.cells and self.pieces:
+            table = pursuit_table(self.cells, limits.speed / limits.gain)
+        aims = Aims(
+            self.enough if bounded else inf,
+            self.body_radius + MARGIN,
+            PENALTY,
+            self.sight,
+        )
+        found = look_ahead(
+            both,
+            memory.rest(knowledge.time, limits.step_duration),
+            self._maneuvers(limits, valued=table is not NO_VALUE),
+            rules,
+            aims,
+            packed,
+            table,
+        )
+        turn = float(found.turns[0])
+        if bounded and self._touches(both, turn, rules, knowledge):
+            # To turn needs no room, and to stand would be to stay.
+            spot = Intent(turn / rules.evader_share, ON_THE_SPOT)
+            return spot, LookAheadMemory(True, trace)
+        plan = tuple(found.turns[: sum(self.pieces)].tolist())
+        return Intent(turn / rules.evader_share), LookAheadMemory(
+            True, trace, plan, knowledge.time
+        )
+
+    def _maneuvers(self, limits: Limits, *, valued: bool) -> Maneuvers:
+        """Maneuvers that are tried; fewer where a table is their end."""
+        share = rules_of(limits).evader_share
+        return maneuvers_of(
+            self.pieces[:OPEN] if valued else self.pieces,
+            self.turns,
+            0 if valued else self.tail,
+            self.angle,
+            share * self.largest_error,
+        )
+
+    def _touches(
+        self,
+        both: Both,
+        turn: float,
+        rules: StepRules,
+        knowledge: Knowledge,
+    ) -> bool:
+        """Whether the step would touch something, and standing would not."""
+        after = step_both(both, *half_turn(0.5 * turn), rules)
+        packed = pack(knowledge.obstacles)
+        radius = self.body_radius
+        here = clearance_at(packed, both.ex, both.ey, radius)
+        there = clearance_at(packed, after.ex, after.ey, radius)
+        return there < radius and there < here
+
+
+def rules_of(limits: Limits, lead: float = 0.0) -> StepRules:
+    """Steps of both players, who are alike, from the limits of one."""
+    share = limits.gain * limits.stride / limits.speed
+    return StepRules(limits.stride, share, limits.stride, share, lead)
+
+
+def place_both(trace: Trace, heading: float) -> Both:
+    """Where both are, in the own odometry.
+
+    Args:
+        trace: At least one sighting.
+        heading: Of the pursuer there, in [rad].
+    """
+    seen = trace[-1]
+    return Both(
+        seen.own_x,
+        seen.own_y,
+        cos(seen.own_theta),
+        sin(seen.own_theta),
+        seen.x,
+        seen.y,
+        cos(heading),
+        sin(heading),
+    )
+
+
+@lru_cache(maxsize=16)
+def maneuvers_of(
+    pieces: tuple[int, ...],
+    turns: int,
+    tail: int,
+    angle: float,
+    largest: float,
+) -> Maneuvers:
+    """Maneuvers whose turns are even, the smallest first."""
+    even = np.linspace(-largest, largest, turns) if turns > 1 else np.zeros(1)
+    ordered = np.array(sorted(even.tolist(), key=abs))
+    steps = np.array(pieces, dtype=np.int64)
+    return Maneuvers(steps, ordered, sum(pieces) + tail, angle)

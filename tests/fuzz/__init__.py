@@ -1,0 +1,7 @@
+"""Bad input, made up from what takes input: ``python -m tests.fuzz``.
+
+Nothing is listed here that the package knows itself: options come from the
+command tree, ranges from settings, names from registries, functions from the
+door. So whatever is added is tried without anyone thinking of it. ``BASES``
+in ``commands.py`` only says what makes a command short.
+"""

@@ -1,0 +1,72 @@
+"""All kinds of cases, one of each in turn."""
+
+from collections.abc import Callable, Collection, Iterator
+from pathlib import Path
+from random import Random
+
+from click.testing import CliRunner
+
+from stepaside.cli import main
+
+from .calls import call_cases
+from .case import Case
+from .commands import combined_cases, command_cases
+from .configurations import configuration_cases
+from .folders import folder_cases
+from .moments import moment_cases
+from .places import place_cases
+from .sockets import socket_cases
+
+KINDS: dict[str, Callable[[Random, Path], Iterator[Case]]] = {
+    "options": command_cases,
+    "settings": lambda random, _: configuration_cases(random),
+    "together": combined_cases,
+    "folders": folder_cases,
+    "calls": call_cases,
+    "sockets": socket_cases,
+    "moments": moment_cases,
+    "places": place_cases,
+}
+
+
+def all_cases(
+    seed: int, folder: Path, kinds: Collection[str]
+) -> Iterator[Case]:
+    """Cases of all kinds by turns, until none has any more.
+
+    Args:
+        seed: Decides their order and what is drawn.
+        folder: For what they need: a run that is whole.
+        kinds: Names in ``KINDS``.
+    """
+    run = folder / "run"
+    make_run(run)
+    warm_up()
+    left = [KINDS[kind](Random(seed), run) for kind in kinds]
+    while left:
+        for source in list(left):
+            case = next(source, None)
+            if case is None:
+                left.remove(source)
+            else:
+                yield case
+
+
+def make_run(folder: Path) -> None:
+    """Play a short duel and write its folder."""
+    from stepaside.games.duel import run_duel
+    from stepaside.games.settings import DuelSettings
+    from stepaside.report.run_folder import write_run
+
+    write_run(folder, run_duel(DuelSettings(duration=0.2)))
+
+
+def warm_up() -> None:
+    """Compile what is compiled when it is first called."""
+    from stepaside.unicycle import make_game, play_games
+    from stepaside.unicycle.basins import random_starts
+
+    bound = "bound --grid 16 --refine 0 --games 0 --horizon 0.01 --json"
+    CliRunner().invoke(main, bound.split())
+    game = make_game(1.0, 1.0, 0.5, 0.5, 1.5)
+    play_games(game, random_starts(game, 2, seed=0), 1.0, step=0.1)

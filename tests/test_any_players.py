@@ -1,0 +1,197 @@
+"""Games of one, two and three: figures, pages and films show everybody."""
+
+import json
+import re
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import matplotlib.pyplot as plt
+import mujoco
+import numpy as np
+import pytest
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+
+from stepaside.games.outcome import Outcome
+from stepaside.games.run import Run
+from stepaside.games.track import Track
+from stepaside.games.walk import run_walk
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.poses import Array
+from stepaside.report import film_layers, run_folder
+from stepaside.report.compare_figure import draw_comparison
+from stepaside.report.replay_page import write_page
+from stepaside.report.stage import Stage
+from stepaside.report.style import COLOURS, PUSHED, THEORY, colours_of
+from stepaside.report.viewer.layers import pushes_at
+from stepaside.report.viewer.replaying import ReplayPage
+
+NAMES = ("walker", "hare", "tortoise")
+PUSH = np.array([[0.1, 0.1, 0.3, -0.2, 0.0, 0.8]])
+
+
+@cache
+def game(count: int) -> Run:
+    """Robots that walk abreast, a metre apart; the last one is pushed."""
+    alone = run_walk(WalkSettings(duration=0.4))
+    tracks = {
+        name: _beside(alone.walker, float(number))
+        for number, name in enumerate(NAMES[:count])
+    }
+    last = NAMES[count - 1]
+    tracks[last] = replace(tracks[last], pushes=PUSH)
+    return Run(
+        name="abreast",
+        settings=alone.settings,
+        outcome=Outcome.COMPLETED,
+        message="played 0.40 s",
+        duration=alone.duration,
+        times=alone.times,
+        tracks=tracks,
+        summary=alone.summary,
+    )
+
+
+def _beside(track: Track, y: float) -> Track:
+    assert track.qpos is not None
+    columns = {"com": 1, "torso": 1, "qpos": 1}
+    moved: dict[str, Array] = {}
+    for name, column in columns.items():
+        moved[name] = getattr(track, name).copy()
+        moved[name][:, column] += y
+    return replace(track, place=None, **moved)
+
+
+by_count = pytest.mark.parametrize("count", [1, 2, 3])
+
+
+@by_count
+def test_a_run_knows_who_played_and_what_a_pair_has(count: int) -> None:
+    run = game(count)
+    assert run.players == run.robots == NAMES[:count]
+    assert run.theory is None and run.safety is None and run.circle is None
+    if count == 1:
+        assert run.pair is None and run.orientation is None
+    else:
+        assert run.distance is not None and run.orientation is not None
+        np.testing.assert_allclose(run.distance, 1.0)
+        np.testing.assert_allclose(run.orientation, 0.0, atol=1e-9)
+    assert run.pushed_at(0.05) == () and run.pushed_at(0.1) == (
+        NAMES[count - 1],
+    )
+    assert run.words(0) == f"{' and '.join(NAMES[:count])} in motion"
+    assert run.words(10) == f"{NAMES[count - 1]} is pushed"
+
+
+def test_players_have_the_colours_of_their_roles_or_their_own() -> None:
+    colours = colours_of(("evader", *NAMES, "pursuer"))
+    assert colours["evader"] == COLOURS["evader"]
+    assert colours["pursuer"] == COLOURS["pursuer"]
+    assert len(set(colours.values())) == 5
+    many = colours_of(f"robot-{i}" for i in range(20))
+    assert len(many) == 20 and len(set(many.values())) > 5
+
+
+@by_count
+def test_everybody_is_in_the_figure(
+    count: int, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    figures: list[Figure] = []
+    monkeypatch.setattr(
+        Figure, "savefig", lambda f, *_, **__: figures.append(f)
+    )
+    monkeypatch.setattr("stepaside.report.style.plt.close", lambda _: None)
+    run = game(count)
+    run_folder.draw_run(run, tmp_path / "figure.png")
+    every: Any = figures[0].axes
+    (paths,) = [
+        axes
+        for axes in every
+        if f"{NAMES[0]}, CoM" in [line.get_label() for line in axes.lines]
+    ]
+    for name, colour in colours_of(run.players).items():
+        (way,) = [
+            line for line in paths.lines if line.get_label() == f"{name}, CoM"
+        ]
+        np.testing.assert_allclose(
+            np.column_stack(way.get_data()), run.tracks[name].com[:, :2]
+        )
+        assert to_hex(way.get_color()) == colour
+    assert "Game, seed 1: played 0.40 s" in figures[0].get_suptitle()
+    if count > 1:
+        draw_comparison([run, run], tmp_path / "both.png")
+        assert len(figures[1].axes[0].lines) == 2 * count
+    for figure in figures:
+        plt.close(figure)
+
+
+@by_count
+def test_everybody_is_on_the_page(count: int, tmp_path: Path) -> None:
+    run, file = game(count), tmp_path / "run.html"
+    write_page(run, file)
+    text = file.read_text(encoding="utf-8")
+    (found,) = re.findall(r"(\{\"times\".*\})", text)
+    shown = json.loads(found)
+    assert [robot["name"] for robot in shown["robots"]] == [*run.players]
+    assert [robot["pushes"] for robot in shown["robots"]] == [
+        *([[]] * (count - 1)),
+        PUSH.tolist(),
+    ]
+    assert (shown["distance"] is None) is (shown["angle"] is None)
+    assert (shown["distance"] is None) is (count == 1)
+    assert shown["safety"] is None and shown["guarded"] is None
+
+
+@by_count
+def test_everybody_is_in_the_film(count: int) -> None:
+    run = game(count)
+    drawn = mujoco.MjvScene(Stage(run).model, maxgeom=5000)
+    film_layers.decorate(drawn, run=run, index=20, trail=0.8)
+    colours = list(colours_of(run.players).values())
+    for colour in colours:
+        assert _of(drawn, colour)
+    assert len(_of(drawn, THEORY)) == (0 if count == 1 else 1)
+    (arrow,) = _of(drawn, PUSHED)
+    assert arrow.type == mujoco.mjtGeom.mjGEOM_ARROW
+    early = mujoco.MjvScene(Stage(run).model, maxgeom=5000)
+    film_layers.decorate(early, run=run, index=3, trail=0.8)
+    assert _of(early, PUSHED) == []
+
+
+def _of(drawn: mujoco.MjvScene, colour: str) -> list[Any]:
+    rgb = np.array(list(bytes.fromhex(colour[1:]))) / 255.0
+    geoms = [drawn.geoms[i] for i in range(drawn.ngeom)]
+    return [g for g in geoms if np.allclose(g.rgba[:3], rgb, atol=1e-3)]
+
+
+@by_count
+def test_everybody_is_in_the_layers_of_a_replay(count: int) -> None:
+    run = game(count)
+    drawn: dict[tuple[str, str], Array] = {}
+    layers = SimpleNamespace(
+        draw=lambda layer, who, lines, colour: drawn.update(
+            {(layer, who): lines}
+        )
+    )
+    page: Any = SimpleNamespace(_run=run, _layers=layers)
+    ReplayPage._draw(page, 20)
+    for layer in ("CoM trace", "footsteps", "pushes"):
+        assert {who for what, who in drawn if what == layer} == set(
+            NAMES[:count]
+        )
+    assert len(drawn["pushes", NAMES[count - 1]]) == 3
+    assert (("line of sight", "both") in drawn) is (count > 1)
+
+
+def test_an_arrow_ends_where_the_push_was_felt() -> None:
+    lines = pushes_at(PUSH, 0.5)
+    np.testing.assert_allclose(lines[0, 1, :2], (0.3, -0.2))
+    np.testing.assert_allclose(
+        lines[0, 1, :2] - lines[0, 0, :2], 0.25 * PUSH[0, 4:]
+    )
+    for time, shown in ((0.09, 0), (0.1, 3), (1.09, 3), (1.11, 0)):
+        assert len(pushes_at(PUSH, time)) == shown
+    assert pushes_at(None, 0.5).shape == (0, 2, 3)

@@ -1,0 +1,276 @@
+"""Robots keep clear of what stands around, whatever they want."""
+
+from math import pi
+from typing import Any
+
+import numpy as np
+import pytest
+
+from made_up_robot import GAIT, FakeLegs
+from stepaside.control.clearance.guard import Choice, Guard
+from stepaside.control.clearance.outline import BodyOutline
+from stepaside.control.clearance.settings import MapSettings
+from stepaside.control.clearance.solids import Solids
+from stepaside.control.clearance.surroundings import GivenRoom
+from stepaside.control.phase import Phase
+from stepaside.control.scheme import ControlScheme
+from stepaside.errors import ConfigurationError
+from stepaside.planning import Direction, Foot, ManeuverPlanner
+from stepaside.poses import Array, Pose
+from stepaside.robots.reference import BodyReference
+from stepaside.rooms import (
+    Disc,
+    Obstacle,
+    Polygon,
+    Room,
+    RoomRecipe,
+    box,
+    clearance_between,
+    hull,
+    make_room,
+)
+from stepaside.sensing.measurement import Measurement, Sighting
+from stepaside.strategies import Intent, Knowledge
+
+MARGIN = 0.02
+SOLE = np.array([[0.095, 0.042], [-0.05, 0.042], [-0.05, -0.035]])
+SOLE = np.concatenate([SOLE, [[0.095, -0.035]]])
+TRUNK = np.array([[0.09, 0.1], [0.02, 0.16], [-0.07, 0.1]])
+TRUNK = np.concatenate([TRUNK, TRUNK[::-1] * [1, -1]])
+OUTLINE = BodyOutline(TRUNK, SOLE, SOLE * [1, -1])
+
+
+class Whim:
+    """Wants anything, and walks or stands for a while each."""
+
+    saturated = False
+
+    def __init__(self, seed: int) -> None:
+        self.random = np.random.default_rng(seed)
+        self.direction = list(Direction)[seed % 2]
+        self.wanted = Intent()
+        self.left = 0
+
+    def begin(self) -> None:
+        """Nothing to remember."""
+
+    def decide(self, known: Knowledge, memory: None) -> tuple[Intent, None]:
+        """Change its mind now and then."""
+        if known.moving:
+            self.left -= 1
+        if self.left < 0:
+            self.left = int(self.random.integers(1, 12))
+            self.wanted = Intent(
+                self.random.uniform(-pi, pi),
+                self.random.uniform(0.2, 1.0),
+                bool(self.random.random() < 0.9),
+            )
+        if not known.moving:
+            return Intent(self.wanted.heading), None
+        return self.wanted, None
+
+
+def scheme_in(
+    room: Room, start: Pose, seed: int, tick: float
+) -> ControlScheme:
+    legs: Any = FakeLegs()
+    guard = Guard(
+        GivenRoom(room, start),
+        OUTLINE,
+        ManeuverPlanner(GAIT),
+        margin=MARGIN,
+    )
+    return ControlScheme(Whim(seed), GAIT, legs, tick=tick, guard=guard)
+
+
+def corners_of(body: BodyReference, frame: Pose) -> Array:
+    """The outline of a body in the room, reckoned part by part."""
+    parts = []
+    for place, heading, corners in (
+        (body.com[:2], body.heading, OUTLINE.trunk),
+        (body.left_foot[:2], body.left_foot[3], OUTLINE.left_sole),
+        (body.right_foot[:2], body.right_foot[3], OUTLINE.right_sole),
+    ):
+        parts.append(Pose(*place, heading).transform_points(corners))
+    return frame.transform_points(np.concatenate(parts))
+
+
+def clearance(room: Room, corners: Array) -> float:
+    """Least distance of trunk and soles from everything."""
+    return min(
+        room.footprint_clearance(Polygon(tuple(map(tuple, part.tolist()))))
+        for part in np.split(corners, [len(TRUNK), len(TRUNK) + len(SOLE)])
+    )
+
+
+def test_whatever_it_wants_it_touches_nothing() -> None:
+    """Foot by foot, tick by tick, through every step and every halt."""
+    least, phases = [], set()
+    nothing, tick = np.zeros(3), 0.02
+    recipe = RoomRecipe(2.2, 2.2, discs=2, boxes=1, polygons=1, largest=0.2)
+    for seed in range(4):
+        room = make_room(recipe, seed)
+        assert room.starts is not None
+        start = room.starts[0]
+        scheme = scheme_in(room, start, seed, tick)
+        for number in range(round(30.0 / tick)):
+            now = number * tick
+            seen = Sighting(now, 0.3, 0.5)
+            scheme.update(
+                Measurement(now, nothing, nothing, nothing, np.zeros(8), seen)
+            )
+            phases.add(scheme.phase)
+            if number % 10 == 0:
+                corners = corners_of(scheme.reference, start)
+                least.append(clearance(room, corners))
+    assert min(least) >= MARGIN - 1e-4
+    assert phases == {Phase.STANDING, Phase.WALKING, Phase.HALTING}
+    # Some came near enough to something to be held back.
+    assert min(least) < MARGIN + 0.01
+
+
+def test_between_an_accepted_step_and_rest_nothing_is_touched() -> None:
+    """The halt after each accepted step, from the step's own end."""
+    random = np.random.default_rng(3)
+    room = make_room(RoomRecipe(2.2, 2.2, discs=2, boxes=1), 2)
+    planner = ManeuverPlanner(GAIT)
+    guard = Guard(
+        GivenRoom(room, Pose(0.0, 0.0, 0.0)), OUTLINE, planner, margin=MARGIN
+    )
+    answers = []
+    for _ in range(40):
+        support = Pose(
+            *random.uniform((-1.1, -1.1, -pi), (1.1, 1.1, pi)).tolist()
+        )
+        foot = Foot(random.choice([-1, 1]))
+        plan = planner.plan(
+            random.uniform(-pi, pi),
+            list(Direction)[random.integers(2)],
+            first_foot=foot,
+            standing=True,
+        )
+        accepted = guard.accepts(plan, support, standing=False)
+        answers.append(accepted)
+        halt = guard.halt_after(plan)
+        landed = support.compose(Pose(*plan.placements[2].tolist()))
+        exact = min(
+            clearance(room, points)
+            for walked, frame in ((plan, support), (halt, landed))
+            for points in OUTLINE.along(
+                walked, frame, "step" if walked is plan else "all"
+            )
+        )
+        if accepted:
+            assert exact >= MARGIN - 1e-9
+        else:
+            # What is refused is near, but for what 32 directions miss.
+            assert exact < MARGIN + 0.01
+    assert 5 < sum(answers) < 35
+
+
+def test_who_stands_too_near_may_only_leave() -> None:
+    room = Room(obstacles=(box(0.4, 0.0, 0.5, 2.0),))
+    planner = ManeuverPlanner(GAIT)
+    support = Pose(0.045, -0.05, 0.0)  # its toes are 1 cm from the box
+    guard = Guard(
+        GivenRoom(room, Pose(0.0, 0.0, 0.0)), OUTLINE, planner, margin=MARGIN
+    )
+
+    def accepts(direction: Direction, *, standing: bool) -> bool:
+        plan = planner.plan(
+            0.0, direction, first_foot=Foot.LEFT, standing=True
+        )
+        return guard.accepts(plan, support, standing=standing)
+
+    assert accepts(Direction.BACKWARD, standing=True)
+    assert not accepts(Direction.BACKWARD, standing=False)
+    assert not accepts(Direction.FORWARD, standing=True)
+
+
+def test_what_cannot_be_walked_is_slowed_then_turned_then_dropped() -> None:
+    """Before a wall a robot turns on the spot; in a box it stands."""
+    planner = ManeuverPlanner(GAIT)
+
+    def chosen(*solids: Obstacle) -> Choice | None:
+        guard = Guard(
+            GivenRoom(Room(obstacles=solids), Pose(0.0, 0.0, 0.0)),
+            OUTLINE,
+            planner,
+            margin=MARGIN,
+        )
+        return guard.choose(
+            Intent(0.5),
+            lambda choice: planner.plan(
+                choice.intent.heading,
+                Direction(1 - 2 * choice.back),
+                first_foot=Foot.LEFT,
+                standing=True,
+                speed_factor=choice.intent.speed_factor,
+            ),
+            Pose(0.0, -0.05, 0.0),
+            standing=True,
+        )
+
+    wall = box(0.642, 0.0, 1.0, 3.0)
+    assert chosen() == Choice(Intent(0.5))
+    assert chosen(wall) == Choice(Intent(0.5, 0.05))
+    assert chosen(wall, *(box(0.0, s * 0.3, 3.0, 0.2) for s in (1, -1))) is (
+        None
+    )
+
+
+def test_distances_are_never_overrated_and_hardly_underrated() -> None:
+    random = np.random.default_rng(1)
+    solids = (
+        Disc(0.5, 0.1, 0.2),
+        box(-0.6, 0.3, 0.4, 0.2, 0.7),
+        Polygon(((0.1, -0.9), (0.5, -0.8), (0.2, -0.4))),
+        box(0.0, 1.5, 4.0, 0.1, 0.013),
+    )
+    for _ in range(200):
+        pose = Pose(*random.uniform((-1, -1, -pi), (1, 1, pi)).tolist())
+        body = pose.transform_points(TRUNK)
+        exact = min(clearance_between(hull(body), s) for s in solids)
+        told = float(Solids(solids).clearances(body[None])[0])
+        assert told <= exact + 1e-12
+        if exact > 0.0:
+            assert told >= exact - 0.01
+
+
+def test_a_body_between_two_instants_counts() -> None:
+    """One that is here and there has been where the pillar stands."""
+    pillar = Solids((Disc(0.0, 0.0, 0.05),))
+    away = np.array([[TRUNK + (-1.0, 0.0)], [TRUNK + (1.0, 0.0)]])[:, 0]
+    assert pillar.clearances(away[:1])[0] > 0.5
+    assert pillar.clearances(away[1:])[0] > 0.5
+    assert pillar.clearances(away)[0] < 0.0
+
+
+def test_a_place_that_is_measured_corrects_odometry() -> None:
+    """A robot that is where its odometry does not say knows it."""
+    around = GivenRoom(Room(), Pose(1.0, 2.0, 0.5))
+    body = BodyReference(
+        (0.3, 0.1, 0.26), (0.3, 0.15, 0.0, 0.2), (0.3, 0.05, 0.0, 0.2)
+    )
+    nothing = np.zeros(3)
+    blind = Measurement(0.0, nothing, nothing, nothing, nothing, None)
+    around.note(blind, body)
+    assert around.frame == Pose(1.0, 2.0, 0.5)
+    place = Pose(-0.4, 0.7, 1.1)
+    around.note(blind._replace(place=place), body)
+    found = around.frame.compose(Pose(0.3, 0.1, 0.2))
+    np.testing.assert_allclose(found, place, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"source": "dreamt"}, "map source must be one of given, seen, none"),
+        ({"unseen": "maybe"}, "map unseen must be one of free, taken"),
+        ({"margin": -0.1}, "map margin must lie in"),
+        ({"margin": float("nan")}, "map margin must lie in"),
+    ],
+)
+def test_other_maps_are_refused(values: Any, words: str) -> None:
+    with pytest.raises(ConfigurationError, match=words):
+        MapSettings(**values)

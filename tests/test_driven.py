@@ -1,0 +1,108 @@
+"""Test robots of our world that walk by themselves, as they are told."""
+
+from dataclasses import replace
+from math import atan2, hypot
+
+import pytest
+
+from stepaside.control.balance.settings import STABILISED
+from stepaside.drivers.velocity.body import REST, Velocity
+from stepaside.games.driven import DrivenWalker
+from stepaside.games.duel import Duel
+from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.walker import Walker
+from stepaside.poses import Pose, wrap_angle
+from stepaside.world.body_settings import BODIES
+
+SETTINGS = DuelSettings(
+    seed=7,
+    start=StartSettings(2.0, 0.2, 0.1),
+    body=replace(BODIES["delayed"], cycle=0.012),
+    control=STABILISED,
+)
+STEP = 0.547  # of the gait, in [s]
+
+
+class Told:
+    """Tells a robot the same all the time, until it is told otherwise."""
+
+    def __init__(self, velocity: Velocity) -> None:
+        self.velocity = velocity
+
+    def act(self) -> Velocity:
+        """What the robot is to do."""
+        return self.velocity
+
+    def close(self) -> None:
+        """Nothing to let go of."""
+
+
+@pytest.fixture(scope="module")
+def walked() -> tuple[DrivenWalker, DrivenWalker, list[Velocity]]:
+    """Two robots that were told to walk for 5 s, and then to rest for 3 s."""
+    duel = Duel(SETTINGS, recorded=False)
+    told = [Told(Velocity(0.06, 0.1)), Told(Velocity(-0.2, 0.2))]
+    players = []
+    for player, commander in zip(duel.players, told, strict=True):
+        assert isinstance(player, Walker)
+        players.append(DrivenWalker(player))
+        players[-1].commander = commander
+    before = [player.state().velocity for player in players]
+    for tick in range(667):
+        if tick == 417:
+            for commander in told:
+                commander.velocity = REST
+        for player in players:
+            player.tick()
+        duel.world.step()
+    return players[0], players[1], before
+
+
+def test_a_robot_walks_as_it_is_told_and_rests_when_it_is_told(
+    walked: tuple[DrivenWalker, DrivenWalker, list[Velocity]],
+) -> None:
+    ahead, back, before = walked
+    assert before == [REST, REST]
+    for robot, forward, turn in ((ahead, 0.06, 0.1), (back, -0.073, 0.073)):
+        assert not robot.has_fallen and not robot.is_moving
+        state = robot.state()
+        # 4.2 s are seven steps, and the last one comes to rest.
+        assert state.pose.theta == pytest.approx(6 * STEP * turn, rel=0.01)
+        way = hypot(state.pose.x, state.pose.y)
+        assert way == pytest.approx(6 * STEP * abs(forward), rel=0.1)
+        assert state.pose.x * forward > 0.0
+        assert state.velocity == REST
+
+
+def test_odometry_is_where_the_robot_is(
+    walked: tuple[DrivenWalker, DrivenWalker, list[Velocity]],
+) -> None:
+    for robot in walked[:2]:
+        state = robot.state()
+        x, y, heading = robot.frame.compose(state.pose)
+        u, v = robot.truth.place
+        assert hypot(x - u, y - v) < 0.02
+        assert abs(wrap_angle(heading - robot.truth.heading)) < 0.05
+
+
+def test_the_sight_that_is_offered_counts_from_the_odometry(
+    walked: tuple[DrivenWalker, DrivenWalker, list[Velocity]],
+) -> None:
+    own, other, _ = walked
+    state = own.state()
+    assert state.sighting is not None
+    _, bearing, distance = state.sighting
+    u, v = other.truth.place
+    x, y = own.truth.place
+    assert distance == pytest.approx(hypot(u - x, v - y), abs=0.01)
+    there = own.frame.compose(state.pose).inverse()
+    ahead, left, _ = there.compose(Pose(u, v, 0.0))
+    assert bearing == pytest.approx(atan2(left, ahead), abs=0.05)
+
+
+def test_a_robot_may_keep_to_itself_what_it_sees() -> None:
+    player = Duel(SETTINGS, recorded=False).players[0]
+    assert isinstance(player, Walker)
+    assert DrivenWalker(player).state().sighting is not None
+    silent = DrivenWalker(player, offers_sight=False)
+    assert silent.state().sighting is None

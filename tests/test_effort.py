@@ -1,0 +1,75 @@
+"""Long work says so before it begins, and endless work is refused."""
+
+import click
+import pytest
+from click.testing import CliRunner, Result
+
+from fuzz.case import Reached
+from fuzz.invoking import without_work
+from stepaside.cli import main
+from stepaside.commands.effort import ENDLESS, LONG, in_words, tell_effort
+
+
+@click.command()
+@click.argument("seconds", type=float)
+@click.argument("workers", type=int)
+def work(seconds: float, workers: int) -> None:
+    """Say how long it takes."""
+    tell_effort("work", seconds, workers)
+
+
+def said(seconds: float, workers: int = 1) -> Result:
+    return CliRunner().invoke(work, [str(seconds), str(workers)])
+
+
+def test_only_what_is_long_is_said_and_what_never_ends_is_refused() -> None:
+    assert said(LONG).output == ""
+    assert said(LONG + 1).stderr == (
+        "stepaside: work, about 1 minutes; Ctrl-C stops\n"
+    )
+    assert said(ENDLESS).exit_code == 0
+    refused = said(ENDLESS * 1.01)
+    assert refused.exit_code == 2 and "30 days" in refused.stderr
+
+
+def test_workers_share_it() -> None:
+    assert said(3 * LONG, 4).output == ""
+    assert "45 minutes" in said(45 * 60 * 4, 4).stderr
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [(61, "1 minutes"), (5400, "90 minutes"), (7200, "2 hours")]
+    + [(172800, "2 days"), (1e9, "1.2e+04 days")],
+)
+def test_times_are_said_as_people_say_them(seconds: float, words: str) -> None:
+    assert in_words(seconds) == words
+
+
+@pytest.mark.parametrize(
+    ("words", "wanted"),
+    [
+        ("duels --seeds 0:1000 --workers 1 --json", "1000 duels of 120 s"),
+        ("robustness --workers 1 --json", "walks of 20 s"),
+        ("reproduce --workers 1 --output x", "every claim of the paper"),
+    ],
+)
+def test_campaigns_say_what_they_plan(
+    words: str, wanted: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with without_work(), pytest.raises(Reached):
+        main(words.split())
+    assert wanted in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "duels --seeds 0:100000 --duration 86400 --workers 1 --json",
+        "map --grid 400 --distances 400 --duration 1e4 --step 1e-4",
+    ],
+)
+def test_what_cannot_end_is_refused(words: str) -> None:
+    result = CliRunner().invoke(main, words.split())
+    assert result.exit_code == 2 and result.output.count("\n") == 1
+    assert "would take about" in result.output

@@ -1,0 +1,171 @@
+"""Campaigns of people who come, without a single walk."""
+
+import json
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from math import atan2, degrees, pi
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from stepaside.cli import main
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.planning import PRESETS
+from stepaside.poses import wrap_angle
+from stepaside.report.people_figure import draw_people
+from stepaside.studies import encounters as study
+from stepaside.studies.encounters import Encounter, encounters, run_encounters
+from stepaside.studies.people import (
+    origin_rows,
+    passing_rows,
+    people_rows,
+    theory_room,
+)
+from stepaside.studies.results import read_result
+
+WALK = WalkSettings(seed=3, gait=PRESETS["fast"])
+FEW: dict[str, Any] = {"speeds": (0.5, 1.0), "bearings": (0, -90)}
+
+
+def grid(walk: WalkSettings = WALK, seeds: int = 2) -> list[Encounter]:
+    """People at two speeds from two directions, aimed at and passing."""
+    offsets = (0.0, 1.2)
+    return list(
+        encounters(walk, ("ideal",), seeds=seeds, offsets=offsets, **FEW)
+    )
+
+
+def record(**changes: Any) -> dict[str, Any]:
+    """What happened to somebody who was let past."""
+    return {
+        "outcome": "completed",
+        "duration_s": 36.0,
+        "triggered_at_s": 2.0,
+        "triggered_at_distance_m": 4.0,
+        "closest_m": 0.9,
+        "theory_closest_m": 0.95,
+        **changes,
+    }
+
+
+@pytest.mark.parametrize("bearing", [0, 45, -90, 180])
+def test_people_come_from_where_they_are_said_to(bearing: int) -> None:
+    (each,) = encounters(
+        WALK,
+        ("ideal",),
+        seeds=1,
+        speeds=(0.8,),
+        bearings=(bearing,),
+        offsets=(0.3,),
+    )
+    settings = each.settings
+    start = settings.start
+    assert start.distance is not None and start.evader_offset is not None
+    heads = pi + start.evader_offset  # as the duel stands it
+    seen = wrap_angle(atan2(0.0, -start.distance) - heads)
+    assert abs(wrap_angle(seen - bearing * pi / 180.0)) < 1e-9, degrees(seen)
+    assert settings.person.miss == 0.3 and settings.person.speed == 0.8
+    assert settings.gait == PRESETS["fast"] and settings.seed == 3
+    # Far enough to stand for a while before the time to contact begins.
+    strategy = settings.strategy
+    away = start.distance - strategy.clearance
+    assert away / 0.8 > strategy.contact_time + 1.0
+    assert strategy.trigger == "time"
+
+
+def test_keys_tell_everything_apart() -> None:
+    other = replace(WALK, gait=PRESETS["nao"])
+    keys = {each.key for each in (*grid(), *grid(other))}
+    assert len(keys) == 2 * len(grid()) == 32
+    assert keys >= {each.key for each in grid(seeds=1)}
+
+
+def test_a_campaign_goes_on_where_it_was(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    met: list[str] = []
+
+    def meet(each: Encounter) -> tuple[str, dict[str, Any]]:
+        met.append(each.key)
+        return each.key, record(closest_m=each.speed)
+
+    monkeypatch.setattr(study, "meet", meet)
+    told: list[int] = []
+    file = tmp_path / "people.jsonl"
+    with ThreadPoolExecutor(1) as executor:
+        first = run_encounters(grid(seeds=1), file, executor, told.append)
+        again = run_encounters(grid(seeds=2), file, executor)
+    assert len(first) == 8 and told == list(range(9))
+    assert len(again) == 16 == len(met) and len(set(met)) == 16
+    assert {key: again[key] for key in first} == first
+    monkeypatch.setattr(study, "stamp", lambda: {"version": "another"})
+    with ThreadPoolExecutor(1) as executor:
+        run_encounters(grid(seeds=1), file, executor)
+    assert len(met) == 24
+
+
+def test_contacts_and_room_are_counted_by_speed() -> None:
+    results = {each.key: record() for each in grid()}
+    touched = next(e for e in grid() if e.speed == 1.0 and not e.passes)
+    results[touched.key] = record(outcome="contact", closest_m=0.3)
+    slow, quick = people_rows(grid(), results)
+    assert (slow["speed_m_s"], slow["number"], slow["contacts"]) == (0.5, 4, 0)
+    assert (quick["contacts"], quick["closest_m"]) == (1, 0.3)
+    assert quick["mean_closest_m"] == pytest.approx((0.3 + 3 * 0.9) / 4)
+    assert quick["contacts_low"] < 0.25 < quick["contacts_high"]
+    assert quick["triggered_at_m"] == 4.0 and quick["triggered"] == 4
+    assert quick["theory_room_m"] == theory_room(PRESETS["fast"], 1.0) > 0.1
+    origins = origin_rows(grid(), results)
+    assert len(origins) == 4
+    assert sum(row["contacts"] for row in origins) == 1
+    half = {e.key: results[e.key] for e in grid() if e.speed == 0.5}
+    assert len(people_rows(grid(), half)) == 1
+
+
+def test_whoever_moves_for_passers_by_moves_for_nothing() -> None:
+    results = {
+        each.key: record(triggered_at_s=None if each.passes else 2.0)
+        for each in grid()
+    }
+    (row,) = passing_rows(grid(), results)
+    assert (row["number"], row["false_triggers"]) == (8, 0)
+    passing = [each for each in grid() if each.passes]
+    for each in passing[:2]:
+        results[each.key] = record()
+    (row,) = passing_rows(grid(), results)
+    assert row["hours"] == pytest.approx(8 * 36.0 / 3600.0)
+    assert row["false_triggers_per_hour"] == pytest.approx(2 / 0.08)
+
+
+def test_the_map_has_a_point_for_each_direction(tmp_path: Path) -> None:
+    results = {each.key: record() for each in grid()}
+    draw_people(origin_rows(grid(), results), 0.7, tmp_path / "map.png")
+    assert (tmp_path / "map.png").read_bytes()[:4] == b"\x89PNG"
+
+
+def test_the_command_writes_table_and_map(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def played(
+        those: list[Encounter], file: Any, executor: Any, *more: Any
+    ) -> dict[str, Any]:
+        more[1].update({each.key: record() for each in those})
+        done: dict[str, Any] = more[1]
+        return done
+
+    monkeypatch.setattr(study, "run_encounters", played)
+    line = "robustness --kind person --gait fast --seeds 1 --workers 1"
+    told = CliRunner().invoke(
+        main, [*line.split(), "--output", str(tmp_path / "found")]
+    )
+    assert told.exit_code == 0, told.output
+    assert "0/15" in told.stdout and "0.90 m" in told.stdout
+    made = read_result(tmp_path / "found" / "people.json")
+    assert made["planned"] == made["done"] == 80
+    assert {row["speed_m_s"] for row in made["people"]} == set(study.SPEEDS)
+    assert not (tmp_path / "found" / "survival.json").exists()
+    assert (tmp_path / "found" / "people.png").exists()
+    asked = CliRunner().invoke(main, [*line.split(), "--json"])
+    assert json.loads(asked.stdout)["person"]["passers_by"][0]["number"] == 20

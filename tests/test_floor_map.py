@@ -1,0 +1,106 @@
+"""A map of the floor from depth images."""
+
+from math import pi
+
+import numpy as np
+import pytest
+
+from stepaside.perception.floor_map import CELL, FloorMap
+from stepaside.poses import Array
+from stepaside.rooms import Disc, Obstacle, box
+from stepaside.rooms.covering import cover
+from stepaside.sensing.camera_model import CameraModel
+from stepaside.sensing.images import DepthImage
+
+CAMERA = CameraModel.of_field_of_view(80, 60, 1.01, 0.785)
+EYE, HIGH, FAR = 0.5, 0.6, 3.5
+
+
+def view(
+    solids: tuple[Obstacle, ...], place: tuple[float, float], heading: float
+) -> tuple[DepthImage, Array, Array]:
+    """What a camera sees of solids on a floor; marched along each ray."""
+    c, s = np.cos(heading), np.sin(heading)
+    axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    rays = CAMERA.rays().reshape(-1, 3) @ axes.T
+    start = np.array([*place, EYE])
+    depths = np.zeros(len(rays))
+    open_ = np.ones(len(rays), dtype=bool)
+    for depth in np.arange(0.3, 2.8, 0.03):
+        points = start + depth * rays
+        inside = points[:, 2] < 0.0
+        for solid in solids:
+            near = open_ & (points[:, 2] < HIGH)
+            inside[near] |= solid.clearance(points[near, :2]) < 0.0
+        depths[inside & open_] = depth
+        open_ &= ~inside
+    depths[depths < 0.8] = 0.0
+    image = DepthImage(
+        0.0, CAMERA, depths.reshape(60, 80).astype(np.float32), 0.8, FAR
+    )
+    return image, start, axes
+
+
+def looked(
+    seen: FloorMap, solids: tuple[Obstacle, ...], times: int = 2
+) -> FloorMap:
+    views = [view(solids, (0.0, 0.0), h) for h in np.arange(-pi, pi, 0.7)]
+    for _ in range(times):
+        for image, place, axes in views:
+            seen.take(image, place, axes, (0.0, 0.0), None)
+    return seen
+
+
+def test_what_is_seen_is_where_it_stands() -> None:
+    pillar, wall = Disc(1.2, 0.3, 0.15), box(-1.4, 0.0, 0.1, 2.0)
+    found = looked(FloorMap(), (pillar, wall)).taken()
+    near = np.array([[1.06, 0.25], [-1.34, 0.5], [-1.34, -0.5]])
+    clearance = np.min([p.clearance(near) for p in found], axis=0)
+    assert clearance.max() < 0.05  # all of it is on the map
+    for polygon in found:
+        off = np.minimum(
+            pillar.clearance(polygon.points), wall.clearance(polygon.points)
+        )
+        assert off.max() < 1.5 * CELL  # and nothing else
+
+
+def test_what_has_moved_is_cleared_when_it_is_looked_at_again() -> None:
+    seen = looked(FloorMap(), (Disc(1.2, 0.3, 0.15),), times=4)
+    assert seen.taken()
+    looked(seen, (), times=14)
+    assert not seen.taken()
+
+
+def test_the_other_player_is_no_part_of_the_room() -> None:
+    seen = FloorMap()
+    body = (Disc(1.2, 0.0, 0.12),)
+    for _ in range(4):
+        seen.take(*view(body, (0.0, 0.0), 0.0), (0.0, 0.0), (1.25, 0.05))
+    assert not seen.taken()
+
+
+def test_unseen_floor_is_told_from_free_floor() -> None:
+    seen = FloorMap()
+    for _ in range(2):
+        seen.take(*view((), (0.0, 0.0), 0.0), (0.0, 0.0), None)
+    hidden = seen.unseen((0.0, 0.0))
+    ahead, behind = np.array([[0.8, 0.0]]), np.array([[-0.83, 0.02]])
+    assert min(float(p.clearance(ahead)[0]) for p in hidden) > 0.0
+    assert min(float(p.clearance(behind)[0]) for p in hidden) < 0.0
+    assert not seen.taken()
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.3, pi / 4])
+def test_a_corner_of_two_walls_becomes_few_polygons(heading: float) -> None:
+    c, s = np.cos(heading), np.sin(heading)
+    x, y = np.meshgrid(np.arange(-2, 2, CELL) + 0.01, np.arange(-2, 2, CELL))
+    grid = np.stack([x.ravel(), y.ravel()], axis=-1)
+    u, v = grid @ [c, s], grid @ [-s, c]
+    walls = (abs(u) < 0.06) & (v > 0.0) & (v < 1.2)
+    walls |= (abs(v) < 0.06) & (u > 0.0) & (u < 1.2)
+    cells = grid[walls]
+    found = cover(cells, CELL)
+    assert len(found) <= 12
+    clearance = np.min([p.clearance(cells) for p in found], axis=0)
+    assert clearance.max() <= 1e-9
+    assert sum(p.area for p in found) < 2.5 * len(cells) * CELL**2

@@ -1,0 +1,227 @@
+"""Test evaders that look ahead, alone and in games of steps."""
+
+from dataclasses import replace
+from math import hypot, pi
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from stepaside.errors import ConfigurationError
+from stepaside.poses import Pose, wrap_angle
+from stepaside.rooms import Disc, Room, RoomRecipe, make_room
+from stepaside.strategies import (
+    Evasion,
+    Knowledge,
+    Limits,
+    LookAhead,
+    Optimal,
+    Pursuit,
+    StepGame,
+    StepOutcome,
+    Strategy,
+    play_steps,
+    tables,
+)
+from stepaside.strategies.look_ahead import rules_of
+from stepaside.strategies.other import Trace, note, pursuer_heading
+
+NAO = Limits(0.1, 0.2, 0.04, 0.4)
+FACING = (Pose(0.0, 0.0, 0.6), Pose(1.0, 0.1, 3.3))
+SHORT = StepGame(duration=30.0)
+ASIDE = Evasion(safety_radius=100.0, side_hysteresis=0.0)
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+
+
+def know(
+    bearing: float, distance: float, pose: Pose, time: float
+) -> Knowledge:
+    return Knowledge(time, bearing, distance, NAO, pose=pose)
+
+
+@pytest.mark.parametrize("angle", [pi / 2, pi / 8])
+def test_with_an_empty_map_and_no_pieces_it_is_the_law(angle: float) -> None:
+    """The paper's evader, step by step for half a minute."""
+    law = replace(ASIDE, angle=angle)
+    mind = LookAhead(pieces=(), tail=20, angle=angle)
+    tracks = [
+        play_steps(Pursuit(), evader, FACING, game=SHORT)
+        for evader in (law, mind)
+    ]
+    np.testing.assert_allclose(tracks[1].evader, tracks[0].evader, atol=1e-12)
+
+
+def test_the_pursuer_is_known_from_where_it_was_seen() -> None:
+    """From two sightings on, while it obeys eqs. (1)-(2)."""
+    track = play_steps(Pursuit(), ASIDE, FACING, game=SHORT)
+    trace: Trace = ()
+    for n in range(12):
+        pursuer, evader = track.pursuer[n], track.evader[n]
+        x, y = pursuer[:2] - evader[:2]
+        bearing = wrap_angle(float(np.arctan2(y, x)) - evader[2])
+        pose = Pose(*evader.tolist())
+        trace = note(trace, know(bearing, hypot(x, y), pose, 0.4 * n))
+        found = pursuer_heading(trace, rules_of(NAO))
+        if n:
+            assert wrap_angle(found - pursuer[2]) == pytest.approx(0, abs=1e-5)
+    assert len(trace) == 3
+
+
+def test_sightings_at_every_tick_do_not_crowd_out_those_of_steps() -> None:
+    trace: Trace = ()
+    for tick in range(400):
+        pose = Pose(0.0, 0.0, 0.0)
+        trace = note(trace, know(0.0, 2.0 - 1e-4 * tick, pose, 0.004 * tick))
+    times = [seen.time for seen in trace]
+    assert len(times) == 3 and times[-1] == pytest.approx(399 * 0.004)
+    assert 0.3 <= times[1] - times[0] < 0.31
+
+
+@pytest.mark.parametrize("seed", [1, 3, 5])
+def test_in_a_room_it_survives_where_moving_aside_touches(seed: int) -> None:
+    room = make_room(RoomRecipe(discs=3), seed)
+    assert room.starts is not None
+    game = StepGame(duration=60.0)
+
+    def play(evader: Strategy) -> StepOutcome:
+        assert room.starts is not None
+        track = play_steps(
+            Pursuit(), evader, room.starts, room=room, game=game
+        )
+        if track.outcome is StepOutcome.SURVIVED:
+            assert len(track.distances) == game.steps + 1
+            assert track.distances.min() > game.capture
+            assert track.clearances.min() >= game.body_radius
+        return track.outcome
+
+    assert play(ASIDE) is StepOutcome.TOUCHED
+    assert play(LookAhead()) is StepOutcome.SURVIVED
+
+
+def test_it_rather_stands_than_touches() -> None:
+    """Its back is at a disc, and backward is the only way it has."""
+    room = Room(obstacles=(Disc(0.5, 0.0, 0.29),))
+    starts = (Pose(-1.0, 0.0, 0.0), Pose(0.0, 0.0, pi))
+    track = play_steps(Pursuit(), LookAhead(), starts, room=room, game=SHORT)
+    assert track.clearances.min() >= 0.2
+    alone = play_steps(Pursuit(), ASIDE, starts, room=room, game=SHORT)
+    assert alone.outcome is StepOutcome.TOUCHED
+
+
+def test_it_knows_the_map_in_its_own_odometry() -> None:
+    """Room and players turned and shifted together: the same decision."""
+    mind, disc = LookAhead(), Disc(-0.5, 0.03, 0.2)
+    here = know(0.1, 0.8, Pose(0.0, 0.0, 0.0), 0.0)
+    frame = Pose(2.0, -1.0, 1.3)
+    there = replace(here, pose=frame, obstacles=(disc.moved(frame),))
+    one, _ = mind.decide(replace(here, obstacles=(disc,)), mind.begin())
+    other, _ = mind.decide(there, mind.begin())
+    assert other.heading == pytest.approx(one.heading, abs=1e-9)
+    free, _ = mind.decide(
+        replace(here, obstacles=(Disc(9.0, 0.0, 0.1),)), mind.begin()
+    )
+    assert free.heading != pytest.approx(one.heading, abs=0.1)
+
+
+def test_its_turns_stay_within_what_is_asked() -> None:
+    mind = LookAhead(largest_error=0.5)
+    room = make_room(RoomRecipe(discs=3), 2)
+    assert room.starts is not None
+    track = play_steps(
+        Pursuit(), mind, room.starts, room=room, game=StepGame(duration=12.0)
+    )
+    turns = [
+        wrap_angle(b - a)
+        for a, b in zip(track.evader[:-1, 2], track.evader[1:, 2], strict=True)
+    ]
+    law = 0.08 * pi / 2  # the law, of what is tried, may turn more
+    assert np.abs(turns).max() <= law + 1e-9
+
+
+def test_the_optimal_evader_does_what_its_table_says() -> None:
+    """Even a coarse table: its value is kept, and moving aside loses."""
+    unit, cells = 0.5, 24
+    bound = tables.pursuit_bound(cells)
+    assert tables.cache_folder().is_dir()
+    kept: list[float] = []
+    promised: list[float] = []
+    aside: list[float] = []
+    for seed in range(6):
+        starts = make_room(RoomRecipe(None, None), seed).starts
+        assert starts is not None
+        pursuer, evader = starts
+        x, y = evader.x - pursuer.x, evader.y - pursuer.y
+        sight = float(np.arctan2(y, x))
+        value = bound.value(
+            hypot(x, y) / unit,
+            wrap_angle(sight - pursuer.theta),
+            wrap_angle(sight + pi - evader.theta),
+        )
+        promised.append(unit * float(value))
+        for found, mind in ((kept, Optimal(cells)), (aside, ASIDE)):
+            track = play_steps(Pursuit(), mind, starts, game=SHORT)
+            found.append(float(track.distances.min()))
+    assert np.mean(kept) >= 0.97 * np.mean(promised)
+    assert np.max(np.subtract(kept, promised)) < 0.02
+    assert np.mean(aside) < 0.8 * np.mean(kept)
+
+
+def test_a_table_is_solved_once_and_kept() -> None:
+    tables.pursuit_bound.cache_clear()
+    one = tables.pursuit_bound(16)
+    tables.pursuit_bound.cache_clear()
+    again = tables.pursuit_bound(16)
+    assert one.seconds == again.seconds  # read, not solved anew
+    file = next(tables.cache_folder().glob("pursuit-16-*.npz"))
+    file.write_bytes(b"torn")
+    tables.pursuit_bound.cache_clear()
+    np.testing.assert_allclose(
+        tables.pursuit_bound(16).values, one.values, atol=1e-5
+    )
+
+
+@pytest.mark.parametrize(
+    ("changes", "rule"),
+    [
+        ({"pieces": (1,) * 8}, "pieces must be at most 7"),
+        ({"pieces": (2, 0)}, "of >= 1 steps"),
+        ({"pieces": (), "tail": 0}, "must have 1 to 400 steps"),
+        ({"turns": 0}, r"turns must lie in \[1, 99\]"),
+        ({"enough": float("nan")}, "enough must be finite and > 0"),
+        ({"largest_error": 4.0}, "largest_error must lie in"),
+        ({"sight": 0.0}, "sight must lie in"),
+        ({"safety_radius": 0.0}, "safety_radius must be > 0"),
+        ({"cells": 8}, "cells must lie in"),
+    ],
+)
+def test_no_other_look_is_taken(changes: dict[str, object], rule: str) -> None:
+    with pytest.raises(ConfigurationError, match=rule):
+        LookAhead(**changes)  # type: ignore[arg-type]
+
+
+def test_a_step_of_the_game_turns_no_farther_than_it_may() -> None:
+    game = StepGame(largest_turn=0.02, duration=4.0)
+    track = play_steps(Pursuit(), ASIDE, FACING, game=game)
+    for poses in (track.pursuer, track.evader):
+        turns = [
+            wrap_angle(b - a)
+            for a, b in zip(poses[:-1, 2], poses[1:, 2], strict=True)
+        ]
+        assert np.abs(turns).max() == pytest.approx(0.02)
+    ways = np.hypot(*np.diff(track.pursuer[:, :2], axis=0).T)
+    np.testing.assert_allclose(ways, 0.04, rtol=1e-4)
+
+
+def test_a_solid_pursuer_stops_where_it_would_touch() -> None:
+    wall = Room(obstacles=(Disc(0.5, 0.0, 0.2),))
+    starts = (Pose(0.0, 0.0, 0.0), Pose(1.2, 0.0, 0.0))
+    still = Evasion(safety_radius=0.1, release_distance=0.2)
+    for solid in (False, True):
+        game = StepGame(solid_pursuer=solid, duration=20.0)
+        track = play_steps(Pursuit(), still, starts, room=wall, game=game)
+        near = wall.clearance(track.pursuer[:, :2]).min()
+        assert bool(near >= 0.2 - 1e-12) is solid

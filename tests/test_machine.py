@@ -1,0 +1,96 @@
+"""Test that formulas as machine code are the formulas, to the bit."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from stepaside.robots import machine
+from stepaside.robots.description import load_robot
+from stepaside.robots.leg_solver import solver_of
+from stepaside.robots.machine import Machine
+from stepaside.robots.stored import load_tree
+from stepaside.robots.tracing import Number, Trace, cosine, sine
+
+pytest.importorskip("numba")
+
+
+@pytest.fixture(autouse=True)
+def fresh(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Nothing is stored, and nothing preferred afterwards."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setattr(machine, "_used", Machine.PLAIN)
+    yield
+
+
+def formula(factor: float) -> machine.Function:
+    trace = Trace()
+    x, y = trace.variable("x"), trace.variable("y")
+    results: list[Number] = [sine(x) * cosine(y) + factor * x, x / y]
+    return trace.function("formula", results)
+
+
+def files() -> list[str]:
+    return sorted(path.suffix for path in machine.folder().rglob("*.*"))
+
+
+def test_nothing_is_compiled_unless_it_is_preferred() -> None:
+    formula(2.0)
+    machine.prefer(Machine.STORED)
+    formula(2.0)
+    assert not machine.folder().exists()
+
+
+def test_what_was_compiled_once_is_there_the_next_time() -> None:
+    plain = formula(2.0)
+    machine.prefer(Machine.COMPILED)
+    compiled = formula(2.0)
+    assert files() == [".nbc", ".nbi", ".py"]
+    machine.prefer(Machine.STORED)
+    for function in (compiled, formula(2.0)):
+        assert type(function) is not type(plain)
+        assert function(0.3, 0.7) == plain(0.3, 0.7)
+        with pytest.raises(ZeroDivisionError):
+            function(0.3, 0.0)
+
+
+def test_another_formula_is_another_file() -> None:
+    machine.prefer(Machine.COMPILED)
+    first, second = formula(2.0), formula(3.0)
+    assert first(1.0, 1.0) != second(1.0, 1.0)
+    assert len(files()) == 6
+
+
+@pytest.mark.parametrize("suffix", [".nbc", ".nbi", ".py"])
+def test_damaged_code_is_not_used(suffix: str) -> None:
+    plain = formula(2.0)
+    machine.prefer(Machine.COMPILED)
+    formula(2.0)
+    (path,) = machine.folder().rglob(f"*{suffix}")
+    path.write_bytes(b"raise SystemExit(1)")
+    assert formula(2.0)(0.3, 0.7) == plain(0.3, 0.7)
+
+
+def test_short_games_do_not_wait_for_machine_code() -> None:
+    machine.prefer_for(machine.LONG - 1.0, many=True)
+    assert machine.preferred() is Machine.PLAIN
+    machine.prefer_for(machine.LONG)
+    assert machine.preferred() is Machine.STORED
+    machine.prefer_for(machine.LONG, many=True)
+    machine.prefer_for(machine.LONG)
+    assert machine.preferred() is Machine.COMPILED
+
+
+def test_legs_step_to_the_same_bits() -> None:
+    robot = load_robot("nao")
+    plain = solver_of(robot, load_tree(robot)).quick
+    machine.prefer(Machine.COMPILED)
+    compiled = solver_of(robot, load_tree(robot)).quick
+    assert plain is not None and compiled is not None
+    assert plain is not compiled
+    generator = np.random.default_rng(1)
+    for _ in range(300):
+        numbers = generator.uniform(-0.5, 0.5, plain.__code__.co_argcount)
+        arguments = numbers.tolist()
+        assert compiled(*arguments) == plain(*arguments)

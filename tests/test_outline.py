@@ -1,0 +1,87 @@
+"""The outline of a robot holds all of it, at rest and while it walks."""
+
+import mujoco
+import numpy as np
+
+from made_up_robot import GAIT
+from stepaside.games.duel import Duel
+from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.walker import Walker
+from stepaside.poses import Array, Pose
+from stepaside.robots.description import load_robot
+from stepaside.rooms import BODY_RADIUS
+from stepaside.world.outline import measure_outline
+
+NAO = measure_outline(load_robot("nao"), GAIT)
+ANGLES = np.arange(64) * (2.0 * np.pi / 64)
+AROUND = np.stack([np.cos(ANGLES), np.sin(ANGLES)], axis=-1)
+
+
+def reach_of(duel: Duel, name: str) -> Array:
+    """How far the boxes of all that can collide reach, along 64 ways."""
+    model, data = duel.world.model, duel.world.data
+    most = np.full(len(AROUND), -np.inf)
+    root = model.body(f"{name}/torso").rootid[0]
+    for geom in range(model.ngeom):
+        body = model.geom_bodyid[geom]
+        if model.body_rootid[body] != root or not model.geom_contype[geom]:
+            continue
+        x, y, z = model.geom_aabb[geom, 3:]
+        centre = model.geom_aabb[geom, :3]
+        signs = np.array(np.meshgrid(*[[-1, 1]] * 3)).reshape(3, -1).T
+        if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_SPHERE:
+            corners = data.geom_xpos[geom] + 0.0 * signs
+            bulge = x
+        else:
+            axes = data.geom_xmat[geom].reshape(3, 3)
+            corners = data.geom_xpos[geom]
+            corners = corners + (centre + signs * (x, y, z)) @ axes.T
+            bulge = 0.0
+        found = (corners[:, :2] @ AROUND.T).max(axis=0) + bulge
+        most = np.maximum(most, found)
+    return most
+
+
+def test_a_nao_is_as_wide_as_its_arms_and_as_long_as_its_trunk() -> None:
+    assert np.abs(NAO.trunk[:, 1]).max() > 0.14
+    assert np.hypot(*NAO.trunk.T).max() < BODY_RADIUS
+    left, right = NAO.left_sole, NAO.right_sole
+    np.testing.assert_allclose(left.max(axis=0), [0.095, 0.042], atol=1e-6)
+    np.testing.assert_allclose(left.min(axis=0), [-0.05, -0.035], atol=1e-6)
+    mirrored = right * [1, -1]
+    np.testing.assert_allclose(mirrored.max(axis=0), left.max(axis=0))
+    np.testing.assert_allclose(mirrored.min(axis=0), left.min(axis=0))
+
+
+def test_a_walking_body_stays_within_its_outline_by_the_margin() -> None:
+    """All shapes, of two NAOs in physics, against what was planned."""
+    settings = DuelSettings(
+        seed=3, start=StartSettings(0.75, 0.8, 0.1), duration=9.0
+    )
+    duel = Duel(settings)
+    beyond = []
+    while duel.world.time < settings.duration:
+        assert duel.tick() is None
+        if duel.world.ticks % 10:
+            continue
+        for player in duel.players:
+            assert isinstance(player, Walker)
+            body = player.scheme.reference
+            corners = np.concatenate(
+                [
+                    Pose(*place[:2], heading).transform_points(part)
+                    for place, heading, part in (
+                        (body.com, body.heading, NAO.trunk),
+                        (body.left_foot, body.left_foot[3], NAO.left_sole),
+                        (body.right_foot, body.right_foot[3], NAO.right_sole),
+                    )
+                ]
+            )
+            # Odometry drifts; who knows a room is told its place in it.
+            truth = player.truth
+            x, y, _ = truth.com.tolist()
+            at = Pose(x, y, truth.heading)
+            odometry = at.compose(Pose(*body.com[:2], body.heading).inverse())
+            planned = (odometry.transform_points(corners) @ AROUND.T).max(0)
+            beyond.append(float((reach_of(duel, player.name) - planned).max()))
+    assert max(beyond) < settings.map.margin

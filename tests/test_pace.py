@@ -1,0 +1,175 @@
+"""The same steps in more time: calm where there is time, quick where not."""
+
+from dataclasses import replace
+from itertools import pairwise
+from math import pi
+
+import numpy as np
+import pytest
+
+from made_up_robot import FIRST, GAIT, STEP, FakeStrategy, Run
+from stepaside.control.balance.settings import ControlSettings
+from stepaside.control.pace import QUICKENING, next_pace
+from stepaside.errors import PlanError
+from stepaside.games.outcome import Outcome
+from stepaside.games.walk import Walking
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.planning import (
+    PRESETS,
+    Direction,
+    Foot,
+    ManeuverPlan,
+    ManeuverPlanner,
+)
+from stepaside.planning.steady import landing_state
+from stepaside.poses import Pose
+from stepaside.strategies import Evasion, Intent, Knowledge, Limits, Walk
+
+FAST = PRESETS["fast"]
+LIMITS = Limits(FAST.speed, FAST.gain, FAST.stride, FAST.step_duration)
+
+
+def next_plan(
+    planner: ManeuverPlanner, before: ManeuverPlan, pace: float
+) -> ManeuverPlan:
+    """Plan that follows the first step of another."""
+    back = Pose(*before.placements[2].tolist()).inverse()
+    return planner.plan(
+        before.bearing,
+        before.direction,
+        first_foot=before.first_foot.other,
+        state=landing_state(before),
+        swing_start=back,
+        pace=pace,
+    )
+
+
+def walk_at(paces: list[float], bearing: float = 0.6) -> list[ManeuverPlan]:
+    """Plans of a walk, each with its own pace."""
+    planner = ManeuverPlanner(FAST)
+    plans = [
+        planner.plan(
+            bearing,
+            Direction.BACKWARD,
+            first_foot=Foot.LEFT,
+            standing=True,
+            pace=paces[0],
+        )
+    ]
+    for pace in paces[1:]:
+        plans.append(next_plan(planner, plans[-1], pace))
+    return plans
+
+
+def test_a_calm_step_is_the_same_step_in_more_time() -> None:
+    quick, calm = (walk_at([p])[0] for p in (1.0, 0.5))
+    np.testing.assert_array_equal(quick.placements, calm.placements)
+    assert calm.gait.step_duration == pytest.approx(2.0 * FAST.step_duration)
+    assert calm.gait.step_height == pytest.approx(0.75 * FAST.step_height)
+    assert calm.gait.eta == FAST.eta and quick.gait is FAST
+    assert calm.gait.stride == FAST.stride
+
+
+def test_paces_are_few_and_never_below_half() -> None:
+    planner = ManeuverPlanner(FAST)
+    schedules = {
+        planner.schedule(5, standing=False, pace=pace)
+        for pace in np.linspace(0.01, 1.0, 200)
+    }
+    assert len(schedules) == 5
+    slow = planner.schedule(5, standing=False, pace=0.01)
+    assert slow.settings.step_duration == pytest.approx(0.64)
+    for pace in (0.0, -0.1, 1.1, float("nan")):
+        with pytest.raises(PlanError, match="pace"):
+            planner.schedule(5, standing=False, pace=pace)
+
+
+@pytest.mark.parametrize(
+    "paces", [[1.0, 1.0, 0.75, 0.5, 0.75, 1.0], [0.5, 0.75, 1.0, 0.75, 0.5]]
+)
+def test_the_com_is_continuous_and_the_zmp_in_the_sole_as_paces_change(
+    paces: list[float],
+) -> None:
+    """By as much a step as control lets it change."""
+    plans = walk_at(paces)
+    for before, after in pairwise(plans):
+        state, begun = landing_state(before), after.sample([0.0])
+        np.testing.assert_allclose(begun.com[0], state.position, atol=1e-12)
+        np.testing.assert_allclose(
+            begun.com_velocity[0], state.velocity, atol=1e-12
+        )
+        assert after.margin(after.schedule.first_step_duration) > 0.015
+
+
+def test_a_change_at_one_stroke_would_take_more_of_the_sole() -> None:
+    gentle = walk_at([0.5, 0.75])[1].correction
+    sudden = walk_at([0.5, 1.0])[1].correction
+    assert np.hypot(*sudden) > 1.5 * np.hypot(*gentle)
+
+
+def test_a_walk_changes_its_pace_step_by_step() -> None:
+    assert next_pace(1.0, 0.5, standing=False) == 1.0 - QUICKENING
+    assert next_pace(0.5, 1.0, standing=False) == 0.5 + QUICKENING
+    assert next_pace(0.6, 0.7, standing=False) == 0.7
+    assert next_pace(1.0, 0.5, standing=True) == 0.5
+
+
+def test_a_robot_takes_its_time_as_it_is_asked_to() -> None:
+    class Calming(FakeStrategy):
+        def decide(
+            self, knowledge: Knowledge, memory: tuple[Knowledge, ...]
+        ) -> tuple[Intent, tuple[Knowledge, ...]]:
+            """Walk, and from the third second on calmly."""
+            return Intent(pace=1.0 if knowledge.time < 3.0 else 0.5), memory
+
+    run = Run(strategy=Calming())
+    run.until(FIRST + 12.0 * STEP)
+    lasted = [step.plan.gait.step_duration / STEP for step in run.steps]
+    assert lasted == sorted(lasted)
+    changes = dict.fromkeys(round(share, 6) for share in lasted)
+    assert list(changes) == pytest.approx([1.0, 4.0 / 3.0, 2.0], abs=1e-6)
+    # On the clock, too: one lands as long after another as its steps last.
+    landings = [time for time, *_ in run.landings]
+    double = GAIT.double_support
+    for i in range(1, len(lasted)):
+        apart = landings[i] - landings[i - 1]
+        wanted = double * lasted[i - 1] + GAIT.single_support * lasted[i]
+        assert apart == pytest.approx(wanted)
+
+
+@pytest.mark.parametrize("pace", [0.5, 0.75])
+def test_a_calm_walk_walks(pace: float) -> None:
+    """In physics, and the calmer the slower."""
+    walking = Walking(
+        WalkSettings(gait=FAST, control=ControlSettings("closed-form", True)),
+        recorded=False,
+    )
+    walker = walking.walker
+    walker.scheme.decisions.adopt(Walk(pace=pace))
+    while walking.world.time < 2.5:
+        assert walking.tick() is not Outcome.FALL
+    x, began = walker.truth.place[0], walking.world.time
+    while walking.world.time < began + 6.4:
+        assert walking.tick() is not Outcome.FALL
+    way = walker.truth.place[0] - x
+    assert way / 6.4 == pytest.approx(pace * FAST.speed, rel=0.05)
+
+
+def test_an_evader_is_as_calm_as_leaves_room() -> None:
+    """Whoever comes slowly is let past calmly, and the quick one is not."""
+    strategy = Evasion(trigger="time", calmest=0.5)
+
+    def pace(speed: float, near: float = 0.05) -> float:
+        away = strategy.clearance + speed * (strategy.contact_time - near)
+        known = Knowledge(
+            1.0, 0.0, away, LIMITS, velocity=(-speed, 0.0), moving=True
+        )
+        return strategy.decide(known, strategy.begin())[0].pace
+
+    assert pace(1.4) == pace(1.0, near=1.5) == 1.0
+    paces = [pace(speed) for speed in (0.1, 0.3, 0.8, 1.4)]
+    assert paces == sorted(paces) and paces[0] < 1.0
+    always = replace(strategy, calmest=1.0)
+    known = Knowledge(1.0, 0.0, 1.0, LIMITS, velocity=(-0.1, 0.0), moving=True)
+    assert always.decide(known, always.begin())[0].pace == 1.0
+    assert abs(always.decide(known, always.begin())[0].heading) <= pi / 2

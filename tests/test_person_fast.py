@@ -1,0 +1,106 @@
+"""A person comes at the pace of people, and the fast gait steps aside."""
+
+from math import atan2, pi, radians, sin
+from typing import Any
+
+import pytest
+
+from stepaside.control.balance.settings import ControlSettings
+from stepaside.games.duel import Duel, run_duel
+from stepaside.games.match import play
+from stepaside.games.meeting import template_meeting
+from stepaside.games.outcome import Outcome
+from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.start import draw_start
+from stepaside.planning import PRESETS
+from stepaside.poses import Pose
+from stepaside.strategies import Evasion
+from stepaside.unicycle.side_step import side_step
+from stepaside.world.person_motion import Motion
+from stepaside.world.person_settings import PersonSettings
+
+FAST = PRESETS["fast"]
+TIMED = Evasion(trigger="time")
+
+
+def met(
+    speed: float, *, miss: float = 0.0, bearing: float = 0.0, far: float = 6.0
+) -> float:
+    """Closest approach of a straight walk to the template, in [m]."""
+    return template_meeting(
+        lambda pose, evader: Motion(
+            PersonSettings("straight", speed, miss=miss), pose, evader
+        ),
+        Pose(0.0, 0.0, 0.0),
+        Pose(far, 0.0, pi - bearing),
+        TIMED,
+        FAST,
+        duration=(far + 2.0) / speed,
+    )
+
+
+def duel(**changes: Any) -> DuelSettings:
+    """A person at 1 m/s straight at an evader that faces it, but for 20°."""
+    return DuelSettings(
+        duration=7.0,
+        gait=FAST,
+        control=ControlSettings("closed-form", True),
+        pursuer="person",
+        person=PersonSettings("straight", 1.0, **changes),
+        strategy=TIMED,
+        start=StartSettings(5.5, 0.0, radians(20.0)),
+    )
+
+
+def test_somebody_at_one_metre_a_second_is_let_past() -> None:
+    """And then the robot stands again."""
+    game = Duel(duel())
+    outcome, wall_time = play(game, 9.0)
+    assert outcome is Outcome.COMPLETED
+    assert not game.players[1].is_moving
+    summary = game.run(outcome, wall_time).summary
+    begun = summary.triggered_at_distance_m
+    assert begun == pytest.approx(0.7 + 3.5 * 1.0, abs=0.1)
+    theory = summary.theory.closest_approach_m
+    assert summary.min_distance_m > 0.7
+    assert summary.min_distance_m == pytest.approx(theory, abs=0.15)
+
+
+def test_somebody_who_passes_by_moves_nobody() -> None:
+    run = run_duel(duel(miss=1.2))
+    assert run.outcome is Outcome.COMPLETED
+    assert run.summary.triggered_at_s is None
+
+
+@pytest.mark.parametrize("bearing", [0.0, 1.5, -3.0])
+def test_the_template_keeps_whoever_comes_at_a_distance(
+    bearing: float,
+) -> None:
+    slow, quick = met(0.3, bearing=bearing), met(1.6, bearing=bearing)
+    assert slow > quick > 0.7
+    passed = 6.0 * sin(atan2(1.2, 6.0))  # beside where it aims
+    assert met(1.0, miss=1.2, bearing=bearing) == pytest.approx(
+        passed, abs=1e-4
+    )
+    assert met(1.0, miss=0.4) == pytest.approx(met(1.0, miss=-0.4), abs=1e-9)
+
+
+def test_the_template_steps_aside_as_theory_s_unicycle_does() -> None:
+    """Facing the person, until it is where the robot was."""
+    speed = 2.0  # so fast that it stops at nobody's side
+    late = FAST.start_support
+    time = TIMED.contact_time + TIMED.clearance / speed - late
+    aside = side_step(FAST.speed, 0.5 * pi * FAST.gain, time)
+    assert met(speed, far=9.0) == pytest.approx(aside, abs=0.02)
+
+
+def test_who_walks_faster_comes_from_farther() -> None:
+    def drawn(speed: float) -> float:
+        start = draw_start(
+            DuelSettings(pursuer="person", person=PersonSettings(speed=speed))
+        )
+        assert start.distance is not None
+        return start.distance
+
+    assert drawn(0.05) == drawn(0.15) < 3.0
+    assert drawn(1.0) - drawn(0.15) == pytest.approx(0.85 * 5.0)

@@ -1,0 +1,129 @@
+"""Test ``serve`` and ``play`` of robots that walk by themselves, in words."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from time import monotonic, sleep
+
+import pytest
+
+from stepaside.cli import main
+from stepaside.drivers.rows import RowWriter, read_rows
+from stepaside.errors import ConfigurationError
+from stepaside.sensing.measurement import Sighting
+
+from velocity_fakes import MadeUpWalker  # isort: skip
+
+PLAY = "from stepaside.cli import main; main()"
+TICK = 0.012
+
+
+def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
+    """What is said to words that are refused."""
+    with pytest.raises(SystemExit) as left:
+        main(list(words))
+    assert left.value.code == 2
+    said = capsys.readouterr().err.strip().splitlines()[-1]
+    assert said.startswith("stepaside: ")
+    return said
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("play --role evader --robot nao:x", "lola:, naoqi: or ros2:"),
+        ("play --role evader --robot ros2:/na-o", "namespace must be"),
+        ("play --role evader --robot naoqi:x:0", "naoqi:tcp://HOST:PORT"),
+        ("serve", "--lola PLAYER=ADDRESS or --naoqi"),
+        ("serve --ros2 evader", "pursuer or evader=/NAMESPACE, each once"),
+        ("serve --ros2 evader=/e --ros2 evader=/f", "each once"),
+        ("serve --lola evader=E --ros2 evader=/f", "each once"),
+        ("serve --naoqi referee=127.0.0.1:5", "each once"),
+        ("serve --naoqi evader=127.0.0.1:0", "naoqi:tcp://HOST:PORT"),
+    ],
+)
+def test_what_cannot_be_is_said_in_one_line(
+    words: str, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("cyclonedds")
+    assert said in refused(capsys, *words.split())
+
+
+def test_naoqi_is_not_played_in_lock_step(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    pytest.importorskip("qi")
+    words = "serve --naoqi evader=127.0.0.1:29777 --lockstep".split()
+    assert "lock step" in refused(capsys, *words)
+
+
+def test_a_robot_on_naoqi_that_is_not_there_is_said(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    pytest.importorskip("qi")
+    words = "play --role evader --robot naoqi:127.0.0.1:1 --dry-run".split()
+    assert "no robot answers" in refused(capsys, *words)
+
+
+def test_play_that_is_killed_is_outlived_by_who_stops_its_robot(
+    tmp_path: Path,
+) -> None:
+    """The guardian calls in a session of its own; the log can be read."""
+    pytest.importorskip("qi")
+    from stepaside.drivers.naoqi.server import NaoqiServer
+    from stepaside.drivers.velocity.body import REST, Velocity
+
+    walker = MadeUpWalker()
+    url = "tcp://127.0.0.1:0"
+    server = NaoqiServer(url, walker, ["a", "b"], Velocity(1, 1), tick=TICK)
+    log = tmp_path / "log"
+    robot = f"naoqi:{server.url}"
+    words = ["play", "--role", "pursuer", "--robot", robot]
+    process = subprocess.Popen(
+        [sys.executable, "-c", PLAY, *words, "--record", str(log)],
+        stderr=subprocess.DEVNULL,
+    )
+
+    def tick() -> bool:
+        """Let the world go on without ``act``, which watches over it."""
+        walker.time += TICK
+        walker.sighting = Sighting(walker.time, 0.3, 2.0)
+        server.speak()
+        sleep(0.005)
+        return server.robot.asked != REST
+
+    def wait(moves: bool) -> None:
+        end = monotonic() + 30.0
+        while tick() != moves:
+            assert monotonic() < end
+
+    try:
+        wait(moves=True)
+        walked = monotonic()
+        while monotonic() < walked + 1.0:  # the log reaches the disk
+            tick()
+        process.kill()
+        process.wait(20.0)
+        assert server.robot.asked != REST
+        wait(moves=False)
+    finally:
+        process.kill()
+        process.wait(20.0)
+        server.close()
+    rows = read_rows(log)
+    assert rows["velocity"].max() > 0.0
+    assert json.loads((log / "play.json").read_text())["role"] == "pursuer"
+
+
+def test_rows_keep_their_columns(tmp_path: Path) -> None:
+    with pytest.raises(ConfigurationError, match="no rows in"):
+        read_rows(tmp_path)
+    rows = RowWriter(tmp_path)
+    rows.add({"a": 1.0})
+    with pytest.raises(ValueError, match="a row has {'a': 1}"):
+        rows.add({"b": 1.0})
+    rows.close()
+    assert read_rows(tmp_path)["a"].tolist() == [1.0]
+    with pytest.raises(ConfigurationError, match="must be empty"):
+        RowWriter(tmp_path)

@@ -1,0 +1,121 @@
+"""Test pursuers beside the paper's, and the evader that is deflected."""
+
+from math import hypot, pi
+
+import numpy as np
+import pytest
+
+from stepaside.poses import Pose, wrap_angle
+from stepaside.rooms import Disc, Room, wall_between
+from stepaside.strategies import (
+    Deflected,
+    Evasion,
+    Knowledge,
+    LeadPursuit,
+    Limits,
+    OptimalPursuit,
+    Pursuit,
+    StepGame,
+    StepOutcome,
+    Walk,
+    play_steps,
+)
+from stepaside.strategies.other import Trace, heading_of_way, note
+
+NAO = Limits(0.1, 0.2, 0.04, 0.4)
+START = (Pose(0.0, 0.0, 0.4), Pose(1.2, 0.3, 2.0))
+ASIDE = Evasion(safety_radius=100.0)
+
+
+def test_the_way_of_the_other_is_known_on_a_circle() -> None:
+    """Its turn of a step is taken to go on: exact for a steady turn."""
+    trace: Trace = ()
+    assert heading_of_way(trace) is None
+    for n in range(5):
+        theta = 0.3 + 0.1 * n
+        x, y = np.sin(theta), -np.cos(theta)
+        pose = Pose(5.0, 1.0, 0.7)
+        sight = float(np.arctan2(y - 1.0, x - 5.0))
+        trace = note(
+            trace,
+            Knowledge(
+                0.4 * n,
+                wrap_angle(sight - 0.7),
+                hypot(x - 5.0, y - 1.0),
+                NAO,
+                pose=pose,
+            ),
+        )
+        if n > 1:
+            assert heading_of_way(trace) == pytest.approx(theta, abs=1e-9)
+
+
+def test_without_a_lead_it_is_the_pursuer_of_the_paper() -> None:
+    game = StepGame(duration=20.0)
+    paths = [
+        play_steps(pursuer, ASIDE, START, game=game).pursuer
+        for pursuer in (Pursuit(), LeadPursuit(0.0))
+    ]
+    np.testing.assert_allclose(paths[1], paths[0], atol=1e-9)
+
+
+def test_a_lead_meets_who_walks_across_where_pure_pursuit_trails() -> None:
+    """Ahead of one that walks straight on, it turns in earlier."""
+    walker, way = Walk(0.0), 0.8
+    starts = (Pose(0.0, 0.0, way), Pose(0.7, -0.7, way))
+    game = StepGame(duration=40.0)
+    pure, led = (
+        play_steps(pursuer, walker, starts, game=game).distances[-1]
+        for pursuer in (Pursuit(), LeadPursuit(0.5))
+    )
+    assert led < pure - 0.1
+
+
+def test_the_optimal_pursuer_catches_who_moves_aside(
+    tmp_path: object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Moving aside keeps the paper's pursuer off for ever, not this one."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    game = StepGame(duration=60.0)
+    best, paper = (
+        play_steps(pursuer, ASIDE, START, game=game).outcome
+        for pursuer in (OptimalPursuit(24), Pursuit())
+    )
+    assert best is StepOutcome.CAUGHT
+    assert paper is StepOutcome.SURVIVED
+
+
+def test_on_an_open_floor_nothing_deflects() -> None:
+    game = StepGame(duration=20.0)
+    one, other = (
+        play_steps(Pursuit(), evader, START, game=game).evader
+        for evader in (ASIDE, Deflected(ASIDE))
+    )
+    np.testing.assert_array_equal(one, other)
+
+
+def test_a_wall_turns_it_along_and_a_far_one_does_not() -> None:
+    """Backing into a wall: the push out of it has the closed form."""
+    turn = Pose(0.0, 0.0, 0.4)  # so that it pushes along x and y
+    wall = wall_between((-5.0, -0.55), (5.0, -0.55))  # its face at -0.5
+    back = Deflected(Evasion(angle=0.0, safety_radius=9.0))
+    known = Knowledge(0.0, 0.0, 1.0, NAO, pose=Pose(0.0, 0.0, 0.5))
+    straight, _ = back.decide(known, back.begin())
+    assert straight.heading == 0.0
+    near = Knowledge(
+        *(0.0, 0.0, 1.0, NAO),
+        pose=Pose(0.0, 0.0, 0.9),
+        obstacles=(wall.moved(turn),),
+    )
+    turned, _ = back.decide(near, back.begin())
+    push = back.strength * (1.0 / 0.3 - 1.0 / back.reach)
+    way = np.arctan2(-np.sin(0.5) + push, -np.cos(0.5))
+    assert wrap_angle(turned.heading + 0.5 + pi - way) == pytest.approx(
+        0.0, abs=1e-6
+    )
+    far = wall_between((-5.0, -2.0), (5.0, -2.0))
+    room = Room(obstacles=(far, Disc(0.0, 3.0, 0.1)))
+    away = Knowledge(
+        0.0, 0.0, 1.0, NAO, pose=Pose(0.0, 0.0, 0.5), obstacles=room.solids
+    )
+    assert back.decide(away, back.begin())[0] == straight

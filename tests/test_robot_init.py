@@ -1,0 +1,250 @@
+"""Test what is derived from a model as a vendor publishes it."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import published_humanoid as stranger
+from stepaside.cli import main
+from stepaside.errors import ModelError
+from stepaside.fitting.deriving import Derived, derive
+from stepaside.fitting.lengths import Size, gait_of, game_of_size
+from stepaside.fitting.survey import survey
+from stepaside.fitting.trials import WAYS, Trial, trials_of, walk_trial
+from stepaside.fitting.writing import write_description
+from stepaside.games import DuelSettings, run_duel
+from stepaside.games.robot_settings import settings_of, with_robot
+from stepaside.robots.compiling import compile_tree
+from stepaside.robots.description import (
+    FILE,
+    RobotDescription,
+    load_robot,
+)
+from stepaside.world.settings import PhysicsSettings
+from stepaside.world.truth import TrueState
+from stepaside.world.world import COLOURS, build_model
+
+PUBLISHED = pytest.mark.parametrize(
+    "publish", [stranger.mjcf, stranger.urdf], ids=["mjcf", "urdf"]
+)
+Publish = Callable[[Path], Path]
+
+
+def described(model: Path, folder: Path) -> tuple[Derived, RobotDescription]:
+    """Derive a description, write it, and read it again."""
+    folder.mkdir(exist_ok=True)
+    found = derive(model, folder, [])
+    (folder / FILE).write_text(write_description(found), encoding="utf-8")
+    return found, load_robot(folder)
+
+
+@PUBLISHED
+def test_legs_and_soles_are_found_in_the_tree(
+    publish: Publish, tmp_path: Path
+) -> None:
+    found = survey(publish(tmp_path), [])
+    left, right = found.legs
+    assert left.joints == tuple(f"near_{part[0]}" for part in stranger.LEG)
+    assert right.joints == tuple(f"far_{part[0]}" for part in stranger.LEG)
+    assert left.pitches == ("near_swing", "near_bend", "near_tip")
+    back, front, half = stranger.SOLE
+    assert left.outline == pytest.approx((back, front, -half, half))
+    assert left.hip[0] == pytest.approx(stranger.HIPS)
+    down = 0.08 + 0.04 + stranger.THIGH + stranger.SHANK
+    assert left.sole == pytest.approx(-down - stranger.FOOT)
+
+
+@PUBLISHED
+def test_what_is_written_is_what_was_derived(
+    publish: Publish, tmp_path: Path
+) -> None:
+    model = publish(tmp_path)
+    before = model.read_bytes()
+    found, robot = described(model, tmp_path / "robot")
+    assert model.read_bytes() == before
+    own = found.description
+    assert robot.legs == own.legs and robot.standing == own.standing
+    assert robot.overlay == own.overlay and robot.place == own.place
+    assert robot.gait == own.gait and robot.control == own.control
+    gait = settings_of(robot).gait
+    assert gait.com_height == pytest.approx(found.size.com_height, abs=1e-4)
+    assert gait.sole.front == pytest.approx(stranger.SOLE[1])
+
+
+@PUBLISHED
+def test_the_overlay_lets_any_model_be_controlled(
+    publish: Publish, tmp_path: Path
+) -> None:
+    _, robot = described(publish(tmp_path), tmp_path / "robot")
+    model = robot.compile()
+    free = int(mujoco.mjtJoint.mjJNT_FREE)
+    assert model.jnt_type[model.body("chest").jntadr[0]] == free
+    assert model.nu == 12 and model.nsensor == 10
+    torques = model.actuator_forcerange[:, 1]
+    np.testing.assert_allclose(torques, stranger.TORQUE)
+    tree = compile_tree(robot)
+    assert tree.mass == pytest.approx(12.0 + 2 * 6.6)
+    assert all(servo.stiffness > 1000.0 for servo in tree.servos)
+    names = {model.geom(i).name for i in range(model.ngeom)}
+    assert "floor" not in names
+    assert {f"{robot.left_foot}_box", f"{robot.right_foot}_box"} <= names
+
+
+def test_a_servo_stands_for_the_damping_of_its_joint(tmp_path: Path) -> None:
+    """It leads its targets by all of it, or the joints would lag."""
+    found, robot = described(stranger.mjcf(tmp_path), tmp_path / "robot")
+    model = robot.compile()
+    assert found.survey.model.dof_damping.max() == 0.8
+    assert not model.dof_damping.any()
+    assert (-model.actuator_biasprm[:, 2] > 0.8).all()
+
+
+def test_a_robot_without_an_accent_wears_the_colour_of_its_role(
+    tmp_path: Path,
+) -> None:
+    _, robot = described(stranger.mjcf(tmp_path), tmp_path / "robot")
+    model = build_model({"evader": robot}, PhysicsSettings())
+    chest = model.body("evader/chest")
+    first, count = int(chest.geomadr[0]), int(chest.geomnum[0])
+    worn = model.geom_rgba[first : first + count]
+    assert count == 1
+    np.testing.assert_allclose(worn, [COLOURS["evader"]], atol=1e-6)
+
+
+def test_speed_limits_are_those_of_the_urdf_or_asked_for(
+    tmp_path: Path,
+) -> None:
+    told, _ = described(stranger.urdf(tmp_path), tmp_path / "told")
+    untold, _ = described(stranger.mjcf(tmp_path), tmp_path / "untold")
+    assert set(told.description.speed_limits.values()) == {9.5}
+    assert not untold.told_speeds
+    assert "ASK" not in write_description(told).replace("says ASK", "")
+    assert "# ASK: the model does not say; no-load speeds" in (
+        write_description(untold)
+    )
+
+
+def test_the_place_of_a_torso_is_midway_between_its_hips(
+    tmp_path: Path,
+) -> None:
+    _, robot = described(stranger.mjcf(tmp_path), tmp_path / "robot")
+    assert robot.place.forward == pytest.approx(stranger.HIPS)
+    model = robot.compile()
+    data = mujoco.MjData(model)
+    half_turn = (np.cos(0.4), 0.0, 0.0, np.sin(0.4))  # heading 0.8 rad
+    data.qpos[:7] = (3.0, -1.0, 0.9, *half_turn)
+    mujoco.mj_kinematics(model, data)
+    state = TrueState(model, data, "chest", place=robot.place)
+    hips = [data.body(f"{s}_spin_link").xpos[:2] for s, _ in stranger.SIDES]
+    np.testing.assert_allclose(state.position, np.mean(hips, axis=0))
+
+
+def test_a_mesh_that_is_not_there_is_left_out_and_told_of(
+    tmp_path: Path,
+) -> None:
+    found, _ = described(stranger.mjcf(tmp_path), tmp_path / "robot")
+    assert found.survey.missing == ("lost.stl",)
+    assert "like lost.stl" in write_description(found)
+
+
+def test_a_leg_that_cannot_place_its_foot_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ModelError, match="pitch joint at hip"):
+        derive(stranger.mjcf(tmp_path, joints=4), tmp_path, [])
+    with pytest.raises(ModelError, match="at least 6 joints.*got 5"):
+        derive(stranger.mjcf(tmp_path, joints=5), tmp_path, [])
+
+
+def test_what_is_no_model_is_refused_in_one_line(tmp_path: Path) -> None:
+    file = tmp_path / "nothing.xml"
+    file.write_text("<mujoco><worldbody/></mujoco>")
+    result = CliRunner().invoke(main, ["robot", "init", str(file)])
+    assert result.exit_code == 2
+    assert "has no body" in result.stderr
+    assert result.stderr.count("\n") == 1
+
+
+def test_the_command_writes_a_folder_once(tmp_path: Path) -> None:
+    model, folder = stranger.mjcf(tmp_path), tmp_path / "made"
+    words = ["robot", "init", str(model), "--output", str(folder)]
+    told = CliRunner().invoke(main, [*words, "--json"])
+    facts = json.loads(told.stdout)
+    assert facts["mass_kg"] == pytest.approx(25.2)
+    assert len(facts["asked_for"]["speed_limits"]) == 12
+    assert load_robot(folder).name == "stranger"
+    again = CliRunner().invoke(main, words)
+    assert again.exit_code == 2 and "--overwrite" in again.stderr
+
+
+def test_equal_shapes_walk_alike() -> None:
+    """Lengths go with the CoM's height, times with the root of it."""
+    sole = (-0.05, 0.1, 0.04, 0.04)
+    small = Size(0.3, 5.0, 0.1, sole, 0.2)
+    times = 4.0
+    large = Size(0.3 * times, 320.0, 0.4, tuple(4 * e for e in sole), 0.8)  # type: ignore[arg-type]
+    one, other = gait_of(small), gait_of(large)
+    for name in ("stride", "step_height", "com_height", "foot_spacing"):
+        assert other[name] == pytest.approx(times * one[name], rel=0.01)
+    for name in ("single_support", "double_support", "start_support"):
+        assert other[name] == pytest.approx(2.0 * one[name], rel=0.01)
+    assert other["gain"] == pytest.approx(0.5 * one["gain"], rel=0.01)
+    near, far = game_of_size(small, one), game_of_size(large, other)
+    for name in ("safety_radius", "start_near", "start_far", "start_least"):
+        assert far[name] == pytest.approx(times * near[name], rel=0.01)
+
+
+@PUBLISHED
+def test_a_stranger_walks_backward_round_a_circle(
+    publish: Publish, tmp_path: Path
+) -> None:
+    _, robot = described(publish(tmp_path), tmp_path / "robot")
+    (trial,) = [
+        trial
+        for trial in trials_of(robot, feedback=False)
+        if trial.way is WAYS[-1]
+    ]
+    walked = walk_trial(Trial(robot, trial.gait, trial.control, trial.way))
+    assert walked.is_steady, walked
+
+
+def test_a_robot_of_other_size_plays_by_its_own_distances(
+    tmp_path: Path,
+) -> None:
+    """NAO scaled by 1.7: nothing of NAO's is left but its shape."""
+    nao = load_robot("nao")
+    spec = mujoco.MjSpec.from_file(str(nao.folder / nao.model))
+    scale = 1.7
+    for body in spec.bodies:
+        body.pos *= scale
+        body.ipos *= scale
+        body.mass *= scale**3
+        body.inertia *= scale**5
+        body.fullinertia *= scale**5
+    for part in (*spec.geoms, *spec.sites):
+        part.pos *= scale
+        part.size *= scale
+    for joint in spec.joints:
+        joint.pos *= scale
+    for actuator in spec.actuators:
+        actuator.forcerange *= scale**4
+    spec.compile()
+    model = tmp_path / "large.xml"
+    model.write_text(spec.to_xml())
+    found, robot = described(model, tmp_path / "robot")
+    gait = settings_of(robot).gait
+    assert gait.com_height == pytest.approx(scale * 0.268, rel=0.02)
+    assert gait.foot_spacing == pytest.approx(scale * 0.1, rel=0.05)
+    assert found.description.legs[0] == "LHipYawPitch"
+    settings = with_robot(
+        DuelSettings(seed=3, duration=6.0), str(robot.folder)
+    )
+    assert settings.strategy.safety_radius > 1.2
+    assert settings.start.near > 0.9
+    run = run_duel(settings)
+    assert run.outcome.value == "completed", run.message
+    assert run.summary.start.distance_m is not None
+    assert run.summary.start.distance_m >= settings.start.near

@@ -1,0 +1,183 @@
+"""Test that a description's gait, control and distances are played with."""
+
+import json
+import math
+import tomllib
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from stepaside.cli import main
+from stepaside.errors import ConfigurationError, ModelError, PlanError
+from stepaside.games.circle import pace_of, theory_of
+from stepaside.games.configuration import dump_configuration, parse_settings
+from stepaside.games.robot_settings import (
+    settings_of_robot,
+    with_players,
+    with_robot,
+)
+from stepaside.games.settings import DuelSettings, RobotSettings
+from stepaside.games.start import draw_start
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.planning import GaitSettings
+from stepaside.robots.description import load_robot
+from stepaside.unicycle.circling import find_circle
+
+NAO = load_robot("nao")
+
+
+def changed_nao(folder: Path, **changes: str) -> str:
+    """A copy of NAO whose description says something else."""
+    folder.mkdir(exist_ok=True)
+    text = (NAO.folder / "robot.toml").read_text(encoding="utf-8")
+    for old, new in changes.items():
+        assert old in text
+        text = text.replace(old, new)
+    (folder / "robot.toml").write_text(text, encoding="utf-8")
+    (folder / "model.xml").write_text(NAO.mjcf(), encoding="utf-8")
+    return str(folder)
+
+
+def test_nao_walks_the_gait_of_the_paper() -> None:
+    assert settings_of_robot("nao") == RobotSettings()
+    assert with_robot(DuelSettings(), "nao") == DuelSettings()
+    assert with_robot(WalkSettings(), "nao") == WalkSettings()
+
+
+def test_a_robot_brings_gait_control_and_distances(tmp_path: Path) -> None:
+    robot = changed_nao(
+        tmp_path,
+        **{
+            "stride = 0.04": "stride = 0.03",
+            "front = 0.095": "front = 0.08",
+            "feedback = false": "feedback = true",
+            "dead_zone = 0.015": "dead_zone = 0.02",
+            "safety_radius = 0.8": "safety_radius = 0.9",
+            "start_near = 0.6": "start_near = 1.4",
+        },
+    )
+    made = with_robot(DuelSettings(seed=5, duration=3.0), robot)
+    assert (made.seed, made.duration) == (5, 3.0)
+    assert made.gait.stride == 0.03 and made.gait.sole.front == 0.08
+    assert made.control.feedback
+    assert made.control.stabiliser.dead_zone == 0.02
+    assert made.strategy.safety_radius == 0.9
+    drawn = draw_start(made).distance
+    assert drawn is not None and 1.4 <= drawn <= 1.5
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "error", "message"),
+    [
+        ("stride = 0.04", "stride = -1.0", PlanError, "stride must"),
+        ("stride = 0.04", "stryde = 1.0", ConfigurationError, "gait.*stryde"),
+        ("back = -0.05", "back = 'x'", ModelError, "sole.back must be"),
+        ("start_near = 0.6", "start_near = 9.0", ConfigurationError, "start"),
+        ("start_near = 0.6", "", ConfigurationError, "start_near"),
+        ("reach = 0.4", "reach = 0.0", ModelError, "place.reach .* > 0"),
+        ("reach = 0.4", "raech = 0.4", ModelError, "unknown entry place.rae"),
+        ("HeadYaw = 7.457", "HeadYaw = '7'", ModelError, "speed_limits.Head"),
+        ("[0.05, 2.11]", "['low', 2.11]", ModelError, "must be a finite"),
+        ("[0.05, 2.11]", "[2.11]", ModelError, "row of 2 values"),
+        ("[0.05, 2.11]", "[2.2, 2.11]", ModelError, "low < high"),
+        ("closed-form", "guess", ConfigurationError, "method"),
+    ],
+)
+def test_what_no_robot_can_do_is_refused_by_name(
+    old: str, new: str, error: type[Exception], message: str, tmp_path: Path
+) -> None:
+    robot = changed_nao(tmp_path, **{old: new})
+    with pytest.raises(error, match=message):
+        with_robot(DuelSettings(), robot)
+
+
+def given(*words: str) -> dict[str, Any]:
+    """Configuration that a command would use."""
+    result = CliRunner().invoke(main, [*words, "--print-config"])
+    assert result.exit_code == 0, result.output
+    return tomllib.loads(result.stdout)
+
+
+def test_files_and_options_win_over_the_robot(tmp_path: Path) -> None:
+    robot = changed_nao(
+        tmp_path / "robot",
+        **{"stride = 0.04": "stride = 0.03", "gain = 0.2": "gain = 0.25"},
+    )
+    file = tmp_path / "config.toml"
+    file.write_text(f"robot = {json.dumps(robot)}\n[gait]\nstride = 0.02\n")
+    words = ["duel", "--config", str(file)]
+    assert given(*words)["gait"]["stride"] == 0.02
+    assert given(*words)["gait"]["gain"] == 0.25
+    assert given(*words, "--gain", "0.3")["gait"]["gain"] == 0.3
+    assert given("walk", "--robot", robot)["gait"]["stride"] == 0.03
+
+
+def test_a_robot_that_needs_feedback_keeps_it(tmp_path: Path) -> None:
+    robot = changed_nao(tmp_path, **{"feedback = false": "feedback = true"})
+    words = ["walk", "--robot", robot]
+    assert given(*words)["control"]["feedback"]
+    assert given(*words, "--body", "ideal")["control"]["feedback"]
+    assert not given(*words, "--no-feedback")["control"]["feedback"]
+
+
+def test_two_players_may_be_different_robots(tmp_path: Path) -> None:
+    robot = changed_nao(
+        tmp_path / "robot",
+        **{"speed = 0.1 ": "speed = 0.08 ", "safety_radius = 0.8": ""},
+    )
+    text = (tmp_path / "robot" / "robot.toml").read_text()
+    assert "safety_radius" not in text
+    (tmp_path / "robot" / "robot.toml").write_text(
+        text.replace("[game]", "[game]\nsafety_radius = 0.95")
+    )
+    made = with_players(DuelSettings(), {"pursuer": robot})
+    assert made.robot_of("pursuer").gait.speed == 0.08
+    assert made.robot_of("evader") == RobotSettings()
+    assert made.strategy.safety_radius == 0.95
+    again = parse_settings(
+        DuelSettings,
+        tomllib.loads(dump_configuration(made)),
+        "itself",
+    )
+    assert again == made
+    config = given("duel", "--pursuer-robot", robot)
+    assert config["pursuer_robot"]["gait"]["speed"] == 0.08
+    assert "evader_robot" not in config
+
+
+def test_theory_of_different_gaits_is_in_real_time() -> None:
+    """A slower clock of one gait is a slower unicycle."""
+    slow = GaitSettings(single_support=0.85, double_support=0.244)
+    gait = GaitSettings()
+    assert pace_of(slow) == pytest.approx(0.5 * pace_of(gait))
+    own = RobotSettings(gait=slow)
+    theory = theory_of(DuelSettings(pursuer_robot=own))
+    pace = pace_of(gait)
+    expected = find_circle(
+        0.05 * pace,
+        0.1 * pace,
+        0.1 * pace,
+        0.2 * pace,
+        math.pi / 2,
+        "proportional",
+    )
+    assert theory == expected
+    assert theory.radius_pursuer_m < theory.radius_evader_m
+    same = theory_of(DuelSettings(pursuer_robot=RobotSettings()))
+    assert same == theory_of(DuelSettings())
+
+
+def test_equal_gaits_of_other_clocks_end_on_the_circle_of_the_paper() -> None:
+    """Real time only scales: the circle of equal players stays."""
+    slow = GaitSettings(single_support=0.85, double_support=0.244)
+    both = RobotSettings(gait=slow)
+    settings = DuelSettings(pursuer_robot=both, evader_robot=both)
+    one, other = theory_of(settings), theory_of(DuelSettings())
+    assert one.radius_evader_m == pytest.approx(other.radius_evader_m)
+    assert one.distance_m == pytest.approx(other.distance_m)
+    assert settings.cycle == pytest.approx(2.0 * slow.step_duration)
+    nearer = replace(DuelSettings(), pursuer_robot=both)
+    assert nearer.cycle == settings.cycle

@@ -1,0 +1,239 @@
+"""Test checks of a stranger, and the search for a better way to walk."""
+
+import json
+from concurrent.futures import Executor, Future
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+import published_humanoid as stranger
+import stepaside.fitting.checking as checking
+import stepaside.fitting.tuning as tuning
+from stepaside.cli import main
+from stepaside.fitting.candidates import Candidate
+from stepaside.fitting.checking import check_robot
+from stepaside.fitting.deriving import derive
+from stepaside.fitting.findings import findings_of
+from stepaside.fitting.rewriting import rewritten
+from stepaside.fitting.strain import Strain
+from stepaside.fitting.trials import WAYS, Trial, Walked
+from stepaside.fitting.tuning import Search
+from stepaside.fitting.writing import write_description
+from stepaside.games.robot_settings import settings_of
+from stepaside.robots.description import (
+    FILE,
+    RobotDescription,
+    load_robot,
+)
+
+CALM = Strain(0.1, "knee", 0.4, "hip", 0.0, 0.001)
+
+
+class Here(Executor):
+    """Does work at once, in this process."""
+
+    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Do it."""
+        future: Future[Any] = Future()
+        future.set_result(fn(*args, **kwargs))
+        return future
+
+
+def described(folder: Path) -> RobotDescription:
+    """Describe a stranger's humanoid."""
+    found = derive(stranger.mjcf(folder), folder, [])
+    (folder / FILE).write_text(write_description(found), encoding="utf-8")
+    return load_robot(folder)
+
+
+def walked(trial: Trial, off: float, *, falls: bool = False) -> Walked:
+    """A walk that strays by a part of what a steady one may."""
+    return Walked(
+        trial.way.name,
+        trial.control.feedback,
+        "fell" if falls else "walked",
+        not falls,
+        0.3 if falls else 1.0,
+        8.0 * off,
+        0.0,
+        1.0,
+        1.0 if trial.way.bearing else None,
+        CALM,
+    )
+
+
+def test_what_is_derived_has_everything(tmp_path: Path) -> None:
+    found = findings_of(described(tmp_path))
+    assert {f.verdict for f in found} == {"pass"}, found
+    assert {"free joint", "sensors", "actuators", "reach"} <= {
+        f.name for f in found
+    }
+
+
+@pytest.mark.parametrize(
+    ("change", "name", "said"),
+    [
+        ({"gyro": "gyro"}, "", ""),
+        ({"com_height": 9.0}, "reach", "cannot reach CoM z"),
+        ({"com_height": 0.05}, "reach", "cannot reach"),
+        ({"torso": "near_swing_link"}, "kinematics", "must be a root"),
+    ],
+)
+def test_what_would_crash_later_is_a_failure_with_a_hint(
+    change: dict[str, Any], name: str, said: str, tmp_path: Path
+) -> None:
+    own = described(tmp_path)
+    if "com_height" in change:
+        own = replace(own, gait=own.gait | change)
+    elif "torso" in change:
+        own = replace(own, **change)
+    failed = [f for f in findings_of(own) if f.verdict == "fail"]
+    assert [f.name for f in failed] == ([name] if name else [])
+    for finding in failed:
+        assert said in finding.value and finding.hint
+
+
+def test_a_robot_without_sensors_or_servos_is_told_of(tmp_path: Path) -> None:
+    """NAO's model with other names: nothing crashes, each has a hint."""
+    nao = load_robot("nao")
+    text = nao.mjcf().replace('<gyro name="gyro"', '<gyro name="turning"')
+    (tmp_path / "model.xml").write_text(text)
+    toml = (nao.folder / FILE).read_text(encoding="utf-8")
+    (tmp_path / FILE).write_text(toml, encoding="utf-8")
+    found = findings_of(load_robot(tmp_path))
+    failed = {f.name: f for f in found if f.verdict == "fail"}
+    assert set(failed) == {"sensors"}
+    assert "no gyro" in failed["sensors"].value
+    named = toml + '\n[sensors]\ngyro = "turning"\n'
+    (tmp_path / FILE).write_text(named, encoding="utf-8")
+    again = findings_of(load_robot(tmp_path))
+    assert all(f.verdict != "fail" for f in again)
+
+
+def test_a_check_passes_what_walks_as_it_is_described(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own = described(tmp_path)
+    told: list[tuple[int, int]] = []
+
+    def falls_with_feedback(trial: Trial) -> Walked:
+        return walked(trial, 0.3, falls=trial.control.feedback)
+
+    monkeypatch.setattr(checking, "walk_trial", falls_with_feedback)
+    checked = check_robot(own, Here(), lambda *done: told.append(done))
+    assert checked.passes and told[-1] == (10, 10)
+    by_name = {f.name: f for f in checked.findings}
+    assert by_name["walks open loop"].verdict == "pass"
+    assert by_name["walks with feedback"].verdict == "warn"
+    asks = replace(own, control=own.control | {"feedback": True})
+    asks = replace(asks, control=asks.control | {"method": "measured"})
+    assert not check_robot(asks, Here()).passes
+    plain = checked.to_json()
+    assert json.loads(json.dumps(plain)) == plain
+
+
+def test_unsteadiness_is_that_of_the_worst_measure(tmp_path: Path) -> None:
+    own = described(tmp_path)
+    settings = settings_of(own)
+    trial = Trial(own, settings.gait, settings.control, WAYS[0])
+    assert walked(trial, 0.5).unsteadiness == pytest.approx(0.5)
+    slow = walked(trial, 0.5)._replace(speed=0.7)
+    assert slow.unsteadiness == pytest.approx(2.0)
+    assert not slow.is_steady
+    early = walked(trial, 0.1, falls=True)
+    late = early._replace(lasted=0.9)
+    assert early.unsteadiness > late.unsteadiness > slow.unsteadiness
+
+
+def search(
+    own: RobotDescription,
+    monkeypatch: pytest.MonkeyPatch,
+    kept: Path | None = None,
+) -> tuple[tuning.Tuned, int]:
+    """Search where smaller steps and stiffer joints are steadier."""
+    walks = []
+
+    def walk(trial: Trial) -> Walked:
+        walks.append(trial)
+        gait = trial.gait
+        stiff = trial.description.overlay.servos["near_bend"].stiffness
+        off = 0.9
+        if gait.stride < 0.9 * float(own.gait["stride"]):
+            off -= 0.4
+        if stiff > 1.5 * own.overlay.servos["near_bend"].stiffness:
+            off -= 0.4
+        return walked(trial, off, falls=trial.control.feedback)
+
+    monkeypatch.setattr(tuning, "walk_trial", walk)
+    return Search(own, Here(), kept).run(), len(walks)
+
+
+def test_a_search_joins_the_changes_that_help(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found, _ = search(described(tmp_path), monkeypatch)
+    best = found.best.candidate
+    assert found.before.unsteadiness == pytest.approx(0.9)
+    assert found.best.unsteadiness == pytest.approx(0.1)
+    assert best == Candidate(0.0, stiffness=1.6, stride=0.75)
+
+
+def test_a_search_goes_on_from_what_was_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own, kept = described(tmp_path), tmp_path / "tune.jsonl"
+    first, walks = search(own, monkeypatch, kept)
+    assert walks > 40
+    lines = kept.read_text().splitlines()
+    kept.write_text("\n".join(lines[: len(lines) // 2]) + "\n")
+    second, rest = search(own, monkeypatch, kept)
+    assert second == first
+    assert 0 < rest < walks
+    other = replace(own, gait=own.gait | {"step_height": 0.03})
+    assert search(other, monkeypatch, kept)[1] == walks
+
+
+def test_a_candidate_that_is_too_much_is_not_walked(tmp_path: Path) -> None:
+    own = described(tmp_path)
+    narrow = Candidate(0.0, spacing=0.4)
+    assert narrow.applied(own) is None and narrow.trials(own) == ()
+    assert Candidate(0.0, zmp=0.5).applied(own) is None
+    kept = Candidate(0.0).applied(own)
+    assert kept is not None and kept.overlay == own.overlay
+
+
+def test_what_is_found_is_written_beside_what_stood_there(
+    tmp_path: Path,
+) -> None:
+    own = described(tmp_path)
+    text = (tmp_path / FILE).read_text(encoding="utf-8")
+    made = Candidate(1.0, stiffness=1.6, times=0.8).applied(own)
+    assert made is not None
+    for _ in range(2):  # a second search replaces the words of the first
+        text = rewritten(text, made, ["0.9 before, 0.1 after"])
+        (tmp_path / FILE).write_text(text, encoding="utf-8")
+        again = load_robot(tmp_path)
+        assert again.gait == pytest.approx(made.gait)
+        assert again.control == made.control
+        assert again.overlay == made.overlay
+        assert text.count("0.9 before") == 1
+    assert text.count("tuned, was") == 4  # two supports, method, feedback
+    assert "# Chains from the torso" in text
+
+
+def test_the_command_writes_nothing_where_nothing_is_better(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    described(tmp_path)
+    before = (tmp_path / FILE).read_bytes()
+    monkeypatch.setattr(
+        "stepaside.studies.workers.worker_pool", lambda workers: Here()
+    )
+    monkeypatch.setattr(tuning, "walk_trial", lambda t: walked(t, 0.1))
+    result = CliRunner().invoke(main, ["robot", "tune", str(tmp_path)])
+    assert result.exit_code == 0, result.output
+    assert "stays as it is" in result.stdout
+    assert (tmp_path / FILE).read_bytes() == before

@@ -1,0 +1,165 @@
+"""A duel in a room: solids in the world, starts, contacts, files."""
+
+from dataclasses import replace
+from math import pi
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from stepaside.cli import main
+from stepaside.commands.declared.print_config import commented
+from stepaside.errors import ConfigurationError
+from stepaside.games.configuration import dump_configuration, read_settings
+from stepaside.games.duel import Duel, run_duel
+from stepaside.games.outcome import Outcome
+from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.poses import Pose
+from stepaside.rooms import Disc, Polygon, Room, box, make_room
+from stepaside.rooms.making import RoomRecipe
+from stepaside.world.camera_settings import RoomSettings
+from stepaside.world.solids import HEIGHT, add_solids, named_solids
+
+TRIANGLE = Polygon(((0.5, 0.5), (0.9, 0.5), (0.7, 0.9)))
+FULL = Room(
+    3.0, 3.0, (Disc(-0.6, 0.2, 0.15), box(0.4, -0.7, 0.3, 0.2, 0.5), TRIANGLE)
+)
+STARTS = (Pose(-1.1, -1.1, 0.8), Pose(-1.1, 0.9, -1.5))
+
+
+def placed(room: Room, **changes: Any) -> DuelSettings:
+    return DuelSettings(room=RoomSettings(plan=room), **changes)
+
+
+def test_solids_stand_in_the_world_as_in_the_room() -> None:
+    """Rays down from above strike what the room says stands there."""
+    spec = mujoco.MjSpec()
+    add_solids(spec, FULL)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    random = np.random.default_rng(5)
+    points = random.uniform(-1.55, 1.55, (3000, 2))
+    clearance = np.min([s.clearance(points) for s in FULL.solids], axis=0)
+    found = np.zeros(1, dtype=np.int32)
+    for (x, y), away in zip(points, clearance, strict=True):
+        down = mujoco.mj_ray(
+            model, data, [x, y, 2.0], [0.0, 0.0, -1.0], None, 1, -1, found
+        )
+        if abs(away) > 1e-4:
+            wanted = 2.0 - HEIGHT if away < 0.0 else -1.0
+            assert down == pytest.approx(wanted, abs=1e-6)
+
+
+def test_solids_are_named_by_what_they_are() -> None:
+    names = [name for name, _ in named_solids(FULL)]
+    assert names[:4] == ["disc 1", "box 1", "polygon 1", "wall 1"]
+    assert len(set(names)) == len(FULL.solids) == 7
+
+
+def test_players_start_where_the_room_says() -> None:
+    room = replace(FULL, starts=STARTS)
+    duel = Duel(placed(room))
+    for player, start in zip(duel.players, STARTS, strict=True):
+        np.testing.assert_allclose(player.truth.place, start[:2], atol=1e-6)
+        assert player.truth.heading == pytest.approx(start.theta)
+    told = duel.settings.start
+    assert told.distance == pytest.approx(2.0)
+    assert told.pursuer_offset == pytest.approx(0.8 - pi / 2)
+    assert told.evader_offset == pytest.approx(-1.5 + pi / 2)
+    again = Duel(duel.settings).settings
+    assert again.start == told and again.room == duel.settings.room
+
+
+def test_starts_that_a_room_lacks_are_drawn_by_the_seed() -> None:
+    first, second = (Duel(placed(FULL, seed=s)).frames for s in (1, 2))
+    assert first == Duel(placed(FULL, seed=1)).frames != second
+
+
+@pytest.mark.parametrize(
+    ("room", "words"),
+    [
+        (replace(FULL, starts=(Pose(-0.6, 0.0, 0.0), STARTS[1])), "at least"),
+        (replace(FULL, starts=(Pose(-1.9, 0.0, 0.0), STARTS[1])), "between"),
+        (
+            Room(
+                3.0,
+                3.0,
+                (box(0.0, 0.0, 3.0, 0.2),),
+                starts=(Pose(0.0, -1.0, 0.0), Pose(0.0, 1.0, 0.0)),
+            ),
+            "a way",
+        ),
+    ],
+)
+def test_rooms_in_which_no_game_can_be_are_refused(
+    room: Room, words: str
+) -> None:
+    with pytest.raises(ConfigurationError, match=words):
+        Duel(placed(room))
+
+
+def test_a_room_leaves_no_choice_of_start_nor_a_person() -> None:
+    room = replace(FULL, starts=STARTS)
+    with pytest.raises(ConfigurationError, match="start.distance must be"):
+        Duel(placed(room, start=StartSettings(distance=1.0)))
+    with pytest.raises(ConfigurationError, match="open floor"):
+        placed(room, pursuer="person")
+
+
+def test_a_configuration_keeps_the_room() -> None:
+    recipe = RoomRecipe(discs=2, boxes=1, polygons=1, doors=1)
+    room = make_room(recipe, 3)
+    settings = placed(room)
+    for text in (dump_configuration(settings), commented(settings)):
+        read = read_settings(DuelSettings, text, "here")
+        assert read.room.plan is not None
+        for one, other in zip(read.room.plan.solids, room.solids, strict=True):
+            np.testing.assert_allclose(one.centre, other.centre, atol=1e-12)
+        assert read.room.plan.starts == room.starts
+
+
+def test_who_touches_what_ends_a_duel_and_is_named() -> None:
+    """An evader that knows of nothing walks backwards into a pillar."""
+    starts = (Pose(1.1, 0.0, pi), Pose(0.5, 0.0, 0.0))
+    settings = placed(
+        Room(3.0, 3.0, (Disc(0.2, 0.0, 0.08),), starts=starts),
+        evader_strategy="evasion",
+        duration=6.0,
+    )
+    blind = replace(
+        settings,
+        map=replace(settings.map, source="none"),
+        strategy=replace(settings.strategy, angle=0.0),
+    )
+    run = run_duel(blind)
+    assert run.outcome is Outcome.CONTACT
+    assert run.message.startswith("disc 1 and evader touched at")
+    assert run.summary.to_json()["touched"] == ["disc 1", "evader"]
+
+
+def refusal(*words: str) -> str:
+    result = CliRunner().invoke(main, ["duel", *words])
+    assert result.exit_code == 2, result.output
+    return result.output
+
+
+def test_bad_rooms_are_refused_in_one_line(tmp_path: Path) -> None:
+    file = tmp_path / "room.toml"
+    for text, words in (
+        ("polygons = [{corners = [[0,0],[1,1],[1,0],[0,1]]}]", "cross itself"),
+        ("discs = [{x = nan, y = 0, radius = 0.1}]", "disc x must be finite"),
+        (
+            "width = 3\ndepth = 3\ndiscs = [{x=-1,y=0,radius=0.1}]\n"
+            "pursuer = {x=-1,y=0}\nevader = {x=1,y=0}",
+            "the pursuer must start at least",
+        ),
+    ):
+        file.write_text(text)
+        told = refusal("--room", str(file), "--json")
+        assert words in told and "Traceback" not in told
+    assert "must stand beside --room SEED" in refusal("--discs", "2")
+    assert "a file, got 'no'" in refusal("--room", "no")

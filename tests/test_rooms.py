@@ -1,0 +1,283 @@
+"""Test rooms: walls, doors, ways, starts, files and seeds."""
+
+import json
+from dataclasses import replace
+from math import hypot, inf, nan
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from stepaside.cli import main
+from stepaside.errors import ConfigurationError
+from stepaside.poses import Pose, wrap_angle
+from stepaside.rooms import (
+    OPEN_FLOOR,
+    Disc,
+    Door,
+    Room,
+    RoomRecipe,
+    box,
+    check_starts,
+    clearance_between,
+    draw_starts,
+    has_way,
+    load_room,
+    make_room,
+    room_of_entries,
+    room_text,
+    wall_between,
+)
+
+PILLAR = Room(4.0, 2.0, (Disc(0.0, 0.0, 0.3),))
+APART = (Pose(-1.0, 0.0, 0.0), Pose(1.0, 0.0, 3.0))
+
+
+def two_rooms(gap: float) -> Room:
+    """A room that a wall with a door in it divides."""
+    half = 0.5 * gap
+    walls = (
+        wall_between((0.0, -1.5), (0.0, -half)),
+        wall_between((0.0, half), (0.0, 1.5)),
+    )
+    return Room(3.0, 3.0, walls)
+
+
+def test_clearance_is_that_of_the_nearest_thing() -> None:
+    asked = [[0.0, 0.8], [1.9, 0.0], [0.1, 0.0], [0.5, 0.0], [0.0, 1.2]]
+    np.testing.assert_allclose(
+        PILLAR.clearance(asked), [0.2, 0.1, -0.2, 0.2, -0.2]
+    )
+
+
+def test_nobody_is_near_anything_on_an_open_floor() -> None:
+    assert OPEN_FLOOR.clearance([[0.0, 0.0]])[0] == inf
+    assert OPEN_FLOOR.footprint_clearance(box(0, 0, 1, 1)) == inf
+
+
+def test_walls_stand_around_the_floor_and_doors_are_gaps() -> None:
+    room = Room(4.0, 2.0, (), (Door("east", 0.2, 0.6), Door("north", -1.0)))
+    assert not room.is_closed
+    closed = Room(4.0, 2.0)
+    inside = np.random.default_rng(1).uniform(-0.99, 0.99, (400, 2)) * [2, 1]
+    np.testing.assert_allclose(
+        closed.clearance(inside),
+        np.minimum(2 - abs(inside[:, 0]), 1 - abs(inside[:, 1])),
+    )
+    pieces = np.min([w.clearance(inside) for w in closed.walls], axis=0)
+    np.testing.assert_allclose(pieces, closed.clearance(inside), atol=1e-12)
+    middle, beside = [[2.05, 0.2]], [[2.05, -0.2]]
+    assert room.clearance(middle)[0] == pytest.approx(0.3)
+    assert room.clearance(beside)[0] < 0.0
+    assert room.clearance([[-1.0, 1.05]])[0] == pytest.approx(0.3)
+    area = sum(w.area for w in closed.walls) - sum(w.area for w in room.walls)
+    assert area == pytest.approx(2 * 0.6 * 0.1)
+
+
+def test_a_footprint_is_as_clear_as_its_nearest_solid() -> None:
+    foot = box(0.0, 0.6, 0.2, 0.1)
+    assert PILLAR.footprint_clearance(foot) == pytest.approx(0.25)
+    assert PILLAR.footprint_clearance(
+        box(0.0, 0.9, 0.2, 0.1)
+    ) == pytest.approx(0.05)
+
+
+def test_a_pillar_hides_what_stands_behind_it() -> None:
+    starts, ends = [[-1.0, 0.0], [-1.0, 0.0]], [[1.0, 0.0], [0.0, 0.9]]
+    seen = PILLAR.sees(starts, ends)
+    assert seen.tolist() == [False, True]
+
+
+def test_solids_in_a_frame_are_where_the_room_has_them() -> None:
+    frame = Pose(0.4, 0.2, 0.9)
+    seen = PILLAR.solids_in(frame)
+    assert len(seen) == 1 + 4
+    point = np.array([[0.3, -0.1]])
+    np.testing.assert_allclose(
+        [s.clearance(point)[0] for s in seen],
+        [s.clearance(frame.transform_points(point))[0] for s in PILLAR.solids],
+    )
+
+
+@pytest.mark.parametrize(
+    ("gap", "radius", "there_is"),
+    [
+        (0.6, 0.2, True),
+        (0.44, 0.2, True),
+        (0.38, 0.2, False),
+        (0.0, 0.01, False),
+    ],
+)
+def test_a_way_leads_through_gaps_that_are_wide_enough(
+    gap: float, radius: float, there_is: int
+) -> None:
+    found = has_way(two_rooms(gap), (-1.0, 1.0), (1.0, 0.7), radius)
+    assert found == bool(there_is)
+
+
+def test_a_way_leads_around_corners_and_out_of_doors() -> None:
+    """Both halves have a door of their own, so there is a way outside."""
+    shut = two_rooms(0.0)
+    doors = (Door("north", -0.8), Door("north", 0.8))
+    assert not has_way(shut, (-1.0, 0.0), (1.0, 0.0), 0.2)
+    assert has_way(replace(shut, doors=doors), (-1.0, 0.0), (1.0, 0.0), 0.2)
+    assert has_way(OPEN_FLOOR, (-1.0, 0.0), (1.0, 0.0), 0.2)
+
+
+@pytest.mark.parametrize(
+    ("room", "starts", "rule"),
+    [
+        (PILLAR, (Pose(-0.4, 0.0, 0.0), APART[1]), "pursuer must start at"),
+        (PILLAR, (APART[0], Pose(2.5, 0.0, 0.0)), "evader must start between"),
+        (PILLAR, (APART[0], Pose(-0.7, 0.0, 0.0)), "0.4 .m. apart, got 0.3"),
+        (two_rooms(0.3), APART, "a way of 0.4 .m. between"),
+    ],
+)
+def test_no_game_starts_where_none_can(
+    room: Room, starts: tuple[Pose, Pose], rule: str
+) -> None:
+    check_starts(PILLAR, APART)
+    with pytest.raises(ConfigurationError, match=rule):
+        check_starts(room, starts)
+
+
+RECIPE = RoomRecipe(3.0, 3.0, discs=3, boxes=2, polygons=2, doors=2)
+
+
+def test_a_room_of_a_seed_is_what_its_recipe_says() -> None:
+    for seed in range(8):
+        room = make_room(RECIPE, seed)
+        assert make_room(RECIPE, seed) == room
+        assert (len(room.obstacles), len(room.doors)) == (7, 2)
+        assert room.starts is not None
+        check_starts(room, room.starts)
+        pursuer, evader = room.starts
+        x, y = evader.x - pursuer.x, evader.y - pursuer.y
+        assert 0.6 <= hypot(x, y) <= 1.5
+        aim = float(np.arctan2(y, x))
+        assert abs(wrap_angle(aim - pursuer.theta)) <= np.pi / 2
+        bearing = wrap_angle(aim + np.pi - evader.theta)
+        assert abs(bearing) <= np.pi / 6 + 1e-12
+        for i, one in enumerate(room.obstacles):
+            for other in room.obstacles[:i]:
+                if not isinstance(one, Disc):
+                    assert clearance_between(one, other) > 0.0
+    assert make_room(RECIPE, 1) != make_room(RECIPE, 2)
+
+
+def test_starts_of_one_seed_do_not_depend_on_what_else_it_draws() -> None:
+    assert draw_starts(Room(9.0, 9.0), 5) == draw_starts(
+        Room(9.0, 9.0, (Disc(4.4, 4.4, 0.05),)), 5
+    )
+
+
+def test_what_has_no_place_is_refused() -> None:
+    with pytest.raises(ConfigurationError, match="too full"):
+        make_room(RoomRecipe(2.0, 2.0, discs=60), 1)
+    with pytest.raises(ConfigurationError, match="two players"):
+        make_room(RoomRecipe(0.8, 0.8), 1)
+
+
+def test_a_file_gives_the_room_again(tmp_path: Path) -> None:
+    room = make_room(RECIPE, 3)
+    file = tmp_path / "room.toml"
+    file.write_text(room_text(room), encoding="utf-8")
+    assert load_room(file) == room
+    again = tmp_path / "again.json"
+    answer = CliRunner().invoke(
+        main, ["room", str(file), "--output", str(again), "--json"]
+    )
+    assert answer.exit_code == 0, answer.output
+    assert load_room(again) == room
+    assert room_of_entries(json.loads(answer.output)["room"]) == room
+
+
+@pytest.mark.parametrize(
+    ("text", "rule"),
+    [
+        ("width = 3.0", "must have both width and depth"),
+        ("width = nan\ndepth = 3.0", r"room width must lie in \[0.5, 100\]"),
+        ("width = true\ndepth = 3.0", "width must be a number, got True"),
+        ("height = 3.0", "unknown entry 'height'"),
+        ("discs = 3", "discs must be a list"),
+        ("discs = [3]", "discs 1 must be a table"),
+        ("[[discs]]\nx = 1\ny = 0", "discs 1 must have .*, got no radius"),
+        ("[[discs]]\nx = 1\ny = 0\nradius = nan", "discs 1: disc radius"),
+        ("[[discs]]\nx = 1\ny = 0\nr = 1\nradius = 1", "got 'r'"),
+        (
+            "[[polygons]]\ncorners = [[0,0],[1,1],[1,0],[0,1]]",
+            "polygons 1: polygon must not cross itself",
+        ),
+        ("[[walls]]\nstart = [0]\nend = [1, 1]", "walls 1: start must be"),
+        ("[[doors]]\nside = 'up'", "doors 1: door side must be one of east"),
+        ("[[doors]]\nside = 'east'", "must have walls for its doors"),
+        (
+            "width=1.0\ndepth=1.0\n[[doors]]\nside='east'\nwidth=1.2",
+            "doors must lie in their wall",
+        ),
+        (
+            "width=1.0\ndepth=1.0\n[[discs]]\nx=0.7\ny=0\nradius=0.1",
+            "must stand between the walls",
+        ),
+        ("pursuer = {x = 0, y = 0}", "got no evader"),
+        ("width = ", "room.toml: "),
+        (
+            "pursuer={x=0,y=0}\nevader={x=1,y=0}\n"
+            "[[discs]]\nx=0.1\ny=0\nradius=0.1",
+            "the pursuer must start at least 0.2",
+        ),
+    ],
+)
+def test_a_bad_file_is_refused_in_one_line(
+    text: str, rule: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "room.toml"
+    file.write_text(text, encoding="utf-8")
+    answer = CliRunner().invoke(main, ["room", str(file)])
+    assert answer.exit_code == 2
+    assert len(answer.output.splitlines()) == 1
+    with pytest.raises(ConfigurationError, match=rule):
+        room = load_room(file)
+        assert room.starts is not None
+        check_starts(room, room.starts)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--size", "3"],
+        ["--size", "3xnan"],
+        ["--size", "0.1x3"],
+        ["--discs", "-1"],
+        ["--discs", "400"],
+        ["--largest", "0.01"],
+        ["--size", "open", "--doors", "1"],
+    ],
+)
+def test_what_makes_no_room_is_refused_in_one_line(
+    arguments: list[str],
+) -> None:
+    answer = CliRunner().invoke(main, ["room", *arguments])
+    assert answer.exit_code == 2
+    assert len(answer.output.splitlines()) == 1
+
+
+def test_the_command_measures_and_draws(tmp_path: Path) -> None:
+    figure = tmp_path / "room.svg"
+    arguments = ["--discs", "1", "--figure", str(figure), "--json"]
+    answer = CliRunner().invoke(main, ["room", *arguments])
+    told: dict[str, Any] = json.loads(answer.output)
+    disc = told["room"]["discs"][0]
+    assert told["free_m2"] == pytest.approx(
+        9.0 - np.pi * disc["radius"] ** 2, abs=0.01
+    )
+    assert told["free_for_body_m2"] < 2.6**2
+    assert figure.read_text(encoding="utf-8").startswith("<?xml")
+
+
+@pytest.mark.parametrize("value", [nan, inf, 0.0, -1.0])
+def test_no_other_size_is_taken(value: float) -> None:
+    with pytest.raises(ConfigurationError, match="room width must lie"):
+        Room(value, 3.0)

@@ -1,0 +1,99 @@
+"""The shortest way around what stands on a floor."""
+
+from math import acos, atan2, hypot, pi, sqrt
+
+import numpy as np
+import pytest
+
+from stepaside.poses import Pose
+from stepaside.rooms import Disc, Obstacle, RoomRecipe, box, make_room
+from stepaside.rooms.paths import first_point
+from stepaside.strategies import Knowledge, Limits, Pursuit
+
+RADIUS = 0.2
+LIMITS = Limits(0.1, 0.2, 0.04, 0.547)
+Point = tuple[float, float]
+
+
+def way(solids: tuple[Obstacle, ...], start: Point, end: Point) -> list[Point]:
+    points = [start]
+    while points[-1] != end:
+        points.append(first_point(solids, points[-1], end, RADIUS))
+        assert len(points) < 50
+    return points
+
+
+def length(points: list[Point]) -> float:
+    legs = np.diff(np.array(points), axis=0)
+    return float(np.hypot(*legs.T).sum())
+
+
+def test_a_way_with_nothing_on_it_is_straight() -> None:
+    assert first_point((), (0.0, 0.0), (1.0, 2.0), RADIUS) == (1.0, 2.0)
+    beside = (Disc(0.5, 0.31, 0.1),)
+    assert first_point(beside, (0.0, 0.0), (1.0, 0.0), RADIUS) == (1.0, 0.0)
+
+
+def test_the_way_around_a_disc_is_tangents_and_an_arc() -> None:
+    disc, away = Disc(0.0, 0.0, 0.3), 0.3 + RADIUS
+    start, end = (-1.0, 0.05), (1.2, 0.05)
+    found = length(way((disc,), start, end))
+    arc = pi
+    exact = 0.0
+    for x, y in (start, end):
+        far = hypot(x, y)
+        exact += sqrt(far**2 - away**2)
+        arc -= acos(away / far) + atan2(y, abs(x))
+    exact += away * arc
+    assert exact < found < 1.03 * exact
+
+
+def test_the_way_around_a_wall_goes_by_its_nearer_end() -> None:
+    wall = box(0.0, 0.3, 0.1, 1.0)  # from y = -0.2 to 0.8
+    points = way((wall,), (-0.5, 0.0), (0.5, 0.0))
+    assert min(y for _, y in points) < -0.2 - 0.9 * RADIUS
+    mirrored = way((box(0.0, -0.3, 0.1, 1.0),), (-0.5, 0.0), (0.5, 0.0))
+    np.testing.assert_allclose(
+        np.array(mirrored), np.array(points) * [1, -1], atol=1e-12
+    )
+
+
+def test_ways_keep_their_distance_in_any_room() -> None:
+    recipe = RoomRecipe(discs=3, boxes=2, polygons=1)
+    for seed in range(3):
+        room = make_room(recipe, seed)
+        assert room.starts is not None
+        start, end = ((p.x, p.y) for p in room.starts)
+        for goal in (end, (-end[0], -end[1])):
+            if room.clearance([goal])[0] < RADIUS:
+                continue
+            points = np.array(way(room.solids, start, goal))
+            for a, b in zip(points[:-1], points[1:], strict=True):
+                line = a + np.linspace(0.0, 1.0, 200)[:, None] * (b - a)
+                assert room.clearance(line).min() > RADIUS - 1e-6
+
+
+def test_where_there_is_no_way_it_heads_straight() -> None:
+    cage = tuple(
+        box(x, y, w, d)
+        for x, y, w, d in (
+            (0.6, 0.0, 0.1, 1.3),
+            (-0.6, 0.0, 0.1, 1.3),
+            (0.0, 0.6, 1.3, 0.1),
+            (0.0, -0.6, 1.3, 0.1),
+        )
+    )
+    assert first_point(cage, (0.0, 0.0), (2.0, 0.0), RADIUS) == (2.0, 0.0)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_pursuer_goes_around_a_pillar(side: int) -> None:
+    """Seen straight ahead behind a pillar, the other is not headed for."""
+    pillar = Disc(0.6, -0.02 * side, 0.15)
+    here = Pose(0.3, -0.2, 0.7)
+    placed = pillar.moved(here)
+    known = Knowledge(0.0, 0.0, 1.5, LIMITS, pose=here, obstacles=(placed,))
+    intent, _ = Pursuit().decide(known, None)
+    assert 0.3 < side * intent.heading < 0.8
+    free = Knowledge(0.0, 0.4, 1.5, LIMITS, pose=here)
+    assert Pursuit().decide(free, None)[0].heading == 0.4

@@ -1,0 +1,181 @@
+"""Test discs, polygons and the distances between them."""
+
+from math import cos, hypot, nan, pi, sin, sqrt
+
+import numpy as np
+import pytest
+
+from stepaside.errors import ConfigurationError
+from stepaside.poses import Pose
+from stepaside.rooms import (
+    Disc,
+    Polygon,
+    box,
+    clearance_between,
+    crosses,
+    hull,
+    wall_between,
+)
+
+SQUARE = box(0.0, 0.0, 2.0, 2.0)
+RING = np.linspace(0.0, 2.0 * pi, 721)
+
+
+def outline(polygon: Polygon, count: int = 400) -> np.ndarray:
+    """Points along the edge, shape (m * count, 2)."""
+    share = np.linspace(0.0, 1.0, count, endpoint=False)[:, None]
+    ends = np.roll(polygon.points, -1, axis=0)
+    pairs = zip(polygon.points, ends, strict=True)
+    return np.concatenate([a + share * (b - a) for a, b in pairs])
+
+
+def test_clearance_of_a_square_has_three_closed_forms() -> None:
+    asked = [[3.0, 0.5], [2.0, 2.0], [0.3, 0.0], [1.0, 0.0]]
+    np.testing.assert_allclose(
+        SQUARE.clearance(asked), [2.0, sqrt(2.0), -0.7, 0.0], atol=1e-15
+    )
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        Disc(0.3, -0.2, 0.4),
+        box(0.2, 0.1, 0.8, 0.3, 0.7),
+        Polygon(((0.0, 0.0), (1.0, 0.2), (0.3, 0.9))),
+    ],
+)
+def test_clearance_changes_as_far_as_one_walks(shape: Disc | Polygon) -> None:
+    """A signed distance has slope one, but where the nearest point jumps."""
+    points = np.random.default_rng(1).uniform(-2.0, 2.0, (500, 2))
+    small = 1e-6
+    slopes = [
+        (shape.clearance(points + d) - shape.clearance(points - d))
+        / (2.0 * small)
+        for d in (np.array([small, 0.0]), np.array([0.0, small]))
+    ]
+    np.testing.assert_allclose(np.hypot(*slopes), 1.0, atol=1e-6)
+
+
+def test_a_clockwise_polygon_is_the_same_polygon() -> None:
+    corners = ((0.0, 0.0), (1.0, 0.2), (0.3, 0.9))
+    assert Polygon(corners).area == Polygon(corners[::-1]).area > 0.0
+    inside = [[0.4, 0.4]]
+    assert Polygon(corners[::-1]).clearance(inside)[0] < 0.0
+
+
+def test_polygon_clearance_between_is_that_of_their_outlines() -> None:
+    random = np.random.default_rng(2)
+    for _ in range(30):
+        x, y, turn = random.uniform(-2.0, 2.0, 3)
+        other = box(x, y, 0.7, 0.3, turn)
+        found = clearance_between(SQUARE, other)
+        nearest = SQUARE.clearance(outline(other)).min()
+        if found > 0.0:
+            assert found == pytest.approx(nearest, abs=3e-3)
+        else:
+            assert nearest <= 1e-12
+        assert found == pytest.approx(clearance_between(other, SQUARE))
+
+
+def test_overlap_is_the_least_way_out() -> None:
+    other = box(1.4, 0.2, 1.0, 1.0)
+    assert clearance_between(SQUARE, other) == pytest.approx(-0.1)
+    assert clearance_between(
+        SQUARE, box(1.4 + 0.1001, 0.2, 1.0, 1.0)
+    ) == pytest.approx(1e-4)
+    assert clearance_between(SQUARE, Disc(1.2, 0.0, 0.3)) == pytest.approx(
+        -0.1
+    )
+
+
+@pytest.mark.parametrize("shape", [Disc(0.0, 0.0, 1.0), SQUARE])
+def test_a_line_crosses_what_one_of_its_points_lies_in(
+    shape: Disc | Polygon,
+) -> None:
+    random = np.random.default_rng(3)
+    starts = random.uniform(-3.0, 3.0, (300, 2))
+    ends = random.uniform(-3.0, 3.0, (300, 2))
+    share = np.linspace(0.0, 1.0, 2001)[:, None]
+    nearest = np.array(
+        [
+            shape.clearance(a + share * (b - a)).min()
+            for a, b in zip(starts, ends, strict=True)
+        ]
+    )
+    clear = np.abs(nearest) > 0.01  # what samples decide
+    found = crosses(shape, starts, ends)
+    assert 50 < found[clear].sum() < 250
+    np.testing.assert_array_equal(found[clear], nearest[clear] < 0.0)
+
+
+def test_a_line_along_an_edge_and_one_of_no_length() -> None:
+    starts = [[-2.0, 1.0 + 1e-9], [-2.0, 0.99], [0.5, 0.5], [1.5, 0.5]]
+    ends = [[2.0, 1.0 + 1e-9], [2.0, 0.99], [0.5, 0.5], [1.5, 0.5]]
+    assert crosses(SQUARE, starts, ends).tolist() == [
+        *(False, True, True, False)
+    ]
+
+
+def test_moved_shapes_keep_their_distances() -> None:
+    pose = Pose(0.7, -0.4, 1.1)
+    points = np.random.default_rng(4).uniform(-2.0, 2.0, (50, 2))
+    for shape in (Disc(0.2, 0.1, 0.3), box(0.1, 0.5, 0.6, 0.2, 0.3)):
+        np.testing.assert_allclose(
+            shape.moved(pose).clearance(pose.transform_points(points)),
+            shape.clearance(points),
+            atol=1e-14,
+        )
+
+
+def test_a_wall_runs_from_point_to_point() -> None:
+    wall = wall_between((1.0, 1.0), (1.0, 3.0), 0.2)
+    np.testing.assert_allclose(
+        wall.clearance([[1.0, 2.0], [1.5, 2.0], [1.0, 3.5]]), [-0.1, 0.4, 0.5]
+    )
+    assert wall.area == pytest.approx(0.4)
+
+
+def test_the_hull_holds_its_points_and_no_more() -> None:
+    points = np.random.default_rng(5).normal(size=(60, 2))
+    found = hull(points)
+    assert found.clearance(points).max() < 1e-12
+    assert {tuple(p) for p in points.tolist()} >= set(found.corners)
+    assert hull(found.points[::-1]).area == pytest.approx(found.area)
+
+
+PENTAGRAM = tuple((cos(4 * pi * i / 5), sin(4 * pi * i / 5)) for i in range(5))
+
+
+@pytest.mark.parametrize(
+    ("corners", "rule"),
+    [
+        (((0, 0), (1, 1), (1, 0), (0, 1)), "must not cross itself"),
+        (PENTAGRAM, "must not cross itself"),
+        (((0, 0), (1, 0), (0.2, 0.2), (0, 1)), "must be convex"),
+        (((0, 0), (1, 0)), "3 to 64 corners"),
+        (((0, 0), (1, 0), (2, 0)), "must"),
+        (((0, 0), (1, 0), (nan, 1)), r"corner x must be finite \[m\]"),
+        (((0, 0), (1, 0), (1, 1, 1)), "must be a pair"),
+        (((0, 0), (1, 0), (1, "1")), "must be a number"),
+        (((0, 0), (1, 0), (1, 1e9)), r"must lie in \[-1000, 1000\] \[m\]"),
+        (((0, 0), (1, 0), (1, 1e-5)), "edges >= 0.001"),
+    ],
+)
+def test_no_other_polygon_is_taken(corners: object, rule: str) -> None:
+    with pytest.raises(ConfigurationError, match=rule) as caught:
+        Polygon(corners)  # type: ignore[arg-type]
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("value", [nan, -0.1, 0.0, True, 1e6])
+def test_no_other_radius_is_taken(value: float) -> None:
+    with pytest.raises(ConfigurationError, match="disc radius must"):
+        Disc(0.0, 0.0, value)
+
+
+def test_a_disc_is_what_is_near_its_centre() -> None:
+    disc = Disc(1.0, -2.0, 0.5)
+    ring = np.stack([1.0 + np.cos(RING), -2.0 + np.sin(RING)], axis=-1)
+    np.testing.assert_allclose(disc.clearance(ring), 0.5, atol=1e-14)
+    assert disc.clearance([[1.0, -2.0]])[0] == -0.5
+    assert hypot(*disc.centre) == pytest.approx(sqrt(5.0))

@@ -1,0 +1,363 @@
+"""Test a robot on ROS 2 topics: both ends, on the loopback interface."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from math import atan2, cos, hypot, nan, pi, sin
+from threading import Thread
+from time import monotonic, sleep
+from typing import Any
+
+import pytest
+
+pytest.importorskip("cyclonedds")
+
+from stepaside.drivers.ros2.address import parse_namespace  # noqa: E402
+from stepaside.drivers.ros2.body import Ros2Body, rest  # noqa: E402
+from stepaside.drivers.ros2.domain import Dds, taken  # noqa: E402
+from stepaside.drivers.ros2.messages import (  # noqa: E402
+    Clock,
+    Header,
+    JointState,
+    Point,
+    PointStamped,
+    PoseStamped,
+    TFMessage,
+    Time,
+    Twist,
+    Vector3,
+)
+from stepaside.drivers.ros2.server import (  # noqa: E402
+    EVERY,
+    Ros2Server,
+    WorldClock,
+)
+from stepaside.drivers.ros2.topics import (  # noqa: E402
+    about_the_vertical,
+    dds_topic,
+    pose_message,
+    pose_of,
+)
+from stepaside.drivers.velocity.body import REST, Velocity  # noqa: E402
+from stepaside.errors import ConfigurationError  # noqa: E402
+from stepaside.poses import Pose  # noqa: E402
+from stepaside.sensing.measurement import Sighting  # noqa: E402
+
+from velocity_fakes import MadeUpWalker  # isort: skip  # noqa: E402
+
+TAG = f"stepaside-test-{os.getpid()}"
+TICK = 0.012
+LONGEST = 20.0  # for what takes a millisecond, in [s]
+
+
+def until(done: Callable[[], Any]) -> Any:
+    """Wait for what comes over the wire."""
+    end = monotonic() + LONGEST
+    while monotonic() < end:
+        answer = done()
+        if answer:
+            return answer
+        sleep(0.002)
+    raise AssertionError("nothing came")
+
+
+class Scene:
+    """A served robot, and who listens to it."""
+
+    def __init__(self, *, lock_step: bool = False) -> None:
+        self.dds = Dds(0, tag=TAG)
+        self.walker = MadeUpWalker()
+        self.clock = WorldClock(self.dds)
+        self.server = Ros2Server(
+            self.dds,
+            "/nao",
+            self.walker,
+            ["LKneePitch", "RKneePitch"],
+            self.clock,
+            tick=TICK,
+            lock_step=lock_step,
+        )
+
+    def round(self) -> Velocity:
+        """One tick of the world."""
+        self.server.speak()
+        self.server.hear()
+        velocity = self.server.act()
+        self.walker.move(velocity, TICK)
+        return velocity
+
+    def close(self) -> None:
+        """Let go of everything."""
+        self.server.close()
+        self.dds.close()
+
+
+@pytest.fixture
+def scene() -> Iterator[Scene]:
+    scene = Scene()
+    yield scene
+    scene.close()
+
+
+@pytest.fixture
+def body() -> Iterator[Ros2Body]:
+    body = Ros2Body(Dds(0, tag=TAG), "/nao")
+    yield body
+    body.close()
+
+
+def met(scene: Scene, body: Ros2Body, velocity: Velocity) -> None:
+    """Wait until both ends have found each other."""
+
+    def heard() -> bool:
+        body.command(velocity)
+        scene.round()
+        return body.listen(0.0) is not None and scene.server.connected
+
+    until(heard)
+    until(lambda: scene.round() == velocity)
+
+
+def test_velocities_arrive_and_odometry_comes_back(
+    scene: Scene, body: Ros2Body
+) -> None:
+    met(scene, body, Velocity(-0.07, 0.2))
+    scene.walker.pose = Pose(1.0, -2.0, 2.5)
+    scene.walker.time = 77.25
+
+    def told() -> Any:
+        scene.round()
+        report = body.listen(0.002)
+        return report if report and report.time >= 77.25 else None
+
+    report = until(told)
+    assert hypot(report.pose.x - 1.0, report.pose.y + 2.0) < 0.1
+    assert abs(report.pose.theta - 2.5) < 0.3
+    assert report.sighting is None and report.hindrance == ""
+
+
+def test_the_ideal_sight_is_what_the_robot_saw(
+    scene: Scene, body: Ros2Body
+) -> None:
+    met(scene, body, REST)
+    scene.walker.sighting = Sighting(scene.walker.time, -2.0, 0.75)
+
+    def seen() -> Any:
+        scene.round()
+        report = body.listen(0.002)
+        return report.sighting if report else None
+
+    sighting = until(seen)
+    assert sighting.bearing == pytest.approx(-2.0)
+    assert sighting.distance == pytest.approx(0.75)
+    assert sighting.time == pytest.approx(scene.walker.sighting.time)
+
+
+@pytest.mark.parametrize("kind", ["point", "pose"])
+@pytest.mark.parametrize("frame", ["nao/base_link", "nao/odom"])
+def test_others_may_say_where_the_other_is_in_either_frame(
+    scene: Scene, body: Ros2Body, kind: str, frame: str
+) -> None:
+    dds = Dds(0, tag=TAG)
+    scene.walker.pose = own = Pose(1.0, 2.0, 0.5)
+    met(scene, body, REST)
+    ahead, left = 0.6, -0.3
+    place = Point(ahead, left)
+    if frame == "nao/odom":
+        x, y, _ = own.compose(Pose(ahead, left, 0.0))
+        place = Point(x, y)
+    header = Header(Time.of(scene.walker.time), frame)
+    if kind == "point":
+        writer = dds.writer(dds_topic("/nao", "other"), PointStamped)
+        message: Any = PointStamped(header, place)
+    else:
+        writer = dds.writer(dds_topic("/nao", "other_pose"), PoseStamped)
+        pose = pose_message(Pose(place.x, place.y, 0.0))
+        message = PoseStamped(header, pose)
+
+    def seen() -> Any:
+        writer.write(message)
+        scene.round()
+        report = body.listen(0.002)
+        return report.sighting if report else None
+
+    sighting = until(seen)
+    assert sighting.bearing == pytest.approx(atan2(left, ahead))
+    assert sighting.distance == pytest.approx(hypot(left, ahead))
+    dds.close()
+
+
+def test_everybody_is_told_time_frames_and_joints(scene: Scene) -> None:
+    dds = Dds(0, tag=TAG)
+    readers = {
+        kind: dds.reader(dds_topic(space, name), kind)
+        for space, name, kind in (
+            ("", "clock", Clock),
+            ("", "tf", TFMessage),
+            ("/nao", "joint_states", JointState),
+        )
+    }
+    found: dict[type[Any], Any] = {}
+
+    def told() -> bool:
+        scene.round()
+        for kind, reader in readers.items():
+            for message in taken(reader):
+                found[kind] = message
+        return len(found) == len(readers)
+
+    until(told)
+    (transform,) = found[TFMessage].transforms
+    assert transform.header.frame_id == "nao/odom"
+    assert transform.child_frame_id == "nao/base_link"
+    assert list(found[JointState].position) == [0.1, 0.2]
+    assert list(found[JointState].name) == ["LKneePitch", "RKneePitch"]
+    clock = found[Clock].clock.seconds
+    assert clock % (EVERY * TICK) == pytest.approx(0.0, abs=1e-9)
+    readers.clear()
+    dds.close()
+
+
+def test_a_commander_that_falls_silent_leaves_a_robot_at_rest(
+    scene: Scene, body: Ros2Body
+) -> None:
+    met(scene, body, Velocity(0.05, 0.1))
+    moving = [scene.round() for _ in range(60)]
+    assert moving[5] == Velocity(0.05, 0.1) and moving[-1] == REST
+
+
+def test_who_leaves_asks_for_rest_first(scene: Scene) -> None:
+    body = Ros2Body(Dds(0, tag=TAG), "/nao")
+    met(scene, body, Velocity(0.05, 0.1))
+    body.close()
+    until(lambda: scene.round() == REST)
+    until(lambda: scene.round() == REST and not scene.server.connected)
+
+
+@pytest.mark.parametrize("bad", [nan, float("inf")])
+def test_a_velocity_that_is_no_number_is_rest(
+    scene: Scene, body: Ros2Body, bad: float
+) -> None:
+    met(scene, body, Velocity(0.05, 0.1))
+    body.command(Velocity(bad, 0.0))
+    until(lambda: scene.round() == REST)
+    assert scene.server.refused > 0
+
+
+def test_a_second_commander_is_refused_and_the_first_stops_for_it(
+    scene: Scene, body: Ros2Body
+) -> None:
+    met(scene, body, Velocity(0.05, 0.1))
+    dds = Dds(0, tag=TAG)
+    second = dds.writer(dds_topic("/nao", "cmd_vel"), Twist)
+
+    def refused() -> bool:
+        second.write(Twist(Vector3(-9.0), Vector3()))
+        body.command(Velocity(0.05, 0.1))
+        assert scene.round().forward in (0.05, 0.0)
+        return scene.server.refused > 0
+
+    until(refused)
+
+    def hindrance() -> str:
+        scene.round()
+        report = body.listen(0.002)
+        return report.hindrance if report else ""
+
+    assert until(hindrance) == "1 others command this robot"
+    dds.close()
+
+
+def test_in_lock_step_each_report_waits_for_its_answer() -> None:
+    scene = Scene(lock_step=True)
+    body = Ros2Body(Dds(0, tag=TAG), "/nao")
+    met(scene, body, Velocity(0.01, 0.0))
+    scene.server.press(False)
+    scene.server.speak()
+    assert not scene.server.hear()
+    body.command(Velocity(0.02, 0.0))
+    until(scene.server.hear)
+    assert scene.server.act() == Velocity(0.02, 0.0)
+    for _ in range(EVERY - 1):
+        scene.server.speak()
+        assert scene.server.hear()
+    body.close()
+    scene.close()
+
+
+def test_in_place_of_control_rest_is_written_for_a_while() -> None:
+    dds = Dds(0, tag=TAG)
+    reader = dds.reader(dds_topic("/nao", "cmd_vel"), Twist)
+    guardian = Thread(target=rest, args=(Dds(0, tag=TAG), "/nao", 1.0))
+    guardian.start()
+    told = until(lambda: taken(reader))[0]
+    assert (told.linear.x, told.angular.z) == (0.0, 0.0)
+    guardian.join()
+    assert len(taken(reader)) > 1
+    dds.close()
+
+
+COMMANDER = f"""
+import sys
+from time import sleep
+from stepaside.drivers.ros2.address import parse_namespace  # noqa: E402
+from stepaside.drivers.ros2.body import Ros2Body
+from stepaside.drivers.ros2.domain import Dds
+from stepaside.drivers.velocity.body import Velocity
+body = Ros2Body(Dds(0, tag={TAG!r}), "/nao")
+while True:
+    body.command(Velocity(0.03, -0.1))
+    sleep(0.01)
+"""
+
+
+def test_a_commander_that_is_killed_leaves_a_robot_at_rest(
+    scene: Scene,
+) -> None:
+    """From another process, which has no time to say anything."""
+    process = subprocess.Popen([sys.executable, "-c", COMMANDER])
+    try:
+        until(lambda: scene.round() == Velocity(0.03, -0.1))
+        process.kill()
+        process.wait(20.0)
+        for _ in range(60):
+            last = scene.round()
+        assert last == REST
+    finally:
+        process.kill()
+        process.wait(20.0)
+
+
+@pytest.mark.parametrize("heading", [-pi + 1e-6, -1.0, 0.0, 2.0])
+def test_poses_survive_their_messages(heading: float) -> None:
+    pose = Pose(1.0, -2.0, heading)
+    back = pose_of(pose_message(pose))
+    assert back == pytest.approx(pose)
+    turned = about_the_vertical(heading)
+    assert turned.z == pytest.approx(sin(heading / 2.0))
+    assert turned.w == pytest.approx(cos(heading / 2.0))
+
+
+@pytest.mark.parametrize(
+    ("text", "namespace"),
+    [("ros2:/nao", "/nao"), ("nao", "/nao"), ("ros2:", ""), ("/a/b/", "/a/b")],
+)
+def test_namespaces_are_read(text: str, namespace: str) -> None:
+    assert parse_namespace(text) == namespace
+
+
+@pytest.mark.parametrize("text", ["ros2:/na o", "/3", "//a", "/a//b", "ä"])
+def test_what_no_topic_could_be_called_is_refused(text: str) -> None:
+    with pytest.raises(ConfigurationError, match="namespace must be"):
+        parse_namespace(text)
+
+
+def test_a_domain_that_has_no_ports_is_refused(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    with pytest.raises(ConfigurationError, match=r"in \[0, 232\], got 233"):
+        Dds(233)
+    monkeypatch.setenv("ROS_DOMAIN_ID", "seven")
+    with pytest.raises(ConfigurationError, match="ROS_DOMAIN_ID.*'seven'"):
+        Dds()

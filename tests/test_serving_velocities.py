@@ -1,0 +1,158 @@
+"""Test duels of robots that walk by themselves, driven over wires."""
+
+import os
+from collections.abc import Callable
+from dataclasses import replace
+from threading import Thread
+
+import pytest
+
+from stepaside.control.balance.settings import STABILISED
+from stepaside.drivers.session import SessionLost
+from stepaside.drivers.velocity.body import (
+    REST,
+    Report,
+    Velocity,
+    VelocityBody,
+)
+from stepaside.drivers.velocity.limits import VelocityLimits
+from stepaside.drivers.velocity.mind import TemplateMind
+from stepaside.drivers.velocity.playing import Driving, VelocityPlaying
+from stepaside.drivers.velocity.watchdog import WatchSettings
+from stepaside.games.driven import DrivenWalker
+from stepaside.games.duel import Duel
+from stepaside.games.match import Match, play
+from stepaside.games.offers import Offer
+from stepaside.games.serving import serve_duel
+from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.walker import Walker
+from stepaside.planning import GaitSettings
+from stepaside.strategies import Evasion, Pursuit, Strategy
+from stepaside.world.body_settings import BODIES
+
+SETTINGS = DuelSettings(
+    seed=7,
+    duration=3.0,
+    start=StartSettings(0.75, 0.2, 0.1),
+    body=replace(BODIES["delayed"], cycle=0.012),
+    control=STABILISED,
+)
+TAG = f"stepaside-duel-{os.getpid()}"
+ROLES: dict[str, Strategy] = {"pursuer": Pursuit(), "evader": Evasion()}
+
+
+def playing_of(body: VelocityBody, strategy: Strategy) -> VelocityPlaying:
+    return VelocityPlaying(
+        body,
+        lambda: TemplateMind(strategy, GaitSettings()),
+        VelocityLimits(),
+        WatchSettings(paced=False, forsaken=1.0),
+    )
+
+
+class NoWire:
+    """Player and robot in one process: every fourth tick a report."""
+
+    def __init__(self, robot: DrivenWalker, strategy: Strategy) -> None:
+        self._robot, self._ticks, self._velocity = robot, 0, REST
+        self._playing = playing_of(self, strategy)
+        for _ in range(3):  # what a gathering world tells again and again
+            self._playing.tick()
+
+    def listen(self, patience: float) -> Report | None:
+        """What the robot says."""
+        state = self._robot.state()
+        return Report(state.time, state.pose, state.sighting)
+
+    def command(self, velocity: Velocity) -> None:
+        """Take what is asked for."""
+        self._velocity = velocity
+
+    def act(self) -> Velocity:
+        """What the robot is to do at this tick."""
+        if self._ticks % 4 == 0:
+            self._playing.tick()
+        self._ticks += 1
+        return self._velocity
+
+    def close(self) -> None:
+        """Nothing to let go of."""
+
+
+@pytest.fixture(scope="module")
+def distance_without_a_wire() -> float:
+    """Distance in the end of a duel in one process, in [m]."""
+    duel = Duel(SETTINGS, recorded=False)
+    players = []
+    for player in duel.players:
+        assert isinstance(player, Walker)
+        robot = DrivenWalker(player)
+        robot.commander = NoWire(robot, ROLES[player.name])
+        players.append(robot)
+    match = Match(duel.world, players)
+    play(match, SETTINGS.duration)
+    assert match.min_distance is not None
+    return match.min_distance
+
+
+def client(
+    open_body: Callable[[], VelocityBody],
+    strategy: Strategy,
+    states: list[Driving],
+) -> None:
+    """One player, until its robot says nothing any more."""
+    body = open_body()
+    playing = playing_of(body, strategy)
+    try:
+        while True:
+            states.append(playing.tick().state)
+    except SessionLost:
+        pass
+    body.close()
+
+
+def served(
+    offers: dict[str, Offer],
+    bodies: dict[str, Callable[[], VelocityBody]],
+) -> tuple[float, list[Driving]]:
+    """Least distance of a served duel, and what its players did."""
+    states: list[Driving] = []
+    threads = [
+        Thread(target=client, args=(bodies[name], ROLES[name], states))
+        for name in bodies
+    ]
+    for thread in threads:
+        thread.start()
+    try:
+        found = serve_duel(SETTINGS, offers, lock_step=True)
+    finally:
+        for thread in threads:
+            thread.join(60.0)
+    assert not any(thread.is_alive() for thread in threads)
+    assert found.run.outcome.value == "completed"
+    return found.run.summary.min_distance_m, states
+
+
+def test_over_ros2_in_lock_step_the_duel_is_the_one_without_a_wire(
+    distance_without_a_wire: float,
+) -> None:
+    """Topics carry doubles: nothing is lost on the way."""
+    pytest.importorskip("cyclonedds")
+    from stepaside.drivers.ros2.body import Ros2Body
+    from stepaside.drivers.ros2.domain import Dds
+    from stepaside.drivers.ros2.server import WorldClock
+    from stepaside.games.ros2_offer import Ros2Offer
+
+    dds = Dds(0, tag=TAG)
+    clock = WorldClock(dds)
+    offers: dict[str, Offer] = {
+        name: Ros2Offer(dds, clock, f"/{name}") for name in ROLES
+    }
+
+    def opener(name: str) -> Callable[[], VelocityBody]:
+        return lambda: Ros2Body(Dds(0, tag=TAG), f"/{name}")
+
+    least, states = served(offers, {name: opener(name) for name in ROLES})
+    assert least == pytest.approx(distance_without_a_wire, abs=1e-6)
+    assert Driving.WALKING in states
+    dds.close()

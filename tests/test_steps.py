@@ -1,0 +1,191 @@
+"""Test the game in steps: one step, clearance, values, and the search."""
+
+from itertools import product
+from math import atan2, cos, hypot, inf, pi, sin
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.bound import Bound, Grid, against_pursuit
+from stepaside.planning import Direction
+from stepaside.planning.path import UnicycleTrajectory
+from stepaside.poses import Pose
+from stepaside.rooms import RoomRecipe, make_room
+from stepaside.steps import (
+    NO_VALUE,
+    NOTHING,
+    Aims,
+    Both,
+    Maneuvers,
+    StepRules,
+    pack,
+)
+from stepaside.steps.motion import half_turn, step_both
+from stepaside.steps.packed import clearance_at
+from stepaside.steps.search import judge, law_turn, look_ahead
+from stepaside.steps.value import value_at
+from stepaside.strategies.tables import value_table
+
+RULES = StepRules(0.04, 0.08, 0.04, 0.08)
+ROOM = make_room(RoomRecipe(discs=3, boxes=2, polygons=2, doors=1), 4)
+
+
+def place(evader: Pose, pursuer: Pose) -> Both:
+    e, p = evader, pursuer
+    heading = cos(e.theta), sin(e.theta), p.x, p.y, cos(p.theta), sin(p.theta)
+    return Both(e.x, e.y, *heading)
+
+
+@pytest.mark.parametrize("turn", [0.0, 1e-9, 0.251, -0.251, 0.8])
+def test_half_a_turn_is_that_of_sine_and_cosine(turn: float) -> None:
+    half = 0.5 * turn
+    expected = cos(half), sin(half), float(np.sinc(half / pi))
+    assert half_turn(half) == pytest.approx(expected, abs=1e-7)
+
+
+@pytest.mark.parametrize(("bearing", "aim"), [(0.4, 0.7), (-2.0, -3.0)])
+def test_a_step_is_the_arc_of_both_unicycles(
+    bearing: float, aim: float
+) -> None:
+    """Eqs. (8)-(11) for the time of a stride, 0.4 s."""
+    pursuer, sight = Pose(0.3, -0.2, 0.5), 0.5 + aim
+    evader = Pose(0.3 + cos(sight), -0.2 + sin(sight), sight + pi - bearing)
+    turn = 0.08 * (bearing + 0.3)
+    found = step_both(place(evader, pursuer), *half_turn(0.5 * turn), RULES)
+    for pose, heading, direction, got in (
+        (evader, bearing + 0.3, Direction.BACKWARD, found[:4]),
+        (pursuer, aim, Direction.FORWARD, found[4:]),
+    ):
+        path = UnicycleTrajectory(heading, 0.1, 0.2, direction)
+        after = pose.compose(Pose(*path.poses([0.4])[0].tolist()))
+        c, s = cos(after.theta), sin(after.theta)
+        np.testing.assert_allclose(got, (after.x, after.y, c, s), atol=1e-9)
+
+
+def test_moving_aside_in_steps_ends_on_the_circle_of_the_theory() -> None:
+    both = place(Pose(1.0, 0.0, 3.3), Pose(0.0, 0.0, 0.2))
+    for _ in range(600):
+        turn = law_turn(both, 1.0, pi / 2, 0.08)
+        both = step_both(both, *half_turn(0.5 * turn), RULES)
+    apart = hypot(both.ex - both.px, both.ey - both.py)
+    assert apart == pytest.approx(2 * 0.1 * 2**0.5 / (0.2 * pi / 2), rel=1e-4)
+
+
+def test_packed_clearance_is_that_of_the_room() -> None:
+    points = np.random.default_rng(1).uniform(-1.7, 1.7, (400, 2))
+    packed = pack(ROOM.solids)
+    found = [clearance_at(packed, x, y, inf) for x, y in points.tolist()]
+    np.testing.assert_allclose(found, ROOM.clearance(points), atol=1e-12)
+    near = [clearance_at(packed, x, y, 0.3) for x, y in points.tolist()]
+    np.testing.assert_allclose(near, np.minimum(found, 0.3), atol=1e-12)
+    assert clearance_at(NOTHING, 0.0, 0.0, 0.3) == 0.3
+
+
+@pytest.fixture(scope="module")
+def bound() -> Bound:
+    """A table of anything; nothing is solved."""
+    grid = Grid.cube(0.3, 3.0, 16)
+    values = np.random.default_rng(2).uniform(0.1, 0.3, grid.shape)
+    game = against_pursuit(1.0, 1.0, 1.0)
+    return Bound(
+        game, grid, values.astype(np.float32), 6.0, "weno", 0.0, 0.0, 0.0
+    )
+
+
+def test_the_value_in_loops_is_that_of_the_table(bound: Bound) -> None:
+    table = value_table(bound, 0.5)
+    for r, a, psi in np.random.default_rng(3).uniform(
+        [0.0, -pi, -pi], [2.5, pi, pi], (200, 3)
+    ):
+        pursuer = Pose(0.4, 0.1, 0.7)
+        sight = 0.7 + a
+        evader = Pose(
+            0.4 + r * cos(sight), 0.1 + r * sin(sight), sight + pi - psi
+        )
+        expected = 0.5 * float(bound.value(r / 0.5, a, psi))
+        found = value_at(table, place(evader, pursuer))
+        assert found == pytest.approx(min(r, expected), abs=1e-6)
+
+
+def brute(
+    both: Both, maneuvers: Maneuvers, aims: Aims, packed: Any, table: Any
+) -> float:
+    """Best score of all sequences and of the law, without leaving any out."""
+    best = -inf
+    pieces = maneuvers.pieces.tolist()
+    sequences = [
+        [u for u, n in zip(each, pieces, strict=True) for _ in range(n)]
+        for each in product(maneuvers.turns.tolist(), repeat=len(pieces))
+    ]
+    for turns in [[], *sequences]:
+        here, score, side = both, aims.enough, 0.0
+        for n in range(maneuvers.horizon):
+            if n < len(turns):
+                u = turns[n]
+            else:
+                dx, dy = here.px - here.ex, here.py - here.ey
+                left = here.ec * dy - here.es * dx
+                side = side or (-1.0 if left > 0.0 else 1.0)
+                u = law_turn(here, side, maneuvers.angle, RULES.evader_share)
+            here = step_both(here, *half_turn(0.5 * u), RULES)
+            score = judge(here, score, aims, packed)
+        if table.values.size:
+            score = min(score, value_at(table, here))
+        best = max(best, score)
+    return best
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("valued", [False, True])
+def test_the_search_leaves_nothing_out(
+    seed: int, valued: bool, bound: Bound
+) -> None:
+    """Its score is the best of all, and the turns it gives have it."""
+    random = np.random.default_rng(seed)
+    evader = Pose(*random.uniform([-1, -1, -pi], [1, 1, pi]).tolist())
+    pursuer = Pose(*random.uniform([-1, -1, -pi], [1, 1, pi]).tolist())
+    both = place(evader, pursuer)
+    maneuvers = Maneuvers(
+        np.array([2, 3, 6]), np.array([0.0, -0.1, 0.1, -0.25, 0.25]), 20
+    )
+    aims = Aims(0.7, 0.25, 5.0, 2.0, gain=0.0)
+    packed = NOTHING if valued else pack(ROOM.solids)
+    table = value_table(bound, 0.5) if valued else NO_VALUE
+    found = look_ahead(both, (), maneuvers, RULES, aims, packed, table)
+    expected = brute(both, maneuvers, aims, packed, table)
+    assert found.score == pytest.approx(expected, abs=1e-7)
+    score, here = aims.enough, both
+    for turn in found.turns:
+        here = step_both(here, *half_turn(0.5 * turn), RULES)
+        score = judge(here, score, aims, packed)
+    if valued:
+        score = min(score, value_at(table, here))
+    assert score == pytest.approx(expected, abs=1e-7)
+
+
+def test_on_equal_terms_the_plan_is_kept() -> None:
+    """Far from everything any maneuver is good enough."""
+    both = place(Pose(5.0, 0.0, 3.0), Pose(0.0, 0.0, 0.0))
+    plan = (0.05, -0.1, 0.07)
+    maneuvers = Maneuvers(np.array([3]), np.array([0.0, 0.1]), 5)
+    found = look_ahead(
+        both, plan, maneuvers, RULES, Aims(0.9), NOTHING, NO_VALUE
+    )
+    assert tuple(found.turns[:3]) == plan
+    assert found.steps == 5 + 5
+
+
+def test_what_is_too_near_and_out_of_sight_costs() -> None:
+    both = place(Pose(0.0, 0.0, 0.0), Pose(1.0, 1.0, 0.0))
+    packed = pack((make_room(RoomRecipe(discs=1), 1).obstacles[0],))
+    x, y, radius = packed.discs[0]
+    near = both._replace(
+        ex=x + radius + 0.15, ey=y, px=x + radius + 1.15, py=y
+    )
+    aims = Aims(0.9, 0.2, 3.0)
+    assert judge(near, 0.9, aims, packed) == pytest.approx(0.9 - 3.0 * 0.05)
+    behind = both._replace(px=cos(2.5), py=sin(2.5))
+    blind = judge(behind, 0.9, Aims(0.9, sight=2.0, blindness=0.2), NOTHING)
+    assert blind == pytest.approx(0.9 - 0.2 * 0.5)
+    assert atan2(behind.py, behind.px) == pytest.approx(2.5)

@@ -1,0 +1,199 @@
+"""The CoM of a plan makes room for what a swing leg does to the ZMP."""
+
+from dataclasses import replace
+from math import pi
+
+import numpy as np
+import pytest
+
+from stepaside.planning import (
+    PRESETS,
+    Direction,
+    Foot,
+    GaitSettings,
+    ManeuverPlan,
+    ManeuverPlanner,
+)
+from stepaside.planning.steady import landing_state, steady_plan
+from stepaside.planning.swing import SwingProfile
+from stepaside.poses import Pose
+
+FAST = PRESETS["fast"]
+TINY = 1e-4  # between samples of a derivative, in [s]
+
+
+def some_plan(gait: GaitSettings, *, standing: bool) -> ManeuverPlan:
+    """A turning plan, from standing or in the middle of a walk."""
+    planner = ManeuverPlanner(gait)
+    if standing:
+        return planner.plan(
+            0.7, Direction.BACKWARD, first_foot=Foot.LEFT, standing=True
+        )
+    return steady_plan(planner, 0.7, Direction.BACKWARD, first_foot=Foot.RIGHT)
+
+
+def inside_phases(plan: ManeuverPlan) -> np.ndarray:
+    """Instants away from those at which a phase ends, in [s]."""
+    starts = plan.schedule.starts
+    shares = np.array([0.1, 0.35, 0.6, 0.9])
+    times: np.ndarray = (
+        starts[:-1, None] + np.diff(starts)[:, None] * shares
+    ).ravel()
+    return times
+
+
+@pytest.mark.parametrize("profile", ["minimum-jerk", "even"])
+@pytest.mark.parametrize("standing", [False, True])
+def test_the_com_falls_away_from_the_pivot(
+    standing: bool, profile: SwingProfile
+) -> None:
+    gait = replace(FAST, swing_profile=profile)
+    plan = some_plan(gait, standing=standing)
+    times = inside_phases(plan)
+    before, now, after = (
+        plan.sample(times + shift) for shift in (-TINY, 0.0, TINY)
+    )
+    bent = (after.com_velocity - before.com_velocity) / (2.0 * TINY)
+    falls = gait.eta**2 * (now.com - now.pivot)
+    np.testing.assert_allclose(bent, falls, atol=1e-4)
+
+
+@pytest.mark.parametrize("profile", ["minimum-jerk", "even"])
+@pytest.mark.parametrize("standing", [False, True])
+def test_the_zmp_is_ahead_of_the_pivot_by_the_feet_s_acceleration(
+    standing: bool, profile: SwingProfile
+) -> None:
+    """Turning feet: what swings is the point of the foot at its anchor."""
+    gait = replace(FAST, swing_profile=profile)
+    plan = some_plan(gait, standing=standing)
+    times = inside_phases(plan)
+    h = 1e-3
+
+    def anchors(shift: float) -> np.ndarray:
+        found = plan.sample(times + shift)
+        feet: np.ndarray = found.left_foot[:, :2] + found.right_foot[:, :2]
+        return feet
+
+    moved = anchors(h) - 2.0 * anchors(0.0) + anchors(-h)
+    found = plan.sample(times)
+    shift = (found.zmp - found.pivot) / gait.swing_reaction
+    # The anchor is 20 mm ahead of the ankle, and turns with it.
+    turned = gait.zmp_forward * 0.3 * 6.6 / gait.single_support**2
+    np.testing.assert_allclose(shift, moved / h**2, atol=turned)
+    assert np.abs(shift).max() > 9.0  # [m/s^2]: there is something to see
+
+
+def test_in_double_support_pivot_and_zmp_are_one() -> None:
+    plan = some_plan(FAST, standing=True)
+    starts = plan.schedule.starts
+    both = plan.sample((starts[:-1:2] + starts[1::2]) / 2.0)
+    np.testing.assert_allclose(both.pivot, both.zmp, atol=1e-12)
+
+
+def test_a_leg_without_mass_changes_nothing() -> None:
+    light = replace(FAST, swing_reaction=0.0)
+    plan = some_plan(light, standing=False)
+    found = plan.sample([0.1, 0.2])
+    assert found.pivot is found.zmp
+    least = some_plan(replace(FAST, swing_reaction=1e-12), standing=False)
+    for name, value in found._asdict().items():
+        np.testing.assert_allclose(
+            getattr(least.sample([0.1, 0.2]), name), value, atol=1e-8
+        )
+
+
+def test_the_zmp_stays_in_the_feet_whatever_the_leg_does() -> None:
+    """Only the CoM gives way: the ZMP is planned as ever."""
+    heavy, light = (
+        some_plan(replace(FAST, swing_reaction=c), standing=False)
+        for c in (0.0037, 0.0)
+    )
+    times = inside_phases(heavy)[4:]  # beyond the correction
+    np.testing.assert_allclose(
+        heavy.sample(times).zmp, light.sample(times).zmp, atol=1e-12
+    )
+    # Forth and back over a whole step the leg takes as much as it gives.
+    apart = heavy.sample(times).com - light.sample(times).com
+    assert 1e-3 < np.abs(apart).max() < 0.01
+
+
+@pytest.mark.parametrize("bearings", [(0.7, 0.7), (0.9, -1.4)])
+def test_com_and_velocity_are_continuous_from_plan_to_plan(
+    bearings: tuple[float, float],
+) -> None:
+    planner = ManeuverPlanner(FAST)
+    first = planner.plan(
+        bearings[0], Direction.BACKWARD, first_foot=Foot.LEFT, standing=True
+    )
+    state = landing_state(first)
+    x, y, theta = first.placements[2].tolist()
+    c, s = np.cos(theta), np.sin(theta)
+    left = Pose(-c * x - s * y, s * x - c * y, -theta)  # where the foot stood
+    then = planner.plan(
+        bearings[1],
+        Direction.BACKWARD,
+        first_foot=Foot.RIGHT,
+        state=state,
+        swing_start=left,
+    )
+    found = then.sample([0.0])
+    np.testing.assert_allclose(found.com[0], state.position, atol=1e-12)
+    np.testing.assert_allclose(
+        found.com_velocity[0], state.velocity, atol=1e-12
+    )
+
+
+@pytest.mark.parametrize("direction", Direction)
+@pytest.mark.parametrize("bearing", [0.0, pi / 4, -pi / 2])
+def test_the_fast_gait_lands_soon_with_its_zmp_well_inside(
+    bearing: float, direction: Direction
+) -> None:
+    plan = ManeuverPlanner(FAST).plan(
+        bearing, direction, first_foot=Foot.LEFT, standing=True
+    )
+    landing = plan.schedule.first_step_duration - FAST.double_support
+    assert landing <= 0.45
+    assert plan.margin() > 0.03
+
+
+@pytest.mark.parametrize("saturated", [False, True])
+@pytest.mark.parametrize("bearing", [0.0, 0.6, pi / 2, -pi, 1e-9])
+def test_no_foot_goes_farther_than_the_outer_stride(
+    bearing: float, saturated: bool
+) -> None:
+    plan = ManeuverPlanner(FAST).plan(
+        bearing,
+        Direction.FORWARD,
+        first_foot=Foot.LEFT,
+        standing=True,
+        saturated=saturated,
+    )
+    assert FAST.outer_stride is not None
+    # Between two landings of a foot: two steps, each along a chord.
+    ways = np.hypot(*np.diff(plan.placements[1::2, :2], axis=0).T)
+    assert ways.max() <= 2.0 * FAST.outer_stride + 1e-12
+    turned = abs(plan.placements[2, 2])
+    if FAST.stride_share(turned) == 1.0:
+        assert turned <= 2.0 * (0.09 - 0.0832) / FAST.foot_spacing + 1e-9
+        assert ways[-1] > 1.8 * FAST.stride
+
+
+def test_a_turn_keeps_its_rate_when_its_stride_is_shortened() -> None:
+    free = replace(FAST, outer_stride=None)
+    plans = [
+        ManeuverPlanner(gait).plan(
+            2.0, Direction.BACKWARD, first_foot=Foot.LEFT, standing=True
+        )
+        for gait in (FAST, free)
+    ]
+    short, long = plans
+    np.testing.assert_allclose(
+        short.placements[:, 2], long.placements[:, 2], atol=1e-12
+    )
+    assert FAST.stride_share(0.3) < 1.0 == free.stride_share(0.3)
+
+
+def test_path_and_gait_of_the_fast_one_have_one_clock() -> None:
+    assert FAST.path_interval == pytest.approx(FAST.step_duration)
+    paper = PRESETS["nao"]
+    assert FAST.speed / FAST.gain == pytest.approx(paper.speed / paper.gain)

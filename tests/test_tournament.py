@@ -1,0 +1,226 @@
+"""Test tournaments: games, records, rows, figures and the command."""
+
+import json
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from math import cos, pi, sin
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+
+from stepaside.cli import main
+from stepaside.errors import ConfigurationError
+from stepaside.poses import Pose
+from stepaside.rooms import Room, RoomRecipe
+from stepaside.strategies import StepGame, tables
+from stepaside.studies import tournament as studied
+from stepaside.studies.floor_used import floor_used
+from stepaside.studies.records import RecordFile
+from stepaside.studies.tournament import (
+    TournamentSettings,
+    play_record,
+    play_tournament,
+    play_track,
+)
+from stepaside.studies.tournament_rows import tournament_rows
+
+SHORT = StepGame(duration=16.0)
+SETTINGS = TournamentSettings(room=RoomRecipe(discs=1), game=SHORT)
+PAIRINGS = [("aside", "pure"), ("look-ahead", "pure")]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def coarse_table(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """The bound is solved on few cells, and kept where nobody else looks."""
+    patch = pytest.MonkeyPatch()
+    patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+    patch.setattr(studied, "CELLS", 16)
+    tables.pursuit_bound.cache_clear()
+    yield
+    patch.undo()
+    tables.pursuit_bound.cache_clear()
+
+
+def test_floor_used_has_three_closed_forms() -> None:
+    """A point, a line and a circle, each grown by the body."""
+    assert floor_used(np.zeros((5, 2)), 0.2) == pytest.approx(0.04 * pi)
+    line = np.linspace([0.0, 0.0], [3.0, 4.0], 9)
+    assert floor_used(line, 0.2) == pytest.approx(2.0 + 0.04 * pi)
+    turns = np.linspace(0.0, 2 * pi, 2000)
+    ring = np.stack([0.637 * np.cos(turns), 0.637 * np.sin(turns)], axis=-1)
+    assert floor_used(ring, 0.2) == pytest.approx(
+        pi * (0.637 + 0.2) ** 2, rel=1e-5
+    )
+
+
+def test_a_record_is_what_the_game_was() -> None:
+    record = play_record(SETTINGS, PAIRINGS[1], 3)
+    room, track = play_track(SETTINGS, PAIRINGS[1], 3)
+    assert record["outcome"] == str(track.outcome) == "survived"
+    assert record["closest_m"] == track.distances.min()
+    assert record["survived_s"] == pytest.approx(16.0)
+    assert record["clearance_m"] == pytest.approx(
+        room.clearance(track.evader[:, :2]).min()
+    )
+    steps = record["walked_m"] / 0.04
+    assert 39.5 < steps <= 40.0 + 1e-9  # arcs are longer than their chords
+
+
+def test_the_bound_is_that_of_the_start() -> None:
+    """Facing each other the evader backs off for ever: it keeps it all."""
+    x, y = 1.1 * cos(0.3), 1.1 * sin(0.3)
+    found = studied.bound_of(
+        np.array([0.0, 0.0, 0.3]), np.array([x, y, 0.3 + pi]), SHORT
+    )
+    assert found == pytest.approx(1.1, abs=0.02)
+    away = studied.bound_of(
+        np.array([0.0, 0.0, 0.3]), np.array([x, y, 0.3]), SHORT
+    )
+    assert away < 0.8  # it walks into the pursuer first
+
+
+def test_what_is_kept_is_not_played_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = RecordFile(tmp_path / "games.jsonl")
+    numbers: list[int] = []
+    first = play_tournament(SETTINGS, PAIRINGS, range(2), file)
+    with ThreadPoolExecutor(2) as executor:
+        again = play_tournament(
+            SETTINGS, PAIRINGS, range(3), file, executor, numbers.append
+        )
+    assert numbers[0] == 4 and numbers[-1] == 6 == len(again)
+    assert {key: again[key] for key in first} == first
+    assert list(again) == sorted(again, key=lambda k: k.split("/")[1:3])
+    other = replace(SETTINGS, angle=0.5)
+    assert not set(play_tournament(other, PAIRINGS[:1], [0])) & set(again)
+    monkeypatch.setattr(studied, "_stamp", lambda: {"version": "another"})
+    anew: list[int] = []
+    play_tournament(SETTINGS, PAIRINGS[:1], [0], file, None, anew.append)
+    assert anew == [0, 1]
+
+
+def record(**changes: Any) -> dict[str, Any]:
+    return {
+        "evader": "aside", "pursuer": "pure", "seed": 0,
+        "outcome": "survived", "survived_s": 180.0, "closest_m": 0.8,
+        "bound_m": 1.0, "floor_m2": 2.0, "turning_rad_s": 0.1, "unseen": 0.0,
+        "decision_s": 1e-3, "longest_decision_s": 2e-3,
+    } | changes  # fmt: skip
+
+
+def test_rows_count_and_find_the_worst_game() -> None:
+    records = [
+        record(),
+        record(seed=1, closest_m=0.6),
+        record(seed=2, outcome="caught", survived_s=9.0, closest_m=0.34),
+        record(seed=3, outcome="touched", survived_s=5.0, closest_m=0.9),
+        record(evader="look-ahead", seed=9),
+    ]
+    row, other = tournament_rows(records)
+    assert (row["survived"], row["caught"], row["touched_obstacle"]) == (
+        *(0.5, 0.25, 0.25),
+    )
+    assert row["worst_seeds"] == [3, 2, 1, 0]
+    assert row["mean_closest_m"] == pytest.approx(0.66)
+    assert row["closest_over_bound"] == pytest.approx(0.66)
+    assert row["survived_low"] < 0.5 < row["survived_high"]
+    assert row["decision_ms"] == pytest.approx(1.0)
+    assert (other["evader"], other["games"]) == ("look-ahead", 1)
+
+
+def test_unicycles_decide_more_often_than_steps() -> None:
+    """Under feedback the circle is that of the continuous game as well."""
+    floor = replace(
+        SETTINGS, room=RoomRecipe(None, None), game=StepGame(duration=120.0)
+    )
+    _, steps = play_track(floor, PAIRINGS[0], 2)
+    _, many = play_track(replace(floor, level="unicycles"), PAIRINGS[0], 2)
+    assert len(many.distances) - 1 == 8 * (len(steps.distances) - 1)
+    for track in (steps, many):
+        assert track.distances[-1] == pytest.approx(0.9003, rel=5e-3)
+
+
+def call(*words: str) -> Result:
+    return CliRunner().invoke(main, ["tournament", *words])
+
+
+def test_the_command_plays_draws_and_goes_on(tmp_path: Path) -> None:
+    folder, figure = tmp_path / "games", tmp_path / "front.svg"
+    words = (
+        *("--evader", "aside", "--evader", "look-ahead", "--discs", "1"),
+        *("--duration", "8", "--output", str(folder), "--workers", "1"),
+        *("--overwrite", "--figure", str(figure)),
+    )
+    one = call(*words, "--seeds", "0:2", "--json")
+    assert one.exit_code == 0, one.output
+    rows = json.loads(one.output)["rows"]
+    assert [row["evader"] for row in rows] == ["aside", "look-ahead"]
+    assert all(row["games"] == 2 for row in rows)
+    kept = (folder / "games.jsonl").read_text("utf-8").splitlines()
+    paths = tmp_path / "worst.png"
+    two = call(*words, "--seeds", "0:3", "--paths", str(paths))
+    assert two.exit_code == 0 and "look-ahead" in two.output
+    lines = (folder / "games.jsonl").read_text("utf-8").splitlines()
+    assert lines[: len(kept)] == kept and len(lines) == 6
+    assert figure.stat().st_size > 0 and paths.stat().st_size > 0
+    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    assert summary["rows"][0]["games"] == 3
+
+
+def test_a_room_from_a_file_is_played(tmp_path: Path) -> None:
+    file = tmp_path / "room.toml"
+    file.write_text(
+        "width=4.0\ndepth=4.0\npursuer={x=0,y=0}\nevader={x=1,y=0,theta=3}\n",
+        encoding="utf-8",
+    )
+    words = ("--room", str(file), "--evader", "aside", "--seeds", "5")
+    answer = call(*words, "--duration", "8", "--json")
+    room = json.loads(answer.output)["settings"]["room"]
+    assert room["width"] == 4.0 and room["evader"]["theta"] == 3.0
+
+
+def test_a_room_without_starts_draws_them() -> None:
+    settings = replace(SETTINGS, room=Room(3.0, 3.0))
+    (_, one), (_, other) = settings.arena(1), settings.arena(2)
+    assert isinstance(one[0], Pose) and one != other
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("--evader", "nobody"),
+        ("--pursuer", "nobody"),
+        ("--evader", "none.py:Mind"),
+        ("--room", "2"),
+        ("--room", "none.toml"),
+        ("--room", "0.7x0.7"),
+        ("--level", "physic"),
+        ("--seeds", "3:1"),
+        ("--duration", "nan"),
+        ("--alpha", "200deg"),
+        ("--discs", "500"),
+    ],
+)
+def test_what_is_no_tournament_is_refused_in_one_line(
+    words: tuple[str, ...], tmp_path: Path
+) -> None:
+    answer = call(*words, "--output", str(tmp_path / "games"))
+    assert answer.exit_code == 2
+    assert len(answer.output.splitlines()) == 1
+    assert not (tmp_path / "games").exists()
+
+
+def test_a_file_of_a_room_holds_all_that_stands_in_it(tmp_path: Path) -> None:
+    file = tmp_path / "room.toml"
+    file.write_text("width=4.0\ndepth=4.0\n", encoding="utf-8")
+    answer = call("--room", str(file), "--discs", "1", "--seeds", "1")
+    assert answer.exit_code == 2 and "must not be asked for" in answer.output
+
+
+def test_no_other_level_is_taken() -> None:
+    with pytest.raises(ConfigurationError, match="level must be one of"):
+        TournamentSettings(level="walls")

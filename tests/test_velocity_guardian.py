@@ -1,0 +1,89 @@
+"""Test that a robot rests when the process that drove it cannot say so."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from time import monotonic, sleep
+
+import pytest
+
+from stepaside.drivers.velocity.body import REST, Velocity
+from stepaside.drivers.velocity.guardian import GuardedBody, Guardian
+
+from velocity_fakes import FakeWalker  # isort: skip
+
+# Control whose robot rests by writing a file.
+CONTROL = """
+import sys, time
+from pathlib import Path
+from stepaside.drivers.velocity.guardian import Guardian
+guardian = Guardian(lambda: Path(sys.argv[1]).touch())
+moves = sys.argv[2] == "moves"
+for _ in range(10):
+    guardian.tell(moves)
+    time.sleep(0.01)
+print("told", flush=True)
+if sys.argv[3] == "leaves":
+    guardian.dismiss()
+    sys.exit()
+while sys.argv[3] != "freezes":
+    guardian.tell(moves)
+    time.sleep(0.01)
+time.sleep(60.0)
+"""
+
+
+def appears(file: Path, longest: float) -> bool:
+    end = monotonic() + longest
+    while not file.exists() and monotonic() < end:
+        sleep(0.01)
+    return file.exists()
+
+
+@pytest.mark.parametrize(
+    ("what", "fate", "rests"),
+    [
+        ("moves", "dies", True),
+        ("moves", "freezes", True),
+        ("rests", "dies", False),
+        ("moves", "leaves", False),
+    ],
+)
+def test_a_robot_that_moves_is_stopped_when_control_is_gone(
+    what: str, fate: str, rests: bool, tmp_path: Path
+) -> None:
+    word = tmp_path / "rest"
+    process = subprocess.Popen(
+        [sys.executable, "-c", CONTROL, str(word), what, fate],
+        stdout=subprocess.PIPE,
+    )
+    assert process.stdout is not None
+    try:
+        process.stdout.readline()
+        if fate == "dies":
+            process.kill()
+        assert appears(word, 20.0 if rests else 0.8) == rests
+        if fate != "leaves":
+            process.wait(20.0) if rests or fate == "dies" else None
+    finally:
+        process.kill()
+        process.wait(20.0)
+        process.stdout.close()
+    if fate == "freezes":
+        assert process.returncode == -signal.SIGKILL
+
+
+def test_a_guarded_robot_is_asked_as_any_other(tmp_path: Path) -> None:
+    robot = FakeWalker([])
+    guardian = Guardian(lambda: (tmp_path / "rest").touch())
+    body = GuardedBody(robot, guardian)
+    body.command(Velocity(0.1, 0.2))
+    assert body.listen(0.0) is None
+    body.command(REST)
+    body.close()
+    assert robot.asked == [Velocity(0.1, 0.2), REST]
+    assert not (tmp_path / "rest").exists()
+    with pytest.raises(ChildProcessError):
+        os.waitpid(guardian._pid, os.WNOHANG)

@@ -1,0 +1,59 @@
+"""Test what a robot accepts: limits that keep the path, and the ramp."""
+
+from math import inf, nan
+
+import pytest
+
+from stepaside.drivers.velocity.body import REST, Velocity
+from stepaside.drivers.velocity.limits import Ramp, VelocityLimits
+from stepaside.errors import ConfigurationError
+
+TIGHT = VelocityLimits(0.2, 0.1, 0.5, 0.4, 2.0)
+
+
+@pytest.mark.parametrize("forward", [0.3, -0.3, 0.15, -0.05])
+@pytest.mark.parametrize("turn", [0.0, 0.9, -0.2])
+def test_what_is_cut_stays_on_its_path_and_within_the_limits(
+    forward: float, turn: float
+) -> None:
+    within = TIGHT.within(Velocity(forward, turn))
+    assert within.forward * turn == pytest.approx(within.turn * forward)
+    assert -0.1 - 1e-12 <= within.forward <= 0.2 + 1e-12
+    assert abs(within.turn) <= 0.5 + 1e-12
+    assert within.forward * forward > 0.0
+    fits = -0.1 <= forward <= 0.2 and abs(turn) <= 0.5
+    assert (within == Velocity(forward, turn)) == fits
+
+
+def test_without_limits_nothing_is_cut() -> None:
+    wanted = Velocity(3.0, -7.0)
+    assert VelocityLimits().within(wanted) == wanted
+
+
+def test_the_ramp_climbs_at_its_accelerations_and_arrives() -> None:
+    ramp, wanted = Ramp(TIGHT), Velocity(0.2, -0.3)
+    speeds = [ramp.toward(wanted, 0.1) for _ in range(8)]
+    assert speeds[0] == pytest.approx((0.04, -0.2))
+    assert speeds[2] == pytest.approx((0.12, -0.3))
+    assert speeds[-1] == pytest.approx(wanted)
+    assert ramp.toward(REST, 0.1) == pytest.approx((0.16, -0.1))
+
+
+@pytest.mark.parametrize("bad", [nan, inf, -inf])
+def test_what_is_no_number_is_rest_at_once(bad: float) -> None:
+    ramp = Ramp(TIGHT)
+    ramp.toward(Velocity(0.2, 0.3), 1.0)
+    assert ramp.toward(Velocity(0.1, bad), 0.1) == REST
+    ramp.toward(Velocity(0.2, 0.3), 1.0)
+    assert ramp.toward(Velocity(bad, 0.1), 0.1) == REST
+
+
+@pytest.mark.parametrize(
+    "name", "forward backward turn acceleration turn_acceleration".split()
+)
+@pytest.mark.parametrize("value", [0.0, -1.0, nan])
+def test_a_limit_that_lets_nothing_through_is_refused(
+    name: str, value: float
+) -> None:
+    with pytest.raises(ConfigurationError, match=f"{name} must be finite"):
+        VelocityLimits(**{name: value})

@@ -1,0 +1,203 @@
+"""Test one player at a robot that walks by itself, which is made up."""
+
+import json
+from math import hypot, pi
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.drivers.log import PlayLog
+from stepaside.drivers.rows import read_rows
+from stepaside.drivers.session import SessionLost
+from stepaside.drivers.status_line import words_of
+from stepaside.drivers.velocity.body import REST, Report, Velocity
+from stepaside.drivers.velocity.limits import VelocityLimits
+from stepaside.drivers.velocity.mind import TemplateMind
+from stepaside.drivers.velocity.playing import (
+    Driving,
+    VelocityPlaying,
+    VelocityTick,
+)
+from stepaside.drivers.velocity.watchdog import WatchSettings
+from stepaside.planning import GaitSettings
+from stepaside.poses import Pose
+from stepaside.sensing.measurement import Sighting
+from stepaside.strategies import Evasion, Pursuit, Strategy
+
+from velocity_fakes import PERIOD, FakeWalker, report  # isort: skip
+
+GAIT = GaitSettings()
+REPORTS = [report(PERIOD * i) for i in range(40)]
+
+
+def playing_of(
+    robot: FakeWalker, strategy: Any = None, **changes: bool
+) -> VelocityPlaying:
+    return VelocityPlaying(
+        robot,
+        lambda: TemplateMind(strategy or Pursuit(), GAIT),
+        VelocityLimits(),
+        WatchSettings(),
+        clock=robot.clock,
+        **changes,
+    )
+
+
+def played(robot: FakeWalker, ticks: int) -> list[VelocityTick]:
+    playing = playing_of(robot)
+    return [playing.tick() for _ in range(ticks)]
+
+
+@pytest.mark.parametrize(
+    ("strategy", "wanted"),
+    [
+        (Pursuit(), Velocity(0.1, 0.2 * 0.4)),
+        (Pursuit(saturated=True), Velocity(0.1, 0.2)),
+        (Evasion(safety_radius=2.0), Velocity(-0.1, 0.2 * (0.4 - pi / 2))),
+        (Evasion(safety_radius=0.5), REST),
+    ],
+)
+def test_a_mind_wants_what_the_template_does(
+    strategy: Strategy, wanted: Velocity
+) -> None:
+    mind = TemplateMind(strategy, GAIT)
+    assert mind.decide(REPORTS[3]) == pytest.approx(wanted)
+    assert mind.moving == (wanted != REST)
+
+
+def test_a_mind_without_a_sighting_rests() -> None:
+    mind = TemplateMind(Pursuit(), GAIT)
+    mind.decide(REPORTS[0])
+    assert mind.decide(report(0.1, sighting=None)) == REST and not mind.moving
+
+
+def test_two_templates_end_on_the_circle_of_theory() -> None:
+    """Driven by what their reports say, without any robot between."""
+    poses = [Pose(0.0, 0.0, 0.3), Pose(1.0, 0.0, pi)]
+    minds = [TemplateMind(s, GAIT) for s in (Pursuit(), Evasion())]
+    for i in range(3000):
+        speeds = []
+        for own, other, mind in zip(poses, poses[::-1], minds, strict=True):
+            x, y, _ = own.inverse().compose(other)
+            seen = Sighting(0.05 * i, float(np.arctan2(y, x)), hypot(x, y))
+            speeds.append(mind.decide(Report(0.05 * i, own, seen)))
+        for k, (forward, turn) in enumerate(speeds):
+            half = Pose(0.0, 0.0, 0.025 * turn)
+            way = Pose(0.05 * forward, 0.0, 0.0)
+            poses[k] = poses[k].compose(half).compose(way).compose(half)
+    radii = [abs(forward / turn) for forward, turn in speeds]
+    assert radii == pytest.approx(2 * [0.1 / (0.2 * pi / 4)], rel=0.01)
+
+
+def test_the_robot_is_led_to_the_template_by_the_ramp() -> None:
+    robot = FakeWalker(REPORTS)
+    ticks = played(robot, 30)
+    assert [t.state for t in ticks[:2]] == 2 * [Driving.WAITING]
+    assert ticks[-1].state is Driving.WALKING
+    assert ticks[-1].velocity == pytest.approx((0.1, 0.08))
+    steps = np.abs(np.diff(np.array(robot.asked), axis=0))
+    assert steps.max(axis=0) == pytest.approx((0.025, 0.08), rel=0.3)
+
+
+@pytest.mark.parametrize(
+    "sick",
+    [
+        report(PERIOD * 20, sighting=None),
+        report(PERIOD * 20, sighting=Sighting(0.1, 0.0, 1.0)),
+        report(PERIOD * 20, pose=Pose(0.0, float("nan"), 0.0)),
+        report(PERIOD * 40),
+        report(0.0),
+        report(PERIOD * 20, hindrance="a second commander"),
+    ],
+    ids="nobody stale nan future past hindered".split(),
+)
+def test_whatever_is_amiss_asks_for_rest_at_once(sick: Report) -> None:
+    robot = FakeWalker([*REPORTS[:20], sick])
+    ticks = played(robot, 21)
+    assert ticks[-2].velocity.forward == pytest.approx(0.1)
+    assert robot.asked[-1] == REST
+    assert ticks[-1].state is Driving.WAITING and ticks[-1].reason
+
+
+def test_a_robot_that_falls_silent_is_asked_to_rest_and_goes_on_later() -> (
+    None
+):
+    later = [report(PERIOD * i) for i in range(28, 60)]
+    robot = FakeWalker([*REPORTS[:20], *8 * [None], *later])
+    ticks = played(robot, 60)
+    assert robot.asked[20] == robot.asked[19]  # borne for a while
+    assert robot.asked[27] == REST
+    assert ticks[27].reason.startswith("no odometry for")
+    assert ticks[-1].state is Driving.WALKING
+
+
+def test_a_robot_that_stays_silent_ends_the_session() -> None:
+    robot = FakeWalker(REPORTS[:20])
+    playing = playing_of(robot)
+    with pytest.raises(SessionLost, match="not been heard for 10 s"):
+        for _ in range(400):
+            playing.tick()
+    assert robot.asked[-1] == REST
+
+
+def test_leaving_slows_down_and_then_rests() -> None:
+    robot = FakeWalker(REPORTS)
+    playing = playing_of(robot)
+    for _ in range(20):
+        playing.tick()
+    playing.leave("asked")
+    states = [playing.tick().state for _ in range(10)]
+    assert states[0] is Driving.STOPPING and states[-1] is Driving.RESTING
+    forward = [v.forward for v in robot.asked[20:]]
+    assert forward == sorted(forward, reverse=True) and forward[-1] == 0.0
+
+
+def test_a_strategy_that_fails_ends_in_rest() -> None:
+    class Broken(Pursuit):
+        """It cannot decide."""
+
+        def decide(self, knowledge: Any, memory: Any) -> Any:
+            """Fail."""
+            raise KeyError("side")
+
+    robot = FakeWalker(REPORTS)
+    playing = playing_of(robot, Broken())
+    for _ in range(6):
+        tick = playing.tick()
+    assert tick.state is Driving.RESTING and "side" in tick.reason
+    assert set(robot.asked) == {REST}
+
+
+def test_a_dry_run_asks_for_nothing() -> None:
+    robot = FakeWalker(REPORTS)
+    playing = playing_of(robot, dry_run=True)
+    wanted = [playing.tick().wanted for _ in range(20)]
+    assert robot.asked == [] and wanted[-1].forward == 0.1
+
+
+def test_the_log_is_on_disk_as_it_goes(tmp_path: Path) -> None:
+    """What a process that is killed leaves behind can be read."""
+    log = PlayLog(tmp_path / "log", {"role": "pursuer"})
+    playing = playing_of(FakeWalker([*REPORTS[:20], *40 * [None]]))
+    for _ in range(60):
+        log.note(playing.tick())
+    early = read_rows(tmp_path / "log")
+    assert len(early["times_s"]) == 60
+    log.close()
+    rows = read_rows(tmp_path / "log")
+    assert rows["velocity"].shape == (60, 2)
+    assert np.isnan(rows["sighting"]).sum() == 0
+    assert rows["velocity"][19] == pytest.approx((0.1, 0.08))
+    words = json.loads((tmp_path / "log" / "play.json").read_text())
+    told = [change["state"] for change in words["changes"]]
+    assert told == ["waiting", "walking", "waiting"]
+    assert words["role"] == "pursuer"
+
+
+def test_the_line_says_what_is_asked_for_and_where_the_other_is() -> None:
+    tick = played(FakeWalker(REPORTS), 20)[-1]
+    said = words_of(tick)
+    assert "walking" in said and "+0.100 m/s, +0.080 rad/s" in said
+    assert "other at 1.00 m, +23 deg" in said

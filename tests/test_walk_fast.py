@@ -1,0 +1,98 @@
+"""The fast gait in physics: quick, as planned, and level."""
+
+from dataclasses import replace
+from math import pi
+from typing import Any
+
+import pytest
+
+from stepaside.control.balance.settings import ControlSettings
+from stepaside.games.outcome import Outcome
+from stepaside.games.walk import Walking, run_walk
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.planning import PRESETS, GaitSettings
+from stepaside.world.body_settings import BODIES
+
+FAST = PRESETS["fast"]
+CONTROL = ControlSettings("closed-form", True)
+
+
+def walked(
+    gait: GaitSettings = FAST,
+    body: str = "ideal",
+    *,
+    bearing: float = 0.0,
+    backward: bool = False,
+    duration: float = 7.0,
+) -> dict[str, Any]:
+    """Figures of a walk that did not fall."""
+    settings = WalkSettings(
+        seed=3,
+        duration=duration,
+        bearing=bearing,
+        backward=backward,
+        gait=gait,
+        body=BODIES[body],
+        control=CONTROL,
+    )
+    found = run_walk(settings).summary.to_json()
+    assert found["outcome"] == "completed"
+    return found
+
+
+@pytest.mark.parametrize("backward", [False, True])
+def test_an_ideal_body_walks_a_quarter_of_a_metre_a_second(
+    backward: bool,
+) -> None:
+    found = walked(backward=backward)
+    assert found["speed_m_s"] >= 0.25
+    assert found["speed_ratio"] == pytest.approx(1.0, abs=0.05)
+    assert found["tilt_max_deg"] < 2.5
+    assert found["adapted_steps"] == 0
+
+
+@pytest.mark.parametrize(
+    ("bearing", "backward"), [(pi / 4, True), (-pi / 4, False)]
+)
+def test_a_hardware_like_body_keeps_up(bearing: float, backward: bool) -> None:
+    found = walked(
+        body="hardware", bearing=bearing, backward=backward, duration=10.0
+    )
+    assert found["speed_m_s"] >= 0.23
+    for ratio in (found["speed_ratio"], found["yaw_ratio"]):
+        assert ratio == pytest.approx(1.0, abs=0.06)
+
+
+def test_without_the_reaction_of_the_leg_the_torso_rocks() -> None:
+    """And the sole has to bear a ZMP that is nowhere near the plan's."""
+    planned = walked(backward=True)
+    ignored = walked(replace(FAST, swing_reaction=0.0), backward=True)
+    assert ignored["tilt_max_deg"] > 1.5 * planned["tilt_max_deg"]
+    for axis in "xy":
+        off = [
+            found["tracking"][f"com_{axis}_m"]["rms"]
+            for found in (planned, ignored)
+        ]
+        assert off[1] > 1.5 * off[0]
+
+
+def test_the_first_foot_lands_within_half_a_second() -> None:
+    """From the instant at which the robot begins, by the force it feels."""
+    walking = Walking(
+        WalkSettings(gait=FAST, control=CONTROL, backward=True),
+        recorded=False,
+    )
+    walker = walking.walker
+    began = lifted = landed = None
+    while landed is None and walking.world.time < 3.0:
+        assert walking.tick() is not Outcome.FALL
+        now = walking.world.time
+        if walker.begun is not None and began is None:
+            began = now
+        left = float(walker.robot.read().foot_forces[:4].sum())
+        if began is not None and lifted is None and left == 0.0:
+            lifted = now
+        if lifted is not None and now > lifted + 0.1 and left > 5.0:
+            landed = now
+    assert began is not None and landed is not None
+    assert landed - began <= 0.45 + 0.01

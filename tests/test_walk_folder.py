@@ -1,0 +1,177 @@
+"""Walks as runs: kept, drawn, shown again and compared, pushes and all."""
+
+import json
+from dataclasses import replace
+from math import pi
+from pathlib import Path
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+
+from invented_run import check_same
+from stepaside.cli import main
+from stepaside.errors import ConfigurationError
+from stepaside.games.duel import run_duel
+from stepaside.games.duel_run import DuelRun
+from stepaside.games.folder import load_run, write_record
+from stepaside.games.outcome import Outcome
+from stepaside.games.settings import DuelSettings
+from stepaside.games.walk import run_walk
+from stepaside.games.walk_run import WalkRun
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.report.run_folder import write_run
+from stepaside.report.stage import Stage
+from stepaside.report.style import PUSHED
+from stepaside.report.walk_figure import draw_walk
+from stepaside.report.walks_figure import speed_over
+from stepaside.world.push import Push
+
+PUSHES = (Push(0.5, 1.0, pi / 2), Push(0.4, 1.1, 0.0))
+
+
+@pytest.fixture(scope="module")
+def walked() -> WalkRun:
+    settings = WalkSettings(duration=1.5, bearing=0.3, pushes=PUSHES)
+    run = run_walk(settings)
+    assert run.outcome is Outcome.COMPLETED
+    return run
+
+
+@pytest.fixture(scope="module")
+def folder(walked: WalkRun, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    place = tmp_path_factory.mktemp("walks") / "walk"
+    assert write_run(place, walked) == place / "walk.png"
+    return place
+
+
+def test_a_walk_comes_back_from_its_folder(
+    folder: Path, walked: WalkRun
+) -> None:
+    loaded = load_run(folder, WalkRun)
+    check_same(loaded, walked)
+    assert loaded.players == ("walker",) and loaded.robots == ("walker",)
+    assert loaded.pair is None and loaded.distance is None
+    assert loaded.theory is None and loaded.safety is None
+    assert loaded.settings.pushes == PUSHES
+    stage = Stage(loaded)
+    stage.put(40)
+    qpos = loaded.walker.qpos
+    assert qpos is not None
+    np.testing.assert_array_equal(stage.data.qpos, qpos[40])
+
+
+def test_a_folder_is_refused_where_another_game_is_wanted(
+    folder: Path, tmp_path: Path
+) -> None:
+    with pytest.raises(ConfigurationError, match="a duel, got one of a walk"):
+        load_run(folder, DuelRun)
+    duel = run_duel(DuelSettings(duration=0.04))
+    write_record(tmp_path, duel)
+    with pytest.raises(ConfigurationError, match="a walk, got one of a duel"):
+        load_run(tmp_path, WalkRun)
+
+
+def test_words_of_a_walk_change_with_what_happens(walked: WalkRun) -> None:
+    until = walked.stands_until
+    assert until == pytest.approx(walked.settings.gait.start_support)
+    for time, words in (
+        (0.0, "the robot stands"),
+        (0.9, "the robot walks"),
+        (1.0, "the robot is pushed"),
+        (1.49, "the robot is pushed"),
+    ):
+        assert walked.words(walked.index_at(time)) == words
+    fell = replace(walked, outcome=Outcome.FALL, message="walker fell")
+    assert fell.words(len(fell.times) - 1) == "walker fell"
+    assert fell.words(0) == "the robot stands"
+
+
+def test_an_index_is_that_of_the_sample_at_a_time_or_next(
+    walked: WalkRun,
+) -> None:
+    assert walked.index_at(0.0) == 0 and walked.index_at(0.04) == 2
+    assert walked.index_at(0.041) == 3
+    assert walked.index_at(99.0) == len(walked.times) - 1
+
+
+def test_the_figure_of_a_walk_has_its_pushes(
+    walked: WalkRun, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    figures: list[Figure] = []
+    monkeypatch.setattr(
+        Figure, "savefig", lambda f, *_, **__: figures.append(f)
+    )
+    monkeypatch.setattr(plt, "close", lambda figure: None)
+    monkeypatch.setattr("stepaside.report.style.plt.close", lambda _: None)
+    draw_walk(walked, tmp_path / "walk.png")
+    axes: Any = figures[0].axes
+    assert len(axes) == 5 and "Walk, seed 1" in figures[0].get_suptitle()
+    rows = walked.walker.pushes
+    assert rows is not None and len(rows) == 2
+    arrows = [text for text in axes[0].texts if text.arrow_patch is not None]
+    for arrow, (_, _, x, y, fx, fy) in zip(arrows, rows, strict=True):
+        tip, tail = np.array(arrow.xy), np.array(arrow.xyann)
+        np.testing.assert_allclose(tip, (x, y))
+        np.testing.assert_allclose(tip - tail, 0.2 * np.array([fx, fy]))
+    for one in axes[1:]:
+        marked = [
+            float(line.get_xdata()[0])
+            for line in one.lines
+            if to_hex(line.get_color()) == PUSHED
+        ]
+        assert marked == [1.0, 1.1]
+    roll, pitch = (
+        np.degrees(line.get_ydata()) / np.degrees(1.0)
+        for line in axes[1].lines[:2]
+    )
+    assert walked.walker.tilt is not None
+    lean = np.degrees(walked.walker.tilt)
+    np.testing.assert_allclose([roll, pitch], lean.T)
+    assert axes[3].get_xlim() == (0.0, 1.5)
+
+
+def test_a_walk_can_be_kept_compared_and_shown_again(tmp_path: Path) -> None:
+    def call(*words: str) -> Any:
+        return CliRunner().invoke(main, list(words))
+
+    one, other = str(tmp_path / "one"), str(tmp_path / "other")
+    walk = ("walk", "--duration", "0.3", "--push", "0.3@0.1:0", "--output")
+    told = call(*walk, one, "--json", "--figure", f"{tmp_path}/own")
+    assert told.exit_code == 0, told.output
+    assert json.loads(told.stdout)["run_folder"] == one
+    assert (tmp_path / "own.png").stat().st_size > 1000
+    said = call(*walk, other).stdout
+    assert f"{other}/walk.png" in said and f"run folder: {other}" in said
+    again = call("walk", "--config", f"{one}/configuration.toml", "--json")
+    wanted = json.loads(told.stdout)["push_impulse_n_s"]
+    assert json.loads(again.stdout)["push_impulse_n_s"] == wanted
+    page = str(tmp_path / "walk.html")
+    assert call("replay", one, "--html", page).exit_code == 0
+    text = Path(page).read_text(encoding="utf-8")
+    assert '"distance":null' in text and '"pushes":[[0.1,' in text
+    compared = call("compare", one, other, "--output", f"{tmp_path}/c.png")
+    assert compared.exit_code == 0 and "speed" in compared.stdout
+    duel = tmp_path / "duel"
+    duel.mkdir()
+    write_record(duel, run_duel(DuelSettings(duration=0.04)))
+    mixed = call("compare", one, str(duel), "--output", f"{tmp_path}/d.png")
+    assert mixed.exit_code == 2 and mixed.output.count("\n") == 1
+    assert "must be of one game, got duel and walk" in mixed.output
+    assert not (tmp_path / "d.png").exists()
+    taken = call(*walk, one)
+    assert taken.exit_code == 2 and "new or an empty folder" in taken.output
+
+
+def test_speed_is_over_a_cycle_and_none_where_one_is_cut() -> None:
+    times = 0.02 * np.arange(200, dtype=float)
+    sway = 0.03 * np.sin(2.0 * pi * times)
+    places = np.column_stack([0.1 * times, 0.2 + sway])
+    speed = speed_over(places, times, 1.0)
+    assert np.isnan(speed[:25]).all() and np.isnan(speed[-25:]).all()
+    np.testing.assert_allclose(speed[25:-25], 0.1, atol=1e-9)
+    assert np.isnan(speed_over(places[:1], times[:1], 1.0)).all()

@@ -1,0 +1,58 @@
+"""Test what a gait does for a robot that is driven by velocities."""
+
+from math import pi
+
+import pytest
+
+from stepaside.control.velocity import accepted, fastest, walk_at
+from stepaside.planning import Direction, GaitSettings
+from stepaside.strategies import Stand, Walk
+
+GAIT = GaitSettings()
+PACE = 0.4 / 0.547  # path time over walked time
+FORWARD, BACKWARD = Direction.FORWARD, Direction.BACKWARD
+
+
+def test_a_gait_is_as_fast_as_one_stride_a_step() -> None:
+    speed, rate = fastest(GAIT)
+    assert speed == pytest.approx(0.04 / 0.547)
+    assert rate == pytest.approx(0.2 * PACE * pi)
+
+
+@pytest.mark.parametrize("forward", [0.05, 0.5, -0.5, -0.01])
+@pytest.mark.parametrize("turn", [0.0, 0.1, -2.0])
+def test_what_is_too_fast_is_walked_slower_on_the_same_path(
+    forward: float, turn: float
+) -> None:
+    speed, rate = fastest(GAIT)
+    v, w = accepted(forward, turn, GAIT)
+    assert v * turn == pytest.approx(w * forward)
+    assert abs(v) <= speed + 1e-12 and abs(w) <= rate + 1e-12
+    fits = abs(forward) <= speed and abs(turn) <= rate
+    assert ((v, w) == (forward, turn)) == fits
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_half_the_speed_is_half_a_stride_that_turns_as_asked(
+    sign: float,
+) -> None:
+    speed, _ = fastest(GAIT)
+    walk = walk_at(sign * 0.5 * speed, 0.1, GAIT, under_way=None)
+    assert isinstance(walk, Walk)
+    assert walk.direction.value == sign
+    assert walk.speed_factor == pytest.approx(0.5)
+    # k theta* is what the template turns by in path time.
+    assert GAIT.gain * walk.bearing * PACE == pytest.approx(0.1)
+
+
+def test_turning_in_place_makes_no_way_and_keeps_the_direction() -> None:
+    walk = walk_at(0.0, -0.2, GAIT, under_way=BACKWARD)
+    assert isinstance(walk, Walk)
+    assert walk.direction is BACKWARD and walk.bearing < 0.0
+    assert walk.speed_factor == pytest.approx(1e-3)
+
+
+def test_rest_stands_and_reversal_comes_to_rest_first() -> None:
+    assert isinstance(walk_at(0.0, 0.0, GAIT, under_way=None), Stand)
+    assert isinstance(walk_at(0.05, 0.0, GAIT, under_way=BACKWARD), Stand)
+    assert isinstance(walk_at(0.05, 0.0, GAIT, under_way=FORWARD), Walk)

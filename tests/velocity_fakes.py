@@ -1,0 +1,78 @@
+"""Robots that walk by themselves, made up."""
+
+from collections.abc import Iterable
+from math import cos, sin
+
+from stepaside.drivers.session import SessionLost
+from stepaside.drivers.velocity.body import REST, Report, Velocity
+from stepaside.drivers.velocity.served import WalkerState
+from stepaside.poses import Pose
+from stepaside.sensing.measurement import Sighting
+
+PERIOD = 0.05  # between reports, in [s]
+AHEAD = Sighting(0.0, 0.4, 1.0)
+
+
+def report(time: float, **changes: object) -> Report:
+    """Report of a robot that stands and sees somebody now."""
+    seen = AHEAD._replace(time=time)
+    return Report(time, Pose(0.0, 0.0, 0.0), seen)._replace(**changes)  # type: ignore[arg-type]
+
+
+class FakeWalker:
+    """A robot whose reports are scripted; None is silence.
+
+    Each look of its player takes the time of one report.
+    """
+
+    def __init__(self, script: Iterable[Report | None]) -> None:
+        self.script = iter(script)
+        self.now = 500.0
+        self.asked: list[Velocity] = []
+        self.breaks = False
+
+    def clock(self) -> float:
+        """Time of this computer, in [s]."""
+        return self.now
+
+    def listen(self, patience: float) -> Report | None:
+        """What the script says."""
+        self.now += PERIOD
+        return next(self.script, None)
+
+    def command(self, velocity: Velocity) -> None:
+        """Note what is asked for."""
+        if self.breaks:
+            raise SessionLost("broken")
+        self.asked.append(velocity)
+
+    def close(self) -> None:
+        """Nothing to let go of."""
+
+
+class MadeUpWalker:
+    """A unicycle to be served, which does as it is told."""
+
+    def __init__(self) -> None:
+        self.time = 0.0
+        self.pose = Pose(0.0, 0.0, 0.0)
+        self.velocity = REST
+        self.sighting: Sighting | None = None
+
+    def state(self) -> WalkerState:
+        """What it says of itself."""
+        return WalkerState(
+            self.time, self.pose, self.velocity, [0.1, 0.2], self.sighting
+        )
+
+    def move(self, velocity: Velocity, passed: float) -> None:
+        """Go on for some time, in [s]."""
+        x, y, heading = self.pose
+        way = velocity.forward * passed
+        self.velocity = velocity
+        self.time += passed
+        self.pose = Pose(
+            x + way * cos(heading),
+            y + way * sin(heading),
+            heading + velocity.turn * passed,
+        )
