@@ -1,25 +1,17 @@
-"""Play served duels of robots that walk by themselves: three processes each.
+"""Play served duels of robots that walk by themselves.
 
-Players drive the robots by velocity, over ROS 2 topics or NAOqi calls. Real
-time needs cores that are free when a tick is due: as root the processes are
-given real-time priority, which the result says.
+Players drive the robots by velocity, over ROS 2 topics or NAOqi calls.
 """
 
-import json
 import os
 import socket
-from collections.abc import Iterator
-from contextlib import contextmanager
+from argparse import Namespace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from time import sleep
 from typing import Any
 
-from asking import ask, machine
-from served import row_of, start
-
-from stepaside.studies.results import header, write_result
-from stepaside.studies.version import PHYSICS
+from asking import ask
+from processes import Ready, play_out, write_rows
 
 ROLES = ("pursuer", "evader")
 DUELS = (  # language, body, whether in lock step
@@ -30,7 +22,7 @@ DUELS = (  # language, body, whether in lock step
     ("naoqi", "hardware", False),
 )
 FIRST_PORT = 29559
-DOMAIN = 77
+DOMAIN = 77  # of ROS 2: meet nobody else there
 
 
 def places(way: str) -> dict[str, str]:
@@ -43,57 +35,33 @@ def places(way: str) -> dict[str, str]:
     }
 
 
-def await_world(way: str, world: Any) -> None:
-    """Wait until NAOqi listens; on topics who comes first waits."""
-    while way == "naoqi" and world.poll() is None:
+def naoqi_ready(world: Any, folder: Path) -> None:
+    """Wait until the last robot listens."""
+    while world.poll() is None:
         with socket.socket() as probe:
             if probe.connect_ex(("127.0.0.1", FIRST_PORT + 1)) == 0:
                 return
         sleep(0.1)
 
 
-@contextmanager
-def own_domain() -> Iterator[None]:
-    """Meet nobody else on ROS 2 topics."""
-    os.environ["ROS_DOMAIN_ID"] = str(DOMAIN)
-    yield
-    del os.environ["ROS_DOMAIN_ID"]
+def topics_ready(world: Any, folder: Path) -> None:
+    """On topics who comes first waits."""
+
+
+READY: dict[str, Ready] = {"naoqi": naoqi_ready, "ros2": topics_ready}
 
 
 def played(
-    way: str,
-    body: str,
-    seed: int,
-    duration: float,
-    *,
-    lock_step: bool,
-    urgent: bool,
+    arguments: Namespace, way: str, body: str, lock_step: bool
 ) -> dict[str, Any]:
-    """Play one duel, and return what the world printed."""
-    words = ["serve", "--seed", str(seed), "--duration", str(duration)]
-    words += ["--body", body, "--json", *(["--lockstep"] * lock_step)]
+    """Play one duel in one language."""
+    offers, players = [], []
     for role, place in places(way).items():
-        words += [f"--{way}", f"{role}={place}"]
-    with TemporaryDirectory() as text, own_domain():
-        folder = Path(text)
-        world = start(words, folder, urgent=urgent)
-        await_world(way, world)
-        players = [
-            start(
-                [
-                    *("play", "--role", role, "--robot", f"{way}:{place}"),
-                    *(["--sim-time"] * lock_step),
-                ],
-                folder,
-                urgent=urgent,
-            )
-            for role, place in places(way).items()
-        ]
-        printed, _ = world.communicate()
-        for player in players:
-            player.communicate(timeout=60.0)
-    found: dict[str, Any] = json.loads(printed)
-    return found
+        offers += [f"--{way}", f"{role}={place}"]
+        players.append(["--role", role, "--robot", f"{way}:{place}"])
+        players[-1] += ["--sim-time"] * lock_step
+    found = play_out(arguments, body, lock_step, offers, players, READY[way])
+    return {"way": way, **found}
 
 
 def main() -> None:
@@ -101,27 +69,9 @@ def main() -> None:
     parser = ask(__doc__, "driven.json")
     parser.add_argument("--seed", type=int, default=7)
     parser.add_argument("--duration", type=float, default=120.0)
-    options = parser.parse_args()
-    urgent = os.geteuid() == 0
-    rows = []
-    for way, body, lock_step in DUELS:
-        found = played(
-            way,
-            body,
-            options.seed,
-            options.duration,
-            lock_step=lock_step,
-            urgent=urgent,
-        )
-        rows.append({"way": way, **row_of(body, lock_step, found)})
-        print(json.dumps(rows[-1]), flush=True)
-    settings = {
-        "seed": options.seed,
-        "duration_s": options.duration,
-        "real_time_priority": urgent,
-    }
-    head = header(settings, rooms=(*PHYSICS, "drivers"))
-    write_result(options.output, head, rows=rows, machine=machine())
+    arguments = parser.parse_args()
+    os.environ["ROS_DOMAIN_ID"] = str(DOMAIN)
+    write_rows(arguments, (played(arguments, *duel) for duel in DUELS))
 
 
 if __name__ == "__main__":

@@ -28,7 +28,7 @@ from stepaside.studies.duels import (
 )
 from stepaside.studies.records import RecordFile
 from stepaside.studies.results import header, write_result
-from stepaside.studies.workers import worker_pool
+from stepaside.workers import worker_pool
 from stepaside.world.body_settings import BODIES
 
 KINDS = {

@@ -22,7 +22,7 @@ from stepaside.studies.tournament import (
     play_tournament,
 )
 from stepaside.studies.tournament_rows import tournament_rows
-from stepaside.studies.workers import worker_pool
+from stepaside.workers import worker_pool
 
 WORLDS = {
     "open floor": RoomRecipe(None, None),

@@ -9,13 +9,11 @@ from dataclasses import replace
 from math import radians
 
 from asking import ask
-from gathering import Row, finished, gather
+from walks import walk_all
 
 from stepaside.control.balance.settings import ControlSettings
-from stepaside.games.walk import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.planning import PRESETS
-from stepaside.studies.results import header, write_result
 from stepaside.world.body_settings import BODIES
 
 KEPT = (
@@ -30,12 +28,6 @@ KEPT = (
     "tilt_max_deg",
 )
 BEARINGS = (-90, -45, 0, 45, 90)  # in [deg]
-
-
-def walk(settings: WalkSettings) -> Row:
-    """Figures of one walk."""
-    found = run_walk(settings).summary.to_json()
-    return {key: found[key] for key in KEPT}
 
 
 def main() -> None:
@@ -73,11 +65,7 @@ def main() -> None:
         "seeds": arguments.seeds,
         "bearings_deg": BEARINGS,
     }
-    head = header(settings)
-    walks = gather(arguments.output, head, jobs, walk, arguments.workers)
-    falls = sum(row["outcome"] != "completed" for row in walks.values())
-    write_result(arguments.output, head, falls=falls, walks=walks)
-    finished(arguments.output)
+    walk_all(arguments, settings, jobs, KEPT)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ import numpy as np
 from tqdm import tqdm
 
 from stepaside.studies.records import RecordFile
-from stepaside.studies.workers import give_up, worker_pool
+from stepaside.workers import give_up, worker_pool
 
 Row = dict[str, Any]
 Job = TypeVar("Job")

@@ -9,21 +9,13 @@ from dataclasses import replace
 from math import radians
 
 from asking import ask
-from gathering import Row, finished, gather
+from walks import walk_all
 
 from stepaside.control.balance.settings import STABILISED
-from stepaside.games.walk import run_walk
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.studies.results import header, write_result
 from stepaside.world.body_settings import BODIES
 
 KEPT = ("outcome", "duration_s", "steps", "speed_ratio", "yaw_ratio")
-
-
-def walk(settings: WalkSettings) -> Row:
-    """Figures of one walk."""
-    found = run_walk(settings).summary.to_json()
-    return {key: found[key] for key in KEPT}
 
 
 def main() -> None:
@@ -51,11 +43,7 @@ def main() -> None:
         "minutes": arguments.minutes,
         "turning_bearing_deg": 45.0,
     }
-    head = header(settings)
-    walks = gather(arguments.output, head, jobs, walk, arguments.workers)
-    falls = sum(row["outcome"] != "completed" for row in walks.values())
-    write_result(arguments.output, head, falls=falls, walks=walks)
-    finished(arguments.output)
+    walk_all(arguments, settings, jobs, KEPT)
 
 
 if __name__ == "__main__":

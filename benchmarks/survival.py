@@ -22,7 +22,7 @@ from stepaside.studies.survival import (
     push_survival_rows,
     survival_rows,
 )
-from stepaside.studies.workers import worker_pool
+from stepaside.workers import worker_pool
 
 BODY = "hardware"
 

@@ -25,6 +25,7 @@ def test_lola_is_spoken_without_a_simulator(module: str) -> None:
     "module",
     [
         "velocity.playing",
+        "guardian",
         "velocity.guardian",
         "ros2.body",
         "naoqi.body",

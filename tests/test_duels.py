@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from stepaside import workers
 from stepaside.cli import main
 from stepaside.commands.duels import duels
 from stepaside.games.settings import (
@@ -23,7 +24,6 @@ from stepaside.games.settings import (
 )
 from stepaside.strategies import Evasion
 from stepaside.studies import duels as study
-from stepaside.studies import workers
 from stepaside.studies.duel_statistics import (
     certificate_row,
     figure_row,
@@ -349,7 +349,7 @@ def test_nothing_is_played_when_verified_duels_differ(
 CHILD = """
 import os, signal, sys, time
 from concurrent.futures import as_completed
-from stepaside.studies.workers import give_up, worker_pool
+from stepaside.workers import give_up, worker_pool
 
 def stay(number):
     print(os.getpid(), flush=True)

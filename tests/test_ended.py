@@ -18,7 +18,7 @@ from stepaside.commands import reproduce_figures
 from stepaside.outputs import DRAFT, draft_prefix, sweep, writing
 from stepaside.studies.kept import Kept
 from stepaside.studies.records import RecordFile
-from stepaside.studies.workers import worker_pool
+from stepaside.workers import worker_pool
 
 HERE = sha256(platform.node().encode()).hexdigest()[:8]
 

@@ -4,13 +4,12 @@ import os
 import signal
 import socket
 
-import msgpack
 import numpy as np
 import pytest
 
 from stepaside.drivers.lola.answers import AnswerReader
 from stepaside.drivers.lola.frames import ActuatorFrame
-from stepaside.drivers.lola.guardian import GOODBYE, Guardian
+from stepaside.drivers.lola.guardian import StiffnessGuardian
 
 TARGETS = np.linspace(-0.2, 0.2, 25)
 STIFF = np.full(25, 0.8)
@@ -37,7 +36,7 @@ def control_that(ends: str) -> tuple[int, socket.socket]:
     pid = os.fork()
     if pid == 0:
         far.close()
-        guardian = Guardian(near)
+        guardian = StiffnessGuardian(near)
         guardian.tell(TARGETS, STIFF)
         if ends == "limp":
             guardian.tell(TARGETS, np.zeros(25))
@@ -78,7 +77,3 @@ def test_a_control_that_leaves_a_limp_robot_is_left_in_peace(
     _, status = os.waitpid(pid, 0)
     assert os.WEXITSTATUS(status) == 0
     robot.close()
-
-
-def test_goodbye_is_no_word_about_joints() -> None:
-    assert len(GOODBYE) == 1 and msgpack.unpackb(GOODBYE) == 0

@@ -11,10 +11,11 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
+from stepaside import workers
 from stepaside.cli import main
 from stepaside.commands import reproduce_figures
 from stepaside.report.claims_page import markdown_page
-from stepaside.studies import reproduce, workers
+from stepaside.studies import reproduce
 from stepaside.studies.claims import Claim, Job, Row
 from stepaside.studies.jobs import JOBS
 from stepaside.studies.kept import Kept

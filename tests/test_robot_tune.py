@@ -230,7 +230,7 @@ def test_the_command_writes_nothing_where_nothing_is_better(
     described(tmp_path)
     before = (tmp_path / FILE).read_bytes()
     monkeypatch.setattr(
-        "stepaside.studies.workers.worker_pool", lambda workers: Here()
+        "stepaside.workers.worker_pool", lambda workers: Here()
     )
     monkeypatch.setattr(tuning, "walk_trial", lambda t: walked(t, 0.1))
     result = CliRunner().invoke(main, ["robot", "tune", str(tmp_path)])

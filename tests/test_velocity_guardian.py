@@ -10,7 +10,7 @@ from time import monotonic, sleep
 import pytest
 
 from stepaside.drivers.velocity.body import REST, Velocity
-from stepaside.drivers.velocity.guardian import GuardedBody, Guardian
+from stepaside.drivers.velocity.guardian import GuardedBody, guardian_of
 
 from velocity_fakes import FakeWalker  # isort: skip
 
@@ -18,18 +18,18 @@ from velocity_fakes import FakeWalker  # isort: skip
 CONTROL = """
 import sys, time
 from pathlib import Path
-from stepaside.drivers.velocity.guardian import Guardian
-guardian = Guardian(lambda: Path(sys.argv[1]).touch())
-moves = sys.argv[2] == "moves"
+from stepaside.drivers.velocity.guardian import guardian_of
+guardian = guardian_of(lambda: Path(sys.argv[1]).touch())
+tell = guardian.hold if sys.argv[2] == "moves" else guardian.leave
 for _ in range(10):
-    guardian.tell(moves)
+    tell()
     time.sleep(0.01)
 print("told", flush=True)
 if sys.argv[3] == "leaves":
     guardian.dismiss()
     sys.exit()
 while sys.argv[3] != "freezes":
-    guardian.tell(moves)
+    tell()
     time.sleep(0.01)
 time.sleep(60.0)
 """
@@ -77,7 +77,7 @@ def test_a_robot_that_moves_is_stopped_when_control_is_gone(
 
 def test_a_guarded_robot_is_asked_as_any_other(tmp_path: Path) -> None:
     robot = FakeWalker([])
-    guardian = Guardian(lambda: (tmp_path / "rest").touch())
+    guardian = guardian_of(lambda: (tmp_path / "rest").touch())
     body = GuardedBody(robot, guardian)
     body.command(Velocity(0.1, 0.2))
     assert body.listen(0.0) is None

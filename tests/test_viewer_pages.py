@@ -1,9 +1,10 @@
 """The live page and the replay behind a page that is none."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import fields, replace
 from html import unescape
 from math import degrees, inf, pi, radians
+from threading import RLock
 from types import SimpleNamespace
 from typing import Any
 
@@ -256,6 +257,7 @@ class FakeSession:
     def __init__(self) -> None:
         """Begin with a duel of which only the time is known."""
         decisions = Decisions(Pursuit(), GaitSettings(), 0.004)
+        self.lock = RLock()
         self.scheme: Any = SimpleNamespace(decisions=decisions)
         pursuer: Any = Walker.__new__(Walker)
         pursuer.scheme = self.scheme
@@ -425,6 +427,30 @@ def test_the_page_shows_the_duel_as_it_is(live: tuple[Page, Any]) -> None:
     status = gui.texts[0].content
     assert session.duel.message in status
     assert "**over: contact**" in status and "**stopped: a bolt**" in status
+
+
+def test_the_page_works_nothing_out_while_the_physics_moves(
+    live: tuple[Page, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Snapshots compute on the world's data: two at once end the process."""
+    page, _ = live
+    held: list[bool] = []
+
+    def watched(what: Callable[[Any], Any]) -> Callable[[Any], Any]:
+        def look(of: Any) -> Any:
+            held.append(page.session.lock._is_owned())  # type: ignore[attr-defined]
+            return what(of)
+
+        return look
+
+    played(page.session, 60)
+    monkeypatch.setattr(Walker, "snapshot", watched(Walker.snapshot))
+    distance: Any = Duel.distance
+    seen = property(watched(distance.fget))
+    monkeypatch.setattr(Duel, "distance", seen)
+    page._refresh()
+    page._plots.show(page.session)
+    assert len(held) > 2 and all(held)
 
 
 def test_the_page_draws_a_new_duel_anew(live: tuple[Page, Any]) -> None:

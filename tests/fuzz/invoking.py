@@ -47,7 +47,7 @@ def without_work() -> Iterator[None]:
 
     with ExitStack() as stack:
         for place, name, instead in (
-            ("stepaside.studies.workers", "worker_pool", lambda *_: Pool()),
+            ("stepaside.workers", "worker_pool", lambda *_: Pool()),
             (page.__name__, "open_server", would_serve),
             (replaying.__name__, "open_server", would_serve),
         ):

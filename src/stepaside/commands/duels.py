@@ -161,7 +161,7 @@ def _verify(
 ) -> None:
     """Take over older records, or end and say which came out otherwise."""
     from ..studies.duels import verify_duels
-    from ..studies.workers import worker_pool
+    from ..workers import worker_pool
 
     if output is None or not (output / RECORDS).exists():
         raise click.UsageError(
@@ -192,7 +192,7 @@ def _play(
     from tqdm import tqdm
 
     from ..studies.duels import run_duels
-    from ..studies.workers import worker_pool
+    from ..workers import worker_pool
 
     file = _file(output)
     done: dict[str, dict[str, Any]] = {}

@@ -91,13 +91,13 @@ def open_velocity(
 
 def _guarded(options: dict[str, Any]) -> "VelocityBody":
     """A robot, with a guardian where one can be needed."""
-    from ..drivers.velocity.guardian import GuardedBody, Guardian
+    from ..drivers.velocity.guardian import GuardedBody, guardian_of
 
     open_body, let_go = _line_to(options)
     if options["dry_run"] or options["sim_time"]:
         return open_body()
     # Forked here: what speaks to the robot starts threads.
-    guardian = Guardian(let_go)
+    guardian = guardian_of(let_go)
     try:
         return GuardedBody(open_body(), guardian)
     except BaseException:

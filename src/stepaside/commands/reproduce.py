@@ -91,7 +91,7 @@ def _measure(
     from tqdm import tqdm
 
     from ..studies.reproduce import reproduce as measure
-    from ..studies.workers import worker_pool
+    from ..workers import worker_pool
 
     with (
         tqdm(desc="claims", unit="run", disable=None) as bar,

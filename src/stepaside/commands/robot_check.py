@@ -51,7 +51,7 @@ def _check(description: "RobotDescription", workers: int | None) -> "Checked":
     from tqdm import tqdm
 
     from ..fitting.checking import check_robot
-    from ..studies.workers import worker_pool
+    from ..workers import worker_pool
 
     with (
         worker_pool(workers) as executor,

@@ -69,7 +69,7 @@ def _search(
     from tqdm import tqdm
 
     from ..fitting.tuning import Search
-    from ..studies.workers import worker_pool
+    from ..workers import worker_pool
 
     with (
         worker_pool(workers) as executor,

@@ -32,7 +32,7 @@ def meet_people(
 
     from ..studies.encounters import encounters, run_encounters
     from ..studies.people import origin_rows, passing_rows, people_rows
-    from ..studies.workers import worker_pool
+    from ..workers import worker_pool
 
     grid = list(encounters(settings, sensings, seeds=seeds))
     done: dict[str, Any] = {}

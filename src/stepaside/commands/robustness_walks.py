@@ -121,7 +121,7 @@ def run_walks(
 
     from ..studies.limits import search_limits
     from ..studies.robustness import run_campaign
-    from ..studies.workers import worker_pool
+    from ..workers import worker_pool
 
     check_records(file)
     tell_campaign(len(grid), len(cases), workers)

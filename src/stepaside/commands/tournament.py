@@ -216,7 +216,7 @@ def _play(
 
     from ..studies.records import RecordFile
     from ..studies.tournament import BLOCK, play_tournament
-    from ..studies.workers import worker_pool
+    from ..workers import worker_pool
 
     file = None if output is None else RecordFile(output / RECORDS)
     total = len(seeds) * len(pairings)

@@ -4,14 +4,13 @@ from dataclasses import dataclass
 from math import atan2, cos, sin
 
 from ..errors import ConfigurationError, check_not_negative
-from ..planning import Direction
 from ..poses import wrap_angle
-from .knowledge import Intent, Knowledge
-from .other import Trace, heading_of_way, note
+from .knowledge import Knowledge
+from .other import PursuitByWay, Seen
 
 
 @dataclass(frozen=True, slots=True)
-class LeadPursuit:
+class LeadPursuit(PursuitByWay):
     """Point ahead of the other, along the way that it takes.
 
     Attributes:
@@ -25,29 +24,9 @@ class LeadPursuit:
         """Refuse to lag behind."""
         check_not_negative(self.lead, "lead", "1", ConfigurationError)
 
-    @property
-    def direction(self) -> Direction:
-        """Forward, eq. (1)."""
-        return Direction.FORWARD
-
-    @property
-    def saturated(self) -> bool:
-        """It turns by (2)."""
-        return False
-
-    def begin(self) -> Trace:
-        """Nothing seen."""
-        return ()
-
-    def decide(
-        self, knowledge: Knowledge, memory: Trace
-    ) -> tuple[Intent, Trace]:
-        """Point at the other until its way is known, then ahead of it."""
-        trace = note(memory, knowledge)
-        way = heading_of_way(trace)
-        if way is None:
-            return Intent(knowledge.bearing), trace
-        seen, reach = trace[-1], self.lead * knowledge.distance
+    def heading(self, knowledge: Knowledge, seen: Seen, way: float) -> float:
+        """Heading for a point ahead of the other."""
+        reach = self.lead * knowledge.distance
         x = seen.x + reach * cos(way) - seen.own_x
         y = seen.y + reach * sin(way) - seen.own_y
-        return Intent(wrap_angle(atan2(y, x) - seen.own_theta)), trace
+        return wrap_angle(atan2(y, x) - seen.own_theta)

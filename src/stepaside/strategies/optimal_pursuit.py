@@ -4,15 +4,14 @@ from dataclasses import dataclass
 from math import atan2, pi
 
 from ..errors import ConfigurationError, check_within
-from ..planning import Direction
 from ..poses import wrap_angle
-from .knowledge import Intent, Knowledge
-from .other import Trace, heading_of_way, note
+from .knowledge import Knowledge
+from .other import PursuitByWay, Seen
 from .tables import cars_bound
 
 
 @dataclass(frozen=True, slots=True)
-class OptimalPursuit:
+class OptimalPursuit(PursuitByWay):
     """Turn as the table says that comes nearest to the best evader.
 
     The evader may turn as fast as the pursuer, and the floor is open.
@@ -27,29 +26,9 @@ class OptimalPursuit:
         """Refuse tables that nobody solves."""
         check_within(self.cells, 16, 200, "cells", "1", ConfigurationError)
 
-    @property
-    def direction(self) -> Direction:
-        """Forward, eq. (1)."""
-        return Direction.FORWARD
-
-    @property
-    def saturated(self) -> bool:
-        """It turns by (2), up to what that may ask for."""
-        return False
-
-    def begin(self) -> Trace:
-        """Nothing seen."""
-        return ()
-
-    def decide(
-        self, knowledge: Knowledge, memory: Trace
-    ) -> tuple[Intent, Trace]:
-        """Turn as fast as the table says, as a share of the fastest."""
-        trace = note(memory, knowledge)
-        way = heading_of_way(trace)
-        if way is None:
-            return Intent(knowledge.bearing), trace
-        seen, limits = trace[-1], knowledge.limits
+    def heading(self, knowledge: Knowledge, seen: Seen, way: float) -> float:
+        """What turns as fast as the table says, as a share of the fastest."""
+        limits = knowledge.limits
         unit = limits.speed / (pi * limits.gain)  # tightest radius, in [m]
         sight = atan2(seen.y - seen.own_y, seen.x - seen.own_x)
         turn = cars_bound(self.cells).pursuer_turn(
@@ -58,4 +37,4 @@ class OptimalPursuit:
             # A car: it looks against the way that the evader walks.
             wrap_angle(sight - way),
         )
-        return Intent(pi * float(turn)), trace
+        return pi * float(turn)

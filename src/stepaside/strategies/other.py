@@ -1,11 +1,13 @@
 """Where the other player is and how it walks, from sightings in odometry."""
 
+from abc import ABC, abstractmethod
 from math import atan2, cos, hypot, sin
 from typing import NamedTuple
 
+from ..planning import Direction
 from ..poses import wrap_angle
 from ..steps.motion import Both, StepRules, pursue
-from .knowledge import Knowledge
+from .knowledge import Intent, Knowledge
 
 KEPT = 3  # sightings, a step apart: over two steps no body sways
 APART = 0.75  # of a step between them
@@ -107,3 +109,43 @@ def heading_of_way(trace: Trace) -> float | None:
     first = trace[-3]
     earlier = atan2(before.y - first.y, before.x - first.x)
     return way + 0.5 * wrap_angle(way - earlier)
+
+
+class PursuitByWay(ABC):
+    """A pursuer that points at the other until its way is known."""
+
+    __slots__ = ()
+
+    @property
+    def direction(self) -> Direction:
+        """Forward, eq. (1)."""
+        return Direction.FORWARD
+
+    @property
+    def saturated(self) -> bool:
+        """It turns by (2), up to what that may ask for."""
+        return False
+
+    def begin(self) -> Trace:
+        """Nothing seen."""
+        return ()
+
+    def decide(
+        self, knowledge: Knowledge, memory: Trace
+    ) -> tuple[Intent, Trace]:
+        """Point at the other, or where its way tells."""
+        trace = note(memory, knowledge)
+        way = heading_of_way(trace)
+        if way is None:
+            return Intent(knowledge.bearing), trace
+        return Intent(self.heading(knowledge, trace[-1], way)), trace
+
+    @abstractmethod
+    def heading(self, knowledge: Knowledge, seen: Seen, way: float) -> float:
+        """Heading to ask for, from the own one, in [rad].
+
+        Args:
+            knowledge: What is known.
+            seen: The newest sighting.
+            way: Direction in which the other moves in odometry, in [rad].
+        """

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from math import atan2, cos, hypot, inf, pi, sin, tau
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,8 +13,8 @@ from ..planning import Direction
 from ..poses import Array, Pose, wrap_angle
 from ..rooms import OPEN_FLOOR, Room
 from ..steps.packed import clearance_at, pack
-from .knowledge import Intent, Knowledge, Limits
-from .rates import SightRates
+from .decider import Decider
+from .knowledge import Intent, Limits
 from .strategy import Strategy
 
 
@@ -128,17 +128,15 @@ class StepTrack(NamedTuple):
 
 
 class _Player:
-    """One player with its strategy and what it remembers."""
+    """One player with its strategy and where it is."""
 
     def __init__(
         self, strategy: Strategy, pose: Pose, game: StepGame, room: Room
     ) -> None:
         self.strategy, self.pose, self.game = strategy, pose, game
-        self._memory: Any = strategy.begin()
-        self._rates = SightRates(game.period)
-        self._limits = game.limits
-        self._solids = room.solids
-        self._moving = False
+        self._decider = Decider(
+            strategy, game.limits, game.period, room.solids
+        )
 
     def bearing_of(self, other: Pose) -> float:
         """Direction of the other in the own frame, in [rad]."""
@@ -147,25 +145,10 @@ class _Player:
 
     def decide(self, time: float, other: Pose) -> Intent:
         """Ask the strategy."""
-        x, y, theta = self.pose
-        bearing = self.bearing_of(other)
+        x, y, _ = self.pose
         distance = hypot(other.x - x, other.y - y)
-        rates = self._rates.note(time, theta + bearing, distance)
-        known = Knowledge(
-            time,
-            bearing,
-            distance,
-            self._limits,
-            rates.bearing_rate,
-            rates.closing_speed,
-            0.0,
-            self.pose,
-            self._moving,
-            self._solids,
-        )
-        intent, self._memory = self.strategy.decide(known, self._memory)
-        self._moving = intent.walks
-        return intent
+        bearing = self.bearing_of(other)
+        return self._decider.decide(time, self.pose, bearing, distance)
 
     def after(self, intent: Intent) -> Pose:
         """Pose a step later: the exact arc of the maneuver."""

@@ -1,8 +1,7 @@
 """Any two strategies, played by unicycles that decide step by step."""
 
 from dataclasses import dataclass
-from math import ceil, cos, sin
-from typing import Any
+from math import ceil
 
 import numpy as np
 
@@ -11,8 +10,8 @@ from ..planning.path import UnicycleTrajectory
 from ..poses import Array, Pose
 from ..unicycle.laws import Unicycle
 from ..unicycle.relative import Start
-from .knowledge import Intent, Knowledge, Limits
-from .rates import FloorVelocity, SightRates
+from .decider import Decider
+from .knowledge import Intent, Limits
 from .strategy import Strategy
 
 PARTS = 8  # samples of the record between two decisions
@@ -55,39 +54,12 @@ class _Player:
         self, strategy: Strategy, body: Unicycle, pose: Pose, period: float
     ) -> None:
         self.strategy, self.body, self.pose = strategy, body, pose
-        self._memory: Any = strategy.begin()
-        self._rates = SightRates(period)
-        self._drift = FloorVelocity(period)
-        self._limits = Limits(
-            body.speed, body.gain, body.speed * period, period
-        )
-        self._moving = False
+        limits = Limits(body.speed, body.gain, body.speed * period, period)
+        self._decider = Decider(strategy, limits, period, sees_velocity=True)
 
     def decide(self, time: float, bearing: float, distance: float) -> Intent:
-        sight = self.pose.theta + bearing
-        rates = self._rates.note(time, sight, distance)
-        there = self.pose.compose(
-            Pose(distance * cos(bearing), distance * sin(bearing), 0.0)
-        )
-        drift = self._drift.note(time, there.x, there.y)
-        if drift is not None:
-            turned = Pose(0.0, 0.0, -self.pose.theta)
-            drift = turned.compose(Pose(*drift, 0.0))[:2]
-        known = Knowledge(
-            time,
-            bearing,
-            distance,
-            self._limits,
-            rates.bearing_rate,
-            rates.closing_speed,
-            0.0,
-            self.pose,
-            self._moving,
-            velocity=drift,
-        )
-        intent, self._memory = self.strategy.decide(known, self._memory)
-        self._moving = intent.walks
-        return intent
+        """Ask the strategy."""
+        return self._decider.decide(time, self.pose, bearing, distance)
 
     def drive(self, intent: Intent, times: Array) -> Array:
         """Drive as was decided; poses at times since then. Shape (n, 3)."""

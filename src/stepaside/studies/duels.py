@@ -22,9 +22,9 @@ from ..strategies.registry import file_of
 from ..unicycle.certificate import certify
 from ..unicycle.laws import make_game
 from ..unicycle.relative import Start
+from ..workers import give_up
 from .records import RecordFile
 from .version import PHYSICS, code_version, library_versions
-from .workers import give_up
 
 Record = dict[str, Any]
 # Of a record, what depends on the machine and not on the duel alone.

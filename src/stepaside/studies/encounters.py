@@ -15,10 +15,10 @@ from ..games.settings import DuelSettings, StartSettings
 from ..games.walk_settings import WalkSettings
 from ..poses import wrap_angle
 from ..strategies import Evasion
+from ..workers import give_up
 from ..world.person_settings import PersonSettings
 from .records import RecordFile
 from .trial_results import stamp
-from .workers import give_up
 
 SPEEDS = (0.3, 0.6, 1.0, 1.4)  # of people, in [m/s]
 BEARINGS = (0, 45, -90, 135, 180)  # where they come from, in [deg]

@@ -6,9 +6,9 @@ from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from dataclasses import replace
 from pathlib import Path
 
+from ..workers import give_up
 from .robustness import DIRECTIONS, Trial, run_trial
 from .trial_results import note_result, read_results
-from .workers import give_up
 
 # In [N s] for a robot of NAO's mass; see :func:`.robustness.push_scale`.
 RESOLUTION = 0.1  # to which a limit is found

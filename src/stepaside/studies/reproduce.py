@@ -5,12 +5,12 @@ from concurrent.futures import Executor, Future, as_completed
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ..workers import give_up
 from .claims import Job, Row
 from .jobs import JOBS
 from .kept import Kept, Key
 from .readings import Readings
 from .version import code_version, library_versions
-from .workers import give_up
 
 
 class Trial(NamedTuple):

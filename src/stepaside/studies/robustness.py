@@ -16,11 +16,11 @@ from ..games.walk_settings import WalkSettings
 from ..planning import GaitSettings
 from ..robots.description import load_robot
 from ..robots.forward import ForwardKinematics
+from ..workers import give_up
 from ..world.body_settings import BODIES, BodySettings
 from ..world.push import Push
 from .changes import OWN, changed_walk
 from .trial_results import note_result, read_results
-from .workers import give_up
 
 DIRECTIONS = {"left": 90.0, "right": -90.0, "forward": 0.0, "backward": 180.0}
 STRENGTHS: dict[str, tuple[float, ...]] = {

@@ -16,11 +16,11 @@ from ..poses import Array, Pose, wrap_angle, wrap_angles
 from ..rooms import Room, RoomRecipe, draw_starts, make_room, room_entries
 from ..strategies.steps import StepGame, StepTrack, play_steps
 from ..strategies.tables import pursuit_bound
+from ..workers import give_up
 from .entrants import evader_of, pursuer_of
 from .floor_used import floor_used
 from .records import RecordFile
 from .version import GROUND, code_version, library_versions
-from .workers import give_up
 
 Record = dict[str, Any]
 ERROR = ConfigurationError

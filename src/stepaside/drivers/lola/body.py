@@ -12,7 +12,7 @@ from ..session import SessionLost
 from .conventions import CHEST_BUTTON, measurement_of
 from .frame_clock import TICK
 from .frames import ActuatorFrame, SensorFrame, pack_actuators
-from .guardian import Guardian
+from .guardian import StiffnessGuardian
 from .hearing import Hearing
 from .joints import LEGS, JointMap
 from .lights import lights_for
@@ -47,7 +47,7 @@ class LolaBody:
         stance: Array,
         *,
         sight: SightChannel | None = None,
-        guardian: Guardian | None = None,
+        guardian: StiffnessGuardian | None = None,
         safety: SafetySettings | None = None,
         dry_run: bool = False,
         clock: Callable[[], float] = monotonic,

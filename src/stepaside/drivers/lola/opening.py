@@ -7,7 +7,7 @@ from ...poses import Array
 from ..session import SessionLost
 from .address import Address
 from .body import LolaBody
-from .guardian import Guardian
+from .guardian import StiffnessGuardian
 from .link import connect
 from .safety import SafetySettings
 from .sight import MESSAGE
@@ -57,7 +57,9 @@ def open_lola(
         joint_names,
         stance,
         sight=sight,
-        guardian=Guardian(link.socket) if guarded and not dry_run else None,
+        guardian=(
+            StiffnessGuardian(link.socket) if guarded and not dry_run else None
+        ),
         safety=safety,
         dry_run=dry_run,
     )

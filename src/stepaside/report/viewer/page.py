@@ -24,9 +24,9 @@ from .plots import Plots
 from .push_panel import add_push
 from .saving import Saving
 from .serving import open_server
-from .session import Session
+from .session import Moment, Session
 from .viewers import CAMERAS, Viewers
-from .words import outlook, phases_of, words_of
+from .words import outlook, words_of
 
 LOG = logging.getLogger(__name__)
 RATE = 30.0  # updates of the scene a second
@@ -230,46 +230,40 @@ class Page:
         with self.server.atomic():
             self._bodies.move(moment.positions, moment.quaternions)
             draw_session(self._layers, session)
-        with session.lock:  # what snapshots read must not move meanwhile
-            seen = [player.snapshot() for player in session.duel.players]
         self._viewers.aim(
-            [np.array(each.torso[:2]) for each in seen],
-            [float(each.com[2]) for each in seen],
+            [np.array(each.torso[:2]) for each in moment.players],
+            [float(each.com[2]) for each in moment.players],
         )
         self._play.label = "Pause" if session.running else "Start"
-        duel = session.duel
-        history = session.trail.history
-        angle = history[-1][2] if history else 0.0
-        distance = duel.distance or 0.0
         words = words_of(
-            phases_of(duel),
-            distance,
-            angle,
+            moment.phases,
+            moment.distance,
+            moment.angle,
             session.settings.strategy.safety_radius,
             session.theory,
         )
         text = (
-            f"{words}\n\n{self._outlook(distance)}\n\n"
+            f"{words}\n\n{self._outlook(moment)}\n\n"
             f"{moment.time:.1f} s simulated, distance "
-            f"{distance:.2f} m, closest {duel.min_distance:.2f} m, "
+            f"{moment.distance:.2f} m, closest {moment.closest:.2f} m, "
             f"{session.factor:.1f} x real time"
         )
         if session.outcome is not None:
             text += f"\n\n**over: {session.outcome.value}**; reset to go on"
-            text += f"\n\n{duel.message}"
+            text += f"\n\n{moment.message}"
         if session.error is not None:
             text += f"\n\n**stopped: {for_markdown(session.error)}**"
         if self._status.content != text:
             self._status.content = text
-        self._drive.show(moment.time, distance)
+        self._drive.show(moment.time, moment.distance)
 
-    def _outlook(self, distance: float) -> str:
+    def _outlook(self, moment: Moment) -> str:
         """What is expected next."""
         session = self.session
         gait = session.settings.gait
         return outlook(
-            distance,
-            phases_of(session.duel)[1],
+            moment.distance,
+            moment.phases[1],
             safety=session.settings.strategy.safety_radius,
             speed=gait.stride / gait.step_duration,
             theory=session.theory,

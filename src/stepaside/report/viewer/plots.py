@@ -42,7 +42,8 @@ class Plots:
 
     def show(self, session: Session) -> None:
         """Show what a session has gone through."""
-        rows = np.array(session.trail.history).reshape(-1, 3)
+        with session.lock:
+            rows = np.array(session.trail.history).reshape(-1, 3)
         if len(rows) < 2:
             return
         theory = session.theory or (np.nan, np.nan)

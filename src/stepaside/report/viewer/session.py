@@ -10,16 +10,19 @@ from pathlib import Path
 from time import perf_counter, sleep
 from typing import TYPE_CHECKING
 
+from ...control import Phase
 from ...errors import StepAsideError
 from ...games.circle import theory_of
 from ...games.duel import Duel
 from ...games.outcome import Outcome
+from ...games.player import Snapshot
 from ...games.settings import DuelSettings
 from ...poses import Array
 from ...world.push import Push
 from ..settling import settling_time
 from .saving import Keeping, Saving
 from .trail import Trail
+from .words import phases_of
 
 if TYPE_CHECKING:
     from ...perception.perception import FrameReport
@@ -37,11 +40,23 @@ class Moment:
         time: Simulated time, in [s].
         positions: Of all bodies in the world, in [m]. Shape (bodies, 3).
         quaternions: (w, x, y, z). Shape (bodies, 4).
+        players: State of each player.
+        phases: What pursuer and evader do.
+        distance: Between the two, in [m].
+        closest: Least distance so far, in [m].
+        angle: Between their headings when it was last noted, in [deg].
+        message: What the duel says of itself.
     """
 
     time: float
     positions: Array
     quaternions: Array
+    players: tuple[Snapshot, ...]
+    phases: tuple[Phase, Phase]
+    distance: float
+    closest: float
+    angle: float
+    message: str
 
 
 class Session:
@@ -195,10 +210,19 @@ class Session:
 
     def moment(self) -> Moment:
         """Copy what the page shows."""
-        with self.lock:
-            data = self.duel.world.data
+        with self.lock:  # the physics must not move what is worked out here
+            duel, history = self.duel, self.trail.history
+            data = duel.world.data
             return Moment(
-                self.duel.world.time, data.xpos.copy(), data.xquat.copy()
+                duel.world.time,
+                data.xpos.copy(),
+                data.xquat.copy(),
+                tuple(player.snapshot() for player in duel.players),
+                phases_of(duel),
+                duel.distance or 0.0,
+                duel.min_distance or 0.0,
+                history[-1][2] if history else 0.0,
+                duel.message,
             )
 
     def _loop(self) -> None:

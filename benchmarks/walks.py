@@ -1,0 +1,41 @@
+"""Many walks at once, and the figures that are kept of them."""
+
+from argparse import Namespace
+from collections.abc import Mapping
+from typing import Any
+
+from gathering import Row, finished, gather
+
+from stepaside.games.walk import run_walk
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.studies.results import header, write_result
+
+
+def walk(settings: WalkSettings) -> Row:
+    """Figures of one walk."""
+    found: Row = run_walk(settings).summary.to_json()
+    return found
+
+
+def walk_all(
+    arguments: Namespace,
+    settings: dict[str, Any],
+    jobs: Mapping[str, WalkSettings],
+    kept: tuple[str, ...],
+) -> None:
+    """Walk and write.
+
+    Args:
+        arguments: Have output and workers.
+        settings: That the result names.
+        jobs: Walks by name.
+        kept: Figures that the result keeps of each.
+    """
+    head = header(settings)
+    whole = gather(arguments.output, head, jobs, walk, arguments.workers)
+    walks = {
+        name: {key: row[key] for key in kept} for name, row in whole.items()
+    }
+    falls = sum(row["outcome"] != "completed" for row in walks.values())
+    write_result(arguments.output, head, falls=falls, walks=walks)
+    finished(arguments.output)

@@ -1,0 +1,87 @@
+"""A strategy at work: what it remembers, and what it is told."""
+
+from math import cos, sin
+from typing import Any
+
+from ..poses import Pose
+from ..rooms import Obstacle
+from .knowledge import Intent, Knowledge, Limits
+from .rates import FloorVelocity, SightRates
+from .strategy import Strategy
+
+
+class Decider:
+    """A player of a game of templates, by a strategy.
+
+    Attributes:
+        strategy: How it plays.
+    """
+
+    def __init__(
+        self,
+        strategy: Strategy,
+        limits: Limits,
+        period: float,
+        solids: tuple[Obstacle, ...] = (),
+        *,
+        sees_velocity: bool = False,
+    ) -> None:
+        """Begin with nothing seen.
+
+        Args:
+            strategy: How it plays.
+            limits: What its gait can do.
+            period: Between two decisions, in [s].
+            solids: What it knows of in the room.
+            sees_velocity: Whether it is told how the other moves.
+        """
+        self.strategy = strategy
+        self._memory: Any = strategy.begin()
+        self._limits, self._solids = limits, solids
+        self._rates = SightRates(period)
+        self._drift = FloorVelocity(period) if sees_velocity else None
+        self._moving = False
+
+    def decide(
+        self, time: float, pose: Pose, bearing: float, distance: float
+    ) -> Intent:
+        """Ask the strategy.
+
+        Args:
+            time: Now, in [s].
+            pose: Own pose.
+            bearing: Of the other, in [rad].
+            distance: To the other, in [m].
+        """
+        rates = self._rates.note(time, pose.theta + bearing, distance)
+        known = Knowledge(
+            time,
+            bearing,
+            distance,
+            self._limits,
+            rates.bearing_rate,
+            rates.closing_speed,
+            0.0,
+            pose,
+            self._moving,
+            self._solids,
+            velocity=self._velocity(time, pose, bearing, distance),
+        )
+        intent, self._memory = self.strategy.decide(known, self._memory)
+        self._moving = intent.walks
+        return intent
+
+    def _velocity(
+        self, time: float, pose: Pose, bearing: float, distance: float
+    ) -> tuple[float, float] | None:
+        """Of the other, in the own frame, in [m/s]."""
+        if self._drift is None:
+            return None
+        there = pose.compose(
+            Pose(distance * cos(bearing), distance * sin(bearing), 0.0)
+        )
+        drift = self._drift.note(time, there.x, there.y)
+        if drift is None:
+            return None
+        vx, vy, _ = Pose(0.0, 0.0, -pose.theta).compose(Pose(*drift, 0.0))
+        return vx, vy
