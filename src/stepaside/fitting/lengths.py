@@ -102,6 +102,7 @@ def stabiliser_of(size: Size) -> dict[str, float]:
         "stride_bound": _round(DEAD_ZONE * z),
         "joint_gain": _round(JOINT_GAIN / time),
         "joint_leak": _round(JOINT_LEAK / time),
+        "load_share": 1.0,
     }
 
 

@@ -33,6 +33,7 @@ GAIN_WHY = {
     "stride_bound": "[m]",
     "joint_gain": "[1/s]",
     "joint_leak": "[1/s]",
+    "load_share": "what the servos give way under load is asked beforehand",
 }
 GAME_WHY = {
     "safety_radius": "[m]: 0.89 of the distance on the circle",
@@ -140,8 +141,8 @@ def _overlay(derived: Derived) -> list[str]:
     own: RobotDescription = derived.description
     untold = [n for n in own.overlay.servos if n not in derived.told_torques]
     why = "Torques as the model tells; stiffness and damping of the legs and "
-    why += "the waist are 12 m g z and 0.3 sqrt(z / g) of that, of others by "
-    why += "what "
+    why += "the waist are 12 m g z and 0.3 sqrt(z / g) of that, less where "
+    why += "0.02 rad would ask for more than the torque; of others by what "
     why += "they carry; an armature is given where the model has hardly any."
     asked = f"{ASK} torques of {', '.join(untold)}." if untold else ""
     soles = [
