@@ -16,7 +16,7 @@ STIFFNESS = 12.0
 # A servo that is at its limit holds nothing. It gets there at no less of an
 # error than this, in [rad], so that a foot that lands a little off takes no
 # torque from standing, but is no softer than that part of what tips.
-GIVES = 0.02
+GIVES = 0.04
 LEAST = 3.0
 DAMPING_TIME = 0.3
 ARMATURE = 0.004
