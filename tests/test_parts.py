@@ -51,7 +51,7 @@ def test_parts_lie_in_their_body_as_they_are() -> None:
     frame = np.zeros(9)
     mujoco.mju_quat2Mat(frame, mesh.turn)
     corners = mesh.shell.corners @ frame.reshape(3, 3).T + mesh.place
-    wanted = [[0, 0, 0], [0, 0, 0.6], [0, 0.2, 0], [0.4, 0, 0]]
+    wanted = np.array([[0, 0, 0], [0, 0, 0.6], [0, 0.2, 0], [0.4, 0, 0]])
     order = np.lexsort(np.round(corners, 6).T[::-1])
     np.testing.assert_allclose(corners[order], wanted, atol=1e-6)
     told = mesh.to_json()
