@@ -15,7 +15,6 @@ CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 ARTEFACTS = Path(__file__).parent.parent / "artefacts"
 WAIT = 200_000  # more than a browser on a busy machine ever takes, in [ms]
 OPTIONS = ["--no-sandbox", "--enable-unsafe-swiftshader"]
-FEW = 0.5  # pixels of a picture for each of the page, along one side
 LIDS = """
 globalThis.looking = false;
 for (const kind of [WebGLRenderingContext, WebGL2RenderingContext])
@@ -62,7 +61,6 @@ def open_page(
     """
     page = browser.new_page(
         viewport={"width": width, "height": height},
-        device_scale_factor=FEW,
         **options,
     )
     page.set_default_timeout(WAIT)
@@ -81,8 +79,15 @@ def looking(page: Any) -> Iterator[None]:
 
 
 def keep_picture(page: Any, name: str) -> None:
-    """Look at a page, and keep what is seen in ``artefacts``."""
+    """Look at a page, and keep what is seen in ``artefacts``.
+
+    A page that draws only what changed draws again when it is resized.
+    """
+    size = page.viewport_size
+    page.set_viewport_size({**size, "height": size["height"] - 1})
+    page.evaluate(FRAMES)
     with looking(page):
+        page.set_viewport_size(size)
         page.evaluate(FRAMES)
         page.screenshot(path=ARTEFACTS / name)
 

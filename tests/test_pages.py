@@ -135,6 +135,58 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
     assert threading.active_count() < 50
 
 
+def test_a_robot_is_pulled_with_the_pointer_and_driven_with_a_stick(
+    browser: Any,
+) -> None:
+    from stepaside.report.viewer.page import Page
+
+    live = Page(DuelSettings(), host="127.0.0.1", port=8771)
+    live.start()
+    session = live.session
+    pursuer = session.duel.players[0]
+    assert isinstance(pursuer, Walker)
+    try:
+        page = open_page(browser, width=900, has_touch=True)
+        page.goto(f"http://127.0.0.1:{live.server.get_port()}")
+        page.get_by_text("standing").first.wait_for()
+        press(page, "evader's eyes")  # then the pursuer is in the middle
+        box = page.locator("canvas").first.bounding_box()
+        x = box["x"] + 0.5 * box["width"]
+        y = box["y"] + 0.5 * box["height"]
+
+        def pulled() -> bool:
+            """Pull, until the camera is where it shall be."""
+            page.mouse.move(x, y)
+            page.mouse.down()
+            page.mouse.move(x + 20, y, steps=2)
+            page.mouse.move(x + 60, y, steps=2)
+            page.mouse.up()
+            return pursuer.robot.pusher is not None
+
+        until(page, pulled)
+        page.get_by_text("pushed the pursuer by").wait_for()
+        session.step(0.05)
+        settle(page, session)
+        pusher = pursuer.robot.pusher
+        assert pusher is not None
+        # To the right of who faces it, which is to its own left.
+        until(page, lambda: pusher.impulse[1] > 0.1)
+
+        stick = page.locator("#stick").bounding_box()
+        middle = stick["x"] + 54, stick["y"] + 54
+        page.mouse.move(*middle)
+        page.mouse.down()
+        page.mouse.move(middle[0] - 30, middle[1] - 30, steps=3)
+        until(page, lambda: (h := live._drive._hand) is not None and h.going)
+        until(page, lambda: (h := live._drive._hand) and h.turn > 0.5)
+        keep_picture(page, "driving.png")
+        page.mouse.up()
+        until(page, lambda: (h := live._drive._hand) and not h.going)
+        page.close()
+    finally:
+        live.close()
+
+
 def settle(page: Any, session: Session) -> None:
     """Wait until the loop behind the page begins a round."""
     for _ in range(3):
