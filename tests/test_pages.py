@@ -253,11 +253,11 @@ def test_the_written_page_opens_without_a_network(
     page.click("#play")
     before = seen_at(page, 0.0)
     page.fill("#time", "70")
-    assert float(page.inner_text("#clock").split()[0]) == 3.5
-    after = seen_at(page, 3.5)
+    assert float(page.inner_text("#clock").split()[0]) == 2.8
+    after = seen_at(page, 2.8)
     assert after != before
     page.get_by_label("footsteps").uncheck()
-    assert seen_at(page, 3.5) != after
+    assert seen_at(page, 2.8) != after
     wide = page.evaluate("document.documentElement.scrollWidth")
     assert wide <= width
     keep_picture(page, f"offline-{scheme}.png")
