@@ -114,6 +114,21 @@ def test_a_view_is_that_of_mujoco_s_camera(name: str) -> None:
     np.testing.assert_allclose(eye.up, view.axes[1], atol=1e-6)
 
 
+@pytest.mark.parametrize(
+    "way", [(1.0, 0.0, 0.0), (0.6, -0.8, 0.0), (0.1, 0.2, 0.97), (0, 0, -1)]
+)
+def test_a_bar_lies_along_its_way_and_flat_on_the_floor(
+    way: tuple[float, float, float],
+) -> None:
+    ahead = np.array(way) / np.linalg.norm(way)
+    turn = film_layers.turn_along(*ahead.tolist()).reshape(3, 3)
+    np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-12)
+    assert np.linalg.det(turn) == pytest.approx(1.0)
+    np.testing.assert_allclose(turn[:, 2], ahead)
+    if abs(ahead[2]) < 0.9:
+        assert turn[2, 0] == 0.0
+
+
 def test_the_light_shines_on_what_is_looked_at() -> None:
     model = mujoco.MjModel.from_xml_string(
         "<mujoco><worldbody><light dir='0.3 0 -1' castshadow='true'/>"

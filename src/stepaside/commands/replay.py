@@ -57,8 +57,8 @@ def _views() -> tuple[str, ...]:
     type=NameType(_views, FORMER),
     default="fixed",
     show_default=True,
-    help="It stands and sees all, goes along, looks from above, or through "
-    "the evader's eyes.",
+    help="It stands and sees all, goes along, looks from above, through the "
+    "evader's eyes, or goes along beside what the robots see.",
 )
 @click.option(
     "--slow-motion/--no-slow-motion",

@@ -20,6 +20,7 @@ from ..workers import worker_pool
 from ..world.graphics import RAYCAST, Look, Screen, choose_renderer
 from .film_camera import CameraMan
 from .film_layers import decorate, light_up
+from .film_split import Insets, room_beside
 from .film_words import caption, title_of
 from .stage import Stage
 
@@ -27,7 +28,8 @@ CHUNK = 15  # pictures that one worker draws at a time
 TRAIL = 20.0  # how long traces are, in [s]
 FINE = Look(samples=4, shadow=2048, slices=18, stacks=10)
 # Beyond, nothing has shadows; who looks far must not see where that is.
-REACH = {"fixed": 4.0, "follow": 4.0, "top": 4.0, "eyes": 12.0}
+REACH = {"eyes": 12.0}
+NEARBY = 4.0  # for all other cameras
 SLOWEST = 0.25  # pace about the closest approach, of the film's own
 AROUND = 2.0  # time before and after it that is slower, in [s]
 
@@ -106,14 +108,22 @@ class Cinema:
         model = self._stage.model
         _dim(model)
         self._fovy = float(model.vis.global_.fovy)
-        aspect = shot.width / shot.height
+        wide, self._insets = shot.width, None
+        if shot.camera == "split":
+            beside = room_beside(shot.width, shot.height)
+            wide -= beside
+            size = beside, shot.height
+            self._insets = Insets(run, self._stage, backend, size)
+        aspect = wide / shot.height
         self._man = CameraMan(run, shot.camera, self._fovy, aspect)
         self._screen = Screen(
             model,
-            shot.width,
+            wide,
             shot.height,
             backend,
-            FINE._replace(reach=max(REACH[shot.camera], self._man.reach)),
+            FINE._replace(
+                reach=max(REACH.get(shot.camera, NEARBY), self._man.reach)
+            ),
         )
         self._closest = closest_time(run)
 
@@ -139,11 +149,17 @@ class Cinema:
                 fovy=self._fovy,
                 pace=shot.pace(time, self._closest),
             )
-        return title_of(drawn, shot.title)
+        drawn = title_of(drawn, shot.title)
+        if self._insets is not None:
+            seen = self._insets.picture(index)
+            drawn = np.concatenate([drawn, seen], axis=1)
+        return drawn
 
     def close(self) -> None:
         """Let go of the graphics."""
         self._screen.close()
+        if self._insets is not None:
+            self._insets.close()
 
 
 def _dim(model: mujoco.MjModel) -> None:
