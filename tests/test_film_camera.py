@@ -13,8 +13,9 @@ from stepaside.games.settings import PLAYERS, DuelSettings
 from stepaside.games.track import Track
 from stepaside.poses import Array
 from stepaside.report import film_layers
-from stepaside.report.film import AROUND, SLOWEST, Shot, closest_time
+from stepaside.report.film import Shot, closest_time
 from stepaside.report.film_camera import MARGIN, VIEWS, CameraMan, framing
+from stepaside.report.film_shot import AROUND, SLOWEST
 from stepaside.report.film_words import caption, title_of
 from stepaside.report.palette import PALETTES
 
