@@ -8,7 +8,6 @@ from collections.abc import Callable
 from . import (
     benchmark,
     bounds,
-    driven,
     duels,
     evading,
     index,
@@ -35,7 +34,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "bound-speed": bounds.speed,
     "certified": many_duels.certified,
     "certified-starts": unicycles.certified_starts,
-    "driven": driven.duels,
+    "driven": served.driven,
     "each": persons.each,
     "evading-others": evading.others,
     "evading-sizes": evading.sizes,
