@@ -132,6 +132,18 @@ def test_small_holes_do_not_take_things_apart(hole: int, things: int) -> None:
     assert count(whole, (24, 24 + hole, 30, 50, 0.0)) == things
 
 
+@pytest.mark.parametrize("dark", [1, 2])
+def test_what_is_dark_does_not_tie_a_thing_to_the_wall(dark: int) -> None:
+    """The camera's own shadow beside a near edge answers nothing."""
+    edge = 46 + dark
+    shadow = 10, 27, 46, edge, 0.0
+    wall = 0, 27, edge, 80, 3.0
+    (thing,) = draw(wall, (10, 40, 34, 46, 1.5), shadow).obstacles
+    assert thing.azimuth == pytest.approx(0.0, abs=3e-3)
+    assert thing.nearest == pytest.approx(1.5, abs=0.03)
+    assert thing.whole
+
+
 def test_what_is_broader_than_a_robot_is_a_wall() -> None:
     """1.03 m and 1.17 m."""
     assert count((10, 40, 15, 65, 1.6)) == 1

@@ -8,13 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..poses import Array
+from .depth_parts import parts_of
 from .images import DepthImage
 
 FLOOR = 0.07  # what is lower belongs to the floor, in [m]
 CEILING = 2.2  # what is higher is in nobody's way, in [m]
 SELF = 0.22  # what is nearer to the own axis is the robot itself, in [m]
-JUMP = 0.25  # of depth between pixels of one thing, at most, in [m]
-SMALLEST = 14  # pixels of a thing, at 80 columns
 BROADEST = 1.1  # what is broader is a wall, in [m]
 LOWEST = 0.15  # height of what is in the way, in [m]
 TRUSTED = 0.75  # share of the far limit up to which a thing is whole
@@ -104,7 +103,7 @@ def detect_obstacles(
     solid &= away > SELF
     found = [
         _measure(points[part], part, place, axes)
-        for part in _clusters(solid, depths)
+        for part in parts_of(solid, depths)
     ]
     things = [
         thing
@@ -150,38 +149,6 @@ def _join(
         for low, high in joined
     ]
     return tuple(sorted(shadows, key=lambda shadow: -shadow.width))
-
-
-def _clusters(
-    solid: NDArray[np.bool_], depths: Array
-) -> list[NDArray[np.bool_]]:
-    """Parts of an image that hang together in depth."""
-    cut = np.zeros_like(solid)
-    for axis in (0, 1):
-        jump = np.abs(np.diff(depths, axis=axis)) > JUMP
-        both = (
-            solid[1:] & solid[:-1]
-            if axis == 0
-            else (solid[:, 1:] & solid[:, :-1])
-        )
-        far = jump & both
-        if axis == 0:
-            cut[1:] |= far
-        else:
-            cut[:, 1:] |= far
-    mask = (solid & ~cut).astype(np.uint8)
-    # Holes where nothing came back do not take a thing apart.
-    closed = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8))
-    closed[cut] = 0
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(
-        closed, connectivity=8
-    )
-    least = SMALLEST * (solid.shape[1] / 80.0) ** 2
-    return [
-        (labels == label) & solid
-        for label in range(1, count)
-        if stats[label, cv2.CC_STAT_AREA] >= least
-    ]
 
 
 def _measure(
