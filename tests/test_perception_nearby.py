@@ -121,6 +121,15 @@ def test_an_echo_of_nobody_known_founds_somebody_near(
     assert CHEST == 0.10
 
 
+def test_an_echo_of_the_own_arms_founds_nobody(eyes: Eyes) -> None:
+    """Nobody whom a sonar hears at its near limit is not yet touched."""
+    for i, distance in enumerate((0.2, 0.24)):
+        eyes.see(i * TICK, SonarEcho(i * TICK, "left", distance))
+    assert not eyes.tracks
+    eyes.see(3 * TICK, SonarEcho(3 * TICK, "left", 0.26))
+    assert len(eyes.tracks) == 1
+
+
 def test_an_echo_tells_the_distance_of_who_is_known(eyes: Eyes) -> None:
     """When nothing else has told it lately."""
     for age, heard in ((FRESH - 0.05, False), (FRESH + 0.05, True)):

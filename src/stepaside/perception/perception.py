@@ -30,6 +30,7 @@ STARE = 1.2  # unknown things that rest are looked at up to here, in [m]
 MOVING = 0.08  # speed from which a thing moves, in [m/s]
 BROAD = 0.12  # shadow of somebody who was not seen before, in [rad]
 CHEST = 0.10  # from a sonar to the own axis and into the other, in [m]
+DEAF = 0.25  # echo that may be of the own arms, or of anything nearer, [m]
 EAR = radians(50.0)  # how far aside a sonar hears
 
 
@@ -155,7 +156,7 @@ class Perception:
                 bearing = candidate.turned_to(x, y, now) - heading
                 if self._glances is not None:
                     bearing = self._glances.turned(bearing, distance)
-                self._gaze.follow(bearing, distance)
+                self._gaze.follow(bearing, distance, candidate.height)
                 self.searching = False
                 return
         self.searching = True
@@ -215,7 +216,7 @@ class Perception:
 
     def _hear(self, echo: SonarEcho, body: BodyPose, now: float) -> None:
         """Hear how far away is what no camera measures any more."""
-        if echo.distance is None:
+        if echo.distance is None or echo.distance < DEAF:
             return
         mount = self._head.sonars[echo.sonar]
         x, y, heading = body.torso
