@@ -151,8 +151,8 @@ def test_what_is_broader_than_a_robot_is_a_wall() -> None:
 
 
 def test_what_is_too_far_to_be_measured_whole_is_left_out() -> None:
-    assert count((10, 36, 30, 40, 2.55)) == 1
-    assert count((10, 36, 30, 40, 2.70)) == 0
+    assert count((10, 36, 30, 40, 3.27)) == 1
+    assert count((10, 36, 30, 40, 3.40)) == 0
 
 
 @pytest.mark.parametrize(("left", "right"), [(0, 12), (68, 80)])

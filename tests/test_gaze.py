@@ -83,7 +83,7 @@ def test_it_turns_at_the_speed_of_a_following_head() -> None:
     gaze = Gaze(COUPLING, TICK)
     gaze.search()
     moved = hypot(gaze.yaw - before[0], gaze.pitch - before[1])
-    assert moved == pytest.approx(1.4 * TICK)
+    assert moved == pytest.approx(3.0 * TICK)
 
 
 def test_it_begins_ahead_a_little_down_and_searching() -> None:

@@ -8,7 +8,7 @@ from ..poses import Array, wrap_angle
 from ..sensing.tracker import TALL
 
 SPEED = 3.0  # of the head while it follows, in [rad/s]
-SCAN_SPEED = 1.4  # of the head while it searches, in [rad/s]
+SCAN_SPEED = 3.0  # of the head while it searches, in [rad/s]
 SCAN_PITCH = radians(8.0)  # downward, while it searches
 REACH = radians(115.0)  # of the yaw while it searches
 MIDDLE = 0.28  # height of a robot that is looked at, in [m]

@@ -1,6 +1,7 @@
 """From percepts to a line of sight, and from it to where the head looks."""
 
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import atan2, cos, hypot, radians, sin
 
@@ -203,8 +204,16 @@ class Perception:
             other = self._tracker.main(now, *own)
             there = None if other is None else other.place_at(image.time)
             self.floor.take(image, place, axes, own, there)
-        seen = [observe_obstacle(image, o) for o in scene.obstacles]
-        self._observe(seen, image, place, axes, named=False)
+        # What the edge cuts may be a piece of a wall: it founds nobody.
+        whole, cut = (
+            [
+                observe_obstacle(image, thing)
+                for thing in scene.obstacles
+                if thing.whole is is_whole
+            ]
+            for is_whole in (True, False)
+        )
+        self._observe(whole, image, place, axes, named=False, cut=cut)
         for shadow in scene.shadows:
             tracks = self._tracker.tracks
             # Something that came so near unseen is somebody too.
@@ -257,9 +266,11 @@ class Perception:
         axes: Array,
         *,
         named: bool,
+        cut: Sequence[Observation] = (),
     ) -> None:
         """Update tracks, and count those that a frame should have shown."""
         updated = self._tracker.observe(seen)
+        updated += self._tracker.observe(cut, founds=False)
         ahead = atan2(axes[1, 0], axes[0, 0])
         half = 0.85 * abs(angle_of(image, 0.0))
         x, y = float(place[0]), float(place[1])
