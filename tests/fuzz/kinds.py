@@ -42,7 +42,10 @@ def all_cases(
     run = folder / "run"
     make_run(run)
     warm_up()
-    left = [KINDS[kind](Random(seed), run) for kind in kinds]
+    return _by_turns([KINDS[kind](Random(seed), run) for kind in kinds])
+
+
+def _by_turns(left: list[Iterator[Case]]) -> Iterator[Case]:
     while left:
         for source in list(left):
             case = next(source, None)
