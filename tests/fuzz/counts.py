@@ -77,7 +77,7 @@ def keep(
         rooms=all_rooms(),
         libraries=("click", "mujoco", "numpy", "viser"),
         command=f"python -m tests.fuzz --seed SEED --kinds {' '.join(kinds)} "
-        f"--minutes MINUTES --keep {file}",
+        f"--minutes MINUTES --keep docs/results/{file.name}",
     )
     run = {
         "seed": seed,
