@@ -33,12 +33,10 @@ class Trial(NamedTuple):
 
     Attributes:
         words: Of Python, which run it.
-        lasts: About as long as it takes, in [s].
         result: What it comes to in a folder; what it says differs by clocks.
     """
 
     words: tuple[str, ...]
-    lasts: float
     result: Callable[[Path], Any]
 
 
@@ -69,12 +67,10 @@ WALKS = "--kind=unevenness --method=open-loop --seeds=1 --workers=2"
 TRIALS: Mapping[str, Trial] = {
     "duel": Trial(
         (*MAIN, "duel", "--seed=3", "--duration=1", "--output=out"),
-        3.0,
         _duel,
     ),
     "map": Trial(
         (*MAIN, *"map --grid=30 --figure=map.png --overwrite".split()),
-        4.0,
         _bytes("map.png"),
     ),
     "duels": Trial(
@@ -82,17 +78,14 @@ TRIALS: Mapping[str, Trial] = {
             *(*MAIN, "duels", "--seeds=0:2", "--duration=0.3"),
             *("--workers=1", "--output=out"),
         ),
-        6.0,
         _json("summary", name="summary.json"),
     ),
     "robustness": Trial(
         (*MAIN, "robustness", *WALKS.split(), "--output=out"),
-        15.0,
         _json("survival", name="survival.json"),
     ),
     "reproduce": Trial(
         ("-m", "tests.fuzz.short_reproduce", "out"),
-        12.0,
         _json("rows", name="claims.json"),
     ),
 }
@@ -111,8 +104,8 @@ def moment_case(name: str, sign: signal.Signals, part: float) -> Case:
     trial = TRIALS[name]
 
     def run(folder: Path) -> str:
-        wanted = undisturbed(name)
-        ended = _end(trial, folder, sign, part * trial.lasts)
+        wanted, lasts = undisturbed(name)
+        ended = _end(trial, folder, sign, part * lasts)
         return (
             ended
             or unwhole(folder, killed=sign is signal.SIGKILL)
@@ -120,15 +113,16 @@ def moment_case(name: str, sign: signal.Signals, part: float) -> Case:
         )
 
     title = f"{name} ended by {sign.name} after {100 * part:.0f} %"
-    return Case(f"ended {name}", title, run, 300.0)
+    return Case(f"{name} ended by {sign.name}", title, run, 300.0)
 
 
 @cache
-def undisturbed(name: str) -> Any:
-    """What a command comes to that nobody ends."""
+def undisturbed(name: str) -> tuple[Any, float]:
+    """What a command comes to that nobody ends, and how long it takes [s]."""
     with TemporaryDirectory() as folder:
+        began = monotonic()
         start(TRIALS[name], Path(folder)).communicate()
-        return TRIALS[name].result(Path(folder))
+        return TRIALS[name].result(Path(folder)), monotonic() - began
 
 
 def start(trial: Trial, folder: Path) -> "subprocess.Popen[str]":
