@@ -10,7 +10,7 @@ def main() -> None:
 
         run()
     except KeyboardInterrupt:
-        os.write(2, b"stepaside: interrupted\n")
+        os.write(2, b"stepaside: interrupted; nothing is kept\n")
         raise SystemExit(130) from None
 
 

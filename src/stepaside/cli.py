@@ -99,7 +99,8 @@ class LazyGroup(click.Group):
             place = f"{error.filename}: " if error.filename else ""
             _refuse(f"{place}{(error.strerror or str(error)).lower()}")
         except (click.Abort, KeyboardInterrupt):
-            click.echo("stepaside: interrupted", err=True)
+            said = "stepaside: interrupted; what is not whole is not kept"
+            click.echo(said, err=True)
             sys.exit(INTERRUPTED)
         sys.exit(status if isinstance(status, int) else 0)
 
