@@ -50,7 +50,7 @@ def writes_files(function: Callable[..., Any]) -> Callable[..., Any]:
 
 def _files(context: click.Context) -> dict[str, tuple[int, ...]]:
     """Files to write that are there, and what tells one from another."""
-    there = {}
+    there: dict[str, tuple[int, ...]] = {}
     for param in context.command.params:
         value = context.params.get(param.name or "")
         if isinstance(param.type, OutputFile) and value is not None:

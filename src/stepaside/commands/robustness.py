@@ -240,11 +240,14 @@ def _tell(
             print_campaign(answer)
         if people is not None:
             print_people(people)
-    if stopped and people is None:
-        leave_stopped(kept_in(words_of_done(answer), output))
-    if stopped:
-        done = f"{people['done']} of {people['planned']} persons"
-        leave_stopped(kept_in(done, output))
+    if not stopped:
+        return
+    done = (
+        words_of_done(answer)
+        if people is None
+        else f"{people['done']} of {people['planned']} persons"
+    )
+    leave_stopped(kept_in(done, output))
 
 
 def _once(names: tuple[str, ...]) -> tuple[str, ...]:
