@@ -5,9 +5,9 @@ from typing import Any
 
 import click
 import pytest
-import stopping
 from click.testing import CliRunner, Result
 
+from fuzz import stopping
 from stepaside.cli import LazyGroup, all_commands, main
 from stepaside.commands.keeping import Kept
 from stepaside.commands.outputs import OutputFile, attempt, writes_files
@@ -108,6 +108,6 @@ def test_what_is_stopped_anywhere_else_says_so_in_one_line() -> None:
 
 
 def test_every_command_is_measured_or_short() -> None:
-    """``benchmarks/stopping.py`` stops all that are long."""
+    """``python -m tests.fuzz.stopping`` stops all that are long."""
     known = {*stopping.LONG, *stopping.SHORT, *stopping.APART}
     assert known == set(all_commands())

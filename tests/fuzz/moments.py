@@ -22,10 +22,11 @@ from stepaside.studies.duels import digest_of
 from stepaside.studies.records import _parse
 
 from .case import Case
+from .groups import Worked
 
 SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)
-STOPS = 2.0  # time in which Ctrl-C ends a command on a machine at rest, [s]
-LOAD = 10.0  # how much longer it may be on a busy one, in [s]
+STOPS = 2.0  # work in which Ctrl-C ends a command, and its workers, in [s]
+GIVEN_UP = 100.0  # time after which it is taken for one that never ends [s]
 
 
 class Trial(NamedTuple):
@@ -149,25 +150,31 @@ def _end(
 ) -> str:
     """Start and end it; what is wrong with how it ended."""
     process = start(trial, folder)
+    worked = Worked(process)
     try:
         process.communicate(timeout=after)
         return ""  # it was through before
     except subprocess.TimeoutExpired:
         pass
+    before = worked.until_now()
     if sign is signal.SIGINT:  # Ctrl-C reaches all of a terminal's group
         os.killpg(process.pid, sign)
     else:
         process.send_signal(sign)
     began = monotonic()
     try:
-        _, said = process.communicate(timeout=STOPS + LOAD)
+        _, said = process.communicate(timeout=GIVEN_UP)
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGKILL)
         process.communicate()
-        return f"it went on for {STOPS + LOAD:g} s, or its workers did"
-    if sign is not signal.SIGKILL and "Traceback" in said:
-        return f"traceback: {said[-600:]!r}"
-    while _alive(process.pid) and monotonic() - began < STOPS + LOAD:
+        return f"hang: it went on for {GIVEN_UP:g} s, or its workers did"
+    if sign is not signal.SIGKILL:
+        if "Traceback" in said:
+            return f"traceback: {said[-600:]!r}"
+        work = worked.until_its_end() - before
+        if work > STOPS:
+            return f"hang: it worked for {work:.1f} s more"
+    while _alive(process.pid) and monotonic() - began < GIVEN_UP:
         sleep(0.05)
     return "workers are left" if _alive(process.pid) else ""
 

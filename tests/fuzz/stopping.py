@@ -3,28 +3,27 @@
 Each is started as a terminal does, and stopped when it has worked for some
 while: while it loads, begins, and is at work::
 
-    python benchmarks/stopping.py
+    python -m tests.fuzz.stopping
 """
 
+import argparse
 import os
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
 from pathlib import Path
 from time import monotonic, sleep
 from typing import Any, NamedTuple
 
-from asking import ask, machine
-
-from stepaside.cli import all_commands
 from stepaside.games.duel import run_duel
 from stepaside.games.settings import DuelSettings
 from stepaside.report.run_folder import write_run
 from stepaside.robots.description import load_robot
 from stepaside.studies.results import header, write_result
+
+from .groups import Worked, members
 
 # Command lines that last, in a folder that holds a run and a robot.
 LONG = {
@@ -58,33 +57,17 @@ class Stopped(NamedTuple):
     Attributes:
         after_s: Processor time that it had used.
         ended_s: Time until it and its workers had ended.
+        worked_s: Processor time that all of them had until then, which is
+            that time on a machine at rest.
         status: Exit status; None if it was through before.
         said: Its last line.
     """
 
     after_s: float
     ended_s: float
+    worked_s: float
     status: int | None
     said: str
-
-
-def members(group: int) -> Iterator[list[str]]:
-    """What the system says of the processes of a group, field by field."""
-    for entry in Path("/proc").iterdir():
-        if entry.name.isdigit():
-            try:
-                text = (entry / "stat").read_text()
-            except OSError:
-                continue
-            fields = text.rpartition(")")[2].split()
-            if int(fields[2]) == group and fields[0] != "Z":
-                yield fields
-
-
-def worked(group: int) -> float:
-    """Processor time of a group, in [s]."""
-    ticks = sum(int(f[n]) for f in members(group) for n in (11, 12, 13, 14))
-    return ticks / os.sysconf("SC_CLK_TCK")
 
 
 def stop(words: list[str], folder: Path, moment: float) -> Stopped:
@@ -97,13 +80,13 @@ def stop(words: list[str], folder: Path, moment: float) -> Stopped:
         text=True,
         start_new_session=True,
     )
-    began = monotonic()
-    while worked(process.pid) < moment and monotonic() - began < LONGEST:
+    began, worked = monotonic(), Worked(process)
+    while worked.until_now() < moment and monotonic() - began < LONGEST:
         sleep(0.02)
     if process.poll() is not None:
         assert process.stderr is not None
         raise SystemExit(f"{words} ended: {process.stderr.read()}")
-    after, pressed = worked(process.pid), monotonic()
+    after, pressed = worked.until_now(), monotonic()
     os.killpg(process.pid, signal.SIGINT)
     try:
         _, said = process.communicate(timeout=GIVEN_UP)
@@ -129,31 +112,35 @@ def prepare(folder: Path) -> None:
 
 def main() -> None:
     """Stop all, and write."""
-    asked = ask(__doc__, "stopping.json")
-    asked.add_argument("--only", nargs="*", default=list(LONG))
-    arguments = asked.parse_args()
-    assert set(all_commands()) == {*LONG, *SHORT, *APART}
+    parser = argparse.ArgumentParser(
+        prog="python -m tests.fuzz.stopping", description=__doc__
+    )
+    add = parser.add_argument
+    add("--only", nargs="*", default=list(LONG), choices=list(LONG))
+    add("--keep", type=Path, help="result to write")
+    asked = parser.parse_args()
     rows: list[dict[str, Any]] = []
     with tempfile.TemporaryDirectory() as name:
         prepare(Path(name))
-        for command in arguments.only:
+        for command in asked.only:
             words = [*command.split(), *LONG[command].split()]
             stops = [stop(words, Path(name), moment) for moment in MOMENTS]
-            rows.append(
-                {
-                    "command": " ".join(words),
-                    "longest_s": max(each.ended_s for each in stops),
-                    "stops": [each._asdict() for each in stops],
-                }
-            )
+            row = {"command": " ".join(words)}
+            rows.append(row | {"stops": [each._asdict() for each in stops]})
             print(rows[-1], flush=True)
-    write_result(
-        arguments.output,
-        header({"moments_s": list(MOMENTS)}, rooms=("cli", "commands")),
-        machine=machine(),
-        longest_s=max(row["longest_s"] for row in rows),
-        rows=rows,
-    )
+    if asked.keep:
+        write_result(
+            asked.keep,
+            header(
+                {"moments_s": list(MOMENTS)},
+                rooms=("cli", "commands", "interrupting", "workers"),
+                command="python -m tests.fuzz.stopping --keep "
+                f"docs/results/{asked.keep.name}",
+            ),
+            load=os.getloadavg()[0],
+            cores=os.cpu_count(),
+            rows=rows,
+        )
 
 
 if __name__ == "__main__":
