@@ -59,14 +59,14 @@ class Stopped(NamedTuple):
         ended_s: Time until it and its workers had ended.
         worked_s: Processor time that all of them had until then, which is
             that time on a machine at rest.
-        status: Exit status; None if it was through before.
+        status: Exit status, or the signal that it ended itself by.
         said: Its last line.
     """
 
     after_s: float
     ended_s: float
     worked_s: float
-    status: int | None
+    status: int
     said: str
 
 
@@ -99,7 +99,11 @@ def stop(words: list[str], folder: Path, moment: float) -> Stopped:
     ended = monotonic() - pressed
     lines = said.replace("\r", "\n").strip().splitlines()
     return Stopped(
-        after, ended, process.returncode, lines[-1] if lines else ""
+        after,
+        ended,
+        max(worked.until_its_end() - after, 0.0),
+        abs(process.returncode),
+        lines[-1] if lines else "",
     )
 
 
