@@ -63,7 +63,7 @@ LONG_ENOUGH, INTERRUPTED = "played long enough", "interrupted"
     help="Ticks of 12 ms from a request to the motion.",
 )
 @click.option(
-    "--camera",
+    "--images",
     help="With --sensing cameras, where images come from: v4l2:DEVICE, "
     "naoqi:tcp://HOST:PORT or ros2:/TOPIC; what a simulated robot offers "
     "beside its socket by default.",

@@ -25,7 +25,7 @@ def open_cameras(
     Raises:
         StepAsideError: If there is no camera.
     """
-    camera = options["camera"]
+    camera = options["images"]
     seen = settings.cameras.colour
     model = seen.model()
     latency = seen.latency + settings.cameras.added_latency
@@ -52,7 +52,7 @@ def open_cameras(
         return TopicCamera(dds, topic, model, latency=latency)
     raise click.BadParameter(
         f"must begin with {V4L2}, {NAOQI} or {ROS2}, got {camera!r}",
-        param_hint="--camera",
+        param_hint="--images",
     )
 
 
@@ -62,7 +62,7 @@ def _beside(robot: "Address") -> "PerceptSource":
 
     if robot.cameras is None:
         raise click.UsageError(
-            "--camera is needed: a robot behind a host and a port shows no "
+            "--images is needed: a robot behind a host and a port shows no "
             "images beside it"
         )
     return CameraChannel(robot.cameras)

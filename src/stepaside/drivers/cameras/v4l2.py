@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import numpy as np
+
 from ...errors import ConfigurationError
 from ...sensing.camera_model import CameraModel
 from ...sensing.images import Pixels
@@ -48,6 +50,9 @@ def open_v4l2(place: str, model: CameraModel, *, latency: float) -> LiveCamera:
 
     def grab() -> Pixels | None:
         there, image = device.read()
-        return cv2.cvtColor(image, cv2.COLOR_BGR2RGB) if there else None
+        if not there:
+            return None
+        pixels = cv2.cvtColor(image, cv2.COLOR_BGR2RGB)
+        return np.asarray(pixels, dtype=np.uint8)
 
     return LiveCamera(place, grab, device.release, model, latency=latency)
