@@ -60,6 +60,13 @@ def test_what_is_not_confirmed_is_looked_at_only_near(eyes: Eyes) -> None:
     assert eyes.perception.sighting is None
 
 
+def test_the_head_knows_how_tall_it_is_whom_it_looks_at(eyes: Eyes) -> None:
+    track = eyes.know(*eyes.beside(1.0, 0.5))
+    track.height = 1.4
+    eyes.see(0.0)
+    assert eyes.gaze.height == 1.4
+
+
 def test_who_was_recognised_long_ago_is_a_thing_again(eyes: Eyes) -> None:
     for age, looks in ((UNSEEN - 0.1, True), (UNSEEN + 0.1, False)):
         eyes.tracks.clear()

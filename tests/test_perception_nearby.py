@@ -1,5 +1,6 @@
 """Test what depth, shadows, echoes and empty frames tell."""
 
+from dataclasses import replace
 from math import cos, degrees, radians, sin
 from typing import Any
 
@@ -119,6 +120,30 @@ def test_an_echo_of_nobody_known_founds_somebody_near(
     assert track.identified_at == -np.inf and track.ranged_at == 3 * TICK
     assert track.deviation_at(3 * TICK) == pytest.approx(0.25)
     assert CHEST == 0.10
+
+
+def test_what_the_edge_cuts_updates_but_founds_nobody(
+    eyes: Eyes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It may be a piece of a wall, which moves as the head turns."""
+    place = eyes.beside(1.0, 0.0)
+    cut = replace(obstacle(*place), whole=False)
+    show(monkeypatch, cut)
+    eyes.see(TICK, depth(TICK))
+    assert not eyes.tracks
+    eyes.know(*place)
+    eyes.see(2 * TICK, depth(2 * TICK))
+    (track,) = eyes.tracks
+    assert track.seen_at == 2 * TICK
+
+
+def test_an_echo_of_the_own_arms_founds_nobody(eyes: Eyes) -> None:
+    """Nobody whom a sonar hears at its near limit is not yet touched."""
+    for i, distance in enumerate((0.2, 0.24)):
+        eyes.see(i * TICK, SonarEcho(i * TICK, "left", distance))
+    assert not eyes.tracks
+    eyes.see(3 * TICK, SonarEcho(3 * TICK, "left", 0.26))
+    assert len(eyes.tracks) == 1
 
 
 def test_an_echo_tells_the_distance_of_who_is_known(eyes: Eyes) -> None:

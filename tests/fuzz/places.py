@@ -21,7 +21,7 @@ WRITES = {
     "bound": "bound --grid=16 --refine=0 --games=0 --horizon=0.1 "
     "--output=place/table.npz --figure=place/bound.png",
     "replay": "replay run --html=place/page.html --gif=place/film.gif "
-    "--duration=0.1",
+    "--strip=place/strip.png --duration=0.1",
     "compare": "compare run --output=place/both.svg",
     "robot": "robot --output=place/model.xml",
     "robustness": f"robustness {WALKS} --output=place",
@@ -47,7 +47,7 @@ def _case(name: str, run: Path, room: int | None, gone: float | None) -> Case:
     def try_it(folder: Path) -> str:
         (folder / PLACE).mkdir()
         shutil.copytree(run, folder / "run")
-        process = start(Trial(words, 0.0, str), folder)
+        process = start(Trial(words, str), folder)
         if room is not None:
             limits = (room, resource.RLIM_INFINITY)
             resource.prlimit(process.pid, resource.RLIMIT_FSIZE, limits)

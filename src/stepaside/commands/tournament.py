@@ -21,6 +21,7 @@ from .declared.option import Declaration
 from .duels import SEEDS
 from .options import ANGLE, print_json
 from .outputs import attempt, writes_files
+from .stopping import kept_in, leave_stopped
 from .terminal import echo
 
 RECORDS, SUMMARY = "games.jsonl", "summary.json"
@@ -181,12 +182,12 @@ def tournament(
             result = write_result(output / SUMMARY, result)
         except OutputError as error:
             failed = error
-    if figure is not None and records:
+    if figure is not None and records and not stopped:
         from ..report.tournament_figure import draw_front
 
         if attempt(lambda: draw_front(result["rows"], figure)):
             result["figure"] = figure
-    if paths is not None and records:
+    if paths is not None and records and not stopped:
         from ..report.tournament_figure import draw_worst
 
         games = _worst(settings, result["rows"])
@@ -199,7 +200,8 @@ def tournament(
     if failed is not None:
         raise failed
     if stopped:
-        raise SystemExit(130)
+        done = f"{len(records)} of {len(seeds) * len(pairings)} games"
+        leave_stopped(kept_in(done, output and output / RECORDS))
 
 
 def _play(

@@ -16,6 +16,10 @@ CLOSEST = 0.35  # distance below which no other can be, in [m]
 ROUGH = 0.35  # share by which a distance told by breadth is off
 VAGUE = 0.6  # deviation of a distance that is only remembered, in [m]
 NEARBY = 0.15  # beyond the near limit, of what casts a shadow, in [m]
+BESIDE = 0.45  # distance of what casts one, at least, in [m]
+BLIND = 3.0  # deviation of a distance that nothing tells, in [m]
+PULLED = 0.15  # of the bounds of a shadow, which the memory overran, in [m]
+PARTLY = 0.15  # of the axis of whom only a part was measured, in [m]
 
 
 def observe_trim(
@@ -90,6 +94,7 @@ def observe_obstacle(image: DepthImage, thing: Obstacle) -> Observation:
         aside,
         False,
         True,
+        thing.height,
     )
 
 
@@ -98,23 +103,33 @@ def observe_shadow(
 ) -> Observation:
     """Place by its bearing what is too near for its distance.
 
+    It stands between the nearest that anybody can be and the near limit,
+    unless a part of it was measured; within that nothing but its bearing is
+    known, and the distance of memory is handed back without any weight.
+
     Args:
         image: The image.
         shadow: The shadow in it.
         place: Place of the camera in odometry, in [m]. Shape (3,).
         tracks: What is followed already.
     """
-    away = _remembered(tracks, image.time, shadow.bearing, place)
-    away = min(away, image.near + NEARBY)
+    far = image.near + NEARBY
+    memory = _remembered(tracks, image.time, shadow.bearing, place)
+    ranged = shadow.nearest is not None
+    if shadow.nearest is not None:
+        away, along = shadow.nearest, PARTLY
+    else:
+        away = min(max(memory, BESIDE), far)
+        along = BLIND if away == memory else PULLED
     return Observation(
         image.time,
         float(place[0] + away * cos(shadow.bearing)),
         float(place[1] + away * sin(shadow.bearing)),
         shadow.bearing,
-        VAGUE,
+        along,
         0.08 * away,
         False,
-        False,
+        ranged,
     )
 
 

@@ -1,6 +1,7 @@
 """From percepts to a line of sight, and from it to where the head looks."""
 
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import atan2, cos, hypot, radians, sin
 
@@ -30,6 +31,7 @@ STARE = 1.2  # unknown things that rest are looked at up to here, in [m]
 MOVING = 0.08  # speed from which a thing moves, in [m/s]
 BROAD = 0.12  # shadow of somebody who was not seen before, in [rad]
 CHEST = 0.10  # from a sonar to the own axis and into the other, in [m]
+DEAF = 0.25  # echo that may be of the own arms, or of anything nearer, [m]
 EAR = radians(50.0)  # how far aside a sonar hears
 
 
@@ -155,7 +157,7 @@ class Perception:
                 bearing = candidate.turned_to(x, y, now) - heading
                 if self._glances is not None:
                     bearing = self._glances.turned(bearing, distance)
-                self._gaze.follow(bearing, distance)
+                self._gaze.follow(bearing, distance, candidate.height)
                 self.searching = False
                 return
         self.searching = True
@@ -202,8 +204,16 @@ class Perception:
             other = self._tracker.main(now, *own)
             there = None if other is None else other.place_at(image.time)
             self.floor.take(image, place, axes, own, there)
-        seen = [observe_obstacle(image, o) for o in scene.obstacles]
-        self._observe(seen, image, place, axes, named=False)
+        # What the edge cuts may be a piece of a wall: it founds nobody.
+        whole, cut = (
+            [
+                observe_obstacle(image, thing)
+                for thing in scene.obstacles
+                if thing.whole is is_whole
+            ]
+            for is_whole in (True, False)
+        )
+        self._observe(whole, image, place, axes, named=False, cut=cut)
         for shadow in scene.shadows:
             tracks = self._tracker.tracks
             # Something that came so near unseen is somebody too.
@@ -215,7 +225,7 @@ class Perception:
 
     def _hear(self, echo: SonarEcho, body: BodyPose, now: float) -> None:
         """Hear how far away is what no camera measures any more."""
-        if echo.distance is None:
+        if echo.distance is None or echo.distance < DEAF:
             return
         mount = self._head.sonars[echo.sonar]
         x, y, heading = body.torso
@@ -256,9 +266,11 @@ class Perception:
         axes: Array,
         *,
         named: bool,
+        cut: Sequence[Observation] = (),
     ) -> None:
         """Update tracks, and count those that a frame should have shown."""
         updated = self._tracker.observe(seen)
+        updated += self._tracker.observe(cut, founds=False)
         ahead = atan2(axes[1, 0], axes[0, 0])
         half = 0.85 * abs(angle_of(image, 0.0))
         x, y = float(place[0]), float(place[1])
