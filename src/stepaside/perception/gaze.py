@@ -14,7 +14,8 @@ MIDDLE = 0.28  # height of a robot that is looked at, in [m]
 CROWN = 0.54  # height of the upper end of a robot's trim, in [m]
 HALF = radians(20.0)  # upward from the middle of an image, still in it
 LOOKOUT = 0.46  # height of the eyes, in [m]
-EVERY = 2.0  # between two glances over the shoulder, in [s]
+OFTEN = 2.0  # between two glances of one who walks backward, in [s]
+SELDOM = 4.0  # of one who walks where it looks, in [s]
 LONG = 0.9  # of a glance, the way there included, in [s]
 TOO_NEAR = 0.45  # to look away, in [m]
 
@@ -26,6 +27,7 @@ class Gaze:
         yaw: Target of the yaw, in [rad].
         pitch: Target of the pitch, in [rad].
         searching: Whether it scans.
+        turned: How often it turned back at an end of a scan.
     """
 
     def __init__(self, coupling: Array, tick: float) -> None:
@@ -40,6 +42,7 @@ class Gaze:
         self._side = 1.0
         self.yaw, self.pitch = 0.0, SCAN_PITCH
         self.searching = True
+        self.turned = 0
 
     def follow(self, bearing: float, distance: float) -> None:
         """Look at something.
@@ -64,6 +67,7 @@ class Gaze:
         edge = min(REACH, float(self._yaws[-1]))
         if self._side * self.yaw >= edge - 1e-6:
             self._side = -self._side
+            self.turned += 1
         self._turn(self._side * edge, SCAN_PITCH, SCAN_SPEED)
 
     def _turn(self, yaw: float, pitch: float, speed: float) -> None:
@@ -82,13 +86,14 @@ class Gaze:
 class Glances:
     """Looks over one shoulder and the other, while somebody is followed."""
 
-    def __init__(self, tick: float) -> None:
+    def __init__(self, tick: float, every: float = OFTEN) -> None:
         """Begin with a while of looking at the other.
 
         Args:
             tick: Control period, in [s].
+            every: Time between two glances, in [s].
         """
-        self._every, self._long = round(EVERY / tick), round(LONG / tick)
+        self._every, self._long = round(every / tick), round(LONG / tick)
         self._passed = 0
         self._side = 1.0
 

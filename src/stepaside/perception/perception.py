@@ -28,6 +28,7 @@ FRESH = 0.25  # age at which a distance is worth hearing again, in [s]
 UNSEEN = 1.0  # after which the head searches, in [s]
 STARE = 1.2  # unknown things that rest are looked at up to here, in [m]
 MOVING = 0.08  # speed from which a thing moves, in [m/s]
+BOTH = 2  # ends of a scan
 BROAD = 0.12  # shadow of somebody who was not seen before, in [rad]
 CHEST = 0.10  # from a sonar to the own axis and into the other, in [m]
 EAR = radians(50.0)  # how far aside a sonar hears
@@ -72,7 +73,7 @@ class Perception:
         *,
         tick: float,
         floor: FloorMap | None = None,
-        glances: bool = False,
+        glances: float | None = None,
     ) -> None:
         """Know the own body and what the other looks like.
 
@@ -81,12 +82,13 @@ class Perception:
             head: Its head.
             appearance: The other's look, if it is the one that is known.
             tick: Control period, in [s].
-            floor: Map of the floor to keep.
-            glances: Whether it looks over its shoulders now and then, to
-                see the floor that it walks backward onto.
+            floor: Map of the floor to keep. Who keeps one looks all around
+                first, and says nothing of the other before it has.
+            glances: Time between two looks over its shoulders, to see the
+                floor that it walks backward onto, in [s]; None for none.
         """
         self.floor = floor
-        self._glances = Glances(tick) if glances else None
+        self._glances = None if glances is None else Glances(tick, glances)
         self._head = head
         self.forward = ForwardKinematics(description, head.body)
         self._kinematics = BodyKinematics(description, head, self.forward)
@@ -126,8 +128,11 @@ class Perception:
         for percept in measurement.percepts:
             self._take(percept, self._pose_at(percept.time), now)
         track = self._tracker.main(now, *body.torso[:2])
-        self._look(now, body, track)
         self.sighting = None
+        if self.floor is not None and self._gaze.turned < BOTH:
+            self._gaze.search()
+            return None
+        self._look(now, body, track)
         if track is not None:
             x, y, heading = body.torso
             bearing = wrap_angle(track.turned_to(x, y, now) - heading)
