@@ -19,7 +19,14 @@ from made_up_eyes import (
     show,
     trim,
 )
-from stepaside.perception.perception import BROAD, CHEST, EAR, FRESH
+from stepaside.perception.floor_map import FloorMap
+from stepaside.perception.perception import (
+    BROAD,
+    CHEST,
+    EAR,
+    FRESH,
+    SURE,
+)
 from stepaside.poses import Pose, wrap_angle
 from stepaside.sensing.depth_detector import Shadow
 from stepaside.sensing.images import SonarEcho
@@ -34,6 +41,18 @@ HEARD = [  # sonar, bearing from the heading in [deg], whether it is heard
     ("right", 4.0, True),
     ("right", 7.0, False),
 ]
+
+
+class NoFloor(FloorMap):
+    """Maps nothing, and notes where the other was said to be."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.others: list[Any] = []
+
+    def take(self, *told: Any) -> None:
+        """Note the other."""
+        self.others.append(told[-1])
 
 
 @pytest.fixture
@@ -211,3 +230,32 @@ def test_what_a_frame_shows_is_not_missed(eyes: Eyes) -> None:
     for i in range(1, 4):
         eyes.see(TICK * i, colour(TICK * i))
     assert hits(eyes.tracks[0]) == [True] * 3
+
+
+def test_what_stands_in_a_mapped_room_is_nobody(
+    eyes: Eyes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Pillars, near ones and echoes of walls found no track of the other."""
+    alone = len(eyes.tracks)
+    eyes.perception.floor = NoFloor()
+    show(monkeypatch, obstacle(*eyes.beside(1.0, 0.0)), Shadow(0.0, 0.0, 0.5))
+    for tick in range(1, 8):
+        now = tick * TICK
+        eyes.see(now, depth(now), SonarEcho(now, "left", 0.3))
+    assert len(eyes.tracks) == alone == 0
+    eyes.see(8 * TICK, colour(8 * TICK))
+    eyes.detector.found = trim(80.0)
+    eyes.see(9 * TICK, colour(9 * TICK))
+    assert len(eyes.tracks) == 1
+
+
+def test_a_place_of_the_other_that_is_old_frees_no_floor(
+    eyes: Eyes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    floor = eyes.perception.floor = NoFloor()
+    show(monkeypatch)
+    track = eyes.know(*eyes.beside(1.0, 0.0))
+    for age, known in ((0.9 * SURE, True), (1.1 * SURE, False)):
+        track.seen_at = TICK - age
+        eyes.see(TICK, depth(TICK))
+        assert (floor.others[-1] is not None) is known

@@ -1,7 +1,7 @@
 """A map of the floor that grows with every depth image."""
 
-import cv2
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from ..poses import Array
@@ -26,8 +26,8 @@ LEAST, MOST = -2.0, 5.0  # of the evidence of a cell
 TAKEN = 1.5  # evidence from which a cell is taken: two images
 TIGHT = 1.2  # cover of unseen floor, which must leave the seen free
 NEARBY = 1.2  # within which unseen floor can count, in [m]
+WINDOW = round(NEARBY / CELL) + 2  # cells to the edge of what is near
 SECTOR = np.pi / 8  # in which a polygon of unseen floor lies, in [rad]
-SLIVER = np.ones((3, 3), np.uint8)  # unseen cells that are no more are noise
 # Steps of a cell to all cells around one.
 STENCIL = np.argwhere(np.ones((17, 17))) - 8
 
@@ -157,9 +157,12 @@ class FloorMap:
         Args:
             place: Own axis, in [m].
         """
-        dark = (~self._seen | (self._evidence > TAKEN)).astype(np.uint8)
-        broad = cv2.morphologyEx(dark, cv2.MORPH_OPEN, SLIVER) > 0
-        centres = _centres(broad & ~self._seen)
+        first = self._cells(np.array([place]))[0] - WINDOW
+        first = np.clip(first, 0, SIDE - 2 * WINDOW)
+        window = tuple(slice(i, i + 2 * WINDOW) for i in first.tolist())
+        hidden = ~self._seen[window]
+        dark = _broad(hidden | (self._evidence[window] > TAKEN))
+        centres = _centres(dark & hidden) + first * CELL
         x, y = (centres - place).T
         near = np.hypot(x, y) < NEARBY
         centres, turned = centres[near], np.arctan2(y, x)[near]
@@ -178,6 +181,14 @@ class FloorMap:
         inside = np.all((cells >= 0) & (cells < SIDE), axis=1)
         found: NDArray[np.int64] = cells[inside]
         return found
+
+
+def _broad(chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Cells of squares of three by three that are chosen; less is noise."""
+    whole = sliding_window_view(chosen, (3, 3)).all(axis=(2, 3))
+    wide = sliding_window_view(np.pad(whole, 2), (3, 3))
+    found: NDArray[np.bool_] = np.any(wide, axis=(2, 3))
+    return found
 
 
 def _centres(chosen: NDArray[np.bool_]) -> Array:

@@ -25,6 +25,7 @@ from .observing import angle_of, observe_obstacle, observe_shadow, observe_trim
 
 MEMORY = 1.0  # how long past poses are kept, in [s]
 FRESH = 0.25  # age at which a distance is worth hearing again, in [s]
+SURE = 0.5  # age up to which the other is known to be where it is, in [s]
 UNSEEN = 1.0  # after which the head searches, in [s]
 STARE = 1.2  # unknown things that rest are looked at up to here, in [m]
 MOVING = 0.08  # speed from which a thing moves, in [m/s]
@@ -205,11 +206,15 @@ class Perception:
         self.reports.append(FrameReport(image, azimuths, depth=scene))
         if self.floor is not None:
             other = self._tracker.main(now, *own)
-            there = None if other is None else other.place_at(image.time)
+            there = None
+            if other is not None and now - other.seen_at < SURE:
+                there = other.place_at(image.time)
             self.floor.take(image, place, axes, own, there)
         seen = [observe_obstacle(image, o) for o in scene.obstacles]
-        self._observe(seen, image, place, axes, named=False)
-        for shadow in scene.shadows:
+        # What stands in a room is on the map; only trim tells the other.
+        alone = self.floor is None
+        self._observe(seen, image, place, axes, named=False, founds=alone)
+        for shadow in scene.shadows if alone else ():
             tracks = self._tracker.tracks
             # Something that came so near unseen is somebody too.
             founds = shadow.width > BROAD and not any(
@@ -220,7 +225,7 @@ class Perception:
 
     def _hear(self, echo: SonarEcho, body: BodyPose, now: float) -> None:
         """Hear how far away is what no camera measures any more."""
-        if echo.distance is None:
+        if echo.distance is None or self.floor is not None:
             return
         mount = self._head.sonars[echo.sonar]
         x, y, heading = body.torso
@@ -261,9 +266,10 @@ class Perception:
         axes: Array,
         *,
         named: bool,
+        founds: bool = True,
     ) -> None:
         """Update tracks, and count those that a frame should have shown."""
-        updated = self._tracker.observe(seen)
+        updated = self._tracker.observe(seen, founds=founds)
         ahead = atan2(axes[1, 0], axes[0, 0])
         half = 0.85 * abs(angle_of(image, 0.0))
         x, y = float(place[0]), float(place[1])
