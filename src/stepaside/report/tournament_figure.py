@@ -6,7 +6,7 @@ from typing import Any, Protocol
 
 from ..poses import Array
 from ..rooms import Room
-from .room_figure import draw_body, solid_patches
+from .room_figure import draw_body, room_patches
 from .style import EVADER, PURSUER, plt, save
 
 MARKS = "osD^vP*X"
@@ -84,7 +84,7 @@ def draw_worst(games: Sequence[tuple[str, Room, Ways]], path: str) -> None:
     for ax in axes.flat[len(games) :]:
         ax.axis("off")
     for ax, (title, room, track) in zip(axes.flat, games, strict=False):
-        for patch in solid_patches(room.solids):
+        for patch in room_patches(room):
             ax.add_patch(patch)
         for way, colour, name in (
             (track.pursuer, PURSUER, "pursuer"),

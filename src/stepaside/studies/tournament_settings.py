@@ -60,6 +60,12 @@ class TournamentSettings:
             raise ERROR(
                 f"map must be 'given' at level {self.level}, got {self.map!r}"
             )
+        moving = isinstance(self.room, Room) and self.room.moving
+        if moving and self.level != HUMANOIDS:
+            raise ERROR(
+                f"level must be {HUMANOIDS!r} in a room in which boxes "
+                f"move, got {self.level!r}"
+            )
         check_within(self.angle, 0.0, pi, "angle", "rad", ERROR)
 
     def arena(self, seed: int) -> tuple[Room, tuple[Pose, Pose]]:
