@@ -10,6 +10,7 @@ import os
 for name in ("OPENBLAS", "OMP", "NUMBA"):
     os.environ.setdefault(f"{name}_NUM_THREADS", "1")
 
+import pytest  # noqa: E402
 from hypothesis import HealthCheck, settings  # noqa: E402
 
 settings.register_profile(
@@ -18,3 +19,31 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("untimed")
+
+# Whose tests call the same compiled functions: one worker compiles them.
+COMPILED = {
+    "test_bound_": "bound",
+    "test_look_ahead": "steps",
+    "test_steps": "steps",
+    "test_clearance": "steps",
+    "test_tournament": "steps",
+    "test_unicycle_": "unicycle",
+}
+LONG = ("browser", "bound", "unicycle", "steps", "duel 11")  # begin first
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Let tests of the same compiled code share a worker."""
+    for item in items:
+        for prefix, group in COMPILED.items():
+            if item.path.name.startswith(prefix):
+                item.add_marker(pytest.mark.xdist_group(group))
+    items.sort(key=_turn)
+
+
+def _turn(item: pytest.Item) -> int:
+    """When a test has its turn: what takes long in one worker goes first."""
+    mark = item.get_closest_marker("xdist_group")
+    group = mark.args[0] if mark else ""
+    return LONG.index(group) if group in LONG else len(LONG)

@@ -59,10 +59,12 @@ class FakeGaze:
 
     def __init__(self) -> None:
         self.followed: tuple[float, float] | None = None
+        self.height = 0.0
 
-    def follow(self, bearing: float, distance: float) -> None:
+    def follow(self, bearing: float, distance: float, height: float) -> None:
         """Note what is looked at."""
         self.followed = wrap_angle(bearing), distance
+        self.height = height
 
     def search(self) -> None:
         """Look at nothing."""

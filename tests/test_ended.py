@@ -13,8 +13,8 @@ import pytest
 
 from fuzz.case import complaint_of
 from fuzz.moments import SIGNALS, moment_case
-from stepaside.cli import stoppable
 from stepaside.commands import reproduce_figures
+from stepaside.interrupting import stoppable
 from stepaside.outputs import DRAFT, draft_prefix, sweep, writing
 from stepaside.studies.kept import Kept
 from stepaside.studies.records import RecordFile

@@ -1,6 +1,6 @@
 """A map of the floor from depth images."""
 
-from math import pi
+from math import atan2, pi
 
 import numpy as np
 import pytest
@@ -135,6 +135,17 @@ def test_where_the_other_stands_nothing_else_does() -> None:
     assert seen.taken()
     seen.take(*view(body, (0.0, 0.0), 0.0), (0.0, 0.0), (1.2, 0.0))
     assert not seen.taken()
+
+
+def test_the_map_tells_what_belongs_to_the_room() -> None:
+    seen = looked(FloorMap(), (Disc(1.2, 0.3, 0.15),))
+    assert seen.holds(1.1, 0.25) and seen.holds(1.25, 0.3)
+    assert not seen.holds(1.2, -0.2) and not FloorMap().holds(0.0, 0.0)
+    facing = atan2(0.3, 1.2)
+    away = seen.nearest(0.0, 0.0, facing, 0.2)
+    assert away == pytest.approx(np.hypot(1.2, 0.3) - 0.15, abs=1.5 * CELL)
+    assert seen.nearest(0.0, 0.0, facing + 2.0 * pi, 0.2) == away
+    assert seen.nearest(0.0, 0.0, facing + 0.5, 0.2) == np.inf
 
 
 @pytest.mark.parametrize("heading", [0.0, 0.3, pi / 4])

@@ -130,7 +130,8 @@ WRONG = {
 
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    monkeypatch.setattr("fuzz.case.PATIENCE", 0.2)
+    monkeypatch.setattr("fuzz.case.PATIENCE", 0.1)
+    monkeypatch.setattr("fuzz.case.WAITS", 1.0)
     yield
 
 

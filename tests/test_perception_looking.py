@@ -7,7 +7,7 @@ import pytest
 
 from made_up_eyes import HEAD, TICK, Eyes
 from stepaside.perception.floor_map import FloorMap
-from stepaside.perception.gaze import REACH, Gaze
+from stepaside.perception.gaze import REACH, SCAN_SPEED, Gaze
 from stepaside.perception.perception import STARE, UNSEEN
 from stepaside.poses import Pose
 from stepaside.sensing.measurement import Sighting
@@ -60,6 +60,13 @@ def test_what_is_not_confirmed_is_looked_at_only_near(eyes: Eyes) -> None:
     eyes.see(0.0)
     assert eyes.gaze.followed == pytest.approx((0.5, 1.0))
     assert eyes.perception.sighting is None
+
+
+def test_the_head_knows_how_tall_it_is_whom_it_looks_at(eyes: Eyes) -> None:
+    track = eyes.know(*eyes.beside(1.0, 0.5))
+    track.height = 1.4
+    eyes.see(0.0)
+    assert eyes.gaze.height == 1.4
 
 
 def test_who_was_recognised_long_ago_is_a_thing_again(eyes: Eyes) -> None:
@@ -124,5 +131,5 @@ def test_who_maps_the_floor_looks_all_around_first(eyes: Eyes) -> None:
         if seen is not None:
             break
     assert min(yaws) < -REACH + 0.01 and max(yaws) > REACH - 0.01
-    assert 3.5 < now < 5.0
+    assert now == pytest.approx(3.0 * REACH / SCAN_SPEED, abs=0.1)
     assert gaze.turned == 2 and not gaze.searching

@@ -243,3 +243,11 @@ def test_margin_of_all_is_the_least_of_its_parts() -> None:
     assert parts[-1] == pytest.approx(plan.margin())
     assert parts[0] > plan.margin()  # two feet hold more than one
     assert parts[0] < GAIT.foot_spacing
+
+
+@pytest.mark.parametrize(
+    "times", [[], (), [np.nan], [-1.0], [True], ["x"], 0.0, [[0.0]], [1e300]]
+)
+def test_only_a_row_of_times_is_sampled(times: object) -> None:
+    with pytest.raises(PlanError, match="times must be a row of numbers"):
+        walking().sample(times)  # type: ignore[arg-type]

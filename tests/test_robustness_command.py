@@ -122,7 +122,8 @@ def test_a_stopped_campaign_writes_no_result_over_another(
     asked = ("robustness", *ASKED, "--output", str(tmp_path))
     result = CliRunner().invoke(main, asked)
     assert result.exit_code == 130
-    assert "stopped after 7 of 15 trials, 1 of 4 limits" in result.stderr
+    assert "7 of 15 trials and 1 of 4 limits" in result.stderr
+    assert f"are kept in {tmp_path}, and the same" in result.stderr
     assert before == {file: file.read_bytes() for file in tmp_path.iterdir()}
 
 

@@ -48,7 +48,7 @@ from velocity_fakes import MadeUpWalker  # isort: skip  # noqa: E402
 
 TAG = f"stepaside-test-{os.getpid()}"
 TICK = 0.012
-LONGEST = 20.0  # for what takes a millisecond, in [s]
+LONGEST = 200.0  # for what takes a millisecond, in [s]
 
 
 def until(done: Callable[[], Any]) -> Any:

@@ -24,6 +24,7 @@ FLOORS = {
     "doors": 1,
     "extras": 1,
     "outputs": 1,
+    "interrupting": 0,
     "unicycle": 1,
     "bound": 2,
     "steps": 2,

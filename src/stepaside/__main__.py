@@ -6,11 +6,14 @@ import os
 def main() -> None:
     """Run the command line; Ctrl-C is no traceback even while it loads."""
     try:
-        from .cli import main as run
+        from .interrupting import stoppable
 
-        run()
+        with stoppable():
+            from .cli import main as run
+
+            run()
     except KeyboardInterrupt:
-        os.write(2, b"stepaside: interrupted\n")
+        os.write(2, b"stepaside: interrupted; nothing is kept\n")
         raise SystemExit(130) from None
 
 

@@ -1,11 +1,7 @@
 """The command line: words in, tables and files out."""
 
-import signal
 import sys
-import threading
-from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor
-from contextlib import contextmanager
 from importlib import import_module
 from typing import Any, NoReturn
 
@@ -14,6 +10,7 @@ import click
 from . import __version__
 from .errors import StepAsideError, shortened
 from .extras import remedy
+from .interrupting import stoppable
 
 INTERRUPTED = 130  # exit status
 COMMANDS = {
@@ -36,23 +33,6 @@ COMMANDS = {
     "reproduce": "Measure every claim of the paper and write a page.",
     "robot": "Show a robot, or write its model.",
 }
-
-
-@contextmanager
-def stoppable() -> Iterator[None]:
-    """Let SIGTERM end a command as Ctrl-C does: what is done is kept."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGTERM, _interrupt)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
-
-
-def _interrupt(*_: Any) -> NoReturn:
-    raise KeyboardInterrupt
 
 
 class LazyGroup(click.Group):
@@ -99,7 +79,8 @@ class LazyGroup(click.Group):
             place = f"{error.filename}: " if error.filename else ""
             _refuse(f"{place}{(error.strerror or str(error)).lower()}")
         except (click.Abort, KeyboardInterrupt):
-            click.echo("stepaside: interrupted", err=True)
+            said = "stepaside: interrupted; what is not whole is not kept"
+            click.echo(said, err=True)
             sys.exit(INTERRUPTED)
         sys.exit(status if isinstance(status, int) else 0)
 

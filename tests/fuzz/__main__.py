@@ -1,13 +1,12 @@
 """Try bad input for some minutes: ``python -m tests.fuzz --help``."""
 
 import argparse
-import sys
 import tempfile
-from collections import Counter
 from pathlib import Path
 from time import monotonic
 
-from .case import Case, complaint_of
+from .case import complaint_of
+from .counts import Counts, keep
 from .kinds import KINDS, all_cases
 
 
@@ -22,31 +21,32 @@ def main() -> int:
     add("--most", type=int, default=10**9, help="cases to try at most")
     add("--only", default="", help="classes that have this in their name")
     add("--match", default="", help="cases that have this in their name")
-    add("--kinds", nargs="*", default=KINDS, choices=list(KINDS))
+    add("--kinds", nargs="*", default=list(KINDS), choices=list(KINDS))
+    add("--keep", type=Path, help="result to add the counts to, by seed")
     asked = parser.parse_args()
-    tried: Counter[str] = Counter()
-    wrong: Counter[str] = Counter()
-    end = monotonic() + 60.0 * asked.minutes
+    counts = Counts()
     with tempfile.TemporaryDirectory(prefix="fuzzed-") as name:
-        for case in all_cases(asked.seed, Path(name), asked.kinds):
-            if monotonic() > end or sum(tried.values()) >= asked.most:
+        cases = all_cases(asked.seed, Path(name), asked.kinds)
+        began = monotonic()
+        end = began + 60.0 * asked.minutes
+        for case in cases:
+            if monotonic() > end or counts.total()["tried"] >= asked.most:
                 break
             if asked.only in case.kind and asked.match in case.name:
-                tried[case.kind] += 1
-                wrong[case.kind] += try_and_tell(case)
-    for kind in sorted(tried):
-        print(f"{kind:<28} {tried[kind]:>7} tried {wrong[kind]:>5} wrong")
-    print(f"{'all':<28} {tried.total():>7} tried {wrong.total():>5} wrong")
-    return 1 if wrong.total() else 0
+                complaint = complaint_of(case)
+                counts.add(case.kind, complaint)
+                if complaint:
+                    tell(case.kind, case.name, complaint)
+    print(*counts.lines(), sep="\n")
+    if asked.keep:
+        minutes = (monotonic() - began) / 60.0
+        keep(asked.keep, counts, asked.seed, asked.kinds, minutes)
+    return 1 if counts.wrong else 0
 
 
-def try_and_tell(case: Case) -> bool:
-    """Try a case; whether something is wrong, which is printed."""
-    complaint = complaint_of(case)
-    if complaint:
-        print(f"{case.kind}: {visible(case.name)}\n    {complaint}")
-        sys.stdout.flush()
-    return bool(complaint)
+def tell(kind: str, name: str, complaint: str) -> None:
+    """Print what is wrong with a case."""
+    print(f"{kind}: {visible(name)}\n    {complaint}", flush=True)
 
 
 def visible(text: str) -> str:

@@ -7,11 +7,14 @@ import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from time import monotonic
+from time import monotonic, process_time
 from typing import Any, NamedTuple
 
-DEADLINE = 6.0  # in which a case ends by itself, in [s]
-PATIENCE = 10.0  # after which it has ended since it was interrupted, in [s]
+# Processor time, which other work on the machine does not lengthen, in [s]:
+DEADLINE = 6.0  # in which a case ends by itself
+PATIENCE = 10.0  # after which it has ended since it was interrupted
+WAITS = 10.0  # what only waits may wait so many times as long, in [1]
+LOOK = 0.1  # how often its clock is looked at, in [s]
 
 
 class Case(NamedTuple):
@@ -40,40 +43,47 @@ class Reached(BaseException):
 
 
 class Clock:
-    """Whether the time of a case was up.
+    """Whether the time of a case is up: that it works, or that it waits.
 
     Attributes:
         interrupted: Whether it was interrupted.
     """
 
-    def __init__(self) -> None:
-        """Begin with time left."""
+    def __init__(self, limit: float) -> None:
+        """Begin with time left, in [s]."""
         self.interrupted = False
+        self._begin(limit)
+
+    def _begin(self, limit: float) -> None:
+        self._worked = process_time() + limit
+        self._waited = monotonic() + limit * WAITS
 
     def ring(self, *_: Any) -> None:
         """Interrupt as Ctrl-C does, and later for good."""
+        if process_time() < self._worked and monotonic() < self._waited:
+            return
         if self.interrupted:
             raise Hang
         self.interrupted = True
-        signal.setitimer(signal.ITIMER_REAL, PATIENCE)
+        self._begin(PATIENCE)
         os.kill(os.getpid(), signal.SIGINT)
 
 
 @contextmanager
 def watched(deadline: float) -> Iterator[Clock]:
     """Interrupt what lasts longer than its time."""
-    clock = Clock()
+    clock = Clock(deadline)
     before = signal.signal(signal.SIGALRM, clock.ring)
-    outer, _ = signal.setitimer(signal.ITIMER_REAL, deadline)
+    outer = signal.setitimer(signal.ITIMER_REAL, LOOK, LOOK)
     began = monotonic()
     try:
         yield clock
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
-        if outer:  # whoever watches us has a clock of its own
-            left = max(outer - (monotonic() - began), 0.001)
-            signal.setitimer(signal.ITIMER_REAL, left)
+        if outer[0]:  # whoever watches us has a clock of its own
+            left = max(outer[0] - (monotonic() - began), 0.001)
+            signal.setitimer(signal.ITIMER_REAL, left, outer[1])
 
 
 def complaint_of(case: Case) -> str:

@@ -36,6 +36,10 @@ BASES = {
     "play": ["--role=evader", "--robot=lola:none", "--duration=0.1"],
     "serve": ["--lola=evader=socket", "--wait=0.05", "--lockstep", *SHORT],
     "reproduce": ["--runs=1", "--json"],
+    "tournament": [
+        *("--seeds=0:1", "--duration=1", "--evader=aside"),
+        *("--room=open", "--workers=1", "--json"),
+    ],
     "robot": ["--json"],
 }
 PATHS = (

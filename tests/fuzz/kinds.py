@@ -10,7 +10,7 @@ from stepaside.cli import main
 
 from .calls import call_cases
 from .case import Case
-from .commands import combined_cases, command_cases
+from .commands import BASES, combined_cases, command_cases
 from .configurations import configuration_cases
 from .folders import folder_cases
 from .moments import moment_cases
@@ -42,7 +42,10 @@ def all_cases(
     run = folder / "run"
     make_run(run)
     warm_up()
-    left = [KINDS[kind](Random(seed), run) for kind in kinds]
+    return _by_turns([KINDS[kind](Random(seed), run) for kind in kinds])
+
+
+def _by_turns(left: list[Iterator[Case]]) -> Iterator[Case]:
     while left:
         for source in list(left):
             case = next(source, None)
@@ -68,5 +71,6 @@ def warm_up() -> None:
 
     bound = "bound --grid 16 --refine 0 --games 0 --horizon 0.01 --json"
     CliRunner().invoke(main, bound.split())
+    CliRunner().invoke(main, ["tournament", *BASES["tournament"]])
     game = make_game(1.0, 1.0, 0.5, 0.5, 1.5)
     play_games(game, random_starts(game, 2, seed=0), 1.0, step=0.1)

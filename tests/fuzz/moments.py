@@ -22,10 +22,11 @@ from stepaside.studies.duels import digest_of
 from stepaside.studies.records import _parse
 
 from .case import Case
+from .groups import Worked
 
 SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)
-STOPS = 2.0  # time in which Ctrl-C ends a command on a machine at rest, [s]
-LOAD = 10.0  # how much longer it may be on a busy one, in [s]
+STOPS = 2.0  # work in which Ctrl-C ends a command, and its workers, in [s]
+GIVEN_UP = 100.0  # time after which it is taken for one that never ends [s]
 
 
 class Trial(NamedTuple):
@@ -33,12 +34,10 @@ class Trial(NamedTuple):
 
     Attributes:
         words: Of Python, which run it.
-        lasts: About as long as it takes, in [s].
         result: What it comes to in a folder; what it says differs by clocks.
     """
 
     words: tuple[str, ...]
-    lasts: float
     result: Callable[[Path], Any]
 
 
@@ -69,12 +68,10 @@ WALKS = "--kind=unevenness --method=open-loop --seeds=1 --workers=2"
 TRIALS: Mapping[str, Trial] = {
     "duel": Trial(
         (*MAIN, "duel", "--seed=3", "--duration=1", "--output=out"),
-        3.0,
         _duel,
     ),
     "map": Trial(
         (*MAIN, *"map --grid=30 --figure=map.png --overwrite".split()),
-        4.0,
         _bytes("map.png"),
     ),
     "duels": Trial(
@@ -82,17 +79,14 @@ TRIALS: Mapping[str, Trial] = {
             *(*MAIN, "duels", "--seeds=0:2", "--duration=0.3"),
             *("--workers=1", "--output=out"),
         ),
-        6.0,
         _json("summary", name="summary.json"),
     ),
     "robustness": Trial(
         (*MAIN, "robustness", *WALKS.split(), "--output=out"),
-        15.0,
         _json("survival", name="survival.json"),
     ),
     "reproduce": Trial(
         ("-m", "tests.fuzz.short_reproduce", "out"),
-        12.0,
         _json("rows", name="claims.json"),
     ),
 }
@@ -111,8 +105,8 @@ def moment_case(name: str, sign: signal.Signals, part: float) -> Case:
     trial = TRIALS[name]
 
     def run(folder: Path) -> str:
-        wanted = undisturbed(name)
-        ended = _end(trial, folder, sign, part * trial.lasts)
+        wanted, lasts = undisturbed(name)
+        ended = _end(trial, folder, sign, part * lasts)
         return (
             ended
             or unwhole(folder, killed=sign is signal.SIGKILL)
@@ -120,15 +114,16 @@ def moment_case(name: str, sign: signal.Signals, part: float) -> Case:
         )
 
     title = f"{name} ended by {sign.name} after {100 * part:.0f} %"
-    return Case(f"ended {name}", title, run, 300.0)
+    return Case(f"{name} ended by {sign.name}", title, run, 300.0)
 
 
 @cache
-def undisturbed(name: str) -> Any:
-    """What a command comes to that nobody ends."""
+def undisturbed(name: str) -> tuple[Any, float]:
+    """What a command comes to that nobody ends, and how long it takes [s]."""
     with TemporaryDirectory() as folder:
+        began = monotonic()
         start(TRIALS[name], Path(folder)).communicate()
-        return TRIALS[name].result(Path(folder))
+        return TRIALS[name].result(Path(folder)), monotonic() - began
 
 
 def start(trial: Trial, folder: Path) -> "subprocess.Popen[str]":
@@ -155,25 +150,31 @@ def _end(
 ) -> str:
     """Start and end it; what is wrong with how it ended."""
     process = start(trial, folder)
+    worked = Worked(process)
     try:
         process.communicate(timeout=after)
         return ""  # it was through before
     except subprocess.TimeoutExpired:
         pass
+    before = worked.until_now()
     if sign is signal.SIGINT:  # Ctrl-C reaches all of a terminal's group
         os.killpg(process.pid, sign)
     else:
         process.send_signal(sign)
     began = monotonic()
     try:
-        _, said = process.communicate(timeout=STOPS + LOAD)
+        _, said = process.communicate(timeout=GIVEN_UP)
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGKILL)
         process.communicate()
-        return f"it went on for {STOPS + LOAD:g} s, or its workers did"
-    if sign is not signal.SIGKILL and "Traceback" in said:
-        return f"traceback: {said[-600:]!r}"
-    while _alive(process.pid) and monotonic() - began < STOPS + LOAD:
+        return f"hang: it went on for {GIVEN_UP:g} s, or its workers did"
+    if sign is not signal.SIGKILL:
+        if "Traceback" in said:
+            return f"traceback: {said[-600:]!r}"
+        work = worked.until_its_end() - before
+        if work > STOPS:
+            return f"hang: it worked for {work:.1f} s more"
+    while _alive(process.pid) and monotonic() - began < GIVEN_UP:
         sleep(0.05)
     return "workers are left" if _alive(process.pid) else ""
 

@@ -47,7 +47,7 @@ def _case(name: str, run: Path, room: int | None, gone: float | None) -> Case:
     def try_it(folder: Path) -> str:
         (folder / PLACE).mkdir()
         shutil.copytree(run, folder / "run")
-        process = start(Trial(words, 0.0, str), folder)
+        process = start(Trial(words, str), folder)
         if room is not None:
             limits = (room, resource.RLIM_INFINITY)
             resource.prlimit(process.pid, resource.RLIMIT_FSIZE, limits)

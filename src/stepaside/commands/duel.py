@@ -39,7 +39,6 @@ def duel(
     writes a run folder with the configuration that repeats it, the
     trajectories and a figure.
     """
-    from ..games.outcome import Outcome
     from ..report.run_folder import check_output, figure_of, free_folder
     from ..report.settling import settling_words
 
@@ -61,8 +60,7 @@ def duel(
         _print(summary, settling_words(run))
         kept.tell(figure_of(run))
     kept.check()
-    if run.outcome is Outcome.INTERRUPTED:
-        raise SystemExit(130)
+    kept.leave_if(run.outcome)
 
 
 def _play(settings: "DuelSettings") -> "DuelRun":

@@ -23,6 +23,7 @@ from .duel_options import duel_options
 from .effort import SIMULATED, tell_effort
 from .options import print_json
 from .outputs import attempt, writes_files
+from .stopping import kept_in, leave_stopped
 from .terminal import echo
 
 if TYPE_CHECKING:
@@ -127,10 +128,11 @@ def duels(
 
         try:
             answer = write_result(output / SUMMARY, answer)
-            draw_duels({"": records}, answer["summary"], output / DRAWN)
+            if not stopped:
+                draw_duels({"": records}, answer["summary"], output / DRAWN)
         except OutputError as error:
             failed = error
-    if figure is not None and records:
+    if figure is not None and records and not stopped:
         from ..report.duels_figure import draw_duels
 
         attempt(
@@ -144,7 +146,8 @@ def duels(
     if failed is not None:
         raise failed
     if stopped:
-        raise SystemExit(130)
+        done = f"{len(records)} of {len(seeds)} duels"
+        leave_stopped(kept_in(done, output and output / RECORDS))
 
 
 def _file(output: Path | None) -> Any:

@@ -5,9 +5,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from ..errors import OutputError
+from .stopping import NOTHING, leave_stopped
 from .terminal import echo
 
 if TYPE_CHECKING:
+    from ..games.outcome import Outcome
     from ..games.run import Run
 
 R = TypeVar("R", bound="Run")
@@ -30,6 +32,17 @@ class Kept(NamedTuple):
             echo(
                 f"\nfigure:     {self.folder / figure}\n"
                 f"run folder: {self.folder}"
+            )
+
+    def leave_if(self, outcome: "Outcome") -> None:
+        """Leave if Ctrl-C ended the game, and say where it lies."""
+        from ..games.outcome import Outcome
+
+        if outcome is Outcome.INTERRUPTED:
+            leave_stopped(
+                f"{NOTHING} without --output"
+                if self.folder is None
+                else f"what was played is kept in {self.folder}"
             )
 
     def check(self) -> None:

@@ -1,6 +1,8 @@
 """Files that commands write: checked first, and told of at the end."""
 
+import os
 from collections.abc import Callable
+from contextlib import suppress
 from functools import wraps
 from pathlib import Path
 from typing import Any
@@ -11,6 +13,7 @@ from ..errors import ConfigurationError, OutputError
 from ..outputs import check_file
 from .declared.kinds import OutputFile
 from .declared.option import Declaration
+from .stopping import NOTHING, leave_stopped
 
 OVERWRITE = Declaration(
     "--overwrite/--no-overwrite", "Replace files that are there already."
@@ -33,12 +36,36 @@ def writes_files(function: Callable[..., Any]) -> Callable[..., Any]:
             _check(context, overwrite)
         except ConfigurationError as error:
             raise click.UsageError(str(error)) from error
-        answer = function(**values)
+        before = _files(context)
+        try:
+            answer = function(**values)
+        except KeyboardInterrupt:
+            leave_stopped(_kept(before, _files(context)))
         for failed in context.meta.get(FAILED, ())[:1]:
             raise failed
         return answer
 
     return command
+
+
+def _files(context: click.Context) -> dict[str, tuple[int, ...]]:
+    """Files to write that are there, and what tells one from another."""
+    there: dict[str, tuple[int, ...]] = {}
+    for param in context.command.params:
+        value = context.params.get(param.name or "")
+        if isinstance(param.type, OutputFile) and value is not None:
+            with suppress(OSError):
+                stat = os.stat(value)
+                there[value] = (stat.st_ino, stat.st_mtime_ns, stat.st_size)
+    return there
+
+
+def _kept(
+    before: dict[str, tuple[int, ...]], now: dict[str, tuple[int, ...]]
+) -> str:
+    """What of the files was written, in words."""
+    new = [file for file, stat in now.items() if before.get(file) != stat]
+    return f"kept: {', '.join(new)}" if new else NOTHING
 
 
 def _check(context: click.Context, overwrite: bool) -> None:

@@ -181,6 +181,6 @@ def _serve(run: Any, options: dict[str, Any]) -> None:
             sleep(1.0)
         sleep(options["serve_for"])
     except KeyboardInterrupt:
-        pass
+        echo("stepaside: stopped; the run is as it was", err=True)
     finally:
         page.close()

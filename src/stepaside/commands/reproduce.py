@@ -11,12 +11,12 @@ from .campaigns import tell_aside
 from .declared.common import (
     FIRST_SEED,
     FOLDER,
-    INTERRUPTED,
     WORKERS,
     json_option,
 )
 from .effort import tell_effort
 from .options import print_json
+from .stopping import kept_in, leave_stopped
 from .terminal import echo
 
 
@@ -61,7 +61,10 @@ def reproduce(
         workers,
     )
     rows = _measure(output / "rows", range(seed, seed + runs), workers)
-    figures = draw_figures(output, seed)
+    try:
+        figures = draw_figures(output, seed)
+    except KeyboardInterrupt:
+        leave_stopped(kept_in("all runs, and figures that are whole,", output))
     made = {"seed": seed, "runs": runs, "jobs": provenance(seed)}
     with writing(output / "claims.json") as draft:
         text = json.dumps(made | {"rows": rows}, indent=1, allow_nan=False)
@@ -105,9 +108,4 @@ def _measure(
         try:
             return measure(folder, seeds, executor, report, tell_aside)
         except KeyboardInterrupt:
-            echo(
-                f"stepaside: interrupted; {bar.n} of {bar.total} runs are "
-                f"kept in {folder}, and the same command goes on",
-                err=True,
-            )
-            raise SystemExit(INTERRUPTED) from None
+            leave_stopped(kept_in(f"{bar.n} of {bar.total} runs", folder))

@@ -8,6 +8,7 @@ import click
 from ..outputs import writing
 from .declared.common import WORKERS, json_option
 from .options import print_json, print_table
+from .stopping import kept_in, leave_stopped
 from .terminal import echo
 
 if TYPE_CHECKING:
@@ -80,7 +81,10 @@ def _search(
             bar.n = tried
             bar.set_postfix_str(f"unsteadiness {least:.2f}")
 
-        return Search(description, executor, kept, report).run()
+        try:
+            return Search(description, executor, kept, report).run()
+        except KeyboardInterrupt:
+            leave_stopped(kept_in(f"{bar.n} gaits", kept))
 
 
 def _plain(judged: "Judged") -> dict[str, Any]:

@@ -24,7 +24,7 @@ from .declared.take import SettingsCommand, takes_settings
 from .options import print_json
 from .outputs import attempt, writes_files
 from .robustness_people import meet_people, print_people, write_people
-from .robustness_tables import print_campaign, tell_stopped
+from .robustness_tables import print_campaign, words_of_done
 from .robustness_walks import (
     Asked,
     answer_walks,
@@ -32,6 +32,7 @@ from .robustness_walks import (
     run_walks,
     write_walks,
 )
+from .stopping import kept_in, leave_stopped
 from .terminal import echo
 
 if TYPE_CHECKING:
@@ -190,7 +191,7 @@ def robustness(
         from ..studies.robustness import UNITS
 
         attempt(lambda: draw_survival(answer["survival"], UNITS, Path(figure)))
-    _tell(answer, stopped=stopped, as_json=as_json)
+    _tell(answer, output, stopped=stopped, as_json=as_json)
     if failed is not None:
         raise failed
     if not as_json:
@@ -223,7 +224,13 @@ def _walk_on(
     return answer, stopped, None
 
 
-def _tell(answer: dict[str, Any], *, stopped: bool, as_json: bool) -> None:
+def _tell(
+    answer: dict[str, Any],
+    output: Path | None,
+    *,
+    stopped: bool,
+    as_json: bool,
+) -> None:
     """Print what was found; leave with 130 after a Ctrl-C."""
     people = answer.get(PERSON)
     if as_json:
@@ -235,14 +242,12 @@ def _tell(answer: dict[str, Any], *, stopped: bool, as_json: bool) -> None:
             print_people(people)
     if not stopped:
         return
-    if people is None:
-        tell_stopped(answer)
-    else:
-        echo(
-            f"stopped after {people['done']} of {people['planned']} persons",
-            err=True,
-        )
-    raise SystemExit(130)
+    done = (
+        words_of_done(answer)
+        if people is None
+        else f"{people['done']} of {people['planned']} persons"
+    )
+    leave_stopped(kept_in(done, output))
 
 
 def _once(names: tuple[str, ...]) -> tuple[str, ...]:

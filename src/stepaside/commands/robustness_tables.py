@@ -5,13 +5,12 @@ from typing import Any
 from .terminal import echo
 
 
-def tell_stopped(answer: dict[str, Any]) -> None:
-    """Say how far a campaign came."""
+def words_of_done(answer: dict[str, Any]) -> str:
+    """How far a campaign came."""
     done, planned = answer["done"], answer["planned"]
-    echo(
-        f"stopped after {done['trials']} of {planned['trials']} trials, "
-        f"{done['push_limits']} of {planned['push_limits']} limits of pushes",
-        err=True,
+    return (
+        f"{done['trials']} of {planned['trials']} trials and "
+        f"{done['push_limits']} of {planned['push_limits']} limits of pushes"
     )
 
 

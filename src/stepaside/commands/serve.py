@@ -89,7 +89,6 @@ def serve(
     """
     import gc
 
-    from ..games.outcome import Outcome
     from ..games.serving import serve_duel
     from .feedback import with_feedback
     from .offering import offers_of
@@ -123,8 +122,7 @@ def serve(
         )
         kept.tell(f"{run.game}.png")
     kept.check()
-    if run.outcome is Outcome.INTERRUPTED:
-        raise SystemExit(130)
+    kept.leave_if(run.outcome)
 
 
 def _with_cycle(settings: "DuelSettings") -> "DuelSettings":

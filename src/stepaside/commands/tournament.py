@@ -22,6 +22,7 @@ from .declared.rooms import MAP
 from .duels import SEEDS
 from .options import ANGLE, print_json
 from .outputs import attempt, writes_files
+from .stopping import kept_in, leave_stopped
 from .tournament_table import print_rows
 
 RECORDS, SUMMARY = "games.jsonl", "summary.json"
@@ -192,12 +193,12 @@ def tournament(
             result = write_result(output / SUMMARY, result)
         except OutputError as error:
             failed = error
-    if figure is not None and records:
+    if figure is not None and records and not stopped:
         from ..report.tournament_figure import draw_front
 
         if attempt(lambda: draw_front(result["rows"], figure)):
             result["figure"] = figure
-    if paths is not None and records:
+    if paths is not None and records and not stopped:
         from ..report.tournament_figure import draw_worst
 
         games = _worst(settings, result["rows"])
@@ -210,7 +211,8 @@ def tournament(
     if failed is not None:
         raise failed
     if stopped:
-        raise SystemExit(130)
+        done = f"{len(records)} of {len(seeds) * len(pairings)} games"
+        leave_stopped(kept_in(done, output and output / RECORDS))
 
 
 def _play(

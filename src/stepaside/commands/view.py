@@ -61,6 +61,6 @@ def view(
                 sleep(1.0)
         sleep(serve_for)
     except KeyboardInterrupt:
-        pass
+        echo("stepaside: stopped; what was saved is kept", err=True)
     finally:
         page.close()

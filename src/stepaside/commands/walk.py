@@ -44,8 +44,6 @@ def walk(
     three seconds, in the frame of the support foot. A run folder can be
     replayed, as that of a duel.
     """
-    from ..games.outcome import Outcome
-
     check_kept(output)
     seconds = settings.duration
     tell_effort(f"a walk of {seconds:g} s", seconds / SIMULATED)
@@ -61,8 +59,7 @@ def walk(
         _print(summary)
         kept.tell(f"{run.game}.png")
     kept.check()
-    if run.outcome is Outcome.INTERRUPTED:
-        raise SystemExit(130)
+    kept.leave_if(run.outcome)
 
 
 def _walk(settings: "WalkSettings") -> "WalkRun":

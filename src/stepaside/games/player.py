@@ -12,6 +12,7 @@ from ..world.truth import Truth
 
 if TYPE_CHECKING:
     from ..perception.perception import FrameReport
+    from ..world.robot import SimulatedRobot
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,6 +50,36 @@ class Snapshot:
     posture: Array | None = None
     stance: Stance | None = None
     pushes: tuple[GivenPush, ...] = ()
+
+
+def snapshot_of(
+    robot: "SimulatedRobot",
+    *,
+    frame: Pose | None = None,
+    walk: WalkState | None = None,
+) -> Snapshot:
+    """State of a robot in the world at this instant.
+
+    Args:
+        robot: The robot.
+        frame: Pose of its odometry in the world, where it is known.
+        walk: What it plans, where it is known.
+    """
+    truth = robot.truth
+    x, y, z = truth.com.tolist()
+    return Snapshot(
+        name=robot.name,
+        time=robot.world.time,
+        place=Pose(*truth.place, truth.heading),
+        torso=Pose(*truth.position, truth.heading),
+        com=(x, y, z),
+        frame=frame,
+        walk=walk,
+        zmp=robot.measured_zmp(),
+        posture=robot.posture,
+        stance=robot.stance,
+        pushes=robot.pushes,
+    )
 
 
 class Player(Protocol):

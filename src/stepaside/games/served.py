@@ -7,12 +7,12 @@ import numpy as np
 
 from ..control.walking import StepBegun
 from ..drivers.lola.server import LolaServer
-from ..poses import Array, Pose
+from ..poses import Array
 from ..sensing.measurement import Measurement
 from ..world.push import Push
 from ..world.robot import SimulatedRobot
 from ..world.truth import Truth
-from .player import Snapshot
+from .player import Snapshot, snapshot_of
 
 if TYPE_CHECKING:
     from ..perception.perception import FrameReport
@@ -101,19 +101,7 @@ class ServedPlayer:
 
     def snapshot(self) -> Snapshot:
         """State of this instant, as far as it is known here."""
-        robot = self.robot
-        x, y, z = self.truth.com.tolist()
-        return Snapshot(
-            name=self.name,
-            time=robot.world.time,
-            place=Pose(*self.truth.place, self.truth.heading),
-            torso=Pose(*self.truth.position, self.truth.heading),
-            com=(x, y, z),
-            zmp=robot.measured_zmp(),
-            posture=robot.posture,
-            stance=robot.stance,
-            pushes=robot.pushes,
-        )
+        return snapshot_of(self.robot)
 
     def push(self, *pushes: Push) -> None:
         """Let somebody push the torso, now or later."""

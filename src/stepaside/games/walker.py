@@ -10,7 +10,7 @@ from ..poses import Pose
 from ..world.push import Push
 from ..world.robot import SimulatedRobot
 from ..world.truth import Truth
-from .player import Snapshot
+from .player import Snapshot, snapshot_of
 
 if TYPE_CHECKING:
     from ..perception.perception import FrameReport
@@ -65,21 +65,8 @@ class Walker:
 
     def snapshot(self) -> Snapshot:
         """State of this instant."""
-        robot, truth = self.robot, self.truth
-        x, y, z = truth.com.tolist()
-        return Snapshot(
-            name=self.name,
-            time=robot.world.time,
-            place=Pose(*truth.place, truth.heading),
-            torso=Pose(*truth.position, truth.heading),
-            com=(x, y, z),
-            frame=self.frame,
-            walk=self.scheme.state,
-            zmp=robot.measured_zmp(),
-            posture=robot.posture,
-            stance=robot.stance,
-            pushes=robot.pushes,
-        )
+        walk = self.scheme.state
+        return snapshot_of(self.robot, frame=self.frame, walk=walk)
 
     def push(self, *pushes: Push) -> None:
         """Let somebody push the torso, now or later."""

@@ -1,10 +1,12 @@
 """A map of the floor that grows with every depth image."""
 
+from math import inf
+
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from ..poses import Array
+from ..poses import Array, wrap_angles
 from ..rooms import Polygon
 from ..rooms.covering import cover
 from ..sensing.images import DepthImage
@@ -27,6 +29,7 @@ TAKEN = 1.5  # evidence from which a cell is taken: two images
 TIGHT = 1.2  # cover of unseen floor, which must leave the seen free
 NEARBY = 1.2  # within which unseen floor can count, in [m]
 WINDOW = round(NEARBY / CELL) + 2  # cells to the edge of what is near
+SAME = 0.2  # of what was measured from what it belongs to, in [m]
 SECTOR = np.pi / 8  # in which a polygon of unseen floor lies, in [rad]
 # Steps of a cell to all cells around one.
 STENCIL = np.argwhere(np.ones((17, 17))) - 8
@@ -150,6 +153,30 @@ class FloorMap:
     def taken(self) -> tuple[Polygon, ...]:
         """What stands there, as far as it was seen, in odometry."""
         return cover(_centres(self._evidence > TAKEN), CELL)
+
+    def holds(self, x: float, y: float) -> bool:
+        """Whether something of the room stands at a place, in [m]."""
+        away = self._taken_from(x, y)
+        return bool(np.hypot(away[:, 0], away[:, 1]).min(initial=inf) < SAME)
+
+    def nearest(self, x: float, y: float, facing: float, half: float) -> float:
+        """Distance to what is nearest in a cone, in [m]; infinite if nothing.
+
+        Args:
+            x: Where the cone begins, in [m].
+            y: Likewise.
+            facing: Direction of its axis, in [rad].
+            half: Half of its opening, in [rad].
+        """
+        away = self._taken_from(x, y)
+        aside = np.arctan2(away[:, 1], away[:, 0]) - facing
+        inside = np.abs(wrap_angles(aside)) < half
+        return float(np.hypot(*away[inside].T).min(initial=inf))
+
+    def _taken_from(self, x: float, y: float) -> Array:
+        """Ways from a place to all taken cells, in [m]. Shape (n, 2)."""
+        away: Array = _centres(self._evidence > TAKEN) - (x, y)
+        return away
 
     def unseen(self, place: tuple[float, float]) -> tuple[Polygon, ...]:
         """Floor near a place that nobody has seen yet, in odometry.

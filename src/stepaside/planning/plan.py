@@ -180,7 +180,7 @@ def _checked(times: ArrayLike) -> Array:
         row = np.asarray(times)
     except ValueError:  # rows of several lengths
         row = np.zeros(())
-    numbers = row.ndim == 1 and row.dtype.kind in "iuf"
+    numbers = row.ndim == 1 and row.size > 0 and row.dtype.kind in "iuf"
     if not numbers or not np.all((row >= -1e-6) & (row <= LONGEST)):
         raise PlanError(
             f"times must be a row of numbers in [0, {LONGEST:g}] [s], got "

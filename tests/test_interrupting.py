@@ -1,0 +1,90 @@
+"""Ctrl-C is neither lost nor mistaken, whenever it comes."""
+
+import signal
+import sys
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from stepaside.interrupting import interrupt, is_loading, stoppable
+
+LOADERS = """
+class {name}:
+    def exec_module(self, call):
+        return call()
+"""
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
+
+
+def loader(name: str) -> Callable[[Callable[[], Any]], Any]:
+    """What loads a module as Python's own loader of that name does."""
+    file = "<frozen importlib._bootstrap_external>"
+    found: dict[str, Any] = {}
+    exec(compile(LOADERS.format(name=name), file, "exec"), found)
+    return found[name]().exec_module  # type: ignore[no-any-return]
+
+
+def loading() -> bool:
+    return is_loading(sys._getframe())
+
+
+def test_a_compiled_library_that_begins_is_not_interrupted() -> None:
+    assert loader("ExtensionFileLoader")(loading)
+    assert not loader("SourceFileLoader")(loading)
+    assert not loading()
+
+
+def test_an_import_itself_is_not_interrupted_but_what_it_runs_is() -> None:
+    inner: dict[str, Any] = {"found": is_loading, "frame": sys._getframe}
+    code = "seen = found(frame())"
+    exec(compile(code, "<frozen importlib._bootstrap>", "exec"), inner)
+    assert inner["seen"]
+    exec(compile(code, "module.py", "exec"), inner)
+    assert not inner["seen"]
+
+
+@pytest.mark.parametrize("sign", SIGNALS)
+def test_an_interrupt_comes_when_the_library_is_there(
+    sign: signal.Signals,
+) -> None:
+    def begin() -> str:
+        signal.raise_signal(sign)
+        return "whole"
+
+    whole = ""
+    with stoppable(), pytest.raises(KeyboardInterrupt):
+        whole = loader("ExtensionFileLoader")(begin)
+        while True:
+            pass
+    assert whole == "whole"
+
+
+class Lost:
+    """Is interrupted where nobody can be told."""
+
+    def __del__(self) -> None:
+        signal.raise_signal(signal.SIGINT)
+
+
+def test_an_interrupt_that_nobody_could_be_told_comes_again() -> None:
+    with stoppable(), pytest.raises(KeyboardInterrupt):
+        Lost()
+        while True:
+            pass
+
+
+def test_whoever_has_a_handler_keeps_it() -> None:
+    def own(*_: object) -> None:
+        """Do nothing."""
+
+    before = signal.signal(signal.SIGINT, own)
+    try:
+        with stoppable():
+            assert signal.getsignal(signal.SIGINT) is own
+            assert signal.getsignal(signal.SIGTERM) is interrupt
+    finally:
+        signal.signal(signal.SIGINT, before)
+    with stoppable():
+        assert signal.getsignal(signal.SIGINT) is interrupt
+    assert signal.getsignal(signal.SIGINT) is before
