@@ -13,11 +13,11 @@ except ImportError as error:
 
 from ..perception.floor_map import FloorMap
 from ..perception.gaze import OFTEN, SELDOM
+from ..perception.looks import LOOKS
 from ..perception.perception import Perception
 from ..poses import Array
 from ..robots.description import RobotDescription
 from ..robots.head import load_head
-from ..sensing.colour_detector import BLUE, RED
 from ..world.eyes import Eyes
 from ..world.graphics import choose_renderer
 from ..world.robot import SimulatedRobot
@@ -30,7 +30,6 @@ from .outcome import Outcome
 from .settings import DuelSettings
 from .sight_figures import SeeingFigures, Seen
 
-LOOKS = {"pursuer": BLUE, "evader": RED}  # what each looks for
 GLANCES = {"pursuer": SELDOM, "evader": OFTEN}  # around, to map
 STILLS = 5  # images that a duel keeps of each camera
 

@@ -59,10 +59,7 @@ def draw_duel(
     _draw_over_time(over_time, run)
     for name, (part, place) in zip(walkers, places, strict=True):
         _draw_balance(part.add_subplot(*place), run, name)
-    figure.suptitle(
-        f"{run.game.capitalize()}, seed {run.settings.seed}: "
-        f"{for_figure(run.message)}"
-    )
+    figure.suptitle(f"{run.title}: {for_figure(run.message)}")
     save(figure, path)
 
 

@@ -9,6 +9,7 @@ from ..poses import Pose
 from ..robots.description import load_robot
 from ..world.person import add_person, parts_of, pose_figure
 from ..world.solids import add_solids, mover_of
+from ..world.template_body import add_template, pose_template
 from ..world.world import build_model
 
 
@@ -28,7 +29,10 @@ class Stage:
         """
         robots = run.robots
         names = {name: run.settings.robot_of(name).robot for name in robots}
-        persons = [name for name in run.players if name not in robots]
+        persons = run.persons
+        self._templates = [
+            name for name in run.players if name not in {*robots, *persons}
+        ]
 
         plan = run.plan
 
@@ -37,6 +41,8 @@ class Stage:
                 add_solids(spec, plan)
             for name in persons:
                 add_person(spec, name)
+            for name in self._templates:
+                add_template(spec, name)
 
         self.model = build_model(
             {name: load_robot(robot) for name, robot in names.items()},
@@ -74,5 +80,8 @@ class Stage:
             steps = np.diff(walked[: index + 1, :2], axis=0)
             way = float(np.hypot(steps[:, 0], steps[:, 1]).sum())
             pose_figure(self.data, parts, frame, way)
+        for name in self._templates:
+            stood = Pose(*self._tracks[name].torso[index].tolist())
+            pose_template(self.model, self.data, name, stood)
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_camlight(self.model, self.data)
