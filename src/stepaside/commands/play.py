@@ -11,7 +11,7 @@ import click
 
 from .declared.body import CONTROL
 from .declared.gait import GAIT
-from .declared.game import STRATEGY
+from .declared.game import SENSES, STRATEGY
 from .declared.kinds import NameType
 from .declared.take import SettingsCommand, takes_settings
 from .declared.wires import (
@@ -36,7 +36,7 @@ LONG_ENOUGH, INTERRUPTED = "played long enough", "interrupted"
 
 
 @click.command("play", cls=SettingsCommand)
-@takes_settings(duel_kind, STRATEGY, GAIT, CONTROL)
+@takes_settings(duel_kind, STRATEGY, GAIT, CONTROL, SENSES)
 @click.option(
     "--role",
     type=NameType(lambda: ROLES),
@@ -61,6 +61,12 @@ LONG_ENOUGH, INTERRUPTED = "played long enough", "interrupted"
     default=3,
     show_default=True,
     help="Ticks of 12 ms from a request to the motion.",
+)
+@click.option(
+    "--images",
+    help="With --sensing cameras, where images come from: v4l2:DEVICE, "
+    "naoqi:tcp://HOST:PORT or ros2:/TOPIC; what a simulated robot offers "
+    "beside its socket by default.",
 )
 @MAX_SPEED.option()
 @MAX_TURN.option()

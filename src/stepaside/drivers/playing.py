@@ -122,7 +122,7 @@ class Playing:
             scheme.phase,
             measurement,
             targets,
-            body.sighting,
+            scheme.sighting if thinks else body.sighting,
             body.refused,
             self._minds,
             scheme.state,
