@@ -8,11 +8,10 @@ import numpy as np
 from ..games.duel_run import DuelRun
 from ..games.run import Run
 from ..poses import Array
-from ..rooms import Room
 from .averages import whole_cycles
 from .inert import for_figure
 from .pushed import draw_pushes, mark_pushes
-from .room_figure import solid_patches
+from .room_figure import room_patches
 from .sizes import sheet
 from .soles import draw_heading, draw_soles
 from .style import (
@@ -105,7 +104,7 @@ def _frame(run: Run) -> tuple[Array, Array]:
     """Corners of what snapshots show: no side less than half the other."""
     every = np.concatenate([track.com[:, :2] for track in run.tracks.values()])
     low, high = every.min(axis=0) - 0.2, every.max(axis=0) + 0.2
-    plan = _plan_of(run)
+    plan = run.plan
     if plan is not None and plan.has_walls:
         half = 0.5 * np.array([plan.width, plan.depth]) + 0.15
         low, high = np.minimum(low, -half), np.maximum(high, half)
@@ -114,15 +113,9 @@ def _frame(run: Run) -> tuple[Array, Array]:
     return low - grown, high + grown
 
 
-def _plan_of(run: Run) -> Room | None:
-    """Room that they play in, if they play in one."""
-    return run.settings.room.plan if isinstance(run, DuelRun) else None
-
-
 def _draw_solids(axes: Any, run: Run) -> None:
     """What stands in the room, if they play in one."""
-    plan = _plan_of(run)
-    for patch in () if plan is None else solid_patches(plan.solids):
+    for patch in () if run.plan is None else room_patches(run.plan):
         axes.add_patch(patch)
 
 
