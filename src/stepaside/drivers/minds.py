@@ -41,7 +41,7 @@ def mind_maker(
         ConfigurationError: If it is to see and OpenCV is not there.
         ModelError: If it is to see and has no head.
     """
-    perceive = None if sees_as is None else _perception_of(sees_as)
+    perceive = None if sees_as is None else perception_of(sees_as)
 
     def make(strategy: Strategy) -> ControlScheme:
         return build_scheme(
@@ -59,10 +59,17 @@ def mind_maker(
     return make
 
 
-def _perception_of(
+def perception_of(
     role: str,
 ) -> "Callable[[RobotDescription, float], Perception]":
-    """What makes the perception of a role, at a control period in [s]."""
+    """What makes the perception of a role, at a control period in [s].
+
+    Args:
+        role: Who looks.
+
+    Raises:
+        ConfigurationError: If OpenCV is not there.
+    """
     try:
         import cv2
     except ImportError as error:

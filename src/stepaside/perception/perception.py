@@ -1,5 +1,6 @@
 """From percepts to a line of sight, and from it to where the head looks."""
 
+from bisect import insort
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -119,10 +120,53 @@ class Perception:
         Returns:
             Where the other is now, as far as is known.
         """
-        now = measurement.time
-        self.body = body = self._kinematics.pose(
-            now, measurement.joint_positions, support, left_supports, tilt
+        joints = measurement.joint_positions
+        return self._see(
+            measurement,
+            self._kinematics.pose(
+                measurement.time, joints, support, left_supports, tilt
+            ),
         )
+
+    def see_level(
+        self, measurement: Measurement, frame: Pose
+    ) -> Sighting | None:
+        """Take in what a robot gives that walks by itself, and stays level.
+
+        Args:
+            measurement: What its sensors give.
+            frame: Of the robot in its odometry.
+
+        Returns:
+            Where the other is now, as far as is known.
+        """
+        joints = measurement.joint_positions
+        body = self._kinematics.level(measurement.time, joints, frame)
+        return self._see(measurement, body)
+
+    def recall_level(self, time: float, joints: Array, frame: Pose) -> None:
+        """Remember where such a robot was between two of its reports.
+
+        Args:
+            time: The instant, in [s].
+            joints: Angles then, in [rad]. Shape (joints,).
+            frame: Of the robot in its odometry then.
+        """
+        if len(self._poses) == self._poses.maxlen:
+            self._poses.popleft()
+        body = self._kinematics.level(time, joints, frame)
+        insort(self._poses, body, key=lambda pose: pose.time)
+
+    @property
+    def gaze(self) -> tuple[float, float]:
+        """Yaw and pitch to which the head is to turn, in [rad]."""
+        return self._gaze.yaw, self._gaze.pitch
+
+    def _see(
+        self, measurement: Measurement, body: BodyPose
+    ) -> Sighting | None:
+        now = measurement.time
+        self.body = body
         self._poses.append(body)
         self.reports.clear()
         for percept in measurement.percepts:
