@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("cv2")
 
 from stepaside.control.balance.settings import STABILISED  # noqa: E402
-from stepaside.drivers.minds import perception_of  # noqa: E402
+from stepaside.drivers.minds import level_perception  # noqa: E402
 from stepaside.drivers.velocity.body import (  # noqa: E402
     REST,
     Report,
@@ -58,7 +58,7 @@ class NoWire:
         self.robot, self._ticks, self._velocity = robot, 0, REST
         self._told: Any = None
         self.seen: Report | None = None
-        perception = perception_of(role)(load_robot("nao"), PERIOD)
+        perception = level_perception(role, load_robot("nao"), PERIOD)
         self._looking = LookingBody(self, self, perception)
         self.playing = VelocityPlaying(
             self._looking,

@@ -70,7 +70,7 @@ def open_looking(
     Raises:
         StepAsideError: If there is no such robot, or it has no camera.
     """
-    from ..drivers.minds import perception_of
+    from ..drivers.minds import level_perception
     from ..drivers.naoqi.body import NaoqiBody
     from ..drivers.velocity.looking import PERIOD, LookingBody
     from ..robots.description import load_robot
@@ -78,7 +78,7 @@ def open_looking(
 
     description = load_robot(options["description"])
     head = load_head(description)
-    perception = perception_of(options["role"])(description, PERIOD)
+    perception = level_perception(options["role"], description, PERIOD)
     dry_run = options["dry_run"]
     body = NaoqiBody(
         url,

@@ -1,9 +1,7 @@
 """From percepts to a line of sight, and from it to where the head looks."""
 
-from bisect import insort
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import atan2, cos, hypot, radians, sin
 
 from ..poses import Array, Pose, wrap_angle
@@ -11,17 +9,14 @@ from ..robots.body_pose import BodyKinematics, BodyPose
 from ..robots.description import RobotDescription
 from ..robots.forward import ForwardKinematics
 from ..robots.head import HeadDescription, Mount
-from ..sensing.colour_detector import (
-    Appearance,
-    ColourDetection,
-    ColourDetector,
-)
-from ..sensing.depth_detector import DepthScene, detect_obstacles
+from ..sensing.colour_detector import Appearance, ColourDetector
+from ..sensing.depth_detector import detect_obstacles
 from ..sensing.images import ColourImage, DepthImage, Percept, SonarEcho
 from ..sensing.measurement import Measurement, Sighting
 from ..sensing.track import Observation, Track
 from ..sensing.tracker import Tracker
 from .floor_map import FloorMap
+from .frame_report import FrameReport
 from .gaze import Gaze, Glances
 from .observing import angle_of, observe_obstacle, observe_shadow, observe_trim
 
@@ -34,24 +29,6 @@ BROAD = 0.12  # shadow of somebody who was not seen before, in [rad]
 CHEST = 0.10  # from a sonar to the own axis and into the other, in [m]
 DEAF = 0.25  # echo that may be of the own arms, or of anything nearer, [m]
 EAR = radians(50.0)  # how far aside a sonar hears
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class FrameReport:
-    """What one image was found to show.
-
-    Attributes:
-        image: The image.
-        azimuths: Directions in which something was found, from the
-            camera's axis, in [rad], positive leftward.
-        colour: What a colour image shows.
-        depth: What a depth image shows.
-    """
-
-    image: ColourImage | DepthImage
-    azimuths: tuple[float, ...]
-    colour: ColourDetection | None = None
-    depth: DepthScene | None = None
 
 
 class Perception:
@@ -127,35 +104,6 @@ class Perception:
                 measurement.time, joints, support, left_supports, tilt
             ),
         )
-
-    def see_level(
-        self, measurement: Measurement, frame: Pose
-    ) -> Sighting | None:
-        """Take in what a robot gives that walks by itself, and stays level.
-
-        Args:
-            measurement: What its sensors give.
-            frame: Of the robot in its odometry.
-
-        Returns:
-            Where the other is now, as far as is known.
-        """
-        joints = measurement.joint_positions
-        body = self._kinematics.level(measurement.time, joints, frame)
-        return self._see(measurement, body)
-
-    def recall_level(self, time: float, joints: Array, frame: Pose) -> None:
-        """Remember where such a robot was between two of its reports.
-
-        Args:
-            time: The instant, in [s].
-            joints: Angles then, in [rad]. Shape (joints,).
-            frame: Of the robot in its odometry then.
-        """
-        if len(self._poses) == self._poses.maxlen:
-            self._poses.popleft()
-        body = self._kinematics.level(time, joints, frame)
-        insort(self._poses, body, key=lambda pose: pose.time)
 
     @property
     def gaze(self) -> tuple[float, float]:

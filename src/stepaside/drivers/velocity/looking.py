@@ -6,7 +6,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from ...perception.perception import Perception
+from ...perception.level import LevelPerception
 from ...poses import Array, Pose, wrap_angle
 from ...sensing.measurement import Measurement
 from ..cameras.source import PerceptSource
@@ -52,7 +52,7 @@ class LookingBody:
         self,
         body: HeadedBody,
         eyes: PerceptSource,
-        perception: Perception,
+        perception: LevelPerception,
         *,
         turns_head: bool = True,
     ) -> None:
