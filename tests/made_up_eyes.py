@@ -56,7 +56,7 @@ class FakeDetector:
 class FakeGaze:
     """Notes what it is told."""
 
-    yaw, pitch = 0.4, -0.2
+    yaw, pitch, turned = 0.4, -0.2, 2
 
     def __init__(self) -> None:
         self.followed: tuple[float, float] | None = None
