@@ -4,15 +4,20 @@ import webbrowser
 from collections.abc import Callable
 from pathlib import Path
 from time import sleep
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from .declared.common import BROWSER, PORT, SERVE_FOR, json_option
 from .declared.kinds import NameType
+from .effort import PICTURES, tell_effort
 from .options import POSITIVE, SECONDS, NumberType, print_json
 from .outputs import OutputFile, attempt, writes_files
 from .terminal import echo
+
+if TYPE_CHECKING:
+    from ..games.run import Run
+    from ..report.film import Shot
 
 FORMER = {"following": "follow"}  # names of today by former ones
 
@@ -100,11 +105,13 @@ def replay(run: Path, as_json: bool, **options: Any) -> None:
         from ..report.film import write_video
 
         shot = _shot(options, 60.0, 30.0, 1280, 720)
+        _tell(shot, loaded)
         _film("video", write_video, run, video, shot, written)
     if gif is not None:
         from ..report.film import write_gif
 
         shot = _shot(options, 12.0, 10.0, 480, 270)
+        _tell(shot, loaded)
         _film("gif", write_gif, run, gif, shot, written)
     if html is video is gif is None:
         _serve(loaded, options)
@@ -143,6 +150,17 @@ def _shot(
         slow=options["slow"],
         words=options["words"],
         title=options["title"],
+    )
+
+
+def _tell(shot: "Shot", run: "Run") -> None:
+    """Say how long a film takes."""
+    number = shot.count(float(run.times[-1]))
+    size = shot.width * shot.height / (640 * 480)
+    tell_effort(
+        f"a film of about {number:.0f} pictures",
+        number * size / PICTURES,
+        workers=None,
     )
 
 

@@ -19,6 +19,7 @@ from .declared.common import (
 from .declared.kinds import NameType, OutputFile, SizeType
 from .declared.option import Declaration
 from .duels import SEEDS
+from .effort import DECISIONS, tell_effort
 from .options import ANGLE, print_json
 from .outputs import attempt, writes_files
 from .stopping import kept_in, leave_stopped
@@ -165,13 +166,19 @@ def tournament(
     else:
         width, depth = room or (None, None)
         arena = RoomRecipe(width, depth, discs, boxes, polygons)
-    settings = TournamentSettings(
-        level, arena, StepGame(duration=duration), alpha
-    )
+    game = StepGame(duration=duration)
+    settings = TournamentSettings(level, arena, game, alpha)
     settings.arena(seeds[0])  # whether there is such a room
     if output is not None:
         check_folder(output, new=False)
     pairings = [(e, p) for p in pursuers for e in evaders]
+    games = len(pairings) * len(seeds)
+    decisions = games * duration * game.speed / game.stride
+    tell_effort(
+        f"{games} games of {duration:g} s, less those that are recorded",
+        decisions / DECISIONS,
+        workers,
+    )
     records, stopped = _play(settings, pairings, seeds, output, workers)
     result = _answer(settings, seeds, records)
     failed: OutputError | None = None
