@@ -155,7 +155,7 @@ def _shot(
 
 def _tell(shot: "Shot", run: "Run") -> None:
     """Say how long a film takes."""
-    number = shot.count(float(run.times[-1]))
+    number = shot.about(float(run.times[-1]))
     size = shot.width * shot.height / (640 * 480)
     tell_effort(
         f"a film of about {number:.0f} pictures",

@@ -75,7 +75,7 @@ class Shot(NamedTuple):
         share = away * away * (3.0 - 2.0 * away)
         return self.speed * (SLOWEST + (1.0 - SLOWEST) * share)
 
-    def count(self, last: float) -> float:
+    def about(self, last: float) -> float:
         """About how many pictures it has, however many that would be.
 
         Args:
