@@ -155,7 +155,11 @@ def _shot(
 
 def _tell(shot: "Shot", run: "Run") -> None:
     """Say how long a film takes."""
-    number = shot.about(float(run.times[-1]))
+    from ..report.film import AROUND, SLOWEST
+
+    shown = min(float(run.times[-1]) - shot.begin, shot.duration)
+    slower = 2.0 * AROUND / SLOWEST if shot.slow else 0.0
+    number = max(shown + slower, 0.0) * shot.rate / shot.speed
     size = shot.width * shot.height / (640 * 480)
     tell_effort(
         f"a film of about {number:.0f} pictures",

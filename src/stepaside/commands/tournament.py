@@ -8,7 +8,7 @@ import click
 
 from ..errors import ConfigurationError, OutputError
 from ..outputs import check_folder
-from .declared.arena import BOXES, DISCS, POLYGONS
+from .declared.arena import BOXES, DISCS, POLYGONS, ArenaType
 from .declared.common import (
     FIGURE,
     FOLDER,
@@ -16,7 +16,7 @@ from .declared.common import (
     WORKERS,
     json_option,
 )
-from .declared.kinds import NameType, OutputFile, SizeType
+from .declared.kinds import NameType, OutputFile
 from .declared.option import Declaration
 from .duels import SEEDS
 from .effort import DECISIONS, tell_effort
@@ -37,30 +37,6 @@ def _levels() -> tuple[str, ...]:
     from ..studies.tournament import LEVELS
 
     return LEVELS
-
-
-class RoomType(click.ParamType[Any]):
-    """A size like 3x3, ``open``, or a file of a room."""
-
-    name = "room"
-
-    def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
-        """How it is written."""
-        return "[WIDTHxDEPTH|open|FILE]"
-
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> Any:
-        """Take a file for its path, and anything else for a size."""
-        file = Path(str(value))
-        if file.suffix.lower() in (".toml", ".json"):
-            if not file.is_file():
-                self.fail(f"must be a file that exists, got {value!r:.80}")
-            return file
-        return SizeType().convert(value, param, ctx)
 
 
 @click.command("tournament")
@@ -88,7 +64,7 @@ class RoomType(click.ParamType[Any]):
 )
 @click.option(
     "--room",
-    type=RoomType(),
+    type=ArenaType(),
     default="3x3",
     show_default=True,
     help="Size of the room [m], open for a floor without walls, or a file.",

@@ -75,17 +75,6 @@ class Shot(NamedTuple):
         share = away * away * (3.0 - 2.0 * away)
         return self.speed * (SLOWEST + (1.0 - SLOWEST) * share)
 
-    def about(self, last: float) -> float:
-        """About how many pictures it has, however many that would be.
-
-        Args:
-            last: End of the run, in [s].
-        """
-        shown = max(min(last - self.begin, self.duration), 0.0)
-        if self.slow:
-            shown += 2.0 * AROUND / SLOWEST
-        return shown * self.rate / self.speed
-
     def instants(
         self, last: float, closest: float | None = None
     ) -> list[float]:
