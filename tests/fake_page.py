@@ -24,7 +24,7 @@ class Handle:
         self.callbacks.append(call)
         return call
 
-    on_update = on_trigger = on_click
+    on_update = on_trigger = on_drag = on_click
 
     def press(self, value: Any = None, client: Any = None) -> None:
         """Do what a hand does: perhaps set the value, and press."""
@@ -211,9 +211,17 @@ class Scene:
         """Add lines."""
         return self._add(name, points=points, **options)
 
+    def add_arrows(
+        self, name: str, points: Any, colour: Any, **options: Any
+    ) -> Handle:
+        """Add arrows."""
+        return self._add(name, points=points, colour=colour, **options)
+
     def remove_by_name(self, name: str) -> None:
-        """Take something off."""
+        """Take something off, and all below it."""
         del self.items[name]
+        for below in [n for n in self.items if n.startswith(f"{name}/")]:
+            del self.items[below]
 
 
 class Client:
@@ -278,4 +286,9 @@ def open_fake(host: str, port: int) -> Any:
     """Open a server that serves nobody, behind no door."""
     server = Server(host=host, port=port)
     listener = SimpleNamespace(say=None)
-    return SimpleNamespace(server=server, gate=None, listener=listener)
+    return SimpleNamespace(
+        server=server,
+        gate=None,
+        listener=listener,
+        hand=SimpleNamespace(attend=lambda steer: None),
+    )

@@ -55,14 +55,16 @@ class FakeDetector:
 class FakeGaze:
     """Notes what it is told."""
 
-    yaw, pitch = 0.4, -0.2
+    yaw, pitch, turned = 0.4, -0.2, 2
 
     def __init__(self) -> None:
         self.followed: tuple[float, float] | None = None
+        self.height = 0.0
 
-    def follow(self, bearing: float, distance: float) -> None:
+    def follow(self, bearing: float, distance: float, height: float) -> None:
         """Note what is looked at."""
         self.followed = wrap_angle(bearing), distance
+        self.height = height
 
     def search(self) -> None:
         """Look at nothing."""

@@ -112,3 +112,45 @@ def test_what_the_edge_cuts_says_so() -> None:
     assert found is not None
     assert found.cut_below
     assert not found.cut_aside
+
+
+def pale(colour: str) -> tuple[int, ...]:
+    """Paint as a pixel shows it that it covers in part."""
+    return tuple(round(0.45 * c + 0.55 * 240) for c in PAINT[colour])
+
+
+def draw_ears(pixels: Pixels, paint: tuple[int, ...], at: int) -> None:
+    """Paint over the ears of a robot 100 high."""
+    for x, y in ((-0.14, 0.08), (0.14, 0.08)):
+        middle = round(at + 100 * x), round(100 + 100 * y)
+        cv2.ellipse(pixels, middle, (2, 6), 0, 0, 360, paint, -1)
+
+
+@pytest.mark.parametrize("colour", PAINT)
+def test_ears_as_narrow_as_a_pixel_are_the_upper_end(colour: str) -> None:
+    """Else a robot looks a seventh farther away in every such frame."""
+    find = ColourDetector(LOOKS[colour]).detect
+    tops = []
+    for paint in (PAINT[colour], pale(colour), (240, 240, 238)):
+        pixels = empty()
+        draw_robot(pixels, colour, 160, 100)
+        draw_ears(pixels, paint, 160)
+        found = find(ColourImage(0.0, CAMERA, pixels))
+        assert found is not None
+        tops.append(found.top)
+    strong, faint, absent = tops
+    assert faint == pytest.approx(strong, abs=2.0)
+    assert absent > strong + 10.0
+
+
+@pytest.mark.parametrize("colour", PAINT)
+def test_what_is_faint_above_a_robot_is_not_of_it(colour: str) -> None:
+    """A poster on the wall behind it, and its own arm beside it."""
+    pixels = empty()
+    draw_robot(pixels, colour, 160, 100)
+    find = ColourDetector(LOOKS[colour]).detect
+    plain = find(ColourImage(0.0, CAMERA, pixels))
+    for left, top, right, bottom in ((100, 10, 220, 90), (190, 90, 200, 96)):
+        behind = pixels.copy()
+        behind[top:bottom, left:right] = pale(colour)
+        assert find(ColourImage(0.0, CAMERA, behind)) == plain

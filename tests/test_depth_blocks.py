@@ -132,6 +132,18 @@ def test_small_holes_do_not_take_things_apart(hole: int, things: int) -> None:
     assert count(whole, (24, 24 + hole, 30, 50, 0.0)) == things
 
 
+@pytest.mark.parametrize("dark", [1, 2])
+def test_what_is_dark_does_not_tie_a_thing_to_the_wall(dark: int) -> None:
+    """The camera's own shadow beside a near edge answers nothing."""
+    edge = 46 + dark
+    shadow = 10, 27, 46, edge, 0.0
+    wall = 0, 27, edge, 80, 3.0
+    (thing,) = draw(wall, (10, 40, 34, 46, 1.5), shadow).obstacles
+    assert thing.azimuth == pytest.approx(0.0, abs=3e-3)
+    assert thing.nearest == pytest.approx(1.5, abs=0.03)
+    assert thing.whole
+
+
 def test_what_is_broader_than_a_robot_is_a_wall() -> None:
     """1.03 m and 1.17 m."""
     assert count((10, 40, 15, 65, 1.6)) == 1
@@ -139,8 +151,8 @@ def test_what_is_broader_than_a_robot_is_a_wall() -> None:
 
 
 def test_what_is_too_far_to_be_measured_whole_is_left_out() -> None:
-    assert count((10, 36, 30, 40, 2.55)) == 1
-    assert count((10, 36, 30, 40, 2.70)) == 0
+    assert count((10, 36, 30, 40, 3.27)) == 1
+    assert count((10, 36, 30, 40, 3.40)) == 0
 
 
 @pytest.mark.parametrize(("left", "right"), [(0, 12), (68, 80)])
@@ -212,9 +224,9 @@ def test_few_dark_pixels_hide_nobody() -> None:
     assert draw((50, 52, 10, 70, 0.0)).shadows == ()
 
 
-@pytest.mark.parametrize(("between", "shadows"), [(3, 1), (4, 2)])
+@pytest.mark.parametrize(("between", "shadows"), [(16, 1), (18, 2)])
 def test_near_shadows_are_of_one_thing(between: int, shadows: int) -> None:
-    """Gaps of 0.055 and 0.069 rad."""
+    """Gaps of 0.237 and 0.265 rad: legs of somebody who strides."""
     scene = draw(
         (43, 60, 30, 36, 0.0), (43, 60, 36 + between, 45 + between, 0.0)
     )
@@ -246,3 +258,35 @@ def test_what_is_near_and_hides_the_floor_is_cut(
         assert shadow.width > angle(31) - angle(left + 7)
     else:
         assert shadow.width == pytest.approx(angle(left) - angle(left + 7))
+
+
+def test_a_leg_that_is_measured_tells_how_near_the_other_is() -> None:
+    leg, shadow = (0, 35, 30, 36, 0.85), (43, 60, 42, 50, 0.0)
+    scene = draw(leg, shadow)
+    assert scene.obstacles == ()
+    (person,) = scene.shadows
+    assert person.width == pytest.approx(angle(30) - angle(49), abs=0.02)
+    assert person.nearest == pytest.approx(0.85, abs=0.03)
+    (alone,) = draw(shadow).shadows
+    assert alone.nearest is None
+
+
+@pytest.mark.parametrize(
+    ("top", "gap", "things"), [(0, 6, 1), (4, 6, 2), (0, 22, 2)]
+)
+def test_legs_whose_hips_are_above_the_view_are_one_person(
+    top: int, gap: int, things: int
+) -> None:
+    """Thin things that end within the view are two, and so are far ones."""
+    right = 36 + gap
+    legs = (top, 40, 30, 36, 1.2), (top, 40, right, right + 6, 1.3)
+    found = draw(*legs).obstacles
+    assert len(found) == things
+    if things == 1:
+        (person,) = found
+        both = [draw(leg).obstacles[0] for leg in legs]
+        assert person.x == pytest.approx(np.mean([leg.x for leg in both]))
+        assert person.y == pytest.approx(np.mean([leg.y for leg in both]))
+        assert both[1].azimuth < person.azimuth < both[0].azimuth
+        assert person.nearest == both[0].nearest
+        assert person.whole and person.rises

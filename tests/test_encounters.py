@@ -169,3 +169,15 @@ def test_the_command_writes_table_and_map(
     assert (tmp_path / "found" / "people.png").exists()
     asked = CliRunner().invoke(main, [*line.split(), "--json"])
     assert json.loads(asked.stdout)["person"]["passers_by"][0]["number"] == 20
+
+
+def test_a_robot_that_sees_stands_far_from_walls() -> None:
+    """A wall beside it would be the nearest thing to look at."""
+    for sensing in ("ideal", "cameras"):
+        for each in encounters(WALK, (sensing,), seeds=1):
+            room, distance = each.settings.room, each.settings.start.distance
+            assert distance is not None
+            if sensing == "ideal":
+                assert room == each.base.room
+            else:
+                assert room.walls > distance + study.PAST

@@ -13,8 +13,9 @@ from stepaside.games.settings import PLAYERS, DuelSettings
 from stepaside.games.track import Track
 from stepaside.poses import Array
 from stepaside.report import film_layers
-from stepaside.report.film import AROUND, SLOWEST, Shot, closest_time
+from stepaside.report.film import Shot, closest_time
 from stepaside.report.film_camera import MARGIN, VIEWS, CameraMan, framing
+from stepaside.report.film_shot import AROUND, SLOWEST
 from stepaside.report.film_words import caption, title_of
 from stepaside.report.palette import PALETTES
 
@@ -112,6 +113,21 @@ def test_a_view_is_that_of_mujoco_s_camera(name: str) -> None:
     eye = scene.camera[0]
     np.testing.assert_allclose(eye.forward, view.axes[2], atol=1e-6)
     np.testing.assert_allclose(eye.up, view.axes[1], atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    "way", [(1.0, 0.0, 0.0), (0.6, -0.8, 0.0), (0.1, 0.2, 0.97), (0, 0, -1)]
+)
+def test_a_bar_lies_along_its_way_and_flat_on_the_floor(
+    way: tuple[float, float, float],
+) -> None:
+    ahead = np.array(way) / np.linalg.norm(way)
+    turn = film_layers.turn_along(*ahead.tolist()).reshape(3, 3)
+    np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-12)
+    assert np.linalg.det(turn) == pytest.approx(1.0)
+    np.testing.assert_allclose(turn[:, 2], ahead)
+    if abs(ahead[2]) < 0.9:
+        assert turn[2, 0] == 0.0
 
 
 def test_the_light_shines_on_what_is_looked_at() -> None:

@@ -204,7 +204,7 @@ def test_a_message_that_is_too_long_ends_the_connection(
         connection.send(b"\xc4" * (LARGEST + 1))
         with pytest.raises(ConnectionClosed) as closed:
             while True:
-                connection.recv(timeout=20)
+                connection.recv(timeout=200)
     assert closed.value.rcvd is not None and closed.value.rcvd.code == 1009
 
 
@@ -217,12 +217,12 @@ def test_so_many_pages_are_open_and_no_more(
         until(lambda: served.gate.connected == 2)
         with plug(served, own(served)) as third:
             with pytest.raises(ConnectionClosed) as closed:
-                third.recv(timeout=20)
+                third.recv(timeout=200)
             assert closed.value.rcvd is not None
             assert closed.value.rcvd.code == 1013
     until(lambda: served.gate.connected == 0)
     with plug(served, own(served)) as again:
-        again.recv(timeout=20)
+        again.recv(timeout=200)
 
 
 def test_beyond_this_machine_the_link_holds_a_secret(abroad: Served) -> None:
@@ -238,7 +238,7 @@ def test_beyond_this_machine_the_link_holds_a_secret(abroad: Served) -> None:
             pass
     assert ask(port, f"/{secret}/../x", host)[9:12] in ("403", "404")
     with plug(abroad, own(abroad), f"/{secret}") as connection:
-        connection.recv(timeout=20)
+        connection.recv(timeout=200)
 
 
 def test_everywhere_is_known_by_its_numbers_but_by_no_name() -> None:

@@ -6,10 +6,13 @@ import numpy as np
 import pytest
 
 from stepaside.perception.gaze import (
+    HIPS,
+    LOOKOUT,
     REACH,
     SCAN_PITCH,
     SCAN_SPEED,
     SPEED,
+    UPWARD,
     Gaze,
 )
 from stepaside.robots.description import load_robot
@@ -80,7 +83,7 @@ def test_it_turns_at_the_speed_of_a_following_head() -> None:
     gaze = Gaze(COUPLING, TICK)
     gaze.search()
     moved = hypot(gaze.yaw - before[0], gaze.pitch - before[1])
-    assert moved == pytest.approx(1.4 * TICK)
+    assert moved == pytest.approx(3.0 * TICK)
 
 
 def test_it_begins_ahead_a_little_down_and_searching() -> None:
@@ -159,3 +162,24 @@ def test_pitch_keeps_to_either_limit_at_its_yaw(shift: float) -> None:
         gaze.follow(0.5, 1.0)
     limit = 0.15 + shift if shift < 0.0 else -0.05 + shift
     assert gaze.pitch == pytest.approx(limit, abs=1e-4)
+
+
+def pitch_at(distance: float, height: float) -> float:
+    """Pitch towards something after a second, in [deg]."""
+    gaze = Gaze(COUPLING, TICK)
+    for _ in range(250):
+        gaze.follow(0.0, distance, height)
+    return degrees(gaze.pitch)
+
+
+def test_it_looks_up_as_somebody_tall_comes_near() -> None:
+    """To the hips, which join two legs; the floor stays in view, too."""
+    pitches = [pitch_at(away, 1.5) for away in (3.0, 2.0, 1.0, 0.6, 0.4)]
+    assert pitches == sorted(pitches, reverse=True)
+    assert pitches[0] == pytest.approx(pitch_at(3.0, 0.0), abs=1e-9)
+    assert pitches[-1] == pytest.approx(-degrees(UPWARD))
+    # From 1 m the hips are in the upper half of the view of 40 degrees.
+    hips = degrees(atan2(HIPS - LOOKOUT, 0.94))
+    assert hips + pitches[2] == pytest.approx(20.0, abs=0.1)
+    # A robot is looked at as ever.
+    assert pitch_at(0.6, 0.6) == pitch_at(0.6, 0.0) > 0.0

@@ -28,7 +28,7 @@ from stepaside.sensing.measurement import Sighting  # noqa: E402
 from velocity_fakes import MadeUpWalker  # isort: skip  # noqa: E402
 
 TICK = 0.012
-LONGEST = 20.0  # for what takes milliseconds, in [s]
+LONGEST = 200.0  # for what takes milliseconds, in [s]
 SILENT = round(SILENCE / TICK) + 2  # ticks
 
 

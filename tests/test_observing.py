@@ -7,9 +7,13 @@ import numpy as np
 import pytest
 
 from stepaside.perception.observing import (
+    BESIDE,
+    BLIND,
     CLOSEST,
     GUESS,
     NEARBY,
+    PARTLY,
+    PULLED,
     ROUGH,
     SURE,
     VAGUE,
@@ -200,7 +204,7 @@ def test_an_obstacle_is_where_it_was_measured(
 ) -> None:
     thing = Obstacle(1.0, 2.0, 1.5, 0.3, 0.1, 0.2, 0.5, whole)
     seen = observe_obstacle(DEPTH, thing)
-    expected = (3.5, 1.0, 2.0, 0.3, 0.03, across, False, True)
+    expected = (3.5, 1.0, 2.0, 0.3, 0.03, across, False, True, 0.5)
     assert tuple(seen) == expected
 
 
@@ -212,11 +216,37 @@ def test_a_shadow_is_no_farther_than_the_near_limit() -> None:
         (away * cos(YAW), away * sin(YAW))
     )
     assert seen.bearing == YAW and seen.time == 3.5
-    assert seen.along == VAGUE
+    assert seen.along == PULLED
     assert seen.across == pytest.approx(0.08 * away)
     assert not seen.identified and not seen.ranged
+
+
+def test_within_its_bounds_a_shadow_tells_no_distance() -> None:
+    """Memory that came back as a measurement would believe itself."""
+    shadow = Shadow(YAW, 0.2, 0.3)
     nearer = observe_shadow(DEPTH, shadow, PLACE, (track(0.5, YAW),))
     assert distance_of(nearer) == pytest.approx(0.5)
+    assert nearer.along == BLIND > 1.0
+    followed = track(0.6, YAW)
+    before = followed.deviation_at(4.5)
+    for _ in range(20):
+        one = observe_shadow(DEPTH, shadow, PLACE, (followed,))
+        followed.correct(one._replace(time=4.5))
+    assert followed.deviation_at(4.5) > 0.8 * before
+
+
+def test_nobody_in_a_shadow_is_within_the_robot() -> None:
+    shadow = Shadow(YAW, 0.2, 0.3)
+    seen = observe_shadow(DEPTH, shadow, PLACE, (track(0.36, YAW),))
+    assert distance_of(seen) == pytest.approx(BESIDE)
+    assert seen.along == PULLED
+
+
+def test_a_shadow_whose_part_was_measured_is_where_that_is() -> None:
+    shadow = Shadow(YAW, 0.2, 0.3, 0.85)
+    seen = observe_shadow(DEPTH, shadow, PLACE, (track(0.5, YAW),))
+    assert distance_of(seen) == pytest.approx(0.85)
+    assert seen.ranged and seen.along == PARTLY
 
 
 def test_columns_to_the_right_have_positive_angles() -> None:

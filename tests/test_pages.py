@@ -12,6 +12,16 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from browsing import (
+    CHROMIUM,
+    WAIT,
+    keep_picture,
+    launched,
+    looking,
+    open_page,
+    press,
+    until,
+)
 from hostile import HOSTILE
 from onlooker import look_away, look_on
 from stepaside.cli import main
@@ -26,11 +36,7 @@ from stepaside.report.replay_page import write_page
 from stepaside.report.stage import Stage
 from stepaside.report.viewer.session import Session
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
-ARTEFACTS = Path(__file__).parent.parent / "artefacts"
-WAIT = 200_000  # more than a browser on a busy machine ever takes, in [ms]
 SLOW = 0.02  # speed at which a sight of some seconds lasts for minutes
-OPTIONS = ["--no-sandbox", "--enable-unsafe-swiftshader"]
 
 pytestmark = [
     pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium here"),
@@ -41,35 +47,27 @@ pytestmark = [
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    playwright = pytest.importorskip("playwright.sync_api")
-    ARTEFACTS.mkdir(exist_ok=True)
-    with playwright.sync_playwright() as driver:
-        chromium = driver.chromium.launch(
-            executable_path=CHROMIUM,
-            headless=True,
-            args=OPTIONS,
-            timeout=WAIT,
-        )
+    with launched() as chromium:
         yield chromium
-        chromium.close()
 
 
 @pytest.fixture(scope="module")
-def flat(browser: Any) -> Iterator[Any]:
-    """A browser that draws no 3D: all else is quicker there."""
+def flat(browser: Any) -> Iterator[tuple[Any, list[str]]]:
+    """A page of a browser that draws no 3D, and what goes wrong on it."""
     chromium = browser.browser_type.launch(
         executable_path=CHROMIUM,
         headless=True,
         args=["--no-sandbox", "--disable-3d-apis"],
         timeout=WAIT,
     )
-    yield chromium
+    page = chromium.new_page()
+    page.set_default_timeout(WAIT)
+    wrong: list[str] = []
+    page.on("pageerror", lambda error: wrong.append(str(error)))
+    page.on("console", lambda told: wrong.append(told.text))
+    page.on("dialog", lambda dialog: wrong.append(dialog.message))
+    yield page, wrong
     chromium.close()
-
-
-def press(page: Any, label: str) -> None:
-    button = page.get_by_role("button", name=label, exact=True).first
-    button.dispatch_event("click")
 
 
 def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
@@ -98,7 +96,7 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
         page.get_by_text("the pursuer comes").first.wait_for()
         pause = page.get_by_role("button", name="Pause", exact=True)
         pause.first.wait_for()
-        page.screenshot(path=ARTEFACTS / "live.png")
+        keep_picture(page, "live.png")
         press(page, "Pause")
         until(page, lambda: not session.running)
         settle(page, session)
@@ -130,20 +128,63 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
         until(page, lambda: live._duel._distance.value == 0.1)
         press(page, "reset")
         page.get_by_text("distance must lie in").first.wait_for()
-        page.screenshot(path=ARTEFACTS / "refused.png")
+        keep_picture(page, "refused.png")
         page.close()
     finally:
         live.close()
     assert threading.active_count() < 50
 
 
-def until(page: Any, condition: Any) -> None:
-    """Wait for the loop behind the page."""
-    for _ in range(WAIT // 50):
-        if condition():
-            return
-        page.wait_for_timeout(50)
-    raise AssertionError("it did not happen")
+def test_a_robot_is_pulled_with_the_pointer_and_driven_with_a_stick(
+    browser: Any,
+) -> None:
+    from stepaside.report.viewer.page import Page
+
+    live = Page(DuelSettings(), host="127.0.0.1", port=8771)
+    live.start()
+    session = live.session
+    pursuer = session.duel.players[0]
+    assert isinstance(pursuer, Walker)
+    try:
+        page = open_page(browser, width=900, has_touch=True)
+        page.goto(f"http://127.0.0.1:{live.server.get_port()}")
+        page.get_by_text("standing").first.wait_for()
+        press(page, "evader's eyes")  # then the pursuer is in the middle
+        box = page.locator("canvas").first.bounding_box()
+        x = box["x"] + 0.5 * box["width"]
+        y = box["y"] + 0.5 * box["height"]
+
+        def pulled() -> bool:
+            """Pull, until the camera is where it shall be."""
+            page.mouse.move(x, y)
+            page.mouse.down()
+            page.mouse.move(x + 20, y, steps=2)
+            page.mouse.move(x + 60, y, steps=2)
+            page.mouse.up()
+            return pursuer.robot.pusher is not None
+
+        until(page, pulled)
+        page.get_by_text("pushed the pursuer by").wait_for()
+        session.step(0.05)
+        settle(page, session)
+        pusher = pursuer.robot.pusher
+        assert pusher is not None
+        # To the right of who faces it, which is to its own left.
+        until(page, lambda: pusher.impulse[1] > 0.1)
+
+        stick = page.locator("#stick").bounding_box()
+        middle = stick["x"] + 54, stick["y"] + 54
+        page.mouse.move(*middle)
+        page.mouse.down()
+        page.mouse.move(middle[0] - 30, middle[1] - 30, steps=3)
+        until(page, lambda: (h := live._drive._hand) is not None and h.going)
+        until(page, lambda: (h := live._drive._hand) and h.turn > 0.5)
+        keep_picture(page, "driving.png")
+        page.mouse.up()
+        until(page, lambda: (h := live._drive._hand) and not h.going)
+        page.close()
+    finally:
+        live.close()
 
 
 def settle(page: Any, session: Session) -> None:
@@ -158,17 +199,10 @@ def _setter(event: threading.Event) -> Callable[[Duel], None]:
     return lambda duel: event.set()
 
 
-def open_page(browser: Any) -> Any:
-    """Small page that waits long enough for whatever it waits for."""
-    page = browser.new_page(viewport={"width": 640, "height": 420})
-    page.set_default_timeout(WAIT)
-    return page
-
-
 @pytest.fixture(scope="module")
 def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("runs") / "short"
-    arguments = ["duel", "--seed", "3", "--duration", "10", "--json"]
+    arguments = ["duel", "--seed", "3", "--duration", "4", "--json"]
     result = CliRunner().invoke(main, [*arguments, "--output", str(folder)])
     assert result.exit_code == 0
     return folder
@@ -185,8 +219,8 @@ def test_a_replay_can_be_scrubbed(browser: Any, run: Path) -> None:
         page.get_by_text("0.00 s, distance").first.wait_for()
         slider = page.get_by_role("slider").first
         slider.press("End")
-        page.get_by_text("10.00 s, distance").first.wait_for()
-        page.screenshot(path=ARTEFACTS / "replay.png")
+        page.get_by_text("4.00 s, distance").first.wait_for()
+        keep_picture(page, "replay.png")
         page.close()
     finally:
         served.close()
@@ -206,34 +240,38 @@ def test_the_written_page_opens_without_a_network(
 ) -> None:
     file = tmp_path / "run.html"
     write_page(load_run(run), file)
-    context = browser.new_context(
-        viewport={"width": width, "height": height}, color_scheme=scheme
+    page = open_page(
+        browser, width=width, height=height, color_scheme=scheme, offline=True
     )
-    context.set_default_timeout(WAIT)
-    context.set_offline(True)
-    page = context.new_page()
     errors: list[str] = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.goto(file.as_uri())
     assert page.inner_text("#clock") == "0.0 s"
-    before = page.evaluate("document.getElementById('world').toDataURL()")
     page.click("#play")
     # Not in the page, whose policy lets no text become a script.
     until(page, lambda: float(page.inner_text("#clock").split()[0]) > 0.5)
     page.click("#play")
-    page.fill("#time", "200")
-    assert float(page.inner_text("#clock").split()[0]) > 7.0
-    after = page.evaluate("document.getElementById('world').toDataURL()")
+    before = seen_at(page, 0.0)
+    page.fill("#time", "70")
+    assert float(page.inner_text("#clock").split()[0]) == 2.8
+    after = seen_at(page, 2.8)
     assert after != before
     page.get_by_label("footsteps").uncheck()
-    page.evaluate("stepaside.seek(8)")
-    bare = page.evaluate("document.getElementById('world').toDataURL()")
-    assert bare != after
+    assert seen_at(page, 2.8) != after
     wide = page.evaluate("document.documentElement.scrollWidth")
     assert wide <= width
-    page.screenshot(path=ARTEFACTS / f"offline-{scheme}.png")
+    keep_picture(page, f"offline-{scheme}.png")
     assert errors == []
-    context.close()
+    page.close()
+
+
+def seen_at(page: Any, time: float) -> str:
+    """What a written page draws of a time, in [s], as text."""
+    with looking(page):
+        page.evaluate(f"stepaside.seek({time})")
+        drawn = page.evaluate("document.getElementById('world').toDataURL()")
+    assert isinstance(drawn, str)
+    return drawn
 
 
 def test_robots_stand_on_the_page_where_the_numbers_say(
@@ -285,15 +323,11 @@ def hostile_run(folder: Path, run: Path, text: str) -> Path:
 
 @pytest.mark.parametrize("text", HOSTILE)
 def test_nothing_in_a_run_folder_runs_in_its_page(
-    flat: Any, run: Path, tmp_path: Path, text: str
+    flat: tuple[Any, list[str]], run: Path, tmp_path: Path, text: str
 ) -> None:
     there = hostile_run(tmp_path, run, text)
     write_page(load_run(there), tmp_path / "run.html")
-    page = open_page(flat)
-    wrong: list[str] = []
-    page.on("pageerror", lambda error: wrong.append(str(error)))
-    page.on("console", lambda told: wrong.append(told.text))
-    page.on("dialog", lambda dialog: wrong.append(dialog.message))
+    page, wrong = flat
     page.goto((tmp_path / "run.html").as_uri())
     assert page.inner_text("#clock") == "0.0 s"
     page.get_by_text("draws no 3D").wait_for()
@@ -304,11 +338,10 @@ def test_nothing_in_a_run_folder_runs_in_its_page(
     assert page.locator("script").count() == 3
     assert page.evaluate("window.ran") is None
     assert wrong == []
-    page.close()
 
 
 def test_a_page_s_policy_lets_nothing_else_run(
-    flat: Any, run: Path, tmp_path: Path
+    flat: tuple[Any, list[str]], run: Path, tmp_path: Path
 ) -> None:
     """Even what would get past the writing does nothing."""
     file = tmp_path / "run.html"
@@ -316,12 +349,13 @@ def test_a_page_s_policy_lets_nothing_else_run(
     text = file.read_text(encoding="utf-8")
     extra = "<script>ran=1</script><img src='x:' onerror='ran=2'>"
     file.write_text(text.replace("<h1>", extra + "<h1>"), encoding="utf-8")
-    page = open_page(flat)
+    page, wrong = flat
     page.goto(file.as_uri())
     page.wait_for_timeout(200)
     assert page.inner_text("#clock") == "0.0 s"
     assert page.evaluate("window.ran") is None
-    page.close()
+    assert any("Content Security Policy" in told for told in wrong)
+    wrong.clear()
 
 
 def test_a_hostile_name_is_text_on_the_replay_page(

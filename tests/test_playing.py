@@ -12,6 +12,7 @@ import pytest
 from lola_fakes import JOINTS, STANCE, Clock, FakeLink, pressed, sensor_frame
 from stepaside.control import Phase
 from stepaside.control.deciding import Decisions
+from stepaside.control.walking import WalkState
 from stepaside.drivers.log import PlayLog
 from stepaside.drivers.lola.body import LolaBody
 from stepaside.drivers.lola.frames import pack_sensors
@@ -20,8 +21,9 @@ from stepaside.drivers.playing import Playing
 from stepaside.drivers.rows import read_rows
 from stepaside.drivers.status_line import StatusLine
 from stepaside.errors import ConfigurationError, ReachError, StrategyError
-from stepaside.planning import GaitSettings
+from stepaside.planning import Foot, GaitSettings
 from stepaside.poses import Pose
+from stepaside.robots.reference import BodyReference
 from stepaside.sensing.measurement import Sighting
 from stepaside.strategies import Evasion, Stand, Strategy
 
@@ -29,6 +31,30 @@ FINE = pack_sensors(sensor_frame())
 PRESS = [pack_sensors(pressed()), FINE]
 TO_READY = 100 * [FINE]
 WISH = Evasion()
+
+
+def standing_still() -> WalkState:
+    """Nothing planned, on both feet."""
+    left, right = Pose(0.0, 0.05, 0.0), Pose(0.0, -0.05, 0.0)
+    return WalkState(
+        phase=Phase.STANDING,
+        gait=GaitSettings(),
+        plan=None,
+        plan_frame=Pose(0.0, 0.0, 0.0),
+        plan_started=0.0,
+        left_foot=left,
+        right_foot=right,
+        first_foot=Foot.LEFT,
+        reference=BodyReference(
+            (0.0, 0.0, 0.27), (*left[:2], 0.0, 0.0), (*right[:2], 0.0, 0.0)
+        ),
+        zmp_reference=(0.0, 0.0),
+        sighting=None,
+        torso_heading=0.0,
+        estimate=None,
+        solved=None,
+        adapted=0,
+    )
 
 
 class FakeMind:
@@ -41,6 +67,8 @@ class FakeMind:
         self.kinematics = SimpleNamespace(joint_names=JOINTS)
         self.times: list[float] = []
         self.fails: Exception | None = None
+        self.begun = None
+        self.state = standing_still()
 
     def update(self, measurement: Any) -> Any:
         """Walk."""

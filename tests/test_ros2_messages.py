@@ -50,6 +50,9 @@ SAMPLES: dict[str, Any] = {
     "sensor_msgs/msg/Image": m.Image(
         HEADER, 2, 3, "rgb8", 0, 9, list(range(18))
     ),
+    "sensor_msgs/msg/CompressedImage": m.CompressedImage(
+        HEADER, "jpeg", list(range(7))
+    ),
 }
 
 

@@ -12,6 +12,7 @@ from invented_run import check_same
 from stepaside.control.balance.settings import ControlSettings
 from stepaside.drivers.lola.address import Address
 from stepaside.drivers.lola.body import LolaBody
+from stepaside.drivers.lola.camera_channel import CameraChannel
 from stepaside.drivers.lola.opening import open_lola
 from stepaside.drivers.lola.safety import State
 from stepaside.drivers.minds import mind_maker
@@ -30,19 +31,40 @@ from stepaside.report.stage import Stage
 from stepaside.robots.description import load_robot
 from stepaside.strategies import Evasion, Pursuit, Strategy
 from stepaside.world.body_settings import BODIES
+from stepaside.world.camera_settings import CameraSettings, ColourSettings
 
 FEEDBACK = ControlSettings(method="measured", feedback=True)
 
 
-def client(address: Address, strategy: Strategy, ticks: list[Tick]) -> None:
+def client(
+    address: Address,
+    strategy: Strategy,
+    ticks: list[Tick],
+    sees_as: str | None,
+) -> None:
     """One player, until its robot is gone."""
+
+    def open_eyes() -> CameraChannel:
+        assert address.cameras is not None
+        return CameraChannel(address.cameras)
 
     def open_body(scheme: object) -> LolaBody:
         kinematics = scheme.kinematics  # type: ignore[attr-defined]
         targets = scheme.joint_targets  # type: ignore[attr-defined]
-        return open_lola(address, kinematics.joint_names, targets)
+        return open_lola(
+            address,
+            kinematics.joint_names,
+            targets,
+            open_eyes=None if sees_as is None else open_eyes,
+        )
 
-    make = mind_maker(load_robot("nao"), GaitSettings(), FEEDBACK, tick=0.012)
+    make = mind_maker(
+        load_robot("nao"),
+        GaitSettings(),
+        FEEDBACK,
+        tick=0.012,
+        sees_as=sees_as,
+    )
     while not Path(address.path).exists():
         pass  # the world is being built
     playing = Playing(open_body, strategy, make)
@@ -54,7 +76,9 @@ def client(address: Address, strategy: Strategy, ticks: list[Tick]) -> None:
 
 
 @contextmanager
-def clients(folder: Path) -> Iterator[tuple[dict[str, Address], list[Tick]]]:
+def clients(
+    folder: Path, *, see: bool = False
+) -> Iterator[tuple[dict[str, Address], list[Tick]]]:
     addresses = {
         name: Address(path=str(folder / name))
         for name in ("pursuer", "evader")
@@ -62,7 +86,10 @@ def clients(folder: Path) -> Iterator[tuple[dict[str, Address], list[Tick]]]:
     roles = {"pursuer": Pursuit(), "evader": Evasion()}
     ticks: list[Tick] = []
     threads = [
-        Thread(target=client, args=(addresses[n], roles[n], ticks))
+        Thread(
+            target=client,
+            args=(addresses[n], roles[n], ticks, n if see else None),
+        )
         for n in addresses
     ]
     for thread in threads:
@@ -103,6 +130,32 @@ def test_in_lock_step_the_duel_is_the_one_played_in_one_process(
     walked = [t for t in ticks if t.state is State.WALKING]
     assert max(t.measurement.time for t in walked) >= 249 * 0.012 - 1e-9
     assert not any(Path(a.path).exists() for a in addresses.values())
+
+
+def test_with_cameras_it_is_the_one_played_in_one_process(
+    tmp_path: Path,
+) -> None:
+    """Images travel beside the frames, each with the one it belongs to."""
+    pytest.importorskip("cv2")
+    settings = DuelSettings(
+        seed=7,
+        duration=1.5,
+        start=StartSettings(0.75, 0.2, 0.1),
+        body=BODIES["delayed"],
+        control=FEEDBACK,
+        sensing="cameras",
+        cameras=CameraSettings(colour=ColourSettings(renderer="raycast")),
+    )
+    with clients(tmp_path, see=True) as (addresses, ticks):
+        offers = {name: LolaOffer(a) for name, a in addresses.items()}
+        over = serve_duel(settings, offers, lock_step=True)
+    played = run_duel(settings)
+    for name, track in over.run.tracks.items():
+        found, wanted = track.qpos, played.tracks[name].qpos
+        assert found is not None and wanted is not None
+        np.testing.assert_allclose(found, wanted, atol=2e-3)
+    seen = [t for t in ticks if t.sighting is not None]
+    assert len(seen) > 100
 
 
 def check_record(served: DuelRun, played: DuelRun, folder: Path) -> None:

@@ -3,12 +3,11 @@
 import os
 from collections.abc import Callable
 from dataclasses import replace
-from threading import Thread
+from threading import Event, Thread
 
 import pytest
 
 from stepaside.control.balance.settings import STABILISED
-from stepaside.drivers.session import SessionLost
 from stepaside.drivers.velocity.body import (
     REST,
     Report,
@@ -46,7 +45,7 @@ def playing_of(body: VelocityBody, strategy: Strategy) -> VelocityPlaying:
         body,
         lambda: TemplateMind(strategy, GaitSettings()),
         VelocityLimits(),
-        WatchSettings(paced=False, forsaken=1.0),
+        WatchSettings(paced=False, forsaken=60.0),
     )
 
 
@@ -99,15 +98,13 @@ def client(
     open_body: Callable[[], VelocityBody],
     strategy: Strategy,
     states: list[Driving],
+    over: Event,
 ) -> None:
-    """One player, until its robot says nothing any more."""
+    """One player, until the duel is over."""
     body = open_body()
     playing = playing_of(body, strategy)
-    try:
-        while True:
-            states.append(playing.tick().state)
-    except SessionLost:
-        pass
+    while not over.is_set():
+        states.append(playing.tick().state)
     body.close()
 
 
@@ -117,8 +114,9 @@ def served(
 ) -> tuple[float, list[Driving]]:
     """Least distance of a served duel, and what its players did."""
     states: list[Driving] = []
+    over = Event()
     threads = [
-        Thread(target=client, args=(bodies[name], ROLES[name], states))
+        Thread(target=client, args=(bodies[name], ROLES[name], states, over))
         for name in bodies
     ]
     for thread in threads:
@@ -126,6 +124,7 @@ def served(
     try:
         found = serve_duel(SETTINGS, offers, lock_step=True)
     finally:
+        over.set()
         for thread in threads:
             thread.join(60.0)
     assert not any(thread.is_alive() for thread in threads)

@@ -91,6 +91,28 @@ def test_two_tracks_at_one_place_become_the_older(
         assert older.identified_at == (0.1 if one else float("-inf"))
 
 
+@pytest.mark.parametrize(
+    ("heights", "gap", "number"),
+    [
+        ((1.5, 0.9), 0.3, 1),
+        ((1.5, 0.9), 0.4, 2),
+        ((1.5, 0.6), 0.3, 2),
+        ((0.6, 0.9), 0.3, 2),
+    ],
+)
+def test_two_tall_things_beside_each_other_are_one_person(
+    heights: tuple[float, float], gap: float, number: int
+) -> None:
+    """A leg on either side of the trunk; a robot beside somebody is two."""
+    tracks = [known(0.0, 1.0), known(0.0, 1.0 + gap)]
+    for track, height in zip(tracks, heights, strict=True):
+        track.height = height
+    tracker = tracker_of(*tracks)
+    tracker.main(0.0, 0.0, 0.0)
+    assert len(tracker.tracks) == number
+    assert tracker.tracks[0].height == heights[0]
+
+
 @pytest.mark.parametrize(("late", "one"), [(0.45, True), (0.55, False)])
 def test_who_comes_when_another_has_long_left_is_not_that_one(
     late: float, one: bool

@@ -268,6 +268,9 @@ class FakeSession:
         self.asked: list[dict[str, Any]] = []
         self.trail: Any = SimpleNamespace(history=[])
         self.theory: tuple[float, float] | None = (0.9, 90.0)
+        self.settings = DuelSettings()
+        self.outcome: Outcome | None = None
+        self.slow = 1.0
 
     def change(self, request: Any) -> None:
         """Change at once."""
@@ -340,11 +343,15 @@ def test_a_hand_takes_the_pursuer_over_and_gives_it_back() -> None:
     for time, distance, closest in ((6.0, 0.9, 0.9), (7.5, 0.5, 0.5)):
         panel.show(time, distance)
         assert score.content == (
-            f"the evader survived {time - 5.0:.1f} s; closest approach "
-            f"{closest:.2f} m"
+            f"round 1: the evader survived {time - 5.0:.1f} s; closest "
+            f"approach {closest:.2f} m\n\n"
         )
+        assert session.slow == (0.25 if closest < 0.6 else 1.0)
     panel.show(8.0, 0.8)
-    assert "0.50 m" in score.content
+    assert "0.50 m" in score.content and session.slow == 1.0
+    gui["Slow at the closest"].press(False)
+    panel.show(8.1, 0.4)
+    assert session.slow == 1.0
     gui["Let it pursue by itself"].press()
     assert hand() == Pursuit()
     session.duel.world.time = 20.0
@@ -354,9 +361,25 @@ def test_a_hand_takes_the_pursuer_over_and_gives_it_back() -> None:
     assert session.asked[0] == {"turn": -1.0, "going": True}
     assert {"released": True} in session.asked
     panel.forget()
-    assert score.content == ""
     panel.show(30.0, 0.1)
-    assert score.content == ""
+    assert score.content.splitlines()[2:] == [
+        "| 1 | 3.1 s | **0.40 m** | let go |",
+        "| 2 | 1.0 s | 0.70 m | begun anew |",
+    ]
+
+
+def test_a_stick_is_held_to_any_side_and_a_fall_ends_the_round() -> None:
+    gui, session = panels()
+    panel = DrivePanel(gui, session)
+    panel.steer(0.3, True)
+    assert session.scheme.decisions.strategy == Driven(0.3, True)
+    panel.show(7.0, 0.9)
+    session.outcome = Outcome.FALL
+    panel.show(9.0, 0.8)
+    panel.show(11.0, 0.7)
+    assert gui.texts[-1].content.splitlines()[2:] == [
+        "| 1 | 4.0 s | **0.80 m** | fall |"
+    ]
 
 
 def test_plots_show_the_history_beside_theory() -> None:

@@ -13,27 +13,38 @@ HEAD = (
     "evader's radius [m]",
     "on the circle since [s]",
     "late ticks",
-    "unanswered frames",
 )
+WAYS = {"ros2": "ROS 2", "naoqi": "NAOqi"}
 
 
 def duels(result: Mapping[str, Any]) -> str:
-    """One row for each duel."""
+    """One row for each duel of joints."""
     return table(
-        HEAD,
+        (*HEAD, "unanswered frames"),
         (
-            (
-                row["body"],
-                _time(row),
-                _outcome(row),
-                number(row["pursuer_radius_m"]),
-                number(row["evader_radius_m"]),
-                number(row["converged_at_s"], 1),
-                "-" if row["lock_step"] else str(row["late_ticks"]),
-                str(row["unanswered_frames"]),
-            )
+            (*_duel(row), str(row["unanswered_frames"]))
             for row in result["rows"]
         ),
+    )
+
+
+def driven(result: Mapping[str, Any]) -> str:
+    """One row for each duel of robots that are driven by velocity."""
+    return table(
+        ("over", *HEAD),
+        ((WAYS[row["way"]], *_duel(row)) for row in result["rows"]),
+    )
+
+
+def _duel(row: Mapping[str, Any]) -> tuple[str, ...]:
+    return (
+        row["body"],
+        _time(row),
+        _outcome(row),
+        number(row["pursuer_radius_m"]),
+        number(row["evader_radius_m"]),
+        number(row["converged_at_s"], 1),
+        "-" if row["lock_step"] else str(row["late_ticks"]),
     )
 
 

@@ -21,7 +21,7 @@ WRITES = {
     "bound": "bound --grid=16 --refine=0 --games=0 --horizon=0.1 "
     "--output=place/table.npz --figure=place/bound.png",
     "replay": "replay run --html=place/page.html --gif=place/film.gif "
-    "--duration=0.1",
+    "--strip=place/strip.png --duration=0.1",
     "compare": "compare run --output=place/both.svg",
     "robot": "robot --output=place/model.xml",
     "robustness": f"robustness {WALKS} --output=place",

@@ -36,7 +36,8 @@ DEFAULT = Path("comparison.png")
 def compare(runs: tuple[Path, ...], output: str | None, as_json: bool) -> None:
     """Draw the paths of several RUNs, and what they did over time.
 
-    Of duels distance and angle, of walks tilt and speed.
+    Of duels distance and angle, of walks tilt and speed, of what players
+    kept at a robot the distance at which they saw the other.
     """
     from ..games.folder import load_run
 
@@ -65,7 +66,9 @@ def compare(runs: tuple[Path, ...], output: str | None, as_json: bool) -> None:
 
 
 def _draw(runs: "list[Run]", file: Path) -> None:
-    if runs[0].pair is None:
+    from ..games.play_run import PlayRun
+
+    if runs[0].pair is None and not isinstance(runs[0], PlayRun):
         from ..report.walks_figure import draw_walks
 
         draw_walks(runs, file)
@@ -78,6 +81,7 @@ def _draw(runs: "list[Run]", file: Path) -> None:
 def _print(runs: "list[Run]") -> None:
     """One line for each run, with what can be compared."""
     from ..games.duel_run import DuelRun
+    from ..games.play_run import PlayRun
     from ..games.walk_run import WalkRun
 
     head: tuple[str, ...] = ("outcome", "distance", "angle", "closest")
@@ -94,6 +98,19 @@ def _print(runs: "list[Run]") -> None:
     ]
     if rows:
         head = (*head, "since")
+    elif isinstance(runs[0], PlayRun):
+        head = ("outcome", "distance", "radius", "closest", "walked")
+        rows = [
+            (
+                run.summary.outcome,
+                _number(run.summary.distance_m, "{:.3f} m"),
+                _number(run.summary.radius_m, "{:.3f} m"),
+                _number(run.summary.closest_m, "{:.3f} m"),
+                _number(run.summary.walking_s, "{:.1f} s"),
+            )
+            for run in runs
+            if isinstance(run, PlayRun)
+        ]
     else:
         head = ("outcome", "speed", "planned", "turned", "tilt")
         rows = [

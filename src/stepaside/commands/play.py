@@ -11,7 +11,7 @@ import click
 
 from .declared.body import CONTROL
 from .declared.gait import GAIT
-from .declared.game import STRATEGY
+from .declared.game import SENSES, STRATEGY
 from .declared.kinds import NameType
 from .declared.take import SettingsCommand, takes_settings
 from .declared.wires import (
@@ -32,10 +32,11 @@ if TYPE_CHECKING:
 ROLES = ("pursuer", "evader")
 TRYING = 6.0  # longest time that connecting takes, in [s]
 PAUSE = 0.3  # between two tries, in [s]
+LONG_ENOUGH, INTERRUPTED = "played long enough", "interrupted"
 
 
 @click.command("play", cls=SettingsCommand)
-@takes_settings(duel_kind, STRATEGY, GAIT, CONTROL)
+@takes_settings(duel_kind, STRATEGY, GAIT, CONTROL, SENSES)
 @click.option(
     "--role",
     type=NameType(lambda: ROLES),
@@ -61,6 +62,12 @@ PAUSE = 0.3  # between two tries, in [s]
     show_default=True,
     help="Ticks of 12 ms from a request to the motion.",
 )
+@click.option(
+    "--images",
+    help="With --sensing cameras, where images come from: v4l2:DEVICE, "
+    "naoqi:tcp://HOST:PORT or ros2:/TOPIC; what a simulated robot offers "
+    "beside its socket by default.",
+)
 @MAX_SPEED.option()
 @MAX_TURN.option()
 @DOMAIN.option()
@@ -77,7 +84,8 @@ PAUSE = 0.3  # between two tries, in [s]
 @click.option(
     "--record",
     type=click.Path(file_okay=False, path_type=Path),
-    help="Folder for every measurement, target and change of state.",
+    help="Run folder of its own, which replays: every measurement, target "
+    "and change of state, and what became of it.",
 )
 @click.option(
     "--dry-run/--no-dry-run",
@@ -101,9 +109,9 @@ def play(
     logging.basicConfig(
         format="stepaside: %(message)s", level=logging.INFO, stream=sys.stderr
     )
-    from ..drivers.log import PlayLog
     from ..drivers.session import SessionLost
     from ..drivers.status_line import StatusLine
+    from .feedback import with_feedback
     from .playing import LOLA, open_joints, open_velocity
 
     folder = options.pop("record")
@@ -112,31 +120,36 @@ def play(
         line = StatusLine(sys.stderr)
         stack.callback(line.close)
         onlookers: list[Any] = [line]
+        told = None
         if folder is not None:
-            kept = PlayLog(folder, options | _spelled(settings))
-            stack.callback(kept.close)
-            onlookers.append(kept)
+            from .play_record import PlayRecord
 
-        def session() -> None:
+            own = with_feedback(settings) if by_joints else settings
+            told = PlayRecord(folder, own, options)
+            stack.push(told.leave)
+            onlookers.append(told.log)
+
+        def session() -> str:
             with ExitStack() as within:
                 if by_joints:
                     playing = open_joints(settings, options)
                     within.callback(playing.body.close)
-                    _play(playing, onlookers, duration)
-                else:
-                    driving = open_velocity(settings, options)
-                    within.callback(driving.body.close)
-                    _drive(driving, onlookers, duration)
+                    return _play(playing, onlookers, duration)
+                driving = open_velocity(settings, options)
+                within.callback(driving.body.close)
+                return _drive(driving, onlookers, duration)
 
         try:
-            _again_and_again(session, reconnect if by_joints else None)
+            ended = _again_and_again(session, reconnect if by_joints else None)
+            if told is not None:
+                told.ended = ended
         except SessionLost as error:
             raise click.ClickException(str(error)) from error
 
 
 def _again_and_again(
-    session: Callable[[], None], reconnect: float | None
-) -> None:
+    session: Callable[[], str], reconnect: float | None
+) -> str:
     """Play until a session ends well, or none can be had for some time.
 
     A robot whose joints are moved begins each session limp, stands up
@@ -145,6 +158,9 @@ def _again_and_again(
     Args:
         session: Connects and plays.
         reconnect: How long to try for a new session, in [s].
+
+    Returns:
+        Why the last one ended.
 
     Raises:
         SessionLost: If the last one was lost.
@@ -168,18 +184,10 @@ def _again_and_again(
             sleep(PAUSE)
 
 
-def _spelled(settings: "DuelSettings") -> dict[str, Any]:
-    """What the settings say of control, for the log."""
-    from ..games.configuration import spelled_settings
-
-    spelled = spelled_settings(settings)
-    return {name: spelled[name] for name in ("strategy", "gait", "control")}
-
-
 def _play(
     playing: "Playing", onlookers: list[Any], duration: float | None
-) -> None:
-    """Play until the session ends, or the robot rests when asked to."""
+) -> str:
+    """Play until the session ends, or the robot rests when asked to; why."""
     import gc
 
     from ..drivers.lola.safety import State
@@ -188,34 +196,34 @@ def _play(
     gc.collect()
     gc.freeze()  # what is loaded stays: collections stay short
     body = playing.body
-    leaving = False
+    leaving = ""
     while True:
         try:
             tick = playing.tick()
             for onlooker in onlookers:
                 onlooker.note(tick)
             if leaving and tick.state is State.LIMP:
-                return
+                return leaving
             walked = tick.measurement.time
             if duration is not None and tick.state is State.WALKING:
                 if walked >= duration - 1e-9:
-                    leaving = True
-                    body.rest("played long enough")
+                    leaving = LONG_ENOUGH
+                    body.rest(leaving)
         except KeyboardInterrupt:
             if leaving or tick.state is State.LIMP:
                 raise
-            leaving = True
-            body.rest("interrupted")
+            leaving = INTERRUPTED
+            body.rest(leaving)
         except SessionLost:
             if not leaving:
                 raise
-            return  # it was to rest, and is limp
+            return leaving  # it was to rest, and is limp
 
 
 def _drive(
     driving: "VelocityPlaying", onlookers: list[Any], duration: float | None
-) -> None:
-    """Drive until the session ends, or the robot rests when asked to."""
+) -> str:
+    """Drive until the session ends, or the robot rests when asked to; why."""
     from ..drivers.velocity.playing import Driving
 
     began: float | None = None
@@ -226,14 +234,14 @@ def _drive(
             for onlooker in onlookers:
                 onlooker.note(tick)
             if tick.state is Driving.RESTING:
-                return
+                return tick.reason
             if began is None and tick.state is Driving.WALKING:
                 began = tick.time
             if duration is not None and began is not None:
                 if tick.time - began >= duration - 1e-9:
-                    driving.leave("played long enough")
+                    driving.leave(LONG_ENOUGH)
         except KeyboardInterrupt:
             if leaving:
                 raise
             leaving = True
-            driving.leave("interrupted")
+            driving.leave(INTERRUPTED)

@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..control import ControlScheme
+    from ..drivers.cameras.source import PerceptSource
     from ..drivers.lola.body import LolaBody
     from ..drivers.playing import Playing
     from ..drivers.velocity.body import VelocityBody
@@ -43,8 +44,14 @@ def open_joints(
 
     address = parse_address(options["robot"])
     settings = with_feedback(settings)
-    strategy = strategy_of(settings, options["role"])
-    dry_run = options["dry_run"]
+    role, dry_run = options["role"], options["dry_run"]
+    strategy = strategy_of(settings, role)
+    sees = settings.sensing == "cameras"
+
+    def open_eyes() -> "PerceptSource":
+        from .seeing import open_cameras
+
+        return open_cameras(settings, address, options)
 
     def open_body(scheme: "ControlScheme") -> "LolaBody":
         return open_lola(
@@ -53,6 +60,7 @@ def open_joints(
             scheme.joint_targets,
             dry_run=dry_run,
             guarded=True,
+            open_eyes=open_eyes if sees else None,
         )
 
     make = mind_maker(
@@ -61,6 +69,7 @@ def open_joints(
         settings.control,
         tick=LolaBody.tick,
         delay_ticks=options["delay_ticks"],
+        sees_as=role if sees else None,
     )
     return Playing(open_body, strategy, make, dry_run=dry_run)
 
@@ -76,6 +85,11 @@ def open_velocity(
     from ..drivers.velocity.playing import VelocityPlaying
     from ..drivers.velocity.watchdog import WatchSettings
 
+    if settings.sensing == "cameras":
+        raise click.UsageError(
+            "a robot that walks by itself is told where the other is: its "
+            "head does not follow; choose --sensing ideal"
+        )
     strategy = strategy_of(settings, options["role"])
     speed = options["max_speed"] or inf
     limits = VelocityLimits(speed, speed, options["max_turn"] or inf)

@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .declared.common import BROWSER, PORT, SERVE_FOR, json_option
+from ..outputs import FIGURES
+from .declared.common import (
+    BROWSER,
+    PORT,
+    SERVE_FOR,
+    figure_width,
+    json_option,
+)
 from .declared.kinds import NameType
 from .effort import PICTURES, tell_effort
 from .options import POSITIVE, SECONDS, NumberType, print_json
@@ -40,6 +47,11 @@ def _views() -> tuple[str, ...]:
 @click.option("--video", type=OutputFile(".mp4"), help="Write a film (H.264).")
 @click.option("--gif", type=OutputFile(".gif"), help="Write a short film.")
 @click.option(
+    "--strip",
+    type=OutputFile(*FIGURES),
+    help="Write four pictures of a film, each over its view from above.",
+)
+@click.option(
     "--begin",
     type=NumberType("s", allow_zero=True),
     default=0.0,
@@ -62,8 +74,8 @@ def _views() -> tuple[str, ...]:
     type=NameType(_views, FORMER),
     default="fixed",
     show_default=True,
-    help="It stands and sees all, goes along, looks from above, or through "
-    "the evader's eyes.",
+    help="It stands and sees all, goes along, looks from above, through the "
+    "evader's eyes, or goes along beside what the robots see.",
 )
 @click.option(
     "--slow-motion/--no-slow-motion",
@@ -78,6 +90,7 @@ def _views() -> tuple[str, ...]:
 )
 @click.option("--title", default="", help="In a film's upper left corner.")
 @click.option("--layers/--no-layers", default=True, help="Lines in a film.")
+@figure_width
 @PORT.option(default=8080, show_default=True)
 @BROWSER.option(default=True)
 @SERVE_FOR.option()
@@ -92,9 +105,9 @@ def replay(run: Path, as_json: bool, **options: Any) -> None:
 
     loaded = load_run(run)
     written: dict[str, Any] = {}
-    html, video, gif = (
+    html, video, gif, strip = (
         None if options[kind] is None else Path(options[kind])
-        for kind in ("html", "video", "gif")
+        for kind in ("html", "video", "gif", "strip")
     )
     if html is not None:
         from ..report.replay_page import write_page
@@ -113,7 +126,12 @@ def replay(run: Path, as_json: bool, **options: Any) -> None:
         shot = _shot(options, 12.0, 10.0, 480, 270)
         _tell(shot, loaded)
         _film("gif", write_gif, run, gif, shot, written)
-    if html is video is gif is None:
+    if strip is not None:
+        from ..report.film_strip import write_strip
+
+        shot = _shot(options, 3600.0, 1.0, 640, 480)
+        _film("strip", write_strip, run, strip, shot, written)
+    if html is video is gif is strip is None:
         _serve(loaded, options)
     elif as_json:
         print_json(written)
@@ -155,7 +173,7 @@ def _shot(
 
 def _tell(shot: "Shot", run: "Run") -> None:
     """Say how long a film takes."""
-    from ..report.film import AROUND, SLOWEST
+    from ..report.film_shot import AROUND, SLOWEST
 
     shown = min(float(run.times[-1]) - shot.begin, shot.duration)
     slower = 2.0 * AROUND / SLOWEST if shot.slow else 0.0

@@ -18,12 +18,13 @@ from .declared.common import (
 )
 from .declared.kinds import NameType, OutputFile
 from .declared.option import Declaration
+from .declared.rooms import MAP
 from .duels import SEEDS
-from .effort import DECISIONS, tell_effort
+from .effort import DECISIONS, SIMULATED, tell_effort
 from .options import ANGLE, print_json
 from .outputs import attempt, writes_files
 from .stopping import kept_in, leave_stopped
-from .terminal import echo
+from .tournament_table import print_rows
 
 RECORDS, SUMMARY = "games.jsonl", "summary.json"
 PATHS = Declaration(
@@ -34,7 +35,7 @@ PATHS = Declaration(
 
 
 def _levels() -> tuple[str, ...]:
-    from ..studies.tournament import LEVELS
+    from ..studies.tournament_settings import LEVELS
 
     return LEVELS
 
@@ -45,7 +46,8 @@ def _levels() -> tuple[str, ...]:
     type=NameType(_levels),
     default="steps",
     show_default=True,
-    help="Steps of the gait, or unicycles, which decide eight times a step.",
+    help="Steps of the gait, unicycles, which decide eight times a step, or "
+    "humanoids in physics.",
 )
 @click.option(
     "--evader",
@@ -75,7 +77,8 @@ def _levels() -> tuple[str, ...]:
 @GAME_TIME.option(
     default=180.0,
     show_default=True,
-    help="Length of a game in path time {unit}: a step takes 0.4.",
+    help="Length of a game {unit}: in path time, of which a step takes 0.4, "
+    "or in physics as it passes.",
 )
 @SEEDS.option(
     default="0:100",
@@ -87,6 +90,12 @@ def _levels() -> tuple[str, ...]:
     type=ANGLE,
     default=pi / 4,
     help="Strategy angle [rad] of the evader alpha.  [default: 45deg]",
+)
+@MAP.option(
+    default="given",
+    show_default=True,
+    help="What humanoids know of the room: all, what their depth cameras "
+    "have seen, or nothing.",
 )
 @WORKERS.option()
 @FOLDER.option(
@@ -108,6 +117,7 @@ def tournament(
     duration: float,
     seeds: range,
     alpha: float,
+    map__source: str,
     workers: int | None,
     output: Path | None,
     figure: str | None,
@@ -118,13 +128,14 @@ def tournament(
 
     The rules: a step of 4 cm turns by at most 0.25 rad; the pursuer walks
     through what stands there; the evader is caught at 0.35 m, and touches
-    what its centre comes nearer to than 0.20 m. A tournament that was
+    what its centre comes nearer to than 0.20 m. In physics humanoids with
+    ideal bodies play, and what touches touches. A tournament that was
     stopped goes on where it was with the same folder.
     """
     from ..rooms import RoomRecipe, load_room
     from ..strategies.steps import StepGame
     from ..studies.entrants import EVADERS, evader_of, pursuer_of
-    from ..studies.tournament import TournamentSettings
+    from ..studies.tournament_settings import TournamentSettings
 
     evaders, pursuers = evaders or tuple(EVADERS), pursuers or ("pure",)
     for name in evaders:
@@ -143,16 +154,16 @@ def tournament(
         width, depth = room or (None, None)
         arena = RoomRecipe(width, depth, discs, boxes, polygons)
     game = StepGame(duration=duration)
-    settings = TournamentSettings(level, arena, game, alpha)
+    settings = TournamentSettings(level, arena, game, alpha, map__source)
     settings.arena(seeds[0])  # whether there is such a room
     if output is not None:
         check_folder(output, new=False)
     pairings = [(e, p) for p in pursuers for e in evaders]
-    games = len(pairings) * len(seeds)
-    decisions = games * duration * game.speed / game.stride
+    number = len(pairings) * len(seeds)
+    steps = duration * game.speed / game.stride / DECISIONS
     tell_effort(
-        f"{games} games of {duration:g} s, less those that are recorded",
-        decisions / DECISIONS,
+        f"{number} games of {duration:g} s, less those that are recorded",
+        number * (duration / SIMULATED if level == "physics" else steps),
         workers,
     )
     records, stopped = _play(settings, pairings, seeds, output, workers)
@@ -179,11 +190,11 @@ def tournament(
     if as_json:
         print_json(result)
     else:
-        _print(result["rows"])
+        print_rows(result["rows"])
     if failed is not None:
         raise failed
     if stopped:
-        done = f"{len(records)} of {len(seeds) * len(pairings)} games"
+        done = f"{len(records)} of {number} games"
         leave_stopped(kept_in(done, output and output / RECORDS))
 
 
@@ -200,13 +211,13 @@ def _play(
     from tqdm import tqdm
 
     from ..studies.records import RecordFile
-    from ..studies.tournament import BLOCK, play_tournament
+    from ..studies.tournament import play_tournament
     from ..workers import worker_pool
 
     file = None if output is None else RecordFile(output / RECORDS)
     total = len(seeds) * len(pairings)
     # A pool takes longer to begin than a few games.
-    alone = workers == 1 or total <= 2 * BLOCK
+    alone = workers == 1 or total <= 2 * settings.block
     done: dict[str, dict[str, Any]] = {}
     stopped = False
     with (
@@ -235,13 +246,11 @@ def _answer(
     settings: Any, seeds: range, records: list[dict[str, Any]]
 ) -> dict[str, Any]:
     from ..studies.results import header
-    from ..studies.tournament import ROOMS
     from ..studies.tournament_rows import tournament_rows
 
+    rooms, libraries = settings.depends
     return {
-        **header(
-            settings.entries(), rooms=ROOMS, libraries=("numba", "numpy")
-        ),
+        **header(settings.entries(), rooms=rooms, libraries=libraries),
         "seeds": f"{seeds.start}:{seeds.stop}",
         "rows": tournament_rows(records),
     }
@@ -249,34 +258,14 @@ def _answer(
 
 def _worst(settings: Any, rows: list[dict[str, Any]]) -> list[Any]:
     """The worst game of each row: its title, room and track."""
-    from ..studies.tournament import play_track
+    from ..studies.tournament import play_ways
 
     games = []
     for row in rows:
         seed = row["worst_seeds"][0]
-        room, track = play_track(
+        room, track = play_ways(
             settings, (row["evader"], row["pursuer"]), seed
         )
         title = f"{row['evader']} by {row['pursuer']}, seed {seed}"
         games.append((f"{title}: {track.outcome}", room, track))
     return games
-
-
-def _print(rows: list[dict[str, Any]]) -> None:
-    echo(
-        f"{'evader':<12}{'pursuer':<9}{'games':>6}{'survived':>10}"
-        f"{'95 %':>14}{'caught':>8}{'touched':>9}{'closest':>9}"
-        f"{'of bound':>9}{'floor':>7}{'turning':>9}{'unseen':>8}{'ms':>7}"
-    )
-    for row in rows:
-        low, high = row["survived_low"], row["survived_high"]
-        echo(
-            f"{row['evader'][-11:]:<12}{row['pursuer'][-8:]:<9}"
-            f"{row['games']:>6}{100 * row['survived']:>8.1f} %"
-            f"{100 * low:>7.1f}-{100 * high:<6.1f}"
-            f"{100 * row['caught']:>6.1f} %"
-            f"{100 * row['touched_obstacle']:>7.1f} %"
-            f"{row['mean_closest_m']:>7.3f} m{row['closest_over_bound']:>9.3f}"
-            f"{row['floor_used_m2']:>7.2f}{row['turning_rad_s']:>9.3f}"
-            f"{100 * row['out_of_view']:>6.1f} %{row['decision_ms']:>7.2f}"
-        )

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ..control import Phase
+from ..control.walking import StepBegun, WalkState
 from ..outputs import check_folder, writing
 from ..poses import Array
 from .lola.safety import State
@@ -21,6 +22,7 @@ STATES: dict[type[Enum], list[Enum]] = {
 }
 PHASES = list(Phase)
 UNSEEN = np.full(3, np.nan)
+NO_STEP = np.full(6, np.nan)
 
 
 class PlayLog:
@@ -29,28 +31,48 @@ class PlayLog:
     Every tick has ``times_s``, ``sighting`` (time, bearing, distance; NaN
     without one) and ``state``. One that moves joints has
     ``joint_positions``, ``targets``, ``gyro``, ``accelerometer``,
-    ``foot_forces`` and ``phase``; one that gives velocities has ``pose``,
-    its odometry, ``wanted``, what the template would do, and ``velocity``,
-    what was asked for (forward [m/s], turn [rad/s]). States and phases are
-    numbers into the lists of ``play.json``, which also says what changed
-    when, and why.
+    ``foot_forces`` and ``phase``, and of what control believes, in the
+    odometry of ``mind``: ``support`` (x, y, heading of the foot that stands,
+    then 1 left or -1 right), ``com_reference``, ``zmp_reference`` and
+    ``begun``, the step that began (time of landing, 1 left or -1 right, x,
+    y, heading, processor time of planning; NaN without one). One that gives
+    velocities has ``pose``, its odometry, ``wanted``, what the template
+    would do, and ``velocity``, what was asked for (forward [m/s], turn
+    [rad/s]). States and phases are numbers into the lists of ``play.json``,
+    which also says what changed when, and why.
+
+    Attributes:
+        folder: Where it lies.
+        count: Ticks kept so far.
     """
 
-    def __init__(self, folder: Path, about: Mapping[str, object]) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        about: Mapping[str, object],
+        beside: Mapping[str, str] | None = None,
+    ) -> None:
         """Try the folder, which is made when there is something to keep.
 
         Args:
             folder: Must not exist yet, or be empty.
-            about: What to write down beside the rows.
+            about: What to write down in ``play.json``.
+            beside: Texts of further files, by name.
 
         Raises:
             ConfigurationError: If it cannot be written.
         """
         check_folder(folder, "record", new=True)
         self._rows: RowWriter | None = None
-        self._folder, self._about = folder, dict(about)
+        self.folder, self._about = folder, dict(about)
+        self._beside = dict(beside or {})
         self._changes: list[dict[str, object]] = []
         self._state: Enum | None = None
+
+    @property
+    def count(self) -> int:
+        """Ticks kept so far."""
+        return 0 if self._rows is None else self._rows.count
 
     def note(self, tick: Tick | VelocityTick) -> None:
         """Keep a tick."""
@@ -61,7 +83,7 @@ class PlayLog:
             "state": float(STATES[type(state)].index(state)),
         }
         row |= _moved(tick) if isinstance(tick, Tick) else _driven(tick)
-        rows = self._rows = self._rows or RowWriter(self._folder)
+        rows = self._rows = self._rows or self._begin()
         rows.add(row)
         if state is not self._state:
             self._state = state
@@ -74,6 +96,12 @@ class PlayLog:
                 }
             )
             self._write_words()
+
+    def _begin(self) -> RowWriter:
+        rows = RowWriter(self.folder)
+        for name, text in self._beside.items():
+            (self.folder / name).write_text(text, encoding="utf-8")
+        return rows
 
     def close(self) -> None:
         """Write what is left; nothing if there is nothing.
@@ -93,7 +121,7 @@ class PlayLog:
             "changes": self._changes,
         }
         text = json.dumps(words, indent=1, allow_nan=False)
-        with writing(self._folder / WORDS) as draft:
+        with writing(self.folder / WORDS) as draft:
             draft.write_text(text + "\n", encoding="utf-8")
 
 
@@ -107,7 +135,25 @@ def _moved(tick: Tick) -> dict[str, Array | float]:
         "accelerometer": m.accelerometer,
         "foot_forces": m.foot_forces,
         "phase": float(PHASES.index(tick.phase)),
+        "mind": float(tick.mind),
+        "support": _support(tick.walk, m.time),
+        "com_reference": np.array(tick.walk.reference.com[:2]),
+        "zmp_reference": np.array(tick.walk.zmp_reference),
+        "begun": NO_STEP if tick.begun is None else _begun(tick.begun),
     }
+
+
+def _support(walk: WalkState, now: float) -> Array:
+    """Foot that stands, where control believes it."""
+    made = walk.step(now)
+    return np.array([*made.support, -float(made.swing.value)])
+
+
+def _begun(step: StepBegun) -> Array:
+    """Step that began."""
+    spent = np.nan if step.planning_time is None else step.planning_time
+    side = float(step.foot.value)
+    return np.array([step.landing_time, side, *step.landing, spent])
 
 
 def _driven(tick: VelocityTick) -> dict[str, Array | float]:

@@ -1,13 +1,18 @@
 """A player's mind, as it is on board of a robot."""
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from ..control import ControlScheme
 from ..control.assembly import build_scheme
 from ..control.balance.settings import ControlSettings
+from ..errors import ConfigurationError
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..strategies import Strategy
+
+if TYPE_CHECKING:
+    from ..perception.perception import Perception
 
 REQUEST_TO_MOTION = 3  # ticks, as three teams measured on NAO
 
@@ -19,6 +24,7 @@ def mind_maker(
     *,
     tick: float,
     delay_ticks: int = REQUEST_TO_MOTION,
+    sees_as: str | None = None,
 ) -> Callable[[Strategy], ControlScheme]:
     """What makes a new mind for every walk.
 
@@ -28,7 +34,14 @@ def mind_maker(
         control: How it controls its walk.
         tick: Control period, in [s].
         delay_ticks: Ticks from a request to the motion.
+        sees_as: Role of who sees with cameras; None if sightings come with
+            the measurements.
+
+    Raises:
+        ConfigurationError: If it is to see and OpenCV is not there.
+        ModelError: If it is to see and has no head.
     """
+    perceive = None if sees_as is None else _perception_of(sees_as)
 
     def make(strategy: Strategy) -> ControlScheme:
         return build_scheme(
@@ -38,6 +51,33 @@ def mind_maker(
             control,
             tick=tick,
             delay=delay_ticks * tick,
+            perception=None
+            if perceive is None
+            else perceive(description, tick),
         )
+
+    return make
+
+
+def _perception_of(
+    role: str,
+) -> "Callable[[RobotDescription, float], Perception]":
+    """What makes the perception of a role, at a control period in [s]."""
+    try:
+        import cv2
+    except ImportError as error:
+        raise ConfigurationError(
+            "sensing with cameras needs OpenCV: pip install "
+            "'stepaside[vision]'"
+        ) from error
+    from ..perception.looks import LOOKS
+    from ..perception.perception import Perception
+    from ..robots.head import load_head
+
+    cv2.setNumThreads(1)  # one core sees and walks
+
+    def make(description: RobotDescription, tick: float) -> Perception:
+        head = load_head(description)
+        return Perception(description, head, LOOKS[role], tick=tick)
 
     return make

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from ..control import ControlScheme, Phase
+from ..control.walking import StepBegun, WalkState
 from ..errors import ReachError, StrategyError
 from ..poses import Array
 from ..sensing.measurement import Measurement, Sighting
@@ -27,6 +28,9 @@ class Tick:
         targets: What control wanted, in [rad]. Shape (joints,).
         sighting: The other, as far as is known.
         refused: Frames that were none, so far.
+        mind: Number of the mind that thinks; each has its own odometry.
+        walk: What control plans and asks, in the odometry of that mind.
+        begun: Step that began at this tick; None if none did.
     """
 
     state: State
@@ -36,6 +40,9 @@ class Tick:
     targets: Array
     sighting: Sighting | None
     refused: int
+    mind: int
+    walk: WalkState
+    begun: StepBegun | None
 
     @property
     def time(self) -> float:
@@ -84,6 +91,7 @@ class Playing:
         """
         self._strategy, self._make_scheme = strategy, make_scheme
         self._scheme: ControlScheme
+        self._minds = 0
         self._think_anew()
         self._dry_run = dry_run
         self.body = open_body(self._scheme)
@@ -107,14 +115,18 @@ class Playing:
             targets = self._think(measurement, state)
         body.write(targets)
         body.step()
+        scheme = self._scheme
         return Tick(
             body.state,
             body.reason,
-            self._scheme.phase,
+            scheme.phase,
             measurement,
             targets,
-            body.sighting,
+            scheme.sighting if thinks else body.sighting,
             body.refused,
+            self._minds,
+            scheme.state,
+            scheme.begun if thinks else None,
         )
 
     def _think(self, measurement: Measurement, state: State) -> Array:
@@ -139,4 +151,5 @@ class Playing:
 
     def _think_anew(self) -> None:
         self._scheme = self._make_scheme(self._strategy)
+        self._minds += 1
         self._used = False

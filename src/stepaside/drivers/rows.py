@@ -92,6 +92,16 @@ def read_rows(folder: Path) -> dict[str, Array]:
         data = (folder / ROWS).read_bytes()
     except (OSError, ValueError) as error:
         raise ConfigurationError(f"no rows in {folder}: {error}") from error
+    return columns_in(data, columns)
+
+
+def columns_in(data: bytes, columns: Mapping[str, int]) -> dict[str, Array]:
+    """Columns of rows that were read; what is no whole row is left out.
+
+    Args:
+        data: Rows.
+        columns: How many numbers each column has, in their order.
+    """
     width = sum(columns.values())
     whole = len(data) // (8 * width) * 8 * width
     rows = np.frombuffer(data[:whole], "<f8").reshape(-1, width)

@@ -43,6 +43,7 @@ KINDS = {
     "support": Kind(5),
     "heading_reference": Kind(1),
     "estimate": Kind(8, may_lack=True),
+    "command": Kind(4),
 }
 
 

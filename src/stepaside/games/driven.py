@@ -9,6 +9,7 @@ from ..drivers.velocity.body import REST, Velocity
 from ..drivers.velocity.served import WalkerState
 from ..planning import Direction
 from ..poses import wrap_angle
+from ..sensing.images import ColourImage
 from ..sensing.measurement import Measurement, Sighting
 from ..strategies import Stand
 from .walker import Walker
@@ -48,6 +49,7 @@ class DrivenWalker(Walker):
         self._under_way: Direction | None = None
         self._velocity = REST
         self._seen: Measurement | None = None
+        self._image: ColourImage | None = None
         self._ticks = -1
         self._updated = False
 
@@ -79,6 +81,7 @@ class DrivenWalker(Walker):
             Velocity(*pace),
             measurement.joint_positions.tolist(),
             self._sighting(measurement),
+            self._image,
         )
 
     def close(self) -> None:
@@ -92,6 +95,9 @@ class DrivenWalker(Walker):
         ticks = self.robot.world.ticks
         if self._seen is None or ticks != self._ticks:
             self._seen, self._ticks = self.robot.read(), ticks
+            for percept in self._seen.percepts:
+                if isinstance(percept, ColourImage):
+                    self._image = percept
         return self._seen
 
     def _sighting(self, measurement: Measurement) -> Sighting | None:

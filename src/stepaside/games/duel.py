@@ -16,7 +16,7 @@ from ..world.person import Person, add_person
 from ..world.person_motion import Motion
 from ..world.push import pushes_of
 from ..world.sight import IdealLineOfSight
-from ..world.solids import add_solids
+from ..world.solids import add_solids, mover_of
 from ..world.truth import Truth
 from ..world.world import World
 from .duel_end import ended_duel
@@ -127,6 +127,10 @@ class _Setting:
             settings.seed,
             furnisher_of(settings, furnish),
         )
+        plan = settings.room.plan
+        if plan is not None and plan.moving:
+            move = mover_of(self.world.model, self.world.data, plan)
+            self.world.before_step.append(move)
         person = None
         if PURSUER not in walkers:
             motion = Motion(settings.person, frames[0], frames[1][:2])

@@ -17,6 +17,9 @@ from .folder_head import FORMAT, Head, read_head
 from .older import without_fillers
 from .outcome import Outcome
 from .plain import check_object
+from .play_run import PlayRun
+from .play_settings import PlaySettings
+from .played import is_play, run_of_play
 from .reading import read_arrays, read_json, read_text
 from .run import Run
 from .sealing import check_seal
@@ -28,8 +31,8 @@ R = TypeVar("R", bound=Run)
 CONFIGURATION = "configuration.toml"
 SUMMARY = "summary.json"
 TRAJECTORIES = "trajectories.npz"
-KINDS: dict[str, type[DuelRun] | type[WalkRun]]
-KINDS = {kind.game: kind for kind in (DuelRun, WalkRun)}  # by game
+KINDS: dict[str, type[DuelRun] | type[WalkRun] | type[PlayRun]]
+KINDS = {kind.game: kind for kind in (DuelRun, WalkRun, PlayRun)}  # by game
 BROKEN = (  # what reading a file can raise, if it is not as it was written
     *(ValueError, OSError, EOFError, KeyError, NotImplementedError),
     *(BadZipFile, DeflateError, RuntimeError, MemoryError),
@@ -71,6 +74,8 @@ def load_run(folder: Path, kind: type[Run] = Run) -> Run:
         ConfigurationError: If it is none, of another game, or of a later
             format.
     """
+    if not (folder / SUMMARY).exists() and is_play(folder):
+        return _of_kind(_cut_off(folder), folder, kind)
     for name in (CONFIGURATION, SUMMARY, TRAJECTORIES):
         if not (folder / name).is_file():
             raise ConfigurationError(
@@ -101,6 +106,30 @@ def load_run(folder: Path, kind: type[Run] = Run) -> Run:
     source = str(folder / CONFIGURATION)
     settings = read_settings(found.settings_kind, text, source)
     return read_record(name, settings, plain, arrays)
+
+
+def _of_kind(run: Run, folder: Path, kind: type[Run]) -> Run:
+    """A run, if it is one of a game."""
+    if not isinstance(run, kind):
+        raise ConfigurationError(
+            f"run {folder} must be one of a {kind.game}, got one of a "
+            f"{run.game}"
+        )
+    return run
+
+
+def _cut_off(folder: Path) -> PlayRun:
+    """What a player kept that did not come to its end, or is still at it."""
+    file = folder / CONFIGURATION
+    try:
+        settings = read_settings(PlaySettings, read_text(file), str(file))
+        return run_of_play(folder, settings)
+    except ConfigurationError:
+        raise
+    except BROKEN as error:
+        raise ConfigurationError(
+            f"run {folder} cannot be read: {error or type(error).__name__}"
+        ) from error
 
 
 def read_record(

@@ -38,6 +38,8 @@ class LolaOffer(NamedTuple):
     Attributes:
         address: Where the robot listens.
         ideal_sight: Whether the true line of sight is offered beside.
+
+    What the cameras of a robot that has some see is always offered.
     """
 
     address: Address
@@ -52,5 +54,6 @@ class LolaOffer(NamedTuple):
             walker.scheme.kinematics.joint_names,
             lock_step=lock_step,
             ideal_sight=self.ideal_sight,
+            cameras=walker.robot.eyes is not None,
         )
         return Offered(ServedPlayer(walker.robot, body, server), server)

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..planning import GaitSettings
 from ..poses import Array
+from ..rooms import Room
 from ..world.body_settings import BodySettings
 from ..world.camera_settings import Thing
 from ..world.settings import PhysicsSettings
@@ -115,14 +116,29 @@ class Run:
     )
 
     @property
+    def plan(self) -> Room | None:
+        """Room that they play in, if they play in one."""
+        return None
+
+    @property
+    def title(self) -> str:
+        """What it was, in a few words."""
+        return f"{self.game.capitalize()}, seed {self.settings.seed}"
+
+    @property
     def players(self) -> tuple[str, ...]:
         """Who played."""
         return tuple(self.tracks)
 
     @property
     def robots(self) -> tuple[str, ...]:
-        """Those of them that are robots; the others are persons."""
+        """Those of them whose joints are known."""
         return tuple(n for n, t in self.tracks.items() if t.qpos is not None)
+
+    @property
+    def persons(self) -> tuple[str, ...]:
+        """Those who are persons; who is neither is drawn as a template."""
+        return tuple(n for n in self.players if n not in self.robots)
 
     @property
     def pair(self) -> tuple[Track, Track] | None:

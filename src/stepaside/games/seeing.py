@@ -12,11 +12,12 @@ except ImportError as error:
     ) from error
 
 from ..perception.floor_map import FloorMap
+from ..perception.gaze import OFTEN, SELDOM
+from ..perception.looks import LOOKS
 from ..perception.perception import Perception
 from ..poses import Array
 from ..robots.description import RobotDescription
 from ..robots.head import load_head
-from ..sensing.colour_detector import BLUE, RED
 from ..world.eyes import Eyes
 from ..world.graphics import choose_renderer
 from ..world.robot import SimulatedRobot
@@ -29,7 +30,7 @@ from .outcome import Outcome
 from .settings import DuelSettings
 from .sight_figures import SeeingFigures, Seen
 
-LOOKS = {"pursuer": BLUE, "evader": RED}  # what each looks for
+GLANCES = {"pursuer": SELDOM, "evader": OFTEN}  # around, to map
 STILLS = 5  # images that a duel keeps of each camera
 
 
@@ -78,7 +79,7 @@ class Seeing:
                 LOOKS[name],
                 tick=tick,
                 floor=FloorMap() if self._maps else None,
-                glances=self._maps and name == "evader",
+                glances=GLANCES[name] if self._maps else None,
             )
             for name in names
         }

@@ -40,6 +40,9 @@ class Track:
         heading_reference: What is asked of the torso. Shape (n, 1).
         estimate: What feedback believes: CoM, its velocity and ZMP (x, y
             each), roll and pitch; NaN before it does. Shape (n, 8).
+        command: Velocities of a robot that walks by itself: what the
+            template wanted and what was asked for, forward [m/s] and turn
+            [rad/s] each. Shape (n, 4).
     """
 
     com: Array
@@ -58,6 +61,7 @@ class Track:
     support: Array | None = None
     heading_reference: Array | None = None
     estimate: Array | None = None
+    command: Array | None = None
 
     def __post_init__(self) -> None:
         """Close what is written for good."""

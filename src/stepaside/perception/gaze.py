@@ -5,16 +5,20 @@ from math import atan2, hypot, radians
 import numpy as np
 
 from ..poses import Array, wrap_angle
+from ..sensing.tracker import TALL
 
 SPEED = 3.0  # of the head while it follows, in [rad/s]
-SCAN_SPEED = 1.4  # of the head while it searches, in [rad/s]
+SCAN_SPEED = 3.0  # of the head while it searches, in [rad/s]
 SCAN_PITCH = radians(8.0)  # downward, while it searches
 REACH = radians(115.0)  # of the yaw while it searches
 MIDDLE = 0.28  # height of a robot that is looked at, in [m]
 CROWN = 0.54  # height of the upper end of a robot's trim, in [m]
 HALF = radians(20.0)  # upward from the middle of an image, still in it
 LOOKOUT = 0.46  # height of the eyes, in [m]
-EVERY = 2.0  # between two glances over the shoulder, in [s]
+HIPS = 1.05  # height up to which somebody taller is kept in view, in [m]
+UPWARD = radians(13.0)  # at most for it: the floor stays in view, too
+OFTEN = 2.0  # between two glances of one who walks backward, in [s]
+SELDOM = 4.0  # of one who walks where it looks, in [s]
 LONG = 0.9  # of a glance, the way there included, in [s]
 TOO_NEAR = 0.45  # to look away, in [m]
 
@@ -26,6 +30,7 @@ class Gaze:
         yaw: Target of the yaw, in [rad].
         pitch: Target of the pitch, in [rad].
         searching: Whether it scans.
+        turned: How often it turned back at an end of a scan.
     """
 
     def __init__(self, coupling: Array, tick: float) -> None:
@@ -40,13 +45,17 @@ class Gaze:
         self._side = 1.0
         self.yaw, self.pitch = 0.0, SCAN_PITCH
         self.searching = True
+        self.turned = 0
 
-    def follow(self, bearing: float, distance: float) -> None:
-        """Look at something.
+    def follow(
+        self, bearing: float, distance: float, height: float = 0.0
+    ) -> None:
+        """Look at something, and up as somebody tall comes near.
 
         Args:
             bearing: Its direction from the heading of the torso, in [rad].
             distance: Its distance, in [m].
+            height: How high it rises at least, in [m].
         """
         if self.searching:
             self.searching = False
@@ -54,8 +63,11 @@ class Gaze:
         # Should it leave, the search begins on its side.
         self._side = 1.0 if bearing >= self.yaw else -1.0
         # From near not all is in view: rather the head than the feet.
-        crown = atan2(CROWN - LOOKOUT, max(distance - 0.06, 0.1))
+        tall = height > TALL
+        top = HIPS if tall else CROWN
+        crown = atan2(top - LOOKOUT, max(distance - 0.06, 0.1))
         pitch = min(atan2(LOOKOUT - MIDDLE, distance), HALF - crown)
+        pitch = max(pitch, -UPWARD) if tall else pitch
         self._turn(bearing, pitch, SPEED)
 
     def search(self) -> None:
@@ -64,6 +76,7 @@ class Gaze:
         edge = min(REACH, float(self._yaws[-1]))
         if self._side * self.yaw >= edge - 1e-6:
             self._side = -self._side
+            self.turned += 1
         self._turn(self._side * edge, SCAN_PITCH, SCAN_SPEED)
 
     def _turn(self, yaw: float, pitch: float, speed: float) -> None:
@@ -82,13 +95,14 @@ class Gaze:
 class Glances:
     """Looks over one shoulder and the other, while somebody is followed."""
 
-    def __init__(self, tick: float) -> None:
+    def __init__(self, tick: float, every: float = OFTEN) -> None:
         """Begin with a while of looking at the other.
 
         Args:
             tick: Control period, in [s].
+            every: Time between two glances, in [s].
         """
-        self._every, self._long = round(EVERY / tick), round(LONG / tick)
+        self._every, self._long = round(every / tick), round(LONG / tick)
         self._passed = 0
         self._side = 1.0
 

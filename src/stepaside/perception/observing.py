@@ -4,11 +4,14 @@ from collections.abc import Sequence
 from math import atan2, cos, radians, sin
 
 from ..poses import Array, wrap_angle
+from ..robots.body_pose import BodyPose
+from ..robots.head import Mount
 from ..sensing.colour_detector import Appearance, ColourDetection
 from ..sensing.depth_detector import Obstacle, Shadow
 from ..sensing.images import ColourImage, DepthImage
 from ..sensing.ranging import range_of_breadth, range_of_trim
 from ..sensing.track import Observation, Track
+from .floor_map import FloorMap
 
 SURE = 0.8  # confidence from which the size of the trim tells distance
 GUESS = 1.2  # distance of a thing whose distance is unknown, in [m]
@@ -16,6 +19,10 @@ CLOSEST = 0.35  # distance below which no other can be, in [m]
 ROUGH = 0.35  # share by which a distance told by breadth is off
 VAGUE = 0.6  # deviation of a distance that is only remembered, in [m]
 NEARBY = 0.15  # beyond the near limit, of what casts a shadow, in [m]
+BESIDE = 0.45  # distance of what casts one, at least, in [m]
+BLIND = 3.0  # deviation of a distance that nothing tells, in [m]
+PULLED = 0.15  # of the bounds of a shadow, which the memory overran, in [m]
+PARTLY = 0.15  # of the axis of whom only a part was measured, in [m]
 
 
 def observe_trim(
@@ -90,7 +97,37 @@ def observe_obstacle(image: DepthImage, thing: Obstacle) -> Observation:
         aside,
         False,
         True,
+        thing.height,
     )
+
+
+def observe_obstacles(
+    image: DepthImage, things: Sequence[Obstacle], floor: FloorMap | None
+) -> tuple[list[Observation], list[Observation]]:
+    """Turn obstacles into observations.
+
+    What the edge cuts may be a piece of a wall: it founds nobody. In a room
+    that is mapped nothing does but trim, and what is on the map is nobody.
+
+    Args:
+        image: The image.
+        things: Obstacles in it.
+        floor: Map of the floor, if one is kept.
+
+    Returns:
+        Those that may found a track, and those that may not.
+    """
+    if floor is not None:
+        things = [t for t in things if not floor.holds(t.x, t.y)]
+    whole, cut = (
+        [
+            observe_obstacle(image, thing)
+            for thing in things
+            if (thing.whole and floor is None) is founds
+        ]
+        for founds in (True, False)
+    )
+    return whole, cut
 
 
 def observe_shadow(
@@ -98,24 +135,44 @@ def observe_shadow(
 ) -> Observation:
     """Place by its bearing what is too near for its distance.
 
+    It stands between the nearest that anybody can be and the near limit,
+    unless a part of it was measured; within that nothing but its bearing is
+    known, and the distance of memory is handed back without any weight.
+
     Args:
         image: The image.
         shadow: The shadow in it.
         place: Place of the camera in odometry, in [m]. Shape (3,).
         tracks: What is followed already.
     """
-    away = _remembered(tracks, image.time, shadow.bearing, place)
-    away = min(away, image.near + NEARBY)
+    far = image.near + NEARBY
+    memory = _remembered(tracks, image.time, shadow.bearing, place)
+    ranged = shadow.nearest is not None
+    if shadow.nearest is not None:
+        away, along = shadow.nearest, PARTLY
+    else:
+        away = min(max(memory, BESIDE), far)
+        along = BLIND if away == memory else PULLED
     return Observation(
         image.time,
         float(place[0] + away * cos(shadow.bearing)),
         float(place[1] + away * sin(shadow.bearing)),
         shadow.bearing,
-        VAGUE,
+        along,
         0.08 * away,
         False,
-        False,
+        ranged,
     )
+
+
+def camera_of(body: BodyPose, mount: Mount) -> tuple[Array, Array]:
+    """Place and axes of a camera on the head, in odometry.
+
+    Returns:
+        Place, in [m], shape (3,), and axes as columns, shape (3, 3).
+    """
+    place = body.head_place + body.head_axes @ mount.place
+    return place, body.head_axes @ mount.axes
 
 
 def angle_of(image: ColourImage | DepthImage, column: float) -> float:

@@ -1,6 +1,7 @@
 """From percepts to a line of sight, and from it to where the head looks."""
 
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import atan2, cos, hypot, radians, sin
 
@@ -8,7 +9,7 @@ from ..poses import Array, Pose, wrap_angle
 from ..robots.body_pose import BodyKinematics, BodyPose
 from ..robots.description import RobotDescription
 from ..robots.forward import ForwardKinematics
-from ..robots.head import HeadDescription, Mount
+from ..robots.head import HeadDescription
 from ..sensing.colour_detector import (
     Appearance,
     ColourDetection,
@@ -21,16 +22,26 @@ from ..sensing.track import Observation, Track
 from ..sensing.tracker import Tracker
 from .floor_map import FloorMap
 from .gaze import Gaze, Glances
-from .observing import angle_of, observe_obstacle, observe_shadow, observe_trim
+from .observing import (
+    angle_of,
+    camera_of,
+    observe_obstacles,
+    observe_shadow,
+    observe_trim,
+)
 
 MEMORY = 1.0  # how long past poses are kept, in [s]
 FRESH = 0.25  # age at which a distance is worth hearing again, in [s]
+SURE = 0.5  # age up to which the other is known to be where it is, in [s]
 UNSEEN = 1.0  # after which the head searches, in [s]
 STARE = 1.2  # unknown things that rest are looked at up to here, in [m]
 MOVING = 0.08  # speed from which a thing moves, in [m/s]
+BOTH = 2  # ends of a scan
 BROAD = 0.12  # shadow of somebody who was not seen before, in [rad]
 CHEST = 0.10  # from a sonar to the own axis and into the other, in [m]
+DEAF = 0.25  # echo that may be of the own arms, or of anything nearer, [m]
 EAR = radians(50.0)  # how far aside a sonar hears
+ROOMY = 0.25  # by which what an echo comes from must be nearer, in [m]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,7 +83,7 @@ class Perception:
         *,
         tick: float,
         floor: FloorMap | None = None,
-        glances: bool = False,
+        glances: float | None = None,
     ) -> None:
         """Know the own body and what the other looks like.
 
@@ -81,12 +92,13 @@ class Perception:
             head: Its head.
             appearance: The other's look, if it is the one that is known.
             tick: Control period, in [s].
-            floor: Map of the floor to keep.
-            glances: Whether it looks over its shoulders now and then, to
-                see the floor that it walks backward onto.
+            floor: Map of the floor to keep. Who keeps one looks all around
+                first, and says nothing of the other before it has.
+            glances: Time between two looks over its shoulders, to see the
+                floor that it walks backward onto, in [s]; None for none.
         """
         self.floor = floor
-        self._glances = Glances(tick) if glances else None
+        self._glances = None if glances is None else Glances(tick, glances)
         self._head = head
         self.forward = ForwardKinematics(description, head.body)
         self._kinematics = BodyKinematics(description, head, self.forward)
@@ -126,8 +138,11 @@ class Perception:
         for percept in measurement.percepts:
             self._take(percept, self._pose_at(percept.time), now)
         track = self._tracker.main(now, *body.torso[:2])
-        self._look(now, body, track)
         self.sighting = None
+        if self.floor is not None and self._gaze.turned < BOTH:
+            self._gaze.search()
+            return None
+        self._look(now, body, track)
         if track is not None:
             x, y, heading = body.torso
             bearing = wrap_angle(track.turned_to(x, y, now) - heading)
@@ -155,7 +170,7 @@ class Perception:
                 bearing = candidate.turned_to(x, y, now) - heading
                 if self._glances is not None:
                     bearing = self._glances.turned(bearing, distance)
-                self._gaze.follow(bearing, distance)
+                self._gaze.follow(bearing, distance, candidate.height)
                 self.searching = False
                 return
         self.searching = True
@@ -178,7 +193,7 @@ class Perception:
     def _take_colour(
         self, image: ColourImage, body: BodyPose, now: float
     ) -> None:
-        place, axes = _camera(body, self._head.top)
+        place, axes = camera_of(body, self._head.top)
         found = self._detector.detect(image)
         azimuths: tuple[float, ...] = ()
         seen: list[Observation] = []
@@ -192,7 +207,7 @@ class Perception:
     def _take_depth(
         self, image: DepthImage, body: BodyPose, now: float
     ) -> None:
-        place, axes = _camera(body, self._head.depth)
+        place, axes = camera_of(body, self._head.depth)
         own = body.torso.x, body.torso.y
         scene = detect_obstacles(image, place, axes, own)
         azimuths = tuple(o.azimuth for o in scene.obstacles)
@@ -200,11 +215,13 @@ class Perception:
         self.reports.append(FrameReport(image, azimuths, depth=scene))
         if self.floor is not None:
             other = self._tracker.main(now, *own)
-            there = None if other is None else other.place_at(image.time)
+            there = None
+            if other is not None and now - other.seen_at < SURE:
+                there = other.place_at(image.time)
             self.floor.take(image, place, axes, own, there)
-        seen = [observe_obstacle(image, o) for o in scene.obstacles]
-        self._observe(seen, image, place, axes, named=False)
-        for shadow in scene.shadows:
+        whole, cut = observe_obstacles(image, scene.obstacles, self.floor)
+        self._observe(whole, image, place, axes, named=False, cut=cut)
+        for shadow in scene.shadows if self.floor is None else ():
             tracks = self._tracker.tracks
             # Something that came so near unseen is somebody too.
             founds = shadow.width > BROAD and not any(
@@ -215,7 +232,7 @@ class Perception:
 
     def _hear(self, echo: SonarEcho, body: BodyPose, now: float) -> None:
         """Hear how far away is what no camera measures any more."""
-        if echo.distance is None:
+        if echo.distance is None or echo.distance < DEAF:
             return
         mount = self._head.sonars[echo.sonar]
         x, y, heading = body.torso
@@ -223,6 +240,10 @@ class Perception:
         facing = atan2(axis[1], axis[0])
         away = echo.distance + CHEST
         track = self._tracker.main(now, x, y)
+        if self.floor is not None:
+            known = self.floor.nearest(x, y, facing, EAR)
+            if track is None or known < away + ROOMY:
+                return  # it may be an echo of the room
         if track is None:
             if echo.distance > 0.6:
                 return
@@ -256,9 +277,11 @@ class Perception:
         axes: Array,
         *,
         named: bool,
+        cut: Sequence[Observation] = (),
     ) -> None:
         """Update tracks, and count those that a frame should have shown."""
         updated = self._tracker.observe(seen)
+        updated += self._tracker.observe(cut, founds=False)
         ahead = atan2(axes[1, 0], axes[0, 0])
         half = 0.85 * abs(angle_of(image, 0.0))
         x, y = float(place[0]), float(place[1])
@@ -270,9 +293,3 @@ class Perception:
             off = wrap_angle(track.turned_to(x, y, image.time) - ahead)
             if abs(off) < half:
                 track.count(False)
-
-
-def _camera(body: BodyPose, mount: Mount) -> tuple[Array, Array]:
-    """Place and axes of a camera on the head, in odometry."""
-    place = body.head_place + body.head_axes @ mount.place
-    return place, body.head_axes @ mount.axes

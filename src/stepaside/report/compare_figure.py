@@ -57,6 +57,9 @@ def draw_comparison(runs: Sequence[Run], file: Path) -> None:
                 linewidth=1.1,
                 label=for_figure(run.name),
             )
+    if all(run.orientation is None for run in runs):
+        axes["angle"].set_visible(False)
+        axes["distance"].set_xlabel("time [s]")
     _draw_theories(axes, runs)
     axes["path"].set_aspect("equal", adjustable="datalim")
     axes["path"].set_title("torsos: pursuer red, evader blue")

@@ -8,11 +8,10 @@ import numpy as np
 from ..games.duel_run import DuelRun
 from ..games.run import Run
 from ..poses import Array
-from ..rooms import Room
 from .averages import whole_cycles
 from .inert import for_figure
 from .pushed import draw_pushes, mark_pushes
-from .room_figure import solid_patches
+from .room_figure import room_patches
 from .sizes import sheet
 from .soles import draw_heading, draw_soles
 from .style import (
@@ -60,18 +59,13 @@ def draw_duel(
     _draw_over_time(over_time, run)
     for name, (part, place) in zip(walkers, places, strict=True):
         _draw_balance(part.add_subplot(*place), run, name)
-    figure.suptitle(
-        f"{run.game.capitalize()}, seed {run.settings.seed}: "
-        f"{for_figure(run.message)}"
-    )
+    figure.suptitle(f"{run.title}: {for_figure(run.message)}")
     save(figure, path)
 
 
 def _draw_snapshots(figure: Any, run: Run) -> None:
     """Top views at four times, with the path walked so far."""
     times = run.times
-    low, high = _frame(run)
-    size = max(0.28, 0.07 * float((high - low).max()))
     # Early on more happens: the times grow as squares.
     fractions = (np.arange(SNAPSHOTS) / (SNAPSHOTS - 1)) ** 2
     lines = 2 if sheet().narrow else 1
@@ -80,29 +74,37 @@ def _draw_snapshots(figure: Any, run: Run) -> None:
     )
     for axes, time in zip(shown.flat, fractions * times[-1], strict=True):
         index = min(int(np.searchsorted(times, time)), len(times) - 1)
-        _draw_solids(axes, run)
-        for name, colour in colours_of(run.players).items():
-            com = run.tracks[name].com
-            axes.plot(*com[: index + 1, :2].T, color=colour, lw=1.0)
-            torso = run.tracks[name].torso[index]
-            draw_heading(axes, torso, colour, size)
-        axes.set(
-            xlim=(low[0], high[0]),
-            ylim=(low[1], high[1]),
-            aspect="equal",
-            title=f"{times[index]:.1f} s",
-        )
+        draw_top(axes, run, index)
+        axes.set_title(f"{times[index]:.1f} s")
     for axes in shown[-1]:
         axes.set_xlabel("x [m]")
     for axes in shown[:, 0]:
         axes.set_ylabel("y [m]")
 
 
+def draw_top(axes: Any, run: Run, index: int) -> None:
+    """Draw who is where at a sample, with the path walked so far.
+
+    Args:
+        axes: Matplotlib axes.
+        run: The run, all of which is within the axes.
+        index: Sample.
+    """
+    low, high = _frame(run)
+    size = max(0.28, 0.07 * float((high - low).max()))
+    _draw_solids(axes, run)
+    for name, colour in colours_of(run.players).items():
+        track = run.tracks[name]
+        axes.plot(*track.com[: index + 1, :2].T, color=colour, lw=1.0)
+        draw_heading(axes, track.torso[index], colour, size)
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
+
+
 def _frame(run: Run) -> tuple[Array, Array]:
     """Corners of what snapshots show: no side less than half the other."""
     every = np.concatenate([track.com[:, :2] for track in run.tracks.values()])
     low, high = every.min(axis=0) - 0.2, every.max(axis=0) + 0.2
-    plan = _plan_of(run)
+    plan = run.plan
     if plan is not None and plan.has_walls:
         half = 0.5 * np.array([plan.width, plan.depth]) + 0.15
         low, high = np.minimum(low, -half), np.maximum(high, half)
@@ -111,15 +113,9 @@ def _frame(run: Run) -> tuple[Array, Array]:
     return low - grown, high + grown
 
 
-def _plan_of(run: Run) -> Room | None:
-    """Room that they play in, if they play in one."""
-    return run.settings.room.plan if isinstance(run, DuelRun) else None
-
-
 def _draw_solids(axes: Any, run: Run) -> None:
     """What stands in the room, if they play in one."""
-    plan = _plan_of(run)
-    for patch in () if plan is None else solid_patches(plan.solids):
+    for patch in () if run.plan is None else room_patches(run.plan):
         axes.add_patch(patch)
 
 

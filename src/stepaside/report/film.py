@@ -4,9 +4,7 @@ import os
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from functools import partial
-from math import floor
 from pathlib import Path
-from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -20,6 +18,8 @@ from ..workers import worker_pool
 from ..world.graphics import RAYCAST, Look, Screen, choose_renderer
 from .film_camera import CameraMan
 from .film_layers import decorate, light_up
+from .film_shot import Shot
+from .film_split import Insets, room_beside
 from .film_words import caption, title_of
 from .stage import Stage
 
@@ -27,73 +27,8 @@ CHUNK = 15  # pictures that one worker draws at a time
 TRAIL = 20.0  # how long traces are, in [s]
 FINE = Look(samples=4, shadow=2048, slices=18, stacks=10)
 # Beyond, nothing has shadows; who looks far must not see where that is.
-REACH = {"fixed": 4.0, "follow": 4.0, "top": 4.0, "eyes": 12.0}
-SLOWEST = 0.25  # pace about the closest approach, of the film's own
-AROUND = 2.0  # time before and after it that is slower, in [s]
-
-
-class Shot(NamedTuple):
-    """How a film is taken.
-
-    Attributes:
-        width: Of a picture, in [pixels].
-        height: Likewise.
-        rate: Pictures a second.
-        speed: Time of the run per time of the film.
-        begin: When it begins, in [s] of the run.
-        duration: How much of the run it shows, in [s].
-        camera: One of :data:`~stepaside.report.film_camera.VIEWS`.
-        layers: Whether lines are drawn in.
-        slow: Whether time passes slowly about the closest approach.
-        words: Whether it says who is who and what goes on.
-        title: Written into the upper left corner; empty for none.
-    """
-
-    width: int = 1280
-    height: int = 720
-    rate: float = 30.0
-    speed: float = 1.0
-    begin: float = 0.0
-    duration: float = 60.0
-    camera: str = "fixed"
-    layers: bool = True
-    slow: bool = False
-    words: bool = True
-    title: str = ""
-
-    def pace(self, time: float, closest: float | None) -> float:
-        """Time of the run per time of the film at a moment.
-
-        Args:
-            time: In the run, in [s].
-            closest: When the players were closest, in [s].
-        """
-        if closest is None or not self.slow:
-            return self.speed
-        # From one to the slowest and back, without a jerk.
-        away = min(1.0, max(0.0, abs(time - closest) / AROUND - 0.5) * 2.0)
-        share = away * away * (3.0 - 2.0 * away)
-        return self.speed * (SLOWEST + (1.0 - SLOWEST) * share)
-
-    def instants(
-        self, last: float, closest: float | None = None
-    ) -> list[float]:
-        """Times of the pictures in the run, in [s].
-
-        Args:
-            last: End of the run, in [s].
-            closest: When the players were closest, in [s].
-        """
-        end = min(last, self.begin + self.duration)
-        if closest is not None and self.slow:
-            times, time = [], self.begin
-            while time <= end + 1e-9:
-                times.append(time)
-                time += self.pace(time, closest) / self.rate
-            return times
-        step = self.speed / self.rate
-        number = floor((end - self.begin) / step + 1e-9) + 1
-        return [self.begin + i * step for i in range(max(number, 0))]
+REACH = {"eyes": 12.0}
+NEARBY = 4.0  # for all other cameras
 
 
 class Cinema:
@@ -106,14 +41,22 @@ class Cinema:
         model = self._stage.model
         _dim(model)
         self._fovy = float(model.vis.global_.fovy)
-        aspect = shot.width / shot.height
+        wide, self._insets = shot.width, None
+        if shot.camera == "split":
+            beside = room_beside(shot.width, shot.height)
+            wide -= beside
+            size = beside, shot.height
+            self._insets = Insets(run, self._stage, backend, size)
+        aspect = wide / shot.height
         self._man = CameraMan(run, shot.camera, self._fovy, aspect)
         self._screen = Screen(
             model,
-            shot.width,
+            wide,
             shot.height,
             backend,
-            FINE._replace(reach=max(REACH[shot.camera], self._man.reach)),
+            FINE._replace(
+                reach=max(REACH.get(shot.camera, NEARBY), self._man.reach)
+            ),
         )
         self._closest = closest_time(run)
 
@@ -139,11 +82,17 @@ class Cinema:
                 fovy=self._fovy,
                 pace=shot.pace(time, self._closest),
             )
-        return title_of(drawn, shot.title)
+        drawn = title_of(drawn, shot.title)
+        if self._insets is not None:
+            seen = self._insets.picture(index)
+            drawn = np.concatenate([drawn, seen], axis=1)
+        return drawn
 
     def close(self) -> None:
         """Let go of the graphics."""
         self._screen.close()
+        if self._insets is not None:
+            self._insets.close()
 
 
 def _dim(model: mujoco.MjModel) -> None:

@@ -14,7 +14,7 @@ from ..errors import ConfigurationError
 from ..games.run import Run
 from ..poses import Array
 
-VIEWS = ("fixed", "follow", "top", "eyes")
+VIEWS = ("fixed", "follow", "top", "eyes", "split")
 AZIMUTH, ELEVATION = 60.0, -32.0  # of a camera that stands, in [deg]
 MARGIN = 0.86  # of the picture's half sides that points may take
 HEIGHT = 0.62  # of what stands where a player is, with its name, in [m]
@@ -124,6 +124,8 @@ class CameraMan:
                 "camera eyes needs a run of two players, got one of "
                 f"{len(run.players)}"
             )
+        # Beside what the robots see, the scene is followed.
+        name = "follow" if name == "split" else name
         self._run, self._name = run, name
         self._fovy, self._aspect = fovy, aspect
         self._whole = self._frame(slice(None), with_circle=True)

@@ -1,5 +1,8 @@
 """Lines that are drawn into a film."""
 
+from functools import cache
+from math import hypot
+
 import mujoco
 import numpy as np
 
@@ -100,25 +103,42 @@ def _line(
     scene: mujoco.MjvScene, a: Array, b: Array, width: float, colour: str
 ) -> None:
     """Add a square bar, of far fewer corners than a round one."""
-    away = b - a
-    long = float(np.linalg.norm(away))
+    x, y, z = (b - a).tolist()
+    long = hypot(x, y, z)
     if scene.ngeom >= scene.maxgeom or long < 1e-9:
         return
-    ahead = away / long
-    # Flat on the floor, whichever way it lies there.
-    over = np.array([0.0, 0.0, 1.0]) if abs(ahead[2]) < 0.9 else np.eye(3)[0]
-    aside = np.cross(over, ahead)
-    aside /= np.linalg.norm(aside)
-    turn = np.column_stack([aside, np.cross(ahead, aside), ahead])
     mujoco.mjv_initGeom(
         scene.geoms[scene.ngeom],
         mujoco.mjtGeom.mjGEOM_BOX,
         np.array([width, 0.3 * width, 0.5 * long]),
         0.5 * (a + b),
-        turn.ravel(),
+        turn_along(x / long, y / long, z / long),
         _rgba(colour),
     )
     scene.ngeom += 1
+
+
+def turn_along(x: float, y: float, z: float) -> Array:
+    """Rotation of a bar whose third axis lies along a unit vector.
+
+    Its first axis lies flat on the floor, whichever way the bar lies there;
+    in plain numbers, since a film has hundreds of bars in each picture.
+
+    Returns:
+        Rows of the matrix, one after another. Shape (9,).
+    """
+    if abs(z) < 0.9:
+        flat = hypot(x, y)
+        right, up, over = -y / flat, x / flat, 0.0
+    else:
+        steep = hypot(y, z)
+        right, up, over = 0.0, -z / steep, y / steep
+    rows = (
+        *(right, y * over - z * up, x),
+        *(up, z * right - x * over, y),
+        *(over, x * up - y * right, z),
+    )
+    return np.array(rows)
 
 
 def _arrow(
@@ -152,6 +172,7 @@ def _print(
     scene.ngeom += 1
 
 
+@cache
 def _rgba(colour: str, opacity: float = 1.0) -> Array:
     parts = [part / 255.0 for part in bytes.fromhex(colour[1:])]
     return np.array([*parts, opacity], dtype=np.float32)

@@ -63,7 +63,7 @@ def caption(
         if seen is not None:
             at = 0.5 * width + 0.5 * height * seen[0]
             over = 0.5 * height * (1.0 - seen[1])
-            _chip(pen, name, (at, over), colour, size)
+            chip(pen, name, (at, over), colour, size)
     said = visible(run.words(index))
     told = f"{run.times[index]:.1f} s"
     if run.distance is not None:
@@ -104,7 +104,7 @@ def title_of(picture: Pixels, text: str) -> Pixels:
     return np.asarray(image)
 
 
-def _chip(
+def chip(
     pen: Any, text: str, at: tuple[float, float], colour: str, size: int
 ) -> None:
     """Write a word on a chip that stands on a place of the picture."""

@@ -9,10 +9,12 @@ from pathlib import Path
 from ..errors import OutputError
 from ..games.folder import write_record
 from ..games.outcome import Outcome
+from ..games.play_run import PlayRun
 from ..games.run import Run
 from ..games.sealing import seal
 from ..outputs import check_folder, draft_prefix, reason_of, sweep
 from .duel_figure import draw_duel
+from .play_figure import draw_play
 from .walk_figure import draw_walk
 
 SIGHT = "sight.png"
@@ -49,6 +51,9 @@ def draw_run(run: Run, file: Path) -> None:
         run: The game.
         file: File, of a format that its suffix tells.
     """
+    if isinstance(run, PlayRun):
+        draw_play(run, file)
+        return
     draw = draw_walk if run.pair is None else draw_duel
     draw(run, file)
 

@@ -8,6 +8,8 @@ from ..games.run import Run
 from ..poses import Pose
 from ..robots.description import load_robot
 from ..world.person import add_person, parts_of, pose_figure
+from ..world.solids import add_solids, mover_of
+from ..world.template_body import add_template, pose_template
 from ..world.world import build_model
 
 
@@ -15,7 +17,7 @@ class Stage:
     """Bodies of a run, put where they were.
 
     Attributes:
-        model: Robots and floor.
+        model: Robots, floor and what stands on it.
         data: Their state.
     """
 
@@ -27,11 +29,20 @@ class Stage:
         """
         robots = run.robots
         names = {name: run.settings.robot_of(name).robot for name in robots}
-        persons = [name for name in run.players if name not in robots]
+        persons = run.persons
+        self._templates = [
+            name for name in run.players if name not in {*robots, *persons}
+        ]
+
+        plan = run.plan
 
         def furnish(spec: mujoco.MjSpec) -> None:
+            if plan is not None:
+                add_solids(spec, plan)
             for name in persons:
                 add_person(spec, name)
+            for name in self._templates:
+                add_template(spec, name)
 
         self.model = build_model(
             {name: load_robot(robot) for name, robot in names.items()},
@@ -53,16 +64,24 @@ class Stage:
         none = np.zeros((len(run.times), 0))
         self._postures = np.concatenate([none, *known], axis=1)
         self._persons = {name: parts_of(self.model, name) for name in persons}
-        self._tracks = run.tracks
+        self._tracks, self._times = run.tracks, run.times
+        self._move = (
+            None if plan is None else mover_of(self.model, self.data, plan)
+        )
 
     def put(self, index: int) -> None:
         """Put the bodies where they were at a sample."""
         self.data.qpos[:] = self._postures[index]
+        if self._move is not None:
+            self._move(float(self._times[index]))
         for name, parts in self._persons.items():
             walked = self._tracks[name].torso
             frame = Pose(*walked[index].tolist())
             steps = np.diff(walked[: index + 1, :2], axis=0)
             way = float(np.hypot(steps[:, 0], steps[:, 1]).sum())
             pose_figure(self.data, parts, frame, way)
+        for name in self._templates:
+            stood = Pose(*self._tracks[name].torso[index].tolist())
+            pose_template(self.model, self.data, name, stood)
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_camlight(self.model, self.data)

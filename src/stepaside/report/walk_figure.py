@@ -40,8 +40,7 @@ def draw_walk(run: Run, path: Path) -> None:
             axes.set_xlim(*_limits(run.times[show]))
             axes.set_title(when, pad=18)
     figure.suptitle(
-        f"{run.game.capitalize()}, seed {run.settings.seed}: "
-        f"{for_figure(run.message)}",
+        f"{run.title}: {for_figure(run.message)}",
     )
     save(figure, path)
 

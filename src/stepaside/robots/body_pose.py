@@ -2,12 +2,13 @@
 
 from dataclasses import dataclass
 from math import atan2, cos, sin
+from typing import NamedTuple
 
 import numpy as np
 
 from ..poses import Array, Pose
 from .description import RobotDescription
-from .forward import ForwardKinematics
+from .forward import ForwardKinematics, MeasuredPosture
 from .head import HeadDescription, rotation
 
 
@@ -34,6 +35,46 @@ class BodyPose:
     head_axes: Array
     yaw: float
     pitch: float
+
+
+class StandingBody(NamedTuple):
+    """A torso in the odometry of the foot that it stands on.
+
+    Attributes:
+        place: Of the torso, in [m]. Shape (3,).
+        axes: Its axes as columns. Shape (3, 3).
+        heading: Of the torso, in [rad].
+    """
+
+    place: Array
+    axes: Array
+    heading: float
+
+
+def stand_on(
+    posture: MeasuredPosture,
+    foot: int,
+    support: Pose,
+    tilt: tuple[float, float],
+) -> StandingBody:
+    """Place a posture on the foot that stands.
+
+    Args:
+        posture: By the measured joints.
+        foot: That stands, 0 for the left one, 1 for the right one.
+        support: Its pose in odometry.
+        tilt: Roll and pitch of the torso, in [rad].
+    """
+    lean = rotation(*tilt, 0.0)
+    # Heading: that of the foot, less its own in the levelled torso.
+    ahead = lean @ posture.frames[foot, :, 0]
+    heading = support.theta - atan2(ahead[1], ahead[0])
+    c, s = cos(heading), sin(heading)
+    axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ lean
+    place = -(axes @ posture.feet[foot])
+    place[0] += support.x
+    place[1] += support.y
+    return StandingBody(place, axes, heading)
 
 
 class BodyKinematics:
@@ -77,15 +118,7 @@ class BodyKinematics:
         """
         posture = self._kinematics.posture(joints)
         foot = 0 if left_supports else 1
-        lean = rotation(*tilt, 0.0)
-        # Heading: that of the foot, less its own in the levelled torso.
-        ahead = lean @ posture.frames[foot, :, 0]
-        heading = support.theta - atan2(ahead[1], ahead[0])
-        c, s = cos(heading), sin(heading)
-        axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ lean
-        place = -(axes @ posture.feet[foot])
-        place[0] += support.x
-        place[1] += support.y
+        place, axes, heading = stand_on(posture, foot, support, tilt)
         return BodyPose(
             time,
             Pose(float(place[0]), float(place[1]), heading),

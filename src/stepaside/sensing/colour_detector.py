@@ -1,6 +1,6 @@
 """Find a robot by the colour of its trim, in a colour image."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -20,6 +20,8 @@ TALLEST = 0.6  # patch, of the height of all trim
 WIDEST = 2.1  # all trim, of its height
 ROOM = 0.1  # below the lowest trim, of its height, if it is the lowest
 FULLEST = 0.5  # trim, of the box around all of it
+FAINT = 0.55  # saturation of ears as narrow as a pixel, of that of trim
+HEAD = 0.3  # height of the ears above the shoulders, of the trim's below
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,14 +110,21 @@ class ColourDetector:
                 or found.bottom - found.top > best.bottom - best.top
             ):
                 best = found
-        return best
+        if best is None:
+            return None
+        return _with_ears(best, self.mask(image.pixels, FAINT), least)
 
-    def mask(self, pixels: Pixels) -> Mask:
-        """Mark the pixels whose colour is that of the trim: 255, else 0."""
+    def mask(self, pixels: Pixels, share: float = 1.0) -> Mask:
+        """Mark the pixels whose colour is that of the trim: 255, else 0.
+
+        Args:
+            pixels: Image. Shape (height, width, 3).
+            share: Of the saturation that trim has, which is enough.
+        """
         look = self.appearance
         hsv = cv2.cvtColor(cv2.blur(pixels, (3, 3)), cv2.COLOR_RGB2HSV)
         low, high = look.hue - look.width, look.hue + look.width
-        least = look.saturation, look.value
+        least = round(share * look.saturation), look.value
         if low < 0:
             mask = cv2.inRange(hsv, (0, *least), (high, 255, 255))
             rest = cv2.inRange(hsv, (low + HUES, *least), (HUES, 255, 255))
@@ -189,6 +198,35 @@ def _judge(
         cut_above,
         cut_below,
         cut_aside,
+    )
+
+
+def _with_ears(
+    found: ColourDetection, faint: Mask, least: float
+) -> ColourDetection:
+    """Lift the upper end to ears that are too narrow to be sure of.
+
+    Args:
+        found: A robot.
+        faint: Pixels that may be of its trim.
+        least: Pixels of a patch.
+    """
+    height = found.bottom - found.top
+    stats = cv2.connectedComponentsWithStats(faint, connectivity=8)[2][1:]
+    left, top, width, tall, area = stats.T
+    ears = (area >= least) & (left >= found.left)
+    ears &= left + width <= found.right
+    ears &= (top < found.top) & (top >= found.top - HEAD * height)
+    ears &= (top + tall <= found.top + 1) & (tall < HEAD * height)
+    number = int(ears.sum())
+    if number == 0 or found.cut_above:
+        return found
+    highest = float(top[ears].min())
+    return replace(
+        found,
+        top=highest,
+        confidence=min(1.0, found.confidence + number / 8.0),
+        cut_above=highest <= 1,
     )
 
 

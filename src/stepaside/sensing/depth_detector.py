@@ -8,20 +8,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..poses import Array
+from .depth_parts import parts_of
 from .images import DepthImage
 
 FLOOR = 0.07  # what is lower belongs to the floor, in [m]
 CEILING = 2.2  # what is higher is in nobody's way, in [m]
 SELF = 0.22  # what is nearer to the own axis is the robot itself, in [m]
-JUMP = 0.25  # of depth between pixels of one thing, at most, in [m]
-SMALLEST = 14  # pixels of a thing, at 80 columns
 BROADEST = 1.1  # what is broader is a wall, in [m]
 LOWEST = 0.15  # height of what is in the way, in [m]
-TRUSTED = 0.75  # share of the far limit up to which a thing is whole
+TRUSTED = 0.95  # share of the far limit up to which a thing is whole
 PIECE = 2.0  # distance from which a thing has to be in view as a whole, [m]
 TRUNCATED = 0.12  # beyond the near limit: part of it may be nearer, in [m]
-GAP = 0.06  # between parts of one near thing, in [rad]
+THIN = 0.25  # of a leg, at most, in [m]
+STRADDLE = 0.45  # between the legs of one person, at most, in [m]
+GAP = 0.25  # between parts of one near thing, legs for one, in [rad]
 BLIND = 24  # pixels without return that something near must hide
+# Right and left end in [rad], and the nearest that was measured, in [m].
+Part = tuple[float, float, float | None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +41,7 @@ class Obstacle:
         width: Breadth, in [m].
         height: Height of its upper end above the floor, in [m].
         whole: Whether neither side is cut by the edge of the image.
+        rises: Whether it is cut by the upper edge.
     """
 
     x: float
@@ -48,6 +52,7 @@ class Obstacle:
     width: float
     height: float
     whole: bool
+    rises: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,11 +64,14 @@ class Shadow:
             [rad].
         azimuth: The same from the camera's axis, positive leftward.
         width: How broad it looks, in [rad].
+        nearest: Distance of the nearest part that was measured all the
+            same, in [m]; None if there is none.
     """
 
     bearing: float
     azimuth: float
     width: float
+    nearest: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +112,7 @@ def detect_obstacles(
     solid &= away > SELF
     found = [
         _measure(points[part], part, place, axes)
-        for part in _clusters(solid, depths)
+        for part in parts_of(solid, depths)
     ]
     things = [
         thing
@@ -115,73 +123,88 @@ def detect_obstacles(
         # A piece of a wall, cut off by the edge of the image.
         and (thing.whole or thing.nearest < PIECE)
     ]
-    things.sort(key=lambda thing: thing.nearest)
+    things = join_legs(sorted(things, key=lambda thing: thing.nearest))
     parts = _shadows(image, depths, rays, place, axes)
-    whole, cut = [], []
+    whole: list[Obstacle] = []
+    cut: list[Part] = [(low, high, None) for low, high in parts]
     for thing in things:
         half = 0.5 * thing.width / thing.nearest
-        ends = thing.azimuth - half, thing.azimuth + half
+        low, high = thing.azimuth - half, thing.azimuth + half
         # What hides the floor without an echo may be a nearer part of it.
-        hidden = any(low < ends[1] and ends[0] < high for low, high in parts)
-        near = thing.nearest < image.near + TRUNCATED
-        if near and hidden:
-            cut.append(ends)
+        hidden = any(a - GAP < high and low - GAP < b for a, b in parts)
+        if thing.nearest < image.near + TRUNCATED and hidden:
+            cut.append((low, high, thing.nearest))
         else:
             whole.append(thing)
     ahead = atan2(axes[1, 0], axes[0, 0])
-    return DepthScene(
-        tuple(whole),
-        _join([*parts, *cut], ahead),
-    )
+    return DepthScene(tuple(whole), _join(cut, ahead))
 
 
-def _join(
-    parts: list[tuple[float, float]], ahead: float
-) -> tuple[Shadow, ...]:
-    """Join parts, given by their right and left ends, into near things."""
-    joined: list[tuple[float, float]] = []
-    for low, high in sorted(parts):
-        if joined and low < joined[-1][1] + GAP:
-            joined[-1] = joined[-1][0], max(high, joined[-1][1])
-        else:
-            joined.append((low, high))
+def _join(parts: list[Part], ahead: float) -> tuple[Shadow, ...]:
+    """Join parts into near things, whose middle is that of their ends."""
+    joined: list[Part] = []
+    for low, high, nearest in sorted(parts, key=lambda part: part[:2]):
+        if not joined or low >= joined[-1][1] + GAP:
+            joined.append((low, high, nearest))
+            continue
+        first, last, known = joined[-1]
+        told = [n for n in (known, nearest) if n is not None]
+        joined[-1] = first, max(high, last), min(told, default=None)
     shadows = [
-        Shadow(ahead + 0.5 * (low + high), 0.5 * (low + high), high - low)
-        for low, high in joined
+        Shadow(
+            ahead + 0.5 * (low + high), 0.5 * (low + high), high - low, nearest
+        )
+        for low, high, nearest in joined
     ]
     return tuple(sorted(shadows, key=lambda shadow: -shadow.width))
 
 
-def _clusters(
-    solid: NDArray[np.bool_], depths: Array
-) -> list[NDArray[np.bool_]]:
-    """Parts of an image that hang together in depth."""
-    cut = np.zeros_like(solid)
-    for axis in (0, 1):
-        jump = np.abs(np.diff(depths, axis=axis)) > JUMP
-        both = (
-            solid[1:] & solid[:-1]
-            if axis == 0
-            else (solid[:, 1:] & solid[:, :-1])
-        )
-        far = jump & both
-        if axis == 0:
-            cut[1:] |= far
-        else:
-            cut[:, 1:] |= far
-    mask = (solid & ~cut).astype(np.uint8)
-    # Holes where nothing came back do not take a thing apart.
-    closed = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8))
-    closed[cut] = 0
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(
-        closed, connectivity=8
-    )
-    least = SMALLEST * (solid.shape[1] / 80.0) ** 2
-    return [
-        (labels == label) & solid
-        for label in range(1, count)
-        if stats[label, cv2.CC_STAT_AREA] >= least
+def join_legs(things: list[Obstacle]) -> list[Obstacle]:
+    """Take for one person two legs whose hips are above the view.
+
+    Args:
+        things: What was found, the nearest first.
+
+    Returns:
+        The same, where two thin ones beside each other, which both reach
+        beyond the upper edge of the image, have become one.
+    """
+    left_over, joined = list(things), []
+    while left_over:
+        leg = left_over.pop(0)
+        for other in left_over:
+            apart = float(np.hypot(leg.x - other.x, leg.y - other.y))
+            if _is_leg(leg) and _is_leg(other) and apart < STRADDLE:
+                left_over.remove(other)
+                leg = _astride(leg, other)
+                break
+        joined.append(leg)
+    return joined
+
+
+def _is_leg(thing: Obstacle) -> bool:
+    return thing.rises and thing.width < THIN
+
+
+def _astride(leg: Obstacle, other: Obstacle) -> Obstacle:
+    """The person midway between two legs."""
+    ends = [
+        thing.azimuth + side * 0.5 * thing.width / thing.nearest
+        for thing in (leg, other)
+        for side in (-1.0, 1.0)
     ]
+    middle = 0.5 * (min(ends) + max(ends))
+    return Obstacle(
+        0.5 * (leg.x + other.x),
+        0.5 * (leg.y + other.y),
+        leg.nearest,
+        leg.bearing + middle - leg.azimuth,
+        middle,
+        leg.nearest * (max(ends) - min(ends)),
+        max(leg.height, other.height),
+        leg.whole and other.whole,
+        True,
+    )
 
 
 def _measure(
@@ -207,6 +230,7 @@ def _measure(
         width,
         float(points[:, 2].max()),
         bool(columns[0] > 0 and columns[-1] < part.shape[1] - 1),
+        bool(part[:2].any()),
     )
 
 

@@ -29,6 +29,7 @@ class Observation(NamedTuple):
         across: Standard deviation across it, in [m].
         identified: Whether it looks like the other robot.
         ranged: Whether its distance was measured too.
+        height: How high it rises at least, in [m].
     """
 
     time: float
@@ -39,6 +40,7 @@ class Observation(NamedTuple):
     across: float
     identified: bool
     ranged: bool
+    height: float = 0.0
 
     @property
     def covariance(self) -> Array:
@@ -60,6 +62,7 @@ class Track:
         seen_at: When it was last seen, in [s].
         ranged_at: When its distance was last measured, in [s].
         confirmed: Whether enough frames agree on it.
+        height: How high it was seen to rise, in [m].
     """
 
     def __init__(self, first: Observation) -> None:
@@ -68,6 +71,7 @@ class Track:
         self.identified_at = first.time if first.identified else -inf
         self.ranged_at = first.time if first.ranged else -inf
         self.confirmed = False
+        self.height = first.height
         self._state = np.array([first.x, first.y, 0.0, 0.0])
         self._covariance = np.zeros((4, 4))
         self._covariance[:2, :2] = first.covariance
@@ -118,6 +122,7 @@ class Track:
             self.identified_at = max(self.identified_at, seen.time)
         if seen.ranged:
             self.ranged_at = max(self.ranged_at, seen.time)
+        self.height = max(self.height, seen.height)
 
     def count(self, found: bool) -> None:
         """Note whether a frame that could have shown it did."""
@@ -131,6 +136,7 @@ class Track:
         self.seen_at = max(self.seen_at, other.seen_at)
         self.ranged_at = max(self.ranged_at, other.ranged_at)
         self.confirmed = self.confirmed or other.confirmed
+        self.height = max(self.height, other.height)
 
     @property
     def hopeless(self) -> bool:

@@ -9,6 +9,8 @@ PATIENCE = 4.0  # how long a confirmed thing is remembered, in [s]
 FRESH = 0.3  # age up to which nobody doubts a sighting, in [s]
 LAPSE = 0.5  # of recognition that does not make it another, in [s]
 SAME = 0.15  # distance within which two tracks are one thing, in [m]
+TALL = 0.75  # height of what is no robot but may be a person, in [m]
+BROAD = 0.35  # distance within which two tall tracks are one person, in [m]
 DOUBT = 0.6  # deviation beyond which memory is worth nothing, in [m]
 
 
@@ -85,7 +87,9 @@ class Tracker:
         for track in sorted(self.tracks, key=lambda t: t.begun_at):
             x, y = track.place_at(now)
             for older in kept:
-                if older.away_from(x, y, now) < SAME and (
+                tall = min(track.height, older.height) > TALL
+                same = BROAD if tall else SAME
+                if older.away_from(x, y, now) < same and (
                     track.seen_at - older.seen_at < LAPSE
                 ):
                     older.take_over(track)

@@ -29,14 +29,14 @@ from .version import PHYSICS, code_version, library_versions
 Record = dict[str, Any]
 # Of a record, what depends on the machine and not on the duel alone.
 MACHINE = ("version", "libraries", "verified", "wall_s")
-# Settings that came after the first records, which go on without them where
-# they are what they are by default.
+# Settings that came after the first records, which go on without defaults.
 LATER = (
     *("start.least", "start.near", "start.far"),
     *("strategy.trigger", "strategy.contact_time", "strategy.clearance"),
-    *("strategy.calmest", "control.stabiliser.stride_bound"),
-    *("gait.outer_stride", "gait.swing_profile", "gait.swing_reaction"),
-    *("room.plan", "map", "pursuer_robot", "evader_robot", "pushes"),
+    *("control.stabiliser.stride_bound", "control.stabiliser.load_share"),
+    *("strategy.calmest", "gait.outer_stride", "gait.swing_profile"),
+    *("gait.swing_reaction", "room.plan", "map"),
+    *("pursuer_robot", "evader_robot", "pushes"),
 )
 
 

@@ -25,6 +25,7 @@ BEARINGS = (0, 45, -90, 135, 180)  # where they come from, in [deg]
 OFFSETS = (0.0, 0.3, -0.3, 1.2)  # how far beside the robot they aim, in [m]
 PASSING = 1.0  # offset from which on nobody means the robot, in [m]
 STANDING = 1.5  # time that a robot has before anybody counts, in [s]
+SPACE = 4.0  # from a robot that sees to the walls, in [m]
 PAST = 2.5  # how far behind the robot they walk on, in [m]
 Record = dict[str, Any]
 
@@ -68,11 +69,16 @@ class Encounter:
         strategy = self.base.strategy
         ahead = strategy.contact_time + STANDING
         distance = strategy.clearance + self.speed * ahead
+        room = self.base.room
+        if self.sensing == "cameras":
+            # Whoever stands by a wall sees that first.
+            room = replace(room, walls=distance + SPACE)
         return replace(
             self.base,
             seed=self.seed,
             duration=(distance + PAST) / self.speed,
             sensing=self.sensing,
+            room=room,
             person=PersonSettings("straight", self.speed, miss=self.offset),
             start=StartSettings(
                 distance, 0.0, wrap_angle(-radians(self.bearing))

@@ -198,6 +198,19 @@ SIGHT = Group(
         ),
     ),
 )
+LATENCY = Declaration(
+    "--camera-latency",
+    "Added to that of the cameras",
+    "cameras.added_latency",
+    "s",
+)
+OPTICS = Declaration(
+    "--optics",
+    "Which NAO's top camera.",
+    "cameras.colour.optics",
+    registry=_optics,
+)
+SENSES = Group("Senses", (SENSING, LATENCY, OPTICS))
 CAMERAS = Group(
     "Cameras and room (where they see)",
     (
@@ -207,18 +220,8 @@ CAMERAS = Group(
             "cameras.drop_frames",
             "1",
         ),
-        Declaration(
-            "--camera-latency",
-            "Added to that of the cameras",
-            "cameras.added_latency",
-            "s",
-        ),
-        Declaration(
-            "--optics",
-            "Which NAO's top camera.",
-            "cameras.colour.optics",
-            registry=_optics,
-        ),
+        LATENCY,
+        OPTICS,
         Declaration(
             "--renderer",
             "What draws the images.",

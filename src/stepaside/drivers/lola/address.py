@@ -8,6 +8,7 @@ from ...errors import ConfigurationError
 SCHEME = "lola:"
 ON_THE_ROBOT = "/tmp/robocup"  # where every NAO V6 listens
 SIGHT_SUFFIX = ".ideal-sight"  # where a simulated robot offers the truth
+CAMERAS_SUFFIX = ".cameras"  # where it shows what its cameras see
 EARLY = ".new"  # of a socket at which nobody listens yet
 LONGEST_PATH = 107 - len(SIGHT_SUFFIX + EARLY)  # in bytes
 
@@ -33,6 +34,11 @@ class Address:
     def sight(self) -> "Address | None":
         """Where the ideal line of sight is offered; Unix paths only."""
         return Address(self.path + SIGHT_SUFFIX) if self.path else None
+
+    @property
+    def cameras(self) -> "Address | None":
+        """Where a simulated robot's images are offered; Unix paths only."""
+        return Address(self.path + CAMERAS_SUFFIX) if self.path else None
 
     def open(self) -> socket.socket:
         """A socket of the right kind, not yet connected or bound."""

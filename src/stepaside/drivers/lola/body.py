@@ -8,6 +8,7 @@ import numpy as np
 
 from ...poses import Array
 from ...sensing.measurement import Measurement, Sighting
+from ..cameras.source import PerceptSource
 from ..session import SessionLost
 from .conventions import CHEST_BUTTON, measurement_of
 from .frame_clock import TICK
@@ -47,6 +48,7 @@ class LolaBody:
         stance: Array,
         *,
         sight: SightChannel | None = None,
+        eyes: PerceptSource | None = None,
         guardian: StiffnessGuardian | None = None,
         safety: SafetySettings | None = None,
         dry_run: bool = False,
@@ -61,6 +63,7 @@ class LolaBody:
             stance: Posture in which control begins, in [rad].
                 Shape (joints,).
             sight: Ideal line of sight, where a simulated robot offers one.
+            eyes: Its cameras, if it is played with those.
             guardian: Who lets go of the robot if this process cannot.
             safety: Limits of what is safe.
             dry_run: Command nothing but lights.
@@ -72,6 +75,7 @@ class LolaBody:
         """
         settings = safety or SafetySettings()
         self._link, self._sight, self._guardian = link, sight, guardian
+        self._eyes = eyes
         self._joints = JointMap(joint_names)
         self._motion = Motion(self._joints, stance)
         self._look_ahead = settings.look_ahead
@@ -130,7 +134,11 @@ class LolaBody:
         if self._sight is not None:
             self.sighting = self._sight.newest(count, self._start)
         time = (count - self._start) * TICK
-        return measurement_of(frame, self._joints, time, self.sighting)
+        measured = measurement_of(frame, self._joints, time, self.sighting)
+        if self._eyes is None:
+            return measured
+        images = self._eyes.percepts(count, time, TICK)
+        return measured._replace(percepts=(*images, *measured.percepts))
 
     def write(self, joint_targets: Array) -> None:
         """Answer the frame that was read last.
@@ -188,8 +196,9 @@ class LolaBody:
         finally:
             if self._guardian is not None:
                 self._guardian.dismiss()
-            if self._sight is not None:
-                self._sight.close()
+            for beside in (self._sight, self._eyes):
+                if beside is not None:
+                    beside.close()
             self._link.close()
 
     def _seen(self, frame: SensorFrame, now: float) -> Seen:

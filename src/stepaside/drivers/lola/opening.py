@@ -1,9 +1,11 @@
 """Connecting to a robot that speaks LoLA."""
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
 
 from ...poses import Array
+from ..cameras.source import PerceptSource
 from ..session import SessionLost
 from .address import Address
 from .body import LolaBody
@@ -25,6 +27,7 @@ def open_lola(
     safety: SafetySettings | None = None,
     dry_run: bool = False,
     guarded: bool = False,
+    open_eyes: Callable[[], PerceptSource] | None = None,
 ) -> LolaBody:
     """Connect to a robot, and to the ideal line of sight if it offers one.
 
@@ -36,33 +39,41 @@ def open_lola(
         dry_run: Command nothing but lights.
         guarded: Whether a second process lets go of the robot if this one
             dies or freezes. Forks: not for a process with threads.
+        open_eyes: Opens its cameras, if it is played with those instead of
+            with an ideal line of sight. They may start threads.
 
     Raises:
-        SessionLost: If no robot listens there.
+        SessionLost: If no robot listens there, or no camera.
     """
-    sight = _ideal_sight(address)
-    try:
-        link = connect(address, SENSOR_BYTES)
-    except SessionLost:
+    sees = open_eyes is not None
+    sight = None if sees else _ideal_sight(address)
+    with ExitStack() as stack:
         if sight is not None:
-            sight.close()
-        raise
-    # Not before: who finds no robot is told that, and nothing else.
-    if sight is not None:
-        log.warning("sees by the ideal line of sight of %s", address.sight)
-    elif address.sight is not None:
-        log.info("no ideal line of sight at %s", address.sight)
-    return LolaBody(
-        link,
-        joint_names,
-        stance,
-        sight=sight,
-        guardian=(
-            StiffnessGuardian(link.socket) if guarded and not dry_run else None
-        ),
-        safety=safety,
-        dry_run=dry_run,
-    )
+            stack.callback(sight.close)
+        link = connect(address, SENSOR_BYTES)
+        stack.callback(link.close)
+        # Not before: who finds no robot is told that, and nothing else.
+        if sight is not None:
+            log.warning("sees by the ideal line of sight of %s", address.sight)
+        elif address.sight is not None and not sees:
+            log.info("no ideal line of sight at %s", address.sight)
+        guardian = None
+        if guarded and not dry_run:
+            guardian = StiffnessGuardian(link.socket)
+            stack.callback(guardian.dismiss)
+        eyes = None if open_eyes is None else open_eyes()
+        body = LolaBody(
+            link,
+            joint_names,
+            stance,
+            sight=sight,
+            eyes=eyes,
+            guardian=guardian,
+            safety=safety,
+            dry_run=dry_run,
+        )
+        stack.pop_all()  # they are the body's now
+        return body
 
 
 def _ideal_sight(address: Address) -> SightChannel | None:

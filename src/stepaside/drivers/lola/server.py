@@ -11,6 +11,7 @@ from ...sensing.attitude import AttitudeFilter
 from ...sensing.measurement import Measurement
 from .address import Address
 from .answers import AnswerReader
+from .camera_offer import CameraOffer
 from .conventions import sensor_frame_of
 from .frame_clock import TICK
 from .frames import ActuatorFrame, pack_sensors
@@ -56,6 +57,7 @@ class LolaServer:
         *,
         lock_step: bool = False,
         ideal_sight: bool = True,
+        cameras: bool = False,
     ) -> None:
         """Listen for a client.
 
@@ -65,6 +67,7 @@ class LolaServer:
             joint_names: Its joints, in the order of its measurements.
             lock_step: Whether its world waits for answers.
             ideal_sight: Whether the true line of sight is offered beside.
+            cameras: Whether what its cameras see is offered beside.
 
         Raises:
             ConfigurationError: If the address cannot be listened on.
@@ -72,15 +75,16 @@ class LolaServer:
         """
         self._robot, self._joints = robot, JointMap(joint_names)
         self._lock_step = lock_step
-        # First, so that who finds the robot finds its sight.
-        self._sight: SightOffer | None = None
-        if ideal_sight and address.sight is not None:
-            self._sight = SightOffer(address.sight)
+        # First, so that who finds the robot finds what is beside it.
+        self._beside: list[SightOffer | CameraOffer] = []
         try:
+            if ideal_sight and address.sight is not None:
+                self._beside.append(SightOffer(address.sight))
+            if cameras and address.cameras is not None:
+                self._beside.append(CameraOffer(address.cameras))
             self._listener = Listener(address)
         except BaseException:
-            if self._sight is not None:
-                self._sight.close()
+            self._close_beside()
             raise
         self._attitude = AttitudeFilter(BELIEF, 0.0, calibration=0.0)
         self._reader = AnswerReader()
@@ -123,8 +127,8 @@ class LolaServer:
         self.hear()  # what comes too late is no answer to the next frame
         if self._listener.accept():
             self._reader, self.count = AnswerReader(), -1
-            if self._sight is not None:
-                self._sight.forget()
+            for offer in self._beside:
+                offer.forget()
             log.info("%s: client connected", self._listener.address)
         measurement = self._robot.sensors()
         own = self._attitude
@@ -139,8 +143,8 @@ class LolaServer:
         if not self.connected:
             return
         self.count += 1
-        if self._sight is not None:
-            self._sight.tell(measurement, self.count)
+        for offer in self._beside:
+            offer.tell(measurement, self.count)
         frame = sensor_frame_of(
             measurement,
             self._joints,
@@ -180,8 +184,11 @@ class LolaServer:
     def close(self) -> None:
         """Let go of the client."""
         self._listener.close()
-        if self._sight is not None:
-            self._sight.close()
+        self._close_beside()
+
+    def _close_beside(self) -> None:
+        for offer in self._beside:
+            offer.close()
 
     def _take(self, frame: ActuatorFrame) -> None:
         self.answered = True

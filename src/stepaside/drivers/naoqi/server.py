@@ -13,6 +13,7 @@ from .services import (
     Robot,
 )
 from .session import listen
+from .video_service import ALVideoDevice
 
 SILENCE = 0.5  # of everybody before the robot rests, in [s]
 log = logging.getLogger(__name__)
@@ -53,6 +54,7 @@ class NaoqiServer:
             "ALRobotPosture": ALRobotPosture(self.robot),
             "ALMemory": ALMemory(self.robot),
             "ALSonar": ALSonar(),
+            "ALVideoDevice": ALVideoDevice(self.robot),
         }
         self._services = services
         self._session = listen(url, services)

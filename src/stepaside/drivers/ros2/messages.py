@@ -198,3 +198,14 @@ class Image(IdlStruct, typename="sensor_msgs.msg.dds_.Image_"):
     is_bigendian: uint8
     step: uint32
     data: sequence[uint8]
+
+
+@dataclass
+class CompressedImage(
+    IdlStruct, typename="sensor_msgs.msg.dds_.CompressedImage_"
+):
+    """An image in a format that holds fewer bytes: JPEG or PNG."""
+
+    header: Header
+    format: str
+    data: sequence[uint8]

@@ -8,6 +8,7 @@ from typing import Any
 from ...sensing.measurement import Sighting
 from ..velocity.body import REST, Velocity
 from ..velocity.served import WalkerState, WalkingRobot
+from .camera_topics import CameraTopics
 from .domain import Dds, taken
 from .messages import (
     Clock,
@@ -38,6 +39,7 @@ from .topics import (
 
 EVERY = 4  # ticks from one report to the next: 48 ms
 SILENCE = 0.5  # of the commander before the robot rests, in [s]
+LOOKS = 400  # for an answer in lock step before it is asked for again
 UNKNOWN = (0.0,) * 36  # covariance of what nobody has estimated
 HANDLES = 1 << 64  # handles are signed in some places, unsigned in others
 log = logging.getLogger(__name__)
@@ -104,12 +106,15 @@ class Ros2Server:
         self._sight = writer(IDEAL, PointStamped)
         self._transforms = dds.writer(dds_topic("", "tf"), TFMessage, 100)
         self._commands = dds.reader(dds_topic(namespace, COMMAND), Twist)
+        self._cameras = CameraTopics(dds, namespace)
         self._commander: int | None = None
         self._told: Sighting | None = None
         self._ticks = 0
         self._silent = 0
         self._velocity = REST
         self._closed = False
+        self._state: WalkerState | None = None
+        self._looks = 0
         self.refused = 0
         self.answered = True
 
@@ -136,8 +141,9 @@ class Ros2Server:
         """Tell of the robot, when it is time to."""
         self.hear()
         if self._ticks % EVERY == 0:
-            self._tell(self._robot.state())
-            self.answered = False
+            self._state = self._robot.state()
+            self._tell(self._state)
+            self.answered, self._looks = False, 0
         self._ticks += 1
 
     def hear(self) -> bool:
@@ -158,8 +164,20 @@ class Ros2Server:
                 self._take(sample)
             else:
                 self.refused += 1
-        waits = self._lock_step and self.connected
-        return self.answered or not waits
+        waits = self._lock_step and self.connected and not self.answered
+        if waits:
+            self._ask_again()
+        return not waits
+
+    def _ask_again(self) -> None:
+        """Repeat a report: it, or its answer, may have been lost on its way.
+
+        Readers take what comes, and are sent nothing twice by DDS. Who has
+        it already answers as before.
+        """
+        self._looks += 1
+        if self._looks % LOOKS == 0 and self._state is not None:
+            self._tell(self._state)
 
     def act(self) -> Velocity:
         """What the robot is to do at this tick."""
@@ -179,7 +197,7 @@ class Ros2Server:
             return
         self._closed = True
         del self._odometry, self._joints, self._sight
-        del self._transforms, self._commands
+        del self._transforms, self._commands, self._cameras
 
     def _take(self, twist: Twist) -> None:
         forward, turn = twist.linear.x, twist.angular.z
@@ -194,6 +212,7 @@ class Ros2Server:
         """Write everything; odometry last, as it is what is waited for."""
         stamp = Time.of(state.time)
         self._clock.tell(state.time)
+        self._cameras.tell(state.image)
         own = frame(self._namespace, "base_link")
         fixed = Header(stamp, frame(self._namespace, "odom"))
         seen = state.sighting

@@ -17,6 +17,8 @@ ODOMETRY = "odom"
 POINT, POSE = "other", "other_pose"  # the other, as a point or as a pose
 IDEAL = "ideal_sight"  # where a simulated robot offers the truth
 JOINTS = "joint_states"
+IMAGE = "camera/image_raw"
+COMPRESSED = f"{IMAGE}/compressed"
 
 
 def dds_topic(namespace: str, name: str) -> str:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import NamedTuple, Protocol
 
 from ...poses import Pose
+from ...sensing.images import ColourImage
 from ...sensing.measurement import Sighting
 from .body import Velocity
 
@@ -17,6 +18,7 @@ class WalkerState(NamedTuple):
         velocity: With which it is asked to walk.
         joints: Angles of its joints, in [rad].
         sighting: The other, from its own frame, if that is offered.
+        image: Newest of its camera, if it has one.
     """
 
     time: float
@@ -24,6 +26,7 @@ class WalkerState(NamedTuple):
     velocity: Velocity
     joints: Sequence[float]
     sighting: Sighting | None
+    image: ColourImage | None = None
 
 
 class WalkingRobot(Protocol):

@@ -20,7 +20,9 @@ def shape_of(part: Part) -> trimesh.Trimesh:
     """Mesh of one part in the frame of its body."""
     mesh: trimesh.Trimesh
     a, b, _ = part.size
-    if part.kind == "sphere":
+    if part.shell is not None:
+        mesh = trimesh.Trimesh(*part.shell, process=False)
+    elif part.kind == "sphere":
         mesh = trimesh.creation.icosphere(subdivisions=2, radius=a)
     elif part.kind == "ellipsoid":
         mesh = trimesh.creation.icosphere(subdivisions=2)
@@ -65,6 +67,7 @@ class Bodies:
             if not part.is_wall:  # it would hide all from who is outside
                 looks[part.body][part.colour].append(shape_of(part))
         self._frames: dict[int, viser.FrameHandle] = {}
+        self._meshes = defaultdict[int, list[viser.MeshHandle]](list)
         data = mujoco.MjData(model)
         mujoco.mj_kinematics(model, data)
         self._tops = {body: float(data.xpos[body, 2]) for body in looks}
@@ -73,7 +76,7 @@ class Bodies:
             self._frames[body] = scene.add_frame(name, show_axes=False)
             for number, (colour, meshes) in enumerate(colours.items()):
                 corners, faces = joined(meshes)
-                scene.add_mesh_simple(
+                mesh = scene.add_mesh_simple(
                     f"{name}/{number}",
                     corners,
                     faces,
@@ -81,6 +84,7 @@ class Bodies:
                     cast_shadow=True,
                     receive_shadow=False,
                 )
+                self._meshes[body].append(mesh)
         self._scene = scene
 
     def name(self, model: mujoco.MjModel, players: Iterable[str]) -> None:
@@ -91,11 +95,7 @@ class Bodies:
             players: Their names.
         """
         for player in players:
-            own = [
-                body
-                for body in self._frames
-                if model.body(body).name.startswith(f"{player}/")
-            ]
+            own = self._own(model, player)
             high = {body: self._tops[body] for body in own}
             top = max(high, key=lambda body: high[body])
             self._scene.add_label(
@@ -105,6 +105,26 @@ class Bodies:
                 anchor="bottom-center",
                 depth_test=False,
             )
+
+    def _own(self, model: mujoco.MjModel, player: str) -> list[int]:
+        """Bodies of a player."""
+        return [
+            body
+            for body in self._frames
+            if model.body(body).name.startswith(f"{player}/")
+        ]
+
+    def meshes_of(
+        self, model: mujoco.MjModel, player: str
+    ) -> list[viser.MeshHandle]:
+        """What is seen of a player.
+
+        Args:
+            model: Of the bodies.
+            player: Its name.
+        """
+        own = self._own(model, player)
+        return [mesh for body in own for mesh in self._meshes[body]]
 
     def move(self, positions: Array, quaternions: Array) -> None:
         """Move all bodies.

@@ -1,16 +1,17 @@
-"""Buttons and keys with which a hand drives the pursuer."""
+"""Buttons, keys and a stick with which a hand drives the pursuer."""
 
 from dataclasses import replace
-from math import inf
 
 import viser
 
 from ...games.duel import Duel
 from ...games.walker import Walker
 from ...strategies import Driven, Pursuit, Strategy
+from .score import Score
 from .session import Session
 
 TURNS = {"left": 1.0, "straight": 0.0, "right": -1.0}
+SLOW = 0.25  # of the speed, while the closest approach is made
 
 
 class DrivePanel:
@@ -20,17 +21,18 @@ class DrivePanel:
         """Add the controls to a page."""
         self._session = session
         self._hand: Driven | None = None
-        self._began = 0.0
-        self._closest = inf
+        self._score = Score()
         with gui.add_folder("Drive the pursuer"):
             gui.add_markdown(
-                "Catch the evader with the buttons or the keys: arrows "
-                "left, right and up (straight), g (go), h (halt)."
+                "Catch the evader with the buttons, a gamepad, the stick on "
+                "a phone or the keys: arrows left, right and up (straight), "
+                "g (go), h (halt)."
             )
             wheel = gui.add_button_group("Turn", tuple(TURNS))
             walk = gui.add_button_group("Walk", ("go", "stop"))
             release = gui.add_button("Let it pursue by itself")
-            self._score = gui.add_markdown("")
+            self._slows = gui.add_checkbox("Slow at the closest", True)
+            self._told = gui.add_markdown("")
 
         @wheel.on_click
         def _(_: object) -> None:
@@ -58,22 +60,35 @@ class DrivePanel:
     def forget(self) -> None:
         """Note that another duel began, which nobody drives."""
         self._hand = None
-        self._score.content = ""
+        self._score.end("begun anew")
 
     def show(self, time: float, distance: float) -> None:
-        """Show the score.
+        """Show the score, and let what is close pass slowly.
 
         Args:
             time: Simulated time, in [s].
             distance: Between the robots, in [m].
         """
-        if self._hand is None:
-            return
-        self._closest = min(self._closest, distance)
-        self._score.content = (
-            f"the evader survived {time - self._began:.1f} s; closest "
-            f"approach {self._closest:.2f} m"
-        )
+        session = self._session
+        self._score.watch(time, distance)
+        if session.outcome is not None:
+            self._hand = None
+            self._score.end(session.outcome.value)
+        radius = session.settings.strategy.safety_radius
+        close = self._slows.value and self._score.is_close(radius)
+        session.slow = SLOW if close else 1.0
+        text = self._score.words()
+        if self._told.content != text:
+            self._told.content = text
+
+    def steer(self, turn: float, going: bool) -> None:
+        """Drive as a stick is held.
+
+        Args:
+            turn: From -1, a full turn to the right, to 1, one to the left.
+            going: Whether the robot walks.
+        """
+        self._drive(turn=turn, going=going)
 
     def _drive(
         self, *, turn: float | None = None, going: bool | None = None
@@ -84,8 +99,7 @@ class DrivePanel:
         hand = self._hand
         if hand is None:
             hand = Driven(going=True)
-            self._began = self._session.duel.world.time
-            self._closest = inf
+            self._score.begin(self._session.duel.world.time)
         if turn is not None:
             hand = replace(hand, turn=turn)
         if going is not None:
@@ -97,6 +111,7 @@ class DrivePanel:
     def _release(self) -> None:
         """Give the pursuer back to itself."""
         self._hand = None
+        self._score.end("let go")
         self._session.note(released=True)
         self._give(Pursuit())
 

@@ -13,6 +13,11 @@ CAMERA = {  # numbers of each entry
     **dict.fromkeys(("fov", "near", "far", "image_height", "image_width"), 0),
     **{"wxyz": 4, "position": 3, "look_at": 3, "up_direction": 3},
 }
+DRAG = {  # likewise, of a pull at a part of a robot
+    **{"start_position": 3, "start_screen_pos": 2},
+    **{"end_position": 3, "end_screen_pos": 2},
+}
+PHASES = "start", "update", "end"
 SWITCHES = viser.GuiButtonHandle, viser.GuiCheckboxHandle
 CHOICES = viser.GuiDropdownHandle, viser.GuiButtonGroupHandle
 NUMBERS = viser.GuiNumberHandle, viser.GuiSliderHandle
@@ -31,11 +36,13 @@ class Listener:
     def __init__(self) -> None:
         """Begin without controls."""
         self._controls: Mapping[str, Any] = {}
+        self._nodes: Mapping[str, Any] = {}
         self.say: Callable[[str], None] = lambda text: None
 
-    def attend(self, gui: viser.GuiApi) -> None:
-        """Know a page's controls, also those that it has later."""
+    def attend(self, gui: viser.GuiApi, scene: viser.SceneApi) -> None:
+        """Know a page's controls and its scene, also what comes later."""
         self._controls = gui._gui_input_handle_from_uuid
+        self._nodes = scene._handle_from_node_name
 
     def hears(self, raw: str | bytes) -> bool:
         """Whether a message may be heard; text never."""
@@ -54,7 +61,26 @@ class Listener:
             return _has(rest, "uuid") and isinstance(rest["uuid"], str)
         if kind == "GuiUpdateMessage" and _has(rest, "uuid", "updates"):
             return self._is_update(rest["uuid"], rest["updates"])
+        if kind == "SceneNodeDragMessage":
+            return self._is_drag(rest)
         return False
+
+    def _is_drag(self, message: Mapping[Any, Any]) -> bool:
+        """Whether something that can be pulled is, by plain numbers."""
+        words = "phase", "name", "instance_index", "button", "modifier"
+        if not _has(message, *words, "owner", *DRAG):
+            return False
+        name, owner = message["name"], message["owner"]
+        return (
+            isinstance(name, str)
+            and name in self._nodes
+            and isinstance(owner, str)
+            and message["phase"] in PHASES
+            and message["instance_index"] is None
+            and message["button"] == "left"
+            and message["modifier"] is None
+            and _are_numbers(message, DRAG)
+        )
 
     def _is_update(self, uuid: Any, updates: Any) -> bool:
         control = self._controls.get(uuid) if isinstance(uuid, str) else None
@@ -104,7 +130,12 @@ def _has(message: Mapping[Any, Any], *names: str) -> bool:
 def _is_camera(message: Mapping[Any, Any]) -> bool:
     if not _has(message, *CAMERA):
         return False
-    for name, count in CAMERA.items():
+    return _are_numbers(message, CAMERA)
+
+
+def _are_numbers(message: Mapping[Any, Any], counts: dict[str, int]) -> bool:
+    """Whether entries are numbers, or so many of them in a list."""
+    for name, count in counts.items():
         value = message[name]
         values = value if count else [value]
         if not isinstance(values, list) or len(values) != (count or 1):

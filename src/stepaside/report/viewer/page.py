@@ -15,6 +15,7 @@ from ..inert import for_markdown
 from ..palette import LIGHTS
 from .bodies import Bodies
 from .camera_panel import CameraPanel
+from .dragging import Dragging
 from .drawing import draw_session
 from .drive_panel import DrivePanel
 from .duel_panel import DuelPanel
@@ -79,6 +80,7 @@ class Page:
             self._cameras = CameraPanel(gui)
             add_push(gui, self.session, self._say)
             self._drive = DrivePanel(gui, self.session)
+        served.hand.attend(self._drive.steer)
         with layout.settings:
             self._duel = DuelPanel(gui, self.session, self._say)
         with layout.shown:
@@ -96,6 +98,9 @@ class Page:
         self.server.initial_camera.look_at = (0.5, 0.0, 0.2)
         self._bodies = Bodies(scene, model)
         self._bodies.name(model, PLAYERS)
+        dragging = Dragging(scene, self.session, lambda text: self._say(text))
+        for number, player in enumerate(PLAYERS):
+            dragging.attend(number, self._bodies.meshes_of(model, player))
         return Layers(scene), Viewers(self.server)
 
     def start(self) -> None:

@@ -194,11 +194,10 @@ class ReplayPage:
             f"{for_markdown(run.words(index))}\n\n{run.times[index]:.2f} s"
         )
         distance, angle = run.distance, run.orientation
-        if distance is not None and angle is not None:
-            text += (
-                f", distance {distance[index]:.2f} m, between the headings "
-                f"{angle[index]:.0f}\u00b0"
-            )
+        if distance is not None:
+            text += f", distance {distance[index]:.2f} m"
+        if angle is not None:
+            text += f", between the headings {angle[index]:.0f}\u00b0"
         if self._status.content != text:
             self._status.content = text
 

@@ -20,6 +20,7 @@ import websockets.asyncio.server as sockets
 from ...errors import ConfigurationError
 from .address import Address, listen
 from .gate import Gate
+from .hand import Hand
 from .layout import dress
 from .messages import LARGEST, Listener
 
@@ -37,11 +38,13 @@ class Served:
         server: The server.
         gate: Who may come in.
         listener: What they may say.
+        hand: Hears the stick.
     """
 
     server: viser.ViserServer
     gate: Gate
     listener: Listener
+    hand: Hand
 
 
 def open_server(host: str, port: int) -> Served:
@@ -55,8 +58,8 @@ def open_server(host: str, port: int) -> Served:
         ConfigurationError: If nothing can be served there.
     """
     address = listen(host, port)
-    gate, listener = Gate(address), Listener()
-    with STARTING, _behind(address, gate, listener) as started:
+    gate, listener, hand = Gate(address), Listener(), Hand()
+    with STARTING, _behind(address, gate, listener, hand) as started:
         server = viser.ViserServer(
             host=host, port=address.port, label="stepaside", verbose=False
         )
@@ -67,14 +70,14 @@ def open_server(host: str, port: int) -> Served:
             f"viser must be one that starts a server of websockets; "
             f"{viser.__version__} does not, and would be open to all"
         )
-    listener.attend(server.gui)
+    listener.attend(server.gui, server.scene)
     dress(server.gui, "light")
-    return Served(server, gate, listener)
+    return Served(server, gate, listener, hand)
 
 
 @contextmanager
 def _behind(
-    address: Address, gate: Gate, listener: Listener
+    address: Address, gate: Gate, listener: Listener, hand: Hand
 ) -> Iterator[list[bool]]:
     """Let servers that start meanwhile start behind a door."""
     begin, started = sockets.serve, []
@@ -93,7 +96,7 @@ def _behind(
         started.append(True)
         answer = options.pop("process_request")
         options |= {
-            "process_request": gate.guarded(answer),
+            "process_request": gate.guarded(hand.answering(answer)),
             "create_connection": Heard,
             "logger": QUIET,
             "max_size": LARGEST,

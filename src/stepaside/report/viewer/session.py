@@ -71,6 +71,7 @@ class Session:
         duel: The duel.
         running: Whether time passes.
         speed: Simulated time per time that passes; inf for all it can.
+        slow: Share of that speed that is kept for what is worth a look.
         outcome: How the duel ended, if it did.
         error: What went wrong in the loop, if anything did.
         trail: What the page draws of the time that has passed.
@@ -88,6 +89,7 @@ class Session:
         self.lock = threading.RLock()
         self.running = False
         self.speed = 1.0
+        self.slow = 1.0
         self.factor = 0.0
         self.error: str | None = None
         self._requests: deque[Callable[[], None]] = deque()
@@ -243,7 +245,7 @@ class Session:
                 if now - measured > 0.5:
                     self.factor = simulated / (now - measured)
                     measured, simulated = now, 0.0
-                due += tick / self.speed
+                due += tick / (self.speed * self.slow)
                 if due < now - BEHIND:
                     due = now
                 elif due > now + 0.002:

@@ -1,0 +1,72 @@
+"""A few pictures of a film side by side, each over its view from above."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from ..games.folder import load_run
+from .duel_figure import draw_top
+from .film import Shot, instants_of, pictures
+from .sizes import sheet
+from .style import new_figure, save
+
+FRAMES = 4
+
+
+def spread(shot: Shot, last: float) -> Shot:
+    """The same shot with a few pictures, evenly from begin to end.
+
+    Args:
+        shot: How a film would be taken.
+        last: End of the run, in [s].
+    """
+    span = min(last, shot.begin + shot.duration) - shot.begin
+    rate = (FRAMES - 1) / span if span > 0.0 else 1.0
+    return shot._replace(rate=rate, speed=1.0, slow=False, words=False)
+
+
+def write_strip(
+    folder: Path,
+    file: Path,
+    shot: Shot,
+    report: Callable[[int, int], None] | None = None,
+) -> int:
+    """Write the strip of a run.
+
+    Args:
+        folder: Run folder.
+        file: Figure, of a format that its suffix tells.
+        shot: How a film would be taken, from its begin to its end.
+        report: Called with the pictures that are done, and all of them.
+
+    Returns:
+        Number of pictures.
+
+    Raises:
+        ConfigurationError: If the machine cannot draw, or there is nothing
+            to draw.
+        OutputError: If it cannot be written.
+    """
+    run = load_run(folder)
+    shot = spread(shot, float(run.times[-1]))
+    times = instants_of(run, shot)
+    drawn = []
+    for picture in pictures(folder, shot):
+        drawn.append(picture)
+        if report is not None:
+            report(len(drawn), len(times))
+    lines = 2 if sheet().narrow else 1
+    columns = -(-len(drawn) // lines)
+    figure = new_figure(2.75 * columns, 4.6 * lines)
+    grid = figure.subplots(2 * lines, columns, squeeze=False)
+    for number, (picture, time) in enumerate(zip(drawn, times, strict=True)):
+        line, column = divmod(number, columns)
+        above, below = grid[2 * line, column], grid[2 * line + 1, column]
+        above.imshow(picture)
+        above.set(xticks=[], yticks=[], title=f"{time:.1f} s")
+        above.grid(visible=False)
+        draw_top(below, run, run.index_at(time))
+        below.set_xlabel("x [m]")
+        if column == 0:
+            below.set_ylabel("y [m]")
+    save(figure, file)
+    return len(drawn)

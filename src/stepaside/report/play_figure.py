@@ -1,0 +1,105 @@
+"""Figure of a player at a robot: its way, what it saw, what it did."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..games.play_run import PlayRun
+from .duel_figure import draw_paths
+from .inert import for_figure
+from .style import MEAN, SWAY, THEORY, colours_of, new_figure, save
+
+STEPS = 6.0  # of the balance that is shown
+
+
+def draw_play(run: PlayRun, path: Path) -> None:
+    """Write the figure of a play.
+
+    Args:
+        run: The play.
+        path: File, of a format that its suffix tells.
+    """
+    figure = new_figure(11.0, 6.4)
+    left, right = figure.subfigures(1, 2, width_ratios=[1.0, 1.15])
+    draw_paths(left.add_subplot(), run)
+    upper, middle, lower = right.subplots(3, 1)
+    _draw_distance(upper, run)
+    _draw_bearing(middle, run)
+    if run.player.command is not None:
+        _draw_command(lower, run)
+    else:
+        _draw_balance(lower, run)
+    figure.suptitle(f"{run.title}: {for_figure(run.message)}")
+    save(figure, path)
+
+
+def _draw_distance(axes: Any, run: PlayRun) -> None:
+    """How far off it saw the other, and the area that it keeps free."""
+    sight = run.player.sight
+    if sight is not None:
+        axes.plot(sight[:, 0], sight[:, 2], color=MEAN, lw=1.2)
+    if run.safety is not None:
+        axes.axhline(run.safety.radius, color=THEORY, ls=":", lw=1.0)
+    _mark_changes(axes, run)
+    axes.set_ylabel("distance [m]")
+    axes.set_title("the other as it was seen; lines: changes of state")
+
+
+def _draw_bearing(axes: Any, run: PlayRun) -> None:
+    sight = run.player.sight
+    if sight is not None:
+        axes.plot(sight[:, 0], np.degrees(sight[:, 1]), color=MEAN, lw=1.2)
+    _mark_changes(axes, run)
+    axes.set_ylabel("bearing [deg]")
+
+
+def _draw_command(axes: Any, run: PlayRun) -> None:
+    """What was wanted, and what was asked for."""
+    command = run.player.command
+    assert command is not None
+    colour = colours_of(run.players)[run.settings.role]
+    turns = axes.twinx()
+    for part, name, look in ((0, "wanted", ":"), (2, "asked", "-")):
+        speed, turn = command[:, part], command[:, part + 1]
+        axes.plot(run.times, speed, color=colour, ls=look, label=name)
+        turns.plot(run.times, turn, color=SWAY, ls=look, lw=0.9)
+    axes.set(xlabel="time [s]", ylabel="forward [m/s]")
+    turns.set_ylabel("turn [rad/s], pale")
+    _mark_changes(axes, run)
+    axes.legend(ncols=2, loc="lower right")
+
+
+def _draw_balance(axes: Any, run: PlayRun) -> None:
+    """CoM against ZMP for the last steps of the walk, leftward."""
+    track, times = run.player, run.times
+    landings = track.landings
+    last = times[-1]
+    if landings is not None and len(landings):
+        last = min(last, float(landings[-1, 0]))
+    span = STEPS * run.settings.gait.step_duration
+    show = (times >= last - span) & (times <= last)
+    heading = float(track.torso[show][:, 2].mean())
+    across = np.array([-np.sin(heading), np.cos(heading)])
+    middle = track.com[show, :2].mean(axis=0)
+    lines = (
+        ("ZMP", track.zmp, {"color": "#a0a0a0", "lw": 0.8}),
+        ("ZMP reference", track.zmp_reference, {"color": THEORY, "lw": 1.2}),
+        ("CoM", track.com, {"color": MEAN, "lw": 1.8}),
+        ("CoM reference", track.com_reference, {"color": "#e0a400", "lw": 1}),
+    )
+    for name, points, look in lines:
+        assert points is not None
+        aside = 1e3 * (points[show, :2] - middle) @ across
+        axes.plot(times[show], aside, label=name, **look)
+    axes.set(xlabel="time [s]", ylabel="leftward [mm]")
+    axes.margins(x=0.0)
+    axes.set_title("last steps, as measured and believed", pad=18)
+    axes.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 0.97))
+
+
+def _mark_changes(axes: Any, run: PlayRun) -> None:
+    """A line where the robot began to do something else."""
+    for change in run.summary.changes[:50]:
+        axes.axvline(change.time_s, color="#c0c0c0", lw=0.6)
+    axes.set_xlim(0.0, max(0.02, float(run.times[-1])))

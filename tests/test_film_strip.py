@@ -1,0 +1,67 @@
+"""A strip of a film: evenly over its time, each picture over its top view."""
+
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from invented_run import run_of
+from stepaside.games.run import Run
+from stepaside.games.settings import PLAYERS
+from stepaside.games.track import Track
+from stepaside.report import film_strip
+from stepaside.report.film import Shot, instants_of
+from stepaside.report.film_strip import FRAMES, spread, write_strip
+
+TIMES = np.linspace(0.0, 30.0, 301)
+
+
+@cache
+def run() -> Run:
+    """Two who walk apart."""
+    tracks = {
+        name: Track(
+            com=np.column_stack([way, 0.1 * TIMES, 0.27 + 0.0 * TIMES]),
+            torso=np.column_stack([way, 0.1 * TIMES, 0.0 * TIMES]),
+        )
+        for name, way in zip(PLAYERS, (-TIMES, TIMES), strict=True)
+    }
+    return run_of(TIMES, tracks)
+
+
+@pytest.mark.parametrize(
+    ("begin", "duration", "end"), [(0.0, 100.0, 30.0), (4.0, 12.0, 16.0)]
+)
+def test_pictures_are_evenly_spread_from_begin_to_end(
+    begin: float, duration: float, end: float
+) -> None:
+    asked = Shot(begin=begin, duration=duration, speed=3.0, slow=True)
+    times = instants_of(run(), spread(asked, 30.0))
+    np.testing.assert_allclose(times, np.linspace(begin, end, FRAMES))
+
+
+def test_a_strip_has_each_picture_over_its_view_from_above(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn: list[float] = []
+
+    def shades(folder: Path, shot: Shot) -> Iterator[Any]:
+        for number in range(FRAMES):
+            yield np.full((48, 64, 3), 40 * number, dtype=np.uint8)
+
+    def top(axes: Any, run: Run, index: int) -> None:
+        drawn.append(float(run.times[index]))
+
+    monkeypatch.setattr(film_strip, "load_run", lambda folder: run())
+    monkeypatch.setattr(film_strip, "pictures", shades)
+    monkeypatch.setattr(film_strip, "draw_top", top)
+    file, told = tmp_path / "strip.png", list[tuple[int, int]]()
+    count = write_strip(
+        tmp_path, file, Shot(), lambda done, every: told.append((done, every))
+    )
+    assert count == FRAMES and file.stat().st_size > 0
+    np.testing.assert_allclose(drawn, [0.0, 10.0, 20.0, 30.0])
+    assert told == [(done, FRAMES) for done in range(1, FRAMES + 1)]

@@ -1,0 +1,255 @@
+"""Test that what a player kept replays: where it was, and whom it saw."""
+
+import json
+from dataclasses import replace
+from math import atan2, hypot
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from stepaside.cli import main
+from stepaside.drivers.log import PlayLog
+from stepaside.drivers.lola.safety import State
+from stepaside.drivers.playing import Tick
+from stepaside.drivers.velocity.body import Velocity
+from stepaside.drivers.velocity.playing import Driving, VelocityTick
+from stepaside.errors import ConfigurationError
+from stepaside.games.configuration import dump_configuration
+from stepaside.games.duel import Duel
+from stepaside.games.folder import load_run
+from stepaside.games.outcome import Outcome
+from stepaside.games.play_run import PlayRun
+from stepaside.games.play_settings import PlaySettings
+from stepaside.games.played import seal_play
+from stepaside.games.played_rows import one_clock
+from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.walker import Walker
+from stepaside.poses import Pose, wrap_angle
+from stepaside.report.run_folder import draw_run
+from stepaside.report.stage import Stage
+from stepaside.robots.description import load_robot
+from stepaside.robots.stored import load_tree
+from stepaside.sensing.measurement import Sighting
+from stepaside.world.body_settings import BODIES
+
+EVADER = PlaySettings()
+START = StartSettings(distance=0.7, pursuer_offset=0.1, evader_offset=0.2)
+
+
+def log_at(folder: Path, settings: PlaySettings) -> PlayLog:
+    """A log beside its configuration."""
+    beside = {"configuration.toml": dump_configuration(settings)}
+    return PlayLog(folder, {"role": settings.role}, beside)
+
+
+def look_at(log: PlayLog, walker: Walker) -> None:
+    """Keep what a walker measures and wants, tick by tick."""
+    read, write = walker.robot.read, walker.robot.write
+    measured: list[Any] = []
+
+    def note() -> Any:
+        measured[:] = [read()]
+        return measured[0]
+
+    def send(targets: Any) -> None:
+        write(targets)
+        scheme = walker.scheme
+        log.note(
+            Tick(
+                State.WALKING,
+                "chest button",
+                scheme.phase,
+                measured[0],
+                targets,
+                scheme.sighting,
+                0,
+                1,
+                scheme.state,
+                scheme.begun,
+            )
+        )
+
+    robot: Any = walker.robot
+    robot.read, robot.write = note, send
+
+
+class Walked:
+    """An evader that walked a while, its truth and its record."""
+
+    def __init__(self, folder: Path) -> None:
+        settings = DuelSettings(
+            start=START, body=BODIES["delayed"], duration=4.0
+        )
+        duel = Duel(settings, recorded=False)
+        self.folder, log = folder, log_at(folder, EVADER)
+        evader = duel.players[1]
+        assert isinstance(evader, Walker)
+        look_at(log, evader)
+        self.true: list[Any] = []
+        self.others: list[tuple[float, float]] = []
+        self.frame = evader.frame
+        while duel.world.time < 4.0:
+            self.true.append(evader.snapshot())
+            self.others.append(duel.players[0].truth.place)
+            assert duel.tick() is None
+        duel.close()
+        log.close()
+        self.run = seal_play(folder, EVADER, Outcome.COMPLETED, "long enough")
+
+
+@pytest.fixture(scope="module")
+def walked(tmp_path_factory: pytest.TempPathFactory) -> Walked:
+    return Walked(tmp_path_factory.mktemp("plays") / "play")
+
+
+def test_a_player_is_where_it_was_to_what_its_feet_slip(
+    walked: Walked,
+) -> None:
+    run, frame = walked.run, walked.frame.inverse()
+    true = walked.true[:: round(float(run.times[1]) / 0.012)]
+    assert len(run.times) in (len(true), len(true) + 1)
+    assert run.summary.steps and run.summary.steps >= 4
+    for own, snapshot in zip(run.player.torso, true, strict=False):
+        wanted = frame.compose(snapshot.torso)
+        assert hypot(own[0] - wanted.x, own[1] - wanted.y) < 0.01
+        assert abs(wrap_angle(own[2] - wanted.theta)) < 0.02
+    qpos = run.player.qpos
+    assert qpos is not None
+    truly = np.array([s.posture for s in true])[: len(qpos)]
+    off = np.abs(qpos[: len(truly)] - truly)
+    own = load_tree(load_robot("nao"))
+    coupled = [own.joints.index(name) for name in own.followers]
+    assert off[:, 7:][:, coupled].max() < 1e-3  # a little play in physics
+    assert np.delete(off[:, 7:], coupled, axis=1).max() < 1e-6
+    assert off[:, 2].max() < 0.01
+
+
+def test_the_other_is_where_it_was_seen(walked: Walked) -> None:
+    run, frame = walked.run, walked.frame.inverse()
+    other = run.tracks["pursuer"].torso
+    for row in range(0, len(other), 10):
+        tick = min(round(run.times[row] / 0.012), len(walked.others) - 1)
+        x, y = walked.others[tick]
+        wanted = frame.compose(Pose(x, y, 0.0))
+        off = hypot(other[row, 0] - wanted.x, other[row, 1] - wanted.y)
+        assert off < 0.03  # at 0.1 m/s a sighting is some ticks old
+    closest = min(
+        hypot(x - s.place.x, y - s.place.y)
+        for (x, y), s in zip(walked.others, walked.true, strict=True)
+    )
+    assert run.summary.closest_m == pytest.approx(closest, abs=0.01)
+
+
+def test_it_comes_back_from_its_folder_and_is_sealed(walked: Walked) -> None:
+    loaded = load_run(walked.folder, PlayRun)
+    assert loaded.summary == walked.run.summary
+    assert loaded.settings == EVADER
+    for name, track in walked.run.tracks.items():
+        for key, array in track.arrays("").items():
+            got = loaded.tracks[name].arrays("")[key]
+            np.testing.assert_array_equal(got, array)
+    assert loaded.words(3) == "walking (chest button)"
+    file = walked.folder / "summary.json"
+    told = file.read_text()
+    file.write_text(told.replace("long enough", "for ever"))
+    try:
+        with pytest.raises(ConfigurationError, match="not as it was written"):
+            load_run(walked.folder)
+    finally:
+        file.write_text(told)
+
+
+def test_a_record_that_was_cut_off_replays_as_far_as_it_goes(
+    walked: Walked, tmp_path: Path
+) -> None:
+    cut = tmp_path / "cut"
+    cut.mkdir()
+    for name in ("columns.json", "play.json", "configuration.toml"):
+        (cut / name).write_bytes((walked.folder / name).read_bytes())
+    rows = (walked.folder / "rows.f64").read_bytes()
+    (cut / "rows.f64").write_bytes(rows[: len(rows) // 2 + 5])
+    run = load_run(cut)
+    assert run.outcome is Outcome.FAILED
+    assert run.times[-1] == pytest.approx(2.0, abs=0.05)
+    (cut / "columns.json").write_text('{"times_s": 1}')
+    with pytest.raises(ConfigurationError, match="must hold the columns"):
+        load_run(cut)
+
+
+def test_it_is_drawn_and_told_of(walked: Walked, tmp_path: Path) -> None:
+    stage = Stage(walked.run)
+    stage.put(50)
+    assert stage.model.body("pursuer/trunk").mocapid[0] >= 0
+    draw_run(walked.run, tmp_path / "play.png")
+    again = tmp_path / "again.png"
+    words = ["compare", str(walked.folder), "--output", str(again), "--json"]
+    said = CliRunner().invoke(main, words)
+    assert said.exit_code == 0, said.output
+    (told,) = json.loads(said.output)["runs"].values()
+    assert told["role"] == "evader" and again.exists()
+    page = tmp_path / "play.html"
+    words = ["replay", str(walked.folder), "--html", str(page)]
+    said = CliRunner().invoke(main, words)
+    assert said.exit_code == 0, said.output
+    assert page.stat().st_size > 1e5
+
+
+def circling(log: PlayLog, offset: float) -> None:
+    """A unicycle on a circle of 1 m, round somebody who stands in it."""
+    for tick in range(200):
+        angle = 0.01 * tick
+        pose = Pose(np.cos(angle), np.sin(angle), angle + 0.5 * np.pi)
+        time = offset + 0.05 * tick
+        bearing = atan2(-pose.y, -pose.x) - pose.theta
+        seen = Sighting(time, float(bearing), 1.0) if tick > 20 else None
+        log.note(
+            VelocityTick(
+                Driving.WALKING,
+                "sees the other",
+                time,
+                pose,
+                seen,
+                Velocity(0.3, 0.2),
+                Velocity(0.2, 0.2),
+            )
+        )
+    log.close()
+
+
+def test_a_robot_that_walks_by_itself_is_a_template(tmp_path: Path) -> None:
+    settings = replace(EVADER, role="pursuer", language="ros2")
+    circling(log_at(tmp_path / "p", settings), 1.7e9)
+    run = seal_play(tmp_path / "p", settings, Outcome.COMPLETED, "done")
+    assert run.robots == () and run.persons == ()
+    assert run.summary.radius_m == pytest.approx(1.0, abs=1e-6)
+    assert run.summary.seen_share == pytest.approx(179 / 199, abs=0.01)
+    np.testing.assert_allclose(run.tracks["evader"].com, 0.0, atol=1e-6)
+    assert run.player.command is not None
+    np.testing.assert_array_equal(run.player.command[5], [0.3, 0.2, 0.2, 0.2])
+    draw_run(run, tmp_path / "play.png")
+    Stage(run).put(10)
+    assert load_run(tmp_path / "p").players == ("pursuer", "evader")
+
+
+def test_who_saw_nobody_is_alone(tmp_path: Path) -> None:
+    log = log_at(tmp_path / "p", EVADER)
+    at = Pose(0.0, 0.0, 0.0)
+    rest = Velocity(0.0, 0.0)
+    why = (Driving.WAITING, "sees nobody")
+    for tick in range(5):
+        log.note(VelocityTick(*why, 0.05 * tick, at, None, rest, rest))
+    log.close()
+    run = seal_play(tmp_path / "p", EVADER, Outcome.INTERRUPTED, "enough")
+    assert run.players == ("evader",) and run.pair is None
+    assert run.summary.closest_m is None and run.summary.walking_s == 0.0
+    draw_run(run, tmp_path / "play.png")
+    Stage(run).put(0)
+
+
+def test_one_clock_goes_on_where_a_robots_clock_begins_anew() -> None:
+    times = np.array([-0.024, -0.012, 0.0, 0.012, 900.0, 900.012, 0.0, 0.0])
+    wanted = 0.012 * np.array([0, 1, 2, 3, 4, 5, 6, 6])
+    np.testing.assert_allclose(one_clock(times), wanted, atol=1e-9)
