@@ -8,7 +8,7 @@ import click
 
 from ..errors import ConfigurationError, OutputError
 from ..outputs import check_folder
-from .declared.arena import BOXES, DISCS, POLYGONS
+from .declared.arena import BOXES, DISCS, POLYGONS, ArenaType
 from .declared.common import (
     FIGURE,
     FOLDER,
@@ -16,10 +16,11 @@ from .declared.common import (
     WORKERS,
     json_option,
 )
-from .declared.kinds import NameType, OutputFile, SizeType
+from .declared.kinds import NameType, OutputFile
 from .declared.option import Declaration
 from .declared.rooms import MAP
 from .duels import SEEDS
+from .effort import DECISIONS, SIMULATED, tell_effort
 from .options import ANGLE, print_json
 from .outputs import attempt, writes_files
 from .stopping import kept_in, leave_stopped
@@ -37,30 +38,6 @@ def _levels() -> tuple[str, ...]:
     from ..studies.tournament_settings import LEVELS
 
     return LEVELS
-
-
-class RoomType(click.ParamType[Any]):
-    """A size like 3x3, ``open``, or a file of a room."""
-
-    name = "room"
-
-    def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
-        """How it is written."""
-        return "[WIDTHxDEPTH|open|FILE]"
-
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> Any:
-        """Take a file for its path, and anything else for a size."""
-        file = Path(str(value))
-        if file.suffix.lower() in (".toml", ".json"):
-            if not file.is_file():
-                self.fail(f"must be a file that exists, got {value!r:.80}")
-            return file
-        return SizeType().convert(value, param, ctx)
 
 
 @click.command("tournament")
@@ -89,7 +66,7 @@ class RoomType(click.ParamType[Any]):
 )
 @click.option(
     "--room",
-    type=RoomType(),
+    type=ArenaType(),
     default="3x3",
     show_default=True,
     help="Size of the room [m], open for a floor without walls, or a file.",
@@ -176,13 +153,19 @@ def tournament(
     else:
         width, depth = room or (None, None)
         arena = RoomRecipe(width, depth, discs, boxes, polygons)
-    settings = TournamentSettings(
-        level, arena, StepGame(duration=duration), alpha, map__source
-    )
+    game = StepGame(duration=duration)
+    settings = TournamentSettings(level, arena, game, alpha, map__source)
     settings.arena(seeds[0])  # whether there is such a room
     if output is not None:
         check_folder(output, new=False)
     pairings = [(e, p) for p in pursuers for e in evaders]
+    number = len(pairings) * len(seeds)
+    steps = duration * game.speed / game.stride / DECISIONS
+    tell_effort(
+        f"{number} games of {duration:g} s, less those that are recorded",
+        number * (duration / SIMULATED if level == "physics" else steps),
+        workers,
+    )
     records, stopped = _play(settings, pairings, seeds, output, workers)
     result = _answer(settings, seeds, records)
     failed: OutputError | None = None
@@ -211,7 +194,7 @@ def tournament(
     if failed is not None:
         raise failed
     if stopped:
-        done = f"{len(records)} of {len(seeds) * len(pairings)} games"
+        done = f"{len(records)} of {number} games"
         leave_stopped(kept_in(done, output and output / RECORDS))
 
 

@@ -15,7 +15,7 @@ from ..world.truth import Truth
 from .player import Snapshot, snapshot_of
 
 if TYPE_CHECKING:
-    from ..perception.perception import FrameReport
+    from ..perception.frame_report import FrameReport
 
 MOVED = 0.05  # of a target from the stance before a robot moves, in [rad]
 

@@ -133,7 +133,8 @@ def draw_paths(axes: Any, run: Run) -> None:
             sole = run.settings.robot_of(name).gait.sole
             draw_soles(axes, track.landings, sole, colour, alpha=0.25, lw=0.4)
         com = track.com
-        axes.plot(*com[:, :2].T, color=colour, lw=1.2, label=f"{name}, CoM")
+        label = f"{name}, CoM" if name in run.robots else name
+        axes.plot(*com[:, :2].T, color=colour, lw=1.2, label=label)
         axes.plot(*com[0, :2], "o", color=colour, ms=5)
         draw_heading(axes, track.torso[-1], colour, size)
         draw_pushes(axes, track.pushes)
