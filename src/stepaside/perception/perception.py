@@ -116,6 +116,11 @@ class Perception:
         )
 
     @property
+    def head_joints(self) -> tuple[int, int]:
+        """Numbers of the joints that turn the head: yaw and pitch."""
+        return self._kinematics.yaw, self._kinematics.pitch
+
+    @property
     def gaze(self) -> tuple[float, float]:
         """Yaw and pitch to which the head is to turn, in [rad]."""
         return self._gaze.yaw, self._gaze.pitch
