@@ -24,8 +24,13 @@ from .effort import DECISIONS, SIMULATED, tell_effort
 from .options import ANGLE, print_json
 from .outputs import attempt, writes_files
 from .stopping import kept_in, leave_stopped
+from .terminal import echo
 from .tournament_table import print_rows
 
+SOLVES = (
+    "stepaside: solves the table of the bound first, once on this machine; "
+    "about half a minute"
+)
 RECORDS, SUMMARY = "games.jsonl", "summary.json"
 PATHS = Declaration(
     "--paths",
@@ -210,10 +215,13 @@ def _play(
 
     from tqdm import tqdm
 
+    from ..strategies.tables import has_pursuit_bound
     from ..studies.records import RecordFile
-    from ..studies.tournament import play_tournament
+    from ..studies.tournament import CELLS, play_tournament
     from ..workers import worker_pool
 
+    if not has_pursuit_bound(CELLS):
+        echo(SOLVES, err=True)
     file = None if output is None else RecordFile(output / RECORDS)
     total = len(seeds) * len(pairings)
     # A pool takes longer to begin than a few games.
