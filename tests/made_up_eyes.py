@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from stepaside.perception import perception as module
-from stepaside.perception.perception import FrameReport, Perception
+from stepaside.perception.frame_report import FrameReport
+from stepaside.perception.perception import Perception
 from stepaside.poses import Pose, wrap_angle
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head

@@ -121,8 +121,14 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
         page.get_by_text("the evader survived").wait_for()
 
         tab = page.get_by_role("tab", name="Settings").first
-        tab.click(force=True)
         field = page.get_by_label("Distance [m]").first
+
+        def opens() -> bool:
+            """A click is lost while the page draws its panel anew."""
+            tab.click(force=True)
+            return bool(field.is_visible())
+
+        until(page, opens)
         field.fill("0.1")
         field.press("Enter")
         until(page, lambda: live._duel._distance.value == 0.1)

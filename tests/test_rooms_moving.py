@@ -14,6 +14,7 @@ from stepaside.games.duel import Duel
 from stepaside.games.match import play
 from stepaside.games.settings import DuelSettings
 from stepaside.poses import Pose
+from stepaside.report.room_figure import room_patches
 from stepaside.report.stage import Stage
 from stepaside.robots.kinematics import BodyReference
 from stepaside.rooms import (
@@ -166,6 +167,16 @@ def test_a_run_shows_it_where_it_was() -> None:
         wanted = BOX.place_at(float(run.times[index]))
         assert stage.data.xpos[body, :2] == pytest.approx(wanted)
     assert stage.model.body("wall 4").id > 0
+
+
+def test_a_figure_shows_it_where_it_is_and_where_it_turns() -> None:
+    for time in (0.0, 3.0, HALF):
+        patches = room_patches(ROOM, time)
+        shown = (BOX.at(time), *BOX.ends)
+        for patch, polygon in zip(patches[-3:], shown, strict=True):
+            corners = np.asarray(patch.get_path().vertices)[:4]
+            assert corners == pytest.approx(polygon.points)
+    assert len(patches) == len(ROOM.solids) + 3
 
 
 def test_only_humanoids_play_where_boxes_move() -> None:

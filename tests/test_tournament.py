@@ -160,7 +160,7 @@ def test_the_command_plays_draws_and_goes_on(tmp_path: Path) -> None:
     )
     one = call(*words, "--seeds", "0:2", "--json")
     assert one.exit_code == 0, one.output
-    rows = json.loads(one.output)["rows"]
+    rows = json.loads(one.stdout)["rows"]
     assert [row["evader"] for row in rows] == ["aside", "look-ahead"]
     assert all(row["games"] == 2 for row in rows)
     kept = (folder / "games.jsonl").read_text("utf-8").splitlines()
@@ -174,6 +174,18 @@ def test_the_command_plays_draws_and_goes_on(tmp_path: Path) -> None:
     assert summary["rows"][0]["games"] == 3
 
 
+def test_it_says_before_it_solves_a_table(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    tables.pursuit_bound.cache_clear()
+    words = ("--evader", "aside", "--duration", "1", "--seeds", "1", "--json")
+    first, second = call(*words), call(*words)
+    assert "solves the table of the bound first" in first.stderr
+    assert "solves" not in second.stderr
+    assert json.loads(first.stdout)["rows"][0]["games"] == 1
+
+
 def test_a_room_from_a_file_is_played(tmp_path: Path) -> None:
     file = tmp_path / "room.toml"
     file.write_text(
@@ -182,7 +194,7 @@ def test_a_room_from_a_file_is_played(tmp_path: Path) -> None:
     )
     words = ("--room", str(file), "--evader", "aside", "--seeds", "5")
     answer = call(*words, "--duration", "8", "--json")
-    room = json.loads(answer.output)["settings"]["room"]
+    room = json.loads(answer.stdout)["settings"]["room"]
     assert room["width"] == 4.0 and room["evader"]["theta"] == 3.0
 
 

@@ -8,7 +8,7 @@ import click
 
 from ..errors import ConfigurationError, OutputError
 from ..outputs import check_folder
-from .declared.arena import BOXES, DISCS, POLYGONS
+from .declared.arena import BOXES, DISCS, POLYGONS, ArenaType
 from .declared.common import (
     FIGURE,
     FOLDER,
@@ -16,15 +16,21 @@ from .declared.common import (
     WORKERS,
     json_option,
 )
-from .declared.kinds import NameType, OutputFile, SizeType
+from .declared.kinds import NameType, OutputFile
 from .declared.option import Declaration
 from .declared.rooms import MAP
 from .duels import SEEDS
+from .effort import DECISIONS, SIMULATED, tell_effort
 from .options import ANGLE, print_json
 from .outputs import attempt, writes_files
 from .stopping import kept_in, leave_stopped
+from .terminal import echo
 from .tournament_table import print_rows
 
+SOLVES = (
+    "stepaside: solves the table of the bound first, once on this machine; "
+    "about half a minute"
+)
 RECORDS, SUMMARY = "games.jsonl", "summary.json"
 PATHS = Declaration(
     "--paths",
@@ -37,30 +43,6 @@ def _levels() -> tuple[str, ...]:
     from ..studies.tournament_settings import LEVELS
 
     return LEVELS
-
-
-class RoomType(click.ParamType[Any]):
-    """A size like 3x3, ``open``, or a file of a room."""
-
-    name = "room"
-
-    def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
-        """How it is written."""
-        return "[WIDTHxDEPTH|open|FILE]"
-
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> Any:
-        """Take a file for its path, and anything else for a size."""
-        file = Path(str(value))
-        if file.suffix.lower() in (".toml", ".json"):
-            if not file.is_file():
-                self.fail(f"must be a file that exists, got {value!r:.80}")
-            return file
-        return SizeType().convert(value, param, ctx)
 
 
 @click.command("tournament")
@@ -89,7 +71,7 @@ class RoomType(click.ParamType[Any]):
 )
 @click.option(
     "--room",
-    type=RoomType(),
+    type=ArenaType(),
     default="3x3",
     show_default=True,
     help="Size of the room [m], open for a floor without walls, or a file.",
@@ -176,13 +158,19 @@ def tournament(
     else:
         width, depth = room or (None, None)
         arena = RoomRecipe(width, depth, discs, boxes, polygons)
-    settings = TournamentSettings(
-        level, arena, StepGame(duration=duration), alpha, map__source
-    )
+    game = StepGame(duration=duration)
+    settings = TournamentSettings(level, arena, game, alpha, map__source)
     settings.arena(seeds[0])  # whether there is such a room
     if output is not None:
         check_folder(output, new=False)
     pairings = [(e, p) for p in pursuers for e in evaders]
+    number = len(pairings) * len(seeds)
+    steps = duration * game.speed / game.stride / DECISIONS
+    tell_effort(
+        f"{number} games of {duration:g} s, less those that are recorded",
+        number * (duration / SIMULATED if level == "physics" else steps),
+        workers,
+    )
     records, stopped = _play(settings, pairings, seeds, output, workers)
     result = _answer(settings, seeds, records)
     failed: OutputError | None = None
@@ -211,7 +199,7 @@ def tournament(
     if failed is not None:
         raise failed
     if stopped:
-        done = f"{len(records)} of {len(seeds) * len(pairings)} games"
+        done = f"{len(records)} of {number} games"
         leave_stopped(kept_in(done, output and output / RECORDS))
 
 
@@ -227,10 +215,13 @@ def _play(
 
     from tqdm import tqdm
 
+    from ..strategies.tables import has_pursuit_bound
     from ..studies.records import RecordFile
-    from ..studies.tournament import play_tournament
+    from ..studies.tournament import CELLS, play_tournament
     from ..workers import worker_pool
 
+    if not has_pursuit_bound(CELLS):
+        echo(SOLVES, err=True)
     file = None if output is None else RecordFile(output / RECORDS)
     total = len(seeds) * len(pairings)
     # A pool takes longer to begin than a few games.

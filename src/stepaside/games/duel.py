@@ -12,6 +12,7 @@ from ..robots.description import RobotDescription, load_robot
 from ..robots.machine import prefer_for
 from ..strategies import load_strategy
 from ..world.body_settings import with_cycle
+from ..world.figures import FIGURES
 from ..world.person import Person, add_person
 from ..world.person_motion import Motion
 from ..world.push import pushes_of
@@ -134,7 +135,8 @@ class _Setting:
         person = None
         if PURSUER not in walkers:
             motion = Motion(settings.person, frames[0], frames[1][:2])
-            person = Person(self.world, PURSUER, motion)
+            figure = FIGURES[settings.person.figure]
+            person = Person(self.world, PURSUER, motion, figure)
         # Each must know the other before it stands: truths come first.
         self._watched = {
             name: watch(self.world, name, description, self._robots[name].gait)
@@ -226,7 +228,7 @@ def furnisher_of(
         if plan is not None:
             add_solids(spec, plan)
         if comes:
-            add_person(spec, PURSUER)
+            add_person(spec, PURSUER, FIGURES[settings.person.figure])
 
     return all_of_it
 

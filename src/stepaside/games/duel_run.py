@@ -93,7 +93,7 @@ class DuelRun(Run):
     @property
     def safety(self) -> Area | None:
         """Area that the evader keeps free; None if it always evades."""
-        radius = self.settings.strategy.safety_radius
+        radius = self.settings.strategy.area
         return Area(EVADER, radius) if isfinite(radius) else None
 
     @property

@@ -2,7 +2,6 @@
 
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import atan2, cos, hypot, radians, sin
 
 from ..poses import Array, Pose, wrap_angle
@@ -10,17 +9,14 @@ from ..robots.body_pose import BodyKinematics, BodyPose
 from ..robots.description import RobotDescription
 from ..robots.forward import ForwardKinematics
 from ..robots.head import HeadDescription
-from ..sensing.colour_detector import (
-    Appearance,
-    ColourDetection,
-    ColourDetector,
-)
-from ..sensing.depth_detector import DepthScene, detect_obstacles
+from ..sensing.colour_detector import Appearance, ColourDetector
+from ..sensing.depth_detector import detect_obstacles
 from ..sensing.images import ColourImage, DepthImage, Percept, SonarEcho
 from ..sensing.measurement import Measurement, Sighting
 from ..sensing.track import Observation, Track
 from ..sensing.tracker import Tracker
 from .floor_map import FloorMap
+from .frame_report import FrameReport
 from .gaze import Gaze, Glances
 from .observing import (
     angle_of,
@@ -42,24 +38,6 @@ CHEST = 0.10  # from a sonar to the own axis and into the other, in [m]
 DEAF = 0.25  # echo that may be of the own arms, or of anything nearer, [m]
 EAR = radians(50.0)  # how far aside a sonar hears
 ROOMY = 0.25  # by which what an echo comes from must be nearer, in [m]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class FrameReport:
-    """What one image was found to show.
-
-    Attributes:
-        image: The image.
-        azimuths: Directions in which something was found, from the
-            camera's axis, in [rad], positive leftward.
-        colour: What a colour image shows.
-        depth: What a depth image shows.
-    """
-
-    image: ColourImage | DepthImage
-    azimuths: tuple[float, ...]
-    colour: ColourDetection | None = None
-    depth: DepthScene | None = None
 
 
 class Perception:
@@ -129,10 +107,29 @@ class Perception:
         Returns:
             Where the other is now, as far as is known.
         """
-        now = measurement.time
-        self.body = body = self._kinematics.pose(
-            now, measurement.joint_positions, support, left_supports, tilt
+        joints = measurement.joint_positions
+        return self._see(
+            measurement,
+            self._kinematics.pose(
+                measurement.time, joints, support, left_supports, tilt
+            ),
         )
+
+    @property
+    def head_joints(self) -> tuple[int, int]:
+        """Numbers of the joints that turn the head: yaw and pitch."""
+        return self._kinematics.yaw, self._kinematics.pitch
+
+    @property
+    def gaze(self) -> tuple[float, float]:
+        """Yaw and pitch to which the head is to turn, in [rad]."""
+        return self._gaze.yaw, self._gaze.pitch
+
+    def _see(
+        self, measurement: Measurement, body: BodyPose
+    ) -> Sighting | None:
+        now = measurement.time
+        self.body = body
         self._poses.append(body)
         self.reports.clear()
         for percept in measurement.percepts:

@@ -92,7 +92,7 @@ def draw_top(axes: Any, run: Run, index: int) -> None:
     """
     low, high = _frame(run)
     size = max(0.28, 0.07 * float((high - low).max()))
-    _draw_solids(axes, run)
+    _draw_solids(axes, run, float(run.times[index]))
     for name, colour in colours_of(run.players).items():
         track = run.tracks[name]
         axes.plot(*track.com[: index + 1, :2].T, color=colour, lw=1.0)
@@ -113,15 +113,15 @@ def _frame(run: Run) -> tuple[Array, Array]:
     return low - grown, high + grown
 
 
-def _draw_solids(axes: Any, run: Run) -> None:
-    """What stands in the room, if they play in one."""
-    for patch in () if run.plan is None else room_patches(run.plan):
+def _draw_solids(axes: Any, run: Run, time: float) -> None:
+    """What stands in the room at a time in [s], if they play in one."""
+    for patch in () if run.plan is None else room_patches(run.plan, time):
         axes.add_patch(patch)
 
 
 def draw_paths(axes: Any, run: Run) -> None:
     """CoM paths with every footstep, and the pushes."""
-    _draw_solids(axes, run)
+    _draw_solids(axes, run, float(run.times[-1]))
     every = np.concatenate([track.com[:, :2] for track in run.tracks.values()])
     wide = float(np.ptp(every, axis=0).max())
     # A wedge is as large as its robot, or can be seen where ways are long.
@@ -133,7 +133,8 @@ def draw_paths(axes: Any, run: Run) -> None:
             sole = run.settings.robot_of(name).gait.sole
             draw_soles(axes, track.landings, sole, colour, alpha=0.25, lw=0.4)
         com = track.com
-        axes.plot(*com[:, :2].T, color=colour, lw=1.2, label=f"{name}, CoM")
+        label = f"{name}, CoM" if name in run.robots else name
+        axes.plot(*com[:, :2].T, color=colour, lw=1.2, label=label)
         axes.plot(*com[0, :2], "o", color=colour, ms=5)
         draw_heading(axes, track.torso[-1], colour, size)
         draw_pushes(axes, track.pushes)

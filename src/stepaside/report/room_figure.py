@@ -28,13 +28,20 @@ def solid_patches(solids: Iterable[Obstacle], **look: Any) -> list[Patch]:
     ]
 
 
-def room_patches(room: Room) -> list[Patch]:
-    """All of a room as patches; what moves is outlined where it goes."""
+def room_patches(room: Room, time: float = 0.0) -> list[Patch]:
+    """All of a room as patches; what moves is outlined where it turns.
+
+    Args:
+        room: The room.
+        time: At which what moves is where it is drawn, in [s].
+    """
     return [
         *solid_patches(room.solids),
-        *solid_patches((box.at(0.0) for box in room.moving), facecolor=MOVING),
         *solid_patches(
-            (box.ends[1] for box in room.moving),
+            (box.at(time) for box in room.moving), facecolor=MOVING
+        ),
+        *solid_patches(
+            (end for box in room.moving for end in box.ends),
             facecolor="none",
             edgecolor=MOVING,
             linestyle="--",

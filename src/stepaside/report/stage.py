@@ -5,8 +5,10 @@ import numpy as np
 
 from ..errors import ConfigurationError
 from ..games.run import Run
+from ..games.settings import DuelSettings
 from ..poses import Pose
 from ..robots.description import load_robot
+from ..world.figures import FIGURES
 from ..world.person import add_person, parts_of, pose_figure
 from ..world.solids import add_solids, mover_of
 from ..world.template_body import add_template, pose_template
@@ -34,13 +36,18 @@ class Stage:
             name for name in run.players if name not in {*robots, *persons}
         ]
 
+        settings = run.settings
+        who = "adult"
+        if isinstance(settings, DuelSettings):
+            who = settings.person.figure
+        self._figure = FIGURES[who]
         plan = run.plan
 
         def furnish(spec: mujoco.MjSpec) -> None:
             if plan is not None:
                 add_solids(spec, plan)
             for name in persons:
-                add_person(spec, name)
+                add_person(spec, name, self._figure)
             for name in self._templates:
                 add_template(spec, name)
 
@@ -79,7 +86,7 @@ class Stage:
             frame = Pose(*walked[index].tolist())
             steps = np.diff(walked[: index + 1, :2], axis=0)
             way = float(np.hypot(steps[:, 0], steps[:, 1]).sum())
-            pose_figure(self.data, parts, frame, way)
+            pose_figure(self.data, parts, frame, way, self._figure)
         for name in self._templates:
             stood = Pose(*self._tracks[name].torso[index].tolist())
             pose_template(self.model, self.data, name, stood)
