@@ -16,12 +16,9 @@ from stepaside.rooms import RoomRecipe
 from stepaside.studies.entrants import EVADERS
 from stepaside.studies.records import RecordFile
 from stepaside.studies.results import header, write_result
-from stepaside.studies.tournament import (
-    ROOMS,
-    TournamentSettings,
-    play_tournament,
-)
+from stepaside.studies.tournament import play_tournament
 from stepaside.studies.tournament_rows import tournament_rows
+from stepaside.studies.tournament_settings import ROOMS, TournamentSettings
 from stepaside.workers import worker_pool
 
 WORLDS = {

@@ -9,20 +9,15 @@ import json
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
 from asking import ask, machine, seeds_of
 from gathering import Row, finished, gather, spread
 
 from stepaside.control.clearance.settings import MAPS, MapSettings
-from stepaside.control.clearance.solids import Solids
 from stepaside.games import DuelSettings, run_duel
-from stepaside.games.duel_run import DuelRun
-from stepaside.poses import Pose
-from stepaside.robots.description import load_robot
 from stepaside.rooms import RoomRecipe, make_room
+from stepaside.studies.physics_game import clearance, outcome_of
 from stepaside.studies.results import header, write_result
 from stepaside.world.camera_settings import RoomSettings
-from stepaside.world.outline import measure_outline
 
 RECIPE = RoomRecipe(discs=3)
 PLAYERS = ("pursuer", "evader")
@@ -50,39 +45,19 @@ def play(played: Played) -> Row:
     )
     run = run_duel(settings)
     summary = run.summary.to_json()
-    touched = summary.get("touched", [])
     return {
         "strategy": played.strategy,
         "map": played.map,
         "seed": played.seed,
         "outcome": run.outcome.value,
-        "touched": touched,
-        "caught": set(touched) == set(PLAYERS),
+        "touched": summary.get("touched", []),
+        "caught": outcome_of(run) == "caught",
         "survived_s": run.duration,
         "closest_m": summary["min_distance_m"],
         "plan_time_median_us": summary["plan_time_us"]["median"],
         "plan_time_p99_us": summary["plan_time_us"]["p99"],
         **{f"{name}_clearance_m": clearance(run, name) for name in PLAYERS},
     }
-
-
-def clearance(run: DuelRun, name: str) -> float:
-    """Least distance of a trunk from all that rests, by the record, [m]."""
-    settings, track = run.settings, run.tracks[name]
-    assert settings.room.plan is not None
-    solids = Solids(settings.room.plan.solids)
-    outline = measure_outline(load_robot(settings.robot), settings.gait)
-    corners = np.array(
-        [
-            Pose(com[0], com[1], heading).transform_points(outline.trunk)
-            for com, heading in zip(
-                track.com[:, :2].tolist(),
-                track.torso[:, 2].tolist(),
-                strict=True,
-            )
-        ]
-    )
-    return float(solids.clearances(corners).min())
 
 
 def summary_of(rows: list[Row]) -> Row:

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from stepaside.perception import perception as module
-from stepaside.perception.perception import FrameReport, Perception
+from stepaside.perception.frame_report import FrameReport
+from stepaside.perception.perception import Perception
 from stepaside.poses import Pose, wrap_angle
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
@@ -55,7 +56,7 @@ class FakeDetector:
 class FakeGaze:
     """Notes what it is told."""
 
-    yaw, pitch = 0.4, -0.2
+    yaw, pitch, turned = 0.4, -0.2, 2
 
     def __init__(self) -> None:
         self.followed: tuple[float, float] | None = None

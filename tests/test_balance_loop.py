@@ -48,6 +48,7 @@ def stabiliser(**changes: Any) -> Any:
         "state": None,
         "adapted": 5,
         "ready": False,
+        "zmp_shift": (0.0, 0.0),
         "zmp_feedback": SimpleNamespace(solved="solved"),
         "estimator": SimpleNamespace(tilt=(0.1, 0.2), torso_heading=0.3),
         "joints": Noting(),
@@ -90,12 +91,37 @@ def test_the_open_loop_knows_nothing_and_holds_nobody_back() -> None:
     assert loop.torso_heading is None
 
 
+def test_feedback_asks_beforehand_for_what_the_servos_give_way() -> None:
+    """By the share that is set, for the body asked and the ZMP as shifted."""
+    gains = SimpleNamespace(load_share=0.5)
+    fake = stabiliser(
+        zmp_shift=(0.01, -0.02),
+        settings=SimpleNamespace(stabiliser=gains),
+        joints=SimpleNamespace(update=lambda angles, targets: 2.0 * targets),
+    )
+    asked: list[Any] = []
+
+    def added(*told: Any) -> np.ndarray:
+        asked.append(told)
+        return np.array([0.2, 0.4, 0.6])
+
+    loads: Any = SimpleNamespace(added=added)
+    loop = ClosedLoop(fake, loads)
+    measurement = measure(1.0)._replace(joint_positions=np.zeros(3))
+    sample: Any = SimpleNamespace(zmp=(0.3, 0.1))
+    loop.update(measurement, sample, lambda now: "step")  # type: ignore[arg-type,return-value]
+    found = loop.correct(measurement, np.ones(3))
+    np.testing.assert_allclose(found, [2.1, 2.2, 2.3])
+    ((body, zmp),) = asked
+    assert body == "answer to update" and zmp == pytest.approx((0.31, 0.08))
+
+
 def test_the_closed_loop_asks_its_stabiliser_for_everything() -> None:
     fake = stabiliser()
     loop: Any = ClosedLoop(fake)
     measurement = measure(1.25)._replace(joint_positions=np.full(3, 9.0))
     targets = np.arange(3.0)
-    sample: Any = object()
+    sample: Any = SimpleNamespace(zmp=(0.0, 0.0))
     asked_for: list[float] = []
 
     def step_at(now: float) -> Any:

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from stepaside.control.balance.settings import STABILISED, StabiliserSettings
+from stepaside.games.robot_settings import GameOfRobot
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.planning import GaitSettings
 from stepaside.studies import robustness, survival
@@ -100,6 +101,8 @@ def heavier(monkeypatch: pytest.MonkeyPatch, factor: float) -> WalkSettings:
         return usual * (factor if robot == "heavy" else 1.0)
 
     monkeypatch.setattr(robustness, "mass_of", mass_of)
+    monkeypatch.setattr(robustness, "load_robot", lambda name: name)
+    monkeypatch.setattr(robustness, "game_of", lambda robot: None)
     monkeypatch.setattr(survival, "mass_of", mass_of)
     bound_at.cache_clear()
     return WalkSettings(robot="heavy")
@@ -118,6 +121,20 @@ def test_robots_are_pushed_to_the_same_speeds_whatever_their_mass(
     ]
     assert [push.impulse for push in pushed] == [1.2, pytest.approx(4.8)]
     assert {push.direction for push in pushed} == {pi / 2}
+
+
+def test_robots_with_a_unit_of_pushes_are_pushed_by_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It goes with mass and pendulum, as the push that a capture bears."""
+    units = {"nao": 1.0, "tall": 24.0}
+    monkeypatch.setattr(robustness, "load_robot", lambda name: name)
+    monkeypatch.setattr(
+        robustness,
+        "game_of",
+        lambda robot: GameOfRobot(0.8, 0.4, 0.6, 1.5, units[robot]),
+    )
+    assert push_scale("tall") == 24.0
 
 
 def test_limits_and_bounds_grow_with_the_mass_and_their_ratio_does_not(

@@ -211,6 +211,9 @@ def test_interrupted_duel_reports_what_was_done(
     assert result.exit_code == 130
     assert "interrupted at 1.20 s" in result.stdout
     assert (folder / "trajectories.npz").exists()
+    # Whoever presses Ctrl-C does not wait for a figure.
+    assert not list(folder.glob("*.png")) and "figure:" not in result.stdout
+    assert f"what was played is kept in {folder}" in result.stderr
 
 
 def test_zero_is_a_value_and_not_an_absence() -> None:

@@ -37,6 +37,7 @@ def test_gains_are_those_that_the_documents_were_measured_with() -> None:
         "joint_gain": 10.0,
         "joint_bound": 0.03,
         "joint_leak": 1.0,
+        "load_share": 0.0,
     }
     assert asdict(MpcSettings()) == {
         "steps": 2,

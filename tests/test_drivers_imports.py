@@ -54,6 +54,11 @@ def test_who_drives_by_one_language_needs_no_other(language: str) -> None:
     )
 
 
+def test_what_was_played_is_kept_without_a_simulator() -> None:
+    """A run folder is made on the robot, whatever cannot be drawn there."""
+    loads("import stepaside.commands.play_record, stepaside.games.folder")
+
+
 def test_help_on_playing_loads_no_simulator() -> None:
     """It shows the defaults of gait and control: numbers, no physics."""
     loads(

@@ -1,11 +1,15 @@
 """Long work says so before it begins, and endless work is refused."""
 
+import re
+from pathlib import Path
+
 import click
 import pytest
 from click.testing import CliRunner, Result
 
 from fuzz.case import Reached
 from fuzz.invoking import without_work
+from fuzz.kinds import make_run
 from stepaside.cli import main
 from stepaside.commands.effort import ENDLESS, LONG, in_words, tell_effort
 
@@ -16,6 +20,13 @@ from stepaside.commands.effort import ENDLESS, LONG, in_words, tell_effort
 def work(seconds: float, workers: int) -> None:
     """Say how long it takes."""
     tell_effort("work", seconds, workers)
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> str:
+    folder = tmp_path_factory.mktemp("effort") / "run"
+    make_run(folder)
+    return str(folder)
 
 
 def said(seconds: float, workers: int = 1) -> Result:
@@ -67,9 +78,46 @@ def test_campaigns_say_what_they_plan(
     [
         "duels --seeds 0:100000 --duration 86400 --workers 1 --json",
         "map --grid 400 --distances 400 --duration 1e4 --step 1e-4",
+        "bound --grid 400 --horizon 2000 --refine 0",
+        "circle --starts 1000000 --evader-gain 1e6",
+        "unicycles --sample-time 1e-9 --duration 1e6 --delay 1e6",
+        "unicycles --duration 1e9 --evader-gain 1e3",
+        "unicycles --duration 1e9 --evader-strategy look-ahead",
+        "tournament --seeds 0:100000 --duration 1e6 --workers 1",
+        "replay RUN --video film.mp4 --rate 1e9",
+        "replay RUN --gif film.gif --speed 1e-9 --slow-motion",
     ],
 )
-def test_what_cannot_end_is_refused(words: str) -> None:
-    result = CliRunner().invoke(main, words.split())
+def test_what_cannot_end_is_refused(
+    words: str, run: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(main, words.replace("RUN", run).split())
+    assert not list(tmp_path.iterdir())
     assert result.exit_code == 2 and result.output.count("\n") == 1
-    assert "would take about" in result.output
+    assert re.search("would take about|does not end", result.output)
+
+
+@pytest.mark.parametrize(
+    ("words", "wanted"),
+    [
+        ("bound --grid 200", "a table of"),
+        ("circle --starts 1000000", "1000000 games"),
+        ("circle --starts 300000 --remedies", "games"),
+        ("unicycles --duration 3e5", "a game of 300000 s"),
+        ("unicycles --sample-time .01 --duration 3e4", "a game of 30000 s"),
+        ("tournament --seeds 0:10000 --workers 1", "games of 180 s"),
+        ("replay RUN --video film.mp4 --speed 1e-4", "a film of about"),
+    ],
+)
+def test_what_is_long_says_so_before_it_begins(
+    words: str, wanted: str, run: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is stopped where it has said so."""
+
+    def told(*_: object, err: bool = False) -> None:
+        raise Reached(_[0])
+
+    monkeypatch.setattr("stepaside.commands.effort.echo", told)
+    with pytest.raises(Reached, match=wanted):
+        main(words.replace("RUN", run).split())

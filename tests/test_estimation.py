@@ -34,6 +34,7 @@ class FakeKinematics:
     """
 
     def __init__(self) -> None:
+        self.mass = 5.1
         self.lever = LEVER.copy()
         self.apart = np.array([0.0, -0.1, 0.0])
         self.yaws = (0.5, 0.0)  # of the feet, as the reference has them
@@ -293,3 +294,18 @@ def test_the_posture_is_kept_for_whoever_learns_from_it() -> None:
     see(estimate, measured())
     assert estimate.posture is not None
     assert estimate.posture.feet.shape == (2, 3)
+
+
+@pytest.mark.parametrize("mass", [0.5, 5.0, 500.0])
+def test_a_body_of_any_mass_knows_when_it_bears_no_weight(
+    mass: float,
+) -> None:
+    """In flight the pendulum pulls at nothing; standing it does."""
+    body = FakeKinematics()
+    body.mass = mass
+    for share, flies in ((0.1, True), (0.5, False)):
+        press = share * mass * 9.81 / 4.0
+        estimate = estimator(body, bandwidth=0.0)
+        first = see(estimate, measured(left=press, right=0.0))
+        later = see(estimate, measured(left=press, right=0.0))
+        assert (later.velocity == first.velocity) == flies

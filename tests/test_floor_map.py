@@ -1,11 +1,11 @@
 """A map of the floor from depth images."""
 
-from math import pi
+from math import atan2, pi
 
 import numpy as np
 import pytest
 
-from stepaside.perception.floor_map import CELL, FloorMap
+from stepaside.perception.floor_map import CELL, START, FloorMap
 from stepaside.poses import Array
 from stepaside.rooms import Disc, Obstacle, box
 from stepaside.rooms.covering import cover
@@ -88,6 +88,64 @@ def test_unseen_floor_is_told_from_free_floor() -> None:
     assert min(float(p.clearance(ahead)[0]) for p in hidden) > 0.0
     assert min(float(p.clearance(behind)[0]) for p in hidden) < 0.0
     assert not seen.taken()
+
+
+def test_what_is_too_near_to_be_measured_stays_unseen() -> None:
+    """It hides the floor behind it, so nothing frees the floor under it."""
+    near = Disc(0.55, 0.0, 0.15)
+    seen = looked(FloorMap(), (near,))
+    assert not seen.taken()
+    hidden = seen.unseen((0.0, 0.0))
+    inside = np.array([[0.45, 0.0], [0.55, 0.0], [0.6, 0.1], [0.6, -0.1]])
+    clearance = np.min([p.clearance(inside) for p in hidden], axis=0)
+    assert clearance.max() <= 0.0
+    aside = np.array([[0.6, 0.6], [-0.6, 0.0], [0.0, -0.6]])
+    clearance = np.min([p.clearance(aside) for p in hidden], axis=0)
+    assert clearance.min() > 0.2
+
+
+def test_from_another_side_only_the_thing_itself_stays() -> None:
+    near, seen = Disc(0.55, 0.0, 0.15), FloorMap()
+    for place in ((0.0, 0.0), (0.3, -0.8), (0.3, 0.8)):
+        for heading in np.arange(-pi, pi, 0.5):
+            image, eye, axes = view((near,), place, heading)
+            for _ in range(2):
+                seen.take(image, eye, axes, place, None)
+    found = seen.unseen((0.0, 0.0)) + seen.taken()
+    assert found
+    for polygon in found:
+        assert near.clearance(polygon.points).max() < 0.16
+
+
+def test_a_robot_begins_with_room_to_turn() -> None:
+    seen = FloorMap()
+    seen.take(*view((), (0.0, 0.0), 0.0), (0.0, 0.0), None)
+    behind = np.array([[-START + 1.5 * CELL, 0.0], [-START - CELL, 0.02]])
+    clearance = np.min(
+        [p.clearance(behind) for p in seen.unseen((0.0, 0.0))], axis=0
+    )
+    assert clearance[0] > 0.0 > clearance[1]
+
+
+def test_where_the_other_stands_nothing_else_does() -> None:
+    """It was taken for a thing before it was recognised."""
+    seen, body = FloorMap(), (Disc(1.2, 0.0, 0.12),)
+    for _ in range(4):
+        seen.take(*view(body, (0.0, 0.0), 0.0), (0.0, 0.0), None)
+    assert seen.taken()
+    seen.take(*view(body, (0.0, 0.0), 0.0), (0.0, 0.0), (1.2, 0.0))
+    assert not seen.taken()
+
+
+def test_the_map_tells_what_belongs_to_the_room() -> None:
+    seen = looked(FloorMap(), (Disc(1.2, 0.3, 0.15),))
+    assert seen.holds(1.1, 0.25) and seen.holds(1.25, 0.3)
+    assert not seen.holds(1.2, -0.2) and not FloorMap().holds(0.0, 0.0)
+    facing = atan2(0.3, 1.2)
+    away = seen.nearest(0.0, 0.0, facing, 0.2)
+    assert away == pytest.approx(np.hypot(1.2, 0.3) - 0.15, abs=1.5 * CELL)
+    assert seen.nearest(0.0, 0.0, facing + 2.0 * pi, 0.2) == away
+    assert seen.nearest(0.0, 0.0, facing + 0.5, 0.2) == np.inf
 
 
 @pytest.mark.parametrize("heading", [0.0, 0.3, pi / 4])

@@ -11,7 +11,7 @@ import pytest
 
 from stepaside.games.judge import Judge, Tally
 from stepaside.games.sight_figures import Spread
-from stepaside.perception.perception import FrameReport
+from stepaside.perception.frame_report import FrameReport
 from stepaside.robots.head import Mount, rotation
 from stepaside.sensing.camera_model import CameraModel
 from stepaside.sensing.images import ColourImage, DepthImage, SonarEcho

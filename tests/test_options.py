@@ -31,7 +31,7 @@ from stepaside.report.film_camera import VIEWS
 from stepaside.report.sizes import SHEETS
 from stepaside.strategies.evasion import TRIGGERS
 from stepaside.studies import robustness
-from stepaside.studies.tournament import LEVELS
+from stepaside.studies.tournament_settings import LEVELS
 from stepaside.unicycle.laws import SideRule, TurningLaw
 from stepaside.world.body_settings import BODIES
 from stepaside.world.camera_settings import OPTICS, RENDERERS

@@ -136,7 +136,7 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
 
         def opens() -> bool:
             """A click is lost while the page draws its panel anew."""
-            tab.dispatch_event("click")
+            tab.click(force=True)
             return bool(field.is_visible())
 
         until(page, opens)

@@ -47,14 +47,15 @@ def test_parts_lie_in_their_body_as_they_are() -> None:
     told = box.to_json()
     assert told["colour"] == "#0000ff" and told["kind"] == "box"
     assert told["place"] == [0.0, 0.0, 1.0] and told["body"] == 1
-    # What is no simple shape is the box round it.
-    assert mesh.kind == "box"
+    assert mesh.kind == "mesh" and mesh.shell is not None
     frame = np.zeros(9)
     mujoco.mju_quat2Mat(frame, mesh.turn)
-    axes = frame.reshape(3, 3)
-    corner = mesh.place - np.abs(axes) @ mesh.size
-    other = mesh.place + np.abs(axes) @ mesh.size
-    assert (corner <= 1e-6).all() and (other >= [0.399, 0.199, 0.599]).all()
+    corners = mesh.shell.corners @ frame.reshape(3, 3).T + mesh.place
+    wanted = np.array([[0, 0, 0], [0, 0, 0.6], [0, 0.2, 0], [0.4, 0, 0]])
+    order = np.lexsort(np.round(corners, 6).T[::-1])
+    np.testing.assert_allclose(corners[order], wanted, atol=1e-6)
+    told = mesh.to_json()
+    assert len(told["corners"]) == len(told["faces"]) == 4
 
 
 @pytest.mark.parametrize("light", LIGHTS)

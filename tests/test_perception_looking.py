@@ -5,7 +5,9 @@ from typing import Any
 
 import pytest
 
-from made_up_eyes import Eyes
+from made_up_eyes import HEAD, TICK, Eyes
+from stepaside.perception.floor_map import FloorMap
+from stepaside.perception.gaze import REACH, SCAN_SPEED, Gaze
 from stepaside.perception.perception import STARE, UNSEEN
 from stepaside.poses import Pose
 from stepaside.sensing.measurement import Sighting
@@ -113,3 +115,21 @@ def test_lost_is_lost(eyes: Eyes) -> None:
     assert eyes.see(0.0) is not None
     assert eyes.see(10.0) is None
     assert eyes.perception.sighting is None and eyes.perception.searching
+
+
+def test_who_maps_the_floor_looks_all_around_first(eyes: Eyes) -> None:
+    """Until then it says nothing of the other, so that nobody walks."""
+    gaze: Any = Gaze(HEAD.coupling, TICK)
+    eyes.perception.floor, eyes.perception._gaze = FloorMap(), gaze
+    yaws = []
+    for tick in range(round(8.0 / TICK)):
+        now = tick * TICK
+        eyes.tracks.clear()
+        eyes.know(*eyes.beside(1.5, 0.0), time=now)
+        seen = eyes.see(now)
+        yaws.append(gaze.yaw)
+        if seen is not None:
+            break
+    assert min(yaws) < -REACH + 0.01 and max(yaws) > REACH - 0.01
+    assert now == pytest.approx(3.0 * REACH / SCAN_SPEED, abs=0.1)
+    assert gaze.turned == 2 and not gaze.searching

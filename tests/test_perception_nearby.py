@@ -20,7 +20,14 @@ from made_up_eyes import (
     show,
     trim,
 )
-from stepaside.perception.perception import BROAD, CHEST, EAR, FRESH
+from stepaside.perception.floor_map import FloorMap
+from stepaside.perception.perception import (
+    BROAD,
+    CHEST,
+    EAR,
+    FRESH,
+    SURE,
+)
 from stepaside.poses import Pose, wrap_angle
 from stepaside.sensing.depth_detector import Shadow
 from stepaside.sensing.images import SonarEcho
@@ -35,6 +42,27 @@ HEARD = [  # sonar, bearing from the heading in [deg], whether it is heard
     ("right", 4.0, True),
     ("right", 7.0, False),
 ]
+
+
+class NoFloor(FloorMap):
+    """Maps nothing, and notes where the other was said to be."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.others: list[Any] = []
+        self.wall, self.full = np.inf, False
+
+    def nearest(self, *asked: float) -> float:
+        """Distance of a wall."""
+        return float(self.wall)
+
+    def holds(self, x: float, y: float) -> bool:
+        """Whether all is full."""
+        return self.full
+
+    def take(self, *told: Any) -> None:
+        """Note the other."""
+        self.others.append(told[-1])
 
 
 @pytest.fixture
@@ -236,3 +264,58 @@ def test_what_a_frame_shows_is_not_missed(eyes: Eyes) -> None:
     for i in range(1, 4):
         eyes.see(TICK * i, colour(TICK * i))
     assert hits(eyes.tracks[0]) == [True] * 3
+
+
+def test_what_stands_in_a_mapped_room_is_nobody(
+    eyes: Eyes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Pillars, near ones and echoes of walls found no track of the other."""
+    alone = len(eyes.tracks)
+    eyes.perception.floor = NoFloor()
+    show(monkeypatch, obstacle(*eyes.beside(1.0, 0.0)), Shadow(0.0, 0.0, 0.5))
+    for tick in range(1, 8):
+        now = tick * TICK
+        eyes.see(now, depth(now), SonarEcho(now, "left", 0.3))
+    assert len(eyes.tracks) == alone == 0
+    eyes.see(8 * TICK, colour(8 * TICK))
+    eyes.detector.found = trim(80.0)
+    eyes.see(9 * TICK, colour(9 * TICK))
+    assert len(eyes.tracks) == 1
+
+
+@pytest.mark.parametrize(("gap", "heard"), [(0.2, False), (0.3, True)])
+def test_an_echo_that_may_be_of_the_room_tells_nothing(
+    eyes: Eyes, gap: float, heard: bool
+) -> None:
+    floor = eyes.perception.floor = NoFloor()
+    floor.wall = 0.5 + CHEST + gap
+    facing = axis_of(eyes, "left") - eyes.torso.theta
+    track = eyes.know(*eyes.beside(0.75, facing), time=-1.0)
+    eyes.see(TICK, SonarEcho(TICK, "left", 0.5))
+    assert (track.ranged_at == TICK) is heard
+
+
+def test_a_thing_on_the_map_corrects_no_track(
+    eyes: Eyes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    eyes.perception.floor = floor = NoFloor()
+    track = eyes.know(*eyes.beside(1.0, 0.0))
+    show(monkeypatch, obstacle(*eyes.beside(1.05, 0.0)))
+    floor.full = True
+    eyes.see(TICK, depth(TICK))
+    assert track.seen_at == 0.0
+    floor.full = False
+    eyes.see(2 * TICK, depth(2 * TICK))
+    assert track.seen_at == 2 * TICK
+
+
+def test_a_place_of_the_other_that_is_old_frees_no_floor(
+    eyes: Eyes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    floor = eyes.perception.floor = NoFloor()
+    show(monkeypatch)
+    track = eyes.know(*eyes.beside(1.0, 0.0))
+    for age, known in ((0.9 * SURE, True), (1.1 * SURE, False)):
+        track.seen_at = TICK - age
+        eyes.see(TICK, depth(TICK))
+        assert (floor.others[-1] is not None) is known

@@ -15,10 +15,9 @@ from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.games.walker import Walker
 from stepaside.poses import Array, Pose
 from stepaside.robots.head import rotation
+from stepaside.world.figures import FIGURES, HIP
 from stepaside.world.person import (
-    HIP,
     PARTS,
-    STEP,
     Person,
     add_person,
     parts_of,
@@ -30,6 +29,7 @@ from stepaside.world.push import Push
 from stepaside.world.truth import torsos_apart
 
 TICK = 0.05
+STEP = FIGURES["adult"].step
 
 
 def figure() -> tuple[mujoco.MjModel, mujoco.MjData]:
@@ -124,6 +124,40 @@ def feet(way: float) -> Array:
         hip = leg.xpos + leg.xmat.reshape(3, 3) @ (0.0, 0.0, -HIP)
         ahead.append(float(hip[0]))
     return np.array(ahead)
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_everybody_is_of_one_shape_and_steps_as_far_as_legs_swing(
+    name: str,
+) -> None:
+    """A child is smaller in all, dressed otherwise, and steps farther."""
+    figure = FIGURES[name]
+    spec = mujoco.MjSpec()
+    add_person(spec, "her", figure)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    parts = parts_of(model, "her")
+    pose_figure(data, parts, STANDING, 0.0, figure)
+    mujoco.mj_kinematics(model, data)
+    adult = posed(STANDING, 0.0)
+    for part in PARTS:
+        own, theirs = box(model, data, part), box(*adult, part)
+        np.testing.assert_allclose(own, figure.size * theirs, atol=1e-9)
+    reach = 2.0 * HIP * figure.size * sin(figure.swing)
+    assert reach == pytest.approx(figure.step, rel=0.02)
+    shirts = {each.shirt for each in FIGURES.values()}
+    assert len(shirts) == len(FIGURES)
+
+
+def test_a_child_comes_as_one() -> None:
+    person = PersonSettings(figure="child")
+    start = StartSettings(2.0, 0.0, 0.0)
+    settings = DuelSettings(pursuer="person", person=person, start=start)
+    duel = Duel(settings)
+    assert duel.players[0].truth.com[2] == pytest.approx(0.7)
+    duel.close()
+    with pytest.raises(ConfigurationError, match="adult, child, got 'dog'"):
+        PersonSettings(figure="dog")
 
 
 def test_feet_are_a_step_apart_in_the_middle_of_a_step() -> None:

@@ -249,3 +249,48 @@ def test_a_straight_retreat_is_the_difference_of_the_speeds() -> None:
     begun = 0.2 / 0.15
     gap = RADIUS - (8.0 - begun) * (0.15 - SPEED)
     assert least == pytest.approx(gap, abs=2e-3)
+
+
+def walked(person: PersonSettings, ways: int = 40) -> list[Pose]:
+    """Poses of a walk in steps of 0.05 m, the start among them."""
+    motion = Motion(person, Pose(0.0, 0.0, 0.0), (9.0, 0.0))
+    poses = [motion.pose]
+    for i in range(ways):
+        motion.advance(0.1 * (i + 1), 0.1, (9.0, 0.0))
+        poses.append(motion.pose)
+    return poses
+
+
+@pytest.mark.parametrize("path", ["straight", "steer"])
+def test_who_halts_stands_where_the_way_ended(path: str) -> None:
+    poses = walked(PersonSettings(path, 0.5, halt_after=1.0))
+    assert poses[20].x == pytest.approx(1.0)
+    assert poses[20:] == [poses[20]] * 21
+    assert walked(PersonSettings(path, 0.5, halt_after=0.0))[-1].x == 0.0
+
+
+@pytest.mark.parametrize("turn", [-1.0, 0.5 * pi, pi])
+@pytest.mark.parametrize("after", [0.0, 1.0])
+def test_who_turns_walks_on_in_the_new_direction(
+    turn: float, after: float
+) -> None:
+    person = PersonSettings("straight", 0.5, turn_after=after, turn=turn)
+    poses = walked(person)
+    rest = 2.0 - after
+    assert poses[-1].theta == pytest.approx(turn)
+    end = after + rest * cos(turn), rest * sin(turn)
+    assert poses[-1][:2] == pytest.approx(end)
+
+
+@pytest.mark.parametrize("path", ["straight", "steer"])
+def test_who_walks_backward_goes_the_same_way_and_faces_away(
+    path: str,
+) -> None:
+    ahead = walked(PersonSettings(path, 0.5, miss=0.3, turn_after=1.0))
+    back = walked(
+        PersonSettings(path, 0.5, miss=0.3, turn_after=1.0, backward=True)
+    )
+    for one, other in zip(ahead, back, strict=True):
+        assert other[:2] == pytest.approx(one[:2])
+        off = wrap_angle(other.theta - one.theta)
+        assert abs(off) == pytest.approx(pi)

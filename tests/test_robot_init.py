@@ -14,6 +14,7 @@ from stepaside.cli import main
 from stepaside.errors import ModelError
 from stepaside.fitting.deriving import Derived, derive
 from stepaside.fitting.lengths import Size, gait_of, game_of_size
+from stepaside.fitting.motors import GIVES, LEAST, STIFFNESS, gains_of
 from stepaside.fitting.survey import survey
 from stepaside.fitting.trials import WAYS, Trial, trials_of, walk_trial
 from stepaside.fitting.writing import write_description
@@ -102,6 +103,25 @@ def test_a_servo_stands_for_the_damping_of_its_joint(tmp_path: Path) -> None:
     assert found.survey.model.dof_damping.max() == 0.8
     assert not model.dof_damping.any()
     assert (-model.actuator_biasprm[:, 2] > 0.8).all()
+
+
+def test_a_weak_servo_is_no_stiffer_than_its_torque_allows(
+    tmp_path: Path,
+) -> None:
+    """One that is at its limit after a small error holds nothing."""
+    found = survey(stranger.mjcf(tmp_path), [])
+    height = 0.7
+    tipping = found.mass * 9.81 * height
+    leg = found.legs[0].joints
+    for torque, stiffness in (
+        (1e4, STIFFNESS * tipping),
+        (5.0 * tipping * GIVES, 5.0 * tipping),
+        (1.0, LEAST * tipping),
+    ):
+        gains = gains_of(found, dict.fromkeys(leg, torque), height)
+        for name in leg:
+            assert gains[name].stiffness == pytest.approx(stiffness, rel=0.01)
+            assert gains[name].torque == pytest.approx(torque, rel=0.01)
 
 
 def test_a_robot_without_an_accent_wears_the_colour_of_its_role(
@@ -197,14 +217,15 @@ def test_equal_shapes_walk_alike() -> None:
         assert far[name] == pytest.approx(times * near[name], rel=0.01)
 
 
+@pytest.mark.parametrize("feedback", [False, True], ids=["open", "feedback"])
 @PUBLISHED
 def test_a_stranger_walks_backward_round_a_circle(
-    publish: Publish, tmp_path: Path
+    publish: Publish, feedback: bool, tmp_path: Path
 ) -> None:
     _, robot = described(publish(tmp_path), tmp_path / "robot")
     (trial,) = [
         trial
-        for trial in trials_of(robot, feedback=False)
+        for trial in trials_of(robot, feedback=feedback)
         if trial.way is WAYS[-1]
     ]
     walked = walk_trial(Trial(robot, trial.gait, trial.control, trial.way))

@@ -62,3 +62,14 @@ def test_a_robot_moves_once_a_target_has_left_the_stance() -> None:
     ):
         body.command(stance + [0.0, offset * MOVED], np.ones(2))
         assert body.is_moving == moves
+
+
+def test_who_only_looks_about_does_not_move() -> None:
+    robot: Any = FakeRobot()
+    body = ServedBody(robot, head=[1])
+    body.let_go()
+    for turned in (0.0, 1.0):
+        body.command(np.array([0.1, turned]), np.ones(2))
+        assert not body.is_moving
+    body.command(np.array([0.1 + 1.1 * MOVED, 1.0]), np.ones(2))
+    assert body.is_moving

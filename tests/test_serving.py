@@ -152,6 +152,7 @@ def test_with_cameras_it_is_the_one_played_in_one_process(
     played = run_duel(settings)
     for name, track in over.run.tracks.items():
         found, wanted = track.qpos, played.tracks[name].qpos
+        assert found is not None and wanted is not None
         np.testing.assert_allclose(found, wanted, atol=2e-3)
     seen = [t for t in ticks if t.sighting is not None]
     assert len(seen) > 100

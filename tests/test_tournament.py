@@ -5,6 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from math import cos, pi, sin
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -13,19 +14,21 @@ from click.testing import CliRunner, Result
 
 from stepaside.cli import main
 from stepaside.errors import ConfigurationError
+from stepaside.games.outcome import Outcome
 from stepaside.poses import Pose
 from stepaside.rooms import Room, RoomRecipe
 from stepaside.strategies import StepGame, tables
 from stepaside.studies import tournament as studied
 from stepaside.studies.floor_used import floor_used
+from stepaside.studies.physics_game import outcome_of
 from stepaside.studies.records import RecordFile
 from stepaside.studies.tournament import (
-    TournamentSettings,
     play_record,
     play_tournament,
     play_track,
 )
 from stepaside.studies.tournament_rows import tournament_rows
+from stepaside.studies.tournament_settings import TournamentSettings
 
 SHORT = StepGame(duration=16.0)
 SETTINGS = TournamentSettings(room=RoomRecipe(discs=1), game=SHORT)
@@ -97,7 +100,7 @@ def test_what_is_kept_is_not_played_again(
     assert list(again) == sorted(again, key=lambda k: k.split("/")[1:3])
     other = replace(SETTINGS, angle=0.5)
     assert not set(play_tournament(other, PAIRINGS[:1], [0])) & set(again)
-    monkeypatch.setattr(studied, "_stamp", lambda: {"version": "another"})
+    monkeypatch.setattr(studied, "_stamp", lambda *_: {"version": "another"})
     anew: list[int] = []
     play_tournament(SETTINGS, PAIRINGS[:1], [0], file, None, anew.append)
     assert anew == [0, 1]
@@ -157,7 +160,7 @@ def test_the_command_plays_draws_and_goes_on(tmp_path: Path) -> None:
     )
     one = call(*words, "--seeds", "0:2", "--json")
     assert one.exit_code == 0, one.output
-    rows = json.loads(one.output)["rows"]
+    rows = json.loads(one.stdout)["rows"]
     assert [row["evader"] for row in rows] == ["aside", "look-ahead"]
     assert all(row["games"] == 2 for row in rows)
     kept = (folder / "games.jsonl").read_text("utf-8").splitlines()
@@ -171,6 +174,18 @@ def test_the_command_plays_draws_and_goes_on(tmp_path: Path) -> None:
     assert summary["rows"][0]["games"] == 3
 
 
+def test_it_says_before_it_solves_a_table(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    tables.pursuit_bound.cache_clear()
+    words = ("--evader", "aside", "--duration", "1", "--seeds", "1", "--json")
+    first, second = call(*words), call(*words)
+    assert "solves the table of the bound first" in first.stderr
+    assert "solves" not in second.stderr
+    assert json.loads(first.stdout)["rows"][0]["games"] == 1
+
+
 def test_a_room_from_a_file_is_played(tmp_path: Path) -> None:
     file = tmp_path / "room.toml"
     file.write_text(
@@ -179,7 +194,7 @@ def test_a_room_from_a_file_is_played(tmp_path: Path) -> None:
     )
     words = ("--room", str(file), "--evader", "aside", "--seeds", "5")
     answer = call(*words, "--duration", "8", "--json")
-    room = json.loads(answer.output)["settings"]["room"]
+    room = json.loads(answer.stdout)["settings"]["room"]
     assert room["width"] == 4.0 and room["evader"]["theta"] == 3.0
 
 
@@ -224,3 +239,47 @@ def test_a_file_of_a_room_holds_all_that_stands_in_it(tmp_path: Path) -> None:
 def test_no_other_level_is_taken() -> None:
     with pytest.raises(ConfigurationError, match="level must be one of"):
         TournamentSettings(level="walls")
+
+
+def test_humanoids_play_by_the_same_words() -> None:
+    """A second of a duel: the figures are those that steps have as well."""
+    settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
+    found = play_record(settings, ("aside", "pure"), 3)
+    in_steps = play_record(SETTINGS, ("aside", "pure"), 3)
+    assert set(in_steps) - set(found) == {"clearance_m"}
+    assert found["outcome"] == "survived" and found["touched"] == []
+    assert found["survived_s"] == pytest.approx(1.0)
+    assert found["bound_m"] == pytest.approx(in_steps["bound_m"], abs=0.02)
+    pursuer, evader = settings.arena(3)[1]
+    apart = np.hypot(pursuer.x - evader.x, pursuer.y - evader.y)
+    assert found["closest_m"] == pytest.approx(apart, abs=0.05)
+    for player in ("pursuer", "evader"):
+        assert 0.1 < found[f"{player}_clearance_m"] < 1.5
+    assert tournament_rows([found])[0]["fell"] == 0.0
+    assert settings.entries()["map"] == "given"
+    assert "map" not in SETTINGS.entries()
+
+
+@pytest.mark.parametrize(
+    ("outcome", "touched", "told"),
+    [
+        (Outcome.COMPLETED, (), "survived"),
+        (Outcome.FALL, (), "fell"),
+        (Outcome.CONTACT, ("evader", "pursuer"), "caught"),
+        (Outcome.CONTACT, ("disc 1", "pursuer"), "touched"),
+        (Outcome.INTERRUPTED, (), "interrupted"),
+    ],
+)
+def test_a_duel_ends_in_the_words_of_a_tournament(
+    outcome: Outcome, touched: tuple[str, ...], told: str
+) -> None:
+    run: Any = SimpleNamespace(
+        outcome=outcome, summary=SimpleNamespace(touched=touched)
+    )
+    assert outcome_of(run) == told
+
+
+def test_only_humanoids_see_a_map() -> None:
+    with pytest.raises(ConfigurationError, match="map must be 'given'"):
+        TournamentSettings(map="seen")
+    assert TournamentSettings("physics", map="seen").map == "seen"

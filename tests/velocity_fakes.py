@@ -1,6 +1,6 @@
 """Robots that walk by themselves, made up."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from math import cos, sin
 
 from stepaside.drivers.session import SessionLost
@@ -58,6 +58,11 @@ class MadeUpWalker:
         self.pose = Pose(0.0, 0.0, 0.0)
         self.velocity = REST
         self.sighting: Sighting | None = None
+        self.head: dict[str, float] = {}
+
+    def look(self, angles: Mapping[str, float]) -> None:
+        """Note where it is to look."""
+        self.head |= angles
 
     def state(self) -> WalkerState:
         """What it says of itself."""

@@ -2,7 +2,7 @@
 
 from .game import BoundGame, against_any, against_pursuit
 from .grid import Grid
-from .solve import Scheme, solve_bound
+from .solve import Scheme, count_steps, solve_bound
 from .table import Bound, load_bound
 
 __all__ = [
@@ -12,6 +12,7 @@ __all__ = [
     "Scheme",
     "against_any",
     "against_pursuit",
+    "count_steps",
     "load_bound",
     "solve_bound",
 ]

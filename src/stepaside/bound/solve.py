@@ -118,13 +118,7 @@ def march(
     """
     setting, rate = make_setting(game, grid, scheme, precision)
     stage = stage_blocks if load_numba() is not None else stage_arrays
-    count = max(1, ceil(horizon * rate / COURANT - 1e-6))
-    if count > MOST_STEPS:
-        raise PlanError(
-            f"horizon must be at most {MOST_STEPS * COURANT / rate:g} [s] for "
-            f"these speeds and rates on this grid, {MOST_STEPS} steps, or it "
-            f"does not end, got {horizon:g}"
-        )
+    count = _count(horizon, rate)
     stable = precision(COURANT / rate)
     times = 1 if scheme.first_order else 3
     arm = 3 if setting.order == FIFTH else 1
@@ -154,6 +148,33 @@ def march(
         yield (n * float(stable) if n < count else horizon), v[INNER]
 
 
+def count_steps(
+    game: BoundGame,
+    grid: Grid,
+    horizon: float | None = None,
+    scheme: Scheme = Scheme.WENO,
+) -> int:
+    """How many steps in time :func:`solve_bound` takes.
+
+    Raises:
+        PlanError: If it would not end, or a value is out of its range.
+    """
+    horizon = default_horizon(game) if horizon is None else horizon
+    check_positive(horizon, "horizon", "s")
+    return _count(horizon, make_setting(game, grid, scheme, np.float64)[1])
+
+
+def _count(horizon: float, rate: float) -> int:
+    count = max(1, ceil(horizon * rate / COURANT - 1e-6))
+    if count > MOST_STEPS:
+        raise PlanError(
+            f"horizon must be at most {MOST_STEPS * COURANT / rate:g} [s] for "
+            f"these speeds and rates on this grid, {MOST_STEPS} steps, or it "
+            f"does not end, got {horizon:g}"
+        )
+    return count
+
+
 def make_setting(
     game: BoundGame, grid: Grid, scheme: Scheme, precision: type[Any]
 ) -> tuple[Setting, float]:
@@ -176,7 +197,8 @@ def make_setting(
         axis=1,
     )
     ahead, across, turn, freedom = pursuer.T[:, :, None, None]
-    swing = (across - sideways) / r[:, None]
+    # Each part is convex in 1/r, so the largest rate is at an end of r.
+    swing = (across - sideways) / r[[0, -1], None]
     rate = np.abs(forward - ahead) / steps[0]
     rate = rate + (np.abs(swing - turn) + freedom) / steps[1]
     rate = rate + (np.abs(swing) + game.evader_turn) / steps[2]

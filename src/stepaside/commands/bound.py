@@ -1,7 +1,7 @@
 """``stepaside bound``: the best that any evader can do."""
 
 from dataclasses import asdict
-from math import pi
+from math import pi, prod
 from typing import TYPE_CHECKING
 
 import click
@@ -10,6 +10,7 @@ from .bound_tables import IN_METERS, describe, print_bound
 from .declared.common import FIGURE, figure_width, json_option
 from .declared.kinds import NameType, OutputFile
 from .declared.option import Declaration
+from .effort import CELLS, tell_effort
 from .options import METERS, SECONDS, NumberType, print_json
 from .outputs import attempt, writes_files
 
@@ -143,7 +144,13 @@ def bound(
     """Compute how close the pursuer comes to the best evader."""
     from tqdm import tqdm
 
-    from ..bound import Grid, Scheme, against_any, against_pursuit
+    from ..bound import (
+        Grid,
+        Scheme,
+        against_any,
+        against_pursuit,
+        count_steps,
+    )
     from ..bound.refine import refine_bound
 
     if against == "pursuit":
@@ -163,6 +170,11 @@ def bound(
             param_hint="--capture",
         )
     grid = Grid.cube(nearest, farthest, cells)
+    steps = count_steps(game, grid, horizon, Scheme(scheme))
+    total = prod(grid.shape)
+    tell_effort(
+        f"a table of {total} cells over {steps} steps", total * steps / CELLS
+    )
     look = "{l_bar}{bar}| {elapsed}<{remaining}"
     with tqdm(
         total=1.0, bar_format=look, disable=as_json or None, leave=False

@@ -16,6 +16,7 @@ from .declared.common import (
     figure_width,
     json_option,
 )
+from .effort import STEPS, tell_effort
 from .game_options import (
     describe_game,
     finite,
@@ -67,6 +68,7 @@ def circle(
     """Find the circles that a game ends on, and how firmly they hold."""
     if remedies and starts == 0:
         raise click.UsageError("--remedies needs --starts > 0")
+    _tell(game, starts, remedies=remedies)
     result = describe_circle(game, sample_time, delay)
     result |= describe_circles(game, starts, seed, body)
     if remedies:
@@ -85,6 +87,19 @@ def circle(
         print_json(result)
         return
     print_circles(result)
+
+
+def _tell(game: Game, starts: int, *, remedies: bool) -> None:
+    """Say how long playing takes; the game as it is is one remedy more."""
+    from ..unicycle.basins import lengths_of
+    from ..unicycle.remedies import alternatives
+
+    played = [game, *(alternatives(game).values() if remedies else ())]
+    steps = 0.0
+    for each in played if starts else ():
+        duration, step = lengths_of(each)
+        steps += starts * duration / step
+    tell_effort(f"{starts * len(played)} games", steps / STEPS)
 
 
 def describe_circle(

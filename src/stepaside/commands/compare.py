@@ -68,7 +68,11 @@ def compare(runs: tuple[Path, ...], output: str | None, as_json: bool) -> None:
 def _draw(runs: "list[Run]", file: Path) -> None:
     from ..games.play_run import PlayRun
 
-    if runs[0].pair is None and not isinstance(runs[0], PlayRun):
+    if len(runs) == 1 and isinstance(runs[0], PlayRun):
+        from ..report.play_figure import draw_play
+
+        draw_play(runs[0], file)
+    elif runs[0].pair is None and not isinstance(runs[0], PlayRun):
         from ..report.walks_figure import draw_walks
 
         draw_walks(runs, file)

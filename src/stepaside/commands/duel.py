@@ -39,6 +39,7 @@ def duel(
     writes a run folder with the configuration that repeats it, the
     trajectories and a figure.
     """
+    from ..games.outcome import Outcome
     from ..report.run_folder import check_output, figure_of, free_folder
     from ..report.settling import settling_words
 
@@ -49,7 +50,7 @@ def duel(
     seconds = settings.duration
     tell_effort(f"a duel of {seconds:g} s", seconds / SIMULATED)
     run, kept = keep(output, _play(settings))
-    if figure is not None:
+    if figure is not None and run.outcome is not Outcome.INTERRUPTED:
         from ..report.duel_figure import draw_duel
 
         attempt(lambda: draw_duel(run, Path(figure)))

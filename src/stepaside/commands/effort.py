@@ -11,7 +11,11 @@ ENDLESS = 30 * 86400.0  # which is refused, in [s]
 # Rough figures of one core of a laptop; docs/benchmark.md has measured ones.
 SIMULATED = 6.0  # seconds of a game in one second
 STEPS = 2e7  # of unicycles in one second
-PICTURES = 20.0  # of 640x480 in one second
+PICTURES = 10.0  # of 640x480 in one second
+CELLS = 2e7  # steps of a cell of a table in one second
+HELD = 2500.0  # samples of a game with held rates in one second
+DECISIONS = 500.0  # of two strategies in one second
+SETTLED = 1000.0  # times 1/k of one exact game in one second
 
 
 def tell_effort(what: str, seconds: float, workers: int | None = 1) -> None:

@@ -29,10 +29,9 @@ class Kept(NamedTuple):
     def tell(self, figure: str) -> None:
         """Say where figure and folder are, if they are anywhere."""
         if self.folder is not None:
-            echo(
-                f"\nfigure:     {self.folder / figure}\n"
-                f"run folder: {self.folder}"
-            )
+            drawn = self.folder / figure
+            echo(f"\nfigure:     {drawn}" if drawn.exists() else "")
+            echo(f"run folder: {self.folder}")
 
     def leave_if(self, outcome: "Outcome") -> None:
         """Leave if Ctrl-C ended the game, and say where it lies."""

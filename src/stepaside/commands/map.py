@@ -1,7 +1,7 @@
 """``stepaside map``: closest approach, settling and capture over starts."""
 
-from math import pi
-from typing import Any
+from math import pi, prod
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
@@ -27,6 +27,9 @@ from .options import (
     print_table,
 )
 from .outputs import attempt, writes_files
+
+if TYPE_CHECKING:
+    from ..unicycle.maps import StartBox, StartMap, WorstStart
 
 TIME = NumberType("s")
 
@@ -93,10 +96,7 @@ def map(  # noqa: A001 (the command's name)
     as_json: bool,
 ) -> None:
     """Play games from everywhere and find the worst start."""
-    import numpy as np
-    from tqdm import tqdm
-
-    from ..unicycle.maps import StartBox, find_worst_start, map_starts
+    from ..unicycle.maps import StartBox, find_worst_start
 
     for name, value in (("--aim", aim), ("--facing", facing)):
         if not 0.0 <= value <= pi:
@@ -104,38 +104,92 @@ def map(  # noqa: A001 (the command's name)
                 f"must lie in [0, pi] [rad], got {value}", param_hint=name
             )
     unit = game.evader.speed / game.evader.gain
+    gain = min(game.pursuer.gain, game.evader.gain)
     box = StartBox(
         1.6 * unit if nearest is None else nearest,
         4.0 * unit if farthest is None else farthest,
         aim,
         facing,
     )
-    body = 0.1 * unit if body is None else body
-    gain = min(game.pursuer.gain, game.evader.gain)
-    duration = 30.0 / gain if duration is None else duration
-    step = 0.01 / gain if step is None else step
-    shape = (distances, grid, grid)
-    total = distances * grid * grid
-    steps = duration / step
+    rules = _Rules(
+        (distances, grid, grid),
+        30.0 / gain if duration is None else duration,
+        0.01 / gain if step is None else step,
+        0.1 * unit if body is None else body,
+    )
+    found = _play(game, box, rules, quiet=as_json)
+    worst = find_worst_start(
+        game,
+        found,
+        box,
+        rules.duration,
+        step=rules.step,
+        capture_distance=rules.body,
+    )
+    result = _result(game, box, rules, found, worst)
+    if figure is not None:
+        from ..report.unicycle_map import draw_map
+        from ..unicycle.circles import circles_of
+
+        circles = circles_of(game)
+        if attempt(
+            lambda: draw_map(found, figure, circles=circles, body=rules.body)
+        ):
+            result["figure"] = figure
+    if as_json:
+        print_json(result)
+    else:
+        _print(result)
+
+
+class _Rules(NamedTuple):
+    """Of a map: starts along each side, durations in [s], body in [m]."""
+
+    shape: tuple[int, int, int]
+    duration: float
+    step: float
+    body: float
+
+
+def _play(
+    game: Game, box: "StartBox", rules: _Rules, *, quiet: bool
+) -> "StartMap":
+    """Play from everywhere, and say how long that takes."""
+    from tqdm import tqdm
+
+    from ..unicycle.maps import map_starts
+
+    total = prod(rules.shape)
+    steps = rules.duration / rules.step
     tell_effort(f"{total} games of {steps:.0f} steps", total * steps / STEPS)
     with tqdm(
-        total=total, unit="game", disable=as_json or None, leave=False
+        total=total, unit="game", disable=quiet or None, leave=False
     ) as bar:
-        found = map_starts(
+        return map_starts(
             game,
             box,
-            duration,
-            shape=shape,
-            step=step,
-            capture_distance=body,
+            rules.duration,
+            shape=rules.shape,
+            step=rules.step,
+            capture_distance=rules.body,
             progress=bar.update,
         )
-    worst = find_worst_start(
-        game, found, box, duration, step=step, capture_distance=body
-    )
-    out = found.outcomes
+
+
+def _result(
+    game: Game,
+    box: "StartBox",
+    rules: _Rules,
+    found: "StartMap",
+    worst: "WorstStart",
+) -> dict[str, Any]:
+    """Everything that is printed, by name."""
+    import numpy as np
+
+    out, total = found.outcomes, prod(rules.shape)
     settled = out.settled_time[np.isfinite(out.settled_time)]
-    result: dict[str, Any] = {
+    times = settled if len(settled) else np.array([np.inf])
+    return {
         "games": total,
         "games_to_refine": worst.games - total,
         "min_distance_m": worst.closest_distance,
@@ -149,15 +203,11 @@ def map(  # noqa: A001 (the command's name)
         "captured_share": float(out.captured.mean()),
         "settled_share": len(settled) / total,
         "circles": _circles(game, out),
-        "settled_time_median_s": finite(
-            float(np.median(settled)) if len(settled) else float("inf")
-        ),
-        "settled_time_largest_s": finite(
-            float(settled.max()) if len(settled) else float("inf")
-        ),
-        "body_m": body,
-        "duration_s": duration,
-        "step_s": step,
+        "settled_time_median_s": finite(float(np.median(times))),
+        "settled_time_largest_s": finite(float(times.max())),
+        "body_m": rules.body,
+        "duration_s": rules.duration,
+        "step_s": rules.step,
         "box": {
             "nearest_m": box.nearest,
             "farthest_m": box.farthest,
@@ -166,26 +216,18 @@ def map(  # noqa: A001 (the command's name)
         },
         "game": describe_game(game),
     }
-    if figure is not None:
-        from ..report.unicycle_map import draw_map
-        from ..unicycle.circles import circles_of
 
-        circles = circles_of(game)
-        if attempt(
-            lambda: draw_map(found, figure, circles=circles, body=body)
-        ):
-            result["figure"] = figure
-    if as_json:
-        print_json(result)
-        return
+
+def _print(result: dict[str, Any]) -> None:
+    """One row for each number, circle and part of the worst start."""
     rows = [
         (name, f"{value:.6g}" if isinstance(value, float) else str(value))
         for name, value in result.items()
         if not isinstance(value, dict | list)
     ]
-    for found_circle in result["circles"]:
-        way = "main" if found_circle["direction"] > 0 else "reversed"
-        apart, share = found_circle["distance_m"], found_circle["share"]
+    for circle in result["circles"]:
+        way = "main" if circle["direction"] > 0 else "reversed"
+        apart, share = circle["distance_m"], circle["share"]
         rows.append((f"on the {way} circle", f"{share:.6g} at {apart:.6g} m"))
     start = result["worst_start"]
     print_table([*rows, *((f"worst {k}", str(v)) for k, v in start.items())])

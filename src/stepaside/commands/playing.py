@@ -85,17 +85,12 @@ def open_velocity(
     from ..drivers.velocity.playing import VelocityPlaying
     from ..drivers.velocity.watchdog import WatchSettings
 
-    if settings.sensing == "cameras":
-        raise click.UsageError(
-            "a robot that walks by itself is told where the other is: its "
-            "head does not follow; choose --sensing ideal"
-        )
     strategy = strategy_of(settings, options["role"])
     speed = options["max_speed"] or inf
     limits = VelocityLimits(speed, speed, options["max_turn"] or inf)
     watch = WatchSettings(paced=not options["sim_time"])
     return VelocityPlaying(
-        _guarded(options),
+        _guarded(settings, options),
         lambda: TemplateMind(strategy, settings.gait),
         limits,
         watch,
@@ -103,11 +98,13 @@ def open_velocity(
     )
 
 
-def _guarded(options: dict[str, Any]) -> "VelocityBody":
+def _guarded(
+    settings: "DuelSettings", options: dict[str, Any]
+) -> "VelocityBody":
     """A robot, with a guardian where one can be needed."""
     from ..drivers.velocity.guardian import GuardedBody, guardian_of
 
-    open_body, let_go = _line_to(options)
+    open_body, let_go = _line_to(settings, options)
     if options["dry_run"] or options["sim_time"]:
         return open_body()
     # Forked here: what speaks to the robot starts threads.
@@ -120,10 +117,17 @@ def _guarded(options: dict[str, Any]) -> "VelocityBody":
 
 
 def _line_to(
+    settings: "DuelSettings",
     options: dict[str, Any],
 ) -> "tuple[Callable[[], VelocityBody], Callable[[], None]]":
     """What opens a robot, and what makes it rest without control."""
     robot, dry_run = options["robot"], options["dry_run"]
+    sees = settings.sensing == "cameras"
+    if sees and not robot.startswith(NAOQI):
+        raise click.UsageError(
+            "--sensing cameras is for robots on LoLA or NAOqi, whose head "
+            "follows the other; who is driven over topics is told of it"
+        )
     if robot.startswith(ROS2):
         from ..drivers.ros2.address import parse_namespace
 
@@ -150,6 +154,10 @@ def _line_to(
         url = parse_url(robot)
 
         def open_naoqi() -> "VelocityBody":
+            if sees:
+                from .seeing import open_looking
+
+                return open_looking(settings, url, options)
             from ..drivers.naoqi.body import NaoqiBody
 
             return NaoqiBody(url, dry_run=dry_run)

@@ -4,7 +4,7 @@ import webbrowser
 from collections.abc import Callable
 from pathlib import Path
 from time import sleep
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -17,9 +17,14 @@ from .declared.common import (
     json_option,
 )
 from .declared.kinds import NameType
+from .effort import PICTURES, tell_effort
 from .options import POSITIVE, SECONDS, NumberType, print_json
 from .outputs import OutputFile, attempt, writes_files
 from .terminal import echo
+
+if TYPE_CHECKING:
+    from ..games.run import Run
+    from ..report.film import Shot
 
 FORMER = {"following": "follow"}  # names of today by former ones
 
@@ -113,11 +118,13 @@ def replay(run: Path, as_json: bool, **options: Any) -> None:
         from ..report.film import write_video
 
         shot = _shot(options, 60.0, 30.0, 1280, 720)
+        _tell(shot, loaded)
         _film("video", write_video, run, video, shot, written)
     if gif is not None:
         from ..report.film import write_gif
 
         shot = _shot(options, 12.0, 10.0, 480, 270)
+        _tell(shot, loaded)
         _film("gif", write_gif, run, gif, shot, written)
     if strip is not None:
         from ..report.film_strip import write_strip
@@ -161,6 +168,21 @@ def _shot(
         slow=options["slow"],
         words=options["words"],
         title=options["title"],
+    )
+
+
+def _tell(shot: "Shot", run: "Run") -> None:
+    """Say how long a film takes."""
+    from ..report.film_shot import AROUND, SLOWEST
+
+    shown = min(float(run.times[-1]) - shot.begin, shot.duration)
+    slower = 2.0 * AROUND / SLOWEST if shot.slow else 0.0
+    number = max(shown + slower, 0.0) * shot.rate / shot.speed
+    size = shot.width * shot.height / (640 * 480)
+    tell_effort(
+        f"a film of about {number:.0f} pictures",
+        number * size / PICTURES,
+        workers=None,
     )
 
 

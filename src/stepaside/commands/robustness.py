@@ -79,8 +79,9 @@ def _others() -> Collection[str]:
     type=NameType(_kinds, OLD_KINDS),
     multiple=True,
     help="Disturbance, any number of times; all but persons by default. Of "
-    "pushes the largest one survived is searched, to 0.1 N s for a robot of "
-    "NAO's mass. Persons come from all around at one who stands.",
+    "pushes the largest one survived is searched, to 0.1 N s for NAO, and "
+    "push_unit times that for others. Persons come from all around at one "
+    "who stands.",
 )
 @click.option(
     "--sensing",

@@ -7,19 +7,20 @@ import click
 if TYPE_CHECKING:
     from ..drivers.cameras.source import PerceptSource
     from ..drivers.lola.address import Address
+    from ..drivers.velocity.body import VelocityBody
     from ..games.settings import DuelSettings
 
 V4L2, NAOQI, ROS2 = "v4l2:", "naoqi:", "ros2:"
 
 
 def open_cameras(
-    settings: "DuelSettings", robot: "Address", options: dict[str, Any]
+    settings: "DuelSettings", robot: "Address | None", options: dict[str, Any]
 ) -> "PerceptSource":
     """Open the cameras that a robot is played with.
 
     Args:
         settings: Which optics they have, and how late their images are.
-        robot: Where the robot listens.
+        robot: Where the robot listens, if it speaks LoLA.
         options: Of the command.
 
     Raises:
@@ -56,11 +57,49 @@ def open_cameras(
     )
 
 
-def _beside(robot: "Address") -> "PerceptSource":
+def open_looking(
+    settings: "DuelSettings", url: str, options: dict[str, Any]
+) -> "VelocityBody":
+    """Connect to a robot on NAOqi that sees by its own camera.
+
+    Args:
+        settings: Which optics it has, and how late its images are.
+        url: Where it is.
+        options: Of the command.
+
+    Raises:
+        StepAsideError: If there is no such robot, or it has no camera.
+    """
+    from ..drivers.minds import level_perception
+    from ..drivers.naoqi.body import NaoqiBody
+    from ..drivers.velocity.looking import PERIOD, LookingBody
+    from ..robots.description import load_robot
+    from ..robots.head import load_head
+
+    description = load_robot(options["description"])
+    head = load_head(description)
+    perception = level_perception(options["role"], description, PERIOD)
+    dry_run = options["dry_run"]
+    body = NaoqiBody(
+        url,
+        dry_run=dry_run,
+        joint_names=perception.forward.tree.motors,
+        head=(head.yaw, head.pitch),
+    )
+    own = options | {"images": options["images"] or f"{NAOQI}{url}"}
+    try:
+        eyes = open_cameras(settings, None, own)
+    except BaseException:
+        body.close()
+        raise
+    return LookingBody(body, eyes, perception, turns_head=not dry_run)
+
+
+def _beside(robot: "Address | None") -> "PerceptSource":
     """What a simulated robot shows beside its socket."""
     from ..drivers.lola.camera_channel import CameraChannel
 
-    if robot.cameras is None:
+    if robot is None or robot.cameras is None:
         raise click.UsageError(
             "--images is needed: a robot behind a host and a port shows no "
             "images beside it"

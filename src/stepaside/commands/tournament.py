@@ -8,7 +8,7 @@ import click
 
 from ..errors import ConfigurationError, OutputError
 from ..outputs import check_folder
-from .declared.arena import BOXES, DISCS, POLYGONS
+from .declared.arena import BOXES, DISCS, POLYGONS, ArenaType
 from .declared.common import (
     FIGURE,
     FOLDER,
@@ -16,14 +16,21 @@ from .declared.common import (
     WORKERS,
     json_option,
 )
-from .declared.kinds import NameType, OutputFile, SizeType
+from .declared.kinds import NameType, OutputFile
 from .declared.option import Declaration
+from .declared.rooms import MAP
 from .duels import SEEDS
+from .effort import DECISIONS, SIMULATED, tell_effort
 from .options import ANGLE, print_json
 from .outputs import attempt, writes_files
 from .stopping import kept_in, leave_stopped
 from .terminal import echo
+from .tournament_table import print_rows
 
+SOLVES = (
+    "stepaside: solves the table of the bound first, once on this machine; "
+    "about half a minute"
+)
 RECORDS, SUMMARY = "games.jsonl", "summary.json"
 PATHS = Declaration(
     "--paths",
@@ -33,33 +40,9 @@ PATHS = Declaration(
 
 
 def _levels() -> tuple[str, ...]:
-    from ..studies.tournament import LEVELS
+    from ..studies.tournament_settings import LEVELS
 
     return LEVELS
-
-
-class RoomType(click.ParamType[Any]):
-    """A size like 3x3, ``open``, or a file of a room."""
-
-    name = "room"
-
-    def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
-        """How it is written."""
-        return "[WIDTHxDEPTH|open|FILE]"
-
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> Any:
-        """Take a file for its path, and anything else for a size."""
-        file = Path(str(value))
-        if file.suffix.lower() in (".toml", ".json"):
-            if not file.is_file():
-                self.fail(f"must be a file that exists, got {value!r:.80}")
-            return file
-        return SizeType().convert(value, param, ctx)
 
 
 @click.command("tournament")
@@ -68,7 +51,8 @@ class RoomType(click.ParamType[Any]):
     type=NameType(_levels),
     default="steps",
     show_default=True,
-    help="Steps of the gait, or unicycles, which decide eight times a step.",
+    help="Steps of the gait, unicycles, which decide eight times a step, or "
+    "humanoids in physics.",
 )
 @click.option(
     "--evader",
@@ -87,7 +71,7 @@ class RoomType(click.ParamType[Any]):
 )
 @click.option(
     "--room",
-    type=RoomType(),
+    type=ArenaType(),
     default="3x3",
     show_default=True,
     help="Size of the room [m], open for a floor without walls, or a file.",
@@ -98,7 +82,8 @@ class RoomType(click.ParamType[Any]):
 @GAME_TIME.option(
     default=180.0,
     show_default=True,
-    help="Length of a game in path time {unit}: a step takes 0.4.",
+    help="Length of a game {unit}: in path time, of which a step takes 0.4, "
+    "or in physics as it passes.",
 )
 @SEEDS.option(
     default="0:100",
@@ -110,6 +95,12 @@ class RoomType(click.ParamType[Any]):
     type=ANGLE,
     default=pi / 4,
     help="Strategy angle [rad] of the evader alpha.  [default: 45deg]",
+)
+@MAP.option(
+    default="given",
+    show_default=True,
+    help="What humanoids know of the room: all, what their depth cameras "
+    "have seen, or nothing.",
 )
 @WORKERS.option()
 @FOLDER.option(
@@ -131,6 +122,7 @@ def tournament(
     duration: float,
     seeds: range,
     alpha: float,
+    map__source: str,
     workers: int | None,
     output: Path | None,
     figure: str | None,
@@ -141,13 +133,14 @@ def tournament(
 
     The rules: a step of 4 cm turns by at most 0.25 rad; the pursuer walks
     through what stands there; the evader is caught at 0.35 m, and touches
-    what its centre comes nearer to than 0.20 m. A tournament that was
+    what its centre comes nearer to than 0.20 m. In physics humanoids with
+    ideal bodies play, and what touches touches. A tournament that was
     stopped goes on where it was with the same folder.
     """
     from ..rooms import RoomRecipe, load_room
     from ..strategies.steps import StepGame
     from ..studies.entrants import EVADERS, evader_of, pursuer_of
-    from ..studies.tournament import TournamentSettings
+    from ..studies.tournament_settings import TournamentSettings
 
     evaders, pursuers = evaders or tuple(EVADERS), pursuers or ("pure",)
     for name in evaders:
@@ -165,13 +158,19 @@ def tournament(
     else:
         width, depth = room or (None, None)
         arena = RoomRecipe(width, depth, discs, boxes, polygons)
-    settings = TournamentSettings(
-        level, arena, StepGame(duration=duration), alpha
-    )
+    game = StepGame(duration=duration)
+    settings = TournamentSettings(level, arena, game, alpha, map__source)
     settings.arena(seeds[0])  # whether there is such a room
     if output is not None:
         check_folder(output, new=False)
     pairings = [(e, p) for p in pursuers for e in evaders]
+    number = len(pairings) * len(seeds)
+    steps = duration * game.speed / game.stride / DECISIONS
+    tell_effort(
+        f"{number} games of {duration:g} s, less those that are recorded",
+        number * (duration / SIMULATED if level == "physics" else steps),
+        workers,
+    )
     records, stopped = _play(settings, pairings, seeds, output, workers)
     result = _answer(settings, seeds, records)
     failed: OutputError | None = None
@@ -196,11 +195,11 @@ def tournament(
     if as_json:
         print_json(result)
     else:
-        _print(result["rows"])
+        print_rows(result["rows"])
     if failed is not None:
         raise failed
     if stopped:
-        done = f"{len(records)} of {len(seeds) * len(pairings)} games"
+        done = f"{len(records)} of {number} games"
         leave_stopped(kept_in(done, output and output / RECORDS))
 
 
@@ -216,14 +215,17 @@ def _play(
 
     from tqdm import tqdm
 
+    from ..strategies.tables import has_pursuit_bound
     from ..studies.records import RecordFile
-    from ..studies.tournament import BLOCK, play_tournament
+    from ..studies.tournament import CELLS, play_tournament
     from ..workers import worker_pool
 
+    if not has_pursuit_bound(CELLS):
+        echo(SOLVES, err=True)
     file = None if output is None else RecordFile(output / RECORDS)
     total = len(seeds) * len(pairings)
     # A pool takes longer to begin than a few games.
-    alone = workers == 1 or total <= 2 * BLOCK
+    alone = workers == 1 or total <= 2 * settings.block
     done: dict[str, dict[str, Any]] = {}
     stopped = False
     with (
@@ -252,13 +254,11 @@ def _answer(
     settings: Any, seeds: range, records: list[dict[str, Any]]
 ) -> dict[str, Any]:
     from ..studies.results import header
-    from ..studies.tournament import ROOMS
     from ..studies.tournament_rows import tournament_rows
 
+    rooms, libraries = settings.depends
     return {
-        **header(
-            settings.entries(), rooms=ROOMS, libraries=("numba", "numpy")
-        ),
+        **header(settings.entries(), rooms=rooms, libraries=libraries),
         "seeds": f"{seeds.start}:{seeds.stop}",
         "rows": tournament_rows(records),
     }
@@ -266,34 +266,14 @@ def _answer(
 
 def _worst(settings: Any, rows: list[dict[str, Any]]) -> list[Any]:
     """The worst game of each row: its title, room and track."""
-    from ..studies.tournament import play_track
+    from ..studies.tournament import play_ways
 
     games = []
     for row in rows:
         seed = row["worst_seeds"][0]
-        room, track = play_track(
+        room, track = play_ways(
             settings, (row["evader"], row["pursuer"]), seed
         )
         title = f"{row['evader']} by {row['pursuer']}, seed {seed}"
         games.append((f"{title}: {track.outcome}", room, track))
     return games
-
-
-def _print(rows: list[dict[str, Any]]) -> None:
-    echo(
-        f"{'evader':<12}{'pursuer':<9}{'games':>6}{'survived':>10}"
-        f"{'95 %':>14}{'caught':>8}{'touched':>9}{'closest':>9}"
-        f"{'of bound':>9}{'floor':>7}{'turning':>9}{'unseen':>8}{'ms':>7}"
-    )
-    for row in rows:
-        low, high = row["survived_low"], row["survived_high"]
-        echo(
-            f"{row['evader'][-11:]:<12}{row['pursuer'][-8:]:<9}"
-            f"{row['games']:>6}{100 * row['survived']:>8.1f} %"
-            f"{100 * low:>7.1f}-{100 * high:<6.1f}"
-            f"{100 * row['caught']:>6.1f} %"
-            f"{100 * row['touched_obstacle']:>7.1f} %"
-            f"{row['mean_closest_m']:>7.3f} m{row['closest_over_bound']:>9.3f}"
-            f"{row['floor_used_m2']:>7.2f}{row['turning_rad_s']:>9.3f}"
-            f"{100 * row['out_of_view']:>6.1f} %{row['decision_ms']:>7.2f}"
-        )

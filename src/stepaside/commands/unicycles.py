@@ -16,6 +16,7 @@ from .declared.common import (
     json_option,
 )
 from .declared.strategies import PURSUER_STRATEGY, UNICYCLE_STRATEGY
+from .effort import DECISIONS, HELD, SETTLED, tell_effort
 from .game_options import (
     describe_game,
     finite,
@@ -94,6 +95,8 @@ def unicycles(
         duration = settling_time(game)
     if delay > 0.0 and sample_time == 0.0:
         raise click.UsageError("--delay needs --sample-time > 0 [s] here")
+    named = bool(evader_strategy or pursuer_strategy)
+    _tell(game, duration, sample_time, named=named)
     start = Start(distance, aim, bearing)
     result: dict[str, Any] = {
         "start": asdict(start),
@@ -102,7 +105,7 @@ def unicycles(
         "delay_s": delay,
         "game": describe_game(game),
     }
-    if evader_strategy or pursuer_strategy:
+    if named:
         if figure is not None or delay > 0.0:
             raise click.UsageError(
                 "--figure and --delay are for games of the paper"
@@ -143,6 +146,19 @@ _NAMES = (
     "headings_apart_rad",
     "motions_apart_rad",
 )
+
+
+def _tell(
+    game: Game, duration: float, sample_time: float, *, named: bool
+) -> None:
+    """Say how long the game takes."""
+    gain = max(game.pursuer.gain, game.evader.gain)
+    seconds = duration * gain / SETTLED
+    if named:
+        seconds = duration / (sample_time or SHORT) / DECISIONS
+    elif sample_time > 0.0:
+        seconds = duration / sample_time / HELD
+    tell_effort(f"a game of {duration:g} s", seconds)
 
 
 def _play(

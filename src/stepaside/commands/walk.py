@@ -44,11 +44,13 @@ def walk(
     three seconds, in the frame of the support foot. A run folder can be
     replayed, as that of a duel.
     """
+    from ..games.outcome import Outcome
+
     check_kept(output)
     seconds = settings.duration
     tell_effort(f"a walk of {seconds:g} s", seconds / SIMULATED)
     run, kept = keep(output, _walk(settings))
-    if figure is not None:
+    if figure is not None and run.outcome is not Outcome.INTERRUPTED:
         from ..report.walk_figure import draw_walk
 
         attempt(lambda: draw_walk(run, Path(figure)))

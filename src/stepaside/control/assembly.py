@@ -44,18 +44,19 @@ def build_balance(
         kinematics: Its joint motion generation.
         forward: Kinematics of the measured body, if somebody has it already.
     """
-    if not control.feedback:
-        return OpenLoop(
-            LoadFeedforward(
-                kinematics, zmp_forward=gait.zmp_forward, tick=tick
-            )
+    loads = None
+    if not control.feedback or control.stabiliser.load_share > 0.0:
+        loads = LoadFeedforward(
+            kinematics, zmp_forward=gait.zmp_forward, tick=tick
         )
+    if not control.feedback:
+        return OpenLoop(loads)
     forward = forward or ForwardKinematics(description)
     estimator = StateEstimator(
         forward, forward.force_sensors(), gait.eta, tick
     )
     return ClosedLoop(
-        Stabiliser(control, estimator, gait, tick=tick, delay=delay)
+        Stabiliser(control, estimator, gait, tick=tick, delay=delay), loads
     )
 
 

@@ -12,6 +12,7 @@ from ..robots.description import RobotDescription
 from ..strategies import Strategy
 
 if TYPE_CHECKING:
+    from ..perception.level import LevelPerception
     from ..perception.perception import Perception
 
 REQUEST_TO_MOTION = 3  # ticks, as three teams measured on NAO
@@ -41,7 +42,7 @@ def mind_maker(
         ConfigurationError: If it is to see and OpenCV is not there.
         ModelError: If it is to see and has no head.
     """
-    perceive = None if sees_as is None else _perception_of(sees_as)
+    perceive = None if sees_as is None else perception_of(sees_as)
 
     def make(strategy: Strategy) -> ControlScheme:
         return build_scheme(
@@ -59,10 +60,54 @@ def mind_maker(
     return make
 
 
-def _perception_of(
+def perception_of(
     role: str,
 ) -> "Callable[[RobotDescription, float], Perception]":
-    """What makes the perception of a role, at a control period in [s]."""
+    """What makes the perception of a role, at a control period in [s].
+
+    Args:
+        role: Who looks.
+
+    Raises:
+        ConfigurationError: If OpenCV is not there.
+    """
+    _one_thread()
+    from ..perception.looks import LOOKS
+    from ..perception.perception import Perception
+    from ..robots.head import load_head
+
+    def make(description: RobotDescription, tick: float) -> Perception:
+        head = load_head(description)
+        return Perception(description, head, LOOKS[role], tick=tick)
+
+    return make
+
+
+def level_perception(
+    role: str, description: RobotDescription, tick: float
+) -> "LevelPerception":
+    """Perception of a role at a robot that walks by itself.
+
+    Args:
+        role: Who looks.
+        description: The robot.
+        tick: Time between two reports, in [s].
+
+    Raises:
+        ConfigurationError: If OpenCV is not there.
+        ModelError: If the robot has no head.
+    """
+    _one_thread()
+    from ..perception.level import LevelPerception
+    from ..perception.looks import LOOKS
+    from ..robots.head import load_head
+
+    head = load_head(description)
+    return LevelPerception(description, head, LOOKS[role], tick=tick)
+
+
+def _one_thread() -> None:
+    """Let OpenCV take one core, which sees and walks."""
     try:
         import cv2
     except ImportError as error:
@@ -70,14 +115,4 @@ def _perception_of(
             "sensing with cameras needs OpenCV: pip install "
             "'stepaside[vision]'"
         ) from error
-    from ..perception.looks import LOOKS
-    from ..perception.perception import Perception
-    from ..robots.head import load_head
-
-    cv2.setNumThreads(1)  # one core sees and walks
-
-    def make(description: RobotDescription, tick: float) -> Perception:
-        head = load_head(description)
-        return Perception(description, head, LOOKS[role], tick=tick)
-
-    return make
+    cv2.setNumThreads(1)

@@ -9,6 +9,8 @@ import mujoco
 import numpy as np
 
 from ..errors import ModelError, ReachError
+from ..games.robot_settings import settings_of
+from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.kinematics import BodyReference, LegKinematics
 from ..robots.own import Overlay, Place, ServoGains, SolePlace
@@ -21,6 +23,7 @@ from .motors import (
     published_torques,
 )
 from .posture import knee_limits, reach_of, standing_of
+from .rehearsal import lengths_share
 from .survey import Survey, survey
 
 HIGH = 0.96  # CoM height of a gait by the greatest that is reached
@@ -41,6 +44,8 @@ class Derived:
         highest: Greatest one, in [m].
         told_torques: Joints whose torque the model tells.
         told_speeds: Joints whose speed it tells.
+        share: Of stride and step height, for which the joints are fast
+            enough.
     """
 
     description: RobotDescription
@@ -50,6 +55,7 @@ class Derived:
     highest: float
     told_torques: frozenset[str]
     told_speeds: frozenset[str]
+    share: float = 1.0
 
 
 def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
@@ -87,13 +93,14 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
         ),
     )
     size = Size(height, found.mass, spacing, sole, description.place.reach)
-    gait = gait_of(size)
+    share = lengths_share(*_rehearsed(description, gait_of(size)))
+    gait = gait_of(size, share)
     description = replace(
         description,
         gait=dict(gait),
         control={
-            "method": "closed-form",
-            "feedback": False,
+            "method": "measured",
+            "feedback": True,
             "stabiliser": stabiliser_of(size),
         },
         game=game_of_size(size, gait),
@@ -106,7 +113,16 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
         highest,
         frozenset(torques),
         frozenset(speeds),
+        share,
     )
+
+
+def _rehearsed(
+    description: RobotDescription, gait: dict[str, float]
+) -> tuple[RobotDescription, GaitSettings]:
+    """A robot and its gait, to go through."""
+    made = replace(description, gait=dict(gait))
+    return made, settings_of(made).gait
 
 
 def _check_legs(found: Survey) -> None:
@@ -252,6 +268,7 @@ def facts_of(derived: Derived) -> dict[str, Any]:
         "sole_m": dict(own.sole),
         "legs": [list(leg.joints) for leg in found.legs],
         "gait": dict(own.gait),
+        "lengths_share": round(derived.share, 3),
         "game": dict(own.game),
         "coupled": sorted(coupled_of(found)),
         "left_out_meshes": len(found.missing),

@@ -66,17 +66,22 @@ class Size:
         return sqrt(self.com_height * GRAVITY)
 
 
-def gait_of(size: Size) -> dict[str, float]:
-    """Entries of a gait, as a description has them, in SI units."""
+def gait_of(size: Size, share: float = 1.0) -> dict[str, float]:
+    """Entries of a gait, as a description has them, in SI units.
+
+    Args:
+        size: What it is scaled by.
+        share: Share of stride and step height that is walked.
+    """
     z, time = size.com_height, size.time
-    stride = _round(STRIDE * z)
+    stride = _round(share * STRIDE * z)
     back, front, *_ = size.sole
     return {
         "speed": _round(stride / (PATH * time)),
         "gain": _round(TURNING / time),
         "stride": stride,
         "foot_spacing": _round(size.foot_spacing, 4),
-        "step_height": _round(STEP_HEIGHT * z),
+        "step_height": _round(share * STEP_HEIGHT * z),
         "single_support": _round(SINGLE * time),
         "double_support": _round(DOUBLE * time),
         "start_support": _round(START * time),
@@ -102,6 +107,7 @@ def stabiliser_of(size: Size) -> dict[str, float]:
         "stride_bound": _round(DEAD_ZONE * z),
         "joint_gain": _round(JOINT_GAIN / time),
         "joint_leak": _round(JOINT_LEAK / time),
+        "load_share": 1.0,
     }
 
 

@@ -13,6 +13,11 @@ from .survey import Survey
 # Gains and inertia of leg joints by what tips a robot: its weight times the
 # length of its legs, and the pendulum's time; those of NAO's model.
 STIFFNESS = 12.0
+# A servo that is at its limit holds nothing. It gets there at no less of an
+# error than this, in [rad], so that a foot that lands a little off takes no
+# torque from standing, but is no softer than that part of what tips.
+GIVES = 0.04
+LEAST = 3.0
 DAMPING_TIME = 0.3
 ARMATURE = 0.004
 HEAVY = 0.2  # of the mass: a waist that carries more is as stiff as legs
@@ -75,8 +80,12 @@ def gains_of(
         if name in followers_of(found.model):
             continue
         held = _held_by(found, name)
+        torque = torques.get(name)
         if name in legs or held.mass > HEAVY * found.mass:
             stiffness = STIFFNESS * tipping
+            if torque is not None:
+                weak = max(torque / GIVES, LEAST * tipping)
+                stiffness = min(stiffness, weak)
             inertia = ARMATURE * found.mass * com_height**2
         else:
             stiffness = ARM * held.torque + 400.0 * held.inertia
@@ -84,7 +93,8 @@ def gains_of(
         passive = float(found.model.dof_damping[joint_of(found, name)])
         damping = max(DAMPING_TIME * time * stiffness, passive)
         own = float(found.model.joint(name).armature[0])
-        torque = torques.get(name, HOLDING * stiffness / STIFFNESS)
+        if torque is None:
+            torque = HOLDING * stiffness / STIFFNESS
         gains[name] = ServoGains(
             _short(stiffness),
             _short(damping),

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import ModelError
 from ..poses import Array
-from ..robots.overlaying import strip
+from ..robots.overlaying import odd_couplings, strip
 from ..world.shapes import points_of
 
 LEVEL = 0.8  # least share of an axis along the one it is taken for
@@ -115,6 +115,9 @@ def survey(path: Path, folders: Sequence[Path]) -> Survey:
     try:
         spec = mujoco.MjSpec.from_file(str(path))
         torso = _root_of(spec, path)
+        odd = {
+            n for each in odd_couplings(spec) for n in (each.name1, each.name2)
+        }
         missing = strip(spec, torso, path, list(folders))
         model = spec.compile()
     except ValueError as error:
@@ -145,6 +148,12 @@ def survey(path: Path, folders: Sequence[Path]) -> Survey:
         _leg(model, data, end.body, chain)
         for end, chain in zip(feet, own, strict=True)
     )
+    for name in (*left.joints, *right.joints):
+        if name in odd:
+            raise ModelError(
+                f"leg joint {name!r} of {path} follows another by more than "
+                "polycoef 0 1 0 0 0, which the legs' kinematics does not know"
+            )
     return Survey(path, model, data, torso, (left, right), tuple(missing))
 
 

@@ -33,6 +33,7 @@ GAIN_WHY = {
     "stride_bound": "[m]",
     "joint_gain": "[1/s]",
     "joint_leak": "[1/s]",
+    "load_share": "what the servos give way under load is asked beforehand",
 }
 GAME_WHY = {
     "safety_radius": "[m]: 0.89 of the distance on the circle",
@@ -85,8 +86,8 @@ def write_description(derived: Derived) -> str:
         *_gait(derived),
         f"# Box of a left sole in the foot frame, in [m]: {soles}.",
         *_table("sole", own.sole),
-        "# Stiff joints alone carry many robots; `stepaside robot check`",
-        "# says whether they do, `robot tune` writes what is better.",
+        "# Servos no stiffer than their torque allows want feedback; some",
+        "# robots walk without: `stepaside robot check` tries both.",
         "[control]",
         *_lines({k: own.control[k] for k in ("method", "feedback")}),
         "",
@@ -122,6 +123,10 @@ def _gait(derived: Derived) -> list[str]:
         f"[m]: {HIGH} of the greatest of {derived.lowest:.3f} to "
         f"{derived.highest:.3f} in reach"
     )
+    if derived.share < 1.0:
+        slow = f"; {derived.share:.2f} of that: the joints are no faster"
+        for name in ("stride", "step_height"):
+            why[name] += slow
     return _table("gait", own.gait, why)
 
 
@@ -140,8 +145,8 @@ def _overlay(derived: Derived) -> list[str]:
     own: RobotDescription = derived.description
     untold = [n for n in own.overlay.servos if n not in derived.told_torques]
     why = "Torques as the model tells; stiffness and damping of the legs and "
-    why += "the waist are 12 m g z and 0.3 sqrt(z / g) of that, of others by "
-    why += "what "
+    why += "the waist are 12 m g z and 0.3 sqrt(z / g) of that, less where "
+    why += "0.04 rad would ask for more than the torque; of others by what "
     why += "they carry; an armature is given where the model has hardly any."
     asked = f"{ASK} torques of {', '.join(untold)}." if untold else ""
     soles = [

@@ -1,5 +1,6 @@
 """Robots of our world that walk by themselves, at velocities from outside."""
 
+from collections.abc import Mapping
 from typing import Protocol
 
 from ..control import Phase
@@ -8,12 +9,13 @@ from ..control.velocity import accepted, walk_at
 from ..drivers.velocity.body import REST, Velocity
 from ..drivers.velocity.served import WalkerState
 from ..planning import Direction
-from ..poses import wrap_angle
+from ..poses import Array, wrap_angle
 from ..sensing.images import ColourImage
 from ..sensing.measurement import Measurement, Sighting
 from ..strategies import Stand
 from .walker import Walker
 
+HEAD_SPEED = 3.0  # of a head that is turned from outside, in [rad/s]
 SOMEBODY = Sighting(0.0, 0.0, 1.0)  # who is driven looks for nobody
 
 
@@ -49,6 +51,8 @@ class DrivenWalker(Walker):
         self._under_way: Direction | None = None
         self._velocity = REST
         self._seen: Measurement | None = None
+        self._head: dict[int, float] = {}
+        self._looks: Array | None = None
         self._image: ColourImage | None = None
         self._ticks = -1
         self._updated = False
@@ -65,7 +69,8 @@ class DrivenWalker(Walker):
         )
         scheme.decisions.adopt(strategy)
         measurement = self._measured()
-        self.robot.write(scheme.update(measurement))
+        targets = scheme.update(measurement)
+        self.robot.write(self._turned(targets) if self._head else targets)
         self._updated = True
         if self._under_way is None and scheme.phase is Phase.WALKING:
             self._under_way = strategy.direction
@@ -83,6 +88,28 @@ class DrivenWalker(Walker):
             self._sighting(measurement),
             self._image,
         )
+
+    def look(self, angles: Mapping[str, float]) -> None:
+        """Turn the head to angles of its joints, in [rad], by name.
+
+        Raises:
+            ValueError: If it has no such joint.
+        """
+        kinematics = self.scheme.kinematics
+        for name, angle in angles.items():
+            self._head[kinematics.joint_names.index(name)] = angle
+
+    def _turned(self, targets: Array) -> Array:
+        """Joint targets with the head on its way to where it is to be."""
+        if self._looks is None:
+            self._looks = targets.copy()
+        turned = targets.copy()
+        most = HEAD_SPEED * self.robot.world.physics.tick
+        for joint, angle in self._head.items():
+            off = angle - float(self._looks[joint])
+            self._looks[joint] += min(max(off, -most), most)
+            turned[joint] = self._looks[joint]
+        return turned
 
     def close(self) -> None:
         """Let go of the commander and the eyes."""

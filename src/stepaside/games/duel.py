@@ -12,11 +12,12 @@ from ..robots.description import RobotDescription, load_robot
 from ..robots.machine import prefer_for
 from ..strategies import load_strategy
 from ..world.body_settings import with_cycle
+from ..world.figures import FIGURES
 from ..world.person import Person, add_person
 from ..world.person_motion import Motion
 from ..world.push import pushes_of
 from ..world.sight import IdealLineOfSight
-from ..world.solids import add_solids
+from ..world.solids import add_solids, mover_of
 from ..world.truth import Truth
 from ..world.world import World
 from .duel_end import ended_duel
@@ -127,10 +128,15 @@ class _Setting:
             settings.seed,
             furnisher_of(settings, furnish),
         )
+        plan = settings.room.plan
+        if plan is not None and plan.moving:
+            move = mover_of(self.world.model, self.world.data, plan)
+            self.world.before_step.append(move)
         person = None
         if PURSUER not in walkers:
             motion = Motion(settings.person, frames[0], frames[1][:2])
-            person = Person(self.world, PURSUER, motion)
+            figure = FIGURES[settings.person.figure]
+            person = Person(self.world, PURSUER, motion, figure)
         # Each must know the other before it stands: truths come first.
         self._watched = {
             name: watch(self.world, name, description, self._robots[name].gait)
@@ -222,7 +228,7 @@ def furnisher_of(
         if plan is not None:
             add_solids(spec, plan)
         if comes:
-            add_person(spec, PURSUER)
+            add_person(spec, PURSUER, FIGURES[settings.person.figure])
 
     return all_of_it
 

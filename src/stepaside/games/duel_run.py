@@ -7,6 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..poses import Array
+from ..rooms import Room
 from ..world.camera_settings import Thing
 from .circle import angle_between, distance_between, theory_of
 from .figures import DuelSummary
@@ -92,8 +93,13 @@ class DuelRun(Run):
     @property
     def safety(self) -> Area | None:
         """Area that the evader keeps free; None if it always evades."""
-        radius = self.settings.strategy.safety_radius
+        radius = self.settings.strategy.area
         return Area(EVADER, radius) if isfinite(radius) else None
+
+    @property
+    def plan(self) -> Room | None:
+        """Room that they play in, if they play in one."""
+        return self.settings.room.plan
 
     @property
     def things(self) -> tuple[Thing, ...]:

@@ -5,7 +5,8 @@ from math import atan2, radians
 
 import numpy as np
 
-from ..perception.perception import FrameReport, Perception
+from ..perception.frame_report import FrameReport
+from ..perception.perception import Perception
 from ..poses import Array, wrap_angle, wrap_angles
 from ..robots.head import HeadDescription, Mount
 from ..sensing.images import ColourImage, DepthImage, Percept, SonarEcho

@@ -2,6 +2,7 @@
 
 from typing import NamedTuple, Protocol
 
+from ..control.senses import CameraSight
 from ..drivers.lola.address import Address
 from ..drivers.lola.server import LolaServer
 from .exchange import Server
@@ -47,7 +48,11 @@ class LolaOffer(NamedTuple):
 
     def serve(self, walker: Walker, *, lock_step: bool) -> Offered:
         """Offer a robot's joints; who plays it has to keep it up."""
-        body = ServedBody(walker.robot)
+        senses = walker.scheme.senses
+        head: tuple[int, ...] = ()
+        if isinstance(senses, CameraSight):
+            head = senses.perception.head_joints
+        body = ServedBody(walker.robot, head)
         server = LolaServer(
             self.address,
             body,

@@ -12,7 +12,7 @@ from ..world.truth import Truth
 from .player import Snapshot
 
 if TYPE_CHECKING:
-    from ..perception.perception import FrameReport
+    from ..perception.frame_report import FrameReport
 
 
 class Pedestrian:

@@ -35,7 +35,7 @@ class PlaySummary:
         steps: Footsteps begun; None where the robot walked by itself.
         way_m: How far it went, in [m], without the sway of a gait cycle.
         radius_m: Of the circle on which it went in the last third of its
-            walk, in [m]; None if it stood.
+            walk, in [m]; None if it hardly turned then.
         distance_m: Mean distance to the other then, in [m]; None if it saw
             nobody.
         closest_m: Least distance at which it saw the other, in [m].

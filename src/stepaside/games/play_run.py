@@ -56,7 +56,7 @@ class PlayRun(Run):
     @property
     def safety(self) -> Area | None:
         """Area that an evader keeps free, if there is one."""
-        radius = self.settings.strategy.safety_radius
+        radius = self.settings.strategy.area
         evades = self.settings.role == EVADER and isfinite(radius)
         return Area(EVADER, radius) if evades else None
 

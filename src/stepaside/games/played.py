@@ -26,7 +26,7 @@ from .settings import PLAYERS
 from .track import Track
 
 MOST_CHANGES = 2000  # of what a robot did, that a summary tells
-LEAST = 3.0  # time of a walk that a circle can be fitted to, in [s]
+LEAST_TURN = 0.5  # of a walk that a circle can be fitted to, in [rad]
 SUMMARY, TRAJECTORIES = "summary.json", "trajectories.npz"
 CUT_OFF = "the record was cut off"
 
@@ -159,9 +159,7 @@ def _summary(
         walking_s=walked,
         steps=steps,
         way_m=float(np.hypot(*np.diff(smooth, axis=0).T).sum()),
-        radius_m=fit_circle(own.unicycle[late, :2])[1]
-        if walked > LEAST and late.sum() > 2
-        else None,
+        radius_m=_radius(smooth[late], own.unicycle[late, 2]),
         distance_m=None
         if apart is None or not late.any()
         else float(apart[late].mean()),
@@ -172,6 +170,13 @@ def _summary(
         plan_time_us=1e6 * float(np.median(spent)) if len(spent) else None,
         changes=_changes(rows),
     )
+
+
+def _radius(way: Array, headings: Array) -> float | None:
+    """Radius of a way that turns enough for one, in [m]."""
+    if len(way) < 3 or np.ptp(headings) < LEAST_TURN:
+        return None
+    return fit_circle(way)[1]
 
 
 def _last_third(rows: PlayedRows, walking: Array) -> Array:

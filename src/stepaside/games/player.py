@@ -11,7 +11,7 @@ from ..world.stance import Stance
 from ..world.truth import Truth
 
 if TYPE_CHECKING:
-    from ..perception.perception import FrameReport
+    from ..perception.frame_report import FrameReport
     from ..world.robot import SimulatedRobot
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..planning import GaitSettings
 from ..poses import Array
+from ..rooms import Room
 from ..world.body_settings import BodySettings
 from ..world.camera_settings import Thing
 from ..world.settings import PhysicsSettings
@@ -113,6 +114,11 @@ class Run:
     stills: "Mapping[str, Mapping[str, list[Still]]]" = field(
         default_factory=dict
     )
+
+    @property
+    def plan(self) -> Room | None:
+        """Room that they play in, if they play in one."""
+        return None
 
     @property
     def title(self) -> str:

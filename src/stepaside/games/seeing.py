@@ -12,6 +12,7 @@ except ImportError as error:
     ) from error
 
 from ..perception.floor_map import FloorMap
+from ..perception.gaze import OFTEN, SELDOM
 from ..perception.looks import LOOKS
 from ..perception.perception import Perception
 from ..poses import Array
@@ -29,6 +30,7 @@ from .outcome import Outcome
 from .settings import DuelSettings
 from .sight_figures import SeeingFigures, Seen
 
+GLANCES = {"pursuer": SELDOM, "evader": OFTEN}  # around, to map
 STILLS = 5  # images that a duel keeps of each camera
 
 
@@ -77,7 +79,7 @@ class Seeing:
                 LOOKS[name],
                 tick=tick,
                 floor=FloorMap() if self._maps else None,
-                glances=self._maps and name == "evader",
+                glances=GLANCES[name] if self._maps else None,
             )
             for name in names
         }

@@ -15,7 +15,7 @@ from ..world.truth import Truth
 from .player import Snapshot, snapshot_of
 
 if TYPE_CHECKING:
-    from ..perception.perception import FrameReport
+    from ..perception.frame_report import FrameReport
 
 MOVED = 0.05  # of a target from the stance before a robot moves, in [rad]
 
@@ -30,9 +30,17 @@ class ServedBody:
         is_moving: Whether its targets have left the stance.
     """
 
-    def __init__(self, robot: SimulatedRobot) -> None:
-        """Hold a robot that stands in its world."""
-        self._robot = robot
+    def __init__(
+        self, robot: SimulatedRobot, head: Sequence[int] = ()
+    ) -> None:
+        """Hold a robot that stands in its world.
+
+        Args:
+            robot: The robot.
+            head: Numbers of the joints that turn its head: who looks about
+                does not move.
+        """
+        self._robot, self._head = robot, list(head)
         self._held = True
         self._seen: Measurement | None = None
         self._ticks = -1
@@ -56,8 +64,9 @@ class ServedBody:
             return
         if self._stance is None:
             self._stance = targets
-        moved = np.abs(targets - self._stance).max()
-        self.is_moving = self.is_moving or bool(moved > MOVED)
+        moved = np.abs(targets - self._stance)
+        moved[self._head] = 0.0
+        self.is_moving = self.is_moving or bool(moved.max() > MOVED)
         self._robot.servos.soften(stiffness)
         self._robot.write(targets)
 

@@ -6,7 +6,7 @@ from math import atan2, hypot, pi, radians
 from ..errors import ConfigurationError
 from ..poses import Pose, wrap_angle
 from ..randomness import named_generator
-from ..rooms import Room, check_starts, draw_starts
+from ..rooms import check_starts, draw_starts
 from .settings import DuelSettings, StartSettings
 
 LEISURELY = 0.15  # speed up to which a person begins near by, in [m/s]
@@ -46,7 +46,7 @@ def with_start(settings: DuelSettings) -> DuelSettings:
         return replace(settings, start=draw_start(settings))
     starts = plan.starts or draw_starts(plan, settings.seed)
     check_starts(plan, starts)
-    plan = Room(plan.width, plan.depth, plan.obstacles, plan.doors, starts)
+    plan = replace(plan, starts=starts)
     return replace(
         settings,
         start=_agreeing(settings.start, start_of(starts)),

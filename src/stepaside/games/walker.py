@@ -13,7 +13,7 @@ from ..world.truth import Truth
 from .player import Snapshot, snapshot_of
 
 if TYPE_CHECKING:
-    from ..perception.perception import FrameReport
+    from ..perception.frame_report import FrameReport
 
 
 class Walker:

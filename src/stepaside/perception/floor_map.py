@@ -1,9 +1,12 @@
 """A map of the floor that grows with every depth image."""
 
+from math import inf
+
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from ..poses import Array
+from ..poses import Array, wrap_angles
 from ..rooms import Polygon
 from ..rooms.covering import cover
 from ..sensing.images import DepthImage
@@ -15,13 +18,21 @@ LOW, HIGH = 0.07, 0.7  # of what a body runs into, in [m]
 LEVEL = 0.5  # below which a ray shows that the floor is free, in [m]
 SELF = 0.22  # what is nearer to the own axis is the robot itself, in [m]
 OTHER = 0.32  # what is nearer to the other player belongs to it, in [m]
-SHORT = 0.1  # by which a ray ends before what it struck, in [m]
+SHORT = 0.1  # by which evidence ends before what a ray struck, in [m]
+BRIEF = 0.03  # by which what a ray shows ends before that, in [m]
+START = 0.35  # of floor that is free around a robot that begins, in [m]
+STOOD = 0.2  # of floor that is free around a player who stands on it, in [m]
 FIRST = 0.3  # of a ray that counts, from the own axis, in [m]
 STRUCK, PASSED = 1.0, -0.35  # evidence of a ray
 LEAST, MOST = -2.0, 5.0  # of the evidence of a cell
 TAKEN = 1.5  # evidence from which a cell is taken: two images
 TIGHT = 1.2  # cover of unseen floor, which must leave the seen free
 NEARBY = 1.2  # within which unseen floor can count, in [m]
+WINDOW = round(NEARBY / CELL) + 2  # cells to the edge of what is near
+SAME = 0.2  # of what was measured from what it belongs to, in [m]
+SECTOR = np.pi / 8  # in which a polygon of unseen floor lies, in [rad]
+# Steps of a cell to all cells around one.
+STENCIL = np.argwhere(np.ones((17, 17))) - 8
 
 
 class FloorMap:
@@ -30,7 +41,12 @@ class FloorMap:
     Each image adds evidence where its rays strike something as high as a
     body, and takes some away where they pass: so what has moved is cleared
     when its place is seen again. The place of the other player, who moves
-    all the time, is left out.
+    all the time, is left out. Where a player stands nothing else does, and a
+    robot that begins has room to turn.
+
+    What is nearer than a camera measures, or out of its view, stays unseen
+    until a ray passes over it: a thing that hides the floor behind it keeps
+    the floor in front of it unseen as well.
 
     Attributes:
         version: Counts the changes.
@@ -64,6 +80,8 @@ class FloorMap:
         there = (depths > 0.0) & (depths < 0.97 * image.far)
         level = points[..., 2]
         slack = LOW + 0.01 * depths
+        if not self.version:
+            self._stand(own, START)
         struck = there & (level > slack) & (level < HIGH)
         flat = points[..., :2] - np.array(own)
         away = np.hypot(flat[..., 0], flat[..., 1])
@@ -79,6 +97,9 @@ class FloorMap:
         hit = counts > 1  # one pixel alone may be noise
         self._evidence[hit] += STRUCK
         self._seen |= hit
+        if other is not None:
+            # It may have been taken for a thing before it was recognised.
+            self._stand(other, STOOD)
         np.clip(self._evidence, LEAST, MOST, out=self._evidence)
         self.version += 1
 
@@ -95,37 +116,90 @@ class FloorMap:
         row = far.argmax(axis=0)
         columns = np.arange(far.shape[1])
         reach = far[row, columns]
-        first = np.where(struck, away, np.inf).min(axis=0) - SHORT
-        reach = np.minimum(reach, first)
-        good = reach > FIRST
+        first = np.where(struck, away, np.inf).min(axis=0)
+        good = np.minimum(reach, first) > FIRST
         if not good.any():
             return
         ahead = flat[row, columns][good] / far[row, columns][good][:, None]
-        shares = np.arange(FIRST, float(reach[good].max()), CELL)
-        inside = shares[None, :] < reach[good][:, None]
+        reach, first = reach[good], first[good]
+        shown = np.minimum(reach, first - BRIEF)
+        self._seen |= self._along(own, ahead, shown)
+        passed = np.minimum(reach, first - SHORT)
+        self._evidence[self._along(own, ahead, passed)] += PASSED
+
+    def _along(
+        self, own: tuple[float, float], ahead: Array, reach: Array
+    ) -> NDArray[np.bool_]:
+        """Cells along lines of a length from near the own axis on."""
+        shares = np.arange(FIRST, max(FIRST, float(reach.max())), CELL)
+        inside = shares[None, :] < reach[:, None]
         points: Array = (
             np.array(own) + shares[None, :, None] * ahead[:, None, :]
         )
         cells = self._cells(points[inside])
-        passed = np.zeros((SIDE, SIDE), dtype=np.bool_)
-        passed[cells[:, 0], cells[:, 1]] = True
-        self._evidence[passed] += PASSED
-        self._seen |= passed
+        found = np.zeros((SIDE, SIDE), dtype=np.bool_)
+        found[cells[:, 0], cells[:, 1]] = True
+        return found
+
+    def _stand(self, place: tuple[float, float], radius: float) -> None:
+        """Free the floor on which somebody stands."""
+        cells = self._cells(np.array([place])) + STENCIL
+        away = (cells + 0.5) * CELL - HALF - place
+        cells = cells[np.hypot(away[:, 0], away[:, 1]) < radius]
+        chosen = cells[:, 0], cells[:, 1]
+        self._seen[chosen] = True
+        self._evidence[chosen] = np.minimum(self._evidence[chosen], 0.0)
 
     def taken(self) -> tuple[Polygon, ...]:
         """What stands there, as far as it was seen, in odometry."""
         return cover(_centres(self._evidence > TAKEN), CELL)
 
+    def holds(self, x: float, y: float) -> bool:
+        """Whether something of the room stands at a place, in [m]."""
+        away = self._taken_from(x, y)
+        return bool(np.hypot(away[:, 0], away[:, 1]).min(initial=inf) < SAME)
+
+    def nearest(self, x: float, y: float, facing: float, half: float) -> float:
+        """Distance to what is nearest in a cone, in [m]; infinite if nothing.
+
+        Args:
+            x: Where the cone begins, in [m].
+            y: Likewise.
+            facing: Direction of its axis, in [rad].
+            half: Half of its opening, in [rad].
+        """
+        away = self._taken_from(x, y)
+        aside = np.arctan2(away[:, 1], away[:, 0]) - facing
+        inside = np.abs(wrap_angles(aside)) < half
+        return float(np.hypot(*away[inside].T).min(initial=inf))
+
+    def _taken_from(self, x: float, y: float) -> Array:
+        """Ways from a place to all taken cells, in [m]. Shape (n, 2)."""
+        away: Array = _centres(self._evidence > TAKEN) - (x, y)
+        return away
+
     def unseen(self, place: tuple[float, float]) -> tuple[Polygon, ...]:
         """Floor near a place that nobody has seen yet, in odometry.
 
         Args:
-            place: Own axis, in [m]; what it stands on is seen.
+            place: Own axis, in [m].
         """
-        hidden = ~self._seen & (self._evidence <= TAKEN)
-        centres = _centres(hidden)
-        away = np.hypot(*(centres - place).T)
-        return cover(centres[(away < NEARBY) & (away > FIRST)], CELL, TIGHT)
+        first = self._cells(np.array([place]))[0] - WINDOW
+        first = np.clip(first, 0, SIDE - 2 * WINDOW)
+        window = tuple(slice(i, i + 2 * WINDOW) for i in first.tolist())
+        hidden = ~self._seen[window]
+        dark = _broad(hidden | (self._evidence[window] > TAKEN))
+        centres = _centres(dark & hidden) + first * CELL
+        x, y = (centres - place).T
+        near = np.hypot(x, y) < NEARBY
+        centres, turned = centres[near], np.arctan2(y, x)[near]
+        # The hull of a broad part would hold the floor on which one stands.
+        sectors = np.floor(turned / SECTOR)
+        return tuple(
+            part
+            for sector in np.unique(sectors)
+            for part in cover(centres[sectors == sector], CELL, TIGHT)
+        )
 
     @staticmethod
     def _cells(points: Array) -> NDArray[np.int64]:
@@ -134,6 +208,14 @@ class FloorMap:
         inside = np.all((cells >= 0) & (cells < SIDE), axis=1)
         found: NDArray[np.int64] = cells[inside]
         return found
+
+
+def _broad(chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Cells of squares of three by three that are chosen; less is noise."""
+    whole = sliding_window_view(chosen, (3, 3)).all(axis=(2, 3))
+    wide = sliding_window_view(np.pad(whole, 2), (3, 3))
+    found: NDArray[np.bool_] = np.any(wide, axis=(2, 3))
+    return found
 
 
 def _centres(chosen: NDArray[np.bool_]) -> Array:

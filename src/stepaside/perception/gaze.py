@@ -17,7 +17,8 @@ HALF = radians(20.0)  # upward from the middle of an image, still in it
 LOOKOUT = 0.46  # height of the eyes, in [m]
 HIPS = 1.05  # height up to which somebody taller is kept in view, in [m]
 UPWARD = radians(13.0)  # at most for it: the floor stays in view, too
-EVERY = 2.0  # between two glances over the shoulder, in [s]
+OFTEN = 2.0  # between two glances of one who walks backward, in [s]
+SELDOM = 4.0  # of one who walks where it looks, in [s]
 LONG = 0.9  # of a glance, the way there included, in [s]
 TOO_NEAR = 0.45  # to look away, in [m]
 
@@ -29,6 +30,7 @@ class Gaze:
         yaw: Target of the yaw, in [rad].
         pitch: Target of the pitch, in [rad].
         searching: Whether it scans.
+        turned: How often it turned back at an end of a scan.
     """
 
     def __init__(self, coupling: Array, tick: float) -> None:
@@ -43,6 +45,7 @@ class Gaze:
         self._side = 1.0
         self.yaw, self.pitch = 0.0, SCAN_PITCH
         self.searching = True
+        self.turned = 0
 
     def follow(
         self, bearing: float, distance: float, height: float = 0.0
@@ -73,6 +76,7 @@ class Gaze:
         edge = min(REACH, float(self._yaws[-1]))
         if self._side * self.yaw >= edge - 1e-6:
             self._side = -self._side
+            self.turned += 1
         self._turn(self._side * edge, SCAN_PITCH, SCAN_SPEED)
 
     def _turn(self, yaw: float, pitch: float, speed: float) -> None:
@@ -91,13 +95,14 @@ class Gaze:
 class Glances:
     """Looks over one shoulder and the other, while somebody is followed."""
 
-    def __init__(self, tick: float) -> None:
+    def __init__(self, tick: float, every: float = OFTEN) -> None:
         """Begin with a while of looking at the other.
 
         Args:
             tick: Control period, in [s].
+            every: Time between two glances, in [s].
         """
-        self._every, self._long = round(EVERY / tick), round(LONG / tick)
+        self._every, self._long = round(every / tick), round(LONG / tick)
         self._passed = 0
         self._side = 1.0
 

@@ -4,11 +4,14 @@ from collections.abc import Sequence
 from math import atan2, cos, radians, sin
 
 from ..poses import Array, wrap_angle
+from ..robots.body_pose import BodyPose
+from ..robots.head import Mount
 from ..sensing.colour_detector import Appearance, ColourDetection
 from ..sensing.depth_detector import Obstacle, Shadow
 from ..sensing.images import ColourImage, DepthImage
 from ..sensing.ranging import range_of_breadth, range_of_trim
 from ..sensing.track import Observation, Track
+from .floor_map import FloorMap
 
 SURE = 0.8  # confidence from which the size of the trim tells distance
 GUESS = 1.2  # distance of a thing whose distance is unknown, in [m]
@@ -98,6 +101,35 @@ def observe_obstacle(image: DepthImage, thing: Obstacle) -> Observation:
     )
 
 
+def observe_obstacles(
+    image: DepthImage, things: Sequence[Obstacle], floor: FloorMap | None
+) -> tuple[list[Observation], list[Observation]]:
+    """Turn obstacles into observations.
+
+    What the edge cuts may be a piece of a wall: it founds nobody. In a room
+    that is mapped nothing does but trim, and what is on the map is nobody.
+
+    Args:
+        image: The image.
+        things: Obstacles in it.
+        floor: Map of the floor, if one is kept.
+
+    Returns:
+        Those that may found a track, and those that may not.
+    """
+    if floor is not None:
+        things = [t for t in things if not floor.holds(t.x, t.y)]
+    whole, cut = (
+        [
+            observe_obstacle(image, thing)
+            for thing in things
+            if (thing.whole and floor is None) is founds
+        ]
+        for founds in (True, False)
+    )
+    return whole, cut
+
+
 def observe_shadow(
     image: DepthImage, shadow: Shadow, place: Array, tracks: Sequence[Track]
 ) -> Observation:
@@ -131,6 +163,16 @@ def observe_shadow(
         False,
         ranged,
     )
+
+
+def camera_of(body: BodyPose, mount: Mount) -> tuple[Array, Array]:
+    """Place and axes of a camera on the head, in odometry.
+
+    Returns:
+        Place, in [m], shape (3,), and axes as columns, shape (3, 3).
+    """
+    place = body.head_place + body.head_axes @ mount.place
+    return place, body.head_axes @ mount.axes
 
 
 def angle_of(image: ColourImage | DepthImage, column: float) -> float:

@@ -2,55 +2,42 @@
 
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import atan2, cos, hypot, radians, sin
 
 from ..poses import Array, Pose, wrap_angle
 from ..robots.body_pose import BodyKinematics, BodyPose
 from ..robots.description import RobotDescription
 from ..robots.forward import ForwardKinematics
-from ..robots.head import HeadDescription, Mount
-from ..sensing.colour_detector import (
-    Appearance,
-    ColourDetection,
-    ColourDetector,
-)
-from ..sensing.depth_detector import DepthScene, detect_obstacles
+from ..robots.head import HeadDescription
+from ..sensing.colour_detector import Appearance, ColourDetector
+from ..sensing.depth_detector import detect_obstacles
 from ..sensing.images import ColourImage, DepthImage, Percept, SonarEcho
 from ..sensing.measurement import Measurement, Sighting
 from ..sensing.track import Observation, Track
 from ..sensing.tracker import Tracker
 from .floor_map import FloorMap
+from .frame_report import FrameReport
 from .gaze import Gaze, Glances
-from .observing import angle_of, observe_obstacle, observe_shadow, observe_trim
+from .observing import (
+    angle_of,
+    camera_of,
+    observe_obstacles,
+    observe_shadow,
+    observe_trim,
+)
 
 MEMORY = 1.0  # how long past poses are kept, in [s]
 FRESH = 0.25  # age at which a distance is worth hearing again, in [s]
+SURE = 0.5  # age up to which the other is known to be where it is, in [s]
 UNSEEN = 1.0  # after which the head searches, in [s]
 STARE = 1.2  # unknown things that rest are looked at up to here, in [m]
 MOVING = 0.08  # speed from which a thing moves, in [m/s]
+BOTH = 2  # ends of a scan
 BROAD = 0.12  # shadow of somebody who was not seen before, in [rad]
 CHEST = 0.10  # from a sonar to the own axis and into the other, in [m]
 DEAF = 0.25  # echo that may be of the own arms, or of anything nearer, [m]
 EAR = radians(50.0)  # how far aside a sonar hears
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class FrameReport:
-    """What one image was found to show.
-
-    Attributes:
-        image: The image.
-        azimuths: Directions in which something was found, from the
-            camera's axis, in [rad], positive leftward.
-        colour: What a colour image shows.
-        depth: What a depth image shows.
-    """
-
-    image: ColourImage | DepthImage
-    azimuths: tuple[float, ...]
-    colour: ColourDetection | None = None
-    depth: DepthScene | None = None
+ROOMY = 0.25  # by which what an echo comes from must be nearer, in [m]
 
 
 class Perception:
@@ -74,7 +61,7 @@ class Perception:
         *,
         tick: float,
         floor: FloorMap | None = None,
-        glances: bool = False,
+        glances: float | None = None,
     ) -> None:
         """Know the own body and what the other looks like.
 
@@ -83,12 +70,13 @@ class Perception:
             head: Its head.
             appearance: The other's look, if it is the one that is known.
             tick: Control period, in [s].
-            floor: Map of the floor to keep.
-            glances: Whether it looks over its shoulders now and then, to
-                see the floor that it walks backward onto.
+            floor: Map of the floor to keep. Who keeps one looks all around
+                first, and says nothing of the other before it has.
+            glances: Time between two looks over its shoulders, to see the
+                floor that it walks backward onto, in [s]; None for none.
         """
         self.floor = floor
-        self._glances = Glances(tick) if glances else None
+        self._glances = None if glances is None else Glances(tick, glances)
         self._head = head
         self.forward = ForwardKinematics(description, head.body)
         self._kinematics = BodyKinematics(description, head, self.forward)
@@ -119,17 +107,39 @@ class Perception:
         Returns:
             Where the other is now, as far as is known.
         """
-        now = measurement.time
-        self.body = body = self._kinematics.pose(
-            now, measurement.joint_positions, support, left_supports, tilt
+        joints = measurement.joint_positions
+        return self._see(
+            measurement,
+            self._kinematics.pose(
+                measurement.time, joints, support, left_supports, tilt
+            ),
         )
+
+    @property
+    def head_joints(self) -> tuple[int, int]:
+        """Numbers of the joints that turn the head: yaw and pitch."""
+        return self._kinematics.yaw, self._kinematics.pitch
+
+    @property
+    def gaze(self) -> tuple[float, float]:
+        """Yaw and pitch to which the head is to turn, in [rad]."""
+        return self._gaze.yaw, self._gaze.pitch
+
+    def _see(
+        self, measurement: Measurement, body: BodyPose
+    ) -> Sighting | None:
+        now = measurement.time
+        self.body = body
         self._poses.append(body)
         self.reports.clear()
         for percept in measurement.percepts:
             self._take(percept, self._pose_at(percept.time), now)
         track = self._tracker.main(now, *body.torso[:2])
-        self._look(now, body, track)
         self.sighting = None
+        if self.floor is not None and self._gaze.turned < BOTH:
+            self._gaze.search()
+            return None
+        self._look(now, body, track)
         if track is not None:
             x, y, heading = body.torso
             bearing = wrap_angle(track.turned_to(x, y, now) - heading)
@@ -180,7 +190,7 @@ class Perception:
     def _take_colour(
         self, image: ColourImage, body: BodyPose, now: float
     ) -> None:
-        place, axes = _camera(body, self._head.top)
+        place, axes = camera_of(body, self._head.top)
         found = self._detector.detect(image)
         azimuths: tuple[float, ...] = ()
         seen: list[Observation] = []
@@ -194,7 +204,7 @@ class Perception:
     def _take_depth(
         self, image: DepthImage, body: BodyPose, now: float
     ) -> None:
-        place, axes = _camera(body, self._head.depth)
+        place, axes = camera_of(body, self._head.depth)
         own = body.torso.x, body.torso.y
         scene = detect_obstacles(image, place, axes, own)
         azimuths = tuple(o.azimuth for o in scene.obstacles)
@@ -202,19 +212,13 @@ class Perception:
         self.reports.append(FrameReport(image, azimuths, depth=scene))
         if self.floor is not None:
             other = self._tracker.main(now, *own)
-            there = None if other is None else other.place_at(image.time)
+            there = None
+            if other is not None and now - other.seen_at < SURE:
+                there = other.place_at(image.time)
             self.floor.take(image, place, axes, own, there)
-        # What the edge cuts may be a piece of a wall: it founds nobody.
-        whole, cut = (
-            [
-                observe_obstacle(image, thing)
-                for thing in scene.obstacles
-                if thing.whole is is_whole
-            ]
-            for is_whole in (True, False)
-        )
+        whole, cut = observe_obstacles(image, scene.obstacles, self.floor)
         self._observe(whole, image, place, axes, named=False, cut=cut)
-        for shadow in scene.shadows:
+        for shadow in scene.shadows if self.floor is None else ():
             tracks = self._tracker.tracks
             # Something that came so near unseen is somebody too.
             founds = shadow.width > BROAD and not any(
@@ -233,6 +237,10 @@ class Perception:
         facing = atan2(axis[1], axis[0])
         away = echo.distance + CHEST
         track = self._tracker.main(now, x, y)
+        if self.floor is not None:
+            known = self.floor.nearest(x, y, facing, EAR)
+            if track is None or known < away + ROOMY:
+                return  # it may be an echo of the room
         if track is None:
             if echo.distance > 0.6:
                 return
@@ -282,9 +290,3 @@ class Perception:
             off = wrap_angle(track.turned_to(x, y, image.time) - ahead)
             if abs(off) < half:
                 track.count(False)
-
-
-def _camera(body: BodyPose, mount: Mount) -> tuple[Array, Array]:
-    """Place and axes of a camera on the head, in odometry."""
-    place = body.head_place + body.head_axes @ mount.place
-    return place, body.head_axes @ mount.axes

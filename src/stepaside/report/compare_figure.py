@@ -21,7 +21,11 @@ def draw_comparison(runs: Sequence[Run], file: Path) -> None:
         runs: The runs; each has its own kind of line.
         file: Picture to write.
     """
-    if sheet().narrow:
+    turned = any(run.orientation is not None for run in runs)
+    if not turned:
+        figure = new_figure(9.5, 4.2)
+        axes = figure.subplot_mosaic([["path", "distance"]])
+    elif sheet().narrow:
         figure = new_figure(4.2, 6.8)
         places = [["path"], ["distance"], ["angle"]]
         axes = figure.subplot_mosaic(places, height_ratios=[2, 1, 1])
@@ -57,17 +61,15 @@ def draw_comparison(runs: Sequence[Run], file: Path) -> None:
                 linewidth=1.1,
                 label=for_figure(run.name),
             )
-    if all(run.orientation is None for run in runs):
-        axes["angle"].set_visible(False)
-        axes["distance"].set_xlabel("time [s]")
     _draw_theories(axes, runs)
     axes["path"].set_aspect("equal", adjustable="datalim")
     axes["path"].set_title("torsos: pursuer red, evader blue")
     axes["path"].set_xlabel("x [m]")
     axes["path"].set_ylabel("y [m]")
     axes["distance"].set_ylabel("distance [m]")
-    axes["angle"].set_ylabel("between headings [deg]")
-    axes["angle"].set_xlabel("time [s]")
+    if turned:
+        axes["angle"].set_ylabel("between headings [deg]")
+    axes["angle" if turned else "distance"].set_xlabel("time [s]")
     handles, labels = axes["distance"].get_legend_handles_labels()
     columns = 1 if sheet().narrow else 3
     figure.legend(handles, labels, loc="outside lower center", ncols=columns)
@@ -81,6 +83,8 @@ def _draw_theories(axes: Any, runs: Sequence[Run]) -> None:
     run whose it is.
     """
     for key, column, unit in (("distance", 1, " m"), ("angle", 2, "°")):
+        if key not in axes:
+            continue
         levels: dict[float, int] = {}
         for number, run in enumerate(runs):
             if run.theory is not None:

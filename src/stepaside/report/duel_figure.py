@@ -8,11 +8,10 @@ import numpy as np
 from ..games.duel_run import DuelRun
 from ..games.run import Run
 from ..poses import Array
-from ..rooms import Room
 from .averages import whole_cycles
 from .inert import for_figure
 from .pushed import draw_pushes, mark_pushes
-from .room_figure import solid_patches
+from .room_figure import room_patches
 from .sizes import sheet
 from .soles import draw_heading, draw_soles
 from .style import (
@@ -93,7 +92,7 @@ def draw_top(axes: Any, run: Run, index: int) -> None:
     """
     low, high = _frame(run)
     size = max(0.28, 0.07 * float((high - low).max()))
-    _draw_solids(axes, run)
+    _draw_solids(axes, run, float(run.times[index]))
     for name, colour in colours_of(run.players).items():
         track = run.tracks[name]
         axes.plot(*track.com[: index + 1, :2].T, color=colour, lw=1.0)
@@ -105,7 +104,7 @@ def _frame(run: Run) -> tuple[Array, Array]:
     """Corners of what snapshots show: no side less than half the other."""
     every = np.concatenate([track.com[:, :2] for track in run.tracks.values()])
     low, high = every.min(axis=0) - 0.2, every.max(axis=0) + 0.2
-    plan = _plan_of(run)
+    plan = run.plan
     if plan is not None and plan.has_walls:
         half = 0.5 * np.array([plan.width, plan.depth]) + 0.15
         low, high = np.minimum(low, -half), np.maximum(high, half)
@@ -114,21 +113,15 @@ def _frame(run: Run) -> tuple[Array, Array]:
     return low - grown, high + grown
 
 
-def _plan_of(run: Run) -> Room | None:
-    """Room that they play in, if they play in one."""
-    return run.settings.room.plan if isinstance(run, DuelRun) else None
-
-
-def _draw_solids(axes: Any, run: Run) -> None:
-    """What stands in the room, if they play in one."""
-    plan = _plan_of(run)
-    for patch in () if plan is None else solid_patches(plan.solids):
+def _draw_solids(axes: Any, run: Run, time: float) -> None:
+    """What stands in the room at a time in [s], if they play in one."""
+    for patch in () if run.plan is None else room_patches(run.plan, time):
         axes.add_patch(patch)
 
 
 def draw_paths(axes: Any, run: Run) -> None:
     """CoM paths with every footstep, and the pushes."""
-    _draw_solids(axes, run)
+    _draw_solids(axes, run, float(run.times[-1]))
     every = np.concatenate([track.com[:, :2] for track in run.tracks.values()])
     wide = float(np.ptp(every, axis=0).max())
     # A wedge is as large as its robot, or can be seen where ways are long.
@@ -140,7 +133,8 @@ def draw_paths(axes: Any, run: Run) -> None:
             sole = run.settings.robot_of(name).gait.sole
             draw_soles(axes, track.landings, sole, colour, alpha=0.25, lw=0.4)
         com = track.com
-        axes.plot(*com[:, :2].T, color=colour, lw=1.2, label=f"{name}, CoM")
+        label = f"{name}, CoM" if name in run.robots else name
+        axes.plot(*com[:, :2].T, color=colour, lw=1.2, label=label)
         axes.plot(*com[0, :2], "o", color=colour, ms=5)
         draw_heading(axes, track.torso[-1], colour, size)
         draw_pushes(axes, track.pushes)

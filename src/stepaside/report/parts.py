@@ -6,6 +6,7 @@ import mujoco
 import numpy as np
 
 from ..poses import Array
+from .meshes import Shell, shell_of
 
 VISIBLE = 2  # last geom group that is seen
 TALL = 1.5  # height from which on what stands is a wall, in [m]
@@ -24,13 +25,14 @@ class Part(NamedTuple):
 
     Attributes:
         body: Number of the body; 0 is the world.
-        kind: One of ``KINDS``, or "box" round what is no simple shape.
-        size: Half sizes along its axes, in [m]: three of a box and of an
-            ellipsoid; radius of a sphere; radius and half length along z of
-            the others. Shape (3,).
+        kind: One of ``KINDS``, "mesh", or "box" round what else there is.
+        size: Half sizes along its axes, in [m]: three of a box, of a mesh
+            and of an ellipsoid; radius of a sphere; radius and half length
+            along z of the others. Shape (3,).
         place: In the body, in [m]. Shape (3,).
         turn: Quaternion (w, x, y, z) in the body. Shape (4,).
         colour: Red, green, blue, 0 to 255.
+        shell: Surface of a mesh, around its place; None of others.
     """
 
     body: int
@@ -39,6 +41,7 @@ class Part(NamedTuple):
     place: Array
     turn: Array
     colour: tuple[int, int, int]
+    shell: Shell | None = None
 
     @property
     def is_wall(self) -> bool:
@@ -49,7 +52,7 @@ class Part(NamedTuple):
     def to_json(self) -> dict[str, Any]:
         """The same for a page, to a tenth of a millimetre."""
         red, green, blue = self.colour
-        return {
+        told: dict[str, Any] = {
             "body": self.body,
             "kind": self.kind,
             "size": np.round(self.size, 4).tolist(),
@@ -58,6 +61,10 @@ class Part(NamedTuple):
             "colour": f"#{red:02x}{green:02x}{blue:02x}",
             "wall": self.is_wall,
         }
+        if self.shell is not None:
+            told["corners"] = np.round(self.shell.corners, 4).tolist()
+            told["faces"] = self.shell.faces.tolist()
+        return told
 
 
 def parts_of(model: mujoco.MjModel) -> list[Part]:
@@ -71,7 +78,10 @@ def parts_of(model: mujoco.MjModel) -> list[Part]:
             continue
         size, place = model.geom_size[geom], model.geom_pos[geom]
         turn = model.geom_quat[geom]
-        if kind not in KINDS:
+        name, shell = KINDS.get(kind, "box"), None
+        if kind == _TYPES.mjGEOM_MESH:
+            name, shell = "mesh", shell_of(model, geom)
+        elif kind not in KINDS:
             middle, size = model.geom_aabb[geom].reshape(2, 3)
             away = np.zeros(3)
             mujoco.mju_rotVecQuat(away, middle, turn)
@@ -79,11 +89,12 @@ def parts_of(model: mujoco.MjModel) -> list[Part]:
         parts.append(
             Part(
                 int(model.geom_bodyid[geom]),
-                KINDS.get(kind, "box"),
+                name,
                 np.array(size, dtype=np.float64),
                 np.array(place, dtype=np.float64),
                 np.array(turn, dtype=np.float64),
                 colour_of(model, geom),
+                shell,
             )
         )
     return parts

@@ -9,7 +9,7 @@ from matplotlib.patches import Polygon as Outline
 from ..rooms import BODY_RADIUS, Disc, Obstacle, Room
 from .style import EVADER, PURSUER, plt, save
 
-SOLID = "#8a8f98"
+SOLID, MOVING = "#8a8f98", "#99704a"
 
 
 def solid_patches(solids: Iterable[Obstacle], **look: Any) -> list[Patch]:
@@ -28,6 +28,27 @@ def solid_patches(solids: Iterable[Obstacle], **look: Any) -> list[Patch]:
     ]
 
 
+def room_patches(room: Room, time: float = 0.0) -> list[Patch]:
+    """All of a room as patches; what moves is outlined where it turns.
+
+    Args:
+        room: The room.
+        time: At which what moves is where it is drawn, in [s].
+    """
+    return [
+        *solid_patches(room.solids),
+        *solid_patches(
+            (box.at(time) for box in room.moving), facecolor=MOVING
+        ),
+        *solid_patches(
+            (end for box in room.moving for end in box.ends),
+            facecolor="none",
+            edgecolor=MOVING,
+            linestyle="--",
+        ),
+    ]
+
+
 def draw_room(room: Room, path: str) -> None:
     """Write a figure of a room with its starts.
 
@@ -36,7 +57,7 @@ def draw_room(room: Room, path: str) -> None:
         path: File, of a format that its suffix tells.
     """
     figure, ax = plt.subplots(figsize=(4.0, 4.0))
-    for patch in solid_patches(room.solids):
+    for patch in room_patches(room):
         ax.add_patch(patch)
     if room.starts is not None:
         for pose, colour, name in zip(

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ..errors import OutputError
 from ..games.folder import write_record
+from ..games.outcome import Outcome
 from ..games.play_run import PlayRun
 from ..games.run import Run
 from ..games.sealing import seal
@@ -57,7 +58,7 @@ def draw_run(run: Run, file: Path) -> None:
     draw(run, file)
 
 
-def write_run(folder: Path, run: Run) -> Path:
+def write_run(folder: Path, run: Run, *, drawn: bool = True) -> Path:
     """Write a game: configuration, summary, trajectories and figures.
 
     The folder appears when it is complete. If somebody else was first, it
@@ -66,6 +67,7 @@ def write_run(folder: Path, run: Run) -> Path:
     Args:
         folder: Where it shall lie.
         run: The game.
+        drawn: Whether with figures, which take a second or two.
 
     Returns:
         Path of the figure, in the folder where the game is.
@@ -84,8 +86,9 @@ def write_run(folder: Path, run: Run) -> Path:
         )
         write_record(draft, run)
         figure = figure_of(run)
-        draw_run(run, draft / figure)
-        if run.stills:
+        if drawn:
+            draw_run(run, draft / figure)
+        if drawn and run.stills:
             from .sight_figure import draw_sight
 
             draw_sight(run, draft / SIGHT)
@@ -118,6 +121,8 @@ def _move(draft: Path, folder: Path) -> Path:
 def keep_run(folder: Path, run: Run) -> tuple[Path | None, OutputError | None]:
     """Write a game, or keep it elsewhere if it cannot be written there.
 
+    A game that Ctrl-C ended has no figures: whoever pressed it waits.
+
     Args:
         folder: Where it shall lie.
         run: The game.
@@ -126,12 +131,13 @@ def keep_run(folder: Path, run: Run) -> tuple[Path | None, OutputError | None]:
         Folder in which it lies; None if it lies nowhere. And why it does not
         lie where it should; None if it does.
     """
+    drawn = run.outcome is not Outcome.INTERRUPTED
     try:
-        return write_run(folder, run).parent, None
+        return write_run(folder, run, drawn=drawn).parent, None
     except OutputError as error:
         place = Path(tempfile.gettempdir())
         try:
             spare = free_folder(place, f"stepaside-{folder.name}")
-            return write_run(spare, run).parent, error
+            return write_run(spare, run, drawn=drawn).parent, error
         except OutputError:
             return None, error

@@ -5,9 +5,12 @@ import numpy as np
 
 from ..errors import ConfigurationError
 from ..games.run import Run
+from ..games.settings import DuelSettings
 from ..poses import Pose
 from ..robots.description import load_robot
+from ..world.figures import FIGURES
 from ..world.person import add_person, parts_of, pose_figure
+from ..world.solids import add_solids, mover_of
 from ..world.template_body import add_template, pose_template
 from ..world.world import build_model
 
@@ -16,7 +19,7 @@ class Stage:
     """Bodies of a run, put where they were.
 
     Attributes:
-        model: Robots and floor.
+        model: Robots, floor and what stands on it.
         data: Their state.
     """
 
@@ -33,9 +36,18 @@ class Stage:
             name for name in run.players if name not in {*robots, *persons}
         ]
 
+        settings = run.settings
+        who = "adult"
+        if isinstance(settings, DuelSettings):
+            who = settings.person.figure
+        self._figure = FIGURES[who]
+        plan = run.plan
+
         def furnish(spec: mujoco.MjSpec) -> None:
+            if plan is not None:
+                add_solids(spec, plan)
             for name in persons:
-                add_person(spec, name)
+                add_person(spec, name, self._figure)
             for name in self._templates:
                 add_template(spec, name)
 
@@ -59,17 +71,22 @@ class Stage:
         none = np.zeros((len(run.times), 0))
         self._postures = np.concatenate([none, *known], axis=1)
         self._persons = {name: parts_of(self.model, name) for name in persons}
-        self._tracks = run.tracks
+        self._tracks, self._times = run.tracks, run.times
+        self._move = (
+            None if plan is None else mover_of(self.model, self.data, plan)
+        )
 
     def put(self, index: int) -> None:
         """Put the bodies where they were at a sample."""
         self.data.qpos[:] = self._postures[index]
+        if self._move is not None:
+            self._move(float(self._times[index]))
         for name, parts in self._persons.items():
             walked = self._tracks[name].torso
             frame = Pose(*walked[index].tolist())
             steps = np.diff(walked[: index + 1, :2], axis=0)
             way = float(np.hypot(steps[:, 0], steps[:, 1]).sum())
-            pose_figure(self.data, parts, frame, way)
+            pose_figure(self.data, parts, frame, way, self._figure)
         for name in self._templates:
             stood = Pose(*self._tracks[name].torso[index].tolist())
             pose_template(self.model, self.data, name, stood)

@@ -2,15 +2,27 @@
 
 from collections.abc import Sequence
 from math import ceil
-from typing import Any
+from typing import Any, Protocol
 
+from ..poses import Array
 from ..rooms import Room
-from ..strategies.steps import StepTrack
-from .room_figure import draw_body, solid_patches
+from .room_figure import draw_body, room_patches
 from .style import EVADER, PURSUER, plt, save
 
 MARKS = "osD^vP*X"
 COLUMNS = 3
+
+
+class Ways(Protocol):
+    """Where two players went: poses (x [m], y [m], theta [rad])."""
+
+    @property
+    def pursuer(self) -> Array:
+        """Of the pursuer. Shape (n, 3)."""
+
+    @property
+    def evader(self) -> Array:
+        """Of the evader. Shape (n, 3)."""
 
 
 def draw_front(rows: Sequence[dict[str, Any]], path: str) -> None:
@@ -54,13 +66,11 @@ def draw_front(rows: Sequence[dict[str, Any]], path: str) -> None:
     save(figure, path)
 
 
-def draw_worst(
-    games: Sequence[tuple[str, Room, StepTrack]], path: str
-) -> None:
+def draw_worst(games: Sequence[tuple[str, Room, Ways]], path: str) -> None:
     """Draw games in their rooms, from the start to the end.
 
     Args:
-        games: Title, room and track of each.
+        games: Title, room and ways of each.
         path: File, of a format that its suffix tells.
     """
     columns = min(COLUMNS, len(games))
@@ -74,7 +84,7 @@ def draw_worst(
     for ax in axes.flat[len(games) :]:
         ax.axis("off")
     for ax, (title, room, track) in zip(axes.flat, games, strict=False):
-        for patch in solid_patches(room.solids):
+        for patch in room_patches(room):
             ax.add_patch(patch)
         for way, colour, name in (
             (track.pursuer, PURSUER, "pursuer"),

@@ -118,7 +118,37 @@ class BodyKinematics:
         """
         posture = self._kinematics.posture(joints)
         foot = 0 if left_supports else 1
-        place, axes, heading = stand_on(posture, foot, support, tilt)
+        stood = stand_on(posture, foot, support, tilt)
+        return self._placed(time, joints, posture, stood)
+
+    def level(self, time: float, joints: Array, frame: Pose) -> BodyPose:
+        """Place the body level on the floor, midway between its feet.
+
+        That of a robot that walks by itself, and only tells where it is.
+
+        Args:
+            time: Time of the measurement, in [s].
+            joints: Encoders, in [rad]. Shape (joints,).
+            frame: Of the robot in its odometry.
+        """
+        posture = self._kinematics.posture(joints)
+        x, y, _ = posture.feet.mean(axis=0).tolist()
+        low = float(posture.feet[:, 2].min())
+        c, s = cos(frame.theta), sin(frame.theta)
+        axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+        place = np.array([frame.x, frame.y, 0.0]) - axes @ [x, y, low]
+        stood = StandingBody(place, axes, frame.theta)
+        return self._placed(time, joints, posture, stood)
+
+    def _placed(
+        self,
+        time: float,
+        joints: Array,
+        posture: MeasuredPosture,
+        stood: StandingBody,
+    ) -> BodyPose:
+        """The head over a torso that stands somewhere."""
+        place, axes, heading = stood
         return BodyPose(
             time,
             Pose(float(place[0]), float(place[1]), heading),

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..errors import ModelError
 from ..poses import Array
+from .inertias import mend_inertias
 from .meshes import place_meshes
 from .own import ServoGains, SolePlace
 
@@ -75,7 +76,7 @@ def strip(
         ModelError: If there is no such root.
     """
     spec.compiler.fusestatic = False
-    spec.compiler.balanceinertia = True  # published ones may not balance
+    mend_inertias(spec)
     _forget_options(spec)
     world = spec.worldbody
     roots = [body.name for body in world.bodies]
@@ -90,6 +91,8 @@ def strip(
         *(*spec.keys, *spec.pairs, *spec.sensors, *spec.actuators),
     ):
         spec.delete(thing)
+    for coupling in odd_couplings(spec):
+        spec.delete(coupling)
     missing = place_meshes(spec, path, folders)
     root = find_body(spec, torso)
     free = mujoco.mjtJoint.mjJNT_FREE
@@ -98,6 +101,16 @@ def strip(
             spec.delete(joint)
         root.add_freejoint()
     return missing
+
+
+def odd_couplings(spec: mujoco.MjSpec) -> list[mujoco.MjsEquality]:
+    """Equalities between joints that are not simply equal, as of fingers."""
+    return [
+        each
+        for each in spec.equalities
+        if each.type == mujoco.mjtEq.mjEQ_JOINT
+        and list(each.data[:5]) != [0.0, 1.0, 0.0, 0.0, 0.0]
+    ]
 
 
 def _forget_options(spec: mujoco.MjSpec) -> None:

@@ -4,6 +4,7 @@ from .built import box, hull, wall_between
 from .distance import clearance_between, crosses
 from .files import load_room, room_entries, room_of_entries, room_text
 from .making import RoomRecipe, draw_starts, make_room
+from .moving import MovingBox
 from .room import OPEN_FLOOR, Door, Obstacle, Room
 from .shapes import Disc, Polygon
 from .starts import BODY_RADIUS, check_starts
@@ -14,6 +15,7 @@ __all__ = [
     "OPEN_FLOOR",
     "Disc",
     "Door",
+    "MovingBox",
     "Obstacle",
     "Polygon",
     "Room",

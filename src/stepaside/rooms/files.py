@@ -3,6 +3,7 @@
 import json
 import tomllib
 from collections.abc import Callable, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -11,12 +12,14 @@ import tomli_w
 from ..errors import ConfigurationError
 from ..poses import Pose
 from .built import WALL, box, wall_between
+from .moving import MovingBox
 from .room import Door, Obstacle, Room
 from .shapes import Disc, Polygon
 
 ERROR = ConfigurationError
 LONGEST = 2**20  # text of a room, in [characters]
-LISTS = ("discs", "boxes", "polygons", "walls", "doors")
+SOLIDS = ("discs", "boxes", "polygons", "walls")
+LISTS = (*SOLIDS, "doors", "moving")
 KNOWN = ("width", "depth", *LISTS, "pursuer", "evader")
 
 
@@ -58,8 +61,9 @@ def room_of_entries(entries: Mapping[str, Any]) -> Room:
     Args:
         entries: ``width`` and ``depth``; lists ``discs`` (x, y, radius),
             ``boxes`` (x, y, width, depth, heading), ``polygons``
-            (corners), ``walls`` (start, end, thickness) and ``doors``
-            (side, at, width); ``pursuer`` and ``evader`` (x, y, theta).
+            (corners), ``walls`` (start, end, thickness), ``doors``
+            (side, at, width) and ``moving`` boxes (x, y, width, depth, to,
+            speed, heading); ``pursuer`` and ``evader`` (x, y, theta).
 
     Raises:
         ConfigurationError: If an entry is unknown, missing, of the wrong
@@ -79,7 +83,7 @@ def room_of_entries(entries: Mapping[str, Any]) -> Room:
             _made(name, number, e) for number, e in _numbered(listed)
         ]
     obstacles: list[Obstacle] = []
-    for name in LISTS[:-1]:
+    for name in SOLIDS:
         obstacles += made[name]
     starts = None
     if "pursuer" in entries or "evader" in entries:
@@ -94,6 +98,7 @@ def room_of_entries(entries: Mapping[str, Any]) -> Room:
         tuple(obstacles),
         tuple(made["doors"]),
         starts,
+        tuple(made["moving"]),
     )
 
 
@@ -120,6 +125,10 @@ def room_entries(room: Room) -> dict[str, Any]:
         entries["doors"] = [
             {"side": d.side, "at": d.at, "width": d.width} for d in room.doors
         ]
+    if room.moving:
+        entries["moving"] = [
+            asdict(box) | {"to": list(box.to)} for box in room.moving
+        ]
     return entries
 
 
@@ -129,14 +138,17 @@ def room_text(room: Room) -> str:
 
 
 def _wall(start: Any, end: Any, thickness: float = WALL) -> Polygon:
-    points = []
-    for name, given in (("start", start), ("end", end)):
-        if not isinstance(given, list) or len(given) != 2:
-            raise ERROR(f"{name} must be a pair x, y [m], got {given!r:.40}")
-        points.append(
-            (_real(given[0], f"{name} x"), _real(given[1], f"{name} y"))
-        )
-    return wall_between(points[0], points[1], thickness)
+    return wall_between(_pair(start, "start"), _pair(end, "end"), thickness)
+
+
+def _moving(to: Any, **values: float) -> MovingBox:
+    return MovingBox(to=_pair(to, "to"), **values)
+
+
+def _pair(given: Any, name: str) -> tuple[float, float]:
+    if not isinstance(given, list) or len(given) != 2:
+        raise ERROR(f"{name} must be a pair x, y [m], got {given!r:.40}")
+    return _real(given[0], f"{name} x"), _real(given[1], f"{name} y")
 
 
 def _polygon(corners: Any) -> Polygon:
@@ -150,10 +162,15 @@ _MAKERS: dict[str, tuple[Callable[..., Any], set[str], set[str]]] = {
     "polygons": (_polygon, {"corners"}, set()),
     "walls": (_wall, {"start", "end"}, {"thickness"}),
     "doors": (Door, {"side"}, {"at", "width"}),
+    "moving": (
+        _moving,
+        {"x", "y", "width", "depth", "to"},
+        {"speed", "heading"},
+    ),
     "pursuer": (Pose, {"x", "y"}, {"theta"}),
     "evader": (Pose, {"x", "y"}, {"theta"}),
 }
-_NO_NUMBERS = ("corners", "start", "end", "side")
+_NO_NUMBERS = ("corners", "start", "end", "side", "to")
 
 
 def _made(name: str, number: int, given: Any) -> Any:

@@ -10,11 +10,13 @@ from ..errors import ConfigurationError, check_within
 from ..poses import Array, Pose
 from .built import WALL, box
 from .distance import clearance_between, crosses
+from .moving import MovingBox
 from .outline import check_coordinate
 from .shapes import Disc, Polygon
 
 ERROR = ConfigurationError
 Obstacle = Disc | Polygon
+Solids = tuple[Obstacle, ...]
 SIDES = ("east", "north", "west", "south")
 SMALLEST, LARGEST = 0.5, 100.0  # of a room, in [m]
 MOST = 500  # obstacles, doors
@@ -60,6 +62,7 @@ class Room:
         obstacles: What stands in it; obstacles may touch each other.
         doors: Gaps in the walls, beyond which the floor goes on.
         starts: Where pursuer and evader stand at first, if it says so.
+        moving: Boxes that are pushed to and fro in it.
     """
 
     width: float | None = None
@@ -67,6 +70,7 @@ class Room:
     obstacles: tuple[Obstacle, ...] = ()
     doors: tuple[Door, ...] = ()
     starts: tuple[Pose, Pose] | None = None
+    moving: tuple[MovingBox, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse sizes, doors and obstacles that are not of a room."""
@@ -78,14 +82,15 @@ class Room:
                 check_within(
                     value, SMALLEST, LARGEST, f"room {name}", "m", ERROR
                 )
-        for what in ("obstacles", "doors"):
+        for what in ("obstacles", "doors", "moving"):
             count = len(getattr(self, what))
             if count > MOST:
                 raise ERROR(
                     f"a room must have at most {MOST} {what} [1], got {count}"
                 )
         self._check_doors()
-        for obstacle in self.obstacles:
+        ends = [place for box in self.moving for place in box.ends]
+        for obstacle in (*self.obstacles, *ends):
             if self.has_walls and not self.is_inside([obstacle.centre])[0]:
                 x, y = obstacle.centre
                 raise ERROR(
@@ -160,6 +165,16 @@ class Room:
     def solids(self) -> tuple[Obstacle, ...]:
         """All that nobody can walk through: obstacles, then walls."""
         return (*self.obstacles, *self.walls)
+
+    def solids_at(self, time: float, ahead: float = 0.0) -> Solids:
+        """Solids, and the floor that boxes cover which are pushed about.
+
+        Args:
+            time: Time, in [s].
+            ahead: For how long from then on, in [s].
+        """
+        end = time + ahead
+        return (*self.solids, *(b.swept(time, end) for b in self.moving))
 
     def solids_in(self, frame: Pose) -> tuple[Obstacle, ...]:
         """Solids as seen in a frame.

@@ -28,6 +28,9 @@ def check_starts(
     for name, pose in zip(PLAYERS, starts, strict=True):
         place = f"({pose.x:g}, {pose.y:g})"
         clearance = float(room.clearance([pose[:2]])[0])
+        for moving in room.moving:
+            gap = float(moving.at(0.0).clearance([pose[:2]])[0])
+            clearance = min(clearance, gap)
         if room.is_closed and not room.is_inside([pose[:2]])[0]:
             raise ConfigurationError(
                 f"the {name} must start between the walls, within "

@@ -104,6 +104,24 @@ class Evasion:
             )
 
     @property
+    def area(self) -> float:
+        """Radius of what it keeps free around itself, in [m].
+
+        In time that is what counts as contact: where evasion begins depends
+        on how fast the other comes.
+        """
+        return self.clearance if self.trigger == "time" else self.safety_radius
+
+    def begins_at(self, speed: float) -> float:
+        """Distance at which it begins for who comes straight at it, in [m].
+
+        Args:
+            speed: With which the other comes, in [m/s].
+        """
+        ahead = self.contact_time * speed if self.trigger == "time" else 0.0
+        return self.area + ahead
+
+    @property
     def direction(self) -> Direction:
         """Backward, eq. (3)."""
         return Direction.BACKWARD

@@ -25,6 +25,15 @@ def cache_folder() -> Path:
     return Path(base).expanduser() / "stepaside"
 
 
+def has_pursuit_bound(cells: int) -> bool:
+    """Whether :func:`pursuit_bound` is kept, and need not be solved.
+
+    Args:
+        cells: Along each axis.
+    """
+    return _file_of("pursuit", cells).is_file()
+
+
 @lru_cache(maxsize=8)
 def pursuit_bound(cells: int) -> "Bound":
     """Best evader against eqs. (1)-(2), speeds and gains of one.
@@ -82,7 +91,7 @@ def _kept(
     from ..bound import Grid, load_bound, solve_bound
 
     grid = Grid.cube(near, far, cells)
-    file = cache_folder() / f"{name}-{cells}-{FORMAT}.npz"
+    file = _file_of(name, cells)
     try:
         found = load_bound(file)
         if (found.game, found.grid) == (game, grid):
@@ -92,6 +101,11 @@ def _kept(
     solved = solve_bound(game, grid)
     _try(lambda: solved.save(file))
     return solved
+
+
+def _file_of(name: str, cells: int) -> Path:
+    """File in which a table is kept."""
+    return cache_folder() / f"{name}-{cells}-{FORMAT}.npz"
 
 
 def _try(write: Callable[[], object]) -> None:

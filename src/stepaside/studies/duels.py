@@ -23,21 +23,13 @@ from ..unicycle.certificate import certify
 from ..unicycle.laws import make_game
 from ..unicycle.relative import Start
 from ..workers import give_up
+from .later import LATER
 from .records import RecordFile
 from .version import PHYSICS, code_version, library_versions
 
 Record = dict[str, Any]
 # Of a record, what depends on the machine and not on the duel alone.
 MACHINE = ("version", "libraries", "verified", "wall_s")
-# Settings that came after the first records, which go on without them where
-# they are what they are by default.
-LATER = (
-    *("start.least", "start.near", "start.far"),
-    *("strategy.trigger", "strategy.contact_time", "strategy.clearance"),
-    *("strategy.calmest", "control.stabiliser.stride_bound"),
-    *("gait.outer_stride", "gait.swing_profile", "gait.swing_reaction"),
-    *("room.plan", "map", "pursuer_robot", "evader_robot", "pushes"),
-)
 
 
 def _drop(entries: Record, plain: Record, path: list[str]) -> None:

@@ -1,7 +1,7 @@
 """Who plays in a tournament: strategies by name."""
 
 from collections.abc import Callable, Mapping
-from math import pi
+from math import pi, radians
 
 from ..errors import ConfigurationError
 from ..strategies import (
@@ -16,6 +16,7 @@ from ..strategies import (
     load_strategy,
 )
 
+SIGHT = radians(148.0)  # bearing up to which a turned head sees, in [rad]
 ALWAYS = 1e6  # safety radius of who evades from the first sight on, in [m]
 
 EVADERS: Mapping[str, Callable[[float], Strategy]] = {

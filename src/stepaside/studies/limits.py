@@ -10,7 +10,7 @@ from ..workers import give_up
 from .robustness import DIRECTIONS, Trial, run_trial
 from .trial_results import note_result, read_results
 
-# In [N s] for a robot of NAO's mass; see :func:`.robustness.push_scale`.
+# In [N s] for NAO; see :func:`.robustness.push_scale`.
 RESOLUTION = 0.1  # to which a limit is found
 STRIDE = 0.4  # between the first pushes tried
 LARGEST = 8.0  # push that is tried

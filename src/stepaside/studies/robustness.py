@@ -11,6 +11,7 @@ from pathlib import Path
 from ..control.balance.settings import ControlSettings, Method
 from ..errors import ConfigurationError
 from ..games.outcome import Outcome
+from ..games.robot_settings import game_of
 from ..games.walk import run_walk
 from ..games.walk_settings import WalkSettings
 from ..planning import GaitSettings
@@ -128,12 +129,16 @@ def mass_of(robot: str) -> float:
 
 
 def push_scale(robot: str) -> float:
-    """Ratio of masses: what a push must be to do the same to a robot.
+    """What a push must be to do the same to a robot, by one of NAO's.
 
-    Strengths of pushes are in N s for a robot of NAO's mass, so that all
-    robots are pushed to the same speeds.
+    Strengths of pushes are in N s for NAO. A description has its robot's
+    unit of pushes, which goes with the mass and the speed of the pendulum;
+    where one says nothing, all are pushed to the same speeds.
     """
-    return mass_of(robot) / mass_of(REFERENCE)
+    own, nao = (game_of(load_robot(name)) for name in (robot, REFERENCE))
+    if own is None or nao is None:
+        return mass_of(robot) / mass_of(REFERENCE)
+    return own.push_unit / nao.push_unit
 
 
 def settings_of(trial: Trial) -> WalkSettings:

@@ -1,101 +1,75 @@
 """Evaders against pursuers, in rooms by seed: one game a record."""
 
-import json
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor, Future, as_completed
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict
 from functools import cache
-from hashlib import sha256
-from math import atan2, hypot, isfinite, pi, radians
-from typing import Any
+from math import atan2, hypot, isfinite, pi
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import ConfigurationError, check_within
-from ..poses import Array, Pose, wrap_angle, wrap_angles
-from ..rooms import Room, RoomRecipe, draw_starts, make_room, room_entries
+from ..poses import Array, wrap_angle, wrap_angles
+from ..rooms import Room
 from ..strategies.steps import StepGame, StepTrack, play_steps
 from ..strategies.tables import pursuit_bound
 from ..workers import give_up
-from .entrants import evader_of, pursuer_of
+from .entrants import SIGHT, evader_of, pursuer_of
 from .floor_used import floor_used
 from .records import RecordFile
-from .version import GROUND, code_version, library_versions
+from .tournament_settings import HUMANOIDS, TournamentSettings
+from .version import code_version, library_versions
+
+if TYPE_CHECKING:
+    from ..games.duel_run import DuelRun
+    from .physics_game import DuelWays
 
 Record = dict[str, Any]
-ERROR = ConfigurationError
-LEVELS = ("steps", "unicycles")
-ROOMS = (
-    *(*GROUND, "laws", "randomness", "rooms", "unicycle", "bound", "steps"),
-    *("strategies", "studies/entrants", "studies/tournament"),
-    "studies/floor_used",
-)
-BLOCK = 10  # games that a process is given at once
 CELLS = 64  # of the bound's table
-SIGHT = radians(148.0)  # bearing up to which a turned head sees, in [rad]
 FEEDBACK = 8  # decisions in a step, of unicycles
-
-
-@dataclass(frozen=True)
-class TournamentSettings:
-    """What decides a game of a tournament but its seed and its players.
-
-    Attributes:
-        level: "steps", or "unicycles", which decide eight times a step.
-        room: What the seeds make rooms of, or one room for all of them.
-        game: Rules.
-        angle: Strategy alpha of the evader "alpha", in [rad].
-    """
-
-    level: str = "steps"
-    room: RoomRecipe | Room = field(default_factory=RoomRecipe)
-    game: StepGame = field(default_factory=StepGame)
-    angle: float = pi / 4
-
-    def __post_init__(self) -> None:
-        """Refuse other levels and angles."""
-        if self.level not in LEVELS:
-            raise ERROR(
-                f"level must be one of {', '.join(LEVELS)}, "
-                f"got {self.level!r:.40}"
-            )
-        check_within(self.angle, 0.0, pi, "angle", "rad", ERROR)
-
-    def arena(self, seed: int) -> tuple[Room, tuple[Pose, Pose]]:
-        """Room of a seed, and where both start in it."""
-        if isinstance(self.room, Room):
-            room = self.room
-            return room, room.starts or draw_starts(room, seed)
-        room = make_room(self.room, seed)
-        assert room.starts is not None
-        return room, room.starts
-
-    def entries(self) -> Record:
-        """All of it, as an object for other programs."""
-        room = self.room
-        return {
-            "level": self.level,
-            "room": room_entries(room)
-            if isinstance(room, Room)
-            else asdict(room),
-            "game": asdict(self.game),
-            "angle_rad": self.angle,
-        }
-
-    def fingerprint(self) -> str:
-        """Digits that change with any of it."""
-        text = json.dumps(self.entries(), sort_keys=True)
-        return sha256(text.encode()).hexdigest()[:12]
 
 
 Pairing = tuple[str, str]
 """Names of an evader and of a pursuer."""
 
 
+def play_ways(
+    settings: TournamentSettings, pairing: Pairing, seed: int
+) -> "tuple[Room, StepTrack | DuelWays]":
+    """Play one game of a tournament, and keep where both went."""
+    if settings.level != HUMANOIDS:
+        return play_track(settings, pairing, seed)
+    from .physics_game import ways_of
+
+    room, run = _play_humanoids(settings, pairing, seed)
+    return room, ways_of(run)
+
+
+def _play_humanoids(
+    settings: TournamentSettings, pairing: Pairing, seed: int
+) -> "tuple[Room, DuelRun]":
+    """Play one game in physics."""
+    from ..games.duel import run_duel
+    from .physics_game import duel_settings
+
+    room, starts = settings.arena(seed)
+    return room, run_duel(
+        duel_settings(
+            pairing,
+            room,
+            starts,
+            seed=seed,
+            duration=settings.game.duration,
+            angle=settings.angle,
+            source=settings.map,
+        )
+    )
+
+
 def play_track(
     settings: TournamentSettings, pairing: Pairing, seed: int
 ) -> tuple[Room, StepTrack]:
-    """Play one game of a tournament, and keep all of it."""
+    """Play one game in steps, or of unicycles, and keep all of it."""
     room, starts = settings.arena(seed)
     unicycles = settings.level == "unicycles"
     values = asdict(settings.game)
@@ -118,7 +92,20 @@ def play_record(
     Returns:
         Figures in SI units, and the version of code and libraries.
     """
-    room, track = play_track(settings, pairing, seed)
+    played = _humanoids if settings.level == HUMANOIDS else _steps
+    return {
+        "evader": pairing[0],
+        "pursuer": pairing[1],
+        "seed": seed,
+        **played(settings, pairing, seed),
+    } | _stamp(*settings.depends)
+
+
+def _steps(
+    settings: TournamentSettings, pairing: Pairing, seed: int
+) -> Record:
+    """Figures of a game in steps, or of unicycles."""
+    _, track = play_track(settings, pairing, seed)
     game = settings.game
     distances = track.distances
     turns = wrap_angles(np.diff(track.evader[:, 2]))
@@ -127,9 +114,6 @@ def play_record(
     seconds /= FEEDBACK if settings.level == "unicycles" else 1
     clear = float(track.clearances.min())
     return {
-        "evader": pairing[0],
-        "pursuer": pairing[1],
-        "seed": seed,
         "outcome": str(track.outcome),
         "survived_s": seconds,
         "closest_m": float(distances.min()),
@@ -141,7 +125,21 @@ def play_record(
         "unseen": float((np.abs(track.bearings) > SIGHT).mean()),
         "decision_s": track.decision,
         "longest_decision_s": track.longest_decision,
-    } | _stamp()
+    }
+
+
+def _humanoids(
+    settings: TournamentSettings, pairing: Pairing, seed: int
+) -> Record:
+    """Figures of a game in physics."""
+    from .physics_game import figures_of
+
+    _, run = _play_humanoids(settings, pairing, seed)
+    pursuer, evader = (
+        track.unicycle[0] for track in (run.pursuer, run.evader)
+    )
+    found = figures_of(run, settings.game.body_radius)
+    return found | {"bound_m": bound_of(pursuer, evader, settings.game)}
 
 
 def bound_of(pursuer: Array, evader: Array, game: StepGame) -> float:
@@ -193,8 +191,9 @@ def play_tournament(
     results: dict[str, Record] = {} if done is None else done
     if file is not None:
         for key, record in file.read().items():
-            stamp = {name: record.get(name) for name in _stamp()}
-            if key in wanted and stamp == _stamp():
+            now = _stamp(*settings.depends)
+            stamp = {name: record.get(name) for name in now}
+            if key in wanted and stamp == now:
                 results[key] = record
     left = [key for key in wanted if key not in results]
     pursuit_bound(CELLS)  # solved once, before many want it
@@ -208,7 +207,8 @@ def play_tournament(
             report(len(results))
 
     take([], [])
-    blocks = [left[i : i + BLOCK] for i in range(0, len(left), BLOCK)]
+    size = settings.block
+    blocks = [left[i : i + size] for i in range(0, len(left), size)]
     if executor is None:
         for keys in blocks:
             take(keys, _play_block(settings, [wanted[key] for key in keys]))
@@ -235,8 +235,8 @@ def _play_block(
 
 
 @cache
-def _stamp() -> Record:
+def _stamp(rooms: tuple[str, ...], libraries: tuple[str, ...]) -> Record:
     return {
-        "version": code_version(ROOMS),
-        "libraries": library_versions(("numba", "numpy")),
+        "version": code_version(rooms),
+        "libraries": library_versions(libraries),
     }

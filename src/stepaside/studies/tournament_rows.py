@@ -55,6 +55,7 @@ def _row(records: Sequence[Record]) -> Record:
         "survived_high": high,
         "caught": outcomes.count("caught") / len(records),
         "touched_obstacle": outcomes.count("touched") / len(records),
+        "fell": outcomes.count("fell") / len(records),
         "mean_survival_s": float(np.mean([r["survived_s"] for r in records])),
         "mean_closest_m": float(closest.mean()),
         "mean_closest_pm_m": _half(closest),

@@ -88,17 +88,13 @@ def find_basins(
         The shares.
     """
     circles = circles_of(game)
-    slow = min(game.pursuer.gain, game.evader.gain)
-    fast = max(game.pursuer.gain, game.evader.gain)
-    if duration is None:
-        waits = [c.time_constant_s for c in circles if c.stable]
-        wait = 40.0 / slow + _SETTLE * max(waits, default=0.0)
-        duration = min(wait, _LONGEST / slow)
+    until_all, step = lengths_of(game)
+    duration = until_all if duration is None else duration
     out = play_games(
         game,
         starts,
         duration,
-        step=min(0.02 / slow, 0.1 / fast),
+        step=step,
         capture_distance=capture_distance,
     )
     captured = float(out.captured.mean())
@@ -111,6 +107,18 @@ def find_basins(
         len(starts),
         duration,
     )
+
+
+def lengths_of(game: Game) -> tuple[float, float]:
+    """How long games are played, and their steps, in [s].
+
+    They are long enough for all stable circles of the game to be reached.
+    """
+    slow = min(game.pursuer.gain, game.evader.gain)
+    fast = max(game.pursuer.gain, game.evader.gain)
+    waits = [c.time_constant_s for c in circles_of(game) if c.stable]
+    wait = 40.0 / slow + _SETTLE * max(waits, default=0.0)
+    return min(wait, _LONGEST / slow), min(0.02 / slow, 0.1 / fast)
 
 
 def shares_of(outcomes: Outcomes, count: int) -> tuple[float, ...]:

@@ -5,6 +5,7 @@ an arc in between (Sec. III-B). What was perceived may be late. Between
 samples both players move on arcs, which have closed form.
 """
 
+from collections import deque
 from dataclasses import dataclass
 from math import ceil, floor, inf
 
@@ -132,12 +133,13 @@ def simulate_sampled(
     evader = start.evader_pose(pursuer)
     whole = floor(delay / sample_time + 1e-12)
     late = max(0.0, delay - whole * sample_time)
+    count = ceil(duration / sample_time - 1e-9)
+    whole = min(whole, count)  # what is later than that takes no effect
     # Rates in effect before and after the change within a period.
-    queue: list[tuple[float, float]] = [(0.0, 0.0)] * (whole + 1)
+    queue = deque([(0.0, 0.0)] * (whole + 1))
     poses_p, poses_e, states = [pursuer], [evader], [start.wrapped()]
     rates, sides = [], []
     closest, captured = start.distance, start.distance <= capture_distance
-    count = ceil(duration / sample_time - 1e-9)
     for _ in range(count):
         if captured:
             break
@@ -145,7 +147,7 @@ def simulate_sampled(
         queue.append((turn_p, turn_e))
         rates.append((turn_p, turn_e))
         sides.append(side)
-        old = queue.pop(0)
+        old = queue.popleft()
         for turns, span in ((old, late), (queue[0], sample_time - late)):
             if span > 0.0:
                 pursuer, evader, least = _drive(

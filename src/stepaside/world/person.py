@@ -6,55 +6,55 @@ import mujoco
 import numpy as np
 
 from ..poses import Array, Pose
+from .figures import FIGURES, HIP, Colour, Figure
 from .person_motion import Motion
 from .world import FLOOR_BIT, World
 
-SHIRT = (0.80, 0.16, 0.14, 1.0)
-TROUSERS = (0.25, 0.27, 0.32, 1.0)
 SKIN = (0.85, 0.68, 0.56, 1.0)
-STEP = 0.25  # way from one foot to the other, in [m]
+ADULT = FIGURES["adult"]
 PARTS = ("trunk", "left leg", "right leg", "left arm", "right arm")
-HIP, SHOULDER = 0.9, 1.42  # heights, in [m]
-SWING = 0.14  # of a leg to either side, in [rad]
+SHOULDER = 1.42  # height of an adult's, in [m]
 TRUNK = 0.15  # half depth of the trunk, in [m]
 
 
-def add_person(spec: mujoco.MjSpec, name: str) -> None:
+def add_person(spec: mujoco.MjSpec, name: str, figure: Figure = ADULT) -> None:
     """Put a figure into a world, as bodies that are moved, not pushed.
 
     Args:
         spec: World.
         name: Prefix of its bodies.
+        figure: How it looks.
     """
+
+    def capsule(
+        body: mujoco.MjsBody,
+        start: tuple[float, float, float],
+        end: tuple[float, float, float],
+        radius: float,
+        colour: Colour,
+    ) -> None:
+        body.add_geom(
+            type=mujoco.mjtGeom.mjGEOM_CAPSULE,
+            fromto=[figure.size * value for value in (*start, *end)],
+            size=[figure.size * radius, 0.0, 0.0],
+            rgba=list(colour),
+            group=2,
+            contype=FLOOR_BIT,
+            conaffinity=0,
+        )
+
+    shirt, trousers = figure.shirt, figure.trousers
     trunk = spec.worldbody.add_body(name=f"{name}/trunk", mocap=True)
-    _capsule(trunk, (0, 0, 1.0), (0, 0, 1.35), TRUNK, SHIRT)
-    _capsule(trunk, (0, -0.16, SHOULDER), (0, 0.16, SHOULDER), 0.07, SHIRT)
-    _capsule(trunk, (0, -0.08, HIP), (0, 0.08, HIP), 0.1, TROUSERS)
-    _capsule(trunk, (0.01, 0, 1.58), (0.01, 0, 1.65), 0.09, SKIN)
+    capsule(trunk, (0, 0, 1.0), (0, 0, 1.35), TRUNK, shirt)
+    capsule(trunk, (0, -0.16, SHOULDER), (0, 0.16, SHOULDER), 0.07, shirt)
+    capsule(trunk, (0, -0.08, HIP), (0, 0.08, HIP), 0.1, trousers)
+    capsule(trunk, (0.01, 0, 1.58), (0.01, 0, 1.65), 0.09, SKIN)
     for side, y in (("left", 1.0), ("right", -1.0)):
         leg = spec.worldbody.add_body(name=f"{name}/{side} leg", mocap=True)
-        _capsule(leg, (0, 0, 0), (0, 0, -0.80), 0.065, TROUSERS)
-        _capsule(leg, (-0.04, 0, -0.85), (0.14, 0, -0.85), 0.045, TROUSERS)
+        capsule(leg, (0, 0, 0), (0, 0, -0.80), 0.065, trousers)
+        capsule(leg, (-0.04, 0, -0.85), (0.14, 0, -0.85), 0.045, trousers)
         arm = spec.worldbody.add_body(name=f"{name}/{side} arm", mocap=True)
-        _capsule(arm, (0, 0.04 * y, 0), (0.03, 0.05 * y, -0.55), 0.045, SHIRT)
-
-
-def _capsule(
-    body: mujoco.MjsBody,
-    start: tuple[float, float, float],
-    end: tuple[float, float, float],
-    radius: float,
-    colour: tuple[float, float, float, float],
-) -> None:
-    body.add_geom(
-        type=mujoco.mjtGeom.mjGEOM_CAPSULE,
-        fromto=[*start, *end],
-        size=[radius, 0.0, 0.0],
-        rgba=list(colour),
-        group=2,
-        contype=FLOOR_BIT,
-        conaffinity=0,
-    )
+        capsule(arm, (0, 0.04 * y, 0), (0.03, 0.05 * y, -0.55), 0.045, shirt)
 
 
 def parts_of(model: mujoco.MjModel, name: str) -> dict[str, int]:
@@ -65,7 +65,11 @@ def parts_of(model: mujoco.MjModel, name: str) -> dict[str, int]:
 
 
 def pose_figure(
-    data: mujoco.MjData, parts: dict[str, int], frame: Pose, way: float
+    data: mujoco.MjData,
+    parts: dict[str, int],
+    frame: Pose,
+    way: float,
+    figure: Figure = ADULT,
 ) -> None:
     """Put a figure somewhere, in the middle of a step.
 
@@ -74,8 +78,10 @@ def pose_figure(
         parts: As of :func:`parts_of`.
         frame: Where the figure is and heads.
         way: How far it has walked, in [m].
+        figure: How it looks.
     """
-    swing = SWING * sin(pi * way / STEP)
+    size = figure.size
+    swing = figure.swing * sin(pi * way / figure.step)
     spots = {
         "trunk": (0.0, 0.0, 0.0, 0.0),
         "left leg": (0.0, 0.09, HIP, swing),
@@ -85,26 +91,26 @@ def pose_figure(
     }
     for part, (x, y, z, pitch) in spots.items():
         at = parts[part]
-        place = frame.compose(Pose(x, y, 0.0))
-        data.mocap_pos[at] = place.x, place.y, z
+        place = frame.compose(Pose(size * x, size * y, 0.0))
+        data.mocap_pos[at] = place.x, place.y, size * z
         data.mocap_quat[at] = _turned(frame.theta, pitch)
 
 
-REACH = 0.4  # arms of a person, who keeps them down, [m]
+REACH = 0.4  # arms of an adult, who keeps them down, [m]
 
 
 class PersonTruth:
     """True state of a person: the axis of the trunk."""
 
-    def __init__(self, motion: Motion) -> None:
-        """Watch a walk."""
-        self._motion = motion
-        self.reach = REACH
+    def __init__(self, motion: Motion, figure: Figure = ADULT) -> None:
+        """Watch the walk of somebody."""
+        self._motion, self._size = motion, figure.size
+        self.reach = REACH * figure.size
 
     @property
     def com(self) -> Array:
         """A point in the middle of the trunk, in [m]. Shape (3,)."""
-        return np.array([*self._motion.pose[:2], 1.0])
+        return np.array([*self._motion.pose[:2], self._size])
 
     @property
     def position(self) -> tuple[float, float]:
@@ -118,7 +124,7 @@ class PersonTruth:
 
     @property
     def heading(self) -> float:
-        """Direction of the walk, in [rad]."""
+        """Direction in which the person faces, in [rad]."""
         return self._motion.pose.theta
 
     @property
@@ -136,10 +142,17 @@ class Person:
         truth: Where it is.
     """
 
-    def __init__(self, world: World, name: str, motion: Motion) -> None:
+    def __init__(
+        self,
+        world: World,
+        name: str,
+        motion: Motion,
+        figure: Figure = ADULT,
+    ) -> None:
         """Stand a figure where its walk begins."""
         self.world, self.name = world, name
-        self.truth = PersonTruth(motion)
+        self.truth = PersonTruth(motion, figure)
+        self._figure = figure
         self._motion = motion
         self._way = 0.0
         self._parts = parts_of(world.model, name)
@@ -161,7 +174,8 @@ class Person:
     def _place(self) -> None:
         """Put trunk, legs and arms where the walk has them."""
         data = self.world.data
-        pose_figure(data, self._parts, self._motion.pose, self._way)
+        pose = self._motion.pose
+        pose_figure(data, self._parts, pose, self._way, self._figure)
 
 
 def _turned(heading: float, pitch: float) -> tuple[float, ...]:

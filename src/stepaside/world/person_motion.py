@@ -19,7 +19,7 @@ class Motion:
     """A walk, step by step.
 
     Attributes:
-        pose: Where the person is and heads, in the world.
+        pose: Where the person is and faces, in the world.
     """
 
     def __init__(
@@ -46,7 +46,9 @@ class Motion:
                 evader[1] + settings.miss * cos(away),
             )
             heading = atan2(aim[1] - start.y, aim[0] - start.x)
-        self.pose = Pose(start.x, start.y, heading)
+        self._course = heading
+        self._way, self._turned = 0.0, False
+        self.pose = self._facing(start.x, start.y)
         if settings.path not in ("straight", "steer"):
             self._recorded = read_path(Path(settings.path))
             self.pose = self._at(0.0)
@@ -62,15 +64,29 @@ class Motion:
         if self._recorded is not None:
             self.pose = self._at(time)
             return
-        x, y, theta = self.pose
+        x, y, _ = self.pose
         settings = self._settings
+        way = settings.speed * duration
+        if self._way + 0.5 * way > settings.halt_after:
+            return
+        if not self._turned and self._way + 0.5 * way > settings.turn_after:
+            self._turned = True
+            self._course += settings.turn
         if settings.path == "steer":
             # (1)-(2) of the paper, held over one tick.
-            seen = wrap_angle(atan2(evader[1] - y, evader[0] - x) - theta)
-            aim = laws.pursuit_heading(seen)
-            theta += laws.proportional_rate(aim, settings.gain) * duration
-        way = settings.speed * duration
-        self.pose = Pose(x + way * cos(theta), y + way * sin(theta), theta)
+            sight = atan2(evader[1] - y, evader[0] - x)
+            aim = laws.pursuit_heading(wrap_angle(sight - self._course))
+            rate = laws.proportional_rate(aim, settings.gain)
+            self._course += rate * duration
+        self._way += way
+        course = self._course
+        self.pose = self._facing(x + way * cos(course), y + way * sin(course))
+
+    def _facing(self, x: float, y: float) -> Pose:
+        """Somewhere, facing where the walk goes or away from it."""
+        if self._settings.backward:
+            return Pose(x, y, wrap_angle(self._course + pi))
+        return Pose(x, y, self._course)
 
     def _at(self, time: float) -> Pose:
         assert self._recorded is not None

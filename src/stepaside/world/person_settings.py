@@ -1,10 +1,12 @@
 """A person instead of the pursuing robot."""
 
 from dataclasses import dataclass
+from math import inf, pi
 from typing import ClassVar
 
 from ..errors import ConfigurationError
 from ..ranges import Range, Ranges, check_settings
+from .figures import FIGURES
 
 PURSUERS = ("robot", "person")
 
@@ -22,17 +24,37 @@ class PersonSettings:
         gain: Of the steering (1)-(2), in [1/s] of real time; 0.0001 to 100.
         miss: How far to the left of the evader a straight walk aims, [m]; -10
             to 10.
+        halt_after: Way after which the person stands still, in [m]; 0 to 100
+            or inf.
+        turn_after: Way after which the person turns once, in [m]; 0 to 100
+            or inf.
+        turn: By how much, in [rad], positive leftward; -3.14159 to 3.14159.
+        backward: Whether the person walks backward, and so faces away from
+            where the walk goes.
+        figure: "adult" or "child", who differ in size, clothes and steps.
     """
 
     path: str = "steer"
     speed: float = 0.15
     gain: float = 0.2
     miss: float = 0.0
+    halt_after: float = inf
+    turn_after: float = inf
+    turn: float = 0.5 * pi
+    backward: bool = False
+    figure: str = "adult"
 
     ranges: ClassVar[Ranges] = {
         "speed": Range(1e-3, 3.0, "m/s", "whoever is faster runs"),
         "gain": Range(1e-4, 100.0, "1/s", "as a robot's"),
         "miss": Range(-10.0, 10.0, "m", "farther by is out of sight"),
+        "halt_after": Range(
+            *(0.0, 100.0, "m"), "farther on it is another walk", also=(inf,)
+        ),
+        "turn_after": Range(
+            *(0.0, 100.0, "m"), "farther on it is another walk", also=(inf,)
+        ),
+        "turn": Range(-pi, pi, "rad", "more is less to the other side"),
     }
 
     def __post_init__(self) -> None:
@@ -41,6 +63,11 @@ class PersonSettings:
         if not self.path:
             raise ConfigurationError(
                 "person.path must be steer, straight or a file, got ''"
+            )
+        if self.figure not in FIGURES:
+            raise ConfigurationError(
+                f"person.figure must be one of {', '.join(FIGURES)}, got "
+                f"{self.figure!r}"
             )
 
 

@@ -1,5 +1,7 @@
 """The solids of a room, in MuJoCo: pillars, boxes and walls."""
 
+from collections.abc import Callable
+
 import mujoco
 import numpy as np
 
@@ -9,6 +11,7 @@ from ..rooms import Disc, Obstacle, Polygon, Room
 FLOOR_BIT = 1  # as of the floor: robots run into it
 HEIGHT = 0.6  # of all of them, a little above a NAO's head, in [m]
 GREY = (0.54, 0.56, 0.60, 1.0)
+BROWN = (0.60, 0.44, 0.28, 1.0)  # of what moves
 PALE = (0.78, 0.79, 0.81, 1.0)  # of walls
 SQUARE = 1e-9  # sum of cosines up to which corners are right angles
 
@@ -26,6 +29,34 @@ def add_solids(spec: mujoco.MjSpec, room: Room) -> None:
     for name, solid in named_solids(room):
         colour = PALE if name.startswith("wall") else GREY
         _add_solid(spec, name, solid, colour)
+    for number, box in enumerate(room.moving, start=1):
+        _add_solid(spec, _name(number), box.at(0.0), BROWN, moves=True)
+
+
+def mover_of(
+    model: mujoco.MjModel, data: mujoco.MjData, room: Room
+) -> Callable[[float], None]:
+    """What puts the moving boxes of a room where they are at a time, in [s].
+
+    Args:
+        model: World that has them.
+        data: Its state.
+        room: The room.
+    """
+    numbers = [
+        int(model.body(_name(number)).mocapid[0])
+        for number in range(1, len(room.moving) + 1)
+    ]
+
+    def move(time: float) -> None:
+        for number, box in zip(numbers, room.moving, strict=True):
+            data.mocap_pos[number, :2] = box.place_at(time)
+
+    return move
+
+
+def _name(number: int) -> str:
+    return f"moving box {number}"
 
 
 def named_solids(room: Room) -> tuple[tuple[str, Obstacle], ...]:
@@ -58,9 +89,11 @@ def _add_solid(
     name: str,
     solid: Obstacle,
     colour: tuple[float, ...],
+    *,
+    moves: bool = False,
 ) -> None:
     x, y = solid.centre
-    body = spec.worldbody.add_body(name=name, pos=[x, y, 0.0])
+    body = spec.worldbody.add_body(name=name, pos=[x, y, 0.0], mocap=moves)
     half = 0.5 * HEIGHT
     look = {"rgba": list(colour), "contype": FLOOR_BIT, "conaffinity": 0}
     if isinstance(solid, Disc):

@@ -31,6 +31,12 @@ def _pursuers() -> Collection[str]:
     return PURSUERS
 
 
+def _figures() -> Collection[str]:
+    from ...world.figures import FIGURES
+
+    return tuple(FIGURES)
+
+
 def _optics() -> Collection[str]:
     from ...world.camera_settings import OPTICS
 
@@ -263,6 +269,29 @@ PERSON = Group(
             "How far {unit} beside the evader a straight walk aims.",
             "person.miss",
             "m",
+        ),
+        Declaration(
+            "--person-halt-after",
+            "Way {unit} after which the person stands; {default} by default.",
+            "person.halt_after",
+            "m",
+            words={"never": inf},
+        ),
+        Declaration(
+            "--person-turn-after",
+            "Way {unit} after which the person turns; {default} by default.",
+            "person.turn_after",
+            "m",
+            words={"never": inf},
+        ),
+        Declaration("--person-turn", "By how much", "person.turn", "rad"),
+        Declaration(
+            "--person-backward/--no-person-backward",
+            "Whether the person walks backward.",
+            "person.backward",
+        ),
+        Declaration(
+            "--person-figure", "Who comes.", "person.figure", registry=_figures
         ),
     ),
 )

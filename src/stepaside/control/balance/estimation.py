@@ -5,12 +5,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...constants import GRAVITY
 from ...poses import Array
 from ...robots.forward import ForwardKinematics, MeasuredPosture
 from ...robots.kinematics import BodyReference
 from ...sensing.attitude import AttitudeFilter
 from ...sensing.measurement import Measurement
 
+STANDS, TOUCHES = 0.2, 0.02  # share of the weight that the feet bear then
 FALLEN = 0.7  # tilt of the torso at which a robot knows that it falls, [rad]
 
 
@@ -77,6 +79,7 @@ class StateEstimator:
         """
         self._kinematics = kinematics
         self._sensors = force_sensors
+        self._weight = GRAVITY * kinematics.mass
         self._eta, self._tick = eta, tick
         self._attitude = AttitudeFilter(correction, bias_correction)
         fade = exp(-bandwidth * tick)
@@ -135,7 +138,7 @@ class StateEstimator:
         forces = measurement.foot_forces
         left, right = float(forces[:4].sum()), float(forces[4:].sum())
         weight = left + right
-        if weight > 1.0:
+        if weight > TOUCHES * self._weight:
             share = left / weight
             # A foot that hardly presses says nothing.
             self._share = 0.0 if share < 0.02 else min(share, 1.0)
@@ -171,7 +174,7 @@ class StateEstimator:
         if self._com is None:
             self._com = com
         pull = eta * eta * (self._com - (zmp - reaction))
-        if weight < 10.0:
+        if weight < STANDS * self._weight:
             pull = np.zeros(2)
         predicted = self._com + tick * self._velocity
         predicted += 0.5 * tick * tick * pull

@@ -141,9 +141,15 @@ class ClosedLoop:
         stabiliser: What feeds back.
     """
 
-    def __init__(self, stabiliser: Stabiliser) -> None:
-        """Close the loop."""
+    def __init__(
+        self,
+        stabiliser: Stabiliser,
+        feedforward: LoadFeedforward | None = None,
+    ) -> None:
+        """Close the loop; what the servos give way may be known besides."""
         self.stabiliser = stabiliser
+        self._feedforward = feedforward
+        self._asked: tuple[BodyReference, Vector] | None = None
 
     @property
     def state(self) -> BodyState | None:
@@ -186,12 +192,19 @@ class ClosedLoop:
     ) -> BodyReference:
         """Let the reference give way; see :class:`Stabiliser`."""
         made = step(measurement.time)
-        return self.stabiliser.update(measurement, sample, made)
+        body = self.stabiliser.update(measurement, sample, made)
+        (x, y), (u, v) = sample.zmp, self.stabiliser.zmp_shift
+        self._asked = body, (x + u, y + v)
+        return body
 
     def correct(self, measurement: Measurement, targets: Array) -> Array:
-        """Ask on top for what the joints miss."""
+        """Ask on top for what the joints miss, and what they will miss."""
         angles = measurement.joint_positions
-        return self.stabiliser.joints.update(angles, targets)
+        corrected = self.stabiliser.joints.update(angles, targets)
+        if self._feedforward is None or self._asked is None:
+            return corrected
+        share = self.stabiliser.settings.stabiliser.load_share
+        return corrected + share * self._feedforward.added(*self._asked)
 
     def land(
         self, landed: Pose, position: Vector, velocity: Vector, step: Step

@@ -47,6 +47,9 @@ class StabiliserSettings:
             1000.
         joint_bound: Greatest correction of a joint, in [rad]; 0 to 3.2.
         joint_leak: Rate at which it is forgotten, in [1/s]; 0 to 1000.
+        load_share: Share of what the servos give way under the load of the
+            plan that is asked of them beforehand, as it is without feedback;
+            0 to 1.
     """
 
     dead_zone: float = 0.015
@@ -67,6 +70,7 @@ class StabiliserSettings:
     joint_gain: float = 10.0
     joint_bound: float = 0.03
     joint_leak: float = 1.0
+    load_share: float = 0.0
 
     ranges: ClassVar[Ranges] = {
         "dead_zone": Range(0.0, 10.0, "m", SIZE),
@@ -91,6 +95,7 @@ class StabiliserSettings:
         "joint_gain": Range(0.0, 1000.0, "1/s", TICKS),
         "joint_bound": Range(0.0, 3.2, "rad", "joints turn no farther"),
         "joint_leak": Range(0.0, 1000.0, "1/s", TICKS),
+        "load_share": Range(0.0, 1.0, "1", "a share"),
     }
 
     def __post_init__(self) -> None:

@@ -25,7 +25,7 @@ class MapSettings:
 
     source: str = "given"
     margin: float = 0.02
-    unseen: str = "free"
+    unseen: str = "taken"
 
     ranges: ClassVar[Ranges] = {
         "margin": Range(0.0, 1.0, "m", "with more, no room has a place")

@@ -10,7 +10,8 @@ from ...sensing.measurement import Measurement
 from .solids import NOTHING, Solids
 
 HERE = Pose(0.0, 0.0, 0.0)
-REFRESHED = 0.25  # how often what was seen is read again, in [s]
+AHEAD = 2.0  # for which a map tells where things move: two steps, in [s]
+REFRESHED = 0.25  # how often what may have changed is read again, in [s]
 
 
 class Surroundings(Protocol):
@@ -52,10 +53,12 @@ class GivenRoom:
     """A room that is known, and a sensor that tells the place in it.
 
     Odometry that only counts steps drifts: the place that the sensor tells
-    keeps the frame of odometry where it is in the room.
+    keeps the frame of odometry where it is in the room. The map also tells
+    where boxes are that somebody pushes about, and where they soon will be.
 
     Attributes:
-        solids: All that stands in the room.
+        solids: All that stands in the room, and the floor that what moves
+            covers until a halt begun with the next step is over.
         frame: Pose of the own odometry in the room.
     """
 
@@ -66,7 +69,8 @@ class GivenRoom:
             room: The room.
             start: Pose of the own odometry in it at first.
         """
-        self.solids = Solids(room.solids)
+        self._room, self._next = room, 0.0
+        self.solids = Solids(room.solids_at(0.0, AHEAD))
         self.frame = start
 
     def note(self, measurement: Measurement, body: BodyReference) -> None:
@@ -75,6 +79,10 @@ class GivenRoom:
             x, y, _ = body.com
             planned = Pose(x, y, body.heading)
             self.frame = measurement.place.compose(planned.inverse())
+        now = measurement.time
+        if self._room.moving and now >= self._next - 1e-9:
+            self._next = now + REFRESHED
+            self.solids = Solids(self._room.solids_at(now, AHEAD))
 
 
 class SeenRoom:

@@ -1,12 +1,14 @@
 """A robot on NAOqi, behind the interface that velocities move."""
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import isfinite
 from time import monotonic, sleep
 from typing import Any
 
-from ...poses import Pose
+import numpy as np
+
+from ...poses import Array, Pose
 from ...sensing.measurement import Sighting
 from ..session import SessionLost
 from ..velocity.body import REST, Report, Velocity
@@ -20,6 +22,7 @@ STANDING_UP = 20.0  # longest time for it, in [s]
 STAND, SLOWLY = "StandInit", 0.4  # posture, and share of the top speed
 PARTING = 2.0  # longest time for stopping at the end, in [s]
 LYING_DOWN = 10.0  # longest time for the crouch in the end, in [s]
+HEAD, CALMLY = ("HeadYaw", "HeadPitch"), 0.3  # and share of the top speed
 FALLEN, BUTTON = "robotHasFallen", "ChestButtonPressed"
 KEYS = [FALLEN, BUTTON, IDEAL_SIGHT]
 log = logging.getLogger(__name__)
@@ -31,6 +34,9 @@ class NaoqiBody:
     It is woken up and stands before it moves. Its chest button, when it is
     let go, makes it rest, and lets it go on. ALMotion walks on for ever
     when nobody tells it to stop: who can die needs a guardian.
+
+    Attributes:
+        joints: Angles of the joints that are asked for, in [rad].
     """
 
     def __init__(
@@ -38,6 +44,8 @@ class NaoqiBody:
         url: str,
         *,
         dry_run: bool = False,
+        joint_names: Sequence[str] = (),
+        head: tuple[str, str] = HEAD,
         clock: Callable[[], float] = monotonic,
     ) -> None:
         """Connect, and let the robot stand up.
@@ -45,6 +53,8 @@ class NaoqiBody:
         Args:
             url: Like tcp://HOST:PORT.
             dry_run: Whether nothing is ever commanded.
+            joint_names: Joints whose angles are asked for, if any are.
+            head: Names of its yaw and its pitch.
             clock: Time of this computer, in [s]; that of the reports.
 
         Raises:
@@ -61,6 +71,9 @@ class NaoqiBody:
         except BaseException:
             self._session.close()
             raise
+        self._names, self._head = list(joint_names), list(head)
+        self._turning: Any = None
+        self.joints: Array = np.zeros(len(self._names))
         self._call: Any = None
         self._called = clock()
         self._asked = REST
@@ -86,6 +99,8 @@ class NaoqiBody:
                 self._motion, "getRobotPosition", True, within=patience
             )
             told = ask(self._memory, "getListData", KEYS, within=patience)
+            if self._names:
+                self.joints = self._angles(patience)
         except TimeoutError:
             return None
         now = self._clock()
@@ -120,6 +135,15 @@ class NaoqiBody:
         else:
             self._call = self._motion.move(forward, 0.0, turn, _async=True)
 
+    def look(self, yaw: float, pitch: float) -> None:
+        """Turn the head, in [rad], without waiting for the robot."""
+        if self._dry_run or self._standing is not None:
+            return
+        if self._turning is None or self._turning.isFinished():
+            self._turning = self._motion.setAngles(
+                self._head, [yaw, pitch], CALMLY, _async=True
+            )
+
     def close(self) -> None:
         """Stop, crouch and let the motors go, as far as it can be asked."""
         try:
@@ -130,6 +154,18 @@ class NaoqiBody:
             log.warning("the robot may still stand: %s", error)
         finally:
             self._session.close()
+
+    def _angles(self, patience: float) -> Array:
+        """Joints as measured, in [rad]. Shape (joints,)."""
+        names = self._names
+        told = ask(self._motion, "getAngles", names, True, within=patience)
+        try:
+            angles = np.array([float(value) for value in told])
+        except (TypeError, ValueError) as error:
+            raise SessionLost(f"the robot says {told!r:.60}") from error
+        if angles.shape != (len(names),) or not np.isfinite(angles).all():
+            raise SessionLost("the robot's joints are no numbers")
+        return angles
 
     def _service(self, name: str) -> Any:
         future = self._session.service(name, _async=True)

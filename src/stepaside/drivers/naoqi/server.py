@@ -106,7 +106,10 @@ class NaoqiServer:
             if not self.connected and self.robot.asked != REST:
                 log.warning("nobody asks anything: the robot rests")
                 self.robot.asked = REST
-            return self.robot.asked
+            head, asked = dict(self.robot.head), self.robot.asked
+        if head:
+            self._walker.look(head)
+        return asked
 
     def drop(self, why: str) -> None:
         """Let the robot rest, and say why."""

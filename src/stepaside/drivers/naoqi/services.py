@@ -15,6 +15,7 @@ from .address import IDEAL_SIGHT
 
 SUBDEVICES = "Device/SubDeviceList"
 SENSED = "Position/Sensor/Value"
+HEAD = ("HeadYaw", "HeadPitch")
 POSTURES = ("Stand", "StandInit", "StandZero", "Crouch")
 
 
@@ -27,6 +28,7 @@ class Robot:
         asked: Velocity that was asked for last.
         awake: Whether its motors are stiff.
         posture: Where it stands, or crouches.
+        head: Angles that its head is asked for, in [rad], by joint.
         calls: How often anything was asked.
     """
 
@@ -37,6 +39,7 @@ class Robot:
         self.asked = REST
         self.awake, self.fallen, self.pressed = False, False, False
         self.posture = "Crouch"
+        self.head: dict[str, float] = {}
         self.calls = 0
 
 
@@ -74,6 +77,27 @@ class ALMotion:
             self._robot.awake = min(float(v) for v in values) > 0.0
             if not self._robot.awake:
                 self._robot.asked = REST
+
+    def setAngles(self, names: Any, angles: Any, fraction: float) -> None:
+        """Turn the head: the other joints walk by themselves."""
+        wanted = [names] if isinstance(names, str) else list(names)
+        values = angles if isinstance(angles, list | tuple) else [angles]
+        asked = dict(zip(wanted, map(float, values), strict=True))
+        with self._robot.lock:
+            self._robot.calls += 1
+            others = set(asked) - ({*HEAD} & {*self._robot.names})
+            if others:
+                raise ValueError(
+                    f"only {' and '.join(HEAD)} may be set while it walks "
+                    f"by itself, got {sorted(others)}"
+                )
+            if not all(isfinite(value) for value in asked.values()):
+                raise ValueError(f"angles must be finite, got {values!r}")
+            if not 0.0 < fraction <= 1.0:
+                raise ValueError(f"fraction must lie in (0, 1]: {fraction}")
+            if not self._robot.awake:
+                raise RuntimeError("the robot is asleep: wakeUp first")
+            self._robot.head |= asked
 
     def moveInit(self) -> None:
         """Make ready to walk: it always is."""

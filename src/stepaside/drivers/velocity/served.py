@@ -1,6 +1,6 @@
 """A simulated robot that walks by itself, as its servers see it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple, Protocol
 
 from ...poses import Pose
@@ -34,3 +34,6 @@ class WalkingRobot(Protocol):
 
     def state(self) -> WalkerState:
         """What it says of itself now."""
+
+    def look(self, angles: Mapping[str, float]) -> None:
+        """Turn the head to angles of its joints, in [rad], by name."""

@@ -39,6 +39,14 @@ function makeScene(run, canvas, context) {
   function shape(part) {
     const [a, b, c] = part.size;
     const round = 24;
+    if (part.kind === "mesh") {
+      const shell = new THREE.BufferGeometry();
+      const corners = new Float32Array(part.corners.flat());
+      shell.setAttribute("position", new THREE.BufferAttribute(corners, 3));
+      shell.setIndex(part.faces.flat());
+      shell.computeVertexNormals();
+      return shell;
+    }
     if (part.kind === "box") return new THREE.BoxGeometry(2 * a, 2 * b, 2 * c);
     if (part.kind === "sphere") return new THREE.SphereGeometry(a, round, 16);
     if (part.kind === "ellipsoid")

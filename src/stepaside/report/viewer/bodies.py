@@ -20,7 +20,9 @@ def shape_of(part: Part) -> trimesh.Trimesh:
     """Mesh of one part in the frame of its body."""
     mesh: trimesh.Trimesh
     a, b, _ = part.size
-    if part.kind == "sphere":
+    if part.shell is not None:
+        mesh = trimesh.Trimesh(*part.shell, process=False)
+    elif part.kind == "sphere":
         mesh = trimesh.creation.icosphere(subdivisions=2, radius=a)
     elif part.kind == "ellipsoid":
         mesh = trimesh.creation.icosphere(subdivisions=2)

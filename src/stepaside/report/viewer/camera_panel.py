@@ -9,7 +9,7 @@ import viser
 from ...sensing.images import ColourImage, Pixels
 
 if TYPE_CHECKING:
-    from ...perception.perception import FrameReport
+    from ...perception.frame_report import FrameReport
 
 WIDTH = 240  # of a picture on the page, in [pixels]
 FOUND = (40, 200, 90)

@@ -47,7 +47,7 @@ def draw_session(layers: Layers, session: Session) -> None:
             drawn += _traces(session, name)
             pushes = np.array(seen.pushes[-PUSHES:]).reshape(-1, 6)
             drawn.append(("pushes", name, pushes_at(pushes, now), PUSHED))
-        radius = session.settings.strategy.safety_radius
+        radius = session.settings.strategy.area
         drawn.append(
             ("safety area", "evader", safety_of(places[1], radius), EVADER)
         )

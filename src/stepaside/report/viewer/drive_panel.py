@@ -74,7 +74,7 @@ class DrivePanel:
         if session.outcome is not None:
             self._hand = None
             self._score.end(session.outcome.value)
-        radius = session.settings.strategy.safety_radius
+        radius = session.settings.strategy.area
         close = self._slows.value and self._score.is_close(radius)
         session.slow = SLOW if close else 1.0
         text = self._score.words()

@@ -244,7 +244,7 @@ class Page:
             moment.phases,
             moment.distance,
             moment.angle,
-            session.settings.strategy.safety_radius,
+            session.settings.strategy.begins_at(self._coming),
             session.theory,
         )
         text = (
@@ -262,15 +262,22 @@ class Page:
             self._status.content = text
         self._drive.show(moment.time, moment.distance)
 
+    @property
+    def _coming(self) -> float:
+        """Speed of who comes, in [m/s]."""
+        settings = self.session.settings
+        if settings.pursuer == "person":
+            return settings.person.speed
+        return settings.gait.stride / settings.gait.step_duration
+
     def _outlook(self, moment: Moment) -> str:
         """What is expected next."""
-        session = self.session
-        gait = session.settings.gait
+        session, speed = self.session, self._coming
         return outlook(
             moment.distance,
             moment.phases[1],
-            safety=session.settings.strategy.safety_radius,
-            speed=gait.stride / gait.step_duration,
+            safety=session.settings.strategy.begins_at(speed),
+            speed=speed,
             theory=session.theory,
             settling=session.settling,
         )

@@ -25,7 +25,7 @@ from .trail import Trail
 from .words import phases_of
 
 if TYPE_CHECKING:
-    from ...perception.perception import FrameReport
+    from ...perception.frame_report import FrameReport
 
 LOG = logging.getLogger(__name__)
 MOST_ASKED = 10_000  # commands of a hand that are kept

@@ -12,7 +12,7 @@ from ...games.match import Match
 from ...games.outcome import Outcome
 
 if TYPE_CHECKING:
-    from ...perception.perception import FrameReport
+    from ...perception.frame_report import FrameReport
 
 PERIOD = 0.1  # between samples, in [s]
 HISTORY = 6000  # samples of the plots that are kept

@@ -1,0 +1,171 @@
+"""Take published humanoids from their file to the circle, by commands alone.
+
+The models are fetched by hand; see docs/robots.md. Each is looked for by its
+path under the folders that are given, and those that are not there keep the
+row that they had::
+
+    python benchmarks/robots.py FOLDER...
+"""
+
+import json
+import os
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import monotonic
+from typing import Any, NamedTuple
+
+from asking import ask
+
+from stepaside.fitting.deriving import derive, facts_of
+from stepaside.fitting.writing import write_description
+from stepaside.games.duel import run_duel
+from stepaside.games.robot_settings import with_robot
+from stepaside.games.settings import DuelSettings
+from stepaside.robots.description import FILE
+from stepaside.studies.results import header, write_result
+from stepaside.studies.version import PHYSICS
+
+SEED, DURATION = 7, 120.0
+
+
+class Humanoid(NamedTuple):
+    """A published model.
+
+    Attributes:
+        name: What people call it.
+        source: Where it is published.
+        path: Its file there.
+        kinematics: What sets it apart.
+    """
+
+    name: str
+    source: str
+    path: str
+    kinematics: str
+
+
+RL_GYM = "github.com/unitreerobotics/unitree_rl_gym"
+T1 = "github.com/BoosterRobotics/booster_gym"
+PLAYGROUND = "github.com/google-deepmind/mujoco_playground"
+DATA = "example-robot-data (PyPI)"
+HUMANOIDS = (
+    Humanoid(
+        *("Robotis OP3", PLAYGROUND, "op3/xmls/op3_mjx_feetonly.xml"),
+        "mirrored axes, much damping",
+    ),
+    Humanoid(
+        *("Booster T1", T1, "T1/T1_serial.urdf"),
+        "URDF without a free joint, weak hips, waist above the legs",
+    ),
+    Humanoid(
+        *("Booster T1, 35 kg", T1, "T1/T1_serial.xml"),
+        "torque motors, weak hips, narrow soles",
+    ),
+    Humanoid(
+        *("Unitree G1", RL_GYM, "g1_description/g1_29dof.xml"),
+        "torque motors, waist of three joints",
+    ),
+    Humanoid(
+        *("Aldebaran Romeo", DATA, "romeo_description/urdf/romeo.urdf"),
+        "slow joints, soles that cannot be read",
+    ),
+    Humanoid(
+        *("Unitree H1-2", RL_GYM, "h1_2/h1_2_12dof.xml"),
+        "torque motors, legs only",
+    ),
+    Humanoid(
+        *(
+            "Apptronik Apollo",
+            PLAYGROUND,
+            "apollo/xmls/apollo_mjx_feetonly.xml",
+        ),
+        "position servos, waist of three joints",
+    ),
+    Humanoid(
+        *("PAL Talos", DATA, "talos_data/robots/talos_reduced.urdf"),
+        "URDF without a free joint, torso of two joints",
+    ),
+)
+
+
+def find(humanoid: Humanoid, folders: list[Path]) -> Path | None:
+    """File of a model, wherever it lies under the folders."""
+    return next(
+        (
+            file
+            for folder in folders
+            for file in sorted(folder.rglob(Path(humanoid.path).name))
+            if file.as_posix().endswith(humanoid.path)
+        ),
+        None,
+    )
+
+
+def measure(humanoid: Humanoid, model: Path) -> dict[str, Any]:
+    """Derive, play a duel of two, and tell what came out."""
+    begun = monotonic()
+    with TemporaryDirectory() as made:
+        folder = Path(made)
+        derived = derive(model, folder, [])
+        text = write_description(derived)
+        (folder / FILE).write_text(text, encoding="utf-8")
+        settings = with_robot(DuelSettings(seed=SEED, duration=DURATION), made)
+        run = run_duel(settings)
+    facts, told = facts_of(derived), run.summary.to_json()
+    asked = facts["asked_for"]
+    return {
+        **humanoid._asdict(),
+        **{
+            key: facts[key]
+            for key in ("mass_kg", "leg_length_m", "com_height_m")
+        },
+        "gait": facts["gait"],
+        "lengths_share": facts["lengths_share"],
+        "control": dict(derived.description.control),
+        "asked_for": {
+            "sole": asked["sole"],
+            "torques": len(asked["torques"]),
+            "speed_limits": len(asked["speed_limits"]),
+        },
+        "left_out_meshes": facts["left_out_meshes"],
+        "by_hand": [],
+        "summary": {
+            key: value
+            for key, value in told.items()
+            if key not in ("plan_time_us", "real_time_factor", "touched")
+        },
+        "wall_s": monotonic() - begun,
+        "load": os.getloadavg()[0],
+    }
+
+
+def main() -> None:
+    """Measure what is there, and write after each."""
+    asked = ask(__doc__, "robots.json")
+    asked.add_argument("folders", type=Path, nargs="+")
+    asked.add_argument("--only", help="names that hold this, alone")
+    arguments = asked.parse_args()
+    rows: dict[str, Any] = {}
+    if arguments.output.is_file():
+        kept = json.loads(arguments.output.read_text(encoding="utf-8"))
+        rows = {row["name"]: row for row in kept["rows"]}
+    for humanoid in HUMANOIDS:
+        model = find(humanoid, arguments.folders)
+        if model is None or (arguments.only or "") not in humanoid.name:
+            continue
+        rows[humanoid.name] = row = measure(humanoid, model)
+        summary = row["summary"]
+        print(humanoid.name, summary["message"], summary["distance_m"])
+        names = [h.name for h in HUMANOIDS if h.name in rows]
+        head = header(
+            {"seed": SEED, "duration_s": DURATION},
+            rooms=(*PHYSICS, "fitting"),
+            libraries=("mujoco", "numpy"),
+        )
+        write_result(
+            arguments.output, head, rows=[rows[name] for name in names]
+        )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,80 @@
+"""Published humanoids that were tried."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from .markdown import number, table
+
+HEAD = (
+    "humanoid",
+    "mass [kg]",
+    "CoM [m]",
+    "stride [m]",
+    "step [s]",
+    "outcome",
+    "distance",
+    "radii",
+    "angle [deg]",
+    "closest [m]",
+)
+ORIGINS = ("humanoid", "model", "what sets it apart", "asked for by name")
+
+
+def reached(result: Mapping[str, Any]) -> str:
+    """What each reached, lengths by those of theory."""
+    return table(HEAD, (_reached(row) for row in result["rows"]))
+
+
+def origins(result: Mapping[str, Any]) -> str:
+    """Where each model is published, and what it does not tell."""
+    return table(
+        ORIGINS,
+        (
+            (
+                row["name"],
+                f"`{row['path']}` of {row['source']}",
+                row["kinematics"],
+                _asked(row["asked_for"]),
+            )
+            for row in result["rows"]
+        ),
+    )
+
+
+def _reached(row: Mapping[str, Any]) -> tuple[str, ...]:
+    summary, gait = row["summary"], row["gait"]
+    theory = summary["theory"]
+    outcome = summary["outcome"]
+    if outcome != "completed":
+        outcome += f" at {summary['duration_s']:.0f} s"
+    evader = _by(summary["evader"]["radius_m"], theory["radius_m"])
+    other = theory.get("radius_pursuer_m") or theory["radius_m"]
+    pursuer = _by(summary["pursuer"]["radius_m"], other)
+    angle = summary["relative_orientation_deg"]
+    apart = theory["relative_orientation_deg"]
+    return (
+        row["name"],
+        number(row["mass_kg"], 1),
+        number(row["com_height_m"], 2),
+        number(gait["stride"]),
+        number(gait["single_support"] + gait["double_support"], 2),
+        outcome,
+        _by(summary["distance_m"], theory["distance_m"]),
+        f"{pursuer}, {evader}",
+        f"{number(angle, 1)} ({number(apart, 1)})",
+        number(summary["min_distance_m"], 2),
+    )
+
+
+def _by(value: float | None, theory: float | None) -> str:
+    if value is None or not theory:
+        return "-"
+    return f"{100.0 * (value / theory - 1.0):+.1f} %"
+
+
+def _asked(asked: Mapping[str, Any]) -> str:
+    words = ["the sole"] if asked["sole"] else []
+    for key, said in (("torques", "torques"), ("speed_limits", "speeds")):
+        if asked[key]:
+            words.append(f"{said} of {asked[key]} joints")
+    return ", ".join(words) or "nothing"

@@ -1,0 +1,26 @@
+"""The table of a tournament, for the terminal."""
+
+from typing import Any
+
+from .terminal import echo
+
+
+def print_rows(rows: list[dict[str, Any]]) -> None:
+    """Print a line for each pairing."""
+    echo(
+        f"{'evader':<12}{'pursuer':<9}{'games':>6}{'survived':>10}"
+        f"{'95 %':>14}{'caught':>8}{'touched':>9}{'closest':>9}"
+        f"{'of bound':>9}{'floor':>7}{'turning':>9}{'unseen':>8}{'ms':>7}"
+    )
+    for row in rows:
+        low, high = row["survived_low"], row["survived_high"]
+        echo(
+            f"{row['evader'][-11:]:<12}{row['pursuer'][-8:]:<9}"
+            f"{row['games']:>6}{100 * row['survived']:>8.1f} %"
+            f"{100 * low:>7.1f}-{100 * high:<6.1f}"
+            f"{100 * row['caught']:>6.1f} %"
+            f"{100 * row['touched_obstacle']:>7.1f} %"
+            f"{row['mean_closest_m']:>7.3f} m{row['closest_over_bound']:>9.3f}"
+            f"{row['floor_used_m2']:>7.2f}{row['turning_rad_s']:>9.3f}"
+            f"{100 * row['out_of_view']:>6.1f} %{row['decision_ms']:>7.2f}"
+        )

@@ -1,0 +1,15 @@
+"""Settings that came after the first records of duels.
+
+Records go on without them where they are what they are by default.
+"""
+
+LATER = (
+    *("start.least", "start.near", "start.far"),
+    *("strategy.trigger", "strategy.contact_time", "strategy.clearance"),
+    *("strategy.calmest", "control.stabiliser.stride_bound"),
+    "control.stabiliser.load_share",
+    *("gait.outer_stride", "gait.swing_profile", "gait.swing_reaction"),
+    *("person.halt_after", "person.turn_after", "person.turn"),
+    *("person.backward", "person.figure"),
+    *("room.plan", "map", "pursuer_robot", "evader_robot", "pushes"),
+)

@@ -1,0 +1,49 @@
+"""Test gaits that are gone through by the joints alone."""
+
+from dataclasses import replace
+
+import pytest
+
+from stepaside.fitting.rehearsal import (
+    LEAST,
+    lengths_share,
+    shortened,
+    speed_share,
+)
+from stepaside.planning import GaitSettings
+from stepaside.robots.description import load_robot
+
+NAO = load_robot("nao")
+GAIT = GaitSettings()
+
+
+def slow(factor: float):  # type: ignore[no-untyped-def]
+    """NAO with slower joints."""
+    limits = {n: factor * v for n, v in NAO.speed_limits.items()}
+    return replace(NAO, speed_limits=limits)
+
+
+def test_nao_is_fast_enough_for_its_gait() -> None:
+    assert 0.3 < speed_share(NAO, GAIT) < 1.0
+    assert lengths_share(NAO, GAIT) == 1.0
+
+
+def test_the_share_is_by_the_limits() -> None:
+    share = speed_share(NAO, GAIT)
+    assert speed_share(slow(0.5), GAIT) == pytest.approx(2.0 * share)
+
+
+def test_slow_joints_walk_shorter_steps_that_they_keep_up_with() -> None:
+    own = slow(0.6 * speed_share(NAO, GAIT))
+    share = lengths_share(own, GAIT)
+    assert LEAST <= share < 1.0
+    gait = shortened(GAIT, share)
+    assert speed_share(own, gait) <= 1.0
+    assert gait.stride == share * GAIT.stride
+    assert gait.step_height == share * GAIT.step_height
+    assert gait.single_support == GAIT.single_support
+    assert gait.path_interval == pytest.approx(GAIT.path_interval)
+
+
+def test_joints_that_hardly_move_get_the_least_steps() -> None:
+    assert lengths_share(slow(0.01), GAIT) == LEAST

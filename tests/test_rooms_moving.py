@@ -1,0 +1,185 @@
+"""Boxes that are pushed to and fro: laws, files, world, map and stage."""
+
+from math import hypot
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.control.clearance.surroundings import AHEAD, GivenRoom
+from stepaside.errors import ConfigurationError
+from stepaside.games.duel import Duel
+from stepaside.games.match import play
+from stepaside.games.settings import DuelSettings
+from stepaside.poses import Pose
+from stepaside.report.room_figure import room_patches
+from stepaside.report.stage import Stage
+from stepaside.robots.kinematics import BodyReference
+from stepaside.rooms import (
+    MovingBox,
+    Room,
+    check_starts,
+    load_room,
+    room_entries,
+    room_of_entries,
+)
+from stepaside.sensing.measurement import Measurement
+from stepaside.studies.tournament_settings import TournamentSettings
+from stepaside.world.camera_settings import RoomSettings
+from stepaside.world.solids import add_solids, mover_of
+
+BOX = MovingBox(0.2, -0.9, 0.3, 0.2, (0.5, 0.6), 0.1, 0.4)
+ROOM = Room(
+    3.0,
+    3.0,
+    moving=(BOX,),
+    starts=(Pose(-1.1, 0.0, 0.0), Pose(-0.4, 0.3, 3.1)),
+)
+HALF = BOX.length / BOX.speed  # time from one end to the other, in [s]
+
+
+def test_it_goes_straight_at_its_speed_and_comes_back() -> None:
+    assert BOX.place_at(0.0) == pytest.approx((0.2, -0.9))
+    assert BOX.place_at(HALF) == pytest.approx((0.5, 0.6))
+    for time in np.linspace(0.0, 2.0 * HALF, 23).tolist():
+        x, y = BOX.place_at(time)
+        assert BOX.place_at(2.0 * HALF - time) == pytest.approx((x, y))
+        assert BOX.place_at(time + 6.0 * HALF) == pytest.approx((x, y))
+        u, v = BOX.place_at(time + 1e-4)
+        assert hypot(u - x, v - y) == pytest.approx(1e-5, rel=1e-6)
+        assert (x - 0.2) * 1.5 - (y + 0.9) * 0.3 == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize(
+    ("begin", "end"),
+    [(0.0, 0.0), (1.0, 4.0), (HALF - 1, HALF + 2), (0.5, 5 * HALF)],
+)
+def test_what_it_sweeps_holds_it_at_all_times(
+    begin: float, end: float
+) -> None:
+    """Also where it turns back between."""
+    swept = BOX.swept(begin, end)
+    corners = []
+    for time in np.linspace(begin, end, 301).tolist():
+        corners.append(BOX.at(time).points)
+        assert swept.clearance(corners[-1]).max() < 1e-9
+    farthest = np.concatenate(corners)
+    for corner in swept.points:  # and nothing else
+        assert np.hypot(*(farthest - corner).T).min() < 0.02
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"to": (0.2, -0.9)}, "at least 0.001"),
+        ({"to": (0.2,)}, "pair"),
+        ({"to": (0.2, float("nan"))}, "to y"),
+        ({"speed": 0.0}, "speed"),
+        ({"speed": 0.5}, "speed"),
+        ({"width": -1.0}, "width"),
+    ],
+)
+def test_what_is_no_moving_box_is_refused(
+    changes: dict[str, Any], says: str
+) -> None:
+    values: dict[str, Any] = {
+        "x": 0.2,
+        "y": -0.9,
+        "width": 0.3,
+        "depth": 0.2,
+        "to": (1, 1),
+    }
+    with pytest.raises(ConfigurationError, match=says):
+        MovingBox(**values | changes)
+
+
+def test_it_stays_between_the_walls_and_off_the_starts() -> None:
+    with pytest.raises(ConfigurationError, match="between the walls"):
+        Room(3.0, 3.0, moving=(MovingBox(0, 0, 0.2, 0.2, (1.6, 0)),))
+    assert ROOM.starts is not None
+    check_starts(ROOM, ROOM.starts)
+    on_it = Pose(0.2, -0.7, 0.0), ROOM.starts[1]
+    with pytest.raises(ConfigurationError, match="pursuer must start"):
+        check_starts(ROOM, on_it)
+
+
+def test_a_file_holds_it(tmp_path: Path) -> None:
+    assert room_of_entries(room_entries(ROOM)) == ROOM
+    file = tmp_path / "room.toml"
+    file.write_text(
+        "moving = [{x = 0, y = 0, width = 1, depth = 1, to = [1, 'a']}]\n",
+        encoding="utf-8",
+    )
+    with pytest.raises(ConfigurationError, match="moving 1: to y must be"):
+        load_room(file)
+
+
+def test_it_stands_in_the_world_where_the_room_has_it() -> None:
+    spec = mujoco.MjSpec()
+    add_solids(spec, ROOM)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    move = mover_of(model, data, ROOM)
+    geom = model.body("moving box 1").geomadr[0]
+    for time in (0.0, 3.0, HALF + 2.0):
+        move(time)
+        mujoco.mj_forward(model, data)
+        assert data.geom_xpos[geom, :2] == pytest.approx(BOX.place_at(time))
+        down = mujoco.mj_ray(
+            model,
+            data,
+            [*BOX.at(time).points.mean(axis=0), 2.0],
+            [0.0, 0.0, -1.0],
+            None,
+            1,
+            -1,
+            np.zeros(1, dtype=np.int32),
+        )
+        assert down == pytest.approx(1.4)
+
+
+def test_a_given_map_tells_where_it_is_and_soon_will_be() -> None:
+    around, nothing = GivenRoom(ROOM, Pose(0.0, 0.0, 0.0)), np.zeros(3)
+    body: Any = BodyReference
+    for now in (0.0, 1.0, 5.0):
+        told = Measurement(now, nothing, nothing, nothing, np.zeros(8), None)
+        around.note(told, body)
+        known = around.solids.known[-1]
+        for ahead in (0.0, 0.5 * AHEAD, AHEAD):
+            corners = BOX.at(now + ahead).points
+            assert known.clearance(corners).max() < 1e-9
+        far = BOX.at(now + AHEAD + 8.0).points.mean(axis=0)
+        assert known.clearance([far])[0] > 0.1
+
+
+def test_a_run_shows_it_where_it_was() -> None:
+    settings = DuelSettings(duration=0.6, room=RoomSettings(plan=ROOM))
+    duel = Duel(settings)
+    run = duel.run(*play(duel, 0.6, None))
+    last = duel.world.data.mocap_pos[0, :2]
+    assert last == pytest.approx(BOX.place_at(0.6), abs=0.003)
+    stage = Stage(run)
+    body = stage.model.body("moving box 1").id
+    for index in (0, len(run.times) - 1):
+        stage.put(index)
+        wanted = BOX.place_at(float(run.times[index]))
+        assert stage.data.xpos[body, :2] == pytest.approx(wanted)
+    assert stage.model.body("wall 4").id > 0
+
+
+def test_a_figure_shows_it_where_it_is_and_where_it_turns() -> None:
+    for time in (0.0, 3.0, HALF):
+        patches = room_patches(ROOM, time)
+        shown = (BOX.at(time), *BOX.ends)
+        for patch, polygon in zip(patches[-3:], shown, strict=True):
+            corners = np.asarray(patch.get_path().vertices)[:4]
+            assert corners == pytest.approx(polygon.points)
+    assert len(patches) == len(ROOM.solids) + 3
+
+
+def test_only_humanoids_play_where_boxes_move() -> None:
+    with pytest.raises(ConfigurationError, match="level must be 'physics'"):
+        TournamentSettings(room=ROOM)
+    assert TournamentSettings("physics", ROOM).room is ROOM
