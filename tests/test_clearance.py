@@ -15,8 +15,15 @@ from stepaside.control.clearance.surroundings import GivenRoom
 from stepaside.control.phase import Phase
 from stepaside.control.scheme import ControlScheme
 from stepaside.errors import ConfigurationError
-from stepaside.planning import Direction, Foot, ManeuverPlanner
+from stepaside.planning import (
+    CenterState,
+    Direction,
+    Foot,
+    ManeuverPlan,
+    ManeuverPlanner,
+)
 from stepaside.poses import Array, Pose
+from stepaside.robots.description import load_robot
 from stepaside.robots.reference import BodyReference
 from stepaside.rooms import (
     Disc,
@@ -31,7 +38,9 @@ from stepaside.rooms import (
 )
 from stepaside.sensing.measurement import Measurement, Sighting
 from stepaside.strategies import Intent, Knowledge
+from stepaside.world.outline import measure_outline
 
+NAO = load_robot("nao")
 MARGIN = 0.02
 SOLE = np.array([[0.095, 0.042], [-0.05, 0.042], [-0.05, -0.035]])
 SOLE = np.concatenate([SOLE, [[0.095, -0.035]]])
@@ -217,6 +226,32 @@ def test_what_cannot_be_walked_is_slowed_then_turned_then_dropped() -> None:
     assert chosen(wall, *(box(0.0, s * 0.3, 3.0, 0.2) for s in (1, -1))) is (
         None
     )
+
+
+@pytest.mark.parametrize("wanted", [-0.3, 0.0, 0.1, 0.4])
+def test_who_stands_before_a_pillar_finds_a_step_back(wanted: float) -> None:
+    """Where a NAO stood once: it sways too near to it but in a sharp turn."""
+    planner, nao = ManeuverPlanner(GAIT), measure_outline(NAO, GAIT)
+    room = Room(3.0, 3.0, (Disc(0.0, 0.0, 0.2),))
+    around = GivenRoom(room, Pose(0.0, 0.0, 0.0))
+    guard = Guard(around, nao, planner, margin=MARGIN)
+    left = Pose(-0.3584152, -0.0619644, -0.9484182)
+    right = Pose(-0.4396647, -0.1202613, -0.9484182)
+    rest = right.inverse().compose(Pose(-0.3866308, -0.107408, 0.0))
+
+    def plan_for(choice: Choice) -> ManeuverPlan:
+        return planner.plan(
+            choice.intent.heading,
+            Direction(1 - 2 * choice.back),
+            first_foot=Foot.LEFT,
+            state=CenterState(rest[:2], (0.0, 0.0)),
+            swing_start=right.inverse().compose(left),
+            standing=True,
+            speed_factor=choice.intent.speed_factor,
+        )
+
+    chosen = guard.choose(Intent(wanted), plan_for, right, standing=True)
+    assert chosen is not None and chosen.back
 
 
 def test_distances_are_never_overrated_and_hardly_underrated() -> None:

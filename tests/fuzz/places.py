@@ -23,10 +23,17 @@ WRITES = {
     "replay": "replay run --html=place/page.html --gif=place/film.gif "
     "--strip=place/strip.png --duration=0.1",
     "compare": "compare run --output=place/both.svg",
-    "robot": "robot --output=place/model.xml",
+    "room": "room --discs=2 --output=place/room.toml --figure=place/r.png",
+    "robot show": "robot show nao --output=place/model.xml",
+    "walk": "walk --duration=0.5 --output=place/run --figure=place/walk.png",
+    "unicycles": "unicycles --duration=1 --figure=place/game.svg",
+    "tournament": "tournament --seeds=0:2 --duration=1 --evader=aside "
+    "--room=open --workers=1 --output=place --figure=place/front.png",
     "robustness": f"robustness {WALKS} --output=place",
     "reproduce": "",
 }
+# They write when others have played, or after minutes of walking.
+APART = {"serve", "robot check", "robot init"}
 REFUSED = 2
 
 

@@ -20,6 +20,7 @@ from .outline import BodyOutline
 from .surroundings import Surroundings
 
 SLOWER = (1.0, 0.5, 0.05)  # shares of the wanted speed; the last but turns
+SHARP = 2.0  # heading of a step back where no other is clear, in [rad]
 NEARER = 1e-6  # than this no robot comes that is too near already, in [m]
 
 
@@ -100,8 +101,8 @@ class Guard:
         Returns:
             The first choice that keeps clear: as wanted, then slower and
             slower, down to a turn on the spot, then a turn the other way,
-            and from standing a step back; None if the robot had better
-            stand.
+            and from standing a step back, sharply if need be; None if the
+            robot had better stand.
         """
         for choice in _choices(intent, standing=standing):
             if self.accepts(plan_for(choice), support, standing=standing):
@@ -162,5 +163,5 @@ def _choices(intent: Intent, *, standing: bool) -> Iterator[Choice]:
         yield Choice(Intent(intent.heading, share * intent.speed_factor))
     yield Choice(Intent(-intent.heading, SLOWER[-1] * intent.speed_factor))
     if standing:
-        for heading in (intent.heading, -intent.heading):
+        for heading in (intent.heading, -intent.heading, SHARP, -SHARP):
             yield Choice(Intent(heading), back=True)
