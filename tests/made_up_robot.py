@@ -76,6 +76,7 @@ class FakeFeedback:
         self.state: Any = None
         self.lift = self.shift = 0.0
         self.jump = (0.0, 0.0)
+        self.zmp_shift = (0.0, 0.0)
         self.steps: list[Any] = []
         self.landed: list[Any] = []
         self.fits = 0

@@ -164,9 +164,10 @@ def test_only_what_needs_feedback_and_has_none_is_refused() -> None:
         Case("robot", "ideal", "ideal", "mpc").settings()
 
 
-# What only a walk is looked at for, and pushes, which nobody gives here.
+# What only a walk is looked at for, what is told to robots that walk by
+# themselves, and pushes, which nobody gives here.
 NEAR = {"velocity", "tilt", "sole", "support", "heading_reference"}
-NEAR |= {"estimate", "pushes"}
+NEAR |= {"estimate", "pushes", "command"}
 
 
 def test_everybody_leaves_what_it_has(played: Played) -> None:

@@ -276,7 +276,7 @@ def test_every_option_for_files_is_one_of_these() -> None:
             assert not isinstance(kind, click.File), (name, param.name)
             if isinstance(kind, click.Path) and not kind.exists:
                 assert not kind.file_okay, (name, param.name)
-    assert len(options()) == 21
+    assert len(options()) == 22
 
 
 def test_a_figure_without_a_suffix_is_told_as_it_is_written(

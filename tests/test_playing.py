@@ -68,6 +68,7 @@ class FakeMind:
         self.times: list[float] = []
         self.fails: Exception | None = None
         self.begun = None
+        self.sighting: Sighting | None = None
         self.state = standing_still()
 
     def update(self, measurement: Any) -> Any:
@@ -77,7 +78,7 @@ class FakeMind:
             raise self.fails
         self.decisions.headings.note(measurement.time, 0.0)
         self.decisions.templates.note(measurement.time, Pose(0.0, 0.0, 0.0))
-        near = Sighting(measurement.time, 0.0, 0.1)
+        near = self.sighting = Sighting(measurement.time, 0.0, 0.1)
         going = self.decisions.starts(measurement.time, near)
         self.phase = Phase.WALKING if going else Phase.STANDING
         return STANCE + 0.01

@@ -30,6 +30,7 @@ SHAPES = {
     "support": (5, 5),
     "heading_reference": (5, 1),
     "estimate": (5, 8),
+    "command": (5, 4),
 }
 
 
