@@ -2,7 +2,8 @@
 
 Without a graphics card a picture takes a second or two, and everything else
 on a page waits for it. So the calls that draw are switched off in each page
-until a test opens its eyes; all other calls of WebGL are made as ever.
+until a test opens its eyes, and frames come ten times a second; all other
+calls of WebGL are made as ever.
 """
 
 import shutil
@@ -15,8 +16,14 @@ CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 ARTEFACTS = Path(__file__).parent.parent / "artefacts"
 WAIT = 200_000  # more than a browser on a busy machine ever takes, in [ms]
 OPTIONS = ["--no-sandbox", "--enable-unsafe-swiftshader"]
-LIDS = """
+PAUSE = 100  # between two frames of a page that does not look, in [ms]
+LIDS = """{
 globalThis.looking = false;
+const first = 1e9, ask = requestAnimationFrame, drop = cancelAnimationFrame;
+globalThis.requestAnimationFrame = (call) => globalThis.looking ? ask(call)
+  : first + setTimeout(() => call(performance.now()), @@PAUSE@@);
+globalThis.cancelAnimationFrame = (number) =>
+  number < first ? drop(number) : clearTimeout(number - first);
 for (const kind of [WebGLRenderingContext, WebGL2RenderingContext])
   for (const name of Object.getOwnPropertyNames(kind.prototype))
     if (/^draw(Arrays|Elements|Range)/.test(name)) {
@@ -25,7 +32,7 @@ for (const kind of [WebGLRenderingContext, WebGL2RenderingContext])
         if (globalThis.looking) draw.apply(this, all);
       };
     }
-"""
+}""".replace("@@PAUSE@@", str(PAUSE))
 FRAMES = """() => new Promise((told) => requestAnimationFrame(
   () => requestAnimationFrame(told)))"""
 

@@ -74,7 +74,7 @@ class Player:
         self.pushes.append(push)
 
 
-def table(player: Player) -> tuple[Any, Scene, Handle, list[str]]:
+def table(player: Player) -> tuple[Any, Any, Handle, list[str]]:
     """Somebody to push, the scene, what is seen of them, and what is said."""
     world = SimpleNamespace(time=7.0)
     duel = SimpleNamespace(world=world, players=(None, player))

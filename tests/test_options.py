@@ -35,6 +35,7 @@ from stepaside.studies.tournament_settings import LEVELS
 from stepaside.unicycle.laws import SideRule, TurningLaw
 from stepaside.world.body_settings import BODIES
 from stepaside.world.camera_settings import OPTICS, RENDERERS
+from stepaside.world.figures import FIGURES
 from stepaside.world.person_settings import PURSUERS
 
 SETTINGS = {
@@ -63,6 +64,7 @@ REGISTRIES: dict[str, Iterable[str]] = {
     "--optics": OPTICS,
     "--renderer": RENDERERS,
     "--pursuer": PURSUERS,
+    "--person-figure": FIGURES,
     "--level": LEVELS,
     "--role": ROLES,
     "--first-foot": FEET,

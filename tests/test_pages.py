@@ -14,6 +14,7 @@ from click.testing import CliRunner
 
 from browsing import (
     CHROMIUM,
+    PAUSE,
     WAIT,
     keep_picture,
     launched,
@@ -43,6 +44,14 @@ pytestmark = [
     pytest.mark.xdist_group("browser"),
     pytest.mark.timeout(900),
 ]
+
+
+@pytest.fixture(autouse=True)
+def _calm(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No page is told more often than it looks; see ``browsing``."""
+    for module in ("page", "replaying"):
+        place = f"stepaside.report.viewer.{module}.RATE"
+        monkeypatch.setattr(place, 1e3 / PAUSE)
 
 
 @pytest.fixture(scope="module")
@@ -120,6 +129,8 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
         until(page, lambda: (p := mind.plan) is not None and p.bearing > 0.8)
         page.get_by_text("the evader survived").wait_for()
 
+        press(page, "Pause")
+        until(page, lambda: not session.running)
         tab = page.get_by_role("tab", name="Settings").first
         field = page.get_by_label("Distance [m]").first
 
@@ -134,7 +145,6 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
         until(page, lambda: live._duel._distance.value == 0.1)
         press(page, "reset")
         page.get_by_text("distance must lie in").first.wait_for()
-        keep_picture(page, "refused.png")
         page.close()
     finally:
         live.close()

@@ -9,6 +9,7 @@ from stepaside.fitting.rehearsal import (
     lengths_share,
     shortened,
     speed_share,
+    torque_share,
 )
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
@@ -43,6 +44,16 @@ def test_slow_joints_walk_shorter_steps_that_they_keep_up_with() -> None:
     assert gait.step_height == share * GAIT.step_height
     assert gait.single_support == GAIT.single_support
     assert gait.path_interval == pytest.approx(GAIT.path_interval)
+
+
+def test_a_step_of_nao_bears_on_its_hips_by_its_weight() -> None:
+    """The stance hip carries all but its leg, a hip's width aside."""
+    torques = dict.fromkeys(NAO.legs, 10.0)
+    share, joint = torque_share(NAO, GAIT, torques)
+    assert joint in ("LHipRoll", "RHipRoll", "LKneePitch", "RKneePitch")
+    assert 1.0 < 10.0 * share < 5.3 * 9.81 * 0.1
+    half = dict.fromkeys(NAO.legs, 5.0)
+    assert torque_share(NAO, GAIT, half)[0] == pytest.approx(2.0 * share)
 
 
 def test_joints_that_hardly_move_get_the_least_steps() -> None:

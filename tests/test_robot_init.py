@@ -118,10 +118,15 @@ def test_a_weak_servo_is_no_stiffer_than_its_torque_allows(
         (5.0 * tipping * GIVES, 5.0 * tipping),
         (1.0, LEAST * tipping),
     ):
-        gains = gains_of(found, dict.fromkeys(leg, torque), height)
+        torques = dict.fromkeys(leg, torque)
+        gains = gains_of(found, torques, height, weak=True)
         for name in leg:
             assert gains[name].stiffness == pytest.approx(stiffness, rel=0.01)
             assert gains[name].torque == pytest.approx(torque, rel=0.01)
+        stiff = gains_of(found, torques, height)
+        assert stiff[leg[0]].stiffness == pytest.approx(
+            STIFFNESS * tipping, rel=0.01
+        )
 
 
 def test_a_robot_without_an_accent_wears_the_colour_of_its_role(

@@ -17,13 +17,14 @@ from ..robots.own import Overlay, Place, ServoGains, SolePlace
 from .lengths import Size, gait_of, game_of_size, stabiliser_of
 from .motors import (
     SPEED,
+    WEAK,
     followers_of,
     gains_of,
     published_speeds,
     published_torques,
 )
 from .posture import knee_limits, reach_of, standing_of
-from .rehearsal import lengths_share
+from .rehearsal import lengths_share, torque_share
 from .survey import Survey, survey
 
 HIGH = 0.96  # CoM height of a gait by the greatest that is reached
@@ -46,6 +47,8 @@ class Derived:
         told_speeds: Joints whose speed it tells.
         share: Of stride and step height, for which the joints are fast
             enough.
+        borne: Greatest share of its torque that a joint bears in most of a
+            step.
     """
 
     description: RobotDescription
@@ -56,6 +59,7 @@ class Derived:
     told_torques: frozenset[str]
     told_speeds: frozenset[str]
     share: float = 1.0
+    borne: float = 0.0
 
 
 def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
@@ -95,12 +99,18 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
     size = Size(height, found.mass, spacing, sole, description.place.reach)
     share = lengths_share(*_rehearsed(description, gait_of(size)))
     gait = gait_of(size, share)
+    borne, _ = torque_share(*_rehearsed(description, gait), torques)
+    overlay = description.overlay
+    if borne > WEAK:
+        servos = gains_of(found, torques, height, weak=True)
+        overlay = replace(overlay, servos=servos)
     description = replace(
         description,
+        overlay=overlay,
         gait=dict(gait),
         control={
-            "method": "measured",
-            "feedback": True,
+            "method": "measured" if borne > WEAK else "closed-form",
+            "feedback": borne > WEAK,
             "stabiliser": stabiliser_of(size),
         },
         game=game_of_size(size, gait),
@@ -114,6 +124,7 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
         frozenset(torques),
         frozenset(speeds),
         share,
+        borne,
     )
 
 
@@ -269,6 +280,7 @@ def facts_of(derived: Derived) -> dict[str, Any]:
         "legs": [list(leg.joints) for leg in found.legs],
         "gait": dict(own.gait),
         "lengths_share": round(derived.share, 3),
+        "torque_share": round(derived.borne, 3),
         "game": dict(own.game),
         "coupled": sorted(coupled_of(found)),
         "left_out_meshes": len(found.missing),

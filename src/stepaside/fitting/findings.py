@@ -14,10 +14,12 @@ from ..robots.compiling import compile_tree
 from ..robots.description import REMEDY, RobotDescription
 from ..robots.forward import ForwardKinematics
 from ..robots.kinematics import LegKinematics
+from .rehearsal import torque_share
 
 UNEVEN = 0.05  # difference of the legs' masses that is still a mirror's
 ASIDE = 0.05  # of the CoM from the middle, by its height, likewise
 CLOSE = 0.01  # least room to the greatest height in reach, by that height
+SPENT = 0.95  # share of a torque that a step needs and leaves nothing
 TICK = 0.004  # of the kinematics that stands, in [s]
 
 
@@ -165,17 +167,38 @@ def _reach(description: RobotDescription) -> Iterator[Finding]:
     )
 
 
+def _strength(description: RobotDescription) -> Iterator[Finding]:
+    gait = settings_of(description).gait
+    model = description.compile()
+    torques = {
+        model.joint(model.actuator_trnid[i, 0]).name: float(high)
+        for i, high in enumerate(model.actuator_forcerange[:, 1])
+    }
+    share, joint = torque_share(description, gait, torques)
+    weak = share > SPENT
+    yield Finding(
+        "torque of a step",
+        "warn" if weak else "pass",
+        f"{100.0 * share:.0f} % of the limit of {joint}",
+        f"see the torque of {joint}: a step leaves nothing for errors"
+        if weak
+        else "",
+    )
+
+
 LOOKS: dict[str, Callable[[RobotDescription], Iterator[Finding]]] = {
     "kinematics": _kinematics,
     "masses": _masses,
     "sensors": _sensors,
     "actuators": _actuators,
     "reach": _reach,
+    "torque": _strength,
 }
 HINTS = {
     "kinematics": REMEDY,
     "masses": "give links an inertial",
     "sensors": REMEDY,
     "actuators": REMEDY,
+    "torque": "see [overlay.servos]",
     "reach": "change gait.com_height, foot_spacing or the standing angles",
 }

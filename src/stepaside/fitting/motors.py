@@ -13,9 +13,12 @@ from .survey import Survey
 # Gains and inertia of leg joints by what tips a robot: its weight times the
 # length of its legs, and the pendulum's time; those of NAO's model.
 STIFFNESS = 12.0
-# A servo that is at its limit holds nothing. It gets there at no less of an
-# error than this, in [rad], so that a foot that lands a little off takes no
-# torque from standing, but is no softer than that part of what tips.
+# A servo that is at its limit holds nothing. Of a robot whose joints bear
+# more than that share of their torque in most of a step, servos get there at
+# no less of an error than this, in [rad], so that a foot that lands a little
+# off takes no torque from standing; none is softer than that part of what
+# tips.
+WEAK = 0.6
 GIVES = 0.04
 LEAST = 3.0
 DAMPING_TIME = 0.3
@@ -63,7 +66,11 @@ def published_speeds(path: Path) -> dict[str, float]:
 
 
 def gains_of(
-    found: Survey, torques: dict[str, float], com_height: float
+    found: Survey,
+    torques: dict[str, float],
+    com_height: float,
+    *,
+    weak: bool = False,
 ) -> dict[str, ServoGains]:
     """Servo of every joint but the followers of others.
 
@@ -71,6 +78,7 @@ def gains_of(
         found: The model.
         torques: Greatest torques that are known, in [N m].
         com_height: Height of the CoM over the soles, in [m].
+        weak: Whether walking asks for most of what the joints bear.
     """
     tipping = found.mass * GRAVITY * com_height
     time = np.sqrt(com_height / GRAVITY)
@@ -83,9 +91,9 @@ def gains_of(
         torque = torques.get(name)
         if name in legs or held.mass > HEAVY * found.mass:
             stiffness = STIFFNESS * tipping
-            if torque is not None:
-                weak = max(torque / GIVES, LEAST * tipping)
-                stiffness = min(stiffness, weak)
+            if weak and torque is not None:
+                soft = max(torque / GIVES, LEAST * tipping)
+                stiffness = min(stiffness, soft)
             inertia = ARMATURE * found.mass * com_height**2
         else:
             stiffness = ARM * held.torque + 400.0 * held.inertia

@@ -1,5 +1,6 @@
 """A gait gone through by the joints alone, before anything has mass."""
 
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from math import inf
 
@@ -7,8 +8,11 @@ import numpy as np
 
 from ..control.assembly import build_scheme
 from ..control.balance.settings import OPEN_LOOP
+from ..control.scheme import ControlScheme
 from ..planning import Direction, GaitSettings
+from ..poses import Array
 from ..robots.description import RobotDescription
+from ..robots.loads import LegLoads
 from ..sensing.measurement import Measurement, Sighting
 from ..strategies import Walk
 
@@ -18,6 +22,7 @@ SWIFT = 1e3  # of joints that follow whatever is asked, in [rad/s]
 SPARE = 0.9  # of a joint's speed that a gait may ask for
 LEAST = 0.35  # share of a gait's lengths that is still worth walking
 TRIES = 4
+LIFTED = 1e-3  # a foot that is higher bears nothing, in [m]
 
 
 def speed_share(description: RobotDescription, gait: GaitSettings) -> float:
@@ -31,6 +36,48 @@ def speed_share(description: RobotDescription, gait: GaitSettings) -> float:
         ReachError: If its legs do not reach so far.
     """
     return max(_asked(description, gait, way) for way in Direction)
+
+
+def torque_share(
+    description: RobotDescription,
+    gait: GaitSettings,
+    torques: Mapping[str, float],
+) -> tuple[float, str]:
+    """Greatest share of a torque that a joint bears in most of a step.
+
+    The median over the times at which one foot is lifted: what is asked for
+    a moment only, servos may miss.
+
+    Args:
+        description: The robot.
+        gait: How it walks.
+        torques: Greatest torque of each joint, in [N m].
+
+    Returns:
+        The share, and the joint that bears it.
+
+    Raises:
+        ReachError: If the legs do not reach so far.
+    """
+    scheme = _scheme(description, gait, Direction.FORWARD)
+    legs = scheme.kinematics
+    loads = LegLoads(legs, zmp_forward=gait.zmp_forward, tick=TICK)
+    borne: dict[bool, list[Array]] = {True: [], False: []}
+    for _ in _walk(scheme, gait):
+        body = scheme.reference
+        asked = np.abs(loads.torques(body, scheme.zmp_reference))
+        left, right = (
+            f[2] > LIFTED for f in (body.left_foot, body.right_foot)
+        )
+        if left != right:
+            borne[left].append(asked)
+    limits = [torques.get(name, inf) for name in legs.legs.tree.motors]
+    shares = np.max(
+        [np.median(each, axis=0) for each in borne.values()], axis=0
+    )
+    shares /= limits
+    joint = int(shares.argmax())
+    return float(shares[joint]), legs.legs.tree.motors[joint]
 
 
 def lengths_share(description: RobotDescription, gait: GaitSettings) -> float:
@@ -70,8 +117,23 @@ def _asked(
     description: RobotDescription, gait: GaitSettings, way: Direction
 ) -> float:
     """Greatest share of a joint's speed that walking one way asks for."""
+    scheme = _scheme(description, gait, way)
+    motors = scheme.kinematics.legs.tree.motors
+    limits = np.array([description.speed_limits[name] for name in motors])
+    last, greatest = scheme.joint_targets, 0.0
+    for now in _walk(scheme, gait):
+        speeds = np.abs(now - last) / TICK
+        greatest = max(greatest, float((speeds / limits).max()))
+        last = now
+    return greatest
+
+
+def _scheme(
+    description: RobotDescription, gait: GaitSettings, way: Direction
+) -> ControlScheme:
+    """Control of a robot whose joints are as fast as it takes."""
     swift = dict.fromkeys(description.speed_limits, SWIFT)
-    scheme = build_scheme(
+    return build_scheme(
         Walk(0.0, way),
         replace(description, speed_limits=swift),
         gait,
@@ -79,21 +141,13 @@ def _asked(
         tick=TICK,
         sighting=Sighting(0.0, 0.0, inf),
     )
-    limits = np.array(
-        [
-            description.speed_limits[name]
-            for name in scheme.kinematics.legs.tree.motors
-        ]
-    )
-    still, none = np.zeros(limits.size), np.zeros(3)
-    now = scheme.joint_targets
-    greatest = 0.0
+
+
+def _walk(scheme: ControlScheme, gait: GaitSettings) -> Iterator[Array]:
+    """Joint targets of some steps, tick by tick, in [rad]."""
+    still, none = np.zeros(scheme.joint_targets.size), np.zeros(3)
     duration = gait.start_support + 2 * CYCLES * gait.step_duration
     for i in range(round(duration / TICK)):
-        last = now
-        now = scheme.update(
+        yield scheme.update(
             Measurement(i * TICK, still, none, none, np.zeros(8), None)
         )
-        speeds = np.abs(now - last) / TICK
-        greatest = max(greatest, float((speeds / limits).max()))
-    return greatest

@@ -6,6 +6,7 @@ from typing import Any
 from ..robots.description import RobotDescription
 from ..robots.own import ServoGains
 from .deriving import HIGH, Derived, coupled_of
+from .motors import GIVES, WEAK
 
 ASK = "ASK: the model does not say;"
 GAIT_WHY = {
@@ -86,8 +87,8 @@ def write_description(derived: Derived) -> str:
         *_gait(derived),
         f"# Box of a left sole in the foot frame, in [m]: {soles}.",
         *_table("sole", own.sole),
-        "# Servos no stiffer than their torque allows want feedback; some",
-        "# robots walk without: `stepaside robot check` tries both.",
+        "# Stiff joints alone carry many robots; `stepaside robot check`",
+        "# says whether they do, `robot tune` writes what is better.",
         "[control]",
         *_lines({k: own.control[k] for k in ("method", "feedback")}),
         "",
@@ -145,8 +146,11 @@ def _overlay(derived: Derived) -> list[str]:
     own: RobotDescription = derived.description
     untold = [n for n in own.overlay.servos if n not in derived.told_torques]
     why = "Torques as the model tells; stiffness and damping of the legs and "
-    why += "the waist are 12 m g z and 0.3 sqrt(z / g) of that, less where "
-    why += "0.04 rad would ask for more than the torque; of others by what "
+    why += "the waist are 12 m g z and 0.3 sqrt(z / g) of that"
+    if derived.borne > WEAK:
+        why += f", less where {GIVES} rad would ask for more than the torque, "
+        why += f"for a step asks for {100.0 * derived.borne:.0f} % of one"
+    why += "; of others by what "
     why += "they carry; an armature is given where the model has hardly any."
     asked = f"{ASK} torques of {', '.join(untold)}." if untold else ""
     soles = [

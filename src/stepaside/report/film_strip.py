@@ -62,8 +62,8 @@ def write_strip(
         line, column = divmod(number, columns)
         above, below = grid[2 * line, column], grid[2 * line + 1, column]
         above.imshow(picture)
-        above.set(xticks=[], yticks=[], title=f"{time:.1f} s")
-        above.grid(visible=False)
+        above.set_title(f"{time:.1f} s")
+        above.set_axis_off()
         draw_top(below, run, run.index_at(time))
         below.set_xlabel("x [m]")
         if column == 0:

@@ -98,7 +98,7 @@ def _script() -> bytes:
 def _with_script(page: Response) -> Response:
     """The page with the stick's script in its head."""
     return _respond(
-        page.body.replace(HEAD, SCRIPT, 1),
+        bytes(page.body).replace(HEAD, SCRIPT, 1),
         page.headers.get("Content-Type", "text/html; charset=utf-8"),
         HTTPStatus(page.status_code),
     )

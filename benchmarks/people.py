@@ -1,0 +1,90 @@
+"""Let people come at, and pass, a robot with the fast gait that sees them.
+
+They wear no trim, so that colour images tell nothing of them: two a second
+are taken, made of rays. Depth images and echoes come as ever::
+
+    python benchmarks/people.py --speed 0.8 --seeds 1:3
+"""
+
+from dataclasses import replace
+
+from asking import ask, seeds_of
+from gathering import Row, finished, gather
+
+from stepaside.control.balance.settings import STABILISED
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.planning import PRESETS
+from stepaside.studies.encounters import Encounter, encounters, meet
+from stepaside.studies.people import passing_rows, people_rows
+from stepaside.studies.results import header, write_result
+from stepaside.world.camera_settings import CameraSettings, ColourSettings
+
+AHEAD = (0, 45, -45, 90, -90)  # where they come from, in [deg]
+BEHIND = (135, -135, 180)
+AIMED = (0.0, 0.3)  # how far beside the robot, in [m]
+BY = (1.2,)
+CAMERAS = CameraSettings(colour=ColourSettings(renderer="raycast", rate=2.0))
+
+
+def play(encounter: Encounter) -> Row:
+    """What happened to one person."""
+    return meet(encounter)[1]
+
+
+def grid(
+    speed: float, seeds: range, bearings: tuple[int, ...], *offsets: float
+) -> list[Encounter]:
+    """People at one speed from some directions."""
+    fast = PRESETS["fast"]
+    walk = WalkSettings(seed=seeds.start, gait=fast, control=STABILISED)
+    return [
+        replace(each, base=replace(each.base, cameras=CAMERAS))
+        for each in encounters(
+            walk,
+            ("cameras",),
+            seeds=len(seeds),
+            speeds=(speed,),
+            bearings=bearings,
+            offsets=offsets,
+        )
+    ]
+
+
+def main() -> None:
+    """Play and write."""
+    asked = ask(__doc__, "people-cameras.json")
+    asked.add_argument("--speed", type=float, default=0.8)
+    asked.add_argument("--seeds", type=seeds_of, default="1:3")
+    asked.add_argument("--workers", type=int)
+    arguments = asked.parse_args()
+    speed, seeds = arguments.speed, arguments.seeds
+    groups = {
+        "ahead": grid(speed, seeds, AHEAD, *AIMED),
+        "behind": grid(speed, seeds[:1], BEHIND, AIMED[0]),
+        "past": grid(speed, seeds, AHEAD, *BY),
+    }
+    jobs = {each.key: each for group in groups.values() for each in group}
+    settings = {"speed_m_s": speed, "seeds": [seeds.start, seeds.stop]}
+    libraries = ["mujoco", "numpy", "opencv-python-headless"]
+    head = header(settings, libraries=libraries)
+    rows = gather(arguments.output, head, jobs, play, arguments.workers)
+    came = [
+        {"from": name, **people_rows(groups[name], rows)[0]}
+        for name in ("ahead", "behind")
+    ]
+    passed = passing_rows(groups["past"], rows)[0]
+    each = [
+        {
+            "bearing_deg": who.bearing,
+            "offset_m": who.offset,
+            "seed": who.seed,
+            **rows[key],
+        }
+        for key, who in jobs.items()
+    ]
+    write_result(arguments.output, head, came=came, passed=passed, rows=each)
+    finished(arguments.output)
+
+
+if __name__ == "__main__":
+    main()
