@@ -109,8 +109,8 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
         overlay=overlay,
         gait=dict(gait),
         control={
-            "method": "closed-form",
-            "feedback": False,
+            "method": "measured" if borne > WEAK else "closed-form",
+            "feedback": borne > WEAK,
             "stabiliser": stabiliser_of(size),
         },
         game=game_of_size(size, gait),

@@ -19,7 +19,7 @@ STIFFNESS = 12.0
 # off takes no torque from standing; none is softer than that part of what
 # tips.
 WEAK = 0.6
-GIVES = 0.02
+GIVES = 0.04
 LEAST = 3.0
 DAMPING_TIME = 0.3
 ARMATURE = 0.004

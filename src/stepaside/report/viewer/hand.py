@@ -56,7 +56,8 @@ class Hand:
             if path not in ("/", "/index.html"):
                 return answer(connection, request)
             headers = Headers(request.headers)
-            del headers["Accept-Encoding"]
+            if "Accept-Encoding" in headers:  # not everybody sends it
+                del headers["Accept-Encoding"]
             page = answer(connection, Request(request.path, headers))
             return page if page is None else _with_script(page)
 
