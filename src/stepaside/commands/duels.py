@@ -123,21 +123,17 @@ def duels(
     answer = _answer(settings, seeds, records)
     failed: OutputError | None = None
     if output is not None and records:
-        from ..report.duels_figure import draw_duels
         from ..studies.results import write_result
 
         try:
             answer = write_result(output / SUMMARY, answer)
             if not stopped:
-                draw_duels({"": records}, answer["summary"], output / DRAWN)
+                _draw(records, answer, output / DRAWN)
         except OutputError as error:
             failed = error
     if figure is not None and records and not stopped:
-        from ..report.duels_figure import draw_duels
-
-        attempt(
-            lambda: draw_duels({"": records}, answer["summary"], Path(figure))
-        )
+        drawn = Path(figure)
+        attempt(lambda: _draw(records, answer, drawn))
     if as_json:
         print_json(answer)
     else:
@@ -148,6 +144,14 @@ def duels(
     if stopped:
         done = f"{len(records)} of {len(seeds)} duels"
         leave_stopped(kept_in(done, output and output / RECORDS))
+
+
+def _draw(
+    records: list[dict[str, Any]], answer: dict[str, Any], file: Path
+) -> None:
+    from ..report.duels_figure import draw_duels  # loads for a second
+
+    draw_duels({"": records}, answer["summary"], file)
 
 
 def _file(output: Path | None) -> Any:

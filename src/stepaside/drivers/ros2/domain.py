@@ -105,8 +105,13 @@ class Dds:
         return self._topics[name]
 
     def close(self) -> None:
-        """Leave the domain."""
+        """Leave the domain, whoever still holds a reader or a writer.
+
+        A participant that lives on keeps the configuration of its domain for
+        all that come after it in this process.
+        """
         self._topics.clear()
+        self.participant.__del__()  # the package has no other way to say it
         del self.participant
 
 
