@@ -13,6 +13,7 @@ from stepaside.commands.circles import print_circles
 from stepaside.commands.map import map as map_command
 from stepaside.commands.unicycles import unicycles
 from stepaside.report import unicycle_ratios, unicycle_sweep
+from stepaside.unicycle.laws import Game, Unicycle
 
 COMPARED = (
     "radius_m",
@@ -283,3 +284,11 @@ def test_a_strategy_that_is_none_is_refused() -> None:
         result = CliRunner().invoke(unicycles, words.split())
         assert result.exit_code != 0
         assert message in result.output + str(result.exception)
+
+
+def test_a_circle_as_small_as_a_capture_has_no_marks() -> None:
+    """Nothing is left of such a game that could be measured."""
+    game = Game(Unicycle(0.1, 1e9), Unicycle(0.1, 1e9))
+    assert unicycle_sweep._simulated(game) is None
+    large = Game(Unicycle(0.1, 0.2), Unicycle(0.1, 0.2))
+    assert unicycle_sweep._simulated(large) is not None

@@ -177,7 +177,9 @@ def _number_in(text: str, angle: bool) -> float | None:
         if angle and text.endswith(unit):
             text, scale = text.removesuffix(unit), factor
             break
-    try:
-        return float(text) * scale
-    except ValueError:
-        return None
+    for kind in (int, float):  # whole numbers have all their digits
+        try:
+            return kind(text) * scale if angle else kind(text)
+        except ValueError:
+            pass
+    return None

@@ -115,7 +115,10 @@ def _draw_marks(
 
 
 def _simulated(game: Game) -> Measured | None:
-    """What a game that starts near its circle ends on, if that is stable."""
+    """What a game that starts near its circle ends on, if that is stable.
+
+    A circle as small as the distance of a capture is none to end on.
+    """
     circle = circle_of(game)
     if not (circle.exists and circle.stable):
         return None
@@ -126,4 +129,5 @@ def _simulated(game: Game) -> Measured | None:
     )
     # On a kept side: near the circle the rule behind changes nothing.
     kept = replace(game, side_rule=SideRule.LATCHED, hysteresis=0.0)
-    return measure(simulate(kept, start, settling_time(game), side=1))
+    played = simulate(kept, start, settling_time(game), side=1)
+    return None if played.captured else measure(played)

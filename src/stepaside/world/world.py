@@ -64,6 +64,8 @@ def build_model(
             perturb_masses(part.bodies, body, description.torso, generator)
         if name in COLOURS:
             _dye(part, description, COLOURS[name])
+        # What the world has of its own wins, without a word about it.
+        part.option = spec.option
         frame = spec.worldbody.add_frame()
         spec.attach(part, prefix=f"{name}/", frame=frame)
     if furnish is not None:
