@@ -119,7 +119,10 @@ def test_a_result_names_the_command_that_makes_it_again(name: str) -> None:
     result = STORE.result(name)
     program, *words = result["command"].split()
     assert not any(word.startswith("/") for word in words), result["command"]
-    if program == "python":
+    if program == "python" and words[0] == "-m":
+        module = ROOT / words[1].replace(".", "/")
+        assert (module / "__main__.py").exists(), result["command"]
+    elif program == "python":
         assert (ROOT / words[0]).exists(), result["command"]
     elif program == "make":
         rules = (ROOT / "Makefile").read_text(encoding="utf-8")
