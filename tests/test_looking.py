@@ -132,8 +132,8 @@ def test_the_head_of_a_robot_on_naoqi_turns_and_nothing_else() -> None:
     from stepaside.drivers.naoqi.server import NaoqiServer
     from stepaside.drivers.naoqi.session import ask, connect
     from stepaside.drivers.session import SessionLost
-    from test_naoqi import heard, until
-    from velocity_fakes import MadeUpWalker
+    from test_naoqi import heard
+    from velocity_fakes import MadeUpWalker, until
 
     walker = MadeUpWalker()
     names = ["HeadYaw", "HeadPitch"]

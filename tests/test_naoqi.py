@@ -2,10 +2,8 @@
 
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from math import nan
-from time import monotonic, sleep
-from typing import Any
 
 import pytest
 
@@ -25,22 +23,10 @@ from stepaside.errors import ConfigurationError  # noqa: E402
 from stepaside.poses import Pose  # noqa: E402
 from stepaside.sensing.measurement import Sighting  # noqa: E402
 
-from velocity_fakes import MadeUpWalker  # isort: skip  # noqa: E402
+from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
 
 TICK = 0.012
-LONGEST = 200.0  # for what takes milliseconds, in [s]
 SILENT = round(SILENCE / TICK) + 2  # ticks
-
-
-def until(done: Callable[[], Any]) -> Any:
-    """Wait for what comes over the wire."""
-    end = monotonic() + LONGEST
-    while monotonic() < end:
-        answer = done()
-        if answer:
-            return answer
-        sleep(0.002)
-    raise AssertionError("nothing came")
 
 
 class Scene:

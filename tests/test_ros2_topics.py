@@ -3,10 +3,9 @@
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from math import atan2, cos, hypot, nan, pi, sin
 from threading import Thread
-from time import monotonic, sleep
 from typing import Any
 
 import pytest
@@ -45,22 +44,10 @@ from stepaside.errors import ConfigurationError  # noqa: E402
 from stepaside.poses import Pose  # noqa: E402
 from stepaside.sensing.measurement import Sighting  # noqa: E402
 
-from velocity_fakes import MadeUpWalker  # isort: skip  # noqa: E402
+from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
 
 TAG = f"stepaside-test-{os.getpid()}"
 TICK = 0.012
-LONGEST = 200.0  # for what takes a millisecond, in [s]
-
-
-def until(done: Callable[[], Any]) -> Any:
-    """Wait for what comes over the wire."""
-    end = monotonic() + LONGEST
-    while monotonic() < end:
-        answer = done()
-        if answer:
-            return answer
-        sleep(0.002)
-    raise AssertionError("nothing came")
 
 
 class Scene:
@@ -375,6 +362,20 @@ def test_namespaces_are_read(text: str, namespace: str) -> None:
 def test_what_no_topic_could_be_called_is_refused(text: str) -> None:
     with pytest.raises(ConfigurationError, match="namespace must be"):
         parse_namespace(text)
+
+
+def test_who_leaves_a_domain_is_gone_whatever_is_held() -> None:
+    """Else its configuration is that of all who come later here."""
+    from cyclonedds.core import DDSException
+
+    from stepaside.drivers.ros2.messages import Clock, Time
+
+    dds = Dds(0, tag=TAG)
+    writer = dds.writer("rt/clock", Clock)
+    writer.write(Clock(Time.of(1.0)))
+    dds.close()
+    with pytest.raises(DDSException):
+        writer.write(Clock(Time.of(2.0)))
 
 
 def test_a_domain_that_has_no_ports_is_refused(

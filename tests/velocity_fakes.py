@@ -1,7 +1,9 @@
 """Robots that walk by themselves, made up."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from math import cos, sin
+from time import monotonic, sleep
+from typing import Any
 
 from stepaside.drivers.session import SessionLost
 from stepaside.drivers.velocity.body import REST, Report, Velocity
@@ -9,8 +11,20 @@ from stepaside.drivers.velocity.served import WalkerState
 from stepaside.poses import Pose
 from stepaside.sensing.measurement import Sighting
 
+LONGEST = 200.0  # for what takes milliseconds, in [s]
 PERIOD = 0.05  # between reports, in [s]
 AHEAD = Sighting(0.0, 0.4, 1.0)
+
+
+def until(done: Callable[[], Any]) -> Any:
+    """Wait for what comes over the wire."""
+    end = monotonic() + LONGEST
+    while monotonic() < end:
+        answer = done()
+        if answer:
+            return answer
+        sleep(0.002)
+    raise AssertionError("nothing came")
 
 
 def report(time: float, **changes: object) -> Report:

@@ -16,6 +16,27 @@ if TYPE_CHECKING:
     from ..games.run import Run
 
 DEFAULT = Path("comparison.png")
+# Of each game what is printed: head, figure, and how it is written.
+COLUMNS = {
+    "duel": (
+        ("distance", "distance_m", "{:.3f} m"),
+        ("angle", "relative_orientation_deg", "{:.1f}\u00b0"),
+        ("closest", "min_distance_m", "{:.3f} m"),
+        ("since", "converged_at_s", "{:.1f} s"),
+    ),
+    "play": (
+        ("distance", "distance_m", "{:.3f} m"),
+        ("radius", "radius_m", "{:.3f} m"),
+        ("closest", "closest_m", "{:.3f} m"),
+        ("walked", "walking_s", "{:.1f} s"),
+    ),
+    "walk": (
+        ("speed", "speed_m_s", "{:.4f} m/s"),
+        ("planned", "speed_ratio", "x {:.3f}"),
+        ("turned", "yaw_ratio", "x {:.3f}"),
+        ("tilt", "tilt_max_deg", "{:.1f}\u00b0"),
+    ),
+}
 
 
 @click.command("compare")
@@ -84,54 +105,15 @@ def _draw(runs: "list[Run]", file: Path) -> None:
 
 def _print(runs: "list[Run]") -> None:
     """One line for each run, with what can be compared."""
-    from ..games.duel_run import DuelRun
-    from ..games.play_run import PlayRun
-    from ..games.walk_run import WalkRun
-
-    head: tuple[str, ...] = ("outcome", "distance", "angle", "closest")
-    rows = [
-        (
-            run.summary.outcome,
-            _number(run.summary.distance_m, "{:.3f} m"),
-            _number(run.summary.relative_orientation_deg, "{:.1f}\u00b0"),
-            _number(run.summary.min_distance_m, "{:.3f} m"),
-            _number(run.summary.converged_at_s, "{:.1f} s"),
-        )
-        for run in runs
-        if isinstance(run, DuelRun)
-    ]
-    if rows:
-        head = (*head, "since")
-    elif isinstance(runs[0], PlayRun):
-        head = ("outcome", "distance", "radius", "closest", "walked")
-        rows = [
-            (
-                run.summary.outcome,
-                _number(run.summary.distance_m, "{:.3f} m"),
-                _number(run.summary.radius_m, "{:.3f} m"),
-                _number(run.summary.closest_m, "{:.3f} m"),
-                _number(run.summary.walking_s, "{:.1f} s"),
-            )
-            for run in runs
-            if isinstance(run, PlayRun)
-        ]
-    else:
-        head = ("outcome", "speed", "planned", "turned", "tilt")
-        rows = [
-            (
-                run.summary.outcome,
-                _number(run.summary.speed_m_s, "{:.4f} m/s"),
-                _number(run.summary.speed_ratio, "x {:.3f}"),
-                _number(run.summary.yaw_ratio, "x {:.3f}"),
-                _number(run.summary.tilt_max_deg, "{:.1f}\u00b0"),
-            )
-            for run in runs
-            if isinstance(run, WalkRun)
-        ]
+    columns = COLUMNS[runs[0].game]
     line = "{:<28} {:<11} {:>11} {:>8} {:>9} {:>8}"
-    echo(line.format("run", *head))
-    for run, row in zip(runs, rows, strict=True):
-        echo(line.format(visible(run.name), *row))
+    echo(line.format("run", "outcome", *(head for head, _, _ in columns)))
+    for run in runs:
+        cells = (
+            _number(getattr(run.summary, name), text)
+            for _, name, text in columns
+        )
+        echo(line.format(visible(run.name), run.summary.outcome, *cells))
 
 
 def _number(value: float | None, text: str) -> str:
