@@ -2,7 +2,7 @@
 
 import os
 import signal
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from multiprocessing import connection, get_context, parent_process
 from threading import Thread
@@ -23,6 +23,11 @@ class WorkerPool(ProcessPoolExecutor):
             return super().submit(*task, **more)
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+    def map(self, task: Any, *of: Any, **_: Any) -> Iterator[Any]:
+        """Hand in a task for each; none is cancelled: see :func:`give_up`."""
+        futures = [self.submit(task, *each) for each in zip(*of, strict=False)]
+        return (future.result() for future in futures)
 
     def __exit__(self, *error: Any) -> None:
         """End the workers: what is not done by now was given up."""
