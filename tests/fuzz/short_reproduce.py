@@ -29,8 +29,9 @@ def main() -> None:
     """Run it, as ``stepaside`` does."""
     from stepaside.cli import main as run
 
+    words = "reproduce --runs=1 --workers=2 --output"
     with few_claims():
-        run(["reproduce", "--runs=1", "--workers=2", f"--output={sys.argv[1]}"])
+        run([*words.split(), sys.argv[1]])
 
 
 if __name__ == "__main__":

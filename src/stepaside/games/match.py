@@ -193,7 +193,7 @@ def play(
     began = perf_counter()
     try:
         with Held() as held:
-            outcome = _play_on(match, ticks, held, report)
+            outcome = _play_on(match, ticks, held, began, report)
     except KeyboardInterrupt:
         outcome = Outcome.INTERRUPTED
         match.message = f"interrupted at {match.world.time:.2f} s"
@@ -211,11 +211,11 @@ def _play_on(
     match: Match,
     ticks: int,
     held: Held,
+    began: float,
     report: Callable[[Progress], None] | None,
 ) -> Outcome:
     """Play so many ticks, or to an end; an interrupt waits for whole ones."""
-    world = match.world
-    began = told = perf_counter()
+    world, told = match.world, began
     while world.ticks < ticks:
         held.let_through()
         ended = match.tick()
