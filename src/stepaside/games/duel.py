@@ -13,7 +13,7 @@ from ..robots.machine import prefer_for
 from ..strategies import load_strategy
 from ..world.body_settings import with_cycle
 from ..world.figures import FIGURES
-from ..world.passer import add_passers, passer_mover
+from ..world.passers import add_passers, passer_mover
 from ..world.person import Person, add_person
 from ..world.person_motion import Motion
 from ..world.push import pushes_of

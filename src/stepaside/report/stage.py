@@ -10,7 +10,8 @@ from ..games.start import frames_of
 from ..poses import Pose
 from ..robots.description import load_robot
 from ..world.figures import FIGURES
-from ..world.passer import Passer, add_passers, passer_mover
+from ..world.passer import Passer
+from ..world.passers import add_passers, passer_mover
 from ..world.person import add_person, parts_of, pose_figure
 from ..world.solids import add_solids, mover_of
 from ..world.template_body import add_template, pose_template

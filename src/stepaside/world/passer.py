@@ -1,17 +1,13 @@
-"""People who go their way while somebody comes."""
+"""Somebody who goes another way while a person comes."""
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import atan2, cos, pi, sin
 from typing import ClassVar
-
-import mujoco
 
 from ..errors import ConfigurationError
 from ..poses import Pose
 from ..ranges import Range, Ranges, check_settings
 from .figures import FIGURES
-from .person import add_person, parts_of, pose_figure
 
 MOST_PASSERS = 20  # of one game
 METRES = Range(-20.0, 20.0, "m", "farther by is out of sight")
@@ -73,43 +69,3 @@ class Passer:
                 course,
             )
         )
-
-
-def add_passers(spec: mujoco.MjSpec, passers: Sequence[Passer]) -> None:
-    """Put their figures into a world, to be moved.
-
-    Args:
-        spec: World.
-        passers: Who they are.
-    """
-    for number, passer in enumerate(passers, start=1):
-        add_person(spec, _name(number), FIGURES[passer.figure])
-
-
-def passer_mover(
-    model: mujoco.MjModel,
-    data: mujoco.MjData,
-    passers: Sequence[Passer],
-    evader: Pose,
-) -> Callable[[float], None]:
-    """What puts them where they are at a time, in [s].
-
-    Args:
-        model: World that has them.
-        data: Its state.
-        passers: Who they are.
-        evader: Where the evader stands at first, in the world.
-    """
-    parts = [parts_of(model, _name(i + 1)) for i in range(len(passers))]
-
-    def move(time: float) -> None:
-        for own, passer in zip(parts, passers, strict=True):
-            pose, way = passer.pose_at(time, evader), passer.speed * time
-            pose_figure(data, own, pose, way, FIGURES[passer.figure])
-
-    return move
-
-
-def _name(number: int) -> str:
-    """Prefix of the bodies of a passer; what touches one is told so."""
-    return f"passer {number}"
