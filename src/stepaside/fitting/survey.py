@@ -11,12 +11,15 @@ import numpy as np
 from ..errors import ModelError
 from ..poses import Array
 from ..robots.overlaying import odd_couplings, strip
+from ..robots.reading import read_model
 from ..world.shapes import points_of
 
 LEVEL = 0.8  # least share of an axis along the one it is taken for
+TOES = 0.1  # of a foot's length: more ahead of the ankle than behind
 FLAT = 0.012  # of the leg's length: what of a foot counts as its sole
 # Height of an ankle over the sole and edges of the sole, as parts of a leg.
 GUESS = (0.12, -0.12, 0.22, -0.09, 0.09)
+Turn = tuple[float, float, float, float]
 MOVES = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
 
 
@@ -59,6 +62,8 @@ class Survey:
         torso: Body that carries the free joint.
         legs: Left and right one.
         missing: Mesh files that are left out.
+        turn: Quaternion of the published torso's axes in (forward, left,
+            up).
     """
 
     path: Path
@@ -67,6 +72,7 @@ class Survey:
     torso: str
     legs: tuple[Leg, Leg]
     missing: tuple[str, ...]
+    turn: Turn = (1.0, 0.0, 0.0, 0.0)
 
     @property
     def mass(self) -> float:
@@ -113,7 +119,7 @@ def survey(path: Path, folders: Sequence[Path]) -> Survey:
             is missing.
     """
     try:
-        spec = mujoco.MjSpec.from_file(str(path))
+        spec = read_model(path)
         torso = _root_of(spec, path)
         odd = {
             n for each in odd_couplings(spec) for n in (each.name1, each.name2)
@@ -124,9 +130,61 @@ def survey(path: Path, folders: Sequence[Path]) -> Survey:
         if isinstance(error, ModelError):
             raise
         raise ModelError(f"{path} cannot be compiled: {error}") from error
-    data = mujoco.MjData(model)
-    data.qpos[:7] = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
-    mujoco.mj_forward(model, data)
+    data, turn, legs = _legs(model, path)
+    for name in (*legs[0].joints, *legs[1].joints):
+        if name in odd:
+            raise ModelError(
+                f"leg joint {name!r} of {path} follows another by more than "
+                "polycoef 0 1 0 0 0, which the legs' kinematics does not know"
+            )
+    return Survey(path, model, data, torso, legs, tuple(missing), turn)
+
+
+def _legs(
+    model: mujoco.MjModel, path: Path
+) -> tuple[mujoco.MjData, Turn, tuple[Leg, Leg]]:
+    """Legs of a robot that is turned until it looks ahead.
+
+    Raises:
+        ModelError: If it has none whichever way it is turned; as it is found
+            in the torso's own axes.
+    """
+    refused = None
+    for quarters in (0, 2, 1, 3):
+        half = 0.25 * np.pi * quarters
+        turn = (float(np.cos(half)), 0.0, 0.0, float(np.sin(half)))
+        data = mujoco.MjData(model)
+        data.qpos[:7] = (0.0, 0.0, 0.0, *turn)
+        mujoco.mj_forward(model, data)
+        try:
+            legs = _both_legs(model, data, path)
+        except ModelError as error:
+            refused = refused or error
+            continue
+        if sum(_looks_ahead(model, leg) for leg in legs) >= 0.0:
+            return data, turn, legs
+        refused = refused or ModelError(f"{path} looks nowhere")
+    assert refused is not None
+    raise refused
+
+
+def _looks_ahead(model: mujoco.MjModel, leg: Leg) -> float:
+    """1 if toes, or else the knee, say that forward is ahead, -1 if not."""
+    back, front, *_ = leg.outline
+    if not leg.is_guessed and abs(front + back) > TOES * (front - back):
+        return float(np.sign(front + back))
+    low, high = leg.signs[1] * model.joint(leg.pitches[1]).range
+    return float(np.sign(round(low + high, 3)))
+
+
+def _both_legs(
+    model: mujoco.MjModel, data: mujoco.MjData, path: Path
+) -> tuple[Leg, Leg]:
+    """Left and right leg of a robot that stands as it is seen.
+
+    Raises:
+        ModelError: If there are no two; says what is missing.
+    """
     ends = [_end(model, data, body) for body in _ends(model)]
     feet = [
         min((e for e in ends if side * e.y > 0.0), key=lambda e: e.low)
@@ -137,7 +195,7 @@ def survey(path: Path, folders: Sequence[Path]) -> Survey:
         raise ModelError(
             f"{path} has no two legs: of {len(ends)} chains of joints none "
             "ends to the left of the torso's origin and one to the right; "
-            "the torso's x axis must point forward and its z axis up"
+            "the torso's z axis must point up, and its x or y axis forward"
         )
     chains = [_chain(model, end.body) for end in feet]
     own = [
@@ -148,13 +206,7 @@ def survey(path: Path, folders: Sequence[Path]) -> Survey:
         _leg(model, data, end.body, chain)
         for end, chain in zip(feet, own, strict=True)
     )
-    for name in (*left.joints, *right.joints):
-        if name in odd:
-            raise ModelError(
-                f"leg joint {name!r} of {path} follows another by more than "
-                "polycoef 0 1 0 0 0, which the legs' kinematics does not know"
-            )
-    return Survey(path, model, data, torso, (left, right), tuple(missing))
+    return left, right
 
 
 def _root_of(spec: Any, path: Path) -> str:
