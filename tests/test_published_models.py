@@ -141,7 +141,8 @@ def test_meshes_are_found_in_their_package(tmp_path: Path) -> None:
     file = stranger.urdf(folder)
     text = file.read_text()
     mesh = "package://them/shapes/shell.stl"
-    shown = f'<collision><geometry><mesh filename="{mesh}"/></geometry></collision>'
+    shape = f'<geometry><mesh filename="{mesh}"/></geometry>'
+    shown = f"<collision>{shape}</collision>"
     place = text.index('<link name="chest">') + len('<link name="chest">')
     file.write_text(text[:place] + shown + text[place:])
     assert survey(file, []).missing == (mesh,)
