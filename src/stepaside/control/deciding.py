@@ -53,11 +53,17 @@ class Decisions:
         self.pace = 1.0
         self.headings: Memory[float] = Memory(tick)
         self.templates: Memory[Pose] = Memory(tick)
-        self._rates = SightRates(gait.step_duration)
-        self._drift = FloorVelocity(gait.step_duration)
+        self._step_duration = gait.step_duration
+        self._whom = 0
+        self._forget()
         self._limits = Limits(
             gait.speed, gait.gain, gait.stride, gait.step_duration
         )
+
+    def _forget(self) -> None:
+        """Know nothing of how the other moves."""
+        self._rates = SightRates(self._step_duration)
+        self._drift = FloorVelocity(self._step_duration)
 
     def adopt(self, strategy: Strategy) -> None:
         """Follow another strategy from the next decision on.
@@ -140,6 +146,10 @@ class Decisions:
         stands for a body that is half a step farther than the one that saw,
         and the torso looks where both feet do.
         """
+        if seen.who != self._whom:
+            # From one person to another nobody walks.
+            self._whom = seen.who
+            self._forget()
         template = self.templates.at(seen.time)
         sight = self.headings.at(seen.time) + seen.bearing
         rates = self._rates.note(seen.time, sight, seen.distance)
