@@ -1,5 +1,6 @@
 """Test robot descriptions: another humanoid needs no code."""
 
+import pickle
 from pathlib import Path
 
 import pytest
@@ -35,6 +36,12 @@ def test_another_robot_is_a_folder(tmp_path: Path) -> None:
         (0.02, 0.0, 0.29), (0.0, 0.05, 0.0, 0.0), (0.0, -0.05, 0.0, 0.0)
     )
     assert LegKinematics(robot, tick=0.004).stand(stance).size == 23
+
+
+def test_a_description_is_the_same_in_a_worker() -> None:
+    """Processes hand it on as bytes; what it compiles to does not change."""
+    sent = pickle.loads(pickle.dumps(NAO))
+    assert sent.spec().to_xml() == NAO.spec().to_xml()
 
 
 def test_unknown_robot_names_the_known_ones() -> None:

@@ -5,6 +5,7 @@ import platform
 import signal
 import subprocess
 import sys
+import threading
 from collections.abc import Callable
 from hashlib import sha256
 from pathlib import Path
@@ -136,6 +137,22 @@ def test_workers_leave_ctrl_c_to_their_parent() -> None:
     with worker_pool(1) as pool:
         assert list(pool.map(mask, [1])) == [(False, True)]
     assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
+
+
+def fail(number: int) -> int:
+    """Fail at once."""
+    raise ValueError(number)
+
+
+def test_a_task_that_fails_ends_the_others_and_nothing_else(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The thread that manages the workers shows no traceback of its own."""
+    shown: list[object] = []
+    monkeypatch.setattr(threading, "excepthook", shown.append)
+    with pytest.raises(ValueError), worker_pool(1) as pool:
+        list(pool.map(fail, range(9)))
+    assert not shown
 
 
 def test_the_package_is_a_command_too() -> None:

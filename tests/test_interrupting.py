@@ -7,7 +7,11 @@ from typing import Any
 
 import pytest
 
-from stepaside.interrupting import interrupt, is_loading, stoppable
+from stepaside.games.outcome import Outcome
+from stepaside.games.player_record import Record
+from stepaside.games.walk import run_walk
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.interrupting import Held, interrupt, is_loading, stoppable
 
 LOADERS = """
 class {name}:
@@ -88,3 +92,70 @@ def test_whoever_has_a_handler_keeps_it() -> None:
     with stoppable():
         assert signal.getsignal(signal.SIGINT) is interrupt
     assert signal.getsignal(signal.SIGINT) is before
+
+
+@pytest.mark.parametrize("sign", SIGNALS)
+def test_an_interrupt_waits_for_what_is_being_done(
+    sign: signal.Signals,
+) -> None:
+    whole = 0
+    with stoppable(), pytest.raises(KeyboardInterrupt), Held() as held:
+        for _ in range(3):
+            held.let_through()
+            signal.raise_signal(sign)
+            whole += 1
+    assert whole == 1
+
+
+def test_the_second_interrupt_does_not_wait() -> None:
+    whole = False
+    with pytest.raises(KeyboardInterrupt), Held():
+        signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
+        whole = True
+    assert not whole
+
+
+def test_work_without_an_end_is_interrupted_all_the_same() -> None:
+    before = signal.getsignal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt), Held():
+        signal.raise_signal(signal.SIGINT)
+        while True:
+            pass
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_what_waited_is_not_lost_at_the_end_and_comes_once() -> None:
+    with pytest.raises(KeyboardInterrupt), Held():
+        signal.raise_signal(signal.SIGINT)
+    with pytest.raises(ValueError), Held() as held:
+        signal.raise_signal(signal.SIGINT)
+        raise ValueError
+    assert held._timer is None
+    with Held() as held:
+        held.let_through()
+
+
+@pytest.mark.parametrize("times", [1, 2])
+def test_a_record_is_whole_whenever_ctrl_c_comes(
+    times: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In the middle of a sample, even if it is pressed twice."""
+    add = Record.add
+    count = iter(range(100))
+
+    def pressed(record: Record, seen: Any) -> None:
+        add(record, seen)
+        if next(count) == 5:
+            for _ in range(times):
+                signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(Record, "add", pressed)
+    run = run_walk(WalkSettings(duration=0.5))
+    assert run.outcome is Outcome.INTERRUPTED and 3 < len(run.times) < 9
+    lengths = {
+        len(array)
+        for array in (run.walker.com, run.walker.zmp, run.walker.qpos)
+        if array is not None
+    }
+    assert lengths == {len(run.times)}

@@ -198,6 +198,7 @@ def test_a_robot_is_pulled_with_the_pointer_and_driven_with_a_stick(
         keep_picture(page, "driving.png")
         page.mouse.up()
         until(page, lambda: (h := live._drive._hand) and not h.going)
+        check_readable(page)
         page.close()
     finally:
         live.close()
@@ -233,13 +234,26 @@ def test_a_replay_can_be_scrubbed(browser: Any, run: Path) -> None:
         page = open_page(browser)
         page.goto(f"http://127.0.0.1:{served.server.get_port()}")
         page.get_by_text("0.00 s, distance").first.wait_for()
-        slider = page.get_by_role("slider").first
+        slider = page.get_by_role("slider", name="Time [s]", exact=True)
         slider.press("End")
         page.get_by_text("4.00 s, distance").first.wait_for()
         keep_picture(page, "replay.png")
+        check_readable(page)
         page.close()
     finally:
         served.close()
+
+
+def check_readable(page: Any) -> None:
+    """Every control of a page has a name, and all stands in a place."""
+    page.get_by_role("heading", level=1).wait_for(state="attached")
+    assert page.get_by_role("main").count() == 1
+    page.get_by_role("button").first.wait_for()
+    nameless = """() => [...document.querySelectorAll(
+        "button:not([aria-hidden]), input, [role=slider]")].filter((each) =>
+        !(each.textContent.trim() || each.ariaLabel || each.labels?.length
+          || each.title))"""
+    until(page, lambda: page.evaluate(f"({nameless})().length") == 0)
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,9 @@
 
 An interrupt that comes while a compiled library begins is taken for an error
 of that library, and one that comes while Python tidies up after an import is
-passed over: so neither is raised there, but a moment later.
+passed over: so neither is raised there, but a moment later. One that comes
+while a game is at a tick waits for the end of that, so that the record of it
+is whole.
 """
 
 import signal
@@ -11,8 +13,10 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
+from typing import Any
 
 AGAIN = 0.01  # after which it is tried again, in [s]
+LONGEST = 0.5  # that an interrupt is kept back for a whole, in [s]
 IMPORTING = "<frozen importlib._bootstrap"  # and ..._external>
 COMPILED = ("create_module", "exec_module")  # of a loader
 
@@ -37,6 +41,59 @@ def stoppable() -> Iterator[None]:
         sys.unraisablehook = unraisable
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+class Held:
+    """Keeps Ctrl-C and SIGTERM back until what is being done is whole.
+
+    Within it, whoever handles them is called where the work says that it is
+    whole, when they come a second time, or after half a second.
+    """
+
+    def __init__(self) -> None:
+        """Begin with nothing that was kept back."""
+        self._before: dict[int, Any] = {}
+        self._waits: int | None = None
+        self._timer: threading.Timer | None = None
+
+    def __enter__(self) -> "Held":
+        """Keep back what somebody handles."""
+        if threading.current_thread() is threading.main_thread():
+            for number in (signal.SIGINT, signal.SIGTERM):
+                if callable(before := signal.getsignal(number)):
+                    self._before[number] = before
+                    signal.signal(number, self._keep)
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        """Let what was kept back through, unless an error goes first."""
+        for number, handler in self._before.items():
+            signal.signal(number, handler)
+        if error[0] is None:
+            self.let_through()
+        else:
+            self._forget()
+
+    def let_through(self) -> None:
+        """Say that all is whole; what was kept back is handled now."""
+        number = self._forget()
+        if number is not None:
+            self._before[number](number, sys._getframe())
+
+    def _keep(self, number: int, frame: FrameType | None) -> None:
+        if self._waits is None:
+            self._waits = number
+            self._timer = _again(number, LONGEST)
+        else:
+            self._forget()
+            self._before[number](number, frame)
+
+    def _forget(self) -> int | None:
+        """What waits, which does so no more."""
+        if self._timer is not None:
+            self._timer.cancel()
+        number, self._waits, self._timer = self._waits, None, None
+        return number
 
 
 def interrupt(number: int, frame: FrameType | None) -> None:
@@ -70,13 +127,14 @@ def is_loading(frame: FrameType | None) -> bool:
     return False
 
 
-def _again(number: int) -> None:
+def _again(number: int, after: float = AGAIN) -> threading.Timer:
     """Send a signal to the main thread once more, after a moment."""
     main = threading.main_thread().ident
     assert main is not None
-    timer = threading.Timer(AGAIN, signal.pthread_kill, (main, number))
+    timer = threading.Timer(after, signal.pthread_kill, (main, number))
     timer.daemon = True
     timer.start()
+    return timer
 
 
 def _again_if_lost(lost: "sys.UnraisableHookArgs") -> None:

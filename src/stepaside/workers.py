@@ -2,11 +2,13 @@
 
 import os
 import signal
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from multiprocessing import connection, get_context, parent_process
 from threading import Thread
-from typing import Any
+from typing import Any, TypeVar
+
+R = TypeVar("R")
 
 
 class WorkerPool(ProcessPoolExecutor):
@@ -23,6 +25,18 @@ class WorkerPool(ProcessPoolExecutor):
             return super().submit(*task, **more)
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+    def map(
+        self,
+        fn: Callable[..., R],
+        *iterables: Iterable[Any],
+        timeout: float | None = None,
+        chunksize: int = 1,
+    ) -> Iterator[R]:
+        """Hand in a task for each; none is cancelled: see :func:`give_up`."""
+        each = zip(*iterables, strict=False)
+        futures = [self.submit(fn, *one) for one in each]
+        return (future.result(timeout) for future in futures)
 
     def __exit__(self, *error: Any) -> None:
         """End the workers: what is not done by now was given up."""

@@ -7,6 +7,7 @@ from time import monotonic
 
 from .case import complaint_of
 from .counts import Counts, keep
+from .groups import obey_ctrl_c
 from .kinds import KINDS, all_cases
 
 
@@ -24,6 +25,7 @@ def main() -> int:
     add("--kinds", nargs="*", default=list(KINDS), choices=list(KINDS))
     add("--keep", type=Path, help="result to add the counts to, by seed")
     asked = parser.parse_args()
+    obey_ctrl_c()
     counts = Counts()
     with tempfile.TemporaryDirectory(prefix="fuzzed-") as name:
         cases = all_cases(asked.seed, Path(name), asked.kinds)

@@ -1,10 +1,20 @@
-"""What the processes of a group have worked."""
+"""Processes of a group: what they have worked, and that they obey."""
 
 import os
 import resource
+import signal
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
+
+
+def obey_ctrl_c() -> None:
+    """Let Ctrl-C reach us and those that we start.
+
+    A shell that starts us in the background lets it pass by, and so would
+    all that we start.
+    """
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 class Worked:

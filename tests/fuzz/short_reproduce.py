@@ -1,24 +1,37 @@
 """``stepaside reproduce`` of a few claims, with small figures."""
 
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
+from unittest.mock import patch
 
 FEW = ("circle", "path", "footsteps", "com")
 
 
-def main() -> None:
-    """Run it, as ``stepaside`` does."""
-    from stepaside.cli import main as run
+@contextmanager
+def few_claims() -> Iterator[None]:
+    """Let ``reproduce`` measure a few claims and draw small figures."""
     from stepaside.commands import reproduce_figures
     from stepaside.studies import reproduce
     from stepaside.studies.jobs import JOBS
 
     few = {name: JOBS[name] for name in FEW}
-    setattr(reproduce, "JOBS", few)  # noqa: B010 (it is not its own)
-    reproduce_figures.draw_figures = partial(
-        reproduce_figures.draw_figures, duration=0.5, marks=1
-    )
-    run(["reproduce", "--runs=1", "--workers=2", f"--output={sys.argv[1]}"])
+    draw = partial(reproduce_figures.draw_figures, duration=0.5, marks=1)
+    with (
+        patch.object(reproduce, "JOBS", few),
+        patch.object(reproduce_figures, "draw_figures", draw),
+    ):
+        yield
+
+
+def main() -> None:
+    """Run it, as ``stepaside`` does."""
+    from stepaside.cli import main as run
+
+    words = "reproduce --runs=1 --workers=2 --output"
+    with few_claims():
+        run([*words.split(), sys.argv[1]])
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ from stepaside.report.run_folder import write_run
 from stepaside.robots.description import load_robot
 from stepaside.studies.results import header, write_result
 
-from .groups import Worked, members
+from .groups import Worked, members, obey_ctrl_c
 
 # Command lines that last, in a folder that holds a run and a robot.
 LONG = {
@@ -59,7 +59,7 @@ class Stopped(NamedTuple):
         ended_s: Time until it and its workers had ended.
         worked_s: Processor time that all of them had until then, which is
             that time on a machine at rest.
-        status: Exit status, or the signal that it ended itself by.
+        status: Exit status, as a shell tells it.
         said: Its last line.
     """
 
@@ -71,7 +71,13 @@ class Stopped(NamedTuple):
 
 
 def stop(words: list[str], folder: Path, moment: float) -> Stopped:
-    """Start a command, stop it at a moment, and wait for its end."""
+    """Start a command in a copy of a folder, stop it, and wait for its end."""
+    with tempfile.TemporaryDirectory() as place:
+        shutil.copytree(folder, place, dirs_exist_ok=True)
+        return _stop(words, place, moment)
+
+
+def _stop(words: list[str], folder: str, moment: float) -> Stopped:
     process = subprocess.Popen(
         [sys.executable, "-m", "stepaside", *words],
         cwd=folder,
@@ -102,9 +108,18 @@ def stop(words: list[str], folder: Path, moment: float) -> Stopped:
         after,
         ended,
         max(worked.until_its_end() - after, 0.0),
-        abs(process.returncode),
+        status_of(process.returncode),
         lines[-1] if lines else "",
     )
+
+
+def status_of(returned: int) -> int:
+    """Status as a shell tells it.
+
+    Python ends itself by the signal if the interrupt came while a compiled
+    library ran code in Python, whoever caught it.
+    """
+    return returned if returned >= 0 else 128 - returned
 
 
 def prepare(folder: Path) -> None:
@@ -123,6 +138,7 @@ def main() -> None:
     add("--only", nargs="*", default=list(LONG), choices=list(LONG))
     add("--keep", type=Path, help="result to write")
     asked = parser.parse_args()
+    obey_ctrl_c()
     rows: list[dict[str, Any]] = []
     with tempfile.TemporaryDirectory() as name:
         prepare(Path(name))

@@ -7,6 +7,7 @@ from time import perf_counter
 from typing import NamedTuple, Protocol
 
 from ..errors import ReachError, StrategyError
+from ..interrupting import Held
 from ..world.truth import torsos_apart
 from ..world.world import World
 from .outcome import Outcome
@@ -187,30 +188,43 @@ def play(
     Returns:
         How it ended, and the time that it took, in [s].
     """
-    world = match.world
-    ticks = ceil(duration / world.physics.tick - 1e-9)
+    ticks = ceil(duration / match.world.physics.tick - 1e-9)
     outcome = Outcome.COMPLETED
-    began = told = perf_counter()
+    began = perf_counter()
     try:
-        while world.ticks < ticks:
-            ended = match.tick()
-            if ended is not None:
-                outcome = ended
-                break
-            if report is not None and world.ticks % 25 == 0:
-                now = perf_counter()
-                if now - told > TOLD:
-                    told = now
-                    factor = world.time / (now - began)
-                    report(Progress(world.time, match.distance, factor))
+        with Held() as held:
+            outcome = _play_on(match, ticks, held, began, report)
     except KeyboardInterrupt:
         outcome = Outcome.INTERRUPTED
-        match.message = f"interrupted at {world.time:.2f} s"
+        match.message = f"interrupted at {match.world.time:.2f} s"
     finally:
         match.close()
     wall = perf_counter() - began
     if outcome is Outcome.COMPLETED:
-        match.message = f"played {world.time:.2f} s"
+        match.message = f"played {match.world.time:.2f} s"
     for observer in match.observers:
         observer.ended(match, outcome)
     return outcome, wall
+
+
+def _play_on(
+    match: Match,
+    ticks: int,
+    held: Held,
+    began: float,
+    report: Callable[[Progress], None] | None,
+) -> Outcome:
+    """Play so many ticks, or to an end; an interrupt waits for whole ones."""
+    world, told = match.world, began
+    while world.ticks < ticks:
+        held.let_through()
+        ended = match.tick()
+        if ended is not None:
+            return ended
+        if report is not None and world.ticks % 25 == 0:
+            now = perf_counter()
+            if now - told > TOLD:
+                told = now
+                factor = world.time / (now - began)
+                report(Progress(world.time, match.distance, factor))
+    return Outcome.COMPLETED

@@ -49,6 +49,11 @@ class Record:
         for name, row in rows.items():
             self._rows.setdefault(name, []).append(row)
 
+    def cut(self, number: int) -> None:
+        """Keep so many snapshots, the first ones."""
+        for rows in self._rows.values():
+            del rows[number:]
+
     def track(self) -> Track:
         """Rows as arrays."""
         arrays = {name: np.array(rows) for name, rows in self._rows.items()}

@@ -54,13 +54,15 @@ class Recorder:
 
     def ended(self, match: Match, outcome: Outcome) -> None:
         """Take the last sample, unless there is one of this instant."""
+        for record in self._records.values():
+            record.cut(len(self._times))  # an interrupt may have cut one short
         if not self._times or self._times[-1] < match.world.time:
             self._sample(match)
 
     def _sample(self, match: Match) -> None:
-        self._times.append(match.world.time)
         for player in match.players:
             self._records[player.name].add(player.snapshot())
+        self._times.append(match.world.time)
 
     def tracks(self) -> dict[str, Track]:
         """Everything recorded so far, by name of the player."""

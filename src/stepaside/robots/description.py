@@ -81,7 +81,7 @@ class RobotDescription:
 
     def mjcf(self) -> str:
         """Text of the MuJoCo model, with what the overlay puts on it."""
-        if self.overlay is NO_OVERLAY:
+        if self.overlay == NO_OVERLAY:
             return self.path.read_text(encoding="utf-8")
         spec = self.spec()
         spec.compile()
@@ -103,7 +103,7 @@ class RobotDescription:
             raise ModelError(
                 f"{self.path} is no MuJoCo model: {error}"
             ) from error
-        if self.overlay is not NO_OVERLAY:
+        if self.overlay != NO_OVERLAY:
             from .overlaying import put_overlay
 
             put_overlay(spec, self)

@@ -62,7 +62,7 @@ def digest_of(description: RobotDescription) -> str:
         name = path.relative_to(description.folder).as_posix()
         digest.update(name.encode())
         digest.update(path.read_bytes())
-    if description.overlay is not NO_OVERLAY:
+    if description.overlay != NO_OVERLAY:
         digest.update(description.path.read_bytes())
         overlay, sole = description.overlay, description.sole
         digest.update(f"{overlay} {sole} {description.sensors}".encode())

@@ -8,6 +8,9 @@ from ..palette import PALETTES
 from .layers import rgb
 
 WATCH, ACT = 340.0, 290.0  # widths of the panels, in [pixels]
+# viser paints buttons of a light page in a brighter shade than it is given:
+# of this one it makes the evader's blue, on which white words are read.
+BRAND = {"light": "#143d7b", "dark": PALETTES["light"].evader}
 
 
 class Layout(NamedTuple):
@@ -54,5 +57,5 @@ def dress(gui: viser.GuiApi, light: str) -> None:
         dark_mode=light == "dark",
         show_logo=False,
         show_share_button=False,
-        brand_color=rgb(PALETTES["light"].evader),
+        brand_color=rgb(BRAND[light]),
     )

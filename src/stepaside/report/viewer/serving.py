@@ -9,7 +9,7 @@ otherwise is not let serve.
 
 import logging
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -23,8 +23,10 @@ from .gate import Gate
 from .hand import Hand
 from .layout import dress
 from .messages import LARGEST, Listener
+from .scripts import Answer, Scripts
 
 STARTING = threading.Lock()
+READABLE = "readable.js"  # names, headings and contrast for those who need it
 # Whoever knocks with what is no request leaves no traceback on our terminal.
 QUIET = logging.getLogger(f"{__name__}.requests")
 QUIET.addFilter(lambda record: record.msg != "opening handshake failed")
@@ -58,8 +60,14 @@ def open_server(host: str, port: int) -> Served:
         ConfigurationError: If nothing can be served there.
     """
     address = listen(host, port)
-    gate, listener, hand = Gate(address), Listener(), Hand()
-    with STARTING, _behind(address, gate, listener, hand) as started:
+    gate, listener = Gate(address), Listener()
+    scripts = Scripts(READABLE)
+    hand = Hand(scripts)
+
+    def ours(answer: Answer) -> Answer:
+        return gate.guarded(hand.answering(scripts.answering(answer)))
+
+    with STARTING, _behind(address, gate, listener, ours) as started:
         server = viser.ViserServer(
             host=host, port=address.port, label="stepaside", verbose=False
         )
@@ -77,7 +85,10 @@ def open_server(host: str, port: int) -> Served:
 
 @contextmanager
 def _behind(
-    address: Address, gate: Gate, listener: Listener, hand: Hand
+    address: Address,
+    gate: Gate,
+    listener: Listener,
+    ours: Callable[[Answer], Answer],
 ) -> Iterator[list[bool]]:
     """Let servers that start meanwhile start behind a door."""
     begin, started = sockets.serve, []
@@ -96,7 +107,7 @@ def _behind(
         started.append(True)
         answer = options.pop("process_request")
         options |= {
-            "process_request": gate.guarded(hand.answering(answer)),
+            "process_request": ours(answer),
             "create_connection": Heard,
             "logger": QUIET,
             "max_size": LARGEST,

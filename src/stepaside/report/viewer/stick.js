@@ -70,5 +70,8 @@
   }, EVERY);
 
   document.head.append(style);
-  document.body.append(stick);
+  const place = document.createElement("aside");
+  place.ariaLabel = "Driving";
+  place.append(stick);
+  document.body.append(place);
 })();

@@ -1,4 +1,4 @@
-"""The page comes to whoever asks for it, with the stick's script."""
+"""The page comes to whoever asks for it, with our scripts."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -12,7 +12,7 @@ from http import HTTPStatus
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
-from stepaside.report.viewer.hand import SCRIPT, Hand
+from stepaside.report.viewer.scripts import Scripts
 
 
 @pytest.mark.parametrize("sent", [{}, {"Accept-Encoding": "gzip"}])
@@ -25,9 +25,10 @@ def test_the_page_comes_whatever_encodings_are_accepted(
         asked.append(request)
         return Response(HTTPStatus.OK, "OK", Headers(), b"<title>x</title>")
 
-    hand = Hand()
-    hand.attend(lambda *_: None)
+    scripts = Scripts("stick.js")
+    scripts.add("stick.js")
     connection: Any = SimpleNamespace()
-    page = hand.answering(answer)(connection, Request("/", Headers(sent)))
-    assert page is not None and SCRIPT in bytes(page.body)
+    page = scripts.answering(answer)(connection, Request("/", Headers(sent)))
+    assert page is not None
+    assert bytes(page.body).count(b'<script src="stick.js" defer>') == 1
     assert "Accept-Encoding" not in asked[0].headers
