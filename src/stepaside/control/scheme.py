@@ -183,7 +183,7 @@ class ControlScheme:
         seen = self.sighting
         if not self.balance.ready or now < self._blocked_until:
             return
-        if seen is None or not self.decisions.starts(now, seen):
+        if not self.decisions.starts(now, seen, looking=self.senses.looking):
             return
         x, y, _ = self.reference.com
         for _ in Foot:
@@ -215,7 +215,7 @@ class ControlScheme:
         self._first_foot = plan.first_foot.other
         ended = self.plan_started + plan.schedule.first_step_duration
         seen = self.sighting
-        if seen is not None:
+        if seen is not None or self.senses.looking:
             self._replan(ended, landed, state, seen, standing=False)
         else:
             self._halt(ended, landed, state)
@@ -225,7 +225,7 @@ class ControlScheme:
         started: float,
         support: Pose,
         state: CenterState,
-        seen: Sighting,
+        seen: Sighting | None,
         *,
         standing: bool,
     ) -> None:

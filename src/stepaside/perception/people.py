@@ -10,8 +10,7 @@ from .attention import STARE, UNSEEN
 AHEAD = 4.0  # for which somebody is taken to walk on, in [s]
 COMES = 1.0  # who comes nearer than this is not let out of sight, in [m]
 KEPT = 0.3  # by which another must come nearer to count instead, in [m]
-GLANCE = 0.6  # for which anything else is looked at, at most, in [s]
-FRESH = 0.2  # age of the last place of who needs no look any more, in [s]
+GLANCE = 0.6  # for which anything else is looked at, in [s]
 AWAY = 3.0  # from one such glance to the next, in [s]
 
 
@@ -72,7 +71,7 @@ class People:
             since = now - self._glanced.setdefault(track, now)
             if since > GLANCE + AWAY:
                 self._glanced[track], since = now, 0.0
-            if since < GLANCE and not track.is_told(now, FRESH):
+            if since < GLANCE:
                 return track
         return None
 

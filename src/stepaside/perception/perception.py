@@ -128,6 +128,11 @@ class Perception:
         """Yaw and pitch to which the head is to turn, in [rad]."""
         return self._gaze.yaw, self._gaze.pitch
 
+    @property
+    def looking(self) -> bool:
+        """Whether it looks around, before it says anything of the other."""
+        return self.floor is not None and self._gaze.turned < BOTH
+
     def _see(
         self, measurement: Measurement, body: BodyPose
     ) -> Sighting | None:
@@ -139,7 +144,7 @@ class Perception:
             self._take(percept, self._pose_at(percept.time), now)
         track = self._attention.main(self._tracker, now, *body.torso[:2])
         self.sighting = None
-        if self.floor is not None and self._gaze.turned < BOTH:
+        if self.looking:
             self._gaze.search()
             return None
         self._look(now, body, track)

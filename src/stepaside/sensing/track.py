@@ -108,15 +108,14 @@ class Track:
         square = late @ late
         return float(late @ x / square), float(late @ y / square)
 
-    def is_told(self, now: float, late: float = TRAIL) -> bool:
+    def is_told(self, now: float) -> bool:
         """Whether it was seen sharply of late, and so how it moves.
 
         Args:
             now: Time, in [s].
-            late: How long ago the last such place may be, in [s].
         """
         trail = self._trail
-        if not trail or now - trail[-1][0] > late:
+        if not trail or now - trail[-1][0] > TRAIL:
             return False
         return trail[-1][0] - trail[0][0] >= LEAST
 

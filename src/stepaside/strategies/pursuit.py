@@ -10,6 +10,7 @@ from ..poses import wrap_angle
 from ..ranges import Range, Ranges, check_settings
 from ..rooms import BODY_RADIUS
 from ..rooms.paths import first_point
+from .approach import swift_heading
 from .knowledge import Intent, Knowledge
 
 ASIDE = 1e-3  # of the other, from which on it goes around something, [rad]
@@ -58,6 +59,8 @@ class Pursuit:
             aside = wrap_angle(bearing - knowledge.bearing)
             if abs(aside) > ASIDE:
                 side = 1 if aside > 0.0 else -1
+                # By (2) it would walk on into what it is to go around.
+                return Intent(swift_heading(bearing, knowledge.limits)), side
         return Intent(laws.pursuit_heading(bearing)), side
 
     def _around(self, knowledge: Knowledge, side: int) -> float:
