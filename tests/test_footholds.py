@@ -76,7 +76,8 @@ def strides(p: ManeuverPlan) -> list[tuple[float, float]]:
 
 
 def clear(p: ManeuverPlan, solids: tuple[Obstacle, ...]) -> Array:
-    return np.min([s.clearance(middles(p)) for s in solids], axis=0)
+    found: Array = np.min([s.clearance(middles(p)) for s in solids], axis=0)
+    return found
 
 
 @pytest.mark.parametrize("solids", [(), (Disc(3.0, 0.0, 0.5),)])

@@ -167,8 +167,10 @@ def _beside(plan: ManeuverPlan) -> Array:
     """From each footstep to midway between the feet, in [m]. (count, 2)."""
     theta = plan.placements[2:, 2]
     side = plan.first_foot.value * (-1.0) ** np.arange(len(theta))
-    half: Array = 0.5 * plan.gait.foot_spacing * side
-    return np.stack([half * np.sin(theta), -half * np.cos(theta)], axis=-1)
+    half = 0.5 * plan.gait.foot_spacing * side
+    found: Array = np.stack([np.sin(theta), -np.cos(theta)], axis=-1)
+    found *= half[:, None]
+    return found
 
 
 def _away(solid: Obstacle, places: Array) -> tuple[Array, Array]:
