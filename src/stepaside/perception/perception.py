@@ -262,15 +262,10 @@ class Perception:
             ):
                 return
             across, founds = 0.4, False
+        there = x + away * cos(bearing), y + away * sin(bearing)
+        deviations = 0.06, across
         seen = Observation(
-            echo.time,
-            x + away * cos(bearing),
-            y + away * sin(bearing),
-            bearing,
-            0.06,
-            across,
-            False,
-            True,
+            echo.time, *there, bearing, *deviations, False, True
         )
         self._tracker.observe([seen], founds=founds)
 
