@@ -54,6 +54,8 @@ TABLES: dict[str, Callable[..., str]] = {
     "pace": walking.pace,
     "passers-by": people.passers_by,
     "people": people.people,
+    "people-passed-by": people.passed_by,
+    "people-seen": people.seen,
     "printed": duels.printed,
     "push-methods": pushes.methods,
     "ranges": persons.ranges,
