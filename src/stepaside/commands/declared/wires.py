@@ -34,5 +34,5 @@ WAYS = ("velocity", "footsteps")
 BY = Declaration(
     "--by",
     "How a robot on NAOqi is moved; by velocity by default.",
-    kind=click.Choice(WAYS),
+    registry=lambda: WAYS,
 )
