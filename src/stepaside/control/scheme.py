@@ -188,7 +188,7 @@ class ControlScheme:
         seen = self.sighting
         if not self.balance.ready or now < self._blocked_until:
             return
-        if seen is None or not self.decisions.starts(now, seen):
+        if not self.decisions.starts(now, seen, looking=self.senses.looking):
             return
         x, y, _ = self.reference.com
         for _ in Foot:
@@ -218,7 +218,7 @@ class ControlScheme:
             return
         self._first_foot = plan.first_foot.other
         ended = self.plan_started + plan.schedule.first_step_duration
-        if self.sighting is None:
+        if self.sighting is None and not self.senses.looking:
             self._halt(ended, landed, state)
         else:
             self._replan(ended, landed, state, self.sighting, standing=False)
@@ -228,7 +228,7 @@ class ControlScheme:
         started: float,
         support: Pose,
         state: CenterState,
-        seen: Sighting,
+        seen: Sighting | None,
         *,
         standing: bool,
     ) -> None:
