@@ -21,7 +21,10 @@ TICK = 0.004
 # Where models are read, changed and compiled.
 WITH_MUJOCO = [
     f"stepaside.robots.{name}"
-    for name in ("compiling", "inertias", "meshes", "overlaying")
+    for name in (
+        *("compiling", "facing", "inertias"),
+        *("meshes", "overlaying", "reading"),
+    )
 ]
 
 

@@ -187,3 +187,16 @@ def test_a_strategy_that_gives_no_intent_is_told_from_other_errors(
     with pytest.raises(StrategyError, match=said):
         made.decide(0.0, seen, moving=True)
     assert made.memory == before
+
+
+def test_from_one_person_to_another_nobody_walks() -> None:
+    """The next one's velocity is its own, and unknown at first."""
+    made, speeds = decisions(), []
+    for i in range(12):
+        now = i * 0.25 * STEP
+        who = 1 if i < 6 else 2
+        seen = Sighting(now, 0.0, 1.8 if who == 1 else 1.0, who)
+        made.decide(now, seen, moving=False)
+        speeds.append(made.memory[-1].velocity)
+    assert speeds[6] is None and speeds[5] is not None
+    assert speeds[-1] == pytest.approx((0.0, 0.0), abs=1e-9)

@@ -5,6 +5,7 @@ from math import degrees, radians
 import numpy as np
 import pytest
 
+from drawn_depth import Post, draw
 from stepaside.poses import Array
 from stepaside.robots.head import rotation
 from stepaside.sensing.camera_model import CameraModel
@@ -13,25 +14,11 @@ from stepaside.sensing.images import DepthImage
 
 CAMERA = CameraModel.of_field_of_view(80, 60, radians(58.0), radians(45.0))
 EYE = np.array([0.0, 0.0, 0.5])
-NEAR, FAR = 0.8, 3.5
-Post = tuple[float, float, float, float]  # x, y, radius, height
 
 
 def take(axes: Array, posts: list[Post]) -> DepthImage:
-    """Depth image of a floor with upright posts, by plane geometry."""
-    rays = CAMERA.rays() @ axes.T
-    with np.errstate(divide="ignore"):
-        depth = np.where(rays[..., 2] < 0.0, -EYE[2] / rays[..., 2], np.inf)
-    for x, y, radius, height in posts:
-        a = rays[..., 0] ** 2 + rays[..., 1] ** 2
-        b = rays[..., 0] * x + rays[..., 1] * y
-        root = b**2 - a * (x * x + y * y - radius**2)
-        hit = (b - np.sqrt(np.maximum(root, 0.0))) / a
-        level = EYE[2] + hit * rays[..., 2]
-        there = (root > 0.0) & (hit > 0.0) & (level > 0.0) & (level < height)
-        depth = np.where(there, np.minimum(depth, hit), depth)
-    depth = np.where((depth < NEAR) | (depth > FAR), 0.0, depth)
-    return DepthImage(0.0, CAMERA, depth.astype(np.float32), NEAR, FAR)
+    """Depth image of a floor with upright posts."""
+    return draw(CAMERA, EYE, axes, posts)
 
 
 def find(

@@ -102,6 +102,25 @@ def test_in_a_room_it_survives_where_moving_aside_touches(seed: int) -> None:
     assert play(LookAhead()) is StepOutcome.SURVIVED
 
 
+def test_with_its_back_in_a_corner_it_turns_before_it_walks() -> None:
+    """Every sequence of steps from here is caught within 17."""
+    room = make_room(RoomRecipe(), 314)
+    assert room.starts is not None
+    game = StepGame(duration=16.0)
+    for tight, expected in (
+        (0.0, StepOutcome.CAUGHT),
+        (0.5, StepOutcome.SURVIVED),
+    ):
+        track = play_steps(
+            Pursuit(),
+            LookAhead(tight=tight),
+            room.starts,
+            room=room,
+            game=game,
+        )
+        assert track.outcome is expected
+
+
 def test_it_rather_stands_than_touches() -> None:
     """Its back is at a disc, and backward is the only way it has."""
     room = Room(obstacles=(Disc(0.5, 0.0, 0.29),))
@@ -225,3 +244,6 @@ def test_a_solid_pursuer_stops_where_it_would_touch() -> None:
         track = play_steps(Pursuit(), still, starts, room=wall, game=game)
         near = wall.clearance(track.pursuer[:, :2]).min()
         assert bool(near >= 0.2 - 1e-12) is solid
+        # Who walks through things goes straight, and who does not, around.
+        aside = np.abs(track.pursuer[:, 1]).max()
+        assert bool(aside > 0.3) is solid

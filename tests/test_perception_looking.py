@@ -6,9 +6,9 @@ from typing import Any
 import pytest
 
 from made_up_eyes import HEAD, TICK, Eyes
+from stepaside.perception.attention import STARE, UNSEEN
 from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.gaze import REACH, SCAN_SPEED, Gaze
-from stepaside.perception.perception import STARE, UNSEEN
 from stepaside.poses import Pose
 from stepaside.sensing.measurement import Sighting
 

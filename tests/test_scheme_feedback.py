@@ -12,13 +12,14 @@ from made_up_robot import (
     STEP,
     TICK,
     FakePerception,
+    FakeStrategy,
     Run,
     feeding,
     measure,
 )
 from stepaside.control.phase import Phase
 from stepaside.control.senses import CameraSight
-from stepaside.planning import Foot
+from stepaside.planning import Direction, Foot
 from stepaside.sensing.measurement import Sighting
 
 
@@ -118,6 +119,33 @@ def test_perception_stands_on_the_support_foot(foot: Foot) -> None:
     assert eyes.stood[-1] == (support, not left)
     eyes.seen = None
     run.until(0.1 + FIRST + STEP + 0.1)
+    assert run.phase() is Phase.HALTING
+
+
+@pytest.mark.parametrize("direction", Direction)
+def test_who_walks_backward_turns_its_back_while_it_looks_around(
+    direction: Direction,
+) -> None:
+    """On the spot, to see the floor behind it; then it plays on."""
+    eyes: Any = FakePerception()
+    eyes.looking = True
+    run = Run(
+        FakeStrategy(direction=direction), senses=CameraSight(eyes, tick=TICK)
+    )
+    scheme = run.until(FIRST + 2.5 * STEP, distance=None)
+    back = direction is Direction.BACKWARD
+    assert run.phase() is (Phase.WALKING if back else Phase.STANDING)
+    assert run.asked == []
+    if not back:
+        return
+    landed = 0.5 * (np.array(scheme.left_foot) + np.array(scheme.right_foot))
+    assert landed[2] == pytest.approx(-2.5 * 0.08 * np.pi, abs=0.01)
+    assert np.hypot(*landed[:2]) < 0.02
+    eyes.looking, eyes.seen = False, Sighting(0.0, 0.2, 1.0)
+    run.until(FIRST + 3.5 * STEP, distance=None)
+    assert run.phase() is Phase.WALKING and len(run.asked) == 1
+    eyes.seen = None
+    run.until(FIRST + 4.5 * STEP, distance=None)
     assert run.phase() is Phase.HALTING
 
 

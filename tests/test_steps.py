@@ -23,7 +23,8 @@ from stepaside.steps import (
 )
 from stepaside.steps.motion import half_turn, step_both
 from stepaside.steps.packed import clearance_at
-from stepaside.steps.search import judge, law_turn, look_ahead
+from stepaside.steps.rollout import judge, law_turn
+from stepaside.steps.search import look_ahead
 from stepaside.steps.value import value_at
 from stepaside.strategies.tables import value_table
 
@@ -109,7 +110,13 @@ def test_the_value_in_loops_is_that_of_the_table(bound: Bound) -> None:
 
 
 def brute(
-    both: Both, maneuvers: Maneuvers, aims: Aims, packed: Any, table: Any
+    both: Both,
+    maneuvers: Maneuvers,
+    aims: Aims,
+    packed: Any,
+    table: Any,
+    *,
+    law: bool = True,
 ) -> float:
     """Best score of all sequences and of the law, without leaving any out."""
     best = -inf
@@ -118,7 +125,7 @@ def brute(
         [u for u, n in zip(each, pieces, strict=True) for _ in range(n)]
         for each in product(maneuvers.turns.tolist(), repeat=len(pieces))
     ]
-    for turns in [[], *sequences]:
+    for turns in [*([[]] if law else []), *sequences]:
         here, score, side = both, aims.enough, 0.0
         for n in range(maneuvers.horizon):
             if n < len(turns):
@@ -189,3 +196,42 @@ def test_what_is_too_near_and_out_of_sight_costs() -> None:
     blind = judge(behind, 0.9, Aims(0.9, sight=2.0, blindness=0.2), NOTHING)
     assert blind == pytest.approx(0.9 - 0.2 * 0.5)
     assert atan2(behind.py, behind.px) == pytest.approx(2.5)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_it_turns_on_the_spot_first_only_if_that_is_better(seed: int) -> None:
+    """The score is the best of all trees, each behind its turns."""
+    random = np.random.default_rng(seed)
+    evader = Pose(1.2, 1.2, float(random.uniform(-pi, pi)))
+    pursuer = Pose(*random.uniform([0.3, 0.3, -pi], [0.7, 0.7, pi]).tolist())
+    both, packed = place(evader, pursuer), pack(ROOM.solids)
+    maneuvers = Maneuvers(
+        np.array([2, 3]), np.array([0.0, -0.25, 0.25]), 9, spots=4
+    )
+    aims = Aims(0.8, penalty=60.0, tight=inf)
+    best = brute(both, maneuvers, aims, packed, NO_VALUE)
+    still = RULES._replace(evader_stride=0.05 * RULES.evader_stride)
+    for side in (-0.25, 0.25):
+        here, score = both, aims.enough
+        for n in range(4):
+            here = step_both(here, *half_turn(0.5 * side), still)
+            score = judge(here, score, aims, packed)
+            if n % 2:
+                behind = brute(
+                    here,
+                    maneuvers,
+                    aims._replace(enough=score),
+                    packed,
+                    NO_VALUE,
+                    law=False,
+                )
+                best = max(best, behind)
+    found = look_ahead(both, (), maneuvers, RULES, aims, packed, NO_VALUE)
+    assert found.score == pytest.approx(best, abs=1e-5)
+    assert len(found.turns) == 9 + found.spot
+    here, score = both, aims.enough
+    for n, turn in enumerate(found.turns):
+        rules = still if n < found.spot else RULES
+        here = step_both(here, *half_turn(0.5 * turn), rules)
+        score = judge(here, score, aims, packed)
+    assert score == pytest.approx(found.score, abs=1e-9)

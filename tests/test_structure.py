@@ -103,8 +103,8 @@ def test_who_perceives_knows_nothing_of_the_simulator(room: str) -> None:
     files = set((ROOT / room).rglob("*.py"))
     assert files
     # Where a model is compiled, and handed to the world.
-    compiling = ["compiling", "description", "inertias"]
-    compiling += ["meshes", "overlaying"]
+    compiling = ["compiling", "description", "facing", "inertias"]
+    compiling += ["meshes", "overlaying", "reading"]
     files -= {ROOT / "robots" / f"{name}.py" for name in compiling}
     for file in files:
         assert not {"world", "games"} & imported_rooms(file), file

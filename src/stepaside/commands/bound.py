@@ -1,12 +1,16 @@
 """``stepaside bound``: the best that any evader can do."""
 
-from dataclasses import asdict
 from math import pi, prod
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from .bound_tables import IN_METERS, describe, print_bound
+from .bound_tables import (
+    describe,
+    describe_refinement,
+    played_games,
+    print_bound,
+)
 from .declared.common import FIGURE, figure_width, json_option
 from .declared.kinds import NameType, OutputFile
 from .declared.option import Declaration
@@ -15,7 +19,8 @@ from .options import METERS, SECONDS, NumberType, print_json
 from .outputs import attempt, writes_files
 
 if TYPE_CHECKING:
-    from ..bound import BoundGame
+    from ..bound import Bound, BoundGame, Grid, Scheme
+    from ..bound.refine import Refinement
 
 SPEED, RATE = NumberType("m/s"), NumberType("rad/s")
 TABLE = Declaration(
@@ -142,86 +147,108 @@ def bound(
     as_json: bool,
 ) -> None:
     """Compute how close the pursuer comes to the best evader."""
-    from tqdm import tqdm
+    from ..bound import Scheme
 
-    from ..bound import (
-        Grid,
-        Scheme,
-        against_any,
-        against_pursuit,
-        count_steps,
+    turn = pi * pursuer_gain if pursuer_turn is None else pursuer_turn
+    asked = _Asked(
+        _game_of(
+            against,
+            (pursuer_speed, evader_speed),
+            (pursuer_gain, turn, evader_turn),
+        ),
+        0.7 * evader_speed / pursuer_gain if capture is None else capture,
+        Scheme(scheme),
+        horizon,
     )
-    from ..bound.refine import refine_bound
-
-    if against == "pursuit":
-        game = against_pursuit(
-            pursuer_speed, evader_speed, pursuer_gain, evader_turn
-        )
-    else:
-        turn = pi * pursuer_gain if pursuer_turn is None else pursuer_turn
-        game = against_any(pursuer_speed, evader_speed, turn, evader_turn)
-    if capture is None:
-        capture = 0.7 * evader_speed / pursuer_gain
-    nearest = 0.5 * capture if nearest is None else nearest
-    farthest = _edge(game, capture) if farthest is None else farthest
-    if not nearest <= capture <= farthest:
-        raise click.BadParameter(
-            f"must lie in [{nearest:g}, {farthest:g}] [m], got {capture}",
-            param_hint="--capture",
-        )
-    grid = Grid.cube(nearest, farthest, cells)
-    steps = count_steps(game, grid, horizon, Scheme(scheme))
-    total = prod(grid.shape)
-    tell_effort(
-        f"a table of {total} cells over {steps} steps", total * steps / CELLS
-    )
-    look = "{l_bar}{bar}| {elapsed}<{remaining}"
-    with tqdm(
-        total=1.0, bar_format=look, disable=as_json or None, leave=False
-    ) as bar:
-        table, rows = refine_bound(
-            game,
-            grid,
-            refine,
-            horizon=horizon,
-            scheme=Scheme(scheme),
-            progress=bar.update,
-        )
-    result = describe(table, capture)
-    result["refinement"] = [
-        {
-            "cells": row.grid.distances - 1,
-            "seconds": row.seconds,
-            "mean_difference_m": row.mean,
-            "most_difference_m": row.most,
-            "worst_difference_m": row.worst,
-            "order": row.order,
-        }
-        for row in rows
-    ]
-    result["grid_error_m"] = rows[-1].mean if rows else None
+    grid = asked.grid(nearest, farthest, cells)
+    table, rows = asked.solve(grid, refine, quiet=as_json)
+    result = describe(table, asked.capture) | describe_refinement(rows)
     if games:
-        from ..bound.checks import check_by_playing
-
-        played = check_by_playing(table, games)
-        result["played"] = [
-            {
-                f"{k}_m" if k in IN_METERS else k: v
-                for k, v in asdict(p).items()
-            }
-            for p in played
-        ]
+        result["played"] = played_games(table, games)
     if output is not None and attempt(lambda: table.save(output)):
         result["output"] = output
     if figure is not None:
         from ..report.bound_figure import draw_bound
 
-        if attempt(lambda: draw_bound(table, capture, figure)):
+        if attempt(lambda: draw_bound(table, asked.capture, figure)):
             result["figure"] = figure
     if as_json:
         print_json(result)
         return
     print_bound(result)
+
+
+def _game_of(
+    against: str,
+    speeds: tuple[float, float],
+    turning: tuple[float, float, float | None],
+) -> "BoundGame":
+    """The game against a pursuer; gain, its limit and the evader's."""
+    from ..bound import against_any, against_pursuit
+
+    gain, limit, evader_turn = turning
+    if against == "pursuit":
+        return against_pursuit(*speeds, gain, evader_turn)
+    return against_any(*speeds, limit, evader_turn)
+
+
+class _Asked(NamedTuple):
+    """What shall be solved.
+
+    Attributes:
+        game: The game.
+        capture: Distance whose barrier is shown, in [m].
+        scheme: Of the solver.
+        horizon: Duration in [s]; that of a turn if None.
+    """
+
+    game: "BoundGame"
+    capture: float
+    scheme: "Scheme"
+    horizon: float | None
+
+    def grid(
+        self, nearest: float | None, farthest: float | None, cells: int
+    ) -> "Grid":
+        """The grid, wide enough unless its edges [m] are given."""
+        from ..bound import Grid
+
+        low = 0.5 * self.capture if nearest is None else nearest
+        high = _edge(self.game, self.capture) if farthest is None else farthest
+        if not low <= self.capture <= high:
+            raise click.BadParameter(
+                f"must lie in [{low:g}, {high:g}] [m], got {self.capture}",
+                param_hint="--capture",
+            )
+        return Grid.cube(low, high, cells)
+
+    def solve(
+        self, grid: "Grid", refine: int, *, quiet: bool
+    ) -> "tuple[Bound, tuple[Refinement, ...]]":
+        """The table, and what coarser ones differ by."""
+        from tqdm import tqdm
+
+        from ..bound import count_steps
+        from ..bound.refine import refine_bound
+
+        steps = count_steps(self.game, grid, self.horizon, self.scheme)
+        total = prod(grid.shape)
+        tell_effort(
+            f"a table of {total} cells over {steps} steps",
+            total * steps / CELLS,
+        )
+        look = "{l_bar}{bar}| {elapsed}<{remaining}"
+        with tqdm(
+            total=1.0, bar_format=look, disable=quiet or None, leave=False
+        ) as bar:
+            return refine_bound(
+                self.game,
+                grid,
+                refine,
+                horizon=self.horizon,
+                scheme=self.scheme,
+                progress=bar.update,
+            )
 
 
 def _edge(game: "BoundGame", capture: float) -> float:

@@ -6,7 +6,10 @@ from typing import TYPE_CHECKING, Any
 from .options import print_table
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ..bound import Bound
+    from ..bound.refine import Refinement
 
 SHOWN = 12  # barrier points in the result
 
@@ -68,6 +71,34 @@ def _analytic(table: "Bound", capture: float) -> dict[str, Any]:
             for i in picks.astype(int)
         ],
     }
+
+
+def describe_refinement(rows: "Sequence[Refinement]") -> dict[str, Any]:
+    """What coarser grids differ by; the last says how far off the table is."""
+    return {
+        "refinement": [
+            {
+                "cells": row.grid.distances - 1,
+                "seconds": row.seconds,
+                "mean_difference_m": row.mean,
+                "most_difference_m": row.most,
+                "worst_difference_m": row.worst,
+                "order": row.order,
+            }
+            for row in rows
+        ],
+        "grid_error_m": rows[-1].mean if rows else None,
+    }
+
+
+def played_games(table: "Bound", games: int) -> list[dict[str, Any]]:
+    """How random games come out beside the table."""
+    from ..bound.checks import check_by_playing
+
+    return [
+        {f"{k}_m" if k in IN_METERS else k: v for k, v in asdict(p).items()}
+        for p in check_by_playing(table, games)
+    ]
 
 
 def print_bound(result: dict[str, Any]) -> None:

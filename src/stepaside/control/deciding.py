@@ -1,11 +1,11 @@
 """Asking the strategy of one robot, with what it remembers."""
 
 from dataclasses import replace
-from math import cos, sin
+from math import cos, pi, sin
 from typing import Any
 
 from ..errors import StrategyError
-from ..planning import GaitSettings
+from ..planning import Direction, GaitSettings
 from ..poses import Pose, wrap_angle
 from ..sensing.measurement import Sighting
 from ..strategies.knowledge import Intent, Knowledge, Limits
@@ -14,6 +14,10 @@ from ..strategies.strategy import Strategy
 from .clearance.surroundings import OpenFloor, Surroundings
 from .memory import Memory
 from .pace import next_pace
+
+# Of who looks around first: a turn on the spot, away from where the head looks
+# first, so that it sees behind the robot what it could not before.
+LOOK_AROUND = Intent(-pi, 0.05)
 
 
 class Decisions:
@@ -49,11 +53,17 @@ class Decisions:
         self.pace = 1.0
         self.headings: Memory[float] = Memory(tick)
         self.templates: Memory[Pose] = Memory(tick)
-        self._rates = SightRates(gait.step_duration)
-        self._drift = FloorVelocity(gait.step_duration)
+        self._step_duration = gait.step_duration
+        self._whom = 0
+        self._forget()
         self._limits = Limits(
             gait.speed, gait.gain, gait.stride, gait.step_duration
         )
+
+    def _forget(self) -> None:
+        """Know nothing of how the other moves."""
+        self._rates = SightRates(self._step_duration)
+        self._drift = FloorVelocity(self._step_duration)
 
     def adopt(self, strategy: Strategy) -> None:
         """Follow another strategy from the next decision on.
@@ -66,36 +76,50 @@ class Decisions:
             self.memory = strategy.begin()
         self.strategy = strategy
 
-    def starts(self, now: float, seen: Sighting) -> bool:
+    def starts(
+        self, now: float, seen: Sighting | None, *, looking: bool = False
+    ) -> bool:
         """Whether a robot that stands is to walk.
 
-        If so it is asked again for the instant at which the step takes
-        effect, and what it would remember of this time is forgotten.
+        Who walks backward turns its back while it looks around: the floor
+        straight behind it is in no image, and is where it will go.
+
+        A robot that is to walk is asked again for the instant at which the
+        step takes effect, and what it would remember of this time is
+        forgotten.
 
         Args:
             now: Time of the decision, in [s].
-            seen: What was seen last.
+            seen: What was seen last; None for nobody.
+            looking: Whether the robot looks around before it begins.
 
         Raises:
             StrategyError: If the strategy gives no intent.
         """
+        if seen is None:
+            back = self.strategy.direction is Direction.BACKWARD
+            return looking and back
         known = self._knowledge(now, seen, moving=False)
         intent, memory = self._ask(known)
         if not intent.walks:
             self.memory = memory
         return intent.walks
 
-    def decide(self, now: float, seen: Sighting, *, moving: bool) -> Intent:
+    def decide(
+        self, now: float, seen: Sighting | None, *, moving: bool
+    ) -> Intent:
         """Ask what the robot wants, and remember it.
 
         Args:
             now: Time of the decision, in [s].
-            seen: What was seen last.
+            seen: What was seen last; None for who looks around.
             moving: Whether it is under way.
 
         Raises:
             StrategyError: If the strategy gives no intent.
         """
+        if seen is None:
+            return LOOK_AROUND
         known = self._knowledge(now, seen, moving=moving)
         intent, self.memory = self._ask(known)
         self.pace = next_pace(self.pace, intent.pace, standing=not moving)
@@ -122,6 +146,10 @@ class Decisions:
         stands for a body that is half a step farther than the one that saw,
         and the torso looks where both feet do.
         """
+        if seen.who != self._whom:
+            # From one person to another nobody walks.
+            self._whom = seen.who
+            self._forget()
         template = self.templates.at(seen.time)
         sight = self.headings.at(seen.time) + seen.bearing
         rates = self._rates.note(seen.time, sight, seen.distance)

@@ -17,7 +17,15 @@ BELIEF = 0.5  # rate at which the accelerometer is believed, in [1/s]
 
 
 class Senses(Protocol):
-    """What tells a robot of the other, and moves its head."""
+    """What tells a robot of the other, and moves its head.
+
+    Attributes:
+        looking: Whether it looks around before it says anything.
+    """
+
+    @property
+    def looking(self) -> bool:
+        """Whether it looks around before it says anything."""
 
     def see(
         self,
@@ -39,7 +47,13 @@ class Senses(Protocol):
 
 
 class GivenSight:
-    """Sightings that come with the measurements; the last one counts."""
+    """Sightings that come with the measurements; the last one counts.
+
+    Attributes:
+        looking: Never.
+    """
+
+    looking = False
 
     def __init__(self, sighting: Sighting | None = None) -> None:
         """Know what is known before anything is seen."""
@@ -75,6 +89,11 @@ class CameraSight:
         self.perception = perception
         self._attitude = AttitudeFilter(BELIEF, 0.0, calibration=0.0)
         self._tick = tick
+
+    @property
+    def looking(self) -> bool:
+        """Whether the head still looks around for the first time."""
+        return self.perception.looking
 
     def see(
         self,

@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import mujoco
 import numpy as np
 
 from ..errors import ModelError, ReachError
@@ -14,12 +13,14 @@ from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.kinematics import BodyReference, LegKinematics
 from ..robots.own import Overlay, Place, ServoGains, SolePlace
+from ..robots.reading import read_model
 from .lengths import Size, gait_of, game_of_size, stabiliser_of
 from .motors import (
     SPEED,
     WEAK,
     followers_of,
     gains_of,
+    likely_torques,
     published_speeds,
     published_torques,
 )
@@ -30,6 +31,7 @@ from .survey import Survey, survey
 HIGH = 0.96  # CoM height of a gait by the greatest that is reached
 SPACE = 1.25  # least foot spacing by twice the sole's inner edge
 TICK = 0.004  # of the kinematics that tries heights, in [s]
+ANYONE = ("model", "robot", "scene")  # names of files that say nothing
 FEET = ("stepaside_left_sole", "stepaside_right_sole")
 
 
@@ -80,7 +82,9 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
     places = [place for place in places if place.is_dir()]
     found = survey(model, places)
     _check_legs(found)
-    torques = published_torques(mujoco.MjSpec.from_file(str(model)))
+    torques = likely_torques(
+        published_torques(read_model(model)), found.mass, found.length
+    )
     speeds = published_speeds(model)
     sole = _sole_of(found)
     spacing = _spacing_of(found, sole[3])
@@ -203,6 +207,7 @@ def _structure(
             tuple(_sole_place(found, i) for i in (0, 1)),
             servos,
             tuple(_path_from(folder, place) for place in meshes),
+            found.turn,
         ),
     )
 
@@ -240,8 +245,10 @@ def _heights(
 
 
 def _name_of(found: Survey) -> str:
-    """Name of the model, or of its file."""
+    """Name of the file, or of its folder where files have all one name."""
     name = found.path.stem
+    if name.lower() in ANYONE:
+        name = found.path.resolve().parent.name
     return name.replace("_", " ")
 
 

@@ -1,5 +1,6 @@
 """Torques, speeds and servo gains of a published model's joints."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -26,6 +27,8 @@ ARMATURE = 0.004
 HEAVY = 0.2  # of the mass: a waist that carries more is as stiff as legs
 ARM = 15.0  # of the others, by the torque that holds what they carry
 HOLDING = 1.5  # a torque that nobody tells, by the stiffest sensible one
+NONSENSE = 10.0  # of a torque that no motor has, by what tips the robot
+FASTEST = 100.0  # of a joint, in [rad/s]: a number for none
 SPEED = 12.0  # of a joint, where nobody tells, in [rad/s]
 
 
@@ -49,7 +52,21 @@ def published_torques(spec: mujoco.MjSpec) -> dict[str, float]:
             high = float(actuator.ctrlrange[1]) * gear * gain
         if high > 0.0:
             found[actuator.target] = high
-    return {name: high for name, high in found.items() if high < 1e5}
+    return found
+
+
+def likely_torques(
+    torques: Mapping[str, float], mass: float, length: float
+) -> dict[str, float]:
+    """Those torques that are no number for none.
+
+    Args:
+        torques: As a model tells them, in [N m].
+        mass: Of the robot, in [kg].
+        length: Of its legs, in [m].
+    """
+    most = NONSENSE * mass * GRAVITY * length
+    return {name: high for name, high in torques.items() if high < most}
 
 
 def published_speeds(path: Path) -> dict[str, float]:
@@ -60,7 +77,7 @@ def published_speeds(path: Path) -> dict[str, float]:
     for joint in ElementTree.parse(path).getroot().iter("joint"):
         limit = joint.find("limit")
         speed = 0.0 if limit is None else float(limit.get("velocity", 0.0))
-        if 0.0 < speed < 1e3:
+        if 0.0 < speed < FASTEST:
             found[str(joint.get("name"))] = speed
     return found
 

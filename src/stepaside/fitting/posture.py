@@ -4,7 +4,8 @@ import mujoco
 import numpy as np
 
 from ..world.shapes import points_of
-from .survey import LEVEL, MOVES, Leg, Survey
+from .limbs import LEVEL, MOVES, Leg
+from .survey import Survey
 
 BENT = (-0.3, 0.6, -0.3)  # hip, knee and ankle, forward and back, in [rad]
 STRAIGHT = 0.05  # that a knee keeps from being straight, in [rad]

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ..robots.description import RobotDescription
-from ..robots.own import ServoGains
+from ..robots.own import NO_OVERLAY, ServoGains
 from .deriving import HIGH, Derived, coupled_of
 from .motors import GIVES, WEAK
 
@@ -164,6 +164,7 @@ def _overlay(derived: Derived) -> list[str]:
         "# the torso's origin, four touch sensors under either foot, and:",
         "[overlay]",
         f"meshes = [{meshes}]",
+        *_turned(own),
         "# Foot frames at the sole, under the last joint of each leg.",
         "soles = [",
         *soles,
@@ -177,6 +178,14 @@ def _overlay(derived: Derived) -> list[str]:
             for name, gains in own.overlay.servos.items()
         ),
     ]
+
+
+def _turned(own: RobotDescription) -> list[str]:
+    if own.overlay.turn == NO_OVERLAY.turn:
+        return []
+    why = "The published torso in axes forward, left and up (quaternion): its "
+    why += "x axis points elsewhere."
+    return [*_comment(why), f"turn = {_row(own.overlay.turn)}"]
 
 
 def _servo(gains: ServoGains) -> str:

@@ -80,6 +80,7 @@ class Seeing:
                 tick=tick,
                 floor=FloorMap() if self._maps else None,
                 glances=GLANCES[name] if self._maps else None,
+                people=settings.pursuer == "person",
             )
             for name in names
         }

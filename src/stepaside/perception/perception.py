@@ -2,7 +2,7 @@
 
 from collections import deque
 from collections.abc import Sequence
-from math import atan2, cos, hypot, radians, sin
+from math import atan2
 
 from ..poses import Array, Pose, wrap_angle
 from ..robots.body_pose import BodyKinematics, BodyPose
@@ -15,9 +15,11 @@ from ..sensing.images import ColourImage, DepthImage, Percept, SonarEcho
 from ..sensing.measurement import Measurement, Sighting
 from ..sensing.track import Observation, Track
 from ..sensing.tracker import Tracker
+from .attention import UNSEEN, Attention, OneRobot
 from .floor_map import FloorMap
 from .frame_report import FrameReport
 from .gaze import Gaze, Glances
+from .hearing import is_heard, observe_echo
 from .observing import (
     angle_of,
     camera_of,
@@ -25,19 +27,12 @@ from .observing import (
     observe_shadow,
     observe_trim,
 )
+from .people import People
 
 MEMORY = 1.0  # how long past poses are kept, in [s]
-FRESH = 0.25  # age at which a distance is worth hearing again, in [s]
 SURE = 0.5  # age up to which the other is known to be where it is, in [s]
-UNSEEN = 1.0  # after which the head searches, in [s]
-STARE = 1.2  # unknown things that rest are looked at up to here, in [m]
-MOVING = 0.08  # speed from which a thing moves, in [m/s]
 BOTH = 2  # ends of a scan
 BROAD = 0.12  # shadow of somebody who was not seen before, in [rad]
-CHEST = 0.10  # from a sonar to the own axis and into the other, in [m]
-DEAF = 0.25  # echo that may be of the own arms, or of anything nearer, [m]
-EAR = radians(50.0)  # how far aside a sonar hears
-ROOMY = 0.25  # by which what an echo comes from must be nearer, in [m]
 
 
 class Perception:
@@ -62,6 +57,7 @@ class Perception:
         tick: float,
         floor: FloorMap | None = None,
         glances: float | None = None,
+        people: bool = False,
     ) -> None:
         """Know the own body and what the other looks like.
 
@@ -74,7 +70,10 @@ class Perception:
                 first, and says nothing of the other before it has.
             glances: Time between two looks over its shoulders, to see the
                 floor that it walks backward onto, in [s]; None for none.
+            people: Whether people come, who wear no trim.
         """
+        self._attention: Attention = People() if people else OneRobot()
+        self._people = people
         self.floor = floor
         self._glances = None if glances is None else Glances(tick, glances)
         self._head = head
@@ -125,6 +124,11 @@ class Perception:
         """Yaw and pitch to which the head is to turn, in [rad]."""
         return self._gaze.yaw, self._gaze.pitch
 
+    @property
+    def looking(self) -> bool:
+        """Whether it looks around, before it says anything of the other."""
+        return self.floor is not None and self._gaze.turned < BOTH
+
     def _see(
         self, measurement: Measurement, body: BodyPose
     ) -> Sighting | None:
@@ -134,16 +138,18 @@ class Perception:
         self.reports.clear()
         for percept in measurement.percepts:
             self._take(percept, self._pose_at(percept.time), now)
-        track = self._tracker.main(now, *body.torso[:2])
+        track = self._attention.main(self._tracker, now, *body.torso[:2])
         self.sighting = None
-        if self.floor is not None and self._gaze.turned < BOTH:
+        if self.looking:
             self._gaze.search()
             return None
         self._look(now, body, track)
         if track is not None:
             x, y, heading = body.torso
             bearing = wrap_angle(track.turned_to(x, y, now) - heading)
-            self.sighting = Sighting(now, bearing, track.away_from(x, y, now))
+            away = track.away_from(x, y, now)
+            who = track.number if self._people else 0
+            self.sighting = Sighting(now, bearing, away, who)
         return self.sighting
 
     def aim(self, joint_targets: Array) -> None:
@@ -154,24 +160,17 @@ class Perception:
     def _look(self, now: float, body: BodyPose, track: Track | None) -> None:
         """Look at what counts, at what may come to count, or about."""
         x, y, heading = body.torso
-        candidates = [] if track is None else [track]
-        candidates += [t for t in self._tracker.tracks if t is not track]
-        for candidate in candidates:
-            if now - candidate.seen_at > UNSEEN:
-                continue
-            distance = candidate.away_from(x, y, now)
-            named = now - candidate.identified_at < UNSEEN
-            moves = hypot(*candidate.velocity) > MOVING
-            moves = moves and candidate.confirmed
-            if named or distance < STARE or moves:
-                bearing = candidate.turned_to(x, y, now) - heading
-                if self._glances is not None:
-                    bearing = self._glances.turned(bearing, distance)
-                self._gaze.follow(bearing, distance, candidate.height)
-                self.searching = False
-                return
-        self.searching = True
-        self._gaze.search()
+        tracks = self._tracker.tracks
+        chosen = self._attention.look(tracks, track, now, x, y)
+        self.searching = chosen is None
+        if chosen is None:
+            self._gaze.search()
+            return
+        distance = chosen.away_from(x, y, now)
+        bearing = chosen.turned_to(x, y, now) - heading
+        if self._glances is not None:
+            bearing = self._glances.turned(bearing, distance)
+        self._gaze.follow(bearing, distance, chosen.height)
 
     def _pose_at(self, time: float) -> BodyPose:
         for pose in reversed(self._poses):
@@ -211,7 +210,7 @@ class Perception:
         azimuths += tuple(s.azimuth for s in scene.shadows)
         self.reports.append(FrameReport(image, azimuths, depth=scene))
         if self.floor is not None:
-            other = self._tracker.main(now, *own)
+            other = self._attention.main(self._tracker, now, *own)
             there = None
             if other is not None and now - other.seen_at < SURE:
                 there = other.place_at(image.time)
@@ -225,46 +224,22 @@ class Perception:
                 track.confirmed for track in tracks
             )
             near = observe_shadow(image, shadow, place, tracks)
-            self._tracker.observe([near], founds=founds)
+            # What the edge cuts may be a wall: of people it tells only of
+            # those who were seen to come.
+            wall = self._people and not shadow.whole
+            self._tracker.observe(
+                [near], founds=founds and not wall, walkers=wall
+            )
 
     def _hear(self, echo: SonarEcho, body: BodyPose, now: float) -> None:
         """Hear how far away is what no camera measures any more."""
-        if echo.distance is None or echo.distance < DEAF:
+        if not is_heard(echo):
             return
+        track = self._attention.main(self._tracker, now, *body.torso[:2])
         mount = self._head.sonars[echo.sonar]
-        x, y, heading = body.torso
-        axis = body.torso_axes @ mount.axes[:, 0]
-        facing = atan2(axis[1], axis[0])
-        away = echo.distance + CHEST
-        track = self._tracker.main(now, x, y)
-        if self.floor is not None:
-            known = self.floor.nearest(x, y, facing, EAR)
-            if track is None or known < away + ROOMY:
-                return  # it may be an echo of the room
-        if track is None:
-            if echo.distance > 0.6:
-                return
-            bearing, across, founds = facing, 0.25, True
-        else:
-            bearing = track.turned_to(x, y, now)
-            if now - track.ranged_at < FRESH:
-                return
-            if abs(wrap_angle(bearing - facing)) > EAR - abs(
-                wrap_angle(facing - heading)
-            ):
-                return
-            across, founds = 0.4, False
-        seen = Observation(
-            echo.time,
-            x + away * cos(bearing),
-            y + away * sin(bearing),
-            bearing,
-            0.06,
-            across,
-            False,
-            True,
-        )
-        self._tracker.observe([seen], founds=founds)
+        heard = observe_echo(echo, mount, body, track, self.floor, now)
+        if heard is not None:
+            self._tracker.observe([heard], founds=track is None)
 
     def _observe(
         self,
@@ -278,7 +253,9 @@ class Perception:
     ) -> None:
         """Update tracks, and count those that a frame should have shown."""
         updated = self._tracker.observe(seen)
-        updated += self._tracker.observe(cut, founds=False)
+        updated += self._tracker.observe(
+            cut, founds=False, walkers=self._people
+        )
         ahead = atan2(axes[1, 0], axes[0, 0])
         half = 0.85 * abs(angle_of(image, 0.0))
         x, y = float(place[0]), float(place[1])

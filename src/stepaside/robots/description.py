@@ -95,10 +95,10 @@ class RobotDescription:
             ModelError: If the file is no model, or lacks what the overlay
                 is put on.
         """
-        import mujoco
+        from .reading import read_model
 
         try:
-            spec = mujoco.MjSpec.from_file(str(self.path))
+            spec = read_model(self.path)
         except ValueError as error:
             raise ModelError(
                 f"{self.path} is no MuJoCo model: {error}"

@@ -177,6 +177,6 @@ OPTIONAL: dict[str, Callable[[str, object], Any]] = {
     "overlay": _fields(
         Overlay,
         {"soles": _row(_SOLE, 2), "servos": _by_name(_SERVO)},
-        {"meshes": _row(_text)},
+        {"meshes": _row(_text), "turn": _row(_number, 4)},
     ),
 }

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import mujoco
 
+PACKAGE = "package://"
 KINDS = (".stl", ".obj", ".msh")  # that MuJoCo reads
 
 
@@ -34,6 +35,7 @@ def place_meshes(
         places = (
             beside / name,
             path.parent / name,
+            *_in_package(path, mesh.file),
             found.get(name.name, beside / name.name),
         )
         taken = next((p for p in places if p.is_file()), None)
@@ -45,7 +47,36 @@ def place_meshes(
             continue
         mesh.file = str(taken.resolve())
     _leave_out(spec, gone)
+    _let_thin_meshes_be(spec)
     return missing
+
+
+def _in_package(path: Path, file: str) -> list[Path]:
+    """Where a file of a ROS package may lie, seen from a model in it."""
+    if not file.startswith(PACKAGE):
+        return []
+    package, _, rest = file.removeprefix(PACKAGE).partition("/")
+    return [
+        place
+        for folder in path.resolve().parents
+        for place in (folder / package / rest, folder / rest)
+    ]
+
+
+def _let_thin_meshes_be(spec: mujoco.MjSpec) -> None:
+    """Take meshes as shells where their volume weighs nothing.
+
+    MuJoCo refuses one that is flat or open otherwise.
+    """
+    weigh = {
+        geom.meshname
+        for body in spec.bodies
+        if not body.explicitinertial
+        for geom in body.geoms
+    }
+    for mesh in spec.meshes:
+        if (mesh.name or Path(mesh.file).stem) not in weigh:
+            mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
 
 
 def _is_readable(file: Path) -> bool:

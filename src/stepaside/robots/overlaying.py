@@ -8,13 +8,14 @@ cannot be found are left out.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
 
 from ..errors import ModelError
 from ..poses import Array
+from .facing import face, matrix_of
 from .inertias import mend_inertias
 from .meshes import place_meshes
 from .own import ServoGains, SolePlace
@@ -40,6 +41,7 @@ def put_overlay(spec: mujoco.MjSpec, description: RobotDescription) -> None:
     overlay, sensors = description.overlay, description.sensors
     folders = [description.path_of(folder) for folder in overlay.meshes]
     strip(spec, description.torso, description.path, folders)
+    face(spec, description.torso, overlay.turn)
     names = (description.left_foot, description.right_foot)
     for site in [s for s in spec.sites if s.name in (*names, *sensors.feet)]:
         spec.delete(site)
@@ -114,15 +116,26 @@ def odd_couplings(spec: mujoco.MjSpec) -> list[mujoco.MjsEquality]:
 
 
 def _forget_options(spec: mujoco.MjSpec) -> None:
-    """Take back what a model says of physics, which is the world's."""
-    plain = mujoco.MjSpec().option
-    for name in dir(plain):
-        value = getattr(plain, name)
-        if isinstance(value, int | float):
-            setattr(spec.option, name, value)
-        elif isinstance(value, np.ndarray):
-            getattr(spec.option, name)[:] = value
+    """Take back what a model says of physics and light: the world's."""
+    plain = mujoco.MjSpec()
+    _take(spec.option, plain.option)
+    for kind in ("global_", "headlight", "map", "quality", "rgba", "scale"):
+        _take(getattr(spec.visual, kind), getattr(plain.visual, kind))
+    for name in ("memory", "nconmax", "njmax", "nstack"):
+        setattr(spec, name, getattr(plain, name))
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+
+
+def _take(settings: Any, others: Any) -> None:
+    """Let settings be like others of their kind."""
+    for name in dir(others):
+        value = getattr(others, name)
+        if name.startswith("_") or callable(value):
+            continue
+        if isinstance(value, np.ndarray):
+            getattr(settings, name)[:] = value
+        else:
+            setattr(settings, name, value)
 
 
 def find_body(spec: mujoco.MjSpec, name: str) -> mujoco.MjsBody:
@@ -165,9 +178,7 @@ def _add_sole(
             geom.contype = geom.conaffinity = 0
     back, front, right, left = outline.tolist()
     place, turn = np.array(sole.place), np.array(sole.turn)
-    turned = np.zeros(9)
-    mujoco.mju_quat2Mat(turned, turn / np.linalg.norm(turn))
-    axes = turned.reshape(3, 3)
+    axes = matrix_of(turn)
     half = 0.5 * np.array([front - back, left - right, 0.0])
     half[2] = 0.5 * THICK * (left - right)
     middle = np.array([0.5 * (front + back), 0.5 * (left + right), half[2]])

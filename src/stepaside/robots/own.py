@@ -85,11 +85,14 @@ class Overlay:
         servos: Servo of each joint that has one.
         meshes: Folders in which mesh files are looked for by name, beside
             where the model says.
+        turn: Quaternion (w, x, y, z) of the published torso's axes in
+            (forward, left, up), for a model whose torso looks elsewhere.
     """
 
     soles: tuple[SolePlace, ...] = ()
     servos: Mapping[str, ServoGains] = field(default_factory=dict)
     meshes: tuple[str, ...] = ()
+    turn: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
 
 
 NO_OVERLAY = Overlay()

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..poses import Array
-from .distance import crosses
 from .room import Obstacle
 from .shapes import Disc
 
@@ -43,29 +42,31 @@ def first_point(
         The end if the way there is straight, or if there is none; else the
         first corner of the shortest way.
     """
-    standing = tuple(solids)
+    floor = _floor(tuple(solids), radius)
     near = np.array([start, end])
-    allowed = [
-        min(radius, float(solid.clearance(near).min()) - 1e-9)
-        for solid in standing
-    ]
-    if _free(standing, allowed, near[:1], near[1:])[0]:
+    allowed = np.array(
+        [
+            min(radius, float(solid.clearance(near).min()) - 1e-9)
+            for solid in solids
+        ]
+    )
+    if floor.free(allowed, near[0], near[1:])[0]:
         return end
-    corners, between = _corners(standing, radius)
+    corners = floor.corners
     count = len(corners)
-    out = _sight(standing, allowed, start, corners)
+    out = floor.ways(allowed, near[0])
     (x, y), (u, v) = start, end
     left = (u - x) * (corners[:, 1] - y) - (v - y) * (corners[:, 0] - x)
-    out = out + np.where(side * left < 0.0, KEPT, 0.0)
-    back = _sight(standing, allowed, end, corners)
-    first = np.arange(count)
-    best, done = out, np.zeros(count, dtype=np.bool_)
+    best = out + np.where(side * left < 0.0, KEPT, 0.0)
+    back = floor.ways(allowed, near[1])
+    first, done = np.arange(count), np.zeros(count, dtype=np.bool_)
     for _ in range(count):
         number = int(np.where(done, np.inf, best).argmin())
-        if done[number] or not np.isfinite(best[number]):
+        # What is farther than a whole way can be on no shorter one.
+        if done[number] or not best[number] < (best + back).min():
             break
         done[number] = True
-        come = best[number] + between[number]
+        come = best[number] + floor.between(number)
         shorter = come < best - 1e-12
         first = np.where(shorter, first[number], first)
         best = np.where(shorter, come, best)
@@ -76,63 +77,98 @@ def first_point(
     return x, y
 
 
-def _sight(
-    solids: Sequence[Obstacle],
-    allowed: Sequence[float],
-    place: Point,
-    corners: Array,
-) -> Array:
-    """Distances of corners that are free to go to from a place. (n,)."""
-    here = np.repeat(np.array([place]), len(corners), axis=0)
-    found: Array = np.where(
-        _free(solids, allowed, here, corners),
-        np.hypot(*(corners - here).T),
-        np.inf,
+class _Floor:
+    """What stands on a floor, with the corners of the ways around it.
+
+    Attributes:
+        corners: Corners, in [m]. Shape (n, 2).
+    """
+
+    def __init__(self, solids: tuple[Obstacle, ...], radius: float) -> None:
+        """Find the corners for a disc of a radius, in [m]."""
+        discs = [(n, s) for n, s in enumerate(solids) if isinstance(s, Disc)]
+        self._discs = np.array([n for n, _ in discs], dtype=np.int64)
+        self._centres = np.array([s.centre for _, s in discs]).reshape(-1, 2)
+        self._radii = np.array([s.radius for _, s in discs])
+        begins, ends, owners = [np.zeros((0, 2))], [np.zeros((0, 2))], []
+        for number, solid in enumerate(solids):
+            if not isinstance(solid, Disc):
+                begins.append(solid.points)
+                ends.append(np.roll(solid.points, -1, axis=0))
+                owners += [number] * len(solid.points)
+        self._begins, self._ends = np.concatenate(begins), np.concatenate(ends)
+        self._owners = np.array(owners, dtype=np.int64)
+        self.corners = _corners(solids, radius)
+        self._allowed = np.full(len(solids), radius)
+        self._between: dict[int, Array] = {}
+
+    def between(self, number: int) -> Array:
+        """Lengths of the ways from a corner to all, in [m]. Shape (n,)."""
+        if number not in self._between:
+            corner = self.corners[number]
+            self._between[number] = self.ways(self._allowed, corner)
+        return self._between[number]
+
+    def ways(self, allowed: Array, place: Array) -> Array:
+        """Lengths of straight ways to all corners; infinite if not free."""
+        found: Array = np.where(
+            self.free(allowed, place, self.corners),
+            np.hypot(*(self.corners - place).T),
+            np.inf,
+        )
+        return found
+
+    def free(
+        self, allowed: Array, start: Array, ends: Array
+    ) -> NDArray[np.bool_]:
+        """Whether lines keep as far from everything as they must.
+
+        Args:
+            allowed: Distance from each solid, in [m], which start and ends
+                keep. Shape (solids,).
+            start: Where all lines begin, in [m]. Shape (2,).
+            ends: Where they end. Shape (n, 2).
+        """
+        around = np.maximum(1e-3, self._radii + allowed[self._discs])
+        clear = allowed[self._owners]
+        free: NDArray[np.bool_] = np.all(
+            _apart(self._centres, start, ends) > around, axis=1
+        )
+        free &= (_apart(self._begins, start, ends) >= clear).all(axis=1)
+        free[free] &= ~self._met(start, ends[free])
+        return free
+
+    def _met(self, start: Array, ends: Array) -> NDArray[np.bool_]:
+        """Whether lines from a place meet an edge. Shape (n,)."""
+        edges, along = self._ends - self._begins, ends - start
+        to = self._begins - start
+        cross = along[:, :1] * edges[:, 1] - along[:, 1:] * edges[:, 0]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ahead = (to[:, 0] * edges[:, 1] - to[:, 1] * edges[:, 0]) / cross
+            aside = (to[:, 0] * along[:, 1:] - to[:, 1] * along[:, :1]) / cross
+        inside = (ahead >= 0.0) & (ahead <= 1.0)
+        met: NDArray[np.bool_] = np.any(
+            inside & (aside >= 0.0) & (aside <= 1.0), axis=1
+        )
+        return met
+
+
+_floor = lru_cache(maxsize=16)(_Floor)
+
+
+def _apart(points: Array, start: Array, ends: Array) -> Array:
+    """Distances of points from lines, in [m]. Shape (lines, points)."""
+    along, away = ends - start, points - start
+    squares = np.maximum((along**2).sum(axis=1), 1e-300)
+    share = np.clip(along @ away.T / squares[:, None], 0.0, 1.0)
+    found: Array = np.hypot(
+        away[:, 0] - share * along[:, :1], away[:, 1] - share * along[:, 1:]
     )
     return found
 
 
-def _free(
-    solids: Sequence[Obstacle],
-    allowed: Sequence[float],
-    starts: Array,
-    ends: Array,
-) -> NDArray[np.bool_]:
-    """Whether lines keep as far from solids as they must. Shape (n,)."""
-    free: NDArray[np.bool_] = np.ones(len(starts), dtype=np.bool_)
-    for solid, radius in zip(solids, allowed, strict=True):
-        if isinstance(solid, Disc):
-            around = max(1e-3, solid.radius + radius)
-            free &= ~crosses(Disc(solid.x, solid.y, around), starts, ends)
-            continue
-        free &= ~crosses(solid, starts, ends)
-        free &= solid.clearance(starts) >= radius
-        free &= solid.clearance(ends) >= radius
-        for corner in solid.points:
-            free &= _apart(corner, starts, ends) >= radius
-    return free
-
-
-def _apart(point: Array, starts: Array, ends: Array) -> Array:
-    """Distance of a point from lines, in [m]. Shape (n,)."""
-    along, away = ends - starts, point - starts
-    squares = np.maximum((along**2).sum(axis=1), 1e-300)
-    share = np.clip((away * along).sum(axis=1) / squares, 0.0, 1.0)
-    away = away - share[:, None] * along
-    found: Array = np.hypot(away[:, 0], away[:, 1])
-    return found
-
-
-@lru_cache(maxsize=16)
-def _corners(
-    solids: tuple[Obstacle, ...], radius: float
-) -> tuple[Array, Array]:
-    """Corners of the ways around solids, and the ways between each two.
-
-    Returns:
-        Corners, in [m], and lengths of the straight ways, infinite where
-        something is in the way. Shapes (n, 2), (n, n).
-    """
+def _corners(solids: tuple[Obstacle, ...], radius: float) -> Array:
+    """Corners of the ways around solids, in [m]. Shape (n, 2)."""
     found = [np.zeros((0, 2))]
     for solid in solids:
         if isinstance(solid, Disc):
@@ -149,9 +185,7 @@ def _corners(
     corners = np.concatenate(found)
     for solid in solids:
         corners = corners[solid.clearance(corners) >= radius]
-    allowed = [radius] * len(solids)
-    rows = [_sight(solids, allowed, c, corners) for c in corners.tolist()]
-    return corners, np.array(rows).reshape(len(corners), len(corners))
+    return corners
 
 
 def _arc(begin: float, turn: float, radius: float) -> Array:

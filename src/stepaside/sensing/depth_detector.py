@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from math import atan2
+from typing import NamedTuple
 
 import cv2
 import numpy as np
@@ -23,8 +24,22 @@ THIN = 0.25  # of a leg, at most, in [m]
 STRADDLE = 0.45  # between the legs of one person, at most, in [m]
 GAP = 0.25  # between parts of one near thing, legs for one, in [rad]
 BLIND = 24  # pixels without return that something near must hide
-# Right and left end in [rad], and the nearest that was measured, in [m].
-Part = tuple[float, float, float | None]
+
+
+class Part(NamedTuple):
+    """A part of something near.
+
+    Attributes:
+        low: Its right end from the camera's axis, in [rad].
+        high: Its left end, in [rad].
+        nearest: The nearest that was measured of it, in [m].
+        whole: Whether neither side is cut by the edge of the image.
+    """
+
+    low: float
+    high: float
+    nearest: float | None
+    whole: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,12 +81,14 @@ class Shadow:
         width: How broad it looks, in [rad].
         nearest: Distance of the nearest part that was measured all the
             same, in [m]; None if there is none.
+        whole: Whether neither side is cut by the edge of the image.
     """
 
     bearing: float
     azimuth: float
     width: float
     nearest: float | None = None
+    whole: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,37 +141,46 @@ def detect_obstacles(
         and (thing.whole or thing.nearest < PIECE)
     ]
     things = join_legs(sorted(things, key=lambda thing: thing.nearest))
-    parts = _shadows(image, depths, rays, place, axes)
+    dark = _shadows(image, depths, rays, place, axes)
     whole: list[Obstacle] = []
-    cut: list[Part] = [(low, high, None) for low, high in parts]
+    near = list(dark)
     for thing in things:
         half = 0.5 * thing.width / thing.nearest
         low, high = thing.azimuth - half, thing.azimuth + half
         # What hides the floor without an echo may be a nearer part of it.
-        hidden = any(a - GAP < high and low - GAP < b for a, b in parts)
+        hidden = any(p.low - GAP < high and low - GAP < p.high for p in dark)
         if thing.nearest < image.near + TRUNCATED and hidden:
-            cut.append((low, high, thing.nearest))
+            near.append(Part(low, high, thing.nearest, thing.whole))
         else:
             whole.append(thing)
     ahead = atan2(axes[1, 0], axes[0, 0])
-    return DepthScene(tuple(whole), _join(cut, ahead))
+    return DepthScene(tuple(whole), _join(near, ahead))
 
 
 def _join(parts: list[Part], ahead: float) -> tuple[Shadow, ...]:
     """Join parts into near things, whose middle is that of their ends."""
     joined: list[Part] = []
-    for low, high, nearest in sorted(parts, key=lambda part: part[:2]):
-        if not joined or low >= joined[-1][1] + GAP:
-            joined.append((low, high, nearest))
+    for part in sorted(parts, key=lambda part: part[:2]):
+        if not joined or part.low >= joined[-1].high + GAP:
+            joined.append(part)
             continue
-        first, last, known = joined[-1]
-        told = [n for n in (known, nearest) if n is not None]
-        joined[-1] = first, max(high, last), min(told, default=None)
+        low, high, known, whole = joined[-1]
+        told = [n for n in (known, part.nearest) if n is not None]
+        joined[-1] = Part(
+            low,
+            max(part.high, high),
+            min(told, default=None),
+            whole and part.whole,
+        )
     shadows = [
         Shadow(
-            ahead + 0.5 * (low + high), 0.5 * (low + high), high - low, nearest
+            ahead + 0.5 * (low + high),
+            0.5 * (low + high),
+            high - low,
+            nearest,
+            whole,
         )
-        for low, high, nearest in joined
+        for low, high, nearest, whole in joined
     ]
     return tuple(sorted(shadows, key=lambda shadow: -shadow.width))
 
@@ -236,7 +262,7 @@ def _measure(
 
 def _shadows(
     image: DepthImage, depths: Array, rays: Array, place: Array, axes: Array
-) -> list[tuple[float, float]]:
+) -> list[Part]:
     """Where the floor should answer and does not: something too near."""
     down = -rays[..., 2]
     with np.errstate(divide="ignore"):
@@ -260,5 +286,7 @@ def _shadows(
         azimuths = np.arctan2(directions[:, 1], directions[:, 0]) - ahead
         azimuths = (azimuths + np.pi) % (2.0 * np.pi) - np.pi
         low, high = float(azimuths.min()), float(azimuths.max())
-        shadows.append((low, high))
+        left, wide = stats[label, [cv2.CC_STAT_LEFT, cv2.CC_STAT_WIDTH]]
+        whole = bool(left > 0 and left + wide < depths.shape[1])
+        shadows.append(Part(low, high, None, whole))
     return shadows

@@ -16,11 +16,13 @@ class Sighting(NamedTuple):
         bearing: Direction of the other in the horizontal plane, from the
             heading of this robot's torso, in [rad], positive leftward.
         distance: Horizontal distance to the other, in [m].
+        who: Number of who it is, where several may come.
     """
 
     time: float
     bearing: float
     distance: float
+    who: int = 0
 
 
 class Measurement(NamedTuple):

@@ -15,6 +15,12 @@ HURRY = 0.25  # speed that a thing may have when first seen, in [m/s]
 WINDOW = 5  # frames that are remembered for confirmation
 ENOUGH = 3  # of them that must have found a thing
 GATE = 16.0  # squared distance, in deviations, beyond which it is another
+SHARP = 0.05  # deviation of a place that tells where a thing goes, in [m]
+TRAIL = 1.2  # how long such places are kept, in [s]
+APART = 0.1  # from one to the next, at least, in [s]
+LEAST = 0.35  # that they must span to tell a velocity, in [s]
+HEARD = 0.2  # deviation across that only an ear has, in [m]
+WALKED = 0.2  # way from where it was first seen sharply that is none, in [m]
 
 
 class Observation(NamedTuple):
@@ -61,12 +67,20 @@ class Track:
         identified_at: When it last looked like the other robot, in [s].
         seen_at: When it was last seen, in [s].
         ranged_at: When its distance was last measured, in [s].
+        sighted_at: When it was last seen and not only heard, in [s].
         confirmed: Whether enough frames agree on it.
         height: How high it was seen to rise, in [m].
+        walked: Whether it was seen to go anywhere.
+        number: Tells it from others.
     """
 
-    def __init__(self, first: Observation) -> None:
+    def __init__(self, first: Observation, number: int = 0) -> None:
         """Begin with a first observation."""
+        self.number = number
+        self.walked = False
+        self.sighted_at = -inf
+        self._first: tuple[float, float] | None = None
+        self._trail: deque[tuple[float, float, float]] = deque()
         self.time = self.seen_at = self.begun_at = first.time
         self.identified_at = first.time if first.identified else -inf
         self.ranged_at = first.time if first.ranged else -inf
@@ -77,6 +91,48 @@ class Track:
         self._covariance[:2, :2] = first.covariance
         self._covariance[2, 2] = self._covariance[3, 3] = HURRY**2
         self._hits: deque[bool] = deque([True], maxlen=WINDOW)
+        self._mark(first)
+
+    @property
+    def drift(self) -> tuple[float, float]:
+        """Slope of the places seen sharply of late, in [m/s].
+
+        It sways less than the velocity of the filter; zero until the places
+        span a while.
+        """
+        trail = self._trail
+        if not trail or trail[-1][0] - trail[0][0] < LEAST:
+            return 0.0, 0.0
+        times, x, y = np.array(trail).T
+        late = times - times.mean()
+        square = late @ late
+        return float(late @ x / square), float(late @ y / square)
+
+    def is_told(self, now: float) -> bool:
+        """Whether it was seen sharply of late, and so how it moves.
+
+        Args:
+            now: Time, in [s].
+        """
+        trail = self._trail
+        if not trail or now - trail[-1][0] > TRAIL:
+            return False
+        return trail[-1][0] - trail[0][0] >= LEAST
+
+    def _mark(self, seen: Observation) -> None:
+        """Keep a place that was seen sharply."""
+        if seen.across < HEARD:
+            self.sighted_at = max(self.sighted_at, seen.time)
+        if not seen.ranged or max(seen.along, seen.across) > SHARP:
+            return
+        trail, here = self._trail, (seen.x, seen.y)
+        while trail and seen.time - trail[0][0] > TRAIL:
+            trail.popleft()
+        if not trail or seen.time - trail[-1][0] >= APART:
+            trail.append((seen.time, *here))
+        self._first = self._first or here
+        away = hypot(here[0] - self._first[0], here[1] - self._first[1])
+        self.walked |= away > WALKED
 
     @property
     def velocity(self) -> tuple[float, float]:
@@ -123,6 +179,7 @@ class Track:
         if seen.ranged:
             self.ranged_at = max(self.ranged_at, seen.time)
         self.height = max(self.height, seen.height)
+        self._mark(seen)
 
     def count(self, found: bool) -> None:
         """Note whether a frame that could have shown it did."""
@@ -137,6 +194,8 @@ class Track:
         self.ranged_at = max(self.ranged_at, other.ranged_at)
         self.confirmed = self.confirmed or other.confirmed
         self.height = max(self.height, other.height)
+        self.walked |= other.walked
+        self.sighted_at = max(self.sighted_at, other.sighted_at)
 
     @property
     def hopeless(self) -> bool:

@@ -1,6 +1,7 @@
 """Which of the things seen is the other, and where it is by now."""
 
 from collections.abc import Sequence
+from itertools import count
 
 from .track import GATE, Observation, Track
 
@@ -28,15 +29,21 @@ class Tracker:
     def __init__(self) -> None:
         """Follow nothing yet."""
         self.tracks: list[Track] = []
+        self._numbers = count(1)
 
     def observe(
-        self, seen: Sequence[Observation], *, founds: bool = True
+        self,
+        seen: Sequence[Observation],
+        *,
+        founds: bool = True,
+        walkers: bool = False,
     ) -> list[Track]:
         """Take in everything that one frame shows.
 
         Args:
             seen: Observations; the best fitting one updates a track.
             founds: Whether what fits no track begins one.
+            walkers: Whether it tells only of who was seen to walk.
 
         Returns:
             Tracks that were updated or begun.
@@ -46,6 +53,8 @@ class Tracker:
         for track in sorted(self.tracks, key=lambda t: -t.seen_at):
             if not fresh:
                 break
+            if walkers and not track.walked:
+                continue
             best = min(fresh, key=track.misfit)
             if track.misfit(best) <= GATE:
                 track.correct(best)
@@ -53,23 +62,14 @@ class Tracker:
                 fresh.remove(best)
                 updated.append(track)
         if founds:
-            begun = [Track(observation) for observation in fresh]
+            begun = [Track(each, next(self._numbers)) for each in fresh]
             self.tracks += begun
             updated += begun
         return updated
 
     def main(self, now: float, x: float, y: float) -> Track | None:
         """The track that counts at a time, for a robot at a place."""
-        self.tracks = [
-            track
-            for track in self.tracks
-            if not track.hopeless
-            and now - track.seen_at < (PATIENCE if track.confirmed else 1.0)
-            and (
-                now - track.seen_at < FRESH or track.deviation_at(now) < DOUBT
-            )
-        ]
-        self._merge(now)
+        self.tidy(now)
         known = [track for track in self.tracks if track.confirmed]
         named = [t for t in known if now - t.identified_at < IDENTITY]
         if named:
@@ -80,6 +80,19 @@ class Tracker:
                 key=lambda t: t.begun_at,
             )
         return min(known, key=lambda t: t.away_from(x, y, now), default=None)
+
+    def tidy(self, now: float) -> None:
+        """Forget what was not seen for long, and merge what is one thing."""
+        self.tracks = [
+            track
+            for track in self.tracks
+            if not track.hopeless
+            and now - track.seen_at < (PATIENCE if track.confirmed else 1.0)
+            and (
+                now - track.seen_at < FRESH or track.deviation_at(now) < DOUBT
+            )
+        ]
+        self._merge(now)
 
     def _merge(self, now: float) -> None:
         """Drop the younger of two tracks of the same thing."""

@@ -13,14 +13,20 @@ class Maneuvers(NamedTuple):
         pieces: Steps of each piece, the first first. Shape (n,).
         turns: Turns of a step that each may have, in [rad], those that are
             preferred first. Shape (m,).
-        horizon: Steps of a whole maneuver, law included.
+        horizon: Steps of a whole maneuver, law included, but for those
+            on the spot.
         angle: Strategy alpha of the law, in [rad].
+        spots: Most steps that turn on the spot, by the largest turn, before
+            the first piece; every second number up to it is tried.
+        still: Share of its stride that a step on the spot makes.
     """
 
     pieces: Any
     turns: Any
     horizon: int
     angle: float = pi / 2
+    spots: int = 0
+    still: float = 0.05
 
 
 class Aims(NamedTuple):
@@ -33,6 +39,7 @@ class Aims(NamedTuple):
         sight: Largest bearing at which the pursuer is still seen, in [rad].
         blindness: What a radian beyond that costs, in [m].
         gain: By how much a maneuver must beat the present one, in [m].
+        tight: Score below which turning on the spot is tried as well, [m].
     """
 
     enough: float = inf
@@ -41,6 +48,7 @@ class Aims(NamedTuple):
     sight: float = inf
     blindness: float = 0.1
     gain: float = 1e-6
+    tight: float = -inf
 
 
 class Found(NamedTuple):
@@ -49,10 +57,12 @@ class Found(NamedTuple):
     Attributes:
         score: In [m].
         turns: Turn of each step to come, in [rad], the law's included.
-            Shape (horizon,).
+            Shape (horizon + spot,).
         steps: Steps that were rolled out to find it.
+        spot: How many of the first turns are made on the spot.
     """
 
     score: float
     turns: Any
     steps: int
+    spot: int = 0

@@ -6,152 +6,54 @@ the pursuer on the way, at most what is enough, less a penalty for coming
 too near to what stands on the floor and for losing sight of the pursuer.
 A score only falls along a maneuver: so the search goes down the tree of
 pieces, and leaves a branch as soon as it is no better than the best so far.
+Where no sequence is good, it also tries to turn on the spot first.
 """
 
-from math import atan2, inf, pi
-from pathlib import Path
+from math import inf
 from typing import Any
 
 import numpy as np
 
-from ..unicycle.compiled import compiled, forget_stale, inlined, load_numba
+from ..unicycle.compiled import compiled
 from .maneuvers import DEEPEST, Aims, Found, Maneuvers
 from .motion import Both, StepRules, half_turn, step_both
-from .packed import Packed, clearance_at
-from .value import ValueTable, value_at
-
-if load_numba() is not None:
-    _HERE = Path(__file__).parent
-    forget_stale(
-        _HERE, [*_HERE.glob("*.py"), *(_HERE.parent / "unicycle").glob("*.py")]
-    )
-
-
-@inlined
-def judge(both: Both, score: float, aims: Aims, packed: Packed) -> float:
-    """Score after one more step, given that before it."""
-    dx, dy = both.px - both.ex, both.py - both.ey
-    worth = min((dx * dx + dy * dy) ** 0.5, aims.enough)
-    if worth < score:
-        score = worth
-    lacks = aims.clearance - clearance_at(
-        packed, both.ex, both.ey, aims.clearance
-    )
-    if aims.sight < pi:
-        psi = abs(
-            atan2(both.ec * dy - both.es * dx, both.ec * dx + both.es * dy)
-        )
-        if psi > aims.sight:
-            score = min(score, worth - aims.blindness * (psi - aims.sight))
-    if lacks > 0.0:
-        score = min(score, worth - aims.penalty * lacks)
-    return score
-
-
-@inlined
-def law_turn(both: Both, side: float, angle: float, share: float) -> float:
-    """Turn of a step by eqs. (4)-(5), in [rad]."""
-    dx, dy = both.px - both.ex, both.py - both.ey
-    psi = atan2(both.ec * dy - both.es * dx, both.ec * dx + both.es * dy)
-    heading = psi + side * angle
-    if heading > pi:
-        heading -= 2.0 * pi
-    elif heading < -pi:
-        heading += 2.0 * pi
-    return share * heading
+from .packed import Packed
+from .rollout import follow, judge
+from .value import ValueTable
 
 
 @compiled
-def follow(
-    both: Both, score: float, turns: Any, count: int, horizon: int,
-    best: float, angle: float, rules: StepRules, aims: Aims, packed: Packed,
-    table: ValueTable,
+def descend(
+    both: Both, start: float, first: int, best: float, maneuvers: Maneuvers,
+    rules: StepRules, aims: Aims, packed: Packed, table: ValueTable,
+    chosen: Any, work: Any,
 ) -> tuple[float, int]:  # fmt: skip
-    """Roll a maneuver out that is given as turns, then the law.
+    """Go down the tree of pieces.
 
     Args:
-        both: Where both are.
-        score: Score so far.
-        turns: Turn of each step; those of the law are written behind.
-        count: How many are given.
-        horizon: How many there are in the end.
-        best: Score at which it is given up.
-        angle: Strategy alpha of the law, in [rad].
-        rules: Of a step.
-        aims: What is good.
-        packed: What stands there.
-        table: What comes after the horizon.
-
-    Returns:
-        Score, and steps that were made.
-    """
-    side = 0.0
-    for n in range(horizon):
-        if n >= count:
-            if side == 0.0:
-                dx, dy = both.px - both.ex, both.py - both.ey
-                left = both.ec * dy - both.es * dx
-                side = -1.0 if left > 0.0 else 1.0
-            turns[n] = law_turn(both, side, angle, rules.evader_share)
-        c, s, ratio = half_turn(0.5 * turns[n])
-        both = step_both(both, c, s, ratio, rules)
-        score = judge(both, score, aims, packed)
-        if score <= best:
-            return score, n + 1
-    if table.values.shape[0] > 0:
-        score = min(score, min(value_at(table, both), aims.enough))
-    return score, horizon
-
-
-@compiled
-def search(
-    both: Both, plan: Any, maneuvers: Maneuvers, rules: StepRules, aims: Aims,
-    packed: Packed, table: ValueTable, chosen: Any, work: Any,
-) -> tuple[float, int]:  # fmt: skip
-    """Find the best maneuver; see :func:`look_ahead`.
-
-    Args:
-        both: Where both are.
-        plan: Turns of the steps that were planned before. Shape (n,).
+        both: Where both are at its root.
+        start: Score there.
+        first: Steps before the root, whose turns stand in ``work``.
+        best: Best score so far.
         maneuvers: Which are tried.
         rules: Of a step.
         aims: What is good.
         packed: What stands there.
         table: What comes after the horizon.
-        chosen: Where the best one's turns are written. Shape (horizon,).
+        chosen: Where the turns are written of one that is better. Shape
+            (horizon + spots,).
         work: Memory of the same shape.
 
     Returns:
-        Its score, and the steps that were rolled out.
+        Best score now, and the steps that were rolled out.
     """
-    horizon, angle = maneuvers.horizon, maneuvers.angle
     pieces, turns = maneuvers.pieces, maneuvers.turns
-    start = aims.enough
-    best, made = follow(
-        both, start, chosen, 0, horizon, -inf, angle, rules, aims, packed,
-        table,
-    )  # fmt: skip
-    if len(plan) > 0:
-        for n in range(len(plan)):
-            work[n] = plan[n]
-        # On equal terms the plan is kept.
-        score, more = follow(
-            both, start, work, len(plan), horizon, best - aims.gain, angle,
-            rules, aims, packed, table,
-        )  # fmt: skip
-        made += more
-        if score > best - aims.gain:
-            best = score
-            chosen[:] = work
-    last = len(pieces) - 1
-    if last < 0 or best >= start:
-        return best, made
-    level, at = 0, 0
+    last, level, made = len(pieces) - 1, 0, 0
     index = np.zeros(DEEPEST, dtype=np.int64)
     begins = np.zeros(DEEPEST, dtype=np.int64)
     scores = np.zeros(DEEPEST)
     places = np.zeros((DEEPEST, 8))
-    scores[0] = start
+    scores[0], begins[0] = start, first
     for i in range(8):
         places[0, i] = both[i]
     while level >= 0:
@@ -181,16 +83,98 @@ def search(
                 places[level, i] = here[i]
             continue
         score, more = follow(
-            here, score, work[at:], 0, horizon - at, best + aims.gain, angle,
-            rules, aims, packed, table,
+            here, score, work[at:], 0, 0, rules,
+            first + maneuvers.horizon - at, best + aims.gain,
+            maneuvers.angle, rules, aims, packed, table,
         )  # fmt: skip
         made += more
         if score > best + aims.gain:
             best = score
             chosen[:] = work
             if best >= start:
-                return best, made
+                break
     return best, made
+
+
+@compiled
+def search(
+    both: Both, plan: Any, planned: int, maneuvers: Maneuvers,
+    rules: StepRules, aims: Aims, packed: Packed, table: ValueTable,
+    chosen: Any, work: Any,
+) -> tuple[float, int, int]:  # fmt: skip
+    """Find the best maneuver; see :func:`look_ahead`.
+
+    Args:
+        both: Where both are.
+        plan: Turns of the steps that were planned before. Shape (n,).
+        planned: How many of them were to be made on the spot.
+        maneuvers: Which are tried.
+        rules: Of a step.
+        aims: What is good.
+        packed: What stands there.
+        table: What comes after the horizon.
+        chosen: Where the best one's turns are written. Shape (horizon +
+            spots,).
+        work: Memory of the same shape.
+
+    Returns:
+        Its score, the steps that were rolled out, and how many of the first
+        are made on the spot.
+    """
+    horizon, angle = maneuvers.horizon, maneuvers.angle
+    start, spot = aims.enough, 0
+    still = StepRules(
+        rules.evader_stride * maneuvers.still, rules.evader_share,
+        rules.pursuer_stride, rules.pursuer_share, rules.lead,
+    )  # fmt: skip
+    best, made = follow(
+        both, start, chosen, 0, 0, still, horizon, -inf, angle, rules, aims,
+        packed, table,
+    )  # fmt: skip
+    if len(plan) > 0:
+        for n in range(len(plan)):
+            work[n] = plan[n]
+        # On equal terms the plan is kept.
+        score, more = follow(
+            both, start, work, len(plan), planned, still, horizon,
+            best - aims.gain, angle, rules, aims, packed, table,
+        )  # fmt: skip
+        made += more
+        if score > best - aims.gain:
+            best, spot = score, planned
+            chosen[:] = work
+    if len(maneuvers.pieces) == 0 or best >= start:
+        return best, made, spot
+    found, more = descend(
+        both, start, 0, best, maneuvers, rules, aims, packed, table, chosen,
+        work,
+    )  # fmt: skip
+    made += more
+    if found > best:
+        best, spot = found, 0
+    if best >= aims.tight:
+        return best, made, spot
+    most = np.abs(maneuvers.turns).max()
+    for side in (-1.0, 1.0):
+        here, score = both, start
+        c, s, ratio = half_turn(0.5 * side * most)
+        for n in range(maneuvers.spots):
+            here = step_both(here, c, s, ratio, still)
+            score = judge(here, score, aims, packed)
+            work[n] = side * most
+            made += 1
+            if score <= best + aims.gain:
+                break
+            if n % 2 == 0:
+                continue
+            found, more = descend(
+                here, score, n + 1, best, maneuvers, rules, aims, packed,
+                table, chosen, work,
+            )  # fmt: skip
+            made += more
+            if found > best:
+                best, spot = found, n + 1
+    return best, made, spot
 
 
 def look_ahead(
@@ -201,12 +185,15 @@ def look_ahead(
     aims: Aims,
     packed: Packed,
     table: ValueTable,
+    *,
+    planned: int = 0,
 ) -> Found:
     """Find the best maneuver.
 
     The law alone is tried first, then the rest of the plan, and then every
     sequence of pieces; one that is no better than those before it is not
-    taken. Without pieces it is the law.
+    taken. Where the best is worse than tight, sequences that begin with a
+    turn on the spot are tried, too. Without pieces it is the law.
 
     Args:
         both: Where both are.
@@ -216,17 +203,20 @@ def look_ahead(
         aims: What is good.
         packed: What stands there.
         table: What comes after the horizon.
+        planned: How many of the planned steps were to be made on the spot.
     """
-    chosen = np.zeros(maneuvers.horizon)
-    score, steps = search(
+    horizon = maneuvers.horizon
+    chosen = np.zeros(horizon + maneuvers.spots)
+    score, steps, spot = search(
         both,
-        np.array(plan[: maneuvers.horizon], dtype=np.float64),
+        np.array(plan[:horizon], dtype=np.float64),
+        min(planned, horizon),
         maneuvers,
         rules,
         aims,
         packed,
         table,
         chosen,
-        np.zeros(maneuvers.horizon),
+        np.zeros_like(chosen),
     )
-    return Found(score, chosen, steps)
+    return Found(score, chosen[: horizon + spot], steps, spot)

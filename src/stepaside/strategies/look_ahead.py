@@ -34,6 +34,7 @@ ERROR = ConfigurationError
 ON_THE_SPOT = 0.05  # share of the speed at which a body but turns
 MARGIN = 0.005  # beyond the clearance that is asked for, in [m]
 PENALTY = 60.0  # of a metre too near: a centimetre is worth 0.6 m
+SPOTS = 12  # steps on the spot: half a turn is 12.5 of the sharpest
 LONGEST = 400  # steps of a maneuver
 OPEN = 3  # pieces that are enough where a table says what comes after
 
@@ -46,16 +47,23 @@ class LookAheadMemory(NamedTuple):
         trace: Where the pursuer was seen.
         plan: Turns of steps that it would make, in [rad].
         planned: When the first of them would be made, in [s].
+        spot: How many of the first would be made on the spot.
     """
 
     evading: bool = False
     trace: Trace = ()
     plan: tuple[float, ...] = ()
     planned: float = 0.0
+    spot: int = 0
 
-    def rest(self, time: float, step: float) -> tuple[float, ...]:
-        """Turns that are left of the plan, for steps of a duration."""
-        return self.plan[max(0, round((time - self.planned) / step)) :]
+    def rest(self, time: float, step: float) -> tuple[tuple[float, ...], int]:
+        """What is left of the plan, for steps of a duration.
+
+        Returns:
+            Turns, and how many of the first of them are made on the spot.
+        """
+        made = max(0, round((time - self.planned) / step))
+        return self.plan[made:], max(0, self.spot - made)
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +89,8 @@ class LookAhead:
         lead: How far ahead the pursuer is thought to aim; see
             :class:`~stepaside.steps.StepRules`.
         safety_radius: Distance at which it begins, in [m].
+        tight: Distance to the pursuer below which it also tries to turn on
+            the spot first, where something stands around, in [m].
         cells: Of the table that says, on an open floor, what comes after
             the last piece; 0 for none, but the law.
     """
@@ -95,6 +105,7 @@ class LookAhead:
     sight: float = radians(148.0)
     lead: float = 0.0
     safety_radius: float = inf
+    tight: float = 0.5
     cells: int = 64
 
     def __post_init__(self) -> None:
@@ -113,6 +124,7 @@ class LookAhead:
         check_within(self.turns, 1, 99, "turns", "1", ERROR)
         check_within(self.angle, 0.0, pi, "angle", "rad", ERROR)
         check_positive(self.enough, "enough", "m", ERROR)
+        check_not_negative(self.tight, "tight", "m", ERROR)
         check_not_negative(self.body_radius, "body_radius", "m", ERROR)
         error = self.largest_error
         check_within(error, 0.01, pi, "largest_error", "rad", ERROR)
@@ -162,24 +174,31 @@ class LookAhead:
             self.body_radius + MARGIN,
             PENALTY,
             self.sight,
+            tight=self.tight,
         )
+        plan, spot = memory.rest(knowledge.time, limits.step_duration)
         found = look_ahead(
             both,
-            memory.rest(knowledge.time, limits.step_duration),
+            plan,
             self._maneuvers(limits, valued=table is not NO_VALUE),
             rules,
             aims,
             packed,
             table,
+            planned=spot,
         )
         turn = float(found.turns[0])
-        if bounded and self._touches(both, turn, rules, knowledge):
+        wanted = turn / rules.evader_share
+        if found.spot:
+            intent = Intent(wanted, ON_THE_SPOT)
+        elif bounded and self._touches(both, turn, rules, knowledge):
             # To turn needs no room, and to stand would be to stay.
-            spot = Intent(turn / rules.evader_share, ON_THE_SPOT)
-            return spot, LookAheadMemory(True, trace)
-        plan = tuple(found.turns[: sum(self.pieces)].tolist())
-        return Intent(turn / rules.evader_share), LookAheadMemory(
-            True, trace, plan, knowledge.time
+            return Intent(wanted, ON_THE_SPOT), LookAheadMemory(True, trace)
+        else:
+            intent = Intent(wanted)
+        ahead = found.turns[: found.spot + sum(self.pieces)]
+        return intent, LookAheadMemory(
+            True, trace, tuple(ahead.tolist()), knowledge.time, found.spot
         )
 
     def _maneuvers(self, limits: Limits, *, valued: bool) -> Maneuvers:
@@ -191,6 +210,7 @@ class LookAhead:
             0 if valued else self.tail,
             self.angle,
             share * self.largest_error,
+            0 if valued else SPOTS,
         )
 
     def _touches(
@@ -242,9 +262,11 @@ def maneuvers_of(
     tail: int,
     angle: float,
     largest: float,
+    spots: int,
 ) -> Maneuvers:
     """Maneuvers whose turns are even, the smallest first."""
     even = np.linspace(-largest, largest, turns) if turns > 1 else np.zeros(1)
     ordered = np.array(sorted(even.tolist(), key=abs))
     steps = np.array(pieces, dtype=np.int64)
-    return Maneuvers(steps, ordered, sum(pieces) + tail, angle)
+    horizon = sum(pieces) + tail
+    return Maneuvers(steps, ordered, horizon, angle, spots, ON_THE_SPOT)

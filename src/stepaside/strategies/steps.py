@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import check_positive, check_within
 from ..planning import Direction
 from ..poses import Array, Pose, wrap_angle
-from ..rooms import OPEN_FLOOR, Room
+from ..rooms import OPEN_FLOOR, Obstacle, Room
 from ..steps.packed import clearance_at, pack
 from .decider import Decider
 from .knowledge import Intent, Limits
@@ -131,12 +131,14 @@ class _Player:
     """One player with its strategy and where it is."""
 
     def __init__(
-        self, strategy: Strategy, pose: Pose, game: StepGame, room: Room
+        self,
+        strategy: Strategy,
+        pose: Pose,
+        game: StepGame,
+        solids: tuple[Obstacle, ...],
     ) -> None:
         self.strategy, self.pose, self.game = strategy, pose, game
-        self._decider = Decider(
-            strategy, game.limits, game.period, room.solids
-        )
+        self._decider = Decider(strategy, game.limits, game.period, solids)
 
     def bearing_of(self, other: Pose) -> float:
         """Direction of the other in the own frame, in [rad]."""
@@ -191,17 +193,18 @@ def play_steps(
         pursuer: Strategy of the pursuer.
         evader: Strategy of the evader.
         starts: Poses of pursuer and evader in the room.
-        room: Where they are; both know all of it.
+        room: Where they are; the evader knows all of it, and the pursuer
+            does if it stops at what stands there.
         game: Rules.
 
     Raises:
         PlanError: If a value is out of its range.
     """
     game = game or StepGame()
-    hunter, prey = (
-        _Player(strategy, pose, game, room)
-        for strategy, pose in zip((pursuer, evader), starts, strict=True)
-    )
+    # Who walks through walls goes around nothing.
+    stops = room.solids if game.solid_pursuer else ()
+    hunter = _Player(pursuer, starts[0], game, stops)
+    prey = _Player(evader, starts[1], game, room.solids)
     packed = pack(room.solids)
     ways: list[tuple[Pose, Pose]] = [(hunter.pose, prey.pose)]
     bearings = [prey.bearing_of(hunter.pose)]

@@ -125,17 +125,38 @@ class StateEstimator:
                 wrong tilt explains its own acceleration.
             reaction: Shift of the ZMP by the swing leg then, in [m].
         """
-        tick, eta = self._tick, self._eta
-        attitude = self._attitude
+        attitude, eta = self._attitude, self._eta
         c, s = cos(self._heading), sin(self._heading)
         ax, ay = acceleration
         attitude.update(
             measurement.gyro,
             measurement.accelerometer,
             (c * ax + s * ay, c * ay - s * ax),
-            tick,
+            self._tick,
         )
-        forces = measurement.foot_forces
+        weight = self._weigh(measurement.foot_forces)
+        posture = self._kinematics.posture(measurement.joint_positions)
+        self.posture = posture
+        seen, zmp = self._place(posture, measurement.foot_forces, feet)
+        com = self._observe(
+            seen, zmp - reaction, stands=weight >= STANDS * self._weight
+        )
+        cx, cy = com.tolist()
+        vx, vy = self._velocity.tolist()
+        px, py = zmp.tolist()
+        return BodyState(
+            (cx, cy),
+            (vx, vy),
+            (cx + vx / eta, cy + vy / eta),
+            (px, py),
+            (attitude.roll, attitude.pitch),
+            attitude.rate,
+            self._share,
+            weight,
+        )
+
+    def _weigh(self, forces: Array) -> float:
+        """Force on both feet, in [N]; notes the left one's share of it."""
         left, right = float(forces[:4].sum()), float(forces[4:].sum())
         weight = left + right
         if weight > TOUCHES * self._weight:
@@ -144,12 +165,15 @@ class StateEstimator:
             self._share = 0.0 if share < 0.02 else min(share, 1.0)
             if share > 0.98:
                 self._share = 1.0
+        return weight
+
+    def _place(
+        self, posture: MeasuredPosture, forces: Array, feet: BodyReference
+    ) -> tuple[Array, Array]:
+        """CoM and ZMP in odometry [m] by the feet, each as it presses."""
         share = self._share
-        posture = self._kinematics.posture(measurement.joint_positions)
-        self.posture = posture
-        level = _level(attitude.roll, attitude.pitch)
-        com = np.zeros(2)
-        zmp = np.zeros(2)
+        level = _level(self._attitude.roll, self._attitude.pitch)
+        com, zmp = np.zeros(2), np.zeros(2)
         for side, pressed in ((0, share), (1, 1.0 - share)):
             if pressed == 0.0:
                 continue
@@ -171,30 +195,26 @@ class StateEstimator:
                 c, s = cos(yaw), sin(yaw)
                 zmp[0] += pressed * (x + c * u - s * v)
                 zmp[1] += pressed * (y + s * u + c * v)
-        if self._com is None:
-            self._com = com
-        pull = eta * eta * (self._com - (zmp - reaction))
-        if weight < STANDS * self._weight:
-            pull = np.zeros(2)
-        predicted = self._com + tick * self._velocity
+        return com, zmp
+
+    def _observe(self, seen: Array, pushed: Array, *, stands: bool) -> Array:
+        """CoM of the observer [m] once it has seen one.
+
+        Args:
+            seen: CoM by the joints, in [m]. Shape (2,).
+            pushed: Where the floor pushes the pendulum from, in [m].
+            stands: Whether the floor bears the robot at all.
+        """
+        tick, eta = self._tick, self._eta
+        before = seen if self._com is None else self._com
+        pull = eta * eta * (before - pushed) if stands else np.zeros(2)
+        predicted = before + tick * self._velocity
         predicted += 0.5 * tick * tick * pull
         self._velocity = self._velocity + tick * pull
-        off = com - predicted
+        off = seen - predicted
         self._com = predicted + self._position_gain * off
         self._velocity = self._velocity + self._velocity_gain * off
-        cx, cy = self._com.tolist()
-        vx, vy = self._velocity.tolist()
-        px, py = zmp.tolist()
-        return BodyState(
-            (cx, cy),
-            (vx, vy),
-            (cx + vx / eta, cy + vy / eta),
-            (px, py),
-            (attitude.roll, attitude.pitch),
-            attitude.rate,
-            share,
-            weight,
-        )
+        return self._com
 
 
 def _level(roll: float, pitch: float) -> Array:

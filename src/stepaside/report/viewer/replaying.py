@@ -10,6 +10,7 @@ import viser
 from viser import uplot
 
 from ...games.run import Run
+from ...poses import Array
 from ..inert import for_markdown
 from ..palette import LIGHTS, seen_by_all
 from ..stage import Stage
@@ -30,6 +31,7 @@ from .viewers import CAMERAS, Viewers
 
 LOG = logging.getLogger(__name__)
 RATE = 30.0  # updates of the scene a second
+MOST_PLOTTED = 1500  # samples of a curve, about
 REPLAYED = (
     *("CoM trace", "footsteps", "pushes", "line of sight", "safety area"),
     "circle of theory",
@@ -50,29 +52,36 @@ class ReplayPage:
         self.server = open_server("127.0.0.1", port).server
         self._closing = threading.Event()
         self._playing = False
-        scene, gui = self.server.scene, self.server.gui
+        self._set_scene()
+        self._layers = Layers(self.server.scene)
+        self._viewers = Viewers(self.server)
+        self._arrange()
+        self._thread = threading.Thread(target=self._loop, daemon=True)
+
+    def _set_scene(self) -> None:
+        """Put the robots with their names into the scene, with light."""
+        scene, camera = self.server.scene, self.server.initial_camera
         scene.set_up_direction("+z")
         scene.configure_default_lights(cast_shadow=True)
-        self._viewers = Viewers(self.server)
-        place = run.tracks[run.players[-1]].torso[0]
-        self.server.initial_camera.position = (
-            float(place[0]) - 1.5,
-            float(place[1]) - 1.6,
-            1.3,
-        )
-        self.server.initial_camera.look_at = (*place[:2].tolist(), 0.2)
+        last = self._run.tracks[self._run.players[-1]].torso[0]
+        x, y = float(last[0]), float(last[1])
+        camera.position = (x - 1.5, y - 1.6, 1.3)
+        camera.look_at = (x, y, 0.2)
         self._bodies = Bodies(scene, self._stage.model)
-        self._bodies.name(self._stage.model, run.players)
+        self._bodies.name(self._stage.model, self._run.players)
+
+    def _arrange(self) -> None:
+        """Dock what is watched and moved to the right of the scene."""
+        gui = self.server.gui
         gui.set_panel_label("stepaside")
         gui.main_panel.dock_right()
         gui.main_panel.set_width(WATCH)
-        self._layers = Layers(scene)
         self._status = gui.add_markdown("")
         self._play = gui.add_button("Play")
         self.slider: viser.GuiSliderHandle[float] = gui.add_slider(
             "Time [s]",
             min=0.0,
-            max=max(0.02, float(run.times[-1])),
+            max=max(0.02, float(self._run.times[-1])),
             step=0.02,
             initial_value=0.0,
         )
@@ -80,41 +89,7 @@ class ReplayPage:
             "Speed", min=0.25, max=8.0, step=0.25, initial_value=1.0
         )
         self._add_views()
-        theory = run.theory
-        for title, values, level, colour in (
-            ("Distance [m]", run.distance, theory and theory[1], PURSUER),
-            (
-                "Angle between the headings [deg]",
-                run.orientation,
-                theory and theory[2],
-                EVADER,
-            ),
-        ):
-            if values is None:
-                continue
-            thin = slice(None, None, max(1, len(run.times) // 1500))
-            gui.add_uplot(
-                (
-                    run.times[thin],
-                    values[thin],
-                    np.full(len(run.times[thin]), level or np.nan),
-                ),
-                (
-                    uplot.Series(label="time [s]"),
-                    uplot.Series(
-                        label="run",
-                        stroke=seen_by_all(colour),
-                        width=2,
-                    ),
-                    uplot.Series(
-                        label="theory", stroke=seen_by_all(THEORY), dash=(5, 5)
-                    ),
-                ),
-                title=title,
-                height=125,
-                scales={"x": uplot.Scale(time=False)},
-            )
-
+        self._add_plots()
         with gui.add_folder("Shown", expand_by_default=False):
             for layer in REPLAYED:
                 self._add_layer(layer)
@@ -123,7 +98,43 @@ class ReplayPage:
         def _(_: object) -> None:
             self._playing = not self._playing
 
-        self._thread = threading.Thread(target=self._loop, daemon=True)
+    def _add_plots(self) -> None:
+        """Show distance and angle of the whole run beside theory."""
+        run = self._run
+        _, distance, angle = run.theory or (None, None, None)
+        shown = (
+            ("Distance [m]", run.distance, distance, PURSUER),
+            (
+                "Angle between the headings [deg]",
+                run.orientation,
+                angle,
+                EVADER,
+            ),
+        )
+        for title, values, level, colour in shown:
+            if values is not None:
+                self._add_plot(title, values, level, colour)
+
+    def _add_plot(
+        self, title: str, values: Array, level: float | None, colour: Any
+    ) -> None:
+        """Show one figure over time, and where theory ends."""
+        times = self._run.times
+        thin = slice(None, None, max(1, len(times) // MOST_PLOTTED))
+        ends = np.full(len(times[thin]), level or np.nan)
+        self.server.gui.add_uplot(
+            (times[thin], values[thin], ends),
+            (
+                uplot.Series(label="time [s]"),
+                uplot.Series(label="run", stroke=seen_by_all(colour), width=2),
+                uplot.Series(
+                    label="theory", stroke=seen_by_all(THEORY), dash=(5, 5)
+                ),
+            ),
+            title=title,
+            height=125,
+            scales={"x": uplot.Scale(time=False)},
+        )
 
     def _add_views(self) -> None:
         """Let each viewer choose a camera, and a light."""

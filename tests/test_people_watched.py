@@ -1,0 +1,204 @@
+"""Test whom a robot watches that stands in a room where people walk."""
+
+from collections.abc import Callable, Sequence
+from math import atan2, cos, degrees, hypot, radians, sin
+
+import numpy as np
+import pytest
+
+from drawn_depth import Post, Wall, draw
+from made_up_eyes import HEAD, JOINTS, NAO, UP
+from stepaside.perception.observing import camera_of
+from stepaside.perception.people import People, nearest
+from stepaside.perception.perception import Perception
+from stepaside.poses import Pose, wrap_angle
+from stepaside.sensing.camera_model import CameraModel
+from stepaside.sensing.colour_detector import RED
+from stepaside.sensing.images import Percept, SonarEcho
+from stepaside.sensing.measurement import Measurement, Sighting
+from stepaside.sensing.track import Observation, Track
+from stepaside.sensing.tracker import Tracker
+
+CAMERA = CameraModel.of_field_of_view(80, 60, radians(58.0), radians(45.0))
+TICK = 1.0 / 60.0  # an image is taken at every fourth, [s]
+Place = tuple[float, float]
+
+
+class Watch:
+    """A robot that stands at the origin and looks about."""
+
+    def __init__(self, walls: Sequence[Wall], echo: float | None) -> None:
+        self.perception = Perception(NAO, HEAD, RED, tick=TICK, people=True)
+        self._walls, self._echo = walls, echo
+        self._joints = np.zeros(JOINTS)
+        self._ticks = 0
+
+    def see(self, people: Sequence[Place]) -> Sighting | None:
+        """Take in one tick of a scene."""
+        now, percepts = self._ticks * TICK, list[Percept]()
+        body = self.perception.body
+        if self._ticks % 4 == 0 and body is not None:
+            place, axes = camera_of(body, HEAD.depth)
+            posts: list[Post] = [(x, y, 0.15, 1.7) for x, y in people]
+            taken = body.time  # a tick ago, with the head as it was then
+            image = draw(CAMERA, place, axes, posts, self._walls, taken)
+            percepts.append(image)
+        if self._ticks % 6 == 0 and self._echo is not None:
+            percepts += [
+                SonarEcho(now, side, self._echo) for side in HEAD.sonars
+            ]
+        self._ticks += 1
+        measured = Measurement(
+            now,
+            self._joints.copy(),
+            np.zeros(3),
+            UP,
+            np.zeros(8),
+            None,
+            tuple(percepts),
+        )
+        # Soles under the hips: the torso is at the origin.
+        support = Pose(0.0, 0.05, 0.0)
+        seen = self.perception.see(measured, support, True, (0.0, 0.0))
+        self.perception.aim(self._joints)
+        return seen
+
+
+def coming(bearing: float, speed: float, far: float) -> Callable[..., Place]:
+    """Somebody who walks at the origin, from a direction in [deg]."""
+
+    def place(time: float) -> Place:
+        away = far - speed * time
+        angle = radians(bearing)
+        return away * cos(angle), away * sin(angle)
+
+    return place
+
+
+def off(seen: Sighting | None, place: Place) -> float:
+    """Error of a sighting's bearing, in [deg]; 180 for none."""
+    if seen is None:
+        return 180.0
+    return abs(degrees(wrap_angle(seen.bearing - atan2(place[1], place[0]))))
+
+
+@pytest.mark.parametrize(
+    ("beside", "away"),
+    [(-90.0, 0.5), (-90.0, 0.9), (0.0, 0.6), (0.0, 1.1), (-45.0, 0.7)],
+)
+def test_a_near_wall_hides_nobody_who_comes(
+    beside: float, away: float
+) -> None:
+    """Wherever the wall is, who comes is followed from 1.5 m on."""
+    echo = away if beside == 0.0 and away < 0.8 else None
+    watch = Watch([(radians(beside), away)], echo)
+    walk = coming(90.0, 0.8, 5.5)
+    for tick in range(round(6.0 / TICK)):
+        place = walk(tick * TICK)
+        seen = watch.see([place])
+        if 0.9 < hypot(*place) < 1.5:
+            assert off(seen, place) < 8.0, f"{hypot(*place):.2f} m"
+            assert not watch.perception.searching
+
+
+def test_who_comes_is_told_from_who_passes() -> None:
+    """One walks by at 1.3 m, the other at the robot: two tracks, one counts.
+
+    They cross in sight of the robot, and each is still the one it was.
+    """
+    watch = Watch([], None)
+    walk = coming(30.0, 0.8, 5.0)
+    counted = set()
+    for tick in range(round(5.0 / TICK)):
+        time = tick * TICK
+        place, passer = walk(time), (1.3, 2.4 - 0.8 * time)
+        seen = watch.see([passer, place])
+        if time > 4.0:
+            assert seen is not None and off(seen, place) < 8.0
+            assert seen.distance == pytest.approx(hypot(*place), abs=0.12)
+            counted.add(seen.who)
+    assert len(counted) == 1
+
+
+def followed(*places: Place) -> Track:
+    """A confirmed track of what was seen at places, 0.1 s apart."""
+    first, *rest = [
+        Observation(0.1 * i, x, y, 0.0, 0.03, 0.03, False, True)
+        for i, (x, y) in enumerate(places)
+    ]
+    track = Track(first)
+    for seen in rest:
+        track.correct(seen)
+    track.confirmed = True
+    return track
+
+
+def looks(begin: float, speed: float, seconds: float, spread: float) -> float:
+    """Share of a while in which the head looks at one thing ahead.
+
+    Args:
+        begin: Its distance at first, in [m].
+        speed: With which it leaves, in [m/s].
+        seconds: The while.
+        spread: Deviation of its places, in [m].
+    """
+    people, at, count = People(), 0, round(seconds / 0.1)
+
+    def seen(i: int) -> Observation:
+        place = begin + 0.1 * i * speed
+        return Observation(
+            0.1 * i, place, 0.0, 0.0, spread, spread, False, True
+        )
+
+    track = Track(seen(0))
+    track.confirmed = looked = True
+    for i in range(1, count):
+        if looked or i % 20 == 0:  # else the head sweeps by it
+            track.correct(seen(i))
+        chosen = people.look([track], None, 0.1 * i, 0.0, 0.0)
+        looked = chosen is track
+        at += looked
+    return at / (count - 1)
+
+
+def test_at_what_rests_the_head_only_glances() -> None:
+    """First it looks, long enough to see that nothing moves."""
+    assert looks(1.0, 0.0, 0.4, 0.03) == 1.0
+    assert 0.05 < looks(1.0, 0.0, 30.0, 0.03) < 0.35
+    assert 0.05 < looks(3.0, 0.0, 30.0, 0.03) < 0.35
+
+
+def test_who_comes_is_looked_at_and_who_leaves_is_not() -> None:
+    assert looks(3.0, -0.5, 5.0, 0.03) > 0.9
+    assert looks(1.5, 0.5, 8.0, 0.03) < 0.3
+
+
+def test_what_is_too_near_to_be_seen_sharply_is_watched() -> None:
+    """Nobody can tell yet whether it walks; an echo alone holds no gaze."""
+    assert looks(0.7, 0.0, 5.0, 0.1) == 1.0
+    assert looks(0.7, 0.0, 30.0, 0.3) < 0.3
+
+
+def test_who_walks_counts_before_what_is_nearer_and_rests() -> None:
+    wall = followed(*[(0.6, 0.0)] * 10)
+    walker = followed(*[(0.0, 3.0 - 0.05 * i) for i in range(10)])
+    passer = followed(*[(2.0 - 0.1 * i, 1.5) for i in range(10)])
+    tracker = Tracker()
+    tracker.tracks = [wall, passer, walker]
+    assert People().main(tracker, 0.95, 0.0, 0.0) is walker
+    tracker.tracks = [wall]
+    assert People().main(tracker, 0.95, 0.0, 0.0) is wall
+    # Another must come clearly nearer to count instead.
+    people = People()
+    again = followed(*[(0.1, 3.1 - 0.05 * i) for i in range(10)])
+    tracker.tracks = [again]
+    assert people.main(tracker, 0.95, 0.0, 0.0) is again
+    tracker.tracks = [again, walker]
+    assert people.main(tracker, 0.95, 0.0, 0.0) is again
+
+
+def test_a_glance_back_and_forth_is_no_walk() -> None:
+    """A walker sways by some centimetres, and a wall by as much."""
+    swaying = followed(*[(1.0 + 0.05 * (-1) ** i, 0.0) for i in range(20)])
+    assert not swaying.walked
+    assert nearest(swaying, 2.0, 0.0, 0.0) > 0.6

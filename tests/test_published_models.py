@@ -1,0 +1,170 @@
+"""Test the ways in which published models are odd, and still read."""
+
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+import published_humanoid as stranger
+from stepaside.errors import ModelError
+from stepaside.fitting.deriving import derive
+from stepaside.fitting.motors import likely_torques, published_speeds
+from stepaside.fitting.survey import survey
+from stepaside.fitting.writing import write_description
+from stepaside.robots.description import FILE, RobotDescription, load_robot
+from stepaside.robots.facing import face
+from stepaside.robots.reading import read_model
+
+TURNS = {
+    "backward": (0.0, 0.0, 0.0, 1.0),
+    "left": (np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)),
+    "right": (np.sqrt(0.5), 0.0, 0.0, -np.sqrt(0.5)),
+}
+
+
+def described(model: Path, folder: Path) -> RobotDescription:
+    folder.mkdir()
+    text = write_description(derive(model, folder, []))
+    (folder / FILE).write_text(text, encoding="utf-8")
+    return load_robot(folder)
+
+
+def turned(straight: Path, folder: Path, looks: str) -> Path:
+    """The same robot, in a file whose torso looks elsewhere."""
+    spec = read_model(straight)
+    for mesh in list(spec.meshes):
+        spec.delete(next(g for g in spec.geoms if g.meshname == mesh.name))
+        spec.delete(mesh)
+    for thing in (*spec.worldbody.geoms, *spec.keys):
+        spec.delete(thing)
+    root = spec.body("chest")
+    for joint in list(root.joints):
+        spec.delete(joint)
+    face(spec, "chest", TURNS[looks])
+    root.add_freejoint()
+    spec.compile()
+    file = folder / "turned.xml"
+    file.write_text(spec.to_xml())
+    return file
+
+
+@pytest.mark.parametrize("looks", TURNS)
+def test_a_torso_may_look_any_way(looks: str, tmp_path: Path) -> None:
+    straight = stranger.mjcf(tmp_path)
+    plain = survey(straight, [])
+    found = survey(turned(straight, tmp_path, looks), [])
+    assert plain.turn == (1.0, 0.0, 0.0, 0.0)
+    back = np.array(TURNS[looks]) * (1.0, -1.0, -1.0, -1.0)
+    assert abs(float(back @ found.turn)) == pytest.approx(1.0)
+    for leg, other in zip(found.legs, plain.legs, strict=True):
+        assert leg.joints == other.joints and leg.signs == other.signs
+        np.testing.assert_allclose(leg.hip, other.hip, atol=1e-9)
+        assert leg.outline == pytest.approx(other.outline, abs=1e-9)
+
+
+def test_a_turned_torso_carries_what_it_did(tmp_path: Path) -> None:
+    """Its mass and feet lie where those of one that looks ahead do."""
+    straight = stranger.mjcf(tmp_path)
+    robots = [
+        described(straight, tmp_path / "plain"),
+        described(turned(straight, tmp_path, "left"), tmp_path / "turned"),
+    ]
+    seen = []
+    for robot in robots:
+        model = robot.compile()
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
+        feet = [data.site(n) for n in (robot.left_foot, robot.right_foot)]
+        poses = [np.r_[foot.xpos, foot.xmat] for foot in feet]
+        seen.append(np.r_[data.subtree_com[0], *poses])
+    assert robots[0].gait == pytest.approx(robots[1].gait, rel=1e-3)
+    assert robots[0].standing == robots[1].standing
+    np.testing.assert_allclose(seen[1], seen[0], atol=1e-6)
+
+
+def test_mass_turns_with_its_torso() -> None:
+    """Also the part of a full inertia that no axis is one of."""
+    text = """<mujoco><worldbody><body name="chest"><freejoint/>
+      <inertial pos="0.1 0.2 0.3" mass="2"
+        fullinertia="0.3 0.25 0.15 0.02 0.01 -0.03"/>
+      <geom type="sphere" size="0.1"/></body></worldbody></mujoco>"""
+    spec = mujoco.MjSpec.from_string(text)
+    wholes = []
+    for _ in range(2):
+        model = spec.compile()
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
+        axes = data.ximat[1].reshape(3, 3)
+        wholes.append(axes @ np.diag(model.body_inertia[1]) @ axes.T)
+        place = data.xipos[1].copy()
+        face(spec, "chest", TURNS["left"])
+    turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    np.testing.assert_allclose(wholes[1], turn @ wholes[0] @ turn.T, atol=1e-9)
+    np.testing.assert_allclose(place, (-0.2, 0.1, 0.3), atol=1e-12)
+
+
+def test_settings_that_mujoco_forgot_are_passed_over(tmp_path: Path) -> None:
+    file = stranger.mjcf(tmp_path)
+    text = file.read_text()
+    dated = text.replace(
+        '<option timestep="0.005"/>',
+        '<option timestep="0.005" cat="3">'
+        '<flag sensornoise="enable" frictionloss="enable"/></option>',
+    )
+    assert dated != text
+    file.write_text(dated)
+    assert survey(file, []).mass == pytest.approx(25.2)
+    file.write_text(dated.replace('axis="0 1 0"', 'axis="0 1 0" cat="3"', 1))
+    with pytest.raises(ModelError, match="unrecognized attribute: 'cat'"):
+        survey(file, [])
+
+
+def test_a_dated_model_has_its_parts_in_files(tmp_path: Path) -> None:
+    text = stranger.mjcf(tmp_path).read_text()
+    start = text.index("<worldbody>")
+    end = text.index("</worldbody>") + len("</worldbody>")
+    (tmp_path / "body.xml").write_text(
+        f"<mujocoinclude>{text[start:end]}</mujocoinclude>"
+    )
+    whole = tmp_path / "whole.xml"
+    whole.write_text(
+        f'{text[:start]}<option><flag sensornoise="enable"/></option>'
+        f'<include file="body.xml"/>{text[end:]}'
+    )
+    assert survey(whole, []).mass == pytest.approx(25.2)
+
+
+def test_meshes_are_found_in_their_package(tmp_path: Path) -> None:
+    folder = tmp_path / "them" / "urdf"
+    folder.mkdir(parents=True)
+    file = stranger.urdf(folder)
+    text = file.read_text()
+    mesh = "package://them/shapes/shell.stl"
+    shape = f'<geometry><mesh filename="{mesh}"/></geometry>'
+    shown = f"<collision>{shape}</collision>"
+    place = text.index('<link name="chest">') + len('<link name="chest">')
+    file.write_text(text[:place] + shown + text[place:])
+    assert survey(file, []).missing == (mesh,)
+    # A tetrahedron half of whose faces look inward: without volume.
+    faces = [[0, 2, 1], [0, 3, 1], [0, 2, 3], [1, 3, 2]]
+    places = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], "<f4")
+    corners = places[faces]
+    rows = b"".join(bytes(12) + c.tobytes() + bytes(2) for c in corners)
+    (tmp_path / "them" / "shapes").mkdir()
+    (tmp_path / "them" / "shapes" / "shell.stl").write_bytes(
+        bytes(80) + len(corners).to_bytes(4, "little") + rows
+    )
+    assert survey(file, []).missing == ()
+
+
+def test_numbers_for_none_are_not_taken(tmp_path: Path) -> None:
+    told = {"knee": 90.0, "hip": 5e4}
+    assert likely_torques(told, 50.0, 0.8) == {"knee": 90.0}
+    file = tmp_path / "a.urdf"
+    limits = "".join(
+        f'<joint name="j{i}"><limit velocity="{v}"/></joint>'
+        for i, v in enumerate((4.0, 1e9, 120.0))
+    )
+    file.write_text(f"<robot>{limits}</robot>")
+    assert published_speeds(file) == {"j0": 4.0}
