@@ -3,12 +3,13 @@
 They wear no trim, so that colour images tell nothing of them: two a second
 are taken, made of rays. Depth images and echoes come as ever::
 
-    python benchmarks/people.py --speed 0.8 --seeds 1:3
+    python benchmarks/people.py --speed 0.8 --seeds 1:6
+    python benchmarks/people.py --speed 0.5 --seeds 1:6 --body hardware
 """
 
 from dataclasses import replace
 
-from asking import ask, seeds_of
+from asking import RESULTS, ask, seeds_of
 from gathering import Row, finished, gather
 
 from stepaside.control.balance.settings import STABILISED
@@ -17,12 +18,13 @@ from stepaside.planning import PRESETS
 from stepaside.studies.encounters import Encounter, encounters, meet
 from stepaside.studies.people import passing_rows, people_rows
 from stepaside.studies.results import header, write_result
+from stepaside.world.body_settings import BODIES
 from stepaside.world.camera_settings import CameraSettings, ColourSettings
 
 AHEAD = (0, 45, -45, 90, -90)  # where they come from, in [deg]
 BEHIND = (135, -135, 180)
 AIMED = (0.0, 0.3)  # how far beside the robot, in [m]
-BY = (1.2,)
+BY = (1.2, -1.2)
 CAMERAS = CameraSettings(colour=ColourSettings(renderer="raycast", rate=2.0))
 
 
@@ -32,11 +34,19 @@ def play(encounter: Encounter) -> Row:
 
 
 def grid(
-    speed: float, seeds: range, bearings: tuple[int, ...], *offsets: float
+    body: str,
+    speed: float,
+    seeds: range,
+    bearings: tuple[int, ...],
+    *offsets: float,
 ) -> list[Encounter]:
     """People at one speed from some directions."""
-    fast = PRESETS["fast"]
-    walk = WalkSettings(seed=seeds.start, gait=fast, control=STABILISED)
+    walk = WalkSettings(
+        seed=seeds.start,
+        gait=PRESETS["fast"],
+        body=BODIES[body],
+        control=STABILISED,
+    )
     return [
         replace(each, base=replace(each.base, cameras=CAMERAS))
         for each in encounters(
@@ -55,19 +65,27 @@ def main() -> None:
     asked = ask(__doc__, "people-cameras.json")
     asked.add_argument("--speed", type=float, default=0.8)
     asked.add_argument("--seeds", type=seeds_of, default="1:3")
+    asked.add_argument("--body", choices=BODIES, default="ideal")
     asked.add_argument("--workers", type=int)
     arguments = asked.parse_args()
-    speed, seeds = arguments.speed, arguments.seeds
+    speed, seeds, body = arguments.speed, arguments.seeds, arguments.body
+    output = arguments.output
+    if output == asked.get_default("output") and body != "ideal":
+        output = RESULTS / f"people-cameras-{body}.json"
     groups = {
-        "ahead": grid(speed, seeds, AHEAD, *AIMED),
-        "behind": grid(speed, seeds[:1], BEHIND, AIMED[0]),
-        "past": grid(speed, seeds, AHEAD, *BY),
+        "ahead": grid(body, speed, seeds, AHEAD, *AIMED),
+        "behind": grid(body, speed, seeds[:1], BEHIND, AIMED[0]),
+        "past": grid(body, speed, seeds, AHEAD, *BY),
     }
     jobs = {each.key: each for group in groups.values() for each in group}
-    settings = {"speed_m_s": speed, "seeds": [seeds.start, seeds.stop]}
+    settings = {
+        "body": body,
+        "speed_m_s": speed,
+        "seeds": [seeds.start, seeds.stop],
+    }
     libraries = ["mujoco", "numpy", "opencv-python-headless"]
     head = header(settings, libraries=libraries)
-    rows = gather(arguments.output, head, jobs, play, arguments.workers)
+    rows = gather(output, head, jobs, play, arguments.workers)
     came = [
         {"from": name, **people_rows(groups[name], rows)[0]}
         for name in ("ahead", "behind")
@@ -82,8 +100,8 @@ def main() -> None:
         }
         for key, who in jobs.items()
     ]
-    write_result(arguments.output, head, came=came, passed=passed, rows=each)
-    finished(arguments.output)
+    write_result(output, head, came=came, passed=passed, rows=each)
+    finished(output)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,10 @@
 
     python benchmarks/person.py ideal --seeds 1:6
     python benchmarks/person.py cameras --seeds 1:3
+
+A person wears no trim, so that colour images tell nothing of one: with
+cameras two a second are taken, made of rays. Depth images and echoes come as
+ever.
 """
 
 from typing import NamedTuple
@@ -13,6 +17,7 @@ from gathering import Row, finished, gather, spread
 
 from stepaside.games import DuelSettings, run_duel
 from stepaside.studies.results import header, write_result
+from stepaside.world.camera_settings import CameraSettings, ColourSettings
 from stepaside.world.person_settings import PersonSettings
 
 DURATION = 90.0  # of each, in [s]
@@ -22,6 +27,7 @@ WALKS = {
     "straight": PersonSettings("straight", 0.15),
     "past": PersonSettings("straight", 0.15, miss=1.2),
 }
+CAMERAS = CameraSettings(colour=ColourSettings(renderer="raycast", rate=2.0))
 FIGURES = ("triggered_at_distance_m", "min_distance_m", "theory_closest_m")
 
 
@@ -41,6 +47,7 @@ def play(walk: Walk) -> Row:
         pursuer="person",
         person=WALKS[walk.name],
         sensing=walk.sensing,
+        cameras=CAMERAS,
     )
     found = run_duel(settings).summary.to_json()
     return {
@@ -70,29 +77,35 @@ def main() -> None:
     asked = ask(__doc__, "person-SENSING.json")
     asked.add_argument("sensing", choices=["ideal", "cameras"])
     asked.add_argument("--seeds", type=seeds_of, default="1:6")
+    asked.add_argument(
+        "--slow", type=seeds_of, help="seeds of who steers slowly, if others"
+    )
     asked.add_argument("--workers", type=int)
     arguments = asked.parse_args()
     seeds, sensing = arguments.seeds, arguments.sensing
+    each = {name: seeds for name in WALKS}
+    if arguments.slow is not None:
+        each["steers-slowly"] = arguments.slow
     output = arguments.output
     if output == asked.get_default("output"):
         output = RESULTS / f"person-{sensing}.json"
     jobs = {
         f"{name}/{seed}": Walk(name, seed, sensing)
         for name in WALKS
-        for seed in seeds
+        for seed in each[name]
     }
     libraries = ["mujoco", "numpy"]
     if sensing == "cameras":
         libraries.append("opencv-python-headless")
     settings = {
         "sensing": sensing,
-        "seeds": [seeds.start, seeds.stop],
+        "seeds": {name: [s.start, s.stop] for name, s in each.items()},
         "duration_s": DURATION,
     }
     head = header(settings, libraries=libraries)
     rows = gather(output, head, jobs, play, arguments.workers)
     walks = {
-        name: together([rows[f"{name}/{seed}"] for seed in seeds])
+        name: together([rows[f"{name}/{seed}"] for seed in each[name]])
         for name in WALKS
     }
     write_result(output, head, walks=walks, rows=list(rows.values()))

@@ -14,8 +14,11 @@ from stepaside.games.run import Run
 from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.report import film, film_split
 from stepaside.report.film import Cinema, Shot
-from stepaside.report.film_split import room_beside
+from stepaside.report.film_split import WITH_WALLS, room_beside
 from stepaside.report.stage import Stage
+from stepaside.world.camera_settings import RoomSettings, Thing
+from stepaside.world.graphics import PLAIN
+from stepaside.world.room import SIDES
 
 SEEN = 200  # brightness of all that a robot sees
 
@@ -123,6 +126,28 @@ def test_there_is_no_tick_of_what_is_behind_or_not_known_yet() -> None:
         insets = insets_of(run)
         number = insets._cameras["pursuer"]
         assert insets._believed("pursuer", 1, number) is None
+
+
+def cluttered() -> Run:
+    """The run of robots that see boxes and walls."""
+    room = RoomSettings(things=[Thing("red box", 1.0, 2.0)], walls=4.0)
+    run = short_run()
+    start = StartSettings(distance=1.0, pursuer_offset=0.0, evader_offset=0.0)
+    settings = DuelSettings(start=start, sensing="cameras", room=room)
+    return replace(run, settings=settings)
+
+
+def test_things_stand_in_a_film_and_walls_in_what_is_seen_alone() -> None:
+    model = Stage(cluttered()).model
+    assert model.body("thing 0").pos[:2].tolist() == [1.0, 2.0]
+    box = model.body("thing 0").geomadr[0]
+    assert model.geom_group[box] < PLAIN.groups
+    for x, y in SIDES:
+        wall = model.geom(f"wall {x} {y}")
+        assert max(abs(wall.pos[:2])) == 4.0
+        assert PLAIN.groups <= wall.group[0] < WITH_WALLS.groups
+    bare = Stage(short_run()).model
+    assert bare.ngeom < model.ngeom and bare.nq == model.nq
 
 
 @pytest.mark.usefixtures("screened")

@@ -21,13 +21,8 @@ from made_up_eyes import (
     trim,
 )
 from stepaside.perception.floor_map import FloorMap
-from stepaside.perception.perception import (
-    BROAD,
-    CHEST,
-    EAR,
-    FRESH,
-    SURE,
-)
+from stepaside.perception.hearing import CHEST, EAR, FRESH
+from stepaside.perception.perception import BROAD, SURE
 from stepaside.poses import Pose, wrap_angle
 from stepaside.sensing.depth_detector import Shadow
 from stepaside.sensing.images import SonarEcho

@@ -109,3 +109,16 @@ def test_who_goes_around_something_turns_as_soon_as_it_can() -> None:
     turn = LIMITS.gain * LIMITS.stride / LIMITS.speed * intent.heading
     assert atan2(corner[1], corner[0]) < -0.3
     assert turn == pytest.approx(-0.08 * pi / 2)
+
+
+def test_who_sees_the_other_past_a_pillar_does_not_walk_into_it() -> None:
+    """The line of sight is free, the way straight ahead is not."""
+    pillar = Disc(0.45, 0.0, 0.15)
+    here = Pose(0.0, 0.0, 0.0)
+    other = atan2(-1.0, 0.1)
+    shut = Knowledge(0.0, other, 1.0, LIMITS, pose=here, obstacles=(pillar,))
+    intent, _ = Pursuit().decide(shut, None)
+    assert intent.heading == pytest.approx(-pi / 2)
+    away = Disc(0.55, 0.0, 0.15)
+    free = Knowledge(0.0, other, 1.0, LIMITS, pose=here, obstacles=(away,))
+    assert Pursuit().decide(free, None)[0].heading == other

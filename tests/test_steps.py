@@ -23,7 +23,8 @@ from stepaside.steps import (
 )
 from stepaside.steps.motion import half_turn, step_both
 from stepaside.steps.packed import clearance_at
-from stepaside.steps.search import judge, law_turn, look_ahead
+from stepaside.steps.rollout import judge, law_turn
+from stepaside.steps.search import look_ahead
 from stepaside.steps.value import value_at
 from stepaside.strategies.tables import value_table
 

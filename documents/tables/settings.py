@@ -15,12 +15,17 @@ from stepaside.games.settings import DuelSettings
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.ranges import ranges_of
 from stepaside.world.camera_settings import Thing
+from stepaside.world.passer import Passer
 from stepaside.world.push import Push
 
 from .markdown import table
 
 KINDS = (DuelSettings, WalkSettings, PlanSettings)
-LISTS: Mapping[str, type[Any]] = {"room.things": Thing, "pushes": Push}
+LISTS: Mapping[str, type[Any]] = {
+    "room.things": Thing,
+    "pushes": Push,
+    "passers": Passer,
+}
 
 
 class Setting(NamedTuple):

@@ -15,6 +15,7 @@ from .declared.game import (
     STRATEGY,
 )
 from .declared.option import Declaration, Group
+from .declared.passer import PASSERS
 from .declared.push import PUSHES
 from .declared.rooms import PLAYED_IN
 from .declared.take import takes_settings
@@ -32,6 +33,7 @@ GROUPS = (
     SIGHT,
     CAMERAS,
     PERSON,
+    Group("Who passes", (PASSERS,)),
     Group("Pushes", (PUSHES,)),
 )
 

@@ -13,8 +13,9 @@ from .balance.feedforward import LoadFeedforward
 from .balance.loop import Balance, ClosedLoop, OpenLoop
 from .balance.settings import ControlSettings
 from .balance.stabiliser import Stabiliser
+from .clearance.footholds import Footholds
 from .clearance.guard import Guard
-from .clearance.outline import BodyOutline
+from .clearance.outline import BodyOutline, sway_of
 from .clearance.surroundings import Surroundings
 from .scheme import ControlScheme
 from .senses import CameraSight, GivenSight
@@ -123,10 +124,23 @@ def build_scheme(
         else CameraSight(perception, tick=tick),
         guard=None
         if clearance is None
-        else Guard(
-            clearance.surroundings,
-            clearance.outline,
-            ManeuverPlanner(gait),
-            margin=clearance.margin,
-        ),
+        else guard_of(clearance, gait, control),
+    )
+
+
+def guard_of(
+    clearance: Clearance, gait: GaitSettings, control: ControlSettings
+) -> Guard:
+    """What keeps a robot clear; with the MPC it also moves footsteps."""
+    planner = ManeuverPlanner(gait)
+    footholds = None
+    if control.method == "mpc":
+        needs = clearance.outline.radius + clearance.margin + sway_of(gait)
+        footholds = Footholds(planner, control.stabiliser, needs)
+    return Guard(
+        clearance.surroundings,
+        clearance.outline,
+        planner,
+        margin=clearance.margin,
+        footholds=footholds,
     )

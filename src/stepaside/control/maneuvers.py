@@ -67,7 +67,7 @@ class Maneuvers:
             direction, wanted = strategy.direction, choice.intent
             if choice.back:
                 direction = Direction(-direction.value)
-            return self.planner.plan(
+            plan = self.planner.plan(
                 wanted.heading,
                 direction,
                 first_foot=foot,
@@ -78,6 +78,9 @@ class Maneuvers:
                 speed_factor=wanted.speed_factor,
                 pace=wanted.pace,
             )
+            if self.guard is None:
+                return plan
+            return self.guard.fit(plan, support)
 
         chosen: Choice | None = Choice(intent)
         if self.guard is not None:

@@ -13,6 +13,7 @@ from ..robots.machine import prefer_for
 from ..strategies import load_strategy
 from ..world.body_settings import with_cycle
 from ..world.figures import FIGURES
+from ..world.passers import add_passers, passer_mover
 from ..world.person import Person, add_person
 from ..world.person_motion import Motion
 from ..world.push import pushes_of
@@ -84,7 +85,9 @@ class Duel(Match):
             setting.world,
             setting.players,
             (*(kept if recorded else ()), *observers),
-            has_things=bool(settings.room.things or settings.room.plan),
+            has_things=bool(
+                settings.room.things or settings.room.plan or settings.passers
+            ),
         )
 
     def run(self, outcome: Outcome, wall_time: float) -> DuelRun:
@@ -132,6 +135,15 @@ class _Setting:
         if plan is not None and plan.moving:
             move = mover_of(self.world.model, self.world.data, plan)
             self.world.before_step.append(move)
+        if settings.passers:
+            walk = passer_mover(
+                self.world.model,
+                self.world.data,
+                settings.passers,
+                frames[1],
+            )
+            walk(0.0)
+            self.world.before_step.append(walk)
         person = None
         if PURSUER not in walkers:
             motion = Motion(settings.person, frames[0], frames[1][:2])
@@ -229,6 +241,7 @@ def furnisher_of(
             add_solids(spec, plan)
         if comes:
             add_person(spec, PURSUER, FIGURES[settings.person.figure])
+            add_passers(spec, settings.passers)
 
     return all_of_it
 

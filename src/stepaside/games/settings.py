@@ -13,6 +13,7 @@ from ..strategies import Evasion
 from ..strategies.registry import check_strategy_name
 from ..world.body_settings import BodySettings
 from ..world.camera_settings import CameraSettings, RoomSettings
+from ..world.passer import MOST_PASSERS, Passer
 from ..world.person_settings import PersonSettings, check_pursuer
 from ..world.push import MOST_PUSHES, Push, check_pushes
 from ..world.settings import PhysicsSettings, SightSettings
@@ -116,6 +117,8 @@ class DuelSettings:
         pursuer: "robot", or "person".
         person: How a person walks.
         pushes: Who bumps into the robots.
+        passers: Who else walks by where a person comes; with ideal sight the
+            evader is told of the one who comes alone.
     """
 
     seed: int = 1
@@ -139,6 +142,7 @@ class DuelSettings:
     pursuer_robot: RobotSettings | None = None
     evader_robot: RobotSettings | None = None
     pushes: tuple[Push, ...] = ()
+    passers: tuple[Passer, ...] = ()
 
     ranges: ClassVar[Ranges] = {"seed": SEEDS, "duration": RUNTIME}
 
@@ -171,6 +175,12 @@ class DuelSettings:
             )
         check_count(self.pushes, MOST_PUSHES, "pushes")
         check_pushes(self.pushes, self.robots)
+        check_count(self.passers, MOST_PASSERS, "passers")
+        if self.passers and self.pursuer != "person":
+            raise ConfigurationError(
+                "passers need a person who comes, got pursuer "
+                f"{self.pursuer!r}"
+            )
 
     def robot_of(self, player: str) -> RobotSettings:
         """What a player is, and how it walks.

@@ -124,7 +124,7 @@ def _closest_approach(settings: DuelSettings) -> float | None:
     start, gait = settings.start, settings.robot_of(EVADER).gait
     if settings.pursuer == "robot" or start.distance is None:
         return None
-    if not settings.is_of_the_paper:
+    if not settings.is_of_the_paper or settings.person.path == "visits":
         return None
     places = (
         lambda pose, evader: Motion(settings.person, pose, evader),

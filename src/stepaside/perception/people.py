@@ -61,7 +61,7 @@ class People:
         for track in candidates:
             near = track.away_from(x, y, now) < STARE
             seen = now - track.sighted_at <= UNSEEN
-            if near and seen and not (track.walked or track.rests(now)):
+            if near and seen and not (track.walked or track.is_told(now)):
                 return track
         begun = self._glanced
         self._glanced = {t: begun[t] for t in tracks if t in begun}

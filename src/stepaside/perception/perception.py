@@ -2,7 +2,7 @@
 
 from collections import deque
 from collections.abc import Sequence
-from math import atan2, cos, radians, sin
+from math import atan2
 
 from ..poses import Array, Pose, wrap_angle
 from ..robots.body_pose import BodyKinematics, BodyPose
@@ -19,6 +19,7 @@ from .attention import UNSEEN, Attention, OneRobot
 from .floor_map import FloorMap
 from .frame_report import FrameReport
 from .gaze import Gaze, Glances
+from .hearing import is_heard, observe_echo
 from .observing import (
     angle_of,
     camera_of,
@@ -29,14 +30,9 @@ from .observing import (
 from .people import People
 
 MEMORY = 1.0  # how long past poses are kept, in [s]
-FRESH = 0.25  # age at which a distance is worth hearing again, in [s]
 SURE = 0.5  # age up to which the other is known to be where it is, in [s]
 BOTH = 2  # ends of a scan
 BROAD = 0.12  # shadow of somebody who was not seen before, in [rad]
-CHEST = 0.10  # from a sonar to the own axis and into the other, in [m]
-DEAF = 0.25  # echo that may be of the own arms, or of anything nearer, [m]
-EAR = radians(50.0)  # how far aside a sonar hears
-ROOMY = 0.25  # by which what an echo comes from must be nearer, in [m]
 
 
 class Perception:
@@ -237,42 +233,13 @@ class Perception:
 
     def _hear(self, echo: SonarEcho, body: BodyPose, now: float) -> None:
         """Hear how far away is what no camera measures any more."""
-        if echo.distance is None or echo.distance < DEAF:
+        if not is_heard(echo):
             return
+        track = self._attention.main(self._tracker, now, *body.torso[:2])
         mount = self._head.sonars[echo.sonar]
-        x, y, heading = body.torso
-        axis = body.torso_axes @ mount.axes[:, 0]
-        facing = atan2(axis[1], axis[0])
-        away = echo.distance + CHEST
-        track = self._attention.main(self._tracker, now, x, y)
-        if self.floor is not None:
-            known = self.floor.nearest(x, y, facing, EAR)
-            if track is None or known < away + ROOMY:
-                return  # it may be an echo of the room
-        if track is None:
-            if echo.distance > 0.6:
-                return
-            bearing, across, founds = facing, 0.25, True
-        else:
-            bearing = track.turned_to(x, y, now)
-            if now - track.ranged_at < FRESH:
-                return
-            if abs(wrap_angle(bearing - facing)) > EAR - abs(
-                wrap_angle(facing - heading)
-            ):
-                return
-            across, founds = 0.4, False
-        seen = Observation(
-            echo.time,
-            x + away * cos(bearing),
-            y + away * sin(bearing),
-            bearing,
-            0.06,
-            across,
-            False,
-            True,
-        )
-        self._tracker.observe([seen], founds=founds)
+        heard = observe_echo(echo, mount, body, track, self.floor, now)
+        if heard is not None:
+            self._tracker.observe([heard], founds=track is None)
 
     def _observe(
         self,

@@ -149,6 +149,29 @@ class ManeuverPlanner:
             schedule, bearing, direction, first_foot, placements, inputs
         )
 
+    def placed(
+        self,
+        plan: ManeuverPlan,
+        placements: Array,
+    ) -> ManeuverPlan:
+        """The same plan with other footsteps, from the same state.
+
+        Args:
+            plan: The plan.
+            placements: Of its feet, as the plan has them; those that stand
+                at its start are the same. Shape (count + 2, 3).
+        """
+        state = CenterState(_pair(plan.inputs[-1]), _pair(plan.start_velocity))
+        inputs = _inputs(plan.schedule, placements, state)
+        return ManeuverPlan(
+            plan.schedule,
+            plan.bearing,
+            plan.direction,
+            plan.first_foot,
+            placements,
+            inputs,
+        )
+
     def plan_halt(
         self,
         *,
@@ -206,6 +229,12 @@ def _inputs(
     inputs[-2, 0] = (x + vx / eta - planned[0]) * scale
     inputs[-2, 1] = (y + vy / eta - planned[1]) * scale
     return inputs
+
+
+def _pair(values: Array) -> tuple[float, float]:
+    """Two values as numbers."""
+    x, y = values.tolist()
+    return x, y
 
 
 def _midway(foot: list[float], ahead: float) -> tuple[float, float]:

@@ -11,13 +11,15 @@ from ..poses import Array
 from ..robots.description import load_robot
 from ..robots.head import load_head
 from ..sensing.images import Pixels
-from ..world.graphics import Screen
+from ..world.graphics import PLAIN, Screen
+from ..world.room import HIDDEN
 from .film_words import chip
 from .palette import colours_in
 from .stage import Stage
 
 BELIEVED = (30, 170, 60)  # red, green and blue of where it takes the other
 MOST = 2  # pictures beside the scene
+WITH_WALLS = PLAIN._replace(groups=HIDDEN + 1)
 
 
 def room_beside(width: int, height: int) -> int:
@@ -60,7 +62,9 @@ class Insets:
             number = stage.model.camera(f"{name}/{camera}").id
             self._cameras[name] = number
             stage.model.cam_fovy[number] = degrees(vertical)
-        self._screen = Screen(stage.model, seen.width, seen.height, backend)
+        self._screen = Screen(
+            stage.model, seen.width, seen.height, backend, WITH_WALLS
+        )
 
     def picture(self, index: int) -> Pixels:
         """Pictures of a sample, one above the other."""

@@ -5,11 +5,16 @@ import numpy as np
 
 from ..errors import ConfigurationError
 from ..games.run import Run
-from ..games.settings import DuelSettings
+from ..games.settings import EVADER, DuelSettings
+from ..games.start import frames_of
 from ..poses import Pose
 from ..robots.description import load_robot
+from ..robots.head import load_head
 from ..world.figures import FIGURES
+from ..world.passer import Passer
+from ..world.passers import add_passers, passer_mover
 from ..world.person import add_person, parts_of, pose_figure
+from ..world.room import Furnish, furnisher, hide_walls
 from ..world.solids import add_solids, mover_of
 from ..world.template_body import add_template, pose_template
 from ..world.world import build_model
@@ -37,17 +42,20 @@ class Stage:
         ]
 
         settings = run.settings
-        who = "adult"
+        who, passers = "adult", tuple[Passer, ...]()
         if isinstance(settings, DuelSettings):
-            who = settings.person.figure
+            who, passers = settings.person.figure, settings.passers
         self._figure = FIGURES[who]
-        plan = run.plan
+        plan, surround = run.plan, surroundings_of(run)
 
         def furnish(spec: mujoco.MjSpec) -> None:
+            if surround is not None:
+                surround(spec)
             if plan is not None:
                 add_solids(spec, plan)
             for name in persons:
                 add_person(spec, name, self._figure)
+            add_passers(spec, passers)
             for name in self._templates:
                 add_template(spec, name)
 
@@ -57,6 +65,7 @@ class Stage:
             seed=run.settings.seed,
             furnish=furnish,
         )
+        hide_walls(self.model)
         self.data = mujoco.MjData(self.model)
         postures = [run.tracks[name].qpos for name in robots]
         known = [qpos for qpos in postures if qpos is not None]
@@ -72,15 +81,20 @@ class Stage:
         self._postures = np.concatenate([none, *known], axis=1)
         self._persons = {name: parts_of(self.model, name) for name in persons}
         self._tracks, self._times = run.tracks, run.times
-        self._move = (
-            None if plan is None else mover_of(self.model, self.data, plan)
-        )
+        self._moves = []
+        if plan is not None:
+            self._moves.append(mover_of(self.model, self.data, plan))
+        if isinstance(settings, DuelSettings) and passers:
+            evader = frames_of(settings)[1]
+            self._moves.append(
+                passer_mover(self.model, self.data, passers, evader)
+            )
 
     def put(self, index: int) -> None:
         """Put the bodies where they were at a sample."""
         self.data.qpos[:] = self._postures[index]
-        if self._move is not None:
-            self._move(float(self._times[index]))
+        for move in self._moves:
+            move(float(self._times[index]))
         for name, parts in self._persons.items():
             walked = self._tracks[name].torso
             frame = Pose(*walked[index].tolist())
@@ -92,3 +106,14 @@ class Stage:
             pose_template(self.model, self.data, name, stood)
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_camlight(self.model, self.data)
+
+
+def surroundings_of(run: Run) -> Furnish | None:
+    """What stood around robots that saw: walls, things, a depth camera."""
+    settings = run.settings
+    if not isinstance(settings, DuelSettings):
+        return None
+    if settings.sensing != "cameras" or EVADER not in run.robots:
+        return None
+    head = load_head(load_robot(settings.robot_of(EVADER).robot))
+    return furnisher(settings.room, EVADER, head)

@@ -130,12 +130,13 @@ class _Floor:
             ends: Where they end. Shape (n, 2).
         """
         around = np.maximum(1e-3, self._radii + allowed[self._discs])
-        free = (_apart(self._centres, start, ends) > around).all(axis=1)
         clear = allowed[self._owners]
+        free: NDArray[np.bool_] = np.all(
+            _apart(self._centres, start, ends) > around, axis=1
+        )
         free &= (_apart(self._begins, start, ends) >= clear).all(axis=1)
-        found: NDArray[np.bool_] = free
-        found[free] &= ~self._met(start, ends[free])
-        return found
+        free[free] &= ~self._met(start, ends[free])
+        return free
 
     def _met(self, start: Array, ends: Array) -> NDArray[np.bool_]:
         """Whether lines from a place meet an edge. Shape (n,)."""

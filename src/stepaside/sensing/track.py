@@ -108,14 +108,14 @@ class Track:
         square = late @ late
         return float(late @ x / square), float(late @ y / square)
 
-    def rests(self, now: float) -> bool:
-        """Whether it was seen sharply of late, and to stay where it is.
+    def is_told(self, now: float) -> bool:
+        """Whether it was seen sharply of late, and so how it moves.
 
         Args:
             now: Time, in [s].
         """
         trail = self._trail
-        if self.walked or not trail or now - trail[-1][0] > TRAIL:
+        if not trail or now - trail[-1][0] > TRAIL:
             return False
         return trail[-1][0] - trail[0][0] >= LEAST
 

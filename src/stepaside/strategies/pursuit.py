@@ -13,6 +13,7 @@ from ..rooms.paths import first_point
 from .approach import swift_heading
 from .knowledge import Intent, Knowledge
 
+AHEAD = 3.0  # strides that are free where it heads by (2)
 ASIDE = 1e-3  # of the other, from which on it goes around something, [rad]
 
 
@@ -59,9 +60,22 @@ class Pursuit:
             aside = wrap_angle(bearing - knowledge.bearing)
             if abs(aside) > ASIDE:
                 side = 1 if aside > 0.0 else -1
+            if side is not None or self._is_shut(knowledge):
                 # By (2) it would walk on into what it is to go around.
                 return Intent(swift_heading(bearing, knowledge.limits)), side
         return Intent(laws.pursuit_heading(bearing)), side
+
+    def _is_shut(self, knowledge: Knowledge) -> bool:
+        """Whether the next steps straight on come too near to something."""
+        x, y, theta = knowledge.pose
+        ahead = AHEAD * knowledge.limits.stride
+        way = [(x, y), (x + ahead * cos(theta), y + ahead * sin(theta))]
+        return any(
+            after < min(self.body_radius, here - 1e-9)
+            for here, after in (
+                solid.clearance(way).tolist() for solid in knowledge.obstacles
+            )
+        )
 
     def _around(self, knowledge: Knowledge, side: int) -> float:
         """Bearing of the first point of the shortest way, in [rad]."""

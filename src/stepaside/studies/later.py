@@ -12,4 +12,5 @@ LATER = (
     *("person.halt_after", "person.turn_after", "person.turn"),
     *("person.backward", "person.figure"),
     *("room.plan", "map", "pursuer_robot", "evader_robot", "pushes"),
+    "passers",
 )

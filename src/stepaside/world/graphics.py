@@ -35,6 +35,7 @@ class Look(NamedTuple):
         reach: Half side of the square that has shadows, in [m].
         slices: Of round shapes.
         stacks: Likewise, along their axes.
+        groups: How many groups of shapes are drawn, from the first.
     """
 
     samples: int = 0
@@ -42,6 +43,7 @@ class Look(NamedTuple):
     reach: float = 1.0
     slices: int = 16
     stacks: int = 10
+    groups: int = 3
 
 
 PLAIN = Look()  # quick, for sensors
@@ -139,6 +141,8 @@ class Screen:
         flags[mujoco.mjtRndFlag.mjRND_SHADOW] = look.shadow > 0
         flags[mujoco.mjtRndFlag.mjRND_REFLECTION] = 0
         self._option = mujoco.MjvOption()
+        drawn = np.arange(len(self._option.geomgroup)) < look.groups
+        self._option.geomgroup[:] = drawn
         self._area = mujoco.MjrRect(0, 0, width, height)
         self._pixels: Pixels = np.zeros((height, width, 3), dtype=np.uint8)
 

@@ -8,6 +8,7 @@ import numpy as np
 from ..poses import Array, Pose
 from .figures import FIGURES, HIP, Colour, Figure
 from .person_motion import Motion
+from .person_visits import Visits
 from .world import FLOOR_BIT, World
 
 SKIN = (0.85, 0.68, 0.56, 1.0)
@@ -157,6 +158,11 @@ class Person:
         self._way = 0.0
         self._parts = parts_of(world.model, name)
         self._place()
+
+    @property
+    def visits(self) -> Visits:
+        """Its visits, if it comes and goes."""
+        return self._motion.visits
 
     def step(self, other: tuple[float, float]) -> None:
         """Walk for one tick.

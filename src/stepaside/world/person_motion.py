@@ -10,7 +10,8 @@ import numpy as np
 from .. import laws
 from ..errors import ConfigurationError
 from ..poses import Array, Pose, wrap_angle
-from .person_settings import PersonSettings
+from .person_settings import PATHS, PersonSettings
+from .person_visits import Visits
 
 Place = tuple[float, float]
 
@@ -20,6 +21,7 @@ class Motion:
 
     Attributes:
         pose: Where the person is and faces, in the world.
+        visits: Of somebody who comes and goes.
     """
 
     def __init__(
@@ -39,7 +41,7 @@ class Motion:
         self._settings = settings
         self._recorded: Array | None = None
         heading = start.theta
-        if settings.path == "straight":
+        if settings.path in ("straight", "visits"):
             away = atan2(evader[1] - start.y, evader[0] - start.x)
             aim = (
                 evader[0] - settings.miss * sin(away),
@@ -47,9 +49,10 @@ class Motion:
             )
             heading = atan2(aim[1] - start.y, aim[0] - start.x)
         self._course = heading
+        self.visits = Visits(settings.miss)
         self._way, self._turned = 0.0, False
         self.pose = self._facing(start.x, start.y)
-        if settings.path not in ("straight", "steer"):
+        if settings.path not in PATHS:
             self._recorded = read_path(Path(settings.path))
             self.pose = self._at(0.0)
 
@@ -72,6 +75,8 @@ class Motion:
         if not self._turned and self._way + 0.5 * way > settings.turn_after:
             self._turned = True
             self._course += settings.turn
+        if settings.path == "visits":
+            self._course = self.visits.course((x, y), self._course, evader)
         if settings.path == "steer":
             # (1)-(2) of the paper, held over one tick.
             sight = atan2(evader[1] - y, evader[0] - x)
@@ -117,8 +122,8 @@ def read_path(file: Path) -> Array:
         table = np.array([[float(cell) for cell in row] for row in rows[1:]])
     except (OSError, ValueError) as error:
         raise ConfigurationError(
-            f"person.path must be steer, straight or a CSV file of time,x,y "
-            f"[s, m, m], got {str(file)!r}: {error}"
+            f"person.path must be {', '.join(PATHS)} or a CSV file of "
+            f"time,x,y [s, m, m], got {str(file)!r}: {error}"
         ) from error
     if table.ndim != 2 or table.shape[0] < 2 or table.shape[1] != 3:
         raise ConfigurationError(

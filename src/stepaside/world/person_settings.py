@@ -8,6 +8,7 @@ from ..errors import ConfigurationError
 from ..ranges import Range, Ranges, check_settings
 from .figures import FIGURES
 
+PATHS = ("steer", "straight", "visits")
 PURSUERS = ("robot", "person")
 
 
@@ -17,13 +18,14 @@ class PersonSettings:
 
     Attributes:
         path: "steer" turns towards the evader by (1)-(2), "straight" walks
-            on in the direction in which the walk begins, and everything else
-            is a file of a recorded path: CSV lines of time [s], x [m] and
-            y [m] with a head line ``time,x,y``.
+            on in the direction in which the walk begins, "visits" comes and
+            goes, each time from elsewhere, and everything else is a file of a
+            recorded path: CSV lines of time [s], x [m] and y [m] with a head
+            line ``time,x,y``.
         speed: Of the walk, in [m/s]; 0.001 to 3.
         gain: Of the steering (1)-(2), in [1/s] of real time; 0.0001 to 100.
-        miss: How far to the left of the evader a straight walk aims, [m]; -10
-            to 10.
+        miss: How far to the left of the evader a straight walk aims, and the
+            first of many visits, [m]; -10 to 10.
         halt_after: Way after which the person stands still, in [m]; 0 to 100
             or inf.
         turn_after: Way after which the person turns once, in [m]; 0 to 100
@@ -62,7 +64,7 @@ class PersonSettings:
         check_settings(self, prefix="person.")
         if not self.path:
             raise ConfigurationError(
-                "person.path must be steer, straight or a file, got ''"
+                f"person.path must be {', '.join(PATHS)} or a file, got ''"
             )
         if self.figure not in FIGURES:
             raise ConfigurationError(

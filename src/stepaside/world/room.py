@@ -8,7 +8,9 @@ from ..robots.head import HeadDescription
 from .camera_settings import RoomSettings
 
 FLOOR_BIT = 1  # as of the floor: robots run into it
+HIDDEN = 3  # group of shapes that only the robots' cameras are drawn with
 WALL_HEIGHT = 1.2  # half of it, in [m]
+SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))
 TONES = ((0.78, 0.76, 0.72), (0.70, 0.74, 0.74))
 BOXES = {
     "red box": (0.78, 0.14, 0.12, 1.0),
@@ -51,6 +53,20 @@ def furnisher(
     return furnish
 
 
+def hide_walls(model: mujoco.MjModel) -> None:
+    """Keep walls that cameras see from whoever looks in from outside."""
+    for x, y in SIDES:
+        number = mujoco.mj_name2id(
+            model, mujoco.mjtObj.mjOBJ_GEOM, _wall(x, y)
+        )
+        if number >= 0:
+            model.geom_group[number] = HIDDEN
+
+
+def _wall(x: int, y: int) -> str:
+    return f"wall {x} {y}"
+
+
 def _add_walls(spec: mujoco.MjSpec, away: float) -> None:
     spec.add_texture(
         name="wall",
@@ -65,9 +81,9 @@ def _add_walls(spec: mujoco.MjSpec, away: float) -> None:
         name="wall", texrepeat=[1, 1], texuniform=True
     )
     material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "wall"
-    for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+    for x, y in SIDES:
         spec.worldbody.add_geom(
-            name=f"wall {x} {y}",
+            name=_wall(x, y),
             type=mujoco.mjtGeom.mjGEOM_BOX,
             pos=[x * away, y * away, WALL_HEIGHT],
             size=[

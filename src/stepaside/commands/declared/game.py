@@ -259,7 +259,7 @@ PERSON = Group(
         ),
         Declaration(
             "--person-path",
-            "steer, straight, or a CSV file of time,x,y.",
+            "steer, straight, visits, or a CSV file of time,x,y.",
             "person.path",
         ),
         Declaration("--person-speed", "Of the walk", "person.speed", "m/s"),

@@ -23,10 +23,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...errors import ConfigurationError
 from ...planning import GaitSettings, ManeuverPlan
 from ...planning.zmp import evaluate
 from ...poses import Array
+from .quadratic import load_solver
 from .settings import MpcSettings
 
 EQUALITY = 5  # sense of a constraint in the solver
@@ -88,7 +88,7 @@ class IntrinsicallyStableMpc:
         Raises:
             ConfigurationError: If the solver is not installed.
         """
-        self._solver = _solver()
+        self._solver = load_solver()
         self.settings, self._edge = settings, edge
         n = settings.steps * settings.samples
         self.interval = delta = gait.step_duration / settings.samples
@@ -256,13 +256,3 @@ def _feet(plan: ManeuverPlan) -> _Feet:
         offsets,
         plan.zmp_coefficients,
     )
-
-
-def _solver() -> Any:
-    try:
-        import daqp
-    except ImportError as error:
-        raise ConfigurationError(
-            "method 'mpc' needs the solver daqp: pip install 'stepaside[mpc]'"
-        ) from error
-    return daqp

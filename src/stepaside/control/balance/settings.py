@@ -154,7 +154,8 @@ class ControlSettings:
         method: Where the CoM comes from. "closed-form": each maneuver begins
             where the last one planned to be, the paper's way; "measured": it
             begins at the measured state; "mpc": it does, and in between the
-            ZMP is that of the intrinsically stable MPC. The last two need
+            ZMP is that of the intrinsically stable MPC, and in a room its
+            footsteps keep to the free side of half planes. The last two need
             feedback.
         feedback: Whether to estimate the state and stabilise the walk.
         stabiliser: Gains of the feedback.

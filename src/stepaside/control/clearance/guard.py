@@ -16,6 +16,7 @@ from ...planning import ManeuverPlan, ManeuverPlanner
 from ...planning.steady import landing_state
 from ...poses import Pose
 from ...strategies.knowledge import Intent
+from .footholds import Footholds
 from .outline import BodyOutline
 from .surroundings import Surroundings
 
@@ -69,6 +70,7 @@ class Guard:
         planner: ManeuverPlanner,
         *,
         margin: float,
+        footholds: Footholds | None = None,
     ) -> None:
         """Guard one robot.
 
@@ -77,7 +79,10 @@ class Guard:
             outline: Of its body.
             planner: Of its gait, for the halts.
             margin: Distance that it keeps, in [m].
+            footholds: What moves footsteps out of what stands around, with
+                the MPC; nothing by default.
         """
+        self._footholds = footholds
         self.surroundings, self.margin = surroundings, margin
         self._outline, self._planner = outline, planner
 
@@ -108,6 +113,19 @@ class Guard:
             if self.accepts(plan_for(choice), support, standing=standing):
                 return choice
         return None
+
+    def fit(self, plan: ManeuverPlan, support: Pose) -> ManeuverPlan:
+        """A plan with footsteps that keep clear, if those are to be moved.
+
+        Args:
+            plan: The plan.
+            support: Its frame in odometry.
+        """
+        if self._footholds is None:
+            return plan
+        frame = self.surroundings.frame.compose(support)
+        known = self.surroundings.solids.known
+        return self._footholds.kept(plan, frame, known)
 
     def accepts(
         self, plan: ManeuverPlan, support: Pose, *, standing: bool

@@ -1,0 +1,203 @@
+r"""Footsteps on the free side of what stands nearby.
+
+A second method beside looking ahead, as in the sequel of the paper (De
+Simone et al., IROS 2017): orientations are chosen first, and then footsteps
+:math:`p_i` as near to the planned ones :math:`p_i^*` as half planes allow,
+
+.. math:: \min_p \sum_i \lVert (p_i - p_{i-1}) - (p_i^* - p_{i-1}^*) \rVert^2,
+   \qquad n_{ij} \cdot m_i \ge n_{ij} \cdot q_{ij} + r, \qquad
+   R_{i-1}^T (p_i - p_{i-1}) \in K,
+
+one for each footstep i and obstacle j that it might reach. :math:`m_i` lies
+half a foot spacing beside :math:`p_i`, midway between the feet;
+:math:`q_{ij}` is the point of the obstacle next to where the plan has that,
+:math:`n_{ij}` points from it to there, r is what the body needs, or has now
+if that is less, and K is what a leg can reach.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...planning import GaitSettings, ManeuverPlan, ManeuverPlanner
+from ...poses import Array, Pose
+from ...rooms import Disc, Obstacle
+from ..balance.quadratic import load_solver
+from ..balance.settings import StabiliserSettings
+
+SOLVED = 1  # what the solver answers if there are such footsteps
+NEGLIGIBLE = 1e-9  # lack of clearance that moves no foot, in [m]
+
+
+class Footholds:
+    """Moves the footsteps of plans out of what they may not reach.
+
+    Attributes:
+        radius: What the body needs around the point midway between its
+            feet, in [m].
+    """
+
+    def __init__(
+        self,
+        planner: ManeuverPlanner,
+        reach: StabiliserSettings,
+        radius: float,
+    ) -> None:
+        """Prepare for one gait.
+
+        Args:
+            planner: Of the gait.
+            reach: How near to the other foot, and how far out, feet land.
+            radius: What the body needs, in [m].
+        """
+        self._planner, self._reach = planner, reach
+        self._solver = load_solver()
+        self.radius = radius
+
+    def kept(
+        self, plan: ManeuverPlan, frame: Pose, solids: Sequence[Obstacle]
+    ) -> ManeuverPlan:
+        """The plan with footsteps that keep clear, as far as there are any.
+
+        Args:
+            plan: A plan.
+            frame: Pose of its frame.
+            solids: What stands around, in the frame in which that is.
+
+        Returns:
+            The plan itself where nothing is in its way, and where no
+            footsteps within reach keep clear: whoever walks it has to look.
+        """
+        steps = plan.placements[2:]
+        rows, least = self._planes(plan, frame, solids)
+        if (
+            not len(least)
+            or (rows @ steps[:, :2].ravel() >= least - NEGLIGIBLE).all()
+        ):
+            return plan
+        reached, low, high = self._within_reach(plan)
+        count = len(steps)
+        along = np.kron(np.eye(count) - np.eye(count, k=-1), np.eye(2))
+        cost = along.T @ along
+        found, _, flag, _ = self._solver.solve(
+            cost,
+            -cost @ steps[:, :2].ravel(),
+            np.concatenate([rows, reached]),
+            np.concatenate([np.full(len(rows), np.inf), high]),
+            np.concatenate([least, low]),
+            np.zeros(len(rows) + len(reached), dtype=np.int32),
+        )
+        if flag < SOLVED:
+            return plan
+        placements = plan.placements.copy()
+        placements[2:, :2] = found.reshape(count, 2)
+        return self._planner.placed(plan, placements)
+
+    def _planes(
+        self, plan: ManeuverPlan, frame: Pose, solids: Sequence[Obstacle]
+    ) -> tuple[Array, Array]:
+        """Half planes, as rows on all footsteps and what they are at least.
+
+        Returns:
+            Shapes (m, 2 count), (m,).
+        """
+        beside = _beside(plan)
+        here = 0.5 * (plan.placements[0, :2] + plan.placements[1, :2])
+        middles = plan.placements[2:, :2] + beside
+        places = frame.transform_points(np.vstack([here, middles]))
+        back, count = Pose(0.0, 0.0, -frame.theta), len(middles)
+        span = float(np.hypot(*(middles - here).T).max())
+        rows: list[Array] = []
+        least: list[float] = []
+        for solid in solids:
+            now = float(solid.clearance(places[:1])[0])
+            if now > self.radius + 2.0 * span:
+                continue
+            normals, away = _away(solid, places[1:])
+            keeps = min(self.radius, now)
+            normals = back.transform_points(normals)
+            for i in range(count):
+                row = np.zeros((count, 2))
+                row[i] = normals[i]
+                rows.append(row.ravel())
+                least.append(
+                    keeps
+                    - float(away[i])
+                    + float(normals[i] @ plan.placements[i + 2, :2])
+                )
+        return np.array(rows).reshape(-1, 2 * count), np.array(least)
+
+    def _within_reach(self, plan: ManeuverPlan) -> tuple[Array, Array, Array]:
+        """What legs reach from one foot to the next.
+
+        Returns:
+            Rows on all footsteps, and what they are at least and at most.
+            Shapes (2 count, 2 count), (2 count,), (2 count,).
+        """
+        gait, own = plan.gait, self._reach
+        before, steps = plan.placements[1:-1], plan.placements[2:]
+        count = len(steps)
+        c, s = np.cos(before[:, 2]), np.sin(before[:, 2])
+        side = plan.first_foot.value * (-1.0) ** np.arange(count)
+        ahead = np.stack([c, s], axis=-1)
+        out = np.stack([-s * side, c * side], axis=-1)
+        rows = np.zeros((2 * count, count, 2))
+        low, high = np.zeros(2 * count), np.zeros(2 * count)
+        near, far = _nearest(gait, own), gait.foot_spacing + own.reach_outward
+        for i in range(count):
+            for n, (axis, least, most) in enumerate(
+                ((ahead, -gait.stride, gait.stride), (out, near, far))
+            ):
+                at = 2 * i + n
+                rows[at, i] = axis[i]
+                if i:
+                    rows[at, i - 1] = -axis[i]
+                wanted = axis[i] @ (steps[i, :2] - before[i, :2])
+                low[at], high[at] = min(least, wanted), max(most, wanted)
+        # The first step begins at the support foot, the origin.
+        return rows.reshape(2 * count, 2 * count), low, high
+
+
+def _nearest(gait: GaitSettings, own: StabiliserSettings) -> float:
+    """Least coronal distance of a landing from the other foot, in [m]."""
+    return 2.0 * gait.sole.inner + own.gap
+
+
+def _beside(plan: ManeuverPlan) -> Array:
+    """From each footstep to midway between the feet, in [m]. (count, 2)."""
+    theta = plan.placements[2:, 2]
+    side = plan.first_foot.value * (-1.0) ** np.arange(len(theta))
+    half = 0.5 * plan.gait.foot_spacing * side
+    found: Array = np.stack([np.sin(theta), -np.cos(theta)], axis=-1)
+    found *= half[:, None]
+    return found
+
+
+def _away(solid: Obstacle, places: Array) -> tuple[Array, Array]:
+    """Which way leads straight away from a solid, and its distance.
+
+    Args:
+        solid: The solid.
+        places: In its frame, in [m]. Shape (n, 2).
+
+    Returns:
+        Unit vectors, and signed distances, in [m]. Shapes (n, 2), (n,).
+    """
+    away = solid.clearance(places)
+    if isinstance(solid, Disc):
+        ways = places - np.array(solid.centre)
+    else:
+        ends = np.roll(solid.points, -1, axis=0)
+        edges = ends - solid.points
+        share = ((places[:, None] - solid.points) * edges).sum(axis=2)
+        share = np.clip(share / (edges**2).sum(axis=1), 0.0, 1.0)
+        nearest = solid.points + share[:, :, None] * edges
+        gaps = places[:, None] - nearest
+        which = np.hypot(gaps[..., 0], gaps[..., 1]).argmin(axis=1)
+        ways = gaps[np.arange(len(places)), which]
+        inside = away <= 0.0
+        height = places @ solid.normals.T - solid.offsets
+        ways[inside] = solid.normals[height.argmax(axis=1)][inside]
+    lengths = np.hypot(ways[:, 0], ways[:, 1])[:, None]
+    normals: Array = ways / np.maximum(lengths, 1e-12)
+    return normals, away

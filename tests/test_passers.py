@@ -1,0 +1,144 @@
+"""Test people who pass while another comes."""
+
+from dataclasses import replace
+from math import cos, hypot, pi, radians, sin
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from stepaside.cli import main
+from stepaside.errors import ConfigurationError
+from stepaside.games.configuration import (
+    dump_configuration,
+    load_configuration,
+)
+from stepaside.games.duel import Duel, run_duel
+from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.poses import Pose, wrap_angle
+from stepaside.report.stage import Stage
+from stepaside.world.passer import Passer
+from stepaside.world.person_settings import PersonSettings
+
+EVADER = Pose(3.0, -1.0, 2.5)
+
+
+def duel(*passers: Passer, **changes: Any) -> DuelSettings:
+    """A person who comes slowly from 3 m ahead of the evader."""
+    settings = DuelSettings(
+        duration=3.0,
+        pursuer="person",
+        person=PersonSettings("straight", 0.1),
+        start=StartSettings(3.0, 0.0, 0.0),
+        passers=passers,
+    )
+    return replace(settings, **changes)
+
+
+@pytest.mark.parametrize("bearing", [0.0, 1.2, -2.0, pi])
+@pytest.mark.parametrize("miss", [1.2, -0.4])
+def test_a_passer_comes_from_where_it_is_told_and_misses(
+    bearing: float, miss: float
+) -> None:
+    passer = Passer(0.8, 4.0, bearing, miss)
+    first = passer.pose_at(0.0, EVADER)
+    away = hypot(first.x - EVADER.x, first.y - EVADER.y)
+    assert away == pytest.approx(4.0)
+    seen = EVADER.inverse().compose(first)
+    assert seen.x == pytest.approx(4.0 * cos(bearing), abs=1e-9)
+    assert seen.y == pytest.approx(4.0 * sin(bearing), abs=1e-9)
+    poses = [passer.pose_at(0.01 * i, EVADER) for i in range(1200)]
+    nearest = min(hypot(p.x - EVADER.x, p.y - EVADER.y) for p in poses)
+    expected = 4.0 * abs(miss) / hypot(4.0, miss)
+    assert nearest == pytest.approx(expected, abs=1e-3)
+    way = hypot(poses[100].x - first.x, poses[100].y - first.y)
+    assert way == pytest.approx(0.8)
+    # To the left as it comes: the evader stays on its right.
+    x, y, course = poses[0]
+    turned = (EVADER.y - y) * cos(course) - (EVADER.x - x) * sin(course)
+    assert np.sign(turned) == -np.sign(miss)
+    assert all(wrap_angle(p.theta - course) == 0.0 for p in poses)
+
+
+def trunk(model: mujoco.MjModel, data: mujoco.MjData, name: str) -> Any:
+    """Place of the trunk of a figure, in [m]."""
+    return data.mocap_pos[int(model.body(f"{name}/trunk").mocapid[0])][:2]
+
+
+def test_a_passer_walks_in_the_world_and_on_the_stage_again() -> None:
+    passers = Passer(0.8, 3.0, 1.5, 1.5), Passer(0.3, 2.5, -1.0, 1.3, "child")
+    game = Duel(settings := duel(*passers, duration=0.4))
+    evader = game.frames[1]
+    while game.world.time < 0.2 - 1e-9:
+        assert game.tick() is None
+    for number, passer in enumerate(passers, start=1):
+        place = trunk(game.world.model, game.world.data, f"passer {number}")
+        last = 0.2 - settings.physics.time_step
+        there = passer.pose_at(last, evader)
+        assert place == pytest.approx((there.x, there.y), abs=1e-9)
+    run = run_duel(settings)
+    stage = Stage(run)
+    stage.put(10)
+    for number, passer in enumerate(passers, start=1):
+        there = passer.pose_at(float(run.times[10]), evader)
+        place = trunk(stage.model, stage.data, f"passer {number}")
+        assert place == pytest.approx((there.x, there.y), abs=1e-9)
+
+
+def test_who_runs_into_a_passer_is_told() -> None:
+    run = run_duel(duel(Passer(1.5, 1.6, 1.0, 0.0)))
+    assert run.outcome.value == "contact"
+    assert run.message.startswith("evader and passer 1 touched at ")
+    assert run.summary.touched == ["evader", "passer 1"]
+
+
+def test_the_evader_with_ideal_sight_is_told_of_who_comes_alone() -> None:
+    """Nothing of its duel changes, to the bit."""
+    alone = run_duel(duel(duration=1.0))
+    passed = run_duel(duel(Passer(0.8, 3.0, 1.5, 1.5), duration=1.0))
+    np.testing.assert_array_equal(alone.evader.torso, passed.evader.torso)
+    assert passed.outcome.value == "completed"
+
+
+def test_passers_stand_in_configurations(tmp_path: Any) -> None:
+    settings = duel(Passer(0.8, 3.0, 1.5, -1.5, "child"), Passer(0.0, 2.0))
+    file = tmp_path / "duel.toml"
+    file.write_text(dump_configuration(settings), encoding="utf-8")
+    assert load_configuration(file) == settings
+    shown = CliRunner().invoke(
+        main,
+        [
+            *("duel", "--pursuer", "person", "--print-config"),
+            *("--passer", "0.8@3:90deg:1.5", "--passer", "0.5@4:-1"),
+        ],
+    )
+    assert shown.exit_code == 0, shown.stderr
+    file.write_text(shown.stdout, encoding="utf-8")
+    first, second = load_configuration(file).passers
+    assert first == Passer(0.8, 3.0, radians(90.0), 1.5)
+    assert second == Passer(0.5, 4.0, -1.0, 1.2)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ("0.8@3", "SPEED@DISTANCE:BEARING"),
+        ("fast@3:0", "speed must be a finite number [m/s], got 'fast'"),
+        ("0.8@3:0:inf", "miss must be a finite number [m], got 'inf'"),
+        ("9@3:0", "passer speed must lie in"),
+        ("0.8@3:x", "must be a finite angle"),
+    ],
+)
+def test_bad_passers_are_refused(given: str, message: str) -> None:
+    words = ["duel", "--pursuer", "person", "--passer", given]
+    result = CliRunner().invoke(main, words)
+    assert result.exit_code == 2 and message in result.stderr
+
+
+def test_passers_need_a_person_who_comes_and_a_figure() -> None:
+    with pytest.raises(ConfigurationError, match="passers need a person"):
+        DuelSettings(passers=(Passer(0.8, 3.0),))
+    with pytest.raises(ConfigurationError, match="passer figure must be"):
+        Passer(0.8, 3.0, figure="giant")
