@@ -114,6 +114,8 @@ def test_they_find_each_other_and_walk() -> None:
         wires[player.name] = wire
         players.append(robot)
     play(Match(duel.world, players), SETTINGS.duration)
+    heard = [set(player.state().echoes) for player in players]
+    assert heard == [set(), {"left", "right"}]  # the evader has sonars
     one, other = (player.truth for player in players)
     for own, seen, name in ((one, other, "pursuer"), (other, one, "evader")):
         tick = wires[name].tick

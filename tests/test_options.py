@@ -17,6 +17,7 @@ from stepaside.commands.declared.kinds import NameType, WordedType
 from stepaside.commands.declared.option import Declaration, DeclaredOption
 from stepaside.commands.declared.print_config import meanings
 from stepaside.commands.declared.rooms import RECIPE
+from stepaside.commands.declared.wires import WAYS
 from stepaside.commands.game_options import STRATEGIES
 from stepaside.commands.options import AngleType, NumberType
 from stepaside.commands.plan_settings import FEET, ROLES, PlanSettings
@@ -67,6 +68,7 @@ REGISTRIES: dict[str, Iterable[str]] = {
     "--person-figure": FIGURES,
     "--level": LEVELS,
     "--role": ROLES,
+    "--by": WAYS,
     "--first-foot": FEET,
     "--kind": robustness.KINDS,
     "--strategy": STRATEGIES,

@@ -7,7 +7,9 @@ from typing import Any
 
 from stepaside.drivers.session import SessionLost
 from stepaside.drivers.velocity.body import REST, Report, Velocity
+from stepaside.drivers.velocity.footsteps import FootMove
 from stepaside.drivers.velocity.served import WalkerState
+from stepaside.planning import Foot
 from stepaside.poses import Pose
 from stepaside.sensing.measurement import Sighting
 
@@ -73,15 +75,28 @@ class MadeUpWalker:
         self.velocity = REST
         self.sighting: Sighting | None = None
         self.head: dict[str, float] = {}
+        self.leads: list[Foot] = []
+        self.step: FootMove | None = None
+        self.steps = 0
 
     def look(self, angles: Mapping[str, float]) -> None:
         """Note where it is to look."""
         self.head |= angles
 
+    def lead_with(self, foot: Foot) -> None:
+        """Note its first foot."""
+        self.leads.append(foot)
+
     def state(self) -> WalkerState:
         """What it says of itself."""
         return WalkerState(
-            self.time, self.pose, self.velocity, [0.1, 0.2], self.sighting
+            self.time,
+            self.pose,
+            self.velocity,
+            [0.1, 0.2],
+            self.sighting,
+            step=self.step,
+            steps=self.steps,
         )
 
     def move(self, velocity: Velocity, passed: float) -> None:

@@ -15,6 +15,7 @@ from .declared.game import SENSES, STRATEGY
 from .declared.kinds import NameType
 from .declared.take import SettingsCommand, takes_settings
 from .declared.wires import (
+    BY,
     DOMAIN,
     MAX_SPEED,
     MAX_TURN,
@@ -68,6 +69,7 @@ LONG_ENOUGH, INTERRUPTED = "played long enough", "interrupted"
     "naoqi:tcp://HOST:PORT or ros2:/TOPIC; what a simulated robot offers "
     "beside its socket by default.",
 )
+@BY.option()
 @MAX_SPEED.option()
 @MAX_TURN.option()
 @DOMAIN.option()
@@ -112,8 +114,10 @@ def play(
     from ..drivers.session import SessionLost
     from ..drivers.status_line import StatusLine
     from .feedback import with_feedback
+    from .moving import check_way
     from .playing import LOLA, open_joints, open_velocity
 
+    check_way(options)
     folder = options.pop("record")
     by_joints = options["robot"].startswith(LOLA)
     with ExitStack() as stack:
@@ -127,7 +131,7 @@ def play(
             own = with_feedback(settings) if by_joints else settings
             told = PlayRecord(folder, own, options)
             stack.push(told.leave)
-            onlookers.append(told.log)
+            onlookers.append(told)
 
         def session() -> str:
             with ExitStack() as within:

@@ -4,6 +4,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from .moving import mover_of
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -160,7 +162,9 @@ def _line_to(
                 return open_looking(settings, url, options)
             from ..drivers.naoqi.body import NaoqiBody
 
-            return NaoqiBody(url, dry_run=dry_run)
+            return NaoqiBody(
+                url, dry_run=dry_run, make_mover=mover_of(settings, options)
+            )
 
         def rest_naoqi() -> None:
             from ..drivers.naoqi.body import stop

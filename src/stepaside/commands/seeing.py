@@ -4,6 +4,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from .moving import mover_of
+
 if TYPE_CHECKING:
     from ..drivers.cameras.source import PerceptSource
     from ..drivers.lola.address import Address
@@ -85,6 +87,7 @@ def open_looking(
         dry_run=dry_run,
         joint_names=perception.forward.tree.motors,
         head=(head.yaw, head.pitch),
+        make_mover=mover_of(settings, options),
     )
     own = options | {"images": options["images"] or f"{NAOQI}{url}"}
     try:

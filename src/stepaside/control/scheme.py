@@ -170,6 +170,11 @@ class ControlScheme:
             adapted=self.balance.adapted,
         )
 
+    def lead_with(self, foot: Foot) -> None:
+        """Make the next first step with a foot, if the robot stands."""
+        if self.plan is None:
+            self._first_foot = foot
+
     def _stand(self) -> None:
         """Rest midway between the feet."""
         self.phase, self.plan = Phase.STANDING, None
@@ -198,8 +203,7 @@ class ControlScheme:
 
     def _finish(self, plan: ManeuverPlan) -> None:
         """End a step: the foot that landed supports, and a plan follows."""
-        step = Pose(*plan.placements[2].tolist())
-        landed = self.plan_frame.compose(step)
+        landed = self.plan_frame.compose(Pose(*plan.placements[2].tolist()))
         position, velocity = landing_state(plan)
         landed, position, velocity = self.balance.land(
             landed, position, velocity, self.step(self._plan_ends)
@@ -214,11 +218,10 @@ class ControlScheme:
             return
         self._first_foot = plan.first_foot.other
         ended = self.plan_started + plan.schedule.first_step_duration
-        seen = self.sighting
-        if seen is not None or self.senses.looking:
-            self._replan(ended, landed, state, seen, standing=False)
-        else:
+        if self.sighting is None and not self.senses.looking:
             self._halt(ended, landed, state)
+        else:
+            self._replan(ended, landed, state, self.sighting, standing=False)
 
     def _replan(
         self,
@@ -290,8 +293,7 @@ class ControlScheme:
         if self.plan is None:
             foot = self._first_foot
             return resting_step(self._support(foot), foot)
-        passed = now - self.plan_started
-        return step_of(self.plan, self.plan_frame, passed)
+        return step_of(self.plan, self.plan_frame, now - self.plan_started)
 
     def _support(self, swing: Foot) -> Pose:
         """Foot that stands while another swings, in odometry."""

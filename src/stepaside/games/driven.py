@@ -7,10 +7,11 @@ from ..control import Phase
 from ..control.senses import GivenSight
 from ..control.velocity import accepted, walk_at
 from ..drivers.velocity.body import REST, Velocity
+from ..drivers.velocity.footsteps import FootMove
 from ..drivers.velocity.served import WalkerState
-from ..planning import Direction
-from ..poses import Array, wrap_angle
-from ..sensing.images import ColourImage
+from ..planning import Direction, Foot
+from ..poses import Array, Pose, wrap_angle
+from ..sensing.images import ColourImage, SonarEcho
 from ..sensing.measurement import Measurement, Sighting
 from ..strategies import Stand
 from .walker import Walker
@@ -54,7 +55,9 @@ class DrivenWalker(Walker):
         self._head: dict[int, float] = {}
         self._looks: Array | None = None
         self._image: ColourImage | None = None
+        self._echoes: dict[str, float | None] = {}
         self._ticks = -1
+        self._steps = 0
         self._updated = False
 
     def tick(self) -> None:
@@ -72,6 +75,9 @@ class DrivenWalker(Walker):
         targets = scheme.update(measurement)
         self.robot.write(self._turned(targets) if self._head else targets)
         self._updated = True
+        begun = scheme.begun
+        if begun is not None and begun.planning_time is not None:
+            self._steps += 1
         if self._under_way is None and scheme.phase is Phase.WALKING:
             self._under_way = strategy.direction
 
@@ -79,6 +85,7 @@ class DrivenWalker(Walker):
         """What it says of itself now."""
         measurement = self._measured()
         now, scheme = measurement.time, self.scheme
+        walk = scheme.state
         pace = accepted(*self._velocity, scheme.settings)
         return WalkerState(
             now,
@@ -87,7 +94,25 @@ class DrivenWalker(Walker):
             measurement.joint_positions.tolist(),
             self._sighting(measurement),
             self._image,
+            (walk.left_foot, walk.right_foot),
+            self._making(now),
+            self._steps,
+            self._echoes.copy(),
         )
+
+    def lead_with(self, foot: Foot) -> None:
+        """Make the next first step with a foot, if it stands."""
+        self.scheme.lead_with(foot)
+
+    def _making(self, now: float) -> FootMove | None:
+        """Step that is being made, its time what is left of it."""
+        walk = self.scheme.state
+        plan = walk.plan
+        if plan is None:
+            return None
+        ends = walk.plan_started + plan.schedule.first_step_duration
+        placed = Pose(*plan.placements[2].tolist())
+        return FootMove(plan.first_foot, placed, max(0.0, ends - now))
 
     def look(self, angles: Mapping[str, float]) -> None:
         """Turn the head to angles of its joints, in [rad], by name.
@@ -125,6 +150,8 @@ class DrivenWalker(Walker):
             for percept in self._seen.percepts:
                 if isinstance(percept, ColourImage):
                     self._image = percept
+                elif isinstance(percept, SonarEcho):
+                    self._echoes[percept.sonar] = percept.distance
         return self._seen
 
     def _sighting(self, measurement: Measurement) -> Sighting | None:

@@ -37,6 +37,7 @@ class NaoqiOffer(NamedTuple):
             walker.scheme.kinematics.joint_names,
             Velocity(*fastest(walker.scheme.settings)),
             tick=TICK,
+            gait=walker.scheme.settings,
         )
         player.commander = server
         return Offered(player, server)

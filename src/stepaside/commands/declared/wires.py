@@ -30,3 +30,9 @@ SIM_TIME = Declaration(
     "--sim-time/--no-sim-time",
     "Its time is simulated, and may stand still or run.",
 )
+WAYS = ("velocity", "footsteps")
+BY = Declaration(
+    "--by",
+    "How a robot on NAOqi is moved; by velocity by default.",
+    registry=lambda: WAYS,
+)

@@ -11,13 +11,12 @@ import numpy as np
 from ...poses import Array, Pose
 from ...sensing.measurement import Sighting
 from ..session import SessionLost
-from ..velocity.body import REST, Report, Velocity
+from ..velocity.body import Report, Velocity
 from .address import IDEAL_SIGHT
+from .moving import Mover, VelocityMover
 from .session import answer_of, ask, connect
 
 PERIOD = 0.05  # between two looks at the robot, in [s]
-REPEATED = 0.25  # after which the same velocity is asked for again, in [s]
-STUCK = 1.0  # for which a command may be on its way, in [s]
 STANDING_UP = 20.0  # longest time for it, in [s]
 STAND, SLOWLY = "StandInit", 0.4  # posture, and share of the top speed
 PARTING = 2.0  # longest time for stopping at the end, in [s]
@@ -46,6 +45,9 @@ class NaoqiBody:
         dry_run: bool = False,
         joint_names: Sequence[str] = (),
         head: tuple[str, str] = HEAD,
+        make_mover: Callable[
+            [Any, Callable[[], float]], Mover
+        ] = VelocityMover,
         clock: Callable[[], float] = monotonic,
     ) -> None:
         """Connect, and let the robot stand up.
@@ -55,6 +57,8 @@ class NaoqiBody:
             dry_run: Whether nothing is ever commanded.
             joint_names: Joints whose angles are asked for, if any are.
             head: Names of its yaw and its pitch.
+            make_mover: What takes velocities to its ALMotion, and how; by
+                ``move`` by default. Given that and a clock.
             clock: Time of this computer, in [s]; that of the reports.
 
         Raises:
@@ -74,9 +78,7 @@ class NaoqiBody:
         self._names, self._head = list(joint_names), list(head)
         self._turning: Any = None
         self.joints: Array = np.zeros(len(self._names))
-        self._call: Any = None
-        self._called = clock()
-        self._asked = REST
+        self._mover = make_mover(self._motion, clock)
         self._listened = clock() - PERIOD
         self._pressed = self._held = False
         self._told_ideal = False
@@ -121,19 +123,8 @@ class NaoqiBody:
         Raises:
             SessionLost: If the robot is gone or stuck.
         """
-        now = self._clock()
-        if self._dry_run or not self._may_call(now):
-            return
-        same = velocity == self._asked and now - self._called < REPEATED
-        at_rest = velocity == REST and self._asked == REST
-        if same or (at_rest and self._call is not None):
-            return
-        self._called, self._asked = now, velocity
-        forward, turn = velocity
-        if velocity == REST:
-            self._call = self._motion.stopMove(_async=True)
-        else:
-            self._call = self._motion.move(forward, 0.0, turn, _async=True)
+        if not self._dry_run:
+            self._mover.command(velocity)
 
     def look(self, yaw: float, pitch: float) -> None:
         """Turn the head, in [rad], without waiting for the robot."""
@@ -198,21 +189,6 @@ class NaoqiBody:
                 return "could not stand up"
             self._standing = None
         return "chest button" if self._held or pressed else ""
-
-    def _may_call(self, now: float) -> bool:
-        """Whether the last command has been taken.
-
-        Raises:
-            SessionLost: If it was refused, or is on its way for too long.
-        """
-        if self._call is None:
-            return True
-        if self._call.isFinished():
-            answer_of(self._call, "command", within=0.0)
-            return True
-        if now - self._called > STUCK:
-            raise SessionLost("the robot takes no command")
-        return False
 
     def _sighting(self, told: Any, now: float) -> Sighting | None:
         """What a simulated robot tells of the other, if it does."""

@@ -3,15 +3,12 @@
 import logging
 from collections.abc import Sequence
 
+from ...planning import GaitSettings
 from ..velocity.body import REST, Velocity
 from ..velocity.served import WalkingRobot
-from .services import (
-    ALMemory,
-    ALMotion,
-    ALRobotPosture,
-    ALSonar,
-    Robot,
-)
+from .memory_service import ALMemory, ALSonar
+from .robot import Robot
+from .services import ALMotion, ALRobotPosture
 from .session import listen
 from .video_service import ALVideoDevice
 
@@ -34,6 +31,7 @@ class NaoqiServer:
         fastest: Velocity,
         *,
         tick: float,
+        gait: GaitSettings | None = None,
     ) -> None:
         """Offer the services.
 
@@ -43,6 +41,7 @@ class NaoqiServer:
             joint_names: Its joints.
             fastest: What ``moveToward`` takes shares of.
             tick: Time between two calls of :meth:`speak`, in [s].
+            gait: How it walks footsteps; NAO's gait by default.
 
         Raises:
             ConfigurationError: If nobody can listen there.
@@ -50,15 +49,16 @@ class NaoqiServer:
         self._walker, self._tick = robot, tick
         self.robot = Robot(robot.state(), joint_names)
         services = {
-            "ALMotion": ALMotion(self.robot, fastest),
+            "ALMotion": ALMotion(self.robot, fastest, gait or GaitSettings()),
             "ALRobotPosture": ALRobotPosture(self.robot),
             "ALMemory": ALMemory(self.robot),
-            "ALSonar": ALSonar(),
+            "ALSonar": ALSonar(self.robot),
             "ALVideoDevice": ALVideoDevice(self.robot),
         }
         self._services = services
         self._session = listen(url, services)
         self._calls = 0
+        self._begun = robot.state().steps
         self._silent = round(SILENCE / tick) + 1
         self._closed = False
 
@@ -91,8 +91,12 @@ class NaoqiServer:
         """Tell the services what the robot says of itself now."""
         state = self._walker.state()
         with self.robot.lock:
+            steps = self.robot.steps
             self.robot.state = state
+            for _ in range(min(state.steps - self._begun, len(steps))):
+                steps.popleft()  # it has begun
             calls = self.robot.calls
+        self._begun = state.steps
         self._silent = self._silent + 1 if calls == self._calls else 0
         self._calls = calls
 
@@ -103,19 +107,25 @@ class NaoqiServer:
     def act(self) -> Velocity:
         """What the robot is to do at this tick."""
         with self.robot.lock:
-            if not self.connected and self.robot.asked != REST:
+            robot = self.robot
+            if not self.connected and (robot.steps or robot.asked != REST):
                 log.warning("nobody asks anything: the robot rests")
-                self.robot.asked = REST
-            head, asked = dict(self.robot.head), self.robot.asked
+                robot.rest()
+            head, asked = dict(robot.head), robot.asked
+            following = robot.steps[0] if robot.steps else None
         if head:
             self._walker.look(head)
-        return asked
+        if following is None:
+            return asked
+        step, velocity = following
+        self._walker.lead_with(step.foot)
+        return velocity
 
     def drop(self, why: str) -> None:
         """Let the robot rest, and say why."""
         log.warning("%s", why)
         with self.robot.lock:
-            self.robot.asked = REST
+            self.robot.rest()
 
     def close(self) -> None:
         """Take the services away."""

@@ -1,54 +1,31 @@
-"""NAOqi's services for a simulated robot that walks by itself.
+"""ALMotion and ALRobotPosture of a simulated robot that walks by itself.
 
 Methods are called from threads of the messaging, by the names and with the
 arguments that NAOqi's own services have.
 """
 
-from collections.abc import Mapping, Sequence
+from collections import deque
+from collections.abc import Sequence
 from math import isfinite
-from threading import Lock
 from typing import Any
 
+from ...planning import GaitSettings
 from ..velocity.body import REST, Velocity
-from ..velocity.served import WalkerState
-from .address import IDEAL_SIGHT
+from .robot import Robot
+from .steps import read_steps, told, velocity_of
 
-SUBDEVICES = "Device/SubDeviceList"
-SENSED = "Position/Sensor/Value"
 HEAD = ("HeadYaw", "HeadPitch")
 POSTURES = ("Stand", "StandInit", "StandZero", "Crouch")
-
-
-class Robot:
-    """What the services share, guarded by one lock.
-
-    Attributes:
-        lock: Held by whoever reads or writes.
-        state: What the robot said of itself last.
-        asked: Velocity that was asked for last.
-        awake: Whether its motors are stiff.
-        posture: Where it stands, or crouches.
-        head: Angles that its head is asked for, in [rad], by joint.
-        calls: How often anything was asked.
-    """
-
-    def __init__(self, state: WalkerState, names: Sequence[str]) -> None:
-        """Begin at rest, asleep."""
-        self.lock = Lock()
-        self.state, self.names = state, list(names)
-        self.asked = REST
-        self.awake, self.fallen, self.pressed = False, False, False
-        self.posture = "Crouch"
-        self.head: dict[str, float] = {}
-        self.calls = 0
 
 
 class ALMotion:
     """Motion: stiffness, walking, where the robot is."""
 
-    def __init__(self, robot: Robot, fastest: Velocity) -> None:
-        """Move a robot, at most so fast."""
-        self._robot, self._fastest = robot, fastest
+    def __init__(
+        self, robot: Robot, fastest: Velocity, gait: GaitSettings
+    ) -> None:
+        """Move a robot, at most so fast, by the steps of its gait."""
+        self._robot, self._fastest, self._gait = robot, fastest, gait
 
     def wakeUp(self) -> None:
         """Make the motors stiff."""
@@ -60,7 +37,7 @@ class ALMotion:
         """Stop, crouch, and let the motors go."""
         with self._robot.lock:
             self._robot.calls += 1
-            self._robot.asked = REST
+            self._robot.rest()
             self._robot.awake, self._robot.posture = False, "Crouch"
 
     def robotIsWakeUp(self) -> bool:
@@ -76,7 +53,7 @@ class ALMotion:
             self._robot.calls += 1
             self._robot.awake = min(float(v) for v in values) > 0.0
             if not self._robot.awake:
-                self._robot.asked = REST
+                self._robot.rest()
 
     def setAngles(self, names: Any, angles: Any, fraction: float) -> None:
         """Turn the head: the other joints walk by themselves."""
@@ -112,17 +89,55 @@ class ALMotion:
         """Walk at shares of the top speeds."""
         self._walk(values, self._fastest)
 
+    def setFootSteps(
+        self, legs: Any, places: Any, times: Any, clear: bool
+    ) -> None:
+        """Make steps, after those that were told, or instead of them.
+
+        The step that is being made is finished. Each takes the time of the
+        gait: times only have to rise. After the last one it brings its
+        feet together and rests.
+        """
+        robot = self._robot
+        with robot.lock:
+            robot.calls += 1
+            if not robot.awake:
+                raise RuntimeError("the robot is asleep: wakeUp first")
+            kept = [] if clear else list(robot.steps)
+            making = robot.state.step
+            before = kept[-1][0] if kept else making
+            steps = read_steps(
+                legs, places, times, None if before is None else before.foot
+            )
+            walked = [(step, velocity_of(step, self._gait)) for step in steps]
+            robot.asked = REST
+            robot.steps = deque([*kept, *walked])
+
+    def getFootSteps(self) -> list[Any]:
+        """Both feet, the step that is being made, and those to come."""
+        robot = self._robot
+        with robot.lock:
+            robot.calls += 1
+            making = robot.state.step
+            return [
+                [list(foot) for foot in robot.state.feet],
+                [] if making is None else [told(making)],
+                [told(step) for step, _ in robot.steps],
+            ]
+
     def stopMove(self) -> None:
         """Come to rest."""
         with self._robot.lock:
             self._robot.calls += 1
-            self._robot.asked = REST
+            self._robot.rest()
 
     def moveIsActive(self) -> bool:
         """Whether it is asked to walk."""
         with self._robot.lock:
             self._robot.calls += 1
-            return self._robot.asked != REST
+            robot = self._robot
+            walks = robot.asked != REST or bool(robot.steps)
+            return walks or robot.state.step is not None
 
     def getRobotPosition(self, use_sensors: bool) -> list[float]:
         """Pose in its odometry: x, y [m], theta [rad]."""
@@ -163,11 +178,12 @@ class ALMotion:
             if not self._robot.awake:
                 raise RuntimeError("the robot is asleep: wakeUp first")
             if not (isfinite(x) and isfinite(y) and isfinite(theta)):
-                self._robot.asked = REST
+                self._robot.rest()
                 raise ValueError(f"velocity must be finite, got {values!r}")
             if y != 0.0:
-                self._robot.asked = REST
+                self._robot.rest()
                 raise ValueError(f"it walks no way aside, got y = {y}")
+            self._robot.rest()
             self._robot.asked = velocity
 
 
@@ -184,59 +200,11 @@ class ALRobotPosture:
             self._robot.calls += 1
             if name not in POSTURES or not self._robot.awake:
                 return False
-            self._robot.asked, self._robot.posture = REST, name
+            self._robot.rest()
+            self._robot.posture = name
             return True
 
     def getPosture(self) -> str:
         """Where it is."""
         with self._robot.lock:
             return self._robot.posture
-
-
-class ALSonar:
-    """Sonars: whoever subscribes finds echoes in ALMemory."""
-
-    def subscribe(self, name: str) -> None:
-        """Begin to listen: nothing is heard here."""
-
-    def unsubscribe(self, name: str) -> None:
-        """Stop listening."""
-
-
-class ALMemory:
-    """Values by key."""
-
-    def __init__(self, robot: Robot) -> None:
-        """Know the robot."""
-        self._robot = robot
-
-    def getData(self, key: str) -> Any:
-        """One value."""
-        with self._robot.lock:
-            self._robot.calls += 1
-            return self._values()[key]
-
-    def getListData(self, keys: Any) -> list[Any]:
-        """Values; None for what there is not."""
-        with self._robot.lock:
-            self._robot.calls += 1
-            values = self._values()
-            return [values.get(key) for key in keys]
-
-    def _values(self) -> Mapping[str, Any]:
-        robot = self._robot
-        values: dict[str, Any] = {
-            "robotHasFallen": float(robot.fallen),
-            "ChestButtonPressed": float(robot.pressed),
-            IDEAL_SIGHT: _sight(robot.state),
-        }
-        for name, angle in zip(robot.names, robot.state.joints, strict=True):
-            values[f"{SUBDEVICES}/{name}/{SENSED}"] = angle
-        return values
-
-
-def _sight(state: WalkerState) -> list[float] | None:
-    seen = state.sighting
-    if seen is None:
-        return None
-    return [state.time - seen.time, seen.bearing, seen.distance]

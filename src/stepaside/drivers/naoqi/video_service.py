@@ -10,7 +10,7 @@ from typing import Any
 import qi
 
 from ...sensing.images import ColourImage
-from .services import Robot
+from .robot import Robot
 from .video import RGB, TOP
 
 IMAGE = "(iiiiiiriffff)"  # an image as NAOqi's messaging spells it

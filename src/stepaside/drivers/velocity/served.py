@@ -1,12 +1,17 @@
 """A simulated robot that walks by itself, as its servers see it."""
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import NamedTuple, Protocol
 
+from ...planning import Foot
 from ...poses import Pose
 from ...sensing.images import ColourImage
 from ...sensing.measurement import Sighting
 from .body import Velocity
+from .footsteps import FootMove
+
+STANDING = (Pose(0.0, 0.0, 0.0), Pose(0.0, 0.0, 0.0))
 
 
 class WalkerState(NamedTuple):
@@ -19,6 +24,10 @@ class WalkerState(NamedTuple):
         joints: Angles of its joints, in [rad].
         sighting: The other, from its own frame, if that is offered.
         image: Newest of its camera, if it has one.
+        feet: Left and right foot where they last stood, in its odometry.
+        step: Being made, its time what is left of it; None if it stands.
+        steps: Begun so far, but for those that came to rest.
+        echoes: Distances that its sonars heard last, in [m], by name.
     """
 
     time: float
@@ -27,6 +36,10 @@ class WalkerState(NamedTuple):
     joints: Sequence[float]
     sighting: Sighting | None
     image: ColourImage | None = None
+    feet: tuple[Pose, Pose] = STANDING
+    step: FootMove | None = None
+    steps: int = 0
+    echoes: Mapping[str, float | None] = MappingProxyType({})
 
 
 class WalkingRobot(Protocol):
@@ -37,3 +50,6 @@ class WalkingRobot(Protocol):
 
     def look(self, angles: Mapping[str, float]) -> None:
         """Turn the head to angles of its joints, in [rad], by name."""
+
+    def lead_with(self, foot: Foot) -> None:
+        """Make the next first step with a foot, if the robot stands."""

@@ -1,0 +1,55 @@
+"""NAOqi's services called in this process, without any messaging."""
+
+from collections.abc import Callable
+from typing import Any
+
+
+class Answer:
+    """A call that was answered at once."""
+
+    def __init__(self, call: Callable[[], Any]) -> None:
+        self._failure = ""
+        self._value: Any = None
+        try:
+            self._value = call()
+        except (RuntimeError, ValueError, KeyError, TypeError) as error:
+            self._failure = f"{type(error).__name__}: {error}"
+
+    def isFinished(self) -> bool:
+        """It is."""
+        return True
+
+    def hasError(self, patience: int = 0) -> bool:
+        """Whether it failed."""
+        return bool(self._failure)
+
+    def error(self, patience: int = 0) -> str:
+        """Why it failed."""
+        return self._failure
+
+    def value(self, patience: int = 0) -> Any:
+        """What was answered."""
+        if self._failure:
+            raise RuntimeError(self._failure)
+        return self._value
+
+
+class Direct:
+    """A service whose methods are called as those of a session's are."""
+
+    def __init__(self, service: object) -> None:
+        self._service = service
+        self.calls: list[tuple[str, tuple[Any, ...]]] = []
+
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        def call(*values: Any, _async: bool = False) -> Any:
+            self.calls.append((name, values))
+            method = getattr(self._service, name)
+            answer = Answer(lambda: method(*values))
+            return answer if _async else answer.value()
+
+        return call
+
+    def called(self, name: str) -> list[tuple[Any, ...]]:
+        """Arguments of each call of a method."""
+        return [values for called, values in self.calls if called == name]
