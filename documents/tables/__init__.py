@@ -55,6 +55,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "pace": walking.pace,
     "passers-by": people.passers_by,
     "people": people.people,
+    "polygons": rooms.polygons,
     "printed": duels.printed,
     "push-methods": pushes.methods,
     "ranges": persons.ranges,
