@@ -55,6 +55,8 @@ TABLES: dict[str, Callable[..., str]] = {
     "pace": walking.pace,
     "passers-by": people.passers_by,
     "people": people.people,
+    "people-passed-by": people.passed_by,
+    "people-seen": people.seen,
     "polygons": rooms.polygons,
     "printed": duels.printed,
     "push-methods": pushes.methods,
