@@ -121,7 +121,8 @@ def test_a_result_names_the_command_that_makes_it_again(name: str) -> None:
     assert not any(word.startswith("/") for word in words), result["command"]
     if program == "python" and words[0] == "-m":
         module = ROOT / words[1].replace(".", "/")
-        assert (module / "__main__.py").exists(), result["command"]
+        files = (module / "__main__.py", module.with_suffix(".py"))
+        assert any(file.exists() for file in files), result["command"]
     elif program == "python":
         assert (ROOT / words[0]).exists(), result["command"]
     elif program == "make":

@@ -151,7 +151,7 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
     assert threading.active_count() < 50
 
 
-def test_a_robot_is_pulled_with_the_pointer_and_driven_with_a_stick(
+def test_a_robot_is_pulled_with_the_pointer_and_driven_by_hand(
     browser: Any,
 ) -> None:
     from stepaside.report.viewer.page import Page
@@ -197,6 +197,12 @@ def test_a_robot_is_pulled_with_the_pointer_and_driven_with_a_stick(
         until(page, lambda: (h := live._drive._hand) and h.turn > 0.5)
         keep_picture(page, "driving.png")
         page.mouse.up()
+        until(page, lambda: (h := live._drive._hand) and not h.going)
+
+        hold = "(axes) => { navigator.getGamepads = () => [{ axes }]; }"
+        page.evaluate(hold, [0.6, -0.6])
+        until(page, lambda: (h := live._drive._hand) and h.turn < -0.5)
+        page.evaluate(hold, [0.0, 0.0])
         until(page, lambda: (h := live._drive._hand) and not h.going)
         check_readable(page)
         page.close()

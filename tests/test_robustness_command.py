@@ -10,6 +10,7 @@ from click.testing import CliRunner
 
 from stepaside.cli import main
 from stepaside.commands import robustness as command
+from stepaside.commands.campaigns import Ended
 from stepaside.studies.limits import next_strength, outcomes_of
 from stepaside.studies.results import read_result
 from stepaside.studies.survival import bound_at
@@ -20,7 +21,7 @@ ASKED = "--kind backlash --kind push --method mpc --seeds 3 --phases 1".split()
 
 def survive_a_newton_second(
     grid: list[Any], cases: list[Any], *_: Any
-) -> tuple[dict[str, bool], bool]:
+) -> tuple[dict[str, bool], Ended]:
     """Every push up to 1 N s is survived, and every other disturbance."""
     results = {trial.key: True for trial in grid}
     for case, outcomes in outcomes_of(cases, {}).items():
@@ -28,7 +29,7 @@ def survive_a_newton_second(
             outcomes[strength] = strength <= 1.0
             key = replace(case, strength=strength).key
             results[key] = outcomes[strength]
-    return results, False
+    return results, Ended()
 
 
 @pytest.fixture(autouse=True)
@@ -115,8 +116,10 @@ def test_a_stopped_campaign_writes_no_result_over_another(
 
     def stopped(
         grid: list[Any], cases: list[Any], *_: Any
-    ) -> tuple[dict[str, bool], bool]:
-        return survive_a_newton_second(grid[:7], cases[:1])[0], True
+    ) -> tuple[dict[str, bool], Ended]:
+        return survive_a_newton_second(grid[:7], cases[:1])[0], Ended(
+            stopped=True
+        )
 
     monkeypatch.setattr(command, "run_walks", stopped)
     asked = ("robustness", *ASKED, "--output", str(tmp_path))

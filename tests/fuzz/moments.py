@@ -67,11 +67,14 @@ MAIN = ("-m", "stepaside")
 WALKS = "--kind=unevenness --method=open-loop --seeds=1 --workers=2"
 TRIALS: Mapping[str, Trial] = {
     "duel": Trial(
-        (*MAIN, "duel", "--seed=3", "--duration=1", "--output=out"),
+        (*MAIN, "duel", "--seed=3", "--duration=0.4", "--output=out"),
         _duel,
     ),
     "map": Trial(
-        (*MAIN, *"map --grid=30 --figure=map.png --overwrite".split()),
+        (
+            *(*MAIN, "map", "--grid=8", "--distances=2"),
+            *("--figure=map.png", "--overwrite"),
+        ),
         _bytes("map.png"),
     ),
     "duels": Trial(
@@ -92,12 +95,16 @@ TRIALS: Mapping[str, Trial] = {
 }
 
 
+# How often each is tried: those more that are soon through.
+TURNS = {"duel": 3, "map": 3, "duels": 1, "robustness": 1, "reproduce": 1}
+
+
 def moment_cases(random: Random, _: Path) -> Iterator[Case]:
-    """Each command, ended at a moment and started again, without end."""
+    """A command, ended at a moment and started again, without end."""
     while True:
-        for name in TRIALS:
-            sign = random.choice(SIGNALS)
-            yield moment_case(name, sign, random.random())
+        (name,) = random.choices(list(TURNS), list(TURNS.values()))
+        sign = random.choice(SIGNALS)
+        yield moment_case(name, sign, random.random())
 
 
 def moment_case(name: str, sign: signal.Signals, part: float) -> Case:

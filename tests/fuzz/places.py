@@ -1,80 +1,246 @@
-"""Places that are full, or gone, when a command comes to write."""
+"""Places that are full, or gone, just as a command comes to write there.
 
+Each command writes all that it can be told to write, and one thing that it
+does to a file there, any of them, finds the place otherwise than before.
+"""
+
+import json
+import os
 import resource
 import shutil
 import subprocess
-from collections.abc import Iterator
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from functools import cache
 from pathlib import Path
 from random import Random
-from time import sleep
+from typing import NamedTuple
+from unittest.mock import patch
 
-from .case import Case
-from .moments import MAIN, WALKS, Trial, start, unwhole
+from click.testing import CliRunner, Result
 
-PLACE = "place"  # folder that everything goes to
-WRITES = {
-    "duel": "duel --duration=0.5 --output=place/run",
-    "duels": "duels --seeds=0:2 --duration=0.2 --workers=1 --output=place",
-    "map": "map --grid=4 --distances=2 --figure=place/map.png",
-    "circle": "circle --starts=2 --figure=place/f.png --sweep=place/s.png",
-    "plan": "plan --role=evader --bearing=0.3 --figure=place/plan.pdf",
-    "bound": "bound --grid=16 --refine=0 --games=0 --horizon=0.1 "
-    "--output=place/table.npz --figure=place/bound.png",
-    "replay": "replay run --html=place/page.html --gif=place/film.gif "
-    "--strip=place/strip.png --duration=0.1",
-    "compare": "compare run --output=place/both.svg",
-    "room": "room --discs=2 --output=place/room.toml --figure=place/r.png",
-    "robot show": "robot show nao --output=place/model.xml",
-    "walk": "walk --duration=0.5 --output=place/run --figure=place/walk.png",
-    "unicycles": "unicycles --duration=1 --figure=place/game.svg",
-    "tournament": "tournament --seeds=0:2 --duration=1 --evader=aside "
-    "--room=open --workers=1 --output=place --figure=place/front.png",
-    "robustness": f"robustness {WALKS} --output=place",
-    "reproduce": "",
-}
-# They write when others have played, or after minutes of walking.
-APART = {"serve", "robot check", "robot init"}
+from stepaside.cli import main
+from stepaside.errors import StepAsideError
+from stepaside.games.folder import load_run
+
+from .case import Case, told
+from .moments import unwhole
+from .outlets import files_of, quickly, words_of, writers
+from .striking import Strike, struck
+
 REFUSED = 2
+TOP, PLACE, SPARE = "top", "place", "spare"
+RUNS = {"duel", "walk"}  # what they played lies somewhere, however it ends
+SIZE = "4m"  # of a small file system
+
+
+def gone(place: Path) -> None:
+    """Remove a folder."""
+    shutil.rmtree(place, ignore_errors=True)
+
+
+def all_gone(place: Path) -> None:
+    """Remove the folder above, too."""
+    for entry in place.parent.iterdir():  # it may be a mounted one
+        shutil.rmtree(entry)
+    with suppress(OSError):
+        place.parent.rmdir()
+
+
+def taken(place: Path) -> None:
+    """Put a file in a folder's place, so that none can be there again."""
+    shutil.rmtree(place)
+    place.write_text("mine")
+
+
+def full(place: Path) -> None:
+    """Fill the small file system that a folder lies on."""
+    filler = os.open(place.parent / "filler", os.O_WRONLY | os.O_CREAT)
+    try:
+        for size in (2**16, 2**12):
+            with suppress(OSError):
+                while os.write(filler, bytes(size)):
+                    pass
+    finally:
+        os.close(filler)
+
+
+def short_of(place: Path) -> None:
+    """Let no file grow beyond a few bytes, as on a full disk."""
+    limit = resource.getrlimit(resource.RLIMIT_FSIZE)[1]
+    resource.setrlimit(resource.RLIMIT_FSIZE, (10, limit))
+
+
+FAULTS: dict[str, Callable[[Path], None]] = {
+    "gone": gone,
+    "gone with its parent": all_gone,
+    "taken": taken,
+    "full": full,
+    "short of room": short_of,
+}
+
+
+class Told(NamedTuple):
+    """What became of a command.
+
+    Attributes:
+        result: What it said, and its status.
+        strike: What it did to files before and after it was struck.
+    """
+
+    result: Result
+    strike: Strike
 
 
 def place_cases(random: Random, run: Path) -> Iterator[Case]:
-    """Each command, with little room or a folder that goes, without end."""
+    """Each command, with any fault before any touch, without end."""
     while True:
-        for name in WRITES:
-            room = random.choice([0, 10, 1000, 10_000, 50_000])
-            yield _case(name, run, room, None)
-            yield _case(name, run, None, random.random())
+        for name in writers():
+            fault = random.choice(sorted(FAULTS))
+            yield place_case(name, run, fault, random.random())
 
 
-def _case(name: str, run: Path, room: int | None, gone: float | None) -> Case:
-    words = (*MAIN, *WRITES[name].split())
-    if name == "reproduce":
-        words = ("-m", "tests.fuzz.short_reproduce", PLACE)
+def place_case(name: str, run: Path, fault: str, part: float) -> Case:
+    """A command whose place goes, or is full, before one of its touches.
+
+    Args:
+        name: Of the command.
+        run: Folder of a run, for commands that read one.
+        fault: One of ``FAULTS``.
+        part: Of its touches, that are done before, of 1.
+    """
 
     def try_it(folder: Path) -> str:
-        (folder / PLACE).mkdir()
-        shutil.copytree(run, folder / "run")
-        process = start(Trial(words, str), folder)
-        if room is not None:
-            limits = (room, resource.RLIM_INFINITY)
-            resource.prlimit(process.pid, resource.RLIMIT_FSIZE, limits)
-        if gone is not None:
-            sleep(6.0 * gone)
-            shutil.rmtree(folder / PLACE, ignore_errors=True)
-        try:
-            _, said = process.communicate(timeout=240.0)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.communicate()
-            return "hang"
-        if "Traceback" in said:
-            return f"traceback: {said[-700:]!r}"
-        if process.returncode not in (0, REFUSED):
-            return f"status {process.returncode}: {said[-300:]!r}"
-        own = [e for e in said.splitlines() if e.startswith("stepaside:")]
-        if process.returncode == REFUSED and not own:
-            return f"no word: {said[-300:]!r}"
-        return unwhole(folder, killed=False)
+        whole, lacks = undisturbed(name, run)
+        if lacks:
+            return f"not written though nobody disturbs: {lacks}"
+        number = int(part * len(whole.strike.touched))
+        with room_in(folder, small=fault == "full"):
+            found = play(name, run, folder, number, FAULTS[fault])
+            return _wrong(name, folder, fault, found, whole)
 
-    what = f"{room} bytes of room" if gone is None else f"gone at {gone:.2f}"
-    return Case(f"places of {name}", f"{name}, {what}", try_it, 300.0)
+    title = f"{name}, {fault} at {part:.2f}"
+    return Case(f"places of {name}", title, try_it, 300.0)
+
+
+@cache
+def undisturbed(name: str, run: Path) -> tuple[Told, list[str]]:
+    """What a command says and does whose place stays, and does not write."""
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / TOP).mkdir()
+        told = play(name, run, Path(folder), None, gone)
+        files = files_of(name, Path(folder) / TOP / PLACE)
+        return told, [file.name for file in files if not file.exists()]
+
+
+@contextmanager
+def room_in(folder: Path, *, small: bool) -> Iterator[None]:
+    """Make the folder that the place lies in, a small file system if asked.
+
+    Where none can be mounted, no file may grow instead.
+    """
+    (folder / TOP).mkdir()
+    words = ["mount", "-t", "tmpfs", "-o", f"size={SIZE}", "none"]
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    mounted = small and not _run(*words, str(folder / TOP))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        if mounted:
+            _run("umount", "--lazy", str(folder / TOP))
+
+
+def _run(*words: str) -> int:
+    try:
+        return subprocess.run(words, capture_output=True).returncode
+    except OSError:
+        return 1
+
+
+def play(
+    name: str,
+    run: Path,
+    folder: Path,
+    number: int | None,
+    fault: Callable[[Path], None],
+) -> Told:
+    """Run a command in this process, and strike at one of its touches."""
+    place, spare = folder / TOP / PLACE, folder / SPARE
+    place.mkdir()
+    spare.mkdir()
+    strike = Strike(place, number, lambda: fault(place))
+    with ExitStack() as stack:
+        stack.enter_context(patch.object(tempfile, "tempdir", str(spare)))
+        stack.enter_context(quickly())
+        stack.enter_context(struck(strike))
+        result = CliRunner().invoke(main, words_of(name, run, place))
+    return Told(result, strike)
+
+
+def _wrong(
+    name: str, folder: Path, fault: str, found: Told, whole: Told
+) -> str:
+    """What is wrong with what became of a command that was struck."""
+    result = found.result
+    error = result.exception
+    if error is not None and not isinstance(error, SystemExit):
+        return f"traceback: {told(error)}"
+    if result.exit_code not in (whole.result.exit_code, REFUSED):
+        return f"status {result.exit_code}: {result.stderr[-300:]!r}"
+    said = result.stderr.splitlines()
+    refused = False
+    if result.exit_code == REFUSED:
+        ours = [line for line in said if line.startswith("stepaside: ")]
+        if not ours or ours[-1] != said[-1]:
+            return f"no word: {result.stderr[-300:]!r}"
+        refused = "must" in said[-1]  # before anything was computed
+        if not refused and not _is_answer(result.stdout, whole.result.stdout):
+            return f"no result: {said[-1]!r}"
+    else:
+        place = folder / TOP / PLACE
+        for file in files_of(name, place):
+            if not file.exists() and not found.strike.has_done(file):
+                return f"lost: {file.name}"
+    place = folder / TOP / PLACE / "output"
+    if name in RUNS and fault != "short of room" and not refused:
+        if not any(map(_is_run, _folders(folder, said))) and not (
+            found.strike.has_done(place)
+        ):
+            return f"no run: {result.stderr[-300:]!r}"
+    return unwhole(folder, killed=False) or _empty(folder)
+
+
+def _is_answer(text: str, whole: str) -> bool:
+    """Whether something was told as it is told when nothing goes wrong."""
+    if whole.lstrip()[:1] not in ("{", "["):
+        return bool(text.strip()) or not whole.strip()
+    try:
+        json.loads(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _folders(folder: Path, said: list[str]) -> Iterator[Path]:
+    """Where a run may lie: where it should, or where it is said to."""
+    yield from (folder / TOP / PLACE).glob("*")
+    for path in (folder / SPARE).glob("*"):
+        if any(str(path) in line for line in said):
+            yield path
+
+
+def _is_run(folder: Path) -> bool:
+    try:
+        load_run(folder)
+    except (StepAsideError, OSError):
+        return False
+    return True
+
+
+def _empty(folder: Path) -> str:
+    for file in folder.rglob("*"):
+        if file.is_file() and not file.stat().st_size:
+            return f"not whole: {file.name} is empty"
+    return ""

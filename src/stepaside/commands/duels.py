@@ -8,7 +8,7 @@ import click
 
 from ..errors import OutputError
 from ..outputs import check_folder
-from .campaigns import tell_aside
+from .campaigns import Ended, gather, tell_aside
 from .declared.common import (
     FIGURE,
     FOLDER,
@@ -119,19 +119,19 @@ def duels(
         len(seeds) * each / SIMULATED,
         workers,
     )
-    records, stopped = _play(settings, seeds, output, workers)
+    records, ended = _play(settings, seeds, output, workers)
     answer = _answer(settings, seeds, records)
-    failed: OutputError | None = None
-    if output is not None and records:
+    failed = ended.failed
+    if output is not None and records and failed is None:
         from ..studies.results import write_result
 
         try:
             answer = write_result(output / SUMMARY, answer)
-            if not stopped:
+            if ended.whole:
                 _draw(records, answer, output / DRAWN)
         except OutputError as error:
             failed = error
-    if figure is not None and records and not stopped:
+    if figure is not None and records and ended.whole:
         drawn = Path(figure)
         attempt(lambda: _draw(records, answer, drawn))
     if as_json:
@@ -141,7 +141,7 @@ def duels(
         echo(f"\nresults: {output}")
     if failed is not None:
         raise failed
-    if stopped:
+    if ended.stopped:
         done = f"{len(records)} of {len(seeds)} duels"
         leave_stopped(kept_in(done, output and output / RECORDS))
 
@@ -194,8 +194,8 @@ def _play(
     seeds: range,
     output: Path | None,
     workers: int | None,
-) -> tuple[list[dict[str, Any]], bool]:
-    """Play with a progress bar; whether Ctrl-C stopped it."""
+) -> tuple[list[dict[str, Any]], Ended]:
+    """Play with a progress bar, and say how it ended."""
     from tqdm import tqdm
 
     from ..studies.duels import run_duels
@@ -203,7 +203,6 @@ def _play(
 
     file = _file(output)
     done: dict[str, dict[str, Any]] = {}
-    stopped = False
     with (
         tqdm(total=len(seeds), desc="duels", unit="duel", disable=None) as bar,
         worker_pool(workers) as executor,
@@ -213,13 +212,14 @@ def _play(
             bar.n = number
             bar.refresh()
 
-        try:
-            run_duels(settings, seeds, file, executor, report, done)
-        except KeyboardInterrupt:
-            stopped = True
+        ended = gather(
+            lambda: run_duels(settings, seeds, file, executor, report, done),
+            None if file is None else file.path,
+            lambda: done,
+        )
     if file is not None and file.aside:
         tell_aside(file.path.with_name(file.path.name + ".aside"))
-    return sorted(done.values(), key=lambda r: int(r["seed"])), stopped
+    return sorted(done.values(), key=lambda r: int(r["seed"])), ended
 
 
 def _answer(

@@ -37,12 +37,18 @@ def writes_files(function: Callable[..., Any]) -> Callable[..., Any]:
         except ConfigurationError as error:
             raise click.UsageError(str(error)) from error
         before = _files(context)
+        left: SystemExit | None = None
+        answer = None
         try:
             answer = function(**values)
         except KeyboardInterrupt:
             leave_stopped(_kept(before, _files(context)))
+        except SystemExit as status:
+            left = status
         for failed in context.meta.get(FAILED, ())[:1]:
             raise failed
+        if left is not None:
+            raise left
         return answer
 
     return command

@@ -131,7 +131,7 @@ def play(
             own = with_feedback(settings) if joints else settings
             told = PlayRecord(folder, own, options)
             stack.push(told.leave)
-            onlookers.append(told.log)
+            onlookers.append(told)
 
         def session() -> str:
             with ExitStack() as within:

@@ -1,29 +1,36 @@
 """What ``stepaside play --record`` keeps, from the first tick to the end."""
 
 import logging
+import tempfile
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from ..drivers.log import PlayLog
 from ..drivers.session import SessionLost
-from ..errors import StepAsideError
+from ..errors import OutputError, StepAsideError
 from ..games.configuration import dump_configuration, spelled_settings
 from ..games.folder import CONFIGURATION
 from ..games.outcome import Outcome
 from ..games.play_settings import PlaySettings
 from ..games.played import seal_play
 from ..games.settings import EVADER
+from ..outputs import free_file, reason_of
 
 if TYPE_CHECKING:
+    from ..drivers.playing import Tick
+    from ..drivers.velocity.playing import VelocityTick
     from ..games.settings import DuelSettings
 
 
 class PlayRecord:
     """Keeps ticks as they come, and makes a run folder of them at the end.
 
+    A robot plays on if its record cannot be written any more: what there is
+    of it is kept elsewhere at the end.
+
     Attributes:
-        log: What looks on.
+        log: What is kept.
         ended: Why the last session ended; empty while none did.
     """
 
@@ -46,6 +53,22 @@ class PlayRecord:
         text = dump_configuration(self._settings)
         self.log = PlayLog(folder, about, {CONFIGURATION: text})
         self.ended = ""
+        self._failed: OutputError | None = None
+
+    def note(self, tick: "Tick | VelocityTick") -> None:
+        """Keep a tick, if it can be kept."""
+        if self._failed is None:
+            try:
+                self.log.note(tick)
+            except OSError as error:
+                self._fail(error)
+
+    def _fail(self, error: OSError) -> None:
+        if not isinstance(error, OutputError):
+            said = f"could not be written: {reason_of(error)}"
+            error = OutputError(f"{self.log.folder} {said}")
+        self._failed = error
+        logging.warning("nothing more is recorded: %s", error)
 
     def leave(
         self,
@@ -53,15 +76,39 @@ class PlayRecord:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Close the rows and make a run of them, however it ended."""
-        self.log.close()
-        if not self.log.count:
-            return
-        outcome, message = _outcome_of(error, self.ended)
+        """Close the rows and make a run of them, however it ended.
+
+        Raises:
+            OutputError: If it does not lie where it should, and nothing else
+                went wrong.
+        """
+        how = _outcome_of(error, self.ended)
         folder = self.log.folder
         try:
+            if self._failed is None:
+                self.log.close()
+                self._seal(folder, *how)
+        except OSError as failure:
+            self._fail(failure)
+        if self._failed is not None:
+            spare = Path(tempfile.gettempdir()) / f"stepaside-{folder.name}"
+            folder = free_file(spare)
+            try:
+                self.log.copy_to(folder)
+                self._seal(folder, *how)
+            except OSError as failure:
+                logging.warning("%s: %s", folder, reason_of(failure))
+            if error is None:
+                raise self._failed
+
+    def _seal(self, folder: Path, outcome: Outcome, message: str) -> None:
+        if not self.log.count:
+            return
+        try:
             seal_play(folder, self._settings, outcome, message)
-        except (StepAsideError, OSError, ValueError) as failure:
+        except OSError:
+            raise
+        except (StepAsideError, ValueError) as failure:
             logging.warning("%s was not made a run: %s", folder, failure)
         else:
             logging.info("record: %s", folder)

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..outputs import FIGURES
+from ..errors import OutputError
+from ..outputs import FIGURES, reason_of
 from .declared.common import (
     BROWSER,
     PORT,
@@ -112,8 +113,11 @@ def replay(run: Path, as_json: bool, **options: Any) -> None:
     if html is not None:
         from ..report.replay_page import write_page
 
-        if attempt(lambda: write_page(loaded, html)):
+        def page() -> None:
+            write_page(loaded, html)
             written["html"] = _written(html)
+
+        attempt(page)
     if video is not None:
         from ..report.film import write_video
 
@@ -142,7 +146,17 @@ def replay(run: Path, as_json: bool, **options: Any) -> None:
 
 
 def _written(file: Path) -> dict[str, Any]:
-    return {"file": str(file), "bytes": file.stat().st_size}
+    """Name and size of a file that was written.
+
+    Raises:
+        OutputError: If somebody removed it since.
+    """
+    try:
+        return {"file": str(file), "bytes": file.stat().st_size}
+    except OSError as error:
+        raise OutputError(
+            f"{file} is not there any more: {reason_of(error)}"
+        ) from error
 
 
 def _shot(
@@ -203,8 +217,11 @@ def _film(
             bar.total, bar.n = number, done
             bar.refresh()
 
-        if attempt(lambda: write(run, file, shot, report)):
+        def film() -> None:
+            write(run, file, shot, report)
             written[name] = _written(file) | {"pictures": bar.n}
+
+        attempt(film)
 
 
 def _serve(run: Any, options: dict[str, Any]) -> None:

@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from ..errors import OutputError
 from ..outputs import check_folder, writing
 from .campaigns import tell_aside
 from .declared.common import (
@@ -49,42 +50,68 @@ def reproduce(
     Takes some minutes. When stopped, it keeps what is done and goes on there
     next time. The exit status is 1 if a claim fails, else 0.
     """
-    from ..report.claims_page import write_page
-    from ..studies.paper_figures import paper_figures
-    from ..studies.reproduce import provenance
-    from .reproduce_figures import draw_figures, turns_shown
-
     check_folder(output, new=False)
     tell_effort(
         f"every claim of the paper, {runs} runs of those in physics",
         60.0 + 120.0 * runs,
         workers,
     )
-    rows = _measure(output / "rows", range(seed, seed + runs), workers)
+    lost: list[OutputError] = []
+    seeds = range(seed, seed + runs)
+    rows = _measure(output / "rows", seeds, workers, lost)
+    page: Path | None = None
     try:
-        figures = draw_figures(output, seed)
+        if not lost:
+            page = _write_all(output, seed, runs, rows)
     except KeyboardInterrupt:
         leave_stopped(kept_in("all runs, and figures that are whole,", output))
+    except OutputError as error:
+        lost.append(error)
+    _tell(rows, page, as_json)
+    for failed in lost:
+        raise failed
+    if any(row["verdict"] != "holds" for row in rows):
+        raise SystemExit(1)
+
+
+def _write_all(
+    output: Path, seed: int, runs: int, rows: list[dict[str, Any]]
+) -> Path:
+    """Write figures, results and the page about them."""
+    from ..report.claims_page import write_page
+    from ..studies.paper_figures import paper_figures
+    from ..studies.reproduce import provenance
+    from .reproduce_figures import draw_figures, turns_shown
+
+    figures = draw_figures(output, seed)
     made = {"seed": seed, "runs": runs, "jobs": provenance(seed)}
     with writing(output / "claims.json") as draft:
         text = json.dumps(made | {"rows": rows}, indent=1, allow_nan=False)
         draft.write_text(text + "\n", encoding="utf-8")
     beside = paper_figures(rows, *turns_shown())
-    page = write_page(output, rows, beside, figures, made)
-    failed = sum(row["verdict"] != "holds" for row in rows)
+    return write_page(output, rows, beside, figures, made)
+
+
+def _tell(
+    rows: list[dict[str, Any]], page: Path | None, as_json: bool
+) -> None:
+    """Print what was measured, and where the page is if there is one."""
     if as_json:
         print_json(rows)
-    else:
-        for row in rows:
-            echo(f"  {row['verdict']:<6} {row['section']:<13} {row['claim']}")
-        held = len(rows) - failed
-        echo(f"\n{held} of {len(rows)} hold\npage: {page}")
-    if failed:
-        raise SystemExit(1)
+        return
+    for row in rows:
+        echo(f"  {row['verdict']:<6} {row['section']:<13} {row['claim']}")
+    held = sum(row["verdict"] == "holds" for row in rows)
+    echo(f"\n{held} of {len(rows)} hold")
+    if page is not None:
+        echo(f"page: {page}")
 
 
 def _measure(
-    folder: Path, seeds: range, workers: int | None
+    folder: Path,
+    seeds: range,
+    workers: int | None,
+    lost: list[OutputError],
 ) -> list[dict[str, Any]]:
     """Measure on all cores, with a progress bar.
 
@@ -106,6 +133,8 @@ def _measure(
             bar.refresh()
 
         try:
-            return measure(folder, seeds, executor, report, tell_aside)
+            return measure(
+                folder, seeds, executor, report, tell_aside, lost.append
+            )
         except KeyboardInterrupt:
             leave_stopped(kept_in(f"{bar.n} of {bar.total} runs", folder))

@@ -59,7 +59,6 @@ def draw_figures(
         ),
     ]
     kept = Kept(folder / "rows", tell_aside)
-    folder.mkdir(parents=True, exist_ok=True)
     for name, _, draw, settings, rooms in figures:
         key = {
             "figure": name,
@@ -78,9 +77,10 @@ def draw_figures(
 
 def _fingerprint(file: Path) -> str | None:
     """Of what a file holds; None if there is none."""
-    if not file.is_file():
+    try:
+        return sha256(file.read_bytes()).hexdigest()[:12]
+    except OSError:
         return None
-    return sha256(file.read_bytes()).hexdigest()[:12]
 
 
 def turns_shown() -> tuple[float, float]:

@@ -5,6 +5,7 @@ from typing import Any
 
 import click
 
+from ..errors import StepAsideError
 from ..outputs import check_file, check_folder, writing
 from .declared.common import FOLDER, json_option
 from .options import print_json, print_table
@@ -54,16 +55,22 @@ def init(
     else:
         check_folder(folder, "output", new=True)
     derived = derive(model, folder, list(meshes))
-    folder.mkdir(parents=True, exist_ok=True)
-    with writing(file) as draft:
-        draft.write_text(write_description(derived), encoding="utf-8")
-    load_robot(folder)
     facts = facts_of(derived) | {"folder": str(folder), "file": str(file)}
+    failed: Exception | None = None
+    try:
+        with writing(file) as draft:
+            draft.write_text(write_description(derived), encoding="utf-8")
+        load_robot(folder)
+    except (StepAsideError, OSError) as error:
+        failed = error
     if as_json:
         print_json(facts)
-        return
-    _print(facts)
-    echo(f"\nwrote {file}; now: stepaside robot check {folder}")
+    else:
+        _print(facts)
+    if failed is not None:
+        raise failed
+    if not as_json:
+        echo(f"\nwrote {file}; now: stepaside robot check {folder}")
 
 
 def _print(facts: dict[str, Any]) -> None:

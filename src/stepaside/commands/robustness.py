@@ -8,6 +8,7 @@ import click
 
 from ..errors import OutputError
 from ..outputs import check_folder
+from .campaigns import Ended
 from .declared.body import BODY, CONTROL, FEEDBACK, METHOD, PHYSICS
 from .declared.common import (
     FIGURE,
@@ -167,8 +168,8 @@ def robustness(
         tuple(kind for kind in kinds if kind != PERSON),
         *(_once(methods), body, phases, seeds, settings.seed, changes),
     )
-    answer, stopped, failed = _walk_on(settings, asked, output, workers)
-    if PERSON in kinds and not stopped:
+    answer, ended = _walk_on(settings, asked, output, workers)
+    if PERSON in kinds and ended.whole:
         people = {
             "kind": PERSON,
             "sensings": _once(sensings),
@@ -178,23 +179,23 @@ def robustness(
             **({"changes": changes} if changes else {}),
         }
         file = None if output is None else output / "encounters.jsonl"
-        found, stopped = meet_people(
+        found, ended = meet_people(
             settings, _once(sensings), seeds, file, workers
         )
         answer["person"] = found
-        if output is not None and not stopped:
+        if output is not None and ended.whole:
             try:
                 write_people(output, people, found)
             except OutputError as error:
-                failed = error
-    if figure is not None and not stopped and "survival" in answer:
+                ended = Ended(failed=error)
+    if figure is not None and not ended.stopped and "survival" in answer:
         from ..report.robustness_figure import draw_survival
         from ..studies.robustness import UNITS
 
         attempt(lambda: draw_survival(answer["survival"], UNITS, Path(figure)))
-    _tell(answer, output, stopped=stopped, as_json=as_json)
-    if failed is not None:
-        raise failed
+    _tell(answer, output, stopped=ended.stopped, as_json=as_json)
+    if ended.failed is not None:
+        raise ended.failed
     if not as_json:
         echo(f"\nresults: {output}")
 
@@ -204,25 +205,25 @@ def _walk_on(
     asked: Asked,
     output: Path | None,
     workers: int | None,
-) -> tuple[dict[str, Any], bool, OutputError | None]:
+) -> tuple[dict[str, Any], Ended]:
     """Walk under disturbances, if any are asked for.
 
     Returns:
-        What was found, whether Ctrl-C stopped it, and what went wrong when
-        it was written.
+        What was found, and how it ended, or what went wrong when it was
+        written.
     """
     if not asked.kinds:
-        return {}, False, None
+        return {}, Ended()
     grid, cases = plan_walks(asked)
     file = None if output is None else output / "trials.jsonl"
-    results, stopped = run_walks(grid, cases, file, workers)
+    results, ended = run_walks(grid, cases, file, workers)
     answer = answer_walks(settings, asked.body, grid, cases, results)
-    if output is not None and not stopped:
+    if output is not None and ended.whole:
         try:
             write_walks(output, settings, asked, answer)
         except OutputError as error:
-            return answer, stopped, error
-    return answer, stopped, None
+            return answer, Ended(failed=error)
+    return answer, ended
 
 
 def _tell(

@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .campaigns import Ended, gather
 from .terminal import echo
 
 if TYPE_CHECKING:
@@ -15,7 +16,7 @@ def meet_people(
     seeds: int,
     file: Path | None,
     workers: int | None,
-) -> tuple[dict[str, Any], bool]:
+) -> tuple[dict[str, Any], Ended]:
     """Let people come, with a progress bar.
 
     Args:
@@ -26,17 +27,17 @@ def meet_people(
         workers: Processes.
 
     Returns:
-        What was found so far, and whether Ctrl-C stopped it.
+        What was found so far, and how it ended.
     """
     from tqdm import tqdm
 
     from ..studies.encounters import encounters, run_encounters
     from ..studies.people import origin_rows, passing_rows, people_rows
+    from ..studies.trial_results import stamp
     from ..workers import worker_pool
 
     grid = list(encounters(settings, sensings, seeds=seeds))
     done: dict[str, Any] = {}
-    stopped = False
     with (
         tqdm(total=len(grid), desc="people", disable=None) as bar,
         worker_pool(workers) as executor,
@@ -46,10 +47,11 @@ def meet_people(
             bar.n = number
             bar.refresh()
 
-        try:
-            run_encounters(grid, file, executor, report, done)
-        except KeyboardInterrupt:
-            stopped = True
+        ended = gather(
+            lambda: run_encounters(grid, file, executor, report, done),
+            file,
+            lambda: {key: record | stamp() for key, record in done.items()},
+        )
     return {
         "planned": len(grid),
         "done": len(done),
@@ -57,7 +59,7 @@ def meet_people(
         "people": people_rows(grid, done),
         "passers_by": passing_rows(grid, done),
         "origins": origin_rows(grid, done),
-    }, stopped
+    }, ended
 
 
 def write_people(

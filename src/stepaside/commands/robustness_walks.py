@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .campaigns import check_records, tell_campaign
+from .campaigns import Ended, check_records, gather, tell_campaign
 
 if TYPE_CHECKING:
     from ..games.walk_settings import WalkSettings
@@ -115,12 +115,13 @@ def write_walks(
 
 def run_walks(
     grid: list[Any], cases: list[Any], file: Path | None, workers: int | None
-) -> tuple[dict[str, bool], bool]:
-    """Run with a progress bar; whether Ctrl-C stopped it."""
+) -> tuple[dict[str, bool], Ended]:
+    """Run with a progress bar, and say how it ended."""
     from tqdm import tqdm
 
     from ..studies.limits import search_limits
     from ..studies.robustness import run_campaign
+    from ..studies.trial_results import record_of
     from ..workers import worker_pool
 
     check_records(file)
@@ -140,7 +141,7 @@ def run_walks(
             bar.n = number
             bar.refresh()
 
-        try:
+        def work() -> None:
             run_campaign(grid, file, executor, report, done)
             search_limits(
                 cases,
@@ -149,6 +150,9 @@ def run_walks(
                 lambda number: report(len(grid) + number),
                 done,
             )
-        except KeyboardInterrupt:
-            return done, True
-    return done, False
+
+        return done, gather(
+            work,
+            file,
+            lambda: {key: record_of(done[key]) for key in done},
+        )

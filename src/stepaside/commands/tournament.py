@@ -8,6 +8,7 @@ import click
 
 from ..errors import ConfigurationError, OutputError
 from ..outputs import check_folder
+from .campaigns import Ended, gather
 from .declared.arena import BOXES, DISCS, POLYGONS, ArenaType
 from .declared.common import (
     FIGURE,
@@ -171,22 +172,22 @@ def tournament(
         number * (duration / SIMULATED if level == "physics" else steps),
         workers,
     )
-    records, stopped = _play(settings, pairings, seeds, output, workers)
+    records, ended = _play(settings, pairings, seeds, output, workers)
     result = _answer(settings, seeds, records)
-    failed: OutputError | None = None
-    if output is not None and records:
+    failed = ended.failed
+    if output is not None and records and failed is None:
         from ..studies.results import write_result
 
         try:
             result = write_result(output / SUMMARY, result)
         except OutputError as error:
             failed = error
-    if figure is not None and records and not stopped:
+    if figure is not None and records and ended.whole:
         from ..report.tournament_figure import draw_front
 
         if attempt(lambda: draw_front(result["rows"], figure)):
             result["figure"] = figure
-    if paths is not None and records and not stopped:
+    if paths is not None and records and ended.whole:
         from ..report.tournament_figure import draw_worst
 
         games = _worst(settings, result["rows"])
@@ -198,7 +199,7 @@ def tournament(
         print_rows(result["rows"])
     if failed is not None:
         raise failed
-    if stopped:
+    if ended.stopped:
         done = f"{len(records)} of {number} games"
         leave_stopped(kept_in(done, output and output / RECORDS))
 
@@ -209,8 +210,8 @@ def _play(
     seeds: range,
     output: Path | None,
     workers: int | None,
-) -> tuple[list[dict[str, Any]], bool]:
-    """Play with a progress bar; whether Ctrl-C stopped it."""
+) -> tuple[list[dict[str, Any]], Ended]:
+    """Play with a progress bar, and say how it ended."""
     from contextlib import nullcontext
 
     from tqdm import tqdm
@@ -227,7 +228,6 @@ def _play(
     # A pool takes longer to begin than a few games.
     alone = workers == 1 or total <= 2 * settings.block
     done: dict[str, dict[str, Any]] = {}
-    stopped = False
     with (
         tqdm(total=total, unit="game", disable=None, leave=False) as bar,
         nullcontext() if alone else worker_pool(workers) as executor,
@@ -237,17 +237,18 @@ def _play(
             bar.n = number
             bar.refresh()
 
-        try:
-            play_tournament(
+        ended = gather(
+            lambda: play_tournament(
                 settings, pairings, seeds, file, executor, report, done
-            )
-        except KeyboardInterrupt:
-            stopped = True
+            ),
+            None if file is None else file.path,
+            lambda: done,
+        )
     order = {pairing: number for number, pairing in enumerate(pairings)}
     return sorted(
         done.values(),
         key=lambda r: (order[r["evader"], r["pursuer"]], r["seed"]),
-    ), stopped
+    ), ended
 
 
 def _answer(

@@ -79,7 +79,7 @@ class PlayLog:
         seen, state = tick.sighting, tick.state
         row: dict[str, Array | float] = {
             "times_s": tick.time,
-            "sighting": UNSEEN if seen is None else np.array(seen),
+            "sighting": UNSEEN if seen is None else np.array(seen[:3]),
             "state": float(STATES[type(state)].index(state)),
         }
         row |= _moved(tick) if isinstance(tick, Tick) else _driven(tick)
@@ -95,25 +95,43 @@ class PlayLog:
                     "reason": tick.reason,
                 }
             )
-            self._write_words()
+            self._write_words(self.folder)
 
     def _begin(self) -> RowWriter:
         rows = RowWriter(self.folder)
-        for name, text in self._beside.items():
-            (self.folder / name).write_text(text, encoding="utf-8")
+        self._write_beside(self.folder)
         return rows
+
+    def _write_beside(self, folder: Path) -> None:
+        for name, text in self._beside.items():
+            (folder / name).write_text(text, encoding="utf-8")
+
+    def copy_to(self, folder: Path) -> None:
+        """Keep it in another folder, since this one cannot be written.
+
+        Args:
+            folder: Does not exist yet.
+
+        Raises:
+            OSError: If that cannot be written either.
+        """
+        if self._rows is not None:
+            folder.mkdir(parents=True)
+            self._rows.copy_to(folder)
+            self._write_beside(folder)
+            self._write_words(folder)
 
     def close(self) -> None:
         """Write what is left; nothing if there is nothing.
 
         Raises:
-            OutputError: If the system does not let it be written.
+            OSError: If the system does not let it be written.
         """
         if self._rows is not None:
             self._rows.close()
-            self._write_words()
+            self._write_words(self.folder)
 
-    def _write_words(self) -> None:
+    def _write_words(self, folder: Path) -> None:
         kind = type(self._state) if self._state is not None else State
         words = self._about | {
             "states": [state.value for state in STATES[kind]],
@@ -121,7 +139,8 @@ class PlayLog:
             "changes": self._changes,
         }
         text = json.dumps(words, indent=1, allow_nan=False)
-        with writing(self.folder / WORDS) as draft:
+        folder.stat()  # where it is gone, it is not made anew without its rows
+        with writing(folder / WORDS) as draft:
             draft.write_text(text + "\n", encoding="utf-8")
 
 

@@ -1,8 +1,11 @@
 """Rows of numbers on disk, written as they come."""
 
 import json
+import os
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
+from shutil import copyfileobj
 from typing import BinaryIO
 
 import numpy as np
@@ -37,7 +40,7 @@ class RowWriter:
             folder.mkdir(parents=True, exist_ok=True)
             if any(folder.iterdir()):
                 raise ConfigurationError(f"{folder} must be empty")
-            self._file: BinaryIO = (folder / ROWS).open("wb")
+            self._file: BinaryIO = (folder / ROWS).open("w+b")
         except OSError as error:
             raise ConfigurationError(
                 f"cannot write {folder}: {error}"
@@ -69,8 +72,38 @@ class RowWriter:
         if self.count % FLUSHED == 0:
             self._file.flush()
 
+    def copy_to(self, folder: Path) -> None:
+        """Write what there is into another folder, too.
+
+        What has a name no more, for somebody removed the folder, can still
+        be read here until it is closed.
+
+        Args:
+            folder: It exists.
+
+        Raises:
+            OSError: If it cannot be written.
+        """
+        with (
+            os.fdopen(os.dup(self._file.fileno()), "rb") as read,
+            (folder / ROWS).open("wb") as out,
+        ):
+            read.seek(0)
+            copyfileobj(read, out)
+        text = json.dumps(self._columns)
+        (folder / HEADER).write_text(text + "\n", encoding="utf-8")
+        with suppress(OSError):  # the last rows may have no room anywhere
+            self._file.close()
+
     def close(self) -> None:
-        """Write what is left."""
+        """Write what is left.
+
+        Raises:
+            OSError: If it cannot be written, or nobody could find it there;
+                it can be copied then.
+        """
+        self._file.flush()
+        (self._folder / ROWS).stat()
         self._file.close()
 
 

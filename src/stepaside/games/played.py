@@ -8,6 +8,7 @@ import numpy as np
 from ..drivers.lola.safety import State
 from ..drivers.rows import HEADER, ROWS
 from ..drivers.velocity.playing import Driving
+from ..outputs import writing
 from ..poses import Array
 from ..robots.description import load_robot
 from ..unicycle.measure import fit_circle
@@ -95,15 +96,16 @@ def seal_play(
     Raises:
         ConfigurationError: If there are no rows of such a player.
         OSError: If it cannot be written.
+        OutputError: Likewise.
     """
     run = run_of_play(folder, settings, outcome, message)
-    np.savez_compressed(
-        folder / TRAJECTORIES, allow_pickle=False, **run.arrays()
-    )
+    with writing(folder / TRAJECTORIES) as draft:
+        np.savez_compressed(draft, allow_pickle=False, **run.arrays())
     head = Head(FORMAT, run.game, run.players)
     summary = {**head.to_json(), **run.summary.to_json()}
     text = json.dumps(summary, indent=2, allow_nan=False) + "\n"
-    (folder / SUMMARY).write_text(text, encoding="utf-8")
+    with writing(folder / SUMMARY) as draft:
+        draft.write_text(text, encoding="utf-8")
     seal(folder)
     return run
 

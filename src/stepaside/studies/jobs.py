@@ -4,12 +4,20 @@ from collections.abc import Callable
 
 from ..games.settings import DuelSettings
 from . import balance_claims as balance
+from . import evading_claims as evading
 from . import physics_claims as physics
 from . import physics_readings as read
 from . import planner_claims as planner
 from . import unicycle_claims as unicycle
 from .claims import Claim, Job
+from .evading_readings import (
+    WORLDS,
+    measure_evading,
+    measure_room,
+    room_settings,
+)
 from .readings import Readings
+from .tournament_settings import ROOMS
 from .version import LIBRARIES, PHYSICS, PLANNER, UNICYCLES
 
 # Code that readings depend on. Verdicts are found anew each time.
@@ -20,6 +28,9 @@ DUELS = (
     *(*PHYSICS, "studies/readings", "studies/watching"),
     *("studies/walk_measures", "studies/physics_readings"),
 )
+
+STEPS = (*ROOMS, "studies/readings", "studies/evading_readings")
+IN_ROOMS = (*DUELS, "studies/physics_game", "studies/evading_readings")
 
 
 def _game(claims: tuple[Claim, ...], measure: Callable[[], Readings]) -> Job:
@@ -75,5 +86,21 @@ JOBS: dict[str, Job] = {
         read.measure_slip,
         lambda seed: read.slip_settings(seed, slippery=False),
         lambda seed: read.slip_settings(seed, slippery=True),
+    ),
+    "evading": Job(
+        evading.EVADING,
+        measure_evading,
+        STEPS,
+        ("numba", "numpy"),
+        lambda _: repr(WORLDS),
+        seeded=True,
+    ),
+    "rooms": Job(
+        evading.ROOM,
+        measure_room,
+        IN_ROOMS,
+        ("mujoco", "numba", "numpy"),
+        lambda seed: repr(room_settings(seed)),
+        seeded=True,
     ),
 }

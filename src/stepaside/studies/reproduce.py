@@ -5,6 +5,7 @@ from concurrent.futures import Executor, Future, as_completed
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ..errors import OutputError
 from ..workers import give_up
 from .claims import Job, Row
 from .jobs import JOBS
@@ -62,6 +63,7 @@ def reproduce(
     executor: Executor | None = None,
     report: Callable[[int, int], None] | None = None,
     tell: Callable[[Path], None] = lambda file: None,
+    lost: Callable[[OutputError], None] | None = None,
 ) -> list[dict[str, Any]]:
     """Measure every claim; what a folder holds already is kept.
 
@@ -75,9 +77,13 @@ def reproduce(
         executor: Any executor of ``concurrent.futures``; None measures here.
         report: Called with the number of runs done and of all runs.
         tell: Told which files were torn or foreign, and set aside.
+        lost: Told why readings could not be kept, which goes on then.
 
     Returns:
         Rows, as JSON objects.
+
+    Raises:
+        OutputError: If readings cannot be kept and nobody is told.
     """
     kept, plan = Kept(folder, tell), trials(seeds, JOBS)
     found: dict[Trial, Readings] = {}
@@ -97,7 +103,12 @@ def reproduce(
 
     def done(trial: Trial, readings: Readings) -> None:
         found[trial] = readings
-        kept.store(trial.file, key_of(trial, JOBS[trial.job]), readings)
+        try:
+            kept.store(trial.file, key_of(trial, JOBS[trial.job]), readings)
+        except OutputError as error:
+            if lost is None:
+                raise
+            lost(error)
         if report is not None:
             report(len(found), total)
 

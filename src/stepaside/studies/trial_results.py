@@ -30,7 +30,12 @@ def read_results(file: Path | None) -> dict[str, bool]:
 def note_result(file: Path | None, key: str, survived: bool) -> None:
     """Add a result, at once, so that a campaign can be stopped any time."""
     if file is not None:
-        RecordFile(file).append(key, {"survived": survived} | stamp())
+        RecordFile(file).append(key, record_of(survived))
+
+
+def record_of(survived: bool) -> dict[str, Any]:
+    """A result as it is recorded, with what it is of."""
+    return {"survived": survived} | stamp()
 
 
 def stamp() -> dict[str, Any]:

@@ -1,0 +1,120 @@
+"""Where commands write: every option for it, from the command tree."""
+
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, Future
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import Any
+from unittest.mock import patch
+
+import click
+
+from published_humanoid import mjcf
+from stepaside.cli import all_commands
+from stepaside.commands.declared.kinds import OutputFile
+from stepaside.fitting.checking import Checked
+from stepaside.fitting.findings import Finding
+
+from .commands import base_of, options_of
+from .short_reproduce import few_claims
+
+# What makes a command shorter still, and lets it write.
+LITTLE = {
+    "bound": ["--json"],
+    "replay": ["--width=64", "--height=64", "--duration=0.1", "--json"],
+}
+FOUND = Finding("height", "pass", "0.3 m")
+# What they read that read no run, made in a folder.
+READ: dict[str, Callable[[Path], Path]] = {
+    "robot check": lambda _: Path("nao"),
+    "robot init": mjcf,
+}
+# They write when others play with them; see test_play_full.py.
+APART = {"serve", "play"}
+
+
+def outlets(name: str) -> list[click.Option]:
+    """Options of a command that say where to write."""
+    return [option for option in options_of(name) if is_outlet(option)]
+
+
+def is_outlet(option: click.Option) -> bool:
+    """Whether an option says where to write."""
+    kind = option.type
+    if isinstance(kind, click.Path):
+        return not kind.exists
+    return isinstance(kind, OutputFile)
+
+
+def writers() -> list[str]:
+    """Commands that write where they are told, and need nobody for it."""
+    return [n for n in all_commands() if outlets(n) and n not in APART]
+
+
+def files_of(name: str, place: Path) -> list[Path]:
+    """What a command is told to write in a place, all that it can."""
+    return [
+        place / f"{option.name}{(*_suffixes(option), '')[0]}"
+        for option in outlets(name)
+    ]
+
+
+def words_of(name: str, run: Path, place: Path) -> list[str]:
+    """Words of a short command that writes all that it can.
+
+    Args:
+        name: Of the command.
+        run: Folder of a run, for commands that read one; beside it lies what
+            others read.
+        place: Where it shall write.
+    """
+    read = READ[name](run.parent) if name in READ else run
+    words = [*name.split(), *base_of(name, read), *LITTLE.get(name, ())]
+    for option, file in zip(outlets(name), files_of(name, place), strict=True):
+        words.append(f"{option.opts[0]}={file}")
+    return words
+
+
+def _suffixes(option: click.Option) -> tuple[str, ...]:
+    kind = option.type
+    return kind.suffixes if isinstance(kind, OutputFile) else ()
+
+
+class Here(Executor):
+    """Workers that are this process: what is handed in is done at once."""
+
+    def submit(self, *task: Any, **more: Any) -> Future[Any]:
+        """Do it."""
+        future: Future[Any] = Future()
+        try:
+            future.set_result(task[0](*task[1:], **more))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+
+@contextmanager
+def quickly() -> Iterator[None]:
+    """Let commands do a little of their work, and all in this process."""
+    from stepaside.commands import robot_check
+    from stepaside.report import film
+    from stepaside.studies import robustness
+
+    with ExitStack() as stack:
+        for place, name, instead in (
+            ("stepaside.workers", "worker_pool", lambda *_: Here()),
+            (
+                robustness.__name__,
+                "run_trial",
+                lambda trial: (trial.key, True),
+            ),
+            (film.__name__, "worker_pool", lambda *_: Here()),
+            (
+                robot_check.__name__,
+                "_check",
+                lambda *_: Checked((FOUND,), (), feedback=False),
+            ),
+        ):
+            stack.enter_context(patch(f"{place}.{name}", instead))
+        stack.enter_context(few_claims())
+        yield

@@ -1,0 +1,176 @@
+"""Test the claims on evading: every row is red under a fault."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.games.outcome import Outcome
+from stepaside.strategies.steps import StepOutcome, StepTrack
+from stepaside.studies import evading_readings as read
+from stepaside.studies.claims import Claim
+from stepaside.studies.evading_claims import DURATION
+from stepaside.studies.evading_readings import GAME, Played
+from stepaside.studies.jobs import JOBS
+
+BEST = 1.0  # bound of all starts, in [m]
+Fault = Callable[[Played], Played]
+
+
+@pytest.fixture(autouse=True)
+def known_bound(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(read, "bound_of", lambda *_: BEST)
+
+
+def claims(job: str) -> dict[str, Claim]:
+    return {claim.key: claim for claim in JOBS[job].claims}
+
+
+def game(
+    closest: float = 0.7,
+    outcome: StepOutcome = StepOutcome.SURVIVED,
+    clear: float = 0.205,
+    decision: float = 5e-4,
+) -> StepTrack:
+    """A game of three steps, the second of which is the nearest."""
+    pursuer, evader = np.zeros((3, 3)), np.zeros((3, 3))
+    evader[:, 0] = 1.2, closest, 1.1
+    clearances = np.array([0.5, clear, 0.4])
+    return StepTrack(
+        outcome, pursuer, evader, np.zeros(3), clearances, decision, decision
+    )
+
+
+TOUCHED = game(outcome=StepOutcome.TOUCHED, clear=0.19)
+CAUGHT = game(0.34, StepOutcome.CAUGHT)
+
+
+def played() -> Played:
+    """What five games of each are like."""
+    return Played(
+        {
+            "open": {
+                "aside": 5 * (game(0.7),),
+                "deflected": 5 * (game(0.7),),
+                "look-ahead": 5 * (game(0.99),),
+            },
+            "room": {
+                "aside": 5 * (TOUCHED,),
+                "deflected": (*(3 * (TOUCHED,)), *(2 * (game(),))),
+                "look-ahead": 5 * (game(),),
+            },
+        }
+    )
+
+
+def with_games(world: str, evader: str, *games: StepTrack) -> Fault:
+    """Let an evader play other games in a world."""
+
+    def fault(found: Played) -> Played:
+        changed = found.games[world] | {evader: games}
+        return replace(found, games=found.games | {world: changed})
+
+    return fault
+
+
+AHEAD = "look-ahead"
+EVADING: dict[str, tuple[Fault, ...]] = {
+    "farther": (
+        with_games("open", AHEAD, game(0.8)),
+        with_games("open", "aside", game(0.9)),
+    ),
+    "best": (with_games("open", AHEAD, game(0.9), game(0.95)),),
+    "survives": (
+        with_games("room", AHEAD, CAUGHT, CAUGHT, game(), game(), game()),
+        with_games("room", AHEAD, TOUCHED, TOUCHED, game(), game(), game()),
+    ),
+    "clear": (with_games("room", AHEAD, *(4 * (game(),)), game(clear=0.199)),),
+    "aside": (
+        with_games("room", "aside", *(5 * (game(),))),
+        with_games("room", AHEAD, *(5 * (TOUCHED,))),
+    ),
+    "deflected": (
+        with_games("room", "deflected", *(5 * (game(),))),
+        with_games("room", AHEAD, *(3 * (CAUGHT,)), game(), game()),
+    ),
+    "decision": (with_games("room", AHEAD, game(), game(decision=0.03)),),
+}
+
+
+@pytest.mark.parametrize("key", claims("evading"))
+def test_every_claim_on_evading_holds_and_fails(key: str) -> None:
+    claim, right = claims("evading")[key], played()
+    assert claim.holds([read.read_evading(right)[key]])
+    for fault in EVADING[key]:
+        assert not claim.holds([read.read_evading(fault(right))[key]])
+
+
+def duel(
+    outcome: Outcome = Outcome.COMPLETED,
+    touched: tuple[str, ...] = (),
+    duration: float = DURATION,
+) -> Any:
+    """What is read of a duel in a room."""
+    return SimpleNamespace(
+        outcome=outcome,
+        duration=duration,
+        summary=SimpleNamespace(touched=touched),
+    )
+
+
+CONTACT = Outcome.CONTACT
+BOTH = ("evader", "pursuer")
+ROOM: dict[str, tuple[tuple[Any, float], ...]] = {
+    "touched": (
+        (duel(CONTACT, ("disc 1", "evader"), 9.0), 0.02),
+        (duel(Outcome.FALL, (), 9.0), 0.02),
+    ),
+    "clear": ((duel(), -0.001),),
+    "free": (
+        (duel(CONTACT, BOTH, 9.0), 0.02),
+        (duel(CONTACT, BOTH), 0.02),
+        (duel(Outcome.FALL, (), 30.0), 0.02),
+        (duel(duration=30.0), 0.02),
+    ),
+}
+
+
+@pytest.mark.parametrize("key", claims("rooms"))
+def test_every_claim_in_rooms_holds_and_fails(key: str) -> None:
+    claim = claims("rooms")[key]
+
+    def reading(run: Any, least: float) -> float:
+        clear = {"pursuer": 0.3, "evader": least}
+        return read.read_room(run, lambda _, name: clear[name])[key]
+
+    assert claim.holds([reading(duel(), 0.02)])
+    for run, least in ROOM[key]:
+        assert not claim.holds([reading(run, least)])
+
+
+def test_games_of_a_seed_are_of_its_own_rooms(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked: list[tuple[str, int]] = []
+
+    def one(world: Any, pairing: tuple[str, str], seed: int) -> Any:
+        asked.append((pairing[0], seed))
+        assert world.game is GAME and pairing[1] == "pure"
+        return None, game()
+
+    monkeypatch.setattr(read, "play_track", one)
+    found = read.play(3)
+    assert {seed for _, seed in asked} == set(range(15, 20))
+    assert found.survived("aside") == 1.0
+    assert found.closest("look-ahead") == pytest.approx(0.7)
+
+
+def test_the_duels_in_rooms_are_those_of_the_claim() -> None:
+    settings = read.room_settings(4)
+    assert settings.seed == 4 and settings.duration == DURATION
+    assert settings.map.source == "given"
+    assert settings.room.plan is not None
+    assert len(settings.room.plan.obstacles) == 3
