@@ -1,6 +1,7 @@
 """Ctrl-C is neither lost nor mistaken, whenever it comes."""
 
 import signal
+import subprocess
 import sys
 from collections.abc import Callable
 from typing import Any
@@ -12,6 +13,7 @@ from stepaside.games.player_record import Record
 from stepaside.games.walk import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.interrupting import Held, interrupt, is_loading, stoppable
+from stepaside.studies.version import ROOT
 
 LOADERS = """
 class {name}:
@@ -46,6 +48,14 @@ def test_an_import_itself_is_not_interrupted_but_what_it_runs_is() -> None:
     assert inner["seen"]
     exec(compile(code, "module.py", "exec"), inner)
     assert not inner["seen"]
+
+
+def test_a_process_that_a_library_asks_as_it_loads_is_waited_for() -> None:
+    asked: dict[str, Any] = {"found": is_loading, "frame": sys._getframe}
+    text = "def ask(): return found(frame())"
+    exec(compile(text, subprocess.__file__, "exec"), asked)
+    assert loader("SourceFileLoader")(asked["ask"])
+    assert not asked["ask"]()
 
 
 @pytest.mark.parametrize("sign", SIGNALS)
@@ -159,3 +169,20 @@ def test_a_record_is_whole_whenever_ctrl_c_comes(
         if array is not None
     }
     assert lengths == {len(run.times)}
+
+
+def test_little_is_loaded_before_it_is_known_what_ctrl_c_does() -> None:
+    """What is loaded while nobody listens cannot be interrupted in a line."""
+    code = (
+        f"import sys; sys.path.insert(0, {str(ROOT.parent)!r}); "
+        "before = set(sys.modules); import stepaside; "
+        "print(*sorted(set(sys.modules) - before))"
+    )
+    said = subprocess.run(
+        [sys.executable, "-I", "-S", "-c", code],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    loaded = set(said.stdout.split())
+    assert "stepaside" in loaded and not loaded & {"enum", "re", "typing"}
