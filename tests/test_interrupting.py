@@ -3,6 +3,7 @@
 import signal
 import subprocess
 import sys
+import threading
 from collections.abc import Callable
 from typing import Any
 
@@ -82,6 +83,25 @@ class Lost:
 
 
 def test_an_interrupt_that_nobody_could_be_told_comes_again() -> None:
+    with stoppable(), pytest.raises(KeyboardInterrupt):
+        Lost()
+        while True:
+            pass
+
+
+def test_an_interrupt_while_a_lost_one_is_sent_again_is_not_lost(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """As on a busy machine, where the moment is over before it began."""
+    start = threading.Timer.start
+    slow = iter([True])
+
+    def starts(timer: threading.Timer) -> None:
+        start(timer)
+        if next(slow, False):
+            timer.join()
+
+    monkeypatch.setattr(threading.Timer, "start", starts)
     with stoppable(), pytest.raises(KeyboardInterrupt):
         Lost()
         while True:

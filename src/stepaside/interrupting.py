@@ -119,6 +119,8 @@ def is_loading(frame: FrameType | None) -> bool:
     while frame is not None:
         code = frame.f_code
         waits |= code.co_filename == ASKING
+        if code is _again_if_lost.__code__:  # nobody could be told of this
+            return True
         if code.co_filename.startswith(IMPORTING):
             loader = frame.f_locals.get("self")
             if (
