@@ -200,3 +200,13 @@ def test_from_one_person_to_another_nobody_walks() -> None:
         speeds.append(made.memory[-1].velocity)
     assert speeds[6] is None and speeds[5] is not None
     assert speeds[-1] == pytest.approx((0.0, 0.0), abs=1e-9)
+
+
+def test_nobody_begins_to_walk_for_who_is_not_watched_long_enough() -> None:
+    """A robot under way goes on all the same."""
+    made = decisions()
+    seen = Sighting(0.0, 0.3, 1.0)
+    assert made.starts(0.0, seen)
+    assert not made.starts(0.0, seen._replace(settled=False))
+    intent = made.decide(0.0, seen._replace(settled=False), moving=True)
+    assert intent.walks

@@ -170,7 +170,7 @@ def test_at_what_rests_the_head_only_glances() -> None:
 
 def test_who_comes_is_looked_at_and_who_leaves_is_not() -> None:
     assert looks(3.0, -0.5, 5.0, 0.03) > 0.9
-    assert looks(1.5, 0.5, 8.0, 0.03) < 0.3
+    assert looks(1.5, 0.5, 8.0, 0.03) < 0.45
 
 
 def test_what_is_too_near_to_be_seen_sharply_is_watched() -> None:
@@ -202,3 +202,29 @@ def test_a_glance_back_and_forth_is_no_walk() -> None:
     swaying = followed(*[(1.0 + 0.05 * (-1) ** i, 0.0) for i in range(20)])
     assert not swaying.walked
     assert nearest(swaying, 2.0, 0.0, 0.0) > 0.6
+
+
+@pytest.mark.parametrize(
+    ("begin", "speed", "wait"), [(3.0, -0.6, 0.6), (1.4, -0.8, 0.3)]
+)
+def test_where_somebody_goes_is_told_after_a_while_of_watching(
+    begin: float, speed: float, wait: float
+) -> None:
+    """At once, nearly, of somebody who turns up near by."""
+    track = followed((begin, 0.0))
+    people, settled = People(), []
+    for i in range(1, 20):
+        now, x = 0.05 * i, begin + 0.05 * i * speed
+        place = Observation(now, x, 0.0, 0.0, 0.03, 0.03, False, True)
+        track.correct(place)
+        settled.append(people.settled(track, now, x))
+    assert settled[-1] and not settled[0]
+    assert 0.05 * (1 + settled.index(True)) == pytest.approx(wait, abs=0.26)
+    # After a gap the watch begins anew, of somebody known whatever the time.
+    track.correct(Observation(2.0, x, 0.0, 0.0, 0.03, 0.03, False, True))
+    assert not people.settled(track, 2.1, x)
+    for i in range(14):
+        now = 2.05 + 0.05 * i
+        track.correct(Observation(now, x, 0.0, 0.0, 0.03, 0.03, False, True))
+    assert people.settled(track, now, x)
+    assert not people.settled(track, now + 0.35, x)

@@ -7,17 +7,19 @@ import pytest
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
 from stepaside.world.camera_settings import RoomSettings, Thing
-from stepaside.world.room import furnisher
+from stepaside.world.room import LOWER, furnisher
 
 HEAD = load_head(load_robot("nao"))
 
 
-def furnished(room: RoomSettings) -> tuple[mujoco.MjModel, mujoco.MjData]:
+def furnished(
+    room: RoomSettings, *, lower: bool = False
+) -> tuple[mujoco.MjModel, mujoco.MjData]:
     spec = mujoco.MjSpec()
     spec.worldbody.add_body(name="me/head", pos=[1.0, 2.0, 0.5]).add_geom(
         type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[0.05, 0, 0], mass=0.6
     )
-    furnisher(room, "me", HEAD)(spec)
+    furnisher(room, "me", HEAD, lower=lower)(spec)
     model = spec.compile()
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
@@ -145,3 +147,20 @@ def test_the_depth_camera_is_worn_without_weight_behind_its_window() -> None:
     assert model.geom_contype[housing] == 0 == model.geom_conaffinity[housing]
     black = (0.1, 0.1, 0.1, 1.0)
     np.testing.assert_allclose(model.geom_rgba[housing], black, rtol=1e-6)
+
+
+def test_the_lower_camera_looks_where_its_mount_has_it() -> None:
+    """Along its own -z, with x to the right; nobody has it unasked."""
+    model, data = furnished(RoomSettings(walls=0.0), lower=True)
+    mujoco.mj_camlight(model, data)
+    camera, mount = model.camera(f"me/{LOWER}").id, HEAD.bottom
+    assert mount is not None
+    place = np.array([1.0, 2.0, 0.5]) + mount.place
+    np.testing.assert_allclose(data.cam_xpos[camera], place, atol=1e-9)
+    right, up, back = data.cam_xmat[camera].reshape(3, 3).T
+    forward, left, upward = mount.axes.T
+    np.testing.assert_allclose(back, -forward, atol=1e-9)
+    np.testing.assert_allclose(right, -left, atol=1e-9)
+    np.testing.assert_allclose(up, upward, atol=1e-9)
+    assert forward[2] == pytest.approx(-np.sin(np.radians(39.7)))
+    assert furnished(RoomSettings(walls=0.0))[0].ncam == 0

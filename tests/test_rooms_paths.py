@@ -8,6 +8,7 @@ import pytest
 from stepaside.poses import Pose
 from stepaside.rooms import Disc, Obstacle, RoomRecipe, box, make_room
 from stepaside.rooms.paths import first_point
+from stepaside.rooms.standing import standing
 from stepaside.strategies import Knowledge, Limits, Pursuit
 
 RADIUS = 0.2
@@ -122,3 +123,12 @@ def test_who_sees_the_other_past_a_pillar_does_not_walk_into_it() -> None:
     away = Disc(0.55, 0.0, 0.15)
     free = Knowledge(0.0, other, 1.0, LIMITS, pose=here, obstacles=(away,))
     assert Pursuit().decide(free, None)[0].heading == other
+
+
+def test_all_that_stands_is_as_far_as_each_of_it() -> None:
+    room = make_room(RoomRecipe(discs=2, boxes=1, polygons=2, doors=1), 3)
+    points = np.random.default_rng(4).uniform(-1.6, 1.6, (300, 2))
+    expected = np.stack([s.clearance(points) for s in room.solids], axis=1)
+    found = standing(tuple(room.solids)).clearances(points)
+    np.testing.assert_allclose(found, expected, atol=1e-12)
+    assert standing(()).clearances(points).shape == (300, 0)

@@ -28,6 +28,7 @@ from stepaside.steps.search import look_ahead
 from stepaside.steps.value import value_at
 from stepaside.strategies.tables import value_table
 
+FACED = Pose(1.0, 1.0, 3.9)
 RULES = StepRules(0.04, 0.08, 0.04, 0.08)
 ROOM = make_room(RoomRecipe(discs=3, boxes=2, polygons=2, doors=1), 4)
 
@@ -235,3 +236,18 @@ def test_it_turns_on_the_spot_first_only_if_that_is_better(seed: int) -> None:
         here = step_both(here, *half_turn(0.5 * turn), rules)
         score = judge(here, score, aims, packed)
     assert score == pytest.approx(found.score, abs=1e-9)
+
+
+def test_a_search_ends_when_it_has_rolled_out_enough() -> None:
+    """What it has by then counts; one maneuver is always whole."""
+    both, packed = place(FACED, Pose(0.3, 0.4, 0.0)), pack(ROOM.solids)
+    turns = np.linspace(-0.25, 0.25, 7)
+    maneuvers = Maneuvers(np.array([2, 4, 8]), turns, 20, spots=12)
+    aims = Aims(9.0, tight=inf)
+    whole = look_ahead(both, (), maneuvers, RULES, aims, packed, NO_VALUE)
+    assert whole.steps > 2000
+    for most in (0, 100, 1000):
+        short = maneuvers._replace(most=most)
+        found = look_ahead(both, (), short, RULES, aims, packed, NO_VALUE)
+        assert found.steps < most + 40 + 12
+        assert found.score <= whole.score

@@ -63,3 +63,45 @@ def passers_by(*results: Mapping[str, Any]) -> str:
             for row in result["passers_by"]
         ],
     )
+
+
+def seen(*results: Mapping[str, Any]) -> str:
+    """Those who come at a robot that sees them, and those who pass."""
+    rows = []
+    for result in results:
+        settings = result["settings"]
+        body, speed = settings["body"], f"{settings['speed_m_s']:g}"
+        rows += [
+            (
+                *(body, speed, "the front" if ahead else "behind"),
+                *(str(row["number"]), str(row["contacts"])),
+                str(row["falls"]),
+                number(row["closest_m"], 2),
+                number(row["mean_closest_m"], 2),
+                number(row["triggered_at_m"], 1),
+            )
+            for row in result["came"]
+            for ahead in [row["from"] == "ahead"]
+        ]
+    head = (
+        *("body", "speed [m/s]", "come from", "people", "touched", "fell"),
+        *("closest [m]", "mean [m]", "begun at [m]"),
+    )
+    return table(head, rows)
+
+
+def passed_by(*results: Mapping[str, Any]) -> str:
+    """False triggers of a robot that sees people pass."""
+    return table(
+        ("body", "speed [m/s]", "passers-by", "false triggers", "touched"),
+        [
+            (
+                result["settings"]["body"],
+                f"{result['settings']['speed_m_s']:g}",
+                str(result["passed"]["number"]),
+                str(result["passed"]["false_triggers"]),
+                str(result["passed"]["contacts"]),
+            )
+            for result in results
+        ],
+    )

@@ -41,3 +41,21 @@ def outcomes(result: Mapping[str, Any]) -> str:
             for row in result["summary"]
         ],
     )
+
+
+def polygons(result: Mapping[str, Any]) -> str:
+    """What a decision costs, by how much a map holds."""
+    parts = ("look-ahead", "pursuit", "guard")
+    return table(
+        ("polygons", *(f"{part} [ms]" for part in parts), "longest [ms]"),
+        [
+            (
+                interval(*row["polygons"], 0),
+                *(number(row[part]["median_ms"], 2) for part in parts),
+                ", ".join(
+                    number(row[part]["longest_ms"], 1) for part in parts
+                ),
+            )
+            for row in result["rows"]
+        ],
+    )

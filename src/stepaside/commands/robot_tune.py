@@ -77,8 +77,8 @@ def _search(
         tqdm(desc="tune", unit="gait", disable=None) as bar,
     ):
 
-        def report(tried: int, least: float) -> None:
-            bar.n = tried
+        def report(tried: int, of: int, least: float) -> None:
+            bar.n, bar.total = tried, of
             bar.set_postfix_str(f"unsteadiness {least:.2f}")
 
         try:

@@ -103,7 +103,8 @@ class Decisions:
         intent, memory = self._ask(known)
         if not intent.walks:
             self.memory = memory
-        return intent.walks
+        # The first steps of somebody tell little of where the way leads.
+        return intent.walks and seen.settled
 
     def decide(
         self, now: float, seen: Sighting | None, *, moving: bool

@@ -24,7 +24,7 @@ from .motors import (
     published_speeds,
     published_torques,
 )
-from .posture import knee_limits, reach_of, standing_of
+from .posture import knee_limits, reach_of, standing_of, stiff_joints
 from .rehearsal import lengths_share, torque_share
 from .survey import Survey, survey
 
@@ -92,7 +92,8 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
     description = _structure(
         found, folder, places, sole, gains_of(found, torques, guess), speeds
     )
-    lowest, highest = _heights(description, spacing, sole)
+    stiff = stiff_joints(found)
+    lowest, highest = _heights(description, spacing, sole, stiff)
     height = HIGH * highest
     description = replace(
         description,
@@ -224,8 +225,13 @@ def _heights(
     description: RobotDescription,
     spacing: float,
     sole: tuple[float, float, float, float],
+    stiff: list[str],
 ) -> tuple[float, float]:
-    """Least and greatest height of the CoM with the feet abreast, in [m]."""
+    """Least and greatest height of the CoM with the feet abreast, in [m].
+
+    Raises:
+        ModelError: If there is none; names joints that do not bend.
+    """
     ahead = 0.45 * (sole[0] + sole[1])
     half = 0.5 * spacing
     stance = BodyReference(
@@ -237,9 +243,13 @@ def _heights(
         try:
             kinematics.stand(stance)
         except ReachError as error:
+            why = str(error)
+            if stiff:
+                why = f"see the ranges of {', '.join(stiff)}, which cannot "
+                why += "bend as legs with bent knees do"
             raise ModelError(
                 f"{description.name} can stand at no height with its feet "
-                f"{spacing:.3f} m apart: {error}"
+                f"{spacing:.3f} m apart: {why}"
             ) from error
     return kinematics.lowest_com(stance), highest
 

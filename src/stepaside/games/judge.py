@@ -111,6 +111,8 @@ class Judge:
             return
         is_colour = isinstance(percept, ColourImage)
         mount = self._head.top if is_colour else self._head.depth
+        if isinstance(percept, ColourImage) and percept.low:
+            mount = self._head.bottom or mount
         place, axes = self._camera(mount)
         target = np.array([*self._other.position, self._height()])
         point = axes.T @ (target - place)

@@ -68,7 +68,10 @@ class Seeing:
         self._settings, self._description = settings, description
         self._head = load_head(description)
         self.renderer = choose_renderer(settings.cameras.colour.renderer)
-        self.furnish = furnisher(settings.room, "evader", self._head)
+        self._people = settings.pursuer == "person"
+        self.furnish = furnisher(
+            settings.room, "evader", self._head, lower=self._people
+        )
         self._maps = (
             settings.room.plan is not None and settings.map.source == "seen"
         )
@@ -80,7 +83,7 @@ class Seeing:
                 tick=tick,
                 floor=FloorMap() if self._maps else None,
                 glances=GLANCES[name] if self._maps else None,
-                people=settings.pursuer == "person",
+                people=self._people,
             )
             for name in names
         }
@@ -96,6 +99,9 @@ class Seeing:
             self.renderer,
             self._settings.seed,
             with_depth=self._maps or name == "evader",
+            looks_low=self.perceptions[name].looks_low
+            if self._people
+            else None,
         )
 
     def judge(

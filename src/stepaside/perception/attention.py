@@ -45,6 +45,15 @@ class Attention(Protocol):
             y: Likewise.
         """
 
+    def settled(self, track: Track, now: float, away: float) -> bool:
+        """Whether it is known well enough to begin to move.
+
+        Args:
+            track: What counts.
+            now: Time, in [s].
+            away: Its distance, in [m].
+        """
+
 
 class OneRobot:
     """Looks for a robot that is known by its trim."""
@@ -74,3 +83,7 @@ class OneRobot:
             if named or track.away_from(x, y, now) < STARE or moves:
                 return track
         return None
+
+    def settled(self, track: Track, now: float, away: float) -> bool:
+        """Always: where a robot is that is near decides."""
+        return True

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from math import hypot
 
-from ..sensing.track import Track
+from ..sensing.track import LAPSE, Track
 from ..sensing.tracker import Tracker
 from .attention import STARE, UNSEEN
 
@@ -11,7 +11,12 @@ AHEAD = 4.0  # for which somebody is taken to walk on, in [s]
 COMES = 1.0  # who comes nearer than this is not let out of sight, in [m]
 KEPT = 0.3  # by which another must come nearer to count instead, in [m]
 GLANCE = 0.6  # for which anything else is looked at, in [s]
-AWAY = 3.0  # from one such glance to the next, in [s]
+AWAY = 3.0  # from one such glance to the next at what rests, in [s]
+AGAIN = 1.0  # the same at who walks, in [s]
+WATCHED = 0.6  # for which somebody must be seen who is to move it, in [s]
+NEW = 1.0  # since when nobody knew of somebody, in [s]
+SOON = 1.6  # time in which somebody new would be near, in [s]
+NEAR = 0.7  # in [m]
 
 
 class People:
@@ -69,11 +74,26 @@ class People:
             if not (track.confirmed or track.away_from(x, y, now) < STARE):
                 continue
             since = now - self._glanced.setdefault(track, now)
-            if since > GLANCE + AWAY:
+            pause = AGAIN if track.walked else AWAY
+            if since > GLANCE + pause:
                 self._glanced[track], since = now, 0.0
             if since < GLANCE:
                 return track
         return None
+
+    def settled(self, track: Track, now: float, away: float) -> bool:
+        """Whether it was watched for a while, or there is no time for that.
+
+        Of whom the head only sweeps by, parts are seen, and their middles
+        seem to walk; and the first steps of a way do not tell where it
+        leads. Only somebody who turns up near by leaves no time to see.
+        """
+        if now - track.seen_at > LAPSE:
+            return False
+        if now - track.watched_since >= WATCHED:
+            return True
+        speed = hypot(*track.velocity)
+        return now - track.begun_at < NEW and away - NEAR < SOON * speed
 
 
 def nearest(track: Track, now: float, x: float, y: float) -> float:

@@ -16,6 +16,7 @@ from ..sensing.measurement import Measurement, Sighting
 from ..sensing.track import Observation, Track
 from ..sensing.tracker import Tracker
 from .attention import UNSEEN, Attention, OneRobot
+from .feet import Feet
 from .floor_map import FloorMap
 from .frame_report import FrameReport
 from .gaze import Gaze, Glances
@@ -74,6 +75,7 @@ class Perception:
         """
         self._attention: Attention = People() if people else OneRobot()
         self._people = people
+        self._feet = Feet() if people and head.bottom is not None else None
         self.floor = floor
         self._glances = None if glances is None else Glances(tick, glances)
         self._head = head
@@ -129,6 +131,14 @@ class Perception:
         """Whether it looks around, before it says anything of the other."""
         return self.floor is not None and self._gaze.turned < BOTH
 
+    def looks_low(self) -> bool:
+        """Whether the lower camera of the head is asked for images."""
+        if self._feet is None or self.body is None:
+            return False
+        now, (x, y, _) = self.body.time, self.body.torso
+        main = self._attention.main(self._tracker, now, x, y)
+        return self._feet.wanted(main, now, x, y, self.body.yaw)
+
     def _see(
         self, measurement: Measurement, body: BodyPose
     ) -> Sighting | None:
@@ -149,7 +159,8 @@ class Perception:
             bearing = wrap_angle(track.turned_to(x, y, now) - heading)
             away = track.away_from(x, y, now)
             who = track.number if self._people else 0
-            self.sighting = Sighting(now, bearing, away, who)
+            settled = self._attention.settled(track, now, away)
+            self.sighting = Sighting(now, bearing, away, who, settled)
         return self.sighting
 
     def aim(self, joint_targets: Array) -> None:
@@ -189,7 +200,13 @@ class Perception:
     def _take_colour(
         self, image: ColourImage, body: BodyPose, now: float
     ) -> None:
+        if image.low:
+            self._take_low(image, body)
+            return
         place, axes = camera_of(body, self._head.top)
+        if self._feet is not None:
+            own, tracks = body.torso[:2], self._tracker.tracks
+            self._feet.learn(image, place, axes, own, tracks)
         found = self._detector.detect(image)
         azimuths: tuple[float, ...] = ()
         seen: list[Observation] = []
@@ -199,6 +216,16 @@ class Perception:
             seen = [observe_trim(image, found, place, axes, look, tracks)]
         self.reports.append(FrameReport(image, azimuths, colour=found))
         self._observe(seen, image, place, axes, named=True)
+
+    def _take_low(self, image: ColourImage, body: BodyPose) -> None:
+        if self._feet is None or self._head.bottom is None:
+            return
+        place, axes = camera_of(body, self._head.bottom)
+        seen = self._feet.observe(image, place, axes, body.torso[:2])
+        ahead = atan2(axes[1, 0], axes[0, 0])
+        azimuths = tuple(wrap_angle(each.bearing - ahead) for each in seen)
+        self.reports.append(FrameReport(image, azimuths))
+        self._tracker.observe(seen, founds=False, walkers=True)
 
     def _take_depth(
         self, image: DepthImage, body: BodyPose, now: float

@@ -56,6 +56,8 @@ class HeadDescription:
         depth: Mount of the depth camera on the body.
         housing: Size of the depth camera, in [m]: depth, width, height.
         sonars: Mounts of the sonars on the torso, by name.
+        bottom: Mount of a second colour camera, which looks down, if there
+            is one.
     """
 
     body: str
@@ -67,6 +69,7 @@ class HeadDescription:
     depth: Mount
     housing: tuple[float, float, float]
     sonars: dict[str, Mount]
+    bottom: Mount | None = None
 
 
 def load_head(description: RobotDescription) -> HeadDescription:
@@ -92,6 +95,7 @@ def load_head(description: RobotDescription) -> HeadDescription:
                 name: Mount(np.array(s["place"]), rotation(*s["turn"]))
                 for name, s in entries["sonar"].items()
             },
+            _camera(entries["bottom"]) if "bottom" in entries else None,
         )
     except OSError as error:
         raise ModelError(

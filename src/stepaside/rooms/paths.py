@@ -5,11 +5,11 @@ from functools import lru_cache
 from math import ceil, cos, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..poses import Array
 from .room import Obstacle
 from .shapes import Disc
+from .standing import standing
 
 ARC = pi / 8  # of a corner that one edge of a way goes around, in [rad]
 KEPT = 0.4  # by which a way must be shorter to change sides, in [m]
@@ -42,16 +42,13 @@ def first_point(
         The end if the way there is straight, or if there is none; else the
         first corner of the shortest way.
     """
-    floor = _floor(tuple(solids), radius)
-    near = np.array([start, end])
-    allowed = np.array(
-        [
-            min(radius, float(solid.clearance(near).min()) - 1e-9)
-            for solid in solids
-        ]
-    )
-    if floor.free(allowed, near[0], near[1:])[0]:
+    known = tuple(solids)
+    near, around = np.array([start, end]), standing(known)
+    clear = around.clearances(near).min(axis=0)
+    allowed = np.minimum(radius, clear - 1e-9)
+    if around.free(allowed, near[0], near[1:])[0]:
         return end
+    floor = _floor(known, radius)
     corners = floor.corners
     count = len(corners)
     out = floor.ways(allowed, near[0])
@@ -86,19 +83,10 @@ class _Floor:
 
     def __init__(self, solids: tuple[Obstacle, ...], radius: float) -> None:
         """Find the corners for a disc of a radius, in [m]."""
-        discs = [(n, s) for n, s in enumerate(solids) if isinstance(s, Disc)]
-        self._discs = np.array([n for n, _ in discs], dtype=np.int64)
-        self._centres = np.array([s.centre for _, s in discs]).reshape(-1, 2)
-        self._radii = np.array([s.radius for _, s in discs])
-        begins, ends, owners = [np.zeros((0, 2))], [np.zeros((0, 2))], []
-        for number, solid in enumerate(solids):
-            if not isinstance(solid, Disc):
-                begins.append(solid.points)
-                ends.append(np.roll(solid.points, -1, axis=0))
-                owners += [number] * len(solid.points)
-        self._begins, self._ends = np.concatenate(begins), np.concatenate(ends)
-        self._owners = np.array(owners, dtype=np.int64)
-        self.corners = _corners(solids, radius)
+        self._standing = standing(solids)
+        corners = _corners(solids, radius)
+        clear = self._standing.clearances(corners) >= radius
+        self.corners: Array = corners[clear.all(axis=1)]
         self._allowed = np.full(len(solids), radius)
         self._between: dict[int, Array] = {}
 
@@ -112,63 +100,18 @@ class _Floor:
     def ways(self, allowed: Array, place: Array) -> Array:
         """Lengths of straight ways to all corners; infinite if not free."""
         found: Array = np.where(
-            self.free(allowed, place, self.corners),
+            self._standing.free(allowed, place, self.corners),
             np.hypot(*(self.corners - place).T),
             np.inf,
         )
         return found
 
-    def free(
-        self, allowed: Array, start: Array, ends: Array
-    ) -> NDArray[np.bool_]:
-        """Whether lines keep as far from everything as they must.
-
-        Args:
-            allowed: Distance from each solid, in [m], which start and ends
-                keep. Shape (solids,).
-            start: Where all lines begin, in [m]. Shape (2,).
-            ends: Where they end. Shape (n, 2).
-        """
-        around = np.maximum(1e-3, self._radii + allowed[self._discs])
-        clear = allowed[self._owners]
-        free: NDArray[np.bool_] = np.all(
-            _apart(self._centres, start, ends) > around, axis=1
-        )
-        free &= (_apart(self._begins, start, ends) >= clear).all(axis=1)
-        free[free] &= ~self._met(start, ends[free])
-        return free
-
-    def _met(self, start: Array, ends: Array) -> NDArray[np.bool_]:
-        """Whether lines from a place meet an edge. Shape (n,)."""
-        edges, along = self._ends - self._begins, ends - start
-        to = self._begins - start
-        cross = along[:, :1] * edges[:, 1] - along[:, 1:] * edges[:, 0]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            ahead = (to[:, 0] * edges[:, 1] - to[:, 1] * edges[:, 0]) / cross
-            aside = (to[:, 0] * along[:, 1:] - to[:, 1] * along[:, :1]) / cross
-        inside = (ahead >= 0.0) & (ahead <= 1.0)
-        met: NDArray[np.bool_] = np.any(
-            inside & (aside >= 0.0) & (aside <= 1.0), axis=1
-        )
-        return met
-
 
 _floor = lru_cache(maxsize=16)(_Floor)
 
 
-def _apart(points: Array, start: Array, ends: Array) -> Array:
-    """Distances of points from lines, in [m]. Shape (lines, points)."""
-    along, away = ends - start, points - start
-    squares = np.maximum((along**2).sum(axis=1), 1e-300)
-    share = np.clip(along @ away.T / squares[:, None], 0.0, 1.0)
-    found: Array = np.hypot(
-        away[:, 0] - share * along[:, :1], away[:, 1] - share * along[:, 1:]
-    )
-    return found
-
-
 def _corners(solids: tuple[Obstacle, ...], radius: float) -> Array:
-    """Corners of the ways around solids, in [m]. Shape (n, 2)."""
+    """Corners of the ways around each solid alone, in [m]. Shape (n, 2)."""
     found = [np.zeros((0, 2))]
     for solid in solids:
         if isinstance(solid, Disc):
@@ -182,10 +125,7 @@ def _corners(solids: tuple[Obstacle, ...], radius: float) -> Array:
             turn = float((after - before) % (2.0 * pi))
             arc = _arc(float(before), turn, radius + GAP)
             found.append(corner + arc)
-    corners = np.concatenate(found)
-    for solid in solids:
-        corners = corners[solid.clearance(corners) >= radius]
-    return corners
+    return np.concatenate(found)
 
 
 def _arc(begin: float, turn: float, radius: float) -> Array:

@@ -19,11 +19,13 @@ class ColourImage:
         time: Middle of its exposure, in [s].
         camera: Camera that took it.
         pixels: Red, green and blue. Shape (height, width, 3).
+        low: Whether it is of the lower camera of a head that has two.
     """
 
     time: float
     camera: CameraModel
     pixels: Pixels
+    low: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -17,12 +17,14 @@ class Sighting(NamedTuple):
             heading of this robot's torso, in [rad], positive leftward.
         distance: Horizontal distance to the other, in [m].
         who: Number of who it is, where several may come.
+        settled: Whether it was watched long enough to tell where it goes.
     """
 
     time: float
     bearing: float
     distance: float
     who: int = 0
+    settled: bool = True
 
 
 class Measurement(NamedTuple):

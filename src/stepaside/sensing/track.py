@@ -19,6 +19,7 @@ SHARP = 0.05  # deviation of a place that tells where a thing goes, in [m]
 TRAIL = 1.2  # how long such places are kept, in [s]
 APART = 0.1  # from one to the next, at least, in [s]
 LEAST = 0.35  # that they must span to tell a velocity, in [s]
+LAPSE = 0.3  # without a look, after which a new one begins, in [s]
 HEARD = 0.2  # deviation across that only an ear has, in [m]
 WALKED = 0.2  # way from where it was first seen sharply that is none, in [m]
 
@@ -68,6 +69,7 @@ class Track:
         seen_at: When it was last seen, in [s].
         ranged_at: When its distance was last measured, in [s].
         sighted_at: When it was last seen and not only heard, in [s].
+        watched_since: Since when it was seen without a gap, in [s].
         confirmed: Whether enough frames agree on it.
         height: How high it was seen to rise, in [m].
         walked: Whether it was seen to go anywhere.
@@ -82,6 +84,7 @@ class Track:
         self._first: tuple[float, float] | None = None
         self._trail: deque[tuple[float, float, float]] = deque()
         self.time = self.seen_at = self.begun_at = first.time
+        self.watched_since = first.time
         self.identified_at = first.time if first.identified else -inf
         self.ranged_at = first.time if first.ranged else -inf
         self.confirmed = False
@@ -173,6 +176,8 @@ class Track:
         self._covariance = (
             keep @ self._covariance @ keep.T + gain @ seen.covariance @ gain.T
         )
+        if seen.time - self.seen_at > LAPSE:
+            self.watched_since = seen.time
         self.seen_at = max(self.seen_at, seen.time)
         if seen.identified:
             self.identified_at = max(self.identified_at, seen.time)

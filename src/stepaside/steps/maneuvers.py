@@ -19,6 +19,8 @@ class Maneuvers(NamedTuple):
         spots: Most steps that turn on the spot, by the largest turn, before
             the first piece; every second number up to it is tried.
         still: Share of its stride that a step on the spot makes.
+        most: Steps that are rolled out, after which no other maneuver is
+            begun: what bounds the time of a decision.
     """
 
     pieces: Any
@@ -27,6 +29,7 @@ class Maneuvers(NamedTuple):
     angle: float = pi / 2
     spots: int = 0
     still: float = 0.05
+    most: int = 40_000
 
 
 class Aims(NamedTuple):

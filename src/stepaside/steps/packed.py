@@ -21,11 +21,14 @@ class Packed(NamedTuple):
             Shape (m, 6).
         firsts: Where each polygon begins in them, and where the last ends.
             Shape (polygons + 1,).
+        rounds: Centre x, y and radius of a circle around each polygon, in
+            [m]. Shape (polygons, 3).
     """
 
     discs: Any
     edges: Any
     firsts: Any
+    rounds: Any
 
 
 @lru_cache(maxsize=64)
@@ -37,6 +40,7 @@ def pack(solids: tuple[Obstacle, ...]) -> Packed:
     """
     discs = [(s.x, s.y, s.radius) for s in solids if isinstance(s, Disc)]
     rows: list[Any] = []
+    rounds: list[Any] = []
     firsts = [0]
     for solid in solids:
         if isinstance(solid, Disc):
@@ -49,10 +53,13 @@ def pack(solids: tuple[Obstacle, ...]) -> Packed:
             )
         )
         firsts.append(firsts[-1] + len(lengths))
+        away = solid.points - solid.centre
+        rounds.append((*solid.centre, np.hypot(*away.T).max()))
     return Packed(
         np.array(discs, dtype=np.float64).reshape(-1, 3),
         np.concatenate(rows) if rows else np.zeros((0, 6)),
         np.array(firsts, dtype=np.int64),
+        np.array(rounds, dtype=np.float64).reshape(-1, 3),
     )
 
 
@@ -82,6 +89,10 @@ def clearance_at(packed: Packed, x: float, y: float, enough: float) -> float:
         if square < reach * reach:
             nearest = min(nearest, sqrt(square) - discs[i, 2])
     for k in range(firsts.shape[0] - 1):
+        dx, dy = x - packed.rounds[k, 0], y - packed.rounds[k, 1]
+        reach = nearest + packed.rounds[k, 2]
+        if dx * dx + dy * dy > reach * reach and reach > 0.0:
+            continue
         beyond = -inf
         for i in range(firsts[k], firsts[k + 1]):
             height = edges[i, 0] * x + edges[i, 1] * y - edges[i, 2]

@@ -24,9 +24,9 @@ from .value import ValueTable
 
 @compiled
 def descend(
-    both: Both, start: float, first: int, best: float, maneuvers: Maneuvers,
-    rules: StepRules, aims: Aims, packed: Packed, table: ValueTable,
-    chosen: Any, work: Any,
+    both: Both, start: float, first: int, made: int, best: float,
+    maneuvers: Maneuvers, rules: StepRules, aims: Aims, packed: Packed,
+    table: ValueTable, chosen: Any, work: Any,
 ) -> tuple[float, int]:  # fmt: skip
     """Go down the tree of pieces.
 
@@ -34,6 +34,7 @@ def descend(
         both: Where both are at its root.
         start: Score there.
         first: Steps before the root, whose turns stand in ``work``.
+        made: Steps that were rolled out before.
         best: Best score so far.
         maneuvers: Which are tried.
         rules: Of a step.
@@ -45,10 +46,10 @@ def descend(
         work: Memory of the same shape.
 
     Returns:
-        Best score now, and the steps that were rolled out.
+        Best score now, and the steps that were rolled out by now.
     """
     pieces, turns = maneuvers.pieces, maneuvers.turns
-    last, level, made = len(pieces) - 1, 0, 0
+    last, level = len(pieces) - 1, 0
     index = np.zeros(DEEPEST, dtype=np.int64)
     begins = np.zeros(DEEPEST, dtype=np.int64)
     scores = np.zeros(DEEPEST)
@@ -56,7 +57,7 @@ def descend(
     scores[0], begins[0] = start, first
     for i in range(8):
         places[0, i] = both[i]
-    while level >= 0:
+    while level >= 0 and made < maneuvers.most:
         if index[level] == len(turns):
             level -= 1
             continue
@@ -145,11 +146,10 @@ def search(
             chosen[:] = work
     if len(maneuvers.pieces) == 0 or best >= start:
         return best, made, spot
-    found, more = descend(
-        both, start, 0, best, maneuvers, rules, aims, packed, table, chosen,
-        work,
+    found, made = descend(
+        both, start, 0, made, best, maneuvers, rules, aims, packed, table,
+        chosen, work,
     )  # fmt: skip
-    made += more
     if found > best:
         best, spot = found, 0
     if best >= aims.tight:
@@ -167,11 +167,10 @@ def search(
                 break
             if n % 2 == 0:
                 continue
-            found, more = descend(
-                here, score, n + 1, best, maneuvers, rules, aims, packed,
+            found, made = descend(
+                here, score, n + 1, made, best, maneuvers, rules, aims, packed,
                 table, chosen, work,
             )  # fmt: skip
-            made += more
             if found > best:
                 best, spot = found, n + 1
     return best, made, spot

@@ -4,12 +4,15 @@ from dataclasses import dataclass
 from math import atan2, cos, sin
 from typing import ClassVar
 
+import numpy as np
+
 from .. import laws
 from ..planning import Direction
 from ..poses import wrap_angle
 from ..ranges import Range, Ranges, check_settings
 from ..rooms import BODY_RADIUS
 from ..rooms.paths import first_point
+from ..rooms.standing import standing
 from .approach import swift_heading
 from .knowledge import Intent, Knowledge
 
@@ -70,12 +73,9 @@ class Pursuit:
         x, y, theta = knowledge.pose
         ahead = AHEAD * knowledge.limits.stride
         way = [(x, y), (x + ahead * cos(theta), y + ahead * sin(theta))]
-        return any(
-            after < min(self.body_radius, here - 1e-9)
-            for here, after in (
-                solid.clearance(way).tolist() for solid in knowledge.obstacles
-            )
-        )
+        here, after = standing(knowledge.obstacles).clearances(np.array(way))
+        nearer = after < np.minimum(self.body_radius, here - 1e-9)
+        return bool(nearer.any())
 
     def _around(self, knowledge: Knowledge, side: int) -> float:
         """Bearing of the first point of the shortest way, in [rad]."""

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 
 from ..randomness import named_generator
-from ..robots.head import HeadDescription
+from ..robots.head import HeadDescription, Mount
 from ..sensing.camera_model import CameraModel
 from ..sensing.images import (
     ColourImage,
@@ -20,6 +20,7 @@ from ..sensing.images import (
 from .camera_settings import CameraSettings
 from .graphics import RAYCAST, Screen
 from .rays import ColourCaster, DepthCaster, RayCaster, SonarCaster, cone
+from .room import LOWER
 from .world import World
 
 RAYCAST_WIDTH = 160  # columns of an image made of rays, at most
@@ -87,6 +88,7 @@ class Eyes:
         seed: int,
         *,
         with_depth: bool,
+        looks_low: Callable[[], bool] | None = None,
     ) -> None:
         """Open the eyes of a robot.
 
@@ -99,7 +101,11 @@ class Eyes:
             renderer: What draws colour images.
             seed: Seed of the run.
             with_depth: Whether it wears the depth camera and listens.
+            looks_low: Whether the robot asks for images of the lower camera
+                of its head instead of the upper one; None for one that
+                never does.
         """
+        self._looks_low = looks_low
         self._world, self._name = world, name
         self._settings, self._seed = settings, seed
         self._head = head
@@ -145,30 +151,46 @@ class Eyes:
         )
 
     def _colour(self, body: str, renderer: str) -> Stream:
-        world, settings = self._world, self._settings.colour
-        model, data = world.model, world.data
-        camera = self.camera
-        if renderer == RAYCAST:
-            rays = camera.rays().reshape(-1, 3)
-            caster = RayCaster(model, data, body, self._head.top, rays)
-            take_pixels = ColourCaster(model, caster, camera).take
-        else:
-            self._screen = screen = Screen(
-                model, camera.width, camera.height, renderer
+        settings, camera = self._settings.colour, self.camera
+        head, low = self._head, self._looks_low
+        if renderer != RAYCAST:
+            self._screen = Screen(
+                self._world.model, camera.width, camera.height, renderer
             )
-            number = model.camera(f"{self._name}/{self._head.camera}").id
-            vertical = 2.0 * np.arctan(0.5 * camera.height / camera.focal_y)
-            model.cam_fovy[number] = np.degrees(vertical)
-
-            def take_pixels() -> Pixels:
-                return screen.draw(data, number)
-
+        upper = self._pixels(body, renderer, head.top, head.camera)
+        lower = None
+        if low is not None and head.bottom is not None:
+            lower = self._pixels(body, renderer, head.bottom, LOWER)
         grain = Grain(camera, settings.noise, self._generator("grain"))
 
         def take(now: float) -> Percept:
-            return ColourImage(now, camera, grain.spoil(take_pixels()))
+            if lower is not None and low is not None and low():
+                return ColourImage(now, camera, grain.spoil(lower()), True)
+            return ColourImage(now, camera, grain.spoil(upper()))
 
         return self._stream("colour", take, settings.rate, settings.latency)
+
+    def _pixels(
+        self, body: str, renderer: str, mount: Mount, name: str
+    ) -> Callable[[], Pixels]:
+        """What takes images of one camera of the head.
+
+        Args:
+            body: The head.
+            renderer: What draws them.
+            mount: Of the camera on the head.
+            name: Of the camera in the model.
+        """
+        model, data, camera = self._world.model, self._world.data, self.camera
+        screen = self._screen
+        if screen is None:
+            rays = camera.rays().reshape(-1, 3)
+            caster = RayCaster(model, data, body, mount, rays)
+            return ColourCaster(model, caster, camera).take
+        number = model.camera(f"{self._name}/{name}").id
+        vertical = 2.0 * np.arctan(0.5 * camera.height / camera.focal_y)
+        model.cam_fovy[number] = np.degrees(vertical)
+        return lambda: screen.draw(data, number)
 
     def _depth(self, body: str) -> Stream:
         world, settings = self._world, self._settings.depth

@@ -3,11 +3,13 @@
 from collections.abc import Callable
 
 import mujoco
+import numpy as np
 
-from ..robots.head import HeadDescription
+from ..robots.head import HeadDescription, Mount
 from .camera_settings import RoomSettings
 
 FLOOR_BIT = 1  # as of the floor: robots run into it
+LOWER = "lower_camera"  # of a head, as the world calls it
 HIDDEN = 3  # group of shapes that only the robots' cameras are drawn with
 WALL_HEIGHT = 1.2  # half of it, in [m]
 SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))
@@ -30,7 +32,11 @@ Furnish = Callable[[mujoco.MjSpec], None]
 
 
 def furnisher(
-    room: RoomSettings, wearer: str, head: HeadDescription
+    room: RoomSettings,
+    wearer: str,
+    head: HeadDescription,
+    *,
+    lower: bool = False,
 ) -> Furnish:
     """What turns an empty world into a room.
 
@@ -38,6 +44,7 @@ def furnisher(
         room: Walls and things.
         wearer: Robot that wears the depth camera.
         head: Its head.
+        lower: Whether the lower camera of the head is used, too.
     """
 
     def furnish(spec: mujoco.MjSpec) -> None:
@@ -49,8 +56,21 @@ def furnisher(
             )
             _add_thing(body, thing.kind)
         _add_housing(spec, wearer, head)
+        if lower and head.bottom is not None:
+            _add_lower(spec.body(f"{wearer}/{head.body}"), wearer, head.bottom)
 
     return furnish
+
+
+def _add_lower(body: mujoco.MjsBody, wearer: str, mount: Mount) -> None:
+    """Put a camera on a head, which looks along its own -z axis."""
+    forward, left, up = mount.axes.T
+    axes = np.column_stack([-left, up, -forward])
+    turn = np.zeros(4)
+    mujoco.mju_mat2Quat(turn, axes.ravel())
+    body.add_camera(
+        name=f"{wearer}/{LOWER}", pos=mount.place.tolist(), quat=turn.tolist()
+    )
 
 
 def hide_walls(model: mujoco.MjModel) -> None:
