@@ -52,14 +52,20 @@ READY: dict[str, Ready] = {"naoqi": naoqi_ready, "ros2": topics_ready}
 
 
 def played(
-    arguments: Namespace, way: str, body: str, lock_step: bool
+    arguments: Namespace,
+    way: str,
+    body: str,
+    lock_step: bool,
+    by: str = "velocity",
 ) -> dict[str, Any]:
-    """Play one duel in one language."""
+    """Play one duel in one language, by velocity or as it has other ways."""
     offers, players = [], []
+    offer = f"--{way}-joints" if by == "joints" else f"--{way}"
     for role, place in places(way).items():
-        offers += [f"--{way}", f"{role}={place}"]
+        offers += [offer, f"{role}={place}"]
         players.append(["--role", role, "--robot", f"{way}:{place}"])
         players[-1] += ["--sim-time"] * lock_step
+        players[-1] += ["--by", by] * (by != "velocity")
     found = play_out(arguments, body, lock_step, offers, players, READY[way])
     return {"way": way, **found}
 

@@ -16,7 +16,8 @@ from typing import Any, NamedTuple
 
 from asking import ask
 
-from stepaside.fitting.deriving import derive, facts_of
+from stepaside.fitting.deriving import derive
+from stepaside.fitting.facts import facts_of
 from stepaside.fitting.writing import write_description
 from stepaside.games.duel import run_duel
 from stepaside.games.robot_settings import with_robot
@@ -48,7 +49,14 @@ RL_GYM = "github.com/unitreerobotics/unitree_rl_gym"
 T1 = "github.com/BoosterRobotics/booster_gym"
 PLAYGROUND = "github.com/google-deepmind/mujoco_playground"
 DATA = "example-robot-data (PyPI)"
+N1 = "github.com/FFTAI/Wiki-GRx-Models, branch FourierN1"
+GMR = "github.com/YanjieZe/GMR"
+XBOT = "github.com/roboterax/humanoid-gym"
 HUMANOIDS = (
+    Humanoid(
+        *("HighTorque Hi", GMR, "hightorque_hi/hi_25dof.urdf"),
+        "URDF without a free joint, soles longer behind the ankle",
+    ),
     Humanoid(
         *("Robotis OP3", PLAYGROUND, "op3/xmls/op3_mjx_feetonly.xml"),
         "mirrored axes, much damping",
@@ -64,6 +72,26 @@ HUMANOIDS = (
     Humanoid(
         *("Unitree G1", RL_GYM, "g1_description/g1_29dof.xml"),
         "torque motors, waist of three joints",
+    ),
+    Humanoid(
+        *("iCub", "icub-models (PyPI)", "iCubGazeboV2_5/model.urdf"),
+        "URDF whose torso looks backward",
+    ),
+    Humanoid(
+        *("Fourier N1", N1, "N1/urdf/N1_raw.urdf"),
+        "URDF without a free joint, weak ankles",
+    ),
+    Humanoid(
+        *("EngineAI PM01", GMR, "engineai_pm01/pm_v2.xml"),
+        "MJCF of several files, inclined hips, meshes missing",
+    ),
+    Humanoid(
+        *("RobotEra XBot-L", XBOT, "XBot/mjcf/XBot-L.xml"),
+        "dated MJCF, hip roll before yaw and pitch",
+    ),
+    Humanoid(
+        *("Leju Kuavo S45", GMR, "kuavo_s45/biped_s45.urdf"),
+        "URDF without a free joint, feet close together",
     ),
     Humanoid(
         *("Aldebaran Romeo", DATA, "romeo_description/urdf/romeo.urdf"),
@@ -161,6 +189,7 @@ def main() -> None:
             {"seed": SEED, "duration_s": DURATION},
             rooms=(*PHYSICS, "fitting"),
             libraries=("mujoco", "numpy"),
+            command="python benchmarks/robots.py FOLDER...",
         )
         write_result(
             arguments.output, head, rows=[rows[name] for name in names]

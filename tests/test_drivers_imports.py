@@ -29,6 +29,8 @@ def test_lola_is_spoken_without_a_simulator(module: str) -> None:
         "velocity.guardian",
         "ros2.body",
         "naoqi.body",
+        "naoqi.stepping",
+        "naoqi.joint_line",
         "log",
     ],
 )

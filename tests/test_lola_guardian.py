@@ -3,13 +3,14 @@
 import os
 import signal
 import socket
+from functools import partial
 
 import numpy as np
 import pytest
 
 from stepaside.drivers.lola.answers import AnswerReader
 from stepaside.drivers.lola.frames import ActuatorFrame
-from stepaside.drivers.lola.guardian import StiffnessGuardian
+from stepaside.drivers.lola.guardian import StiffnessGuardian, let_go
 
 TARGETS = np.linspace(-0.2, 0.2, 25)
 STIFF = np.full(25, 0.8)
@@ -36,7 +37,7 @@ def control_that(ends: str) -> tuple[int, socket.socket]:
     pid = os.fork()
     if pid == 0:
         far.close()
-        guardian = StiffnessGuardian(near)
+        guardian = StiffnessGuardian(partial(let_go, near))
         guardian.tell(TARGETS, STIFF)
         if ends == "limp":
             guardian.tell(TARGETS, np.zeros(25))

@@ -17,7 +17,8 @@ from stepaside.drivers.lola.frames import (
     unpack_sensors,
 )
 from stepaside.drivers.lola.link import SocketLink, connect
-from stepaside.drivers.lola.server import FADING, SILENT, LolaServer
+from stepaside.drivers.lola.served_joints import FADING, SILENT
+from stepaside.drivers.lola.server import LolaServer
 from stepaside.drivers.lola.sight import MESSAGE, unpack_sight
 from stepaside.drivers.lola.wire import SENSOR_BYTES
 from stepaside.drivers.session import SessionLost

@@ -19,6 +19,7 @@ from stepaside.drivers.naoqi.memory_service import (  # noqa: E402
     ALMemory,
     ALSonar,
 )
+from stepaside.drivers.naoqi.moving import REPEATED, STUCK  # noqa: E402
 from stepaside.drivers.naoqi.server import SILENCE, NaoqiServer  # noqa: E402
 from stepaside.drivers.naoqi.session import connect  # noqa: E402
 from stepaside.drivers.session import SessionLost  # noqa: E402
@@ -223,6 +224,48 @@ def test_a_world_that_goes_away_ends_the_session(scene: Scene) -> None:
     with pytest.raises(SessionLost, match="the robot's"):
         for _ in range(100):
             body.listen(0.1)
+    body.close()
+
+
+def test_a_world_that_freezes_is_silence_and_then_takes_no_command(
+    scene: Scene,
+) -> None:
+    now = [100.0]
+    body = NaoqiBody(scene.server.url, clock=lambda: now[0])
+    heard(body)
+    with scene.server.robot.lock:  # every service waits for it
+        now[0] += 1.0
+        assert body.listen(0.02) is None
+        body.command(Velocity(0.05, 0.0))
+        now[0] += 0.9 * STUCK
+        body.command(Velocity(0.06, 0.0))
+        now[0] += 0.2 * STUCK
+        with pytest.raises(SessionLost, match="takes no command"):
+            body.command(Velocity(0.06, 0.0))
+    now[0] += 1.0
+    assert heard(body).hindrance == ""  # it goes on
+    body.close()
+
+
+def test_what_a_second_client_asks_holds_until_the_first_asks_again(
+    scene: Scene,
+) -> None:
+    """NAOqi refuses nobody; the last word counts, and rest is one."""
+    now = [100.0]
+    body = NaoqiBody(scene.server.url, clock=lambda: now[0])
+    asked = Velocity(0.05, 0.1)
+    body.command(asked)
+    until(lambda: scene.round() == asked)
+    other = connect(scene.server.url)
+    other.service("ALMotion").stopMove()
+    assert scene.round() == REST
+    body.command(asked)
+    assert scene.round() == REST
+    now[0] += REPEATED
+    body.command(asked)
+    until(lambda: scene.round() == asked)
+    other.close()
+    assert scene.round() == asked
     body.close()
 
 

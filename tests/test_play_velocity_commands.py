@@ -42,6 +42,8 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
         ("serve --ros2 evader=/e --ros2 evader=/f", "each once"),
         ("serve --lola evader=E --ros2 evader=/f", "each once"),
         ("serve --naoqi referee=127.0.0.1:5", "each once"),
+        ("serve --naoqi-joints evader", "tcp://HOST:PORT, each once"),
+        ("serve --naoqi evader=a:1 --naoqi-joints evader=b:1", "each once"),
         ("serve --naoqi evader=127.0.0.1:0", "naoqi:tcp://HOST:PORT"),
     ],
 )
@@ -66,6 +68,7 @@ def test_a_robot_on_naoqi_that_is_not_there_is_said(
     pytest.importorskip("qi")
     words = "play --role evader --robot naoqi:127.0.0.1:1 --dry-run".split()
     assert "no robot answers" in refused(capsys, *words)
+    assert "no robot answers" in refused(capsys, *words, "--by", "joints")
 
 
 @pytest.mark.parametrize("way", ["velocity", "footsteps"])

@@ -168,3 +168,13 @@ def test_numbers_for_none_are_not_taken(tmp_path: Path) -> None:
     )
     file.write_text(f"<robot>{limits}</robot>")
     assert published_speeds(file) == {"j0": 4.0}
+
+
+def test_who_stands_at_no_height_is_told_of_the_joints(tmp_path: Path) -> None:
+    file = stranger.mjcf(tmp_path)
+    ankle = 'name="near_tip" axis="0 1 0" damping="0.8" range='
+    text = file.read_text()
+    assert f'{ankle}"-1.0 1.0"' in text
+    file.write_text(text.replace(f'{ankle}"-1.0', f'{ankle}"0.1'))
+    with pytest.raises(ModelError, match="no height .* ranges of near_tip,"):
+        derive(file, tmp_path, [])

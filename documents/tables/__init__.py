@@ -38,6 +38,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "certified": many_duels.certified,
     "certified-starts": unicycles.certified_starts,
     "driven": served.driven,
+    "stepped": served.stepped,
     "each": persons.each,
     "evading-others": evading.others,
     "evading-sizes": evading.sizes,

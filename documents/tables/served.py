@@ -36,6 +36,13 @@ def driven(result: Mapping[str, Any]) -> str:
     )
 
 
+def stepped(result: Mapping[str, Any]) -> str:
+    """One row for each duel over NAOqi, by how robots were moved."""
+    return table(
+        ("by", *HEAD), ((row["by"], *_duel(row)) for row in result["rows"])
+    )
+
+
 def _duel(row: Mapping[str, Any]) -> tuple[str, ...]:
     return (
         row["body"],

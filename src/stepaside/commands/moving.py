@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from ..drivers.naoqi.moving import Mover
     from ..games.settings import DuelSettings
 
-NAOQI = "naoqi:"
+LOLA, NAOQI = "lola:", "naoqi:"
 
 
 def check_way(options: dict[str, Any]) -> None:
@@ -24,6 +24,16 @@ def check_way(options: dict[str, Any]) -> None:
             f"--by is for robots on {NAOQI}: one on LoLA is moved by its "
             "joints, one on ROS 2 topics by velocity"
         )
+
+
+def by_joints(options: dict[str, Any]) -> bool:
+    """Whether a robot is moved by its joints.
+
+    Args:
+        options: Of the command.
+    """
+    joints: bool = options["by"] == "joints"
+    return joints or options["robot"].startswith(LOLA)
 
 
 def mover_of(

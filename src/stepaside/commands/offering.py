@@ -9,7 +9,12 @@ import click
 if TYPE_CHECKING:
     from ..games.offers import Offer
 
-PLACES = {"lola": "ADDRESS", "naoqi": "tcp://HOST:PORT", "ros2": "/NAMESPACE"}
+PLACES = {
+    "lola": "ADDRESS",
+    "naoqi": "tcp://HOST:PORT",
+    "naoqi-joints": "tcp://HOST:PORT",
+    "ros2": "/NAMESPACE",
+}
 
 
 def offers_of(
@@ -35,6 +40,13 @@ def offers_of(
 
         for name, place in _entries("naoqi", options["naoqi"], offers):
             offers[name] = NaoqiOffer(parse_url(place), ideal_sight)
+    if options["naoqi_joints"]:
+        from ..drivers.naoqi.address import parse_url
+        from ..games.naoqi_offer import NaoqiJointsOffer
+
+        joints = options["naoqi_joints"]
+        for name, place in _entries("naoqi-joints", joints, offers):
+            offers[name] = NaoqiJointsOffer(parse_url(place), ideal_sight)
     if options["ros2"]:
         from ..drivers.ros2.address import parse_namespace
         from ..drivers.ros2.domain import Dds

@@ -81,7 +81,7 @@ LONG_ENOUGH, INTERRUPTED = "played long enough", "interrupted"
 @click.option(
     "--reconnect",
     type=SECONDS,
-    help="Over LoLA: try for so long to get a session that was lost [s].",
+    help="By joints: try for so long to get a session that was lost [s].",
 )
 @click.option(
     "--record",
@@ -114,12 +114,12 @@ def play(
     from ..drivers.session import SessionLost
     from ..drivers.status_line import StatusLine
     from .feedback import with_feedback
-    from .moving import check_way
-    from .playing import LOLA, open_joints, open_velocity
+    from .moving import by_joints, check_way
+    from .playing import open_joints, open_velocity
 
     check_way(options)
     folder = options.pop("record")
-    by_joints = options["robot"].startswith(LOLA)
+    joints = by_joints(options)
     with ExitStack() as stack:
         line = StatusLine(sys.stderr)
         stack.callback(line.close)
@@ -128,14 +128,14 @@ def play(
         if folder is not None:
             from .play_record import PlayRecord
 
-            own = with_feedback(settings) if by_joints else settings
+            own = with_feedback(settings) if joints else settings
             told = PlayRecord(folder, own, options)
             stack.push(told.leave)
             onlookers.append(told)
 
         def session() -> str:
             with ExitStack() as within:
-                if by_joints:
+                if joints:
                     playing = open_joints(settings, options)
                     within.callback(playing.body.close)
                     return _play(playing, onlookers, duration)
@@ -144,7 +144,7 @@ def play(
                 return _drive(driving, onlookers, duration)
 
         try:
-            ended = _again_and_again(session, reconnect if by_joints else None)
+            ended = _again_and_again(session, reconnect if joints else None)
             if told is not None:
                 told.ended = ended
         except SessionLost as error:

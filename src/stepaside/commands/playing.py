@@ -7,15 +7,15 @@ import click
 from .moving import mover_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from ..control import ControlScheme
-    from ..drivers.cameras.source import PerceptSource
     from ..drivers.lola.body import LolaBody
     from ..drivers.playing import Playing
     from ..drivers.velocity.body import VelocityBody
     from ..drivers.velocity.playing import VelocityPlaying
     from ..games.settings import DuelSettings
+    from ..poses import Array
     from ..strategies import Strategy
 
 LOLA, NAOQI, ROS2 = "lola:", "naoqi:", "ros2:"
@@ -36,34 +36,21 @@ def open_joints(
     settings: "DuelSettings", options: dict[str, Any]
 ) -> "Playing":
     """Connect to a robot whose joints are moved."""
-    from ..drivers.lola.address import parse_address
     from ..drivers.lola.body import LolaBody
-    from ..drivers.lola.opening import open_lola
     from ..drivers.minds import mind_maker
     from ..drivers.playing import Playing
     from ..robots.description import load_robot
     from .feedback import with_feedback
 
-    address = parse_address(options["robot"])
     settings = with_feedback(settings)
     role, dry_run = options["role"], options["dry_run"]
     strategy = strategy_of(settings, role)
     sees = settings.sensing == "cameras"
-
-    def open_eyes() -> "PerceptSource":
-        from .seeing import open_cameras
-
-        return open_cameras(settings, address, options)
+    open_robot = _joints_of(settings, options, sees=sees)
 
     def open_body(scheme: "ControlScheme") -> "LolaBody":
-        return open_lola(
-            address,
-            scheme.kinematics.joint_names,
-            scheme.joint_targets,
-            dry_run=dry_run,
-            guarded=True,
-            open_eyes=open_eyes if sees else None,
-        )
+        kinematics = scheme.kinematics
+        return open_robot(kinematics.joint_names, scheme.joint_targets)
 
     make = mind_maker(
         load_robot(options["description"]),
@@ -74,6 +61,34 @@ def open_joints(
         sees_as=role if sees else None,
     )
     return Playing(open_body, strategy, make, dry_run=dry_run)
+
+
+def _joints_of(
+    settings: "DuelSettings", options: dict[str, Any], *, sees: bool
+) -> "Callable[[Sequence[str], Array], LolaBody]":
+    """What opens the joints of a robot, given their names and its stance."""
+    from functools import partial
+
+    robot = options["robot"]
+    told: dict[str, Any] = {"dry_run": options["dry_run"], "guarded": True}
+    if robot.startswith(NAOQI):
+        from ..drivers.naoqi.address import parse_url
+        from ..drivers.naoqi.joints import open_joints as open_naoqi
+        from .seeing import open_cameras
+
+        url = parse_url(robot)
+        own = options | {"images": options["images"] or f"{NAOQI}{url}"}
+        if sees:
+            told["open_eyes"] = partial(open_cameras, settings, None, own)
+        return partial(open_naoqi, url, **told)
+    from ..drivers.lola.address import parse_address
+    from ..drivers.lola.opening import open_lola
+    from .seeing import open_cameras
+
+    address = parse_address(robot)
+    if sees:
+        told["open_eyes"] = partial(open_cameras, settings, address, options)
+    return partial(open_lola, address, **told)
 
 
 def open_velocity(

@@ -39,6 +39,13 @@ SIGHTS = ("ideal", "none")
     "tcp://127.0.0.1:PORT.",
 )
 @click.option(
+    "--naoqi-joints",
+    "naoqi_joints",
+    multiple=True,
+    metavar="PLAYER=URL",
+    help="Where a player's joints are moved over NAOqi: tcp://127.0.0.1:PORT.",
+)
+@click.option(
     "--ros2",
     "ros2",
     multiple=True,
@@ -79,8 +86,9 @@ def serve(
 ) -> None:
     """Let others play a duel in our world.
 
-    A robot on LoLA is moved by its joints; one on NAOqi or on ROS 2 topics
-    walks by itself, by our own control, at the velocities that it is told.
+    A robot on LoLA, or at --naoqi-joints, is moved by its joints; one on
+    NAOqi or on ROS 2 topics walks by itself, by our own control, as it is
+    told: at velocities, or by footsteps over NAOqi.
     The world stands still until every robot that is offered has somebody to
     move it: a client that holds it stiff, or a commander. Then the chest
     buttons are pressed, and time passes. A robot that is not offered is

@@ -3,7 +3,6 @@
 import os
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -24,7 +23,7 @@ from .motors import (
     published_speeds,
     published_torques,
 )
-from .posture import knee_limits, reach_of, standing_of
+from .posture import knee_limits, reach_of, standing_of, stiff_joints
 from .rehearsal import lengths_share, torque_share
 from .survey import Survey, survey
 
@@ -92,7 +91,8 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
     description = _structure(
         found, folder, places, sole, gains_of(found, torques, guess), speeds
     )
-    lowest, highest = _heights(description, spacing, sole)
+    stiff = stiff_joints(found)
+    lowest, highest = _heights(description, spacing, sole, stiff)
     height = HIGH * highest
     description = replace(
         description,
@@ -224,8 +224,13 @@ def _heights(
     description: RobotDescription,
     spacing: float,
     sole: tuple[float, float, float, float],
+    stiff: list[str],
 ) -> tuple[float, float]:
-    """Least and greatest height of the CoM with the feet abreast, in [m]."""
+    """Least and greatest height of the CoM with the feet abreast, in [m].
+
+    Raises:
+        ModelError: If there is none; names joints that do not bend.
+    """
     ahead = 0.45 * (sole[0] + sole[1])
     half = 0.5 * spacing
     stance = BodyReference(
@@ -237,9 +242,13 @@ def _heights(
         try:
             kinematics.stand(stance)
         except ReachError as error:
+            why = str(error)
+            if stiff:
+                why = f"see the ranges of {', '.join(stiff)}, which cannot "
+                why += "bend as legs with bent knees do"
             raise ModelError(
                 f"{description.name} can stand at no height with its feet "
-                f"{spacing:.3f} m apart: {error}"
+                f"{spacing:.3f} m apart: {why}"
             ) from error
     return kinematics.lowest_com(stance), highest
 
@@ -260,40 +269,3 @@ def _path_from(folder: Path, path: Path) -> str:
 def coupled_of(found: Survey) -> set[str]:
     """Joints that follow others."""
     return followers_of(found.model)
-
-
-def facts_of(derived: Derived) -> dict[str, Any]:
-    """What was found and chosen, for a report."""
-    found, size = derived.survey, derived.size
-    own = derived.description
-    untold = [
-        name for name in own.overlay.servos if name not in derived.told_torques
-    ]
-    unlimited = [
-        name for name in own.speed_limits if name not in derived.told_speeds
-    ]
-    return {
-        "name": own.name,
-        "model": str(found.path),
-        "mass_kg": round(found.mass, 3),
-        "leg_length_m": round(found.length, 4),
-        "com_height_m": round(size.com_height, 4),
-        "com_heights_m": [round(derived.lowest, 4), round(derived.highest, 4)],
-        "foot_spacing_m": round(size.foot_spacing, 4),
-        "hip_width_m": round(
-            float(found.legs[0].hip[1] - found.legs[1].hip[1]), 4
-        ),
-        "sole_m": dict(own.sole),
-        "legs": [list(leg.joints) for leg in found.legs],
-        "gait": dict(own.gait),
-        "lengths_share": round(derived.share, 3),
-        "torque_share": round(derived.borne, 3),
-        "game": dict(own.game),
-        "coupled": sorted(coupled_of(found)),
-        "left_out_meshes": len(found.missing),
-        "asked_for": {
-            "sole": any(leg.is_guessed for leg in found.legs),
-            "torques": untold,
-            "speed_limits": unlimited,
-        },
-    }

@@ -104,6 +104,7 @@ def stabiliser_of(size: Size) -> dict[str, float]:
         "reach_outward": _round(OUTWARD * z),
         "gap": _round(min(GAP * z, 0.5 * spare(size))),
         "step_speed": _round(STEP_SPEED * size.speed),
+        "stride_gain": 0.0,
         "stride_bound": _round(DEAD_ZONE * z),
         "joint_gain": _round(JOINT_GAIN / time),
         "joint_leak": _round(JOINT_LEAK / time),

@@ -33,6 +33,16 @@ def standing_of(found: Survey) -> dict[str, float]:
     return {name: round(angle, 3) for name, angle in angles.items()}
 
 
+def stiff_joints(found: Survey) -> list[str]:
+    """Pitch joints of the legs that cannot bend as standing asks."""
+    return [
+        name
+        for leg in found.legs
+        for name, sign, bend in zip(leg.pitches, leg.signs, BENT, strict=True)
+        if _inside(found.model, name, sign * bend) != sign * bend
+    ]
+
+
 def knee_limits(found: Survey, leg: Leg) -> tuple[float, float]:
     """Range in which a knee does not get straight, in [rad]."""
     low, high = found.model.joint(leg.pitches[1]).range.tolist()

@@ -181,7 +181,7 @@ def _unsteadiness(walks: list[dict[str, Any]]) -> float:
     last = walks[-1]
     if last["completed"]:
         return float(max(walk["unsteadiness"] for walk in walks))
-    walked = (len(walks) - 1 + last["lasted"]) / len(WAYS)
+    walked = (len(walks) - 1 + float(last["lasted"])) / len(WAYS)
     return FALLEN + 1.0 - walked
 
 

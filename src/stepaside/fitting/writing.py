@@ -31,6 +31,7 @@ GAIN_WHY = {
     "reach_outward": "[m]",
     "gap": "[m]",
     "step_speed": "[m/s]",
+    "stride_gain": "joints without play need none; learning strains the legs",
     "stride_bound": "[m]",
     "joint_gain": "[1/s]",
     "joint_leak": "[1/s]",

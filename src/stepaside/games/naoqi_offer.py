@@ -1,14 +1,16 @@
-"""Robots of our world on NAOqi."""
+"""Robots of our world on NAOqi, by velocity or by their joints."""
 
 from typing import NamedTuple
 
 from ..control.velocity import fastest
 from ..drivers.lola.frame_clock import TICK
+from ..drivers.naoqi.joint_server import NaoqiJointServer
 from ..drivers.naoqi.server import NaoqiServer
 from ..drivers.velocity.body import Velocity
 from ..errors import ConfigurationError
 from .driven import DrivenWalker
 from .offers import Offered
+from .served import ServedBody, ServedPlayer
 from .walker import Walker
 
 
@@ -41,3 +43,27 @@ class NaoqiOffer(NamedTuple):
         )
         player.commander = server
         return Offered(player, server)
+
+
+class NaoqiJointsOffer(NamedTuple):
+    """A robot whose joints are set by calls; who plays it keeps it up.
+
+    Attributes:
+        url: Where its services are, like tcp://127.0.0.1:PORT.
+        ideal_sight: Whether the true line of sight is told.
+    """
+
+    url: str
+    ideal_sight: bool = True
+
+    def serve(self, walker: Walker, *, lock_step: bool) -> Offered:
+        """Offer a robot's joints."""
+        body = ServedBody(walker.robot)
+        server = NaoqiJointServer(
+            self.url,
+            body,
+            walker.scheme.kinematics.joint_names,
+            lock_step=lock_step,
+            ideal_sight=self.ideal_sight,
+        )
+        return Offered(ServedPlayer(walker.robot, body, server), server)

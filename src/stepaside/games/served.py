@@ -1,12 +1,11 @@
-"""Players whose control is elsewhere: bodies here, minds behind LoLA."""
+"""Players whose control is elsewhere: bodies here, minds behind a wire."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from ..control.walking import StepBegun
-from ..drivers.lola.server import LolaServer
 from ..poses import Array
 from ..sensing.measurement import Measurement
 from ..world.push import Push
@@ -20,8 +19,18 @@ if TYPE_CHECKING:
 MOVED = 0.05  # of a target from the stance before a robot moves, in [rad]
 
 
+class JointServer(Protocol):
+    """What speaks for a robot whose joints are moved from elsewhere."""
+
+    def act(self) -> None:
+        """Let the robot do what was asked."""
+
+    def close(self) -> None:
+        """Stop speaking."""
+
+
 class ServedBody:
-    """A simulated robot as LoLA's server sees it.
+    """A simulated robot as the server of its joints sees it.
 
     Until the game begins somebody holds the robot up: its sensors say the
     same all the time, and what is commanded does nothing.
@@ -76,7 +85,7 @@ class ServedPlayer:
 
     Attributes:
         name: Who it is.
-        server: What speaks LoLA for it.
+        server: What speaks for it.
         body: What the server moves.
         truth: Where it really is.
         begun: None: its plans are not known here.
@@ -87,7 +96,7 @@ class ServedPlayer:
     reports: "Sequence[FrameReport]" = ()
 
     def __init__(
-        self, robot: SimulatedRobot, body: ServedBody, server: LolaServer
+        self, robot: SimulatedRobot, body: ServedBody, server: JointServer
     ) -> None:
         """Join a robot and what speaks for it."""
         self.name = robot.name
@@ -105,7 +114,7 @@ class ServedPlayer:
         return self.truth.has_fallen
 
     def tick(self) -> None:
-        """Do what was asked for over the socket."""
+        """Do what was asked for over the wire."""
         self.server.act()
 
     def snapshot(self) -> Snapshot:

@@ -30,7 +30,7 @@ SIM_TIME = Declaration(
     "--sim-time/--no-sim-time",
     "Its time is simulated, and may stand still or run.",
 )
-WAYS = ("velocity", "footsteps")
+WAYS = ("velocity", "footsteps", "joints")
 BY = Declaration(
     "--by",
     "How a robot on NAOqi is moved; by velocity by default.",

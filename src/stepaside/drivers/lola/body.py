@@ -12,7 +12,7 @@ from ..cameras.source import PerceptSource
 from ..session import SessionLost
 from .conventions import CHEST_BUTTON, measurement_of
 from .frame_clock import TICK
-from .frames import ActuatorFrame, SensorFrame, pack_actuators
+from .frames import ON_THE_WIRE, ActuatorFrame, Codec, SensorFrame
 from .guardian import StiffnessGuardian
 from .hearing import Hearing
 from .joints import LEGS, JointMap
@@ -20,7 +20,7 @@ from .lights import lights_for
 from .link import Link
 from .motion import Motion
 from .safety import Safety, SafetySettings, Seen, State
-from .sight_channel import SightChannel
+from .sight_channel import Sights
 
 log = logging.getLogger(__name__)
 
@@ -47,11 +47,12 @@ class LolaBody:
         joint_names: Sequence[str],
         stance: Array,
         *,
-        sight: SightChannel | None = None,
+        sight: Sights | None = None,
         eyes: PerceptSource | None = None,
         guardian: StiffnessGuardian | None = None,
         safety: SafetySettings | None = None,
         dry_run: bool = False,
+        codec: Codec = ON_THE_WIRE,
         clock: Callable[[], float] = monotonic,
         pause: Callable[[float], None] = sleep,
     ) -> None:
@@ -67,6 +68,7 @@ class LolaBody:
             guardian: Who lets go of the robot if this process cannot.
             safety: Limits of what is safe.
             dry_run: Command nothing but lights.
+            codec: Between frames and what the link carries.
             clock: Time of this computer, in [s].
             pause: Lets time pass, in [s].
 
@@ -81,7 +83,8 @@ class LolaBody:
         self._look_ahead = settings.look_ahead
         self._silence = settings.silence
         self._safety = Safety(settings)
-        self._hearing = Hearing(link, settings.silence, clock)
+        self._hearing = Hearing(link, settings.silence, clock, codec.read)
+        self._codec = codec
         self._dry_run = dry_run
         self._clock, self._pause = clock, pause
         self._start = 0
@@ -221,7 +224,7 @@ class LolaBody:
 
     def _send(self, frame: ActuatorFrame) -> None:
         try:
-            self._link.send(pack_actuators(frame))
+            self._link.send(self._codec.write(frame))
         except SessionLost as error:
             self._lose(str(error))
             raise
@@ -241,9 +244,8 @@ class LolaBody:
                 self._guardian.tell(targets, stiffness)
             lights = lights_for(State.LIMP, sees=False, charge=0.0)
             try:
-                self._link.send(
-                    pack_actuators(ActuatorFrame(targets, stiffness, lights))
-                )
+                told = ActuatorFrame(targets, stiffness, lights)
+                self._link.send(self._codec.write(told))
             except SessionLost:
                 return
             self._pause(TICK)

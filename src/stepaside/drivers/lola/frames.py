@@ -1,8 +1,8 @@
 """Sensor and actuator frames of LoLA as values."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -183,3 +183,19 @@ def take_actuators(decoded: object) -> ActuatorFrame:
         },
         None if sonar is None else (sonar[0], sonar[1]),
     )
+
+
+class Codec(NamedTuple):
+    """Between frames and what a line carries.
+
+    Attributes:
+        read: A sensor frame of what arrived; WireError if it is none.
+        write: What is sent for an actuator frame.
+    """
+
+    read: Callable[[Any], SensorFrame]
+    write: Callable[[ActuatorFrame], Any]
+
+
+ON_THE_WIRE = Codec(unpack_sensors, pack_actuators)
+AS_THEY_ARE = Codec(lambda frame: frame, lambda frame: frame)

@@ -1,10 +1,12 @@
 """Falling stiffness for a robot whose control died or froze.
 
-The guardian (:mod:`..guardian`) holds the same socket as control and is told
-what the joints are. A robot need not watch over its client for this to work.
+The guardian (:mod:`..guardian`) holds the same socket as control, or a line
+of its own, and is told what the joints are. A robot need not watch over its
+client for this to work.
 """
 
 import socket
+from collections.abc import Callable
 from contextlib import suppress
 from time import sleep
 
@@ -25,18 +27,20 @@ FADING = 0.5  # from full stiffness to none, in [s]
 class StiffnessGuardian:
     """Who lets go of the joints if control cannot."""
 
-    def __init__(self, robot: socket.socket) -> None:
+    def __init__(self, fade: Callable[[Array, Array], None]) -> None:
         """Fork the guardian.
 
         Args:
-            robot: Connected socket to the robot; stays with the caller.
+            fade: Lets the stiffness fall, given targets and stiffness that
+                the joints were told last, shapes (25,). It is called in the
+                other process.
         """
 
-        def fade(word: bytes) -> None:
+        def let_go_of(word: bytes) -> None:
             told = np.frombuffer(word, np.float32).astype(np.float64)
-            let_go(robot, told[:JOINT_COUNT], told[JOINT_COUNT:])
+            fade(told[:JOINT_COUNT], told[JOINT_COUNT:])
 
-        self._guardian = Guardian(fade, SILENCE)
+        self._guardian = Guardian(let_go_of, SILENCE)
         self.dismiss = self._guardian.dismiss
 
     def tell(self, targets: Array, stiffness: Array) -> None:

@@ -2,6 +2,7 @@
 
 import logging
 from collections.abc import Callable
+from typing import Any
 
 from ..session import SessionLost
 from .conventions import COUNTER, LOCK_STEP, REAL_TIME
@@ -24,7 +25,11 @@ class Hearing:
     """
 
     def __init__(
-        self, link: Link, silence: float, clock: Callable[[], float]
+        self,
+        link: Link,
+        silence: float,
+        clock: Callable[[], float],
+        read: Callable[[Any], SensorFrame] = unpack_sensors,
     ) -> None:
         """Listen.
 
@@ -33,7 +38,9 @@ class Hearing:
             silence: Time without a good frame after which the session is
                 lost, in [s].
             clock: Time of this computer, in [s].
+            read: Makes a frame of what the link carries.
         """
+        self._read = read
         self._link, self._silence, self._clock = link, silence, clock
         self._frames: FrameClock | None = None
         self._heard = clock()  # when the last good frame came
@@ -71,9 +78,9 @@ class Hearing:
                     f"no good frame for {now - self._heard:.3f} s{refused}"
                 )
 
-    def _good(self, data: bytes) -> SensorFrame | None:
+    def _good(self, data: Any) -> SensorFrame | None:
         try:
-            return unpack_sensors(data)
+            return self._read(data)
         except WireError as error:
             self.refused += 1
             if self.refused.bit_count() == 1:  # 1, 2, 4, 8...

@@ -2,7 +2,7 @@
 
 import select
 import socket
-from typing import Protocol
+from typing import Any, Protocol
 
 from ..session import SessionLost
 from .address import Address
@@ -17,10 +17,10 @@ class Link(Protocol):
     def wait(self, timeout: float) -> bool:
         """Wait, in [s], until something arrived; whether it has."""
 
-    def receive(self) -> list[bytes]:
+    def receive(self) -> list[Any]:
         """Whole frames that have arrived, oldest first, without waiting."""
 
-    def send(self, data: bytes) -> None:
+    def send(self, data: Any) -> None:
         """Send one frame, at once and whole."""
 
     def close(self) -> None:

@@ -3,13 +3,14 @@
 import logging
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
+from functools import partial
 
 from ...poses import Array
 from ..cameras.source import PerceptSource
 from ..session import SessionLost
 from .address import Address
 from .body import LolaBody
-from .guardian import StiffnessGuardian
+from .guardian import StiffnessGuardian, let_go
 from .link import connect
 from .safety import SafetySettings
 from .sight import MESSAGE
@@ -59,7 +60,7 @@ def open_lola(
             log.info("no ideal line of sight at %s", address.sight)
         guardian = None
         if guarded and not dry_run:
-            guardian = StiffnessGuardian(link.socket)
+            guardian = StiffnessGuardian(partial(let_go, link.socket))
             stack.callback(guardian.dismiss)
         eyes = None if open_eyes is None else open_eyes()
         body = LolaBody(

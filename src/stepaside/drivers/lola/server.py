@@ -2,38 +2,18 @@
 
 import logging
 from collections.abc import Sequence
-from typing import Protocol
-
-import numpy as np
 
 from ...poses import Array
-from ...sensing.attitude import AttitudeFilter
-from ...sensing.measurement import Measurement
 from .address import Address
 from .answers import AnswerReader
 from .camera_offer import CameraOffer
-from .conventions import sensor_frame_of
-from .frame_clock import TICK
-from .frames import ActuatorFrame, pack_sensors
-from .joints import JOINT_COUNT, LEGS, JointMap
+from .frames import pack_sensors
 from .listener import Listener
+from .served_joints import ServedJoints, ServedRobot
 from .sight_offer import SightOffer
 from .wire import LONGEST_ANSWER, WireError
 
-SILENT = 8  # ticks without an answer before stiffness decays: 0.1 s
-BELIEF = 0.5  # rate at which the accelerometer is believed, in [1/s]
-FADING = 0.5  # from full stiffness to none, in [s]
 log = logging.getLogger(__name__)
-
-
-class ServedRobot(Protocol):
-    """A robot that LoLA can be spoken for."""
-
-    def sensors(self) -> Measurement:
-        """What its sensors give now."""
-
-    def command(self, targets: Array, stiffness: Array) -> None:
-        """Set joint targets, in [rad], and shares of the torque."""
 
 
 class LolaServer:
@@ -45,8 +25,6 @@ class LolaServer:
     Attributes:
         count: Number of the last frame sent in this session; -1 before.
         answered: Whether the last frame has been answered.
-        share: What is left of the commanded stiffness without answers.
-        stiffness: Of the motors now. Shape (25,).
     """
 
     def __init__(
@@ -73,7 +51,7 @@ class LolaServer:
             ConfigurationError: If the address cannot be listened on.
             ModelError: If LoLA has no motor for one of the joints.
         """
-        self._robot, self._joints = robot, JointMap(joint_names)
+        self._joints = ServedJoints(robot, joint_names)
         self._lock_step = lock_step
         # First, so that who finds the robot finds what is beside it.
         self._beside: list[SightOffer | CameraOffer] = []
@@ -86,17 +64,20 @@ class LolaServer:
         except BaseException:
             self._close_beside()
             raise
-        self._attitude = AttitudeFilter(BELIEF, 0.0, calibration=0.0)
         self._reader = AnswerReader()
         self._chest_pressed = False
-        self._silent = 0
         self.count = -1
         self.answered = False
-        self.share = 0.0
-        self._commanded: Array = np.zeros(JOINT_COUNT)
-        self.stiffness: Array = np.zeros(JOINT_COUNT)
-        self._targets: Array = np.zeros(JOINT_COUNT)
-        self._has_targets = False
+
+    @property
+    def share(self) -> float:
+        """What is left of the commanded stiffness without answers."""
+        return self._joints.share
+
+    @property
+    def stiffness(self) -> Array:
+        """Of the motors now. Shape (25,)."""
+        return self._joints.stiffness
 
     @property
     def connected(self) -> bool:
@@ -106,7 +87,7 @@ class LolaServer:
     @property
     def ready(self) -> bool:
         """Whether a client is there and holds the robot stiff."""
-        return self.connected and bool(self.stiffness[LEGS].min() > 0.99)
+        return self.connected and self._joints.stiff
 
     @property
     def refused(self) -> int:
@@ -130,27 +111,15 @@ class LolaServer:
             for offer in self._beside:
                 offer.forget()
             log.info("%s: client connected", self._listener.address)
-        measurement = self._robot.sensors()
-        own = self._attitude
-        own.update(
-            measurement.gyro, measurement.accelerometer, (0.0, 0.0), TICK
-        )
-        if not self._has_targets:
-            self._targets = self._joints.to_lola(
-                measurement.joint_positions, np.zeros(JOINT_COUNT)
-            )
+        measurement = self._joints.sense()
         self.answered = False
         if not self.connected:
             return
         self.count += 1
         for offer in self._beside:
             offer.tell(measurement, self.count)
-        frame = sensor_frame_of(
-            measurement,
-            self._joints,
-            angles=(own.roll, own.pitch),
-            stiffness=self.stiffness,
-            count=self.count,
+        frame = self._joints.frame(
+            self.count,
             chest_pressed=self._chest_pressed,
             lock_step=self._lock_step,
         )
@@ -165,17 +134,13 @@ class LolaServer:
             self._listener.drop(error)
             frames = []
         for frame in frames:
-            self._take(frame)
+            self._joints.take(frame)
+            self.answered = True
         return self.answered or not self.connected
 
     def act(self) -> None:
         """Let the robot do what was asked, as stiff as it may be."""
-        if self._silent >= SILENT:
-            self.share = max(0.0, self.share - TICK / FADING)
-        self._silent += 1
-        self.stiffness = self.share * self._commanded
-        pick = self._joints.from_lola
-        self._robot.command(pick(self._targets), pick(self.stiffness))
+        self._joints.act()
 
     def drop(self, why: str) -> None:
         """Let go of a client, and say why; another may come."""
@@ -189,15 +154,6 @@ class LolaServer:
     def _close_beside(self) -> None:
         for offer in self._beside:
             offer.close()
-
-    def _take(self, frame: ActuatorFrame) -> None:
-        self.answered = True
-        if frame.position is not None:
-            self._targets, self._has_targets = frame.position, True
-        if frame.stiffness is not None:
-            # Only who commands stiffness keeps the robot stiff.
-            self._commanded = frame.stiffness
-            self._silent, self.share = 0, 1.0
 
     def _try(self, data: bytes) -> None:
         try:

@@ -2,6 +2,7 @@
 
 import logging
 from collections import deque
+from typing import Protocol
 
 from ...sensing.measurement import Sighting
 from ..session import SessionLost
@@ -11,6 +12,21 @@ from .sight import SightError, SightMessage, unpack_sight
 
 AHEAD = 8  # frames by which a sighting may come before its frame: 0.1 s
 log = logging.getLogger(__name__)
+
+
+class Sights(Protocol):
+    """Where a simulated robot tells its ideal line of sight."""
+
+    def newest(self, frame: int, start: int) -> Sighting | None:
+        """Newest sighting that belongs to a frame or to one before it.
+
+        Args:
+            frame: Number of the newest sensor frame.
+            start: Number of the frame at which time is zero.
+        """
+
+    def close(self) -> None:
+        """Stop listening."""
 
 
 class SightChannel:

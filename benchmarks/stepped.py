@@ -1,0 +1,27 @@
+"""Play served duels over NAOqi in which robots are not moved by velocity."""
+
+from asking import ask
+from driven import played
+from processes import write_rows
+
+DUELS = (  # how robots are moved, body, whether in lock step
+    ("footsteps", "delayed", False),
+    ("joints", "delayed", False),
+)
+
+
+def main() -> None:
+    """Play each way."""
+    parser = ask(__doc__, "stepped.json")
+    parser.add_argument("--seed", type=int, default=7)
+    parser.add_argument("--duration", type=float, default=120.0)
+    arguments = parser.parse_args()
+    duels = (
+        played(arguments, "naoqi", body, lock_step, by) | {"by": by}
+        for by, body, lock_step in DUELS
+    )
+    write_rows(arguments, duels)
+
+
+if __name__ == "__main__":
+    main()

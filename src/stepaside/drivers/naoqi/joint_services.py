@@ -1,0 +1,158 @@
+"""NAOqi's services for a simulated robot whose joints a client moves.
+
+Methods are called from threads of the messaging, by the names and with the
+arguments that NAOqi's own services have.
+"""
+
+from threading import Lock
+from typing import Any
+
+import numpy as np
+
+from ...poses import Array
+from ..lola.frames import ActuatorFrame
+from ..lola.joints import JOINT_COUNT, NAMES
+
+SHARED = "RHipYawPitch"  # the motor of LHipYawPitch turns both
+
+
+class JointRobot:
+    """What the services share, guarded by one lock.
+
+    Attributes:
+        lock: Held by whoever reads or writes.
+        values: What ALMemory tells, by key.
+        angles: Of the joints, in [rad]. Shape (25,).
+        targets: Commanded last, in [rad]. Shape (25,).
+        stiffness: Commanded last, shares of the torque. Shape (25,).
+        answered: Whether the last frame was: joints were set, or let go.
+        commanded: Whether anything was, that has not been taken.
+    """
+
+    def __init__(self) -> None:
+        """Begin limp, with nothing told."""
+        self.lock = Lock()
+        self.values: dict[str, Any] = {}
+        self.angles: Array = np.zeros(JOINT_COUNT)
+        self.targets: Array = np.zeros(JOINT_COUNT)
+        self.stiffness: Array = np.zeros(JOINT_COUNT)
+        self.answered = self.commanded = False
+
+    def command(self, *, answers: bool) -> None:
+        """Note a command; the lock is held."""
+        self.commanded = True
+        self.answered = self.answered or answers
+
+    def taken(self) -> ActuatorFrame | None:
+        """What was commanded since the last time; None if nothing was."""
+        with self.lock:
+            if not self.commanded:
+                return None
+            self.commanded = False
+            return ActuatorFrame(self.targets.copy(), self.stiffness.copy())
+
+
+class JointMotion:
+    """ALMotion: stiffness and joint angles."""
+
+    def __init__(self, robot: JointRobot) -> None:
+        """Move a robot."""
+        self._robot = robot
+
+    def wakeUp(self) -> None:
+        """Make the motors stiff where they are."""
+        robot = self._robot
+        with robot.lock:
+            robot.targets = robot.angles.copy()
+            robot.stiffness = np.ones(JOINT_COUNT)
+            robot.command(answers=False)
+
+    def rest(self) -> None:
+        """Let the motors go."""
+        with self._robot.lock:
+            self._robot.stiffness = np.zeros(JOINT_COUNT)
+            self._robot.command(answers=True)
+
+    def robotIsWakeUp(self) -> bool:
+        """Whether the motors are stiff."""
+        with self._robot.lock:
+            return bool(self._robot.stiffness.min() > 0.0)
+
+    def stopMove(self) -> None:
+        """Nothing: it does not walk by itself."""
+
+    def setStiffnesses(self, names: Any, stiffness: Any) -> None:
+        """Set shares of the torque, from 0 to 1."""
+        at, values = _placed(names, stiffness)
+        if not np.all((values >= 0.0) & (values <= 1.0)):
+            raise ValueError(f"stiffness must lie in [0, 1], got {stiffness}")
+        with self._robot.lock:
+            self._robot.stiffness[at] = values
+            limp = bool(self._robot.stiffness.max() == 0.0)
+            self._robot.command(answers=limp)
+
+    def setAngles(self, names: Any, angles: Any, fraction: float) -> None:
+        """Set joint targets, in [rad], that are taken at once."""
+        at, values = _placed(names, angles)
+        if not np.all(np.isfinite(values)):
+            raise ValueError(f"angles must be finite, got {angles!r:.80}")
+        if not 0.0 < fraction <= 1.0:
+            raise ValueError(f"fraction must lie in (0, 1]: {fraction}")
+        with self._robot.lock:
+            self._robot.targets[at] = values
+            self._robot.command(answers=True)
+
+    def getBodyNames(self, name: str) -> list[str]:
+        """Names of its joints."""
+        return list(NAMES)
+
+    def getAngles(self, names: Any, use_sensors: bool) -> list[float]:
+        """Angles of joints, in [rad]."""
+        with self._robot.lock:
+            robot = self._robot
+            angles = robot.angles if use_sensors else robot.targets
+            told: list[float] = angles[_numbers(names)].tolist()
+            return told
+
+
+class JointMemory:
+    """ALMemory: values by key."""
+
+    def __init__(self, robot: JointRobot) -> None:
+        """Know the robot."""
+        self._robot = robot
+
+    def getData(self, key: str) -> Any:
+        """One value."""
+        with self._robot.lock:
+            return self._robot.values[key]
+
+    def getListData(self, keys: Any) -> list[Any]:
+        """Values; None for what there is not."""
+        with self._robot.lock:
+            return [self._robot.values.get(key) for key in keys]
+
+
+def _numbers(names: Any) -> list[int]:
+    """Places of joints, by name; "Body" is all of them."""
+    wanted = [names] if isinstance(names, str) else list(names)
+    if wanted in (["Body"], ["Joints"]):
+        return list(range(JOINT_COUNT))
+    unknown = [name for name in wanted if name not in (*NAMES, SHARED)]
+    if unknown:
+        raise ValueError(f"there is no joint {unknown[0]!r:.40}")
+    return [
+        NAMES.index("LHipYawPitch" if name == SHARED else name)
+        for name in wanted
+    ]
+
+
+def _placed(names: Any, values: Any) -> tuple[list[int], Array]:
+    """Places of joints, and a value for each; one serves for all."""
+    at = _numbers(names)
+    given = np.array(values, dtype=np.float64)
+    if given.ndim > 1 or given.size not in (1, len(at)):
+        raise ValueError(
+            f"a value for each of {len(at)} joints is needed, got {given.size}"
+        )
+    return at, np.broadcast_to(given, len(at))

@@ -1,0 +1,84 @@
+"""Connecting to a robot on NAOqi whose joints are moved."""
+
+import logging
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from functools import partial
+from typing import TYPE_CHECKING
+
+from ...poses import Array
+from ..cameras.source import PerceptSource
+from ..lola.body import LolaBody
+from ..lola.guardian import StiffnessGuardian
+from ..lola.safety import SafetySettings
+
+if TYPE_CHECKING:
+    from .joint_line import JointLine
+
+log = logging.getLogger(__name__)
+
+
+def open_joints(
+    url: str,
+    joint_names: Sequence[str],
+    stance: Array,
+    *,
+    safety: SafetySettings | None = None,
+    dry_run: bool = False,
+    guarded: bool = False,
+    open_eyes: Callable[[], PerceptSource] | None = None,
+) -> LolaBody:
+    """Connect to a robot, whose body is the one that LoLA's robots have.
+
+    Args:
+        url: Like tcp://HOST:PORT.
+        joint_names: Actuated joints, in the order of joint targets.
+        stance: Posture in which control begins, in [rad].
+        safety: Limits of what is safe.
+        dry_run: Command nothing.
+        guarded: Whether a second process lets go of the robot if this one
+            dies or freezes. Forks: not for a process with threads.
+        open_eyes: Opens its cameras, if it is played with those.
+
+    Raises:
+        SessionLost: If no robot answers there, or no camera.
+    """
+    with ExitStack() as stack:
+        guardian = None
+        if guarded and not dry_run:
+            # Forked here: what speaks to the robot starts threads.
+            guardian = StiffnessGuardian(partial(_fade, url))
+            stack.callback(guardian.dismiss)
+        line = _line_to(url)
+        stack.callback(line.close)
+        from .joint_line import CODEC, MemorySight
+
+        eyes = None if open_eyes is None else open_eyes()
+        sight = MemorySight(line) if line.simulated and eyes is None else None
+        if sight is not None:
+            log.warning("sees by the ideal line of sight of the robot")
+        body = LolaBody(
+            line,
+            joint_names,
+            stance,
+            sight=sight,
+            eyes=eyes,
+            guardian=guardian,
+            safety=safety,
+            dry_run=dry_run,
+            codec=CODEC,
+        )
+        stack.pop_all()  # they are the body's now
+        return body
+
+
+def _line_to(url: str) -> "JointLine":
+    from .joint_line import JointLine
+
+    return JointLine(url)
+
+
+def _fade(url: str, targets: Array, stiffness: Array) -> None:
+    from .joint_line import fade
+
+    fade(url, targets, stiffness)

@@ -1,0 +1,135 @@
+"""Joints and senses of a robot as keys of ALMemory.
+
+Signs and units are those of LoLA's frames: an upright robot's accelerometer
+reads z near -9.8 m/s^2, and its feet weigh in [kg].
+"""
+
+from collections.abc import Sequence
+from math import isfinite
+from typing import Any
+
+import numpy as np
+
+from ..lola.conventions import CHEST_BUTTON, COUNTER, LOCK_STEP, REAL_TIME
+from ..lola.frames import SensorFrame
+from ..lola.joints import JOINT_COUNT, NAMES
+from ..lola.wire import WireError
+
+DEVICES = "Device/SubDeviceList"
+# Of a simulated robot: number of its frame, and 1 if its world waits.
+FRAME = "Stepaside/Frame"
+_AXES = "XYZ"
+_CORNERS = ("FrontLeft", "FrontRight", "RearLeft", "RearRight")
+
+
+def _each(what: str) -> list[str]:
+    return [f"{DEVICES}/{name}/{what}/Value" for name in NAMES]
+
+
+def _inertial(name: str, axes: str = _AXES) -> list[str]:
+    return [
+        f"{DEVICES}/InertialSensor/{name}{axis}/Sensor/Value" for axis in axes
+    ]
+
+
+GROUPS: dict[str, list[str]] = {
+    "position": _each("Position/Sensor"),
+    "stiffness": _each("Hardness/Actuator"),
+    "temperature": _each("Temperature/Sensor"),
+    "status": [f"{DEVICES}/{n}/Temperature/Sensor/Status" for n in NAMES],
+    "accelerometer": _inertial("Accelerometer"),
+    "gyroscope": _inertial("Gyroscope"),
+    "angles": _inertial("Angle", "XY"),
+    "fsr": [
+        f"{DEVICES}/{side}Foot/FSR/{corner}/Sensor/Value"
+        for side in "LR"
+        for corner in _CORNERS
+    ],
+    "sonar": [f"{DEVICES}/US/{s}/Sensor/Value" for s in ("Left", "Right")],
+    "chest": [f"{DEVICES}/ChestBoard/Button/Sensor/Value"],
+    "charge": [f"{DEVICES}/Battery/Charge/Sensor/Value"],
+}
+KEYS = [key for keys in GROUPS.values() for key in keys]
+# What a robot may not tell, and what it is taken to be then.
+UNUSED = ("LWristYaw", "RWristYaw", "LHand", "RHand")  # not on every NAO
+UNTOLD = {"status": 0.0, "temperature": 0.0, "sonar": 2.55, "charge": 0.0}
+
+
+def values_of(frame: SensorFrame) -> dict[str, float]:
+    """Values by key, as ALMemory tells them."""
+    told: dict[str, Sequence[float]] = {
+        "position": frame.position.tolist(),
+        "stiffness": frame.stiffness.tolist(),
+        "temperature": frame.temperature.tolist(),
+        "status": [float(status) for status in frame.status],
+        "accelerometer": frame.accelerometer.tolist(),
+        "gyroscope": frame.gyroscope.tolist(),
+        "angles": frame.angles,
+        "fsr": frame.fsr.tolist(),
+        "sonar": frame.sonar,
+        "chest": [frame.touch[CHEST_BUTTON]],
+        "charge": [frame.battery[0]],
+    }
+    return {
+        key: value
+        for name, keys in GROUPS.items()
+        for key, value in zip(keys, told[name], strict=True)
+    }
+
+
+def frame_of(
+    values: Sequence[Any], number: int, *, lock_step: bool
+) -> SensorFrame:
+    """Frame of what ALMemory tells.
+
+    Args:
+        values: Of ``KEYS``, in that order; None where there is none.
+        number: Of the frame.
+        lock_step: Whether its world waits for answers.
+
+    Raises:
+        WireError: If something that is needed is missing or no number.
+    """
+    if len(values) != len(KEYS):
+        raise WireError(f"{len(KEYS)} values are needed, got {len(values)}")
+    told: dict[str, list[float]] = {}
+    rest = iter(zip(KEYS, values, strict=True))
+    for name, keys in GROUPS.items():
+        told[name] = [_number(name, *next(rest)) for _ in keys]
+    body = LOCK_STEP if lock_step else REAL_TIME
+    battery = [told["charge"][0], 0.0, 0.0, 0.0]
+    battery[COUNTER] = float(number)
+    charge, second, third, fourth = battery
+    roll, pitch = told["angles"]
+    left, right = told["sonar"]
+    arrays = {name: np.array(values) for name, values in told.items()}
+    return SensorFrame(
+        arrays["position"],
+        arrays["stiffness"],
+        np.zeros(JOINT_COUNT),
+        arrays["temperature"],
+        tuple(round(status) for status in told["status"]),
+        arrays["accelerometer"],
+        arrays["gyroscope"],
+        (roll, pitch),
+        arrays["fsr"],
+        (left, right),
+        tuple(told["chest"]) + 13 * (0.0,),
+        (charge, second, third, fourth),
+        (body, "6.0.0", body, "6.0.0"),
+    )
+
+
+def _number(group: str, key: str, value: Any) -> float:
+    if value is None and group in UNTOLD:
+        return UNTOLD[group]
+    if value is None and group in ("position", "stiffness"):
+        if key.split("/")[2] in UNUSED:
+            return 0.0
+    try:
+        number = float(value)
+    except (TypeError, ValueError) as error:
+        raise WireError(f"{key} is {value!r:.40}") from error
+    if not isfinite(number):
+        raise WireError(f"{key} is {number}")
+    return number
