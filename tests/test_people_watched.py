@@ -223,4 +223,8 @@ def test_where_somebody_goes_is_told_after_a_while_of_watching(
     # After a gap the watch begins anew, of somebody known whatever the time.
     track.correct(Observation(2.0, x, 0.0, 0.0, 0.03, 0.03, False, True))
     assert not people.settled(track, 2.1, x)
-    assert people.settled(track, 2.7, x)
+    for i in range(14):
+        now = 2.05 + 0.05 * i
+        track.correct(Observation(now, x, 0.0, 0.0, 0.03, 0.03, False, True))
+    assert people.settled(track, now, x)
+    assert not people.settled(track, now + 0.35, x)

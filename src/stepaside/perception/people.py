@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from math import hypot
 
-from ..sensing.track import Track
+from ..sensing.track import LAPSE, Track
 from ..sensing.tracker import Tracker
 from .attention import STARE, UNSEEN
 
@@ -88,6 +88,8 @@ class People:
         seem to walk; and the first steps of a way do not tell where it
         leads. Only somebody who turns up near by leaves no time to see.
         """
+        if now - track.seen_at > LAPSE:
+            return False
         if now - track.watched_since >= WATCHED:
             return True
         speed = hypot(*track.velocity)
