@@ -9,7 +9,8 @@ STAMP := $(VENV)/.installed
 INSTALL := -m pip install --disable-pip-version-check --no-warn-script-location \
 	--root-user-action=ignore --constraint constraints.txt
 
-.PHONY: setup duel test other mutate fuzz bench figures wheel clean constraints
+.PHONY: setup duel test python other other-setup other-test mutate fuzz bench \
+	figures wheel clean constraints
 
 setup: $(STAMP)
 
@@ -32,13 +33,24 @@ test: setup
 	$(BIN)/mypy
 	$(BIN)/pytest --numprocesses auto
 
-# A selection of the tests under another Python: make other PYTHON=python3.13
-other:
+# The Python that the next environment is made with.
+python:
+	@echo $(PYTHON)
+
+# Another Python, as in make other PYTHON=python3.13: the wheel with nothing
+# optional, and tests that need no more and take milliseconds.
+OTHER := algebra cli configuration description errors footsteps interrupting \
+	kinematics laws options path plan ranges record records swing zmp
+other: other-setup other-test
+
+other-setup:
 	$(PYTHON) -m venv .venv-other
-	.venv-other/bin/python $(INSTALL) --editable ".[dev]"
-	.venv-other/bin/pytest --numprocesses auto tests/test_cli.py \
-		tests/test_configuration.py tests/test_duel.py tests/test_plan.py \
-		tests/test_structure.py tests/test_walk.py
+	.venv-other/bin/python $(INSTALL) --quiet . \
+		hypothesis pytest pytest-timeout pytest-xdist
+
+other-test:
+	.venv-other/bin/python -m pytest --numprocesses auto \
+		$(OTHER:%=tests/test_%.py)
 
 # Bad input for a while: make fuzz MINUTES=60
 MINUTES ?= 10

@@ -1,7 +1,9 @@
 """Ctrl-C is neither lost nor mistaken, whenever it comes."""
 
 import signal
+import subprocess
 import sys
+import threading
 from collections.abc import Callable
 from typing import Any
 
@@ -12,6 +14,7 @@ from stepaside.games.player_record import Record
 from stepaside.games.walk import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.interrupting import Held, interrupt, is_loading, stoppable
+from stepaside.studies.version import ROOT
 
 LOADERS = """
 class {name}:
@@ -48,6 +51,14 @@ def test_an_import_itself_is_not_interrupted_but_what_it_runs_is() -> None:
     assert not inner["seen"]
 
 
+def test_a_process_that_a_library_asks_as_it_loads_is_waited_for() -> None:
+    asked: dict[str, Any] = {"found": is_loading, "frame": sys._getframe}
+    text = "def ask(): return found(frame())"
+    exec(compile(text, subprocess.__file__, "exec"), asked)
+    assert loader("SourceFileLoader")(asked["ask"])
+    assert not asked["ask"]()
+
+
 @pytest.mark.parametrize("sign", SIGNALS)
 def test_an_interrupt_comes_when_the_library_is_there(
     sign: signal.Signals,
@@ -72,6 +83,25 @@ class Lost:
 
 
 def test_an_interrupt_that_nobody_could_be_told_comes_again() -> None:
+    with stoppable(), pytest.raises(KeyboardInterrupt):
+        Lost()
+        while True:
+            pass
+
+
+def test_an_interrupt_while_a_lost_one_is_sent_again_is_not_lost(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """As on a busy machine, where the moment is over before it began."""
+    start = threading.Timer.start
+    slow = iter([True])
+
+    def starts(timer: threading.Timer) -> None:
+        start(timer)
+        if next(slow, False):
+            timer.join()
+
+    monkeypatch.setattr(threading.Timer, "start", starts)
     with stoppable(), pytest.raises(KeyboardInterrupt):
         Lost()
         while True:
@@ -159,3 +189,20 @@ def test_a_record_is_whole_whenever_ctrl_c_comes(
         if array is not None
     }
     assert lengths == {len(run.times)}
+
+
+def test_little_is_loaded_before_it_is_known_what_ctrl_c_does() -> None:
+    """What is loaded while nobody listens cannot be interrupted in a line."""
+    code = (
+        f"import sys; sys.path.insert(0, {str(ROOT.parent)!r}); "
+        "before = set(sys.modules); import stepaside; "
+        "print(*sorted(set(sys.modules) - before))"
+    )
+    said = subprocess.run(
+        [sys.executable, "-I", "-S", "-c", code],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    loaded = set(said.stdout.split())
+    assert "stepaside" in loaded and not loaded & {"enum", "re", "typing"}

@@ -4,10 +4,9 @@ What most people need stands at this door; it is imported when it is first
 used, so that ``import stepaside`` itself costs nothing.
 """
 
-from typing import TYPE_CHECKING
-
 from .doors import door
 
+TYPE_CHECKING = False  # of typing, which would be loaded first
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:

@@ -1,8 +1,17 @@
-"""Doors of rooms: names at the front whose modules load when used."""
+"""Doors of rooms: names at the front whose modules load when used.
 
-from collections.abc import Callable, Mapping
+This is the first that loads, and nothing may take time before it is known
+what a Ctrl-C does: so ``typing`` is for those who check types alone.
+"""
+
+from __future__ import annotations
+
 from importlib import import_module
-from typing import Any
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from typing import Any
 
 
 def door(room: str, names: Mapping[str, str]) -> Callable[[str], Any]:

@@ -2,11 +2,12 @@
 
 An interrupt that comes while a compiled library begins is taken for an error
 of that library, and one that comes while Python tidies up after an import is
-passed over: so neither is raised there, but a moment later. One that comes
-while a game is at a tick waits for the end of that, so that the record of it
-is whole.
+passed over; a process that a library asks as it loads would die with words of
+its own. So none is raised there, but a moment later. One that comes while a
+game is at a tick waits for the end of that, so that the record is whole.
 """
 
+import os
 import signal
 import sys
 import threading
@@ -18,6 +19,7 @@ from typing import Any
 AGAIN = 0.01  # after which it is tried again, in [s]
 LONGEST = 0.5  # that an interrupt is kept back for a whole, in [s]
 IMPORTING = "<frozen importlib._bootstrap"  # and ..._external>
+ASKING = os.path.join(os.path.dirname(os.__file__), "subprocess.py")
 COMPILED = ("create_module", "exec_module")  # of a loader
 
 
@@ -113,14 +115,21 @@ def is_loading(frame: FrameType | None) -> bool:
     Args:
         frame: Where Python is.
     """
-    innermost = True
+    innermost, waits = True, False
     while frame is not None:
         code = frame.f_code
+        waits |= code.co_filename == ASKING
+        if code is _again_if_lost.__code__:  # nobody could be told of this
+            return True
         if code.co_filename.startswith(IMPORTING):
             loader = frame.f_locals.get("self")
-            if innermost or (
-                code.co_name in COMPILED
-                and type(loader).__name__ == "ExtensionFileLoader"
+            if (
+                innermost
+                or waits
+                or (
+                    code.co_name in COMPILED
+                    and type(loader).__name__ == "ExtensionFileLoader"
+                )
             ):
                 return True
         innermost, frame = False, frame.f_back

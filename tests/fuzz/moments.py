@@ -176,7 +176,7 @@ def _end(
         process.communicate()
         return f"hang: it went on for {GIVEN_UP:g} s, or its workers did"
     if sign is not signal.SIGKILL:
-        if "Traceback" in said:
+        if "Traceback" in said and "stepaside" in said:  # not Python's own
             return f"traceback: {said[-600:]!r}"
         work = worked.until_its_end() - before
         if work > STOPS:
