@@ -16,7 +16,8 @@ from typing import Any, NamedTuple
 
 from asking import ask
 
-from stepaside.fitting.deriving import derive, facts_of
+from stepaside.fitting.deriving import derive
+from stepaside.fitting.facts import facts_of
 from stepaside.fitting.writing import write_description
 from stepaside.games.duel import run_duel
 from stepaside.games.robot_settings import with_robot

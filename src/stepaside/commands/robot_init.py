@@ -44,7 +44,8 @@ def init(
     or copied. What the model does not tell is asked for in the file: search
     it for ASK.
     """
-    from ..fitting.deriving import derive, facts_of
+    from ..fitting.deriving import derive
+    from ..fitting.facts import facts_of
     from ..fitting.writing import write_description
     from ..robots.description import FILE, load_robot
 

@@ -3,7 +3,6 @@
 import os
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -270,40 +269,3 @@ def _path_from(folder: Path, path: Path) -> str:
 def coupled_of(found: Survey) -> set[str]:
     """Joints that follow others."""
     return followers_of(found.model)
-
-
-def facts_of(derived: Derived) -> dict[str, Any]:
-    """What was found and chosen, for a report."""
-    found, size = derived.survey, derived.size
-    own = derived.description
-    untold = [
-        name for name in own.overlay.servos if name not in derived.told_torques
-    ]
-    unlimited = [
-        name for name in own.speed_limits if name not in derived.told_speeds
-    ]
-    return {
-        "name": own.name,
-        "model": str(found.path),
-        "mass_kg": round(found.mass, 3),
-        "leg_length_m": round(found.length, 4),
-        "com_height_m": round(size.com_height, 4),
-        "com_heights_m": [round(derived.lowest, 4), round(derived.highest, 4)],
-        "foot_spacing_m": round(size.foot_spacing, 4),
-        "hip_width_m": round(
-            float(found.legs[0].hip[1] - found.legs[1].hip[1]), 4
-        ),
-        "sole_m": dict(own.sole),
-        "legs": [list(leg.joints) for leg in found.legs],
-        "gait": dict(own.gait),
-        "lengths_share": round(derived.share, 3),
-        "torque_share": round(derived.borne, 3),
-        "game": dict(own.game),
-        "coupled": sorted(coupled_of(found)),
-        "left_out_meshes": len(found.missing),
-        "asked_for": {
-            "sole": any(leg.is_guessed for leg in found.legs),
-            "torques": untold,
-            "speed_limits": unlimited,
-        },
-    }
