@@ -19,7 +19,7 @@ from stepaside.world.world import build_model
 
 
 @cache
-def play(seed: int, duration: float = 75.0) -> DuelRun:
+def play(seed: int, duration: float = 90.0) -> DuelRun:
     return run_duel(DuelSettings(seed=seed, duration=duration))
 
 
