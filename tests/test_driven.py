@@ -91,7 +91,7 @@ def test_the_sight_that_is_offered_counts_from_the_odometry(
     own, other, _ = walked
     state = own.state()
     assert state.sighting is not None
-    _, bearing, distance, _ = state.sighting
+    _, bearing, distance, *_ = state.sighting
     u, v = other.truth.place
     x, y = own.truth.place
     assert distance == pytest.approx(hypot(u - x, v - y), abs=0.01)

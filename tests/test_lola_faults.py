@@ -31,7 +31,8 @@ from stepaside.drivers.lola.frames import (
 from stepaside.drivers.lola.link import SocketLink
 from stepaside.drivers.lola.opening import open_lola
 from stepaside.drivers.lola.safety import State
-from stepaside.drivers.lola.server import FADING, SILENT, LolaServer
+from stepaside.drivers.lola.served_joints import FADING, SILENT
+from stepaside.drivers.lola.server import LolaServer
 from stepaside.drivers.lola.wire import SENSOR_BYTES
 from stepaside.drivers.session import SessionLost
 

@@ -30,7 +30,7 @@ def read(sight: IdealLineOfSight, now: float) -> Sighting:
 def test_the_truth_is_seen_at_once() -> None:
     sight = look()
     for tick in range(5):
-        time, bearing, distance, _ = read(sight, tick * TICK)
+        time, bearing, distance, *_ = read(sight, tick * TICK)
         assert time == tick * TICK
         assert distance == pytest.approx(hypot(1.5, 0.4))
         # Beyond half a turn: the short way, which is to the left.

@@ -23,10 +23,12 @@ from ..lola.guardian import FADING
 from ..lola.joints import JOINT_COUNT, NAMES
 from ..session import SessionLost
 from .address import IDEAL_SIGHT
-from .sensor_keys import FRAME, KEYS, frame_of
+from .sensor_keys import FRAME, KEYS, QUICK_KEYS, frame_of
 from .session import answer_of, ask, connect
 
 ASKING = 2.0  # longest time for a service or a single answer, in [s]
+EVERY = 25  # ticks, after which temperatures and the like are read
+EARLY = 0.003  # before a frame is due, when it is looked for, in [s]
 POLL = 0.0005  # between two looks at a simulated robot, in [s]
 STUCK = 0.5  # for which a command may be on its way, in [s]
 FULL_SPEED = 1.0  # share of the motors' speed: who limits it is control
@@ -102,6 +104,9 @@ class JointLine:
         self.sight: tuple[float, float, float] | None = None
         self._began, self._number = clock(), -1
         self._heard: Heard | None = None
+        self._due = 0.0
+        self._told: dict[str, Any] = {}
+        self._reads = 0
         self._calls: deque[tuple[float, Any]] = deque()
         self._stiffness: Array = np.full(JOINT_COUNT, np.nan)
 
@@ -166,21 +171,33 @@ class JointLine:
 
     def _look(self, patience: float) -> None:
         """Ask for a frame; a simulated robot may have no new one."""
-        asked = [*KEYS, FRAME, IDEAL_SIGHT]
+        if self.simulated and not self._has_spoken(patience):
+            return
+        keys = QUICK_KEYS if self._reads % EVERY else KEYS
+        asked = [*keys, FRAME, IDEAL_SIGHT]
         told = ask(self._memory, "getListData", asked, within=patience)
-        *values, frame, sight = told
+        *known, frame, sight = told
+        self._told.update(zip(keys, known, strict=True))
+        self._reads += 1
+        values = [self._told[key] for key in KEYS]
         if not self.simulated:
             passed = int((self._clock() - self._began) / TICK)
             self._number = max(passed, self._number + 1)
             self._heard = Heard(values, self._number % COUNTER_RANGE, False)
             return
-        try:
-            number, waits = (int(value) for value in frame)
-        except (TypeError, ValueError) as error:
-            raise SessionLost(f"the robot's frame is {frame!r:.60}") from error
-        if number != self._number:
-            self._number, self.sight = number, _sight(sight)
-            self._heard = Heard(values, number, bool(waits))
+        number, waits = _frame(frame)
+        self._number, self.sight = number, _sight(sight)
+        self._heard = Heard(values, number, waits)
+        self._due = 0.0 if waits else self._clock() + TICK - EARLY
+
+    def _has_spoken(self, patience: float) -> bool:
+        """Whether a simulated robot has a new frame: a look that costs little.
+
+        In real time there is none for most of a tick.
+        """
+        self._pause(max(0.0, min(self._due - self._clock(), patience)))
+        told = ask(self._memory, "getData", FRAME, within=patience)
+        return _frame(told)[0] != self._number
 
     def _call(self, method: str, *values: Any) -> None:
         call = getattr(self._motion, method)(*values, _async=True)
@@ -250,6 +267,15 @@ def fade(url: str, targets: Array, stiffness: Array) -> None:
             sleep(TICK)
     finally:
         session.close()
+
+
+def _frame(told: Any) -> tuple[int, bool]:
+    """Number of a frame, and whether its world waits for the answer."""
+    try:
+        number, waits = (int(value) for value in told)
+    except (TypeError, ValueError) as error:
+        raise SessionLost(f"the robot's frame is {told!r:.60}") from error
+    return number, bool(waits)
 
 
 def _sight(told: Any) -> tuple[float, float, float] | None:

@@ -50,6 +50,11 @@ GROUPS: dict[str, list[str]] = {
     "charge": [f"{DEVICES}/Battery/Charge/Sensor/Value"],
 }
 KEYS = [key for keys in GROUPS.values() for key in keys]
+SLOW = ("stiffness", "temperature", "status", "charge")
+# What has to be known at every tick: half of all.
+QUICK_KEYS = [
+    key for name, keys in GROUPS.items() if name not in SLOW for key in keys
+]
 # What a robot may not tell, and what it is taken to be then.
 UNUSED = ("LWristYaw", "RWristYaw", "LHand", "RHand")  # not on every NAO
 UNTOLD = {"status": 0.0, "temperature": 0.0, "sonar": 2.55, "charge": 0.0}
