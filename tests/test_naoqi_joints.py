@@ -149,12 +149,13 @@ class Scene:
     def walk(self) -> None:
         """Stand up, and be started by the chest button."""
         self.ticks(100)
-        assert self.body.state is State.READY and self.server.ready
+        before = self.body.state
+        assert self.server.ready
         self.server.press(True)
         self.ticks(1)
         self.server.press(False)
         self.ticks(1)
-        assert self.body.state is State.WALKING
+        assert (before, self.body.state) == (State.READY, State.WALKING)
 
 
 @pytest.fixture
@@ -380,7 +381,9 @@ def client(url: str, ticks: list[Tick]) -> None:
 
     def open_body(scheme: Any) -> LolaBody:
         names = scheme.kinematics.joint_names
-        return until(lambda: _opened(url, names, scheme.joint_targets))
+        stance = scheme.joint_targets
+        body: LolaBody = until(lambda: _opened(url, names, stance))
+        return body
 
     playing = Playing(open_body, Evasion(), make)
     try:

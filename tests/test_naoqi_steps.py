@@ -1,6 +1,6 @@
 """Test a robot on NAOqi that is moved by footsteps."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from math import hypot, inf, nan
 from typing import Any
@@ -168,11 +168,12 @@ def test_footsteps_follow_those_told_or_the_one_being_made() -> None:
 
 def test_velocity_and_rest_clear_the_footsteps() -> None:
     alone = Alone()
-    for clear in (
+    clears: list[Callable[[], None]] = [
         lambda: alone.service.move(0.05, 0.0, 0.0),
         alone.service.stopMove,
         alone.service.rest,
-    ):
+    ]
+    for clear in clears:
         alone.robot.awake = True
         alone.service.setFootSteps(*LEFT, True)
         assert alone.robot.asked == REST

@@ -44,6 +44,8 @@ class Dull(FakeStrategy):
 class DullPerception:
     """Sees the other always at the same place."""
 
+    looking = False
+
     def see(self, measurement: Any, *told: Any) -> Any:
         """See what a measurement says."""
         return measurement.sighting

@@ -50,7 +50,7 @@ def polygons(result: Mapping[str, Any]) -> str:
         ("polygons", *(f"{part} [ms]" for part in parts), "longest [ms]"),
         [
             (
-                interval(*row["polygons"], 0),
+                interval(row["polygons"][0], row["polygons"][1], 0),
                 *(number(row[part]["median_ms"], 2) for part in parts),
                 ", ".join(
                     number(row[part]["longest_ms"], 1) for part in parts
