@@ -6,9 +6,15 @@ pace have a clock of their own, and the limit on each test (``timeout`` in
 """
 
 import os
+import signal
+import threading
 
 for name in ("OPENBLAS", "OMP", "NUMBA"):
     os.environ.setdefault(f"{name}_NUM_THREADS", "1")
+# A shell that starts us in the background lets Ctrl-C pass by; tests press it.
+if threading.current_thread() is threading.main_thread():
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 import pytest  # noqa: E402
 from hypothesis import HealthCheck, settings  # noqa: E402

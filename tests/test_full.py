@@ -86,7 +86,7 @@ def test_a_place_that_fills_meanwhile_costs_no_result(
 
 
 @pytest.mark.parametrize(
-    ("name", "fault"), zip(QUICK, cycle(FAULTS), strict=False)
+    ("name", "fault"), [*zip(QUICK, cycle(FAULTS), strict=False)]
 )
 def test_a_place_that_changes_meanwhile_costs_no_result(
     name: str, fault: str, run: Path

@@ -183,33 +183,51 @@ def _wrong(
     name: str, folder: Path, fault: str, found: Told, whole: Told
 ) -> str:
     """What is wrong with what became of a command that was struck."""
-    result = found.result
-    error = result.exception
+    error = found.result.exception
     if error is not None and not isinstance(error, SystemExit):
         return f"traceback: {told(error)}"
-    if result.exit_code not in (whole.result.exit_code, REFUSED):
+    return (
+        _wrong_words(found.result, whole.result)
+        or _lost(name, folder, fault, found)
+        or unwhole(folder, killed=False)
+        or _empty(folder)
+    )
+
+
+def _wrong_words(result: Result, whole: Result) -> str:
+    """What is wrong with what was said."""
+    if result.exit_code not in (whole.exit_code, REFUSED):
         return f"status {result.exit_code}: {result.stderr[-300:]!r}"
+    if result.exit_code != REFUSED:
+        return ""
     said = result.stderr.splitlines()
-    refused = False
-    if result.exit_code == REFUSED:
-        ours = [line for line in said if line.startswith("stepaside: ")]
-        if not ours or ours[-1] != said[-1]:
-            return f"no word: {result.stderr[-300:]!r}"
-        refused = "must" in said[-1]  # before anything was computed
-        if not refused and not _is_answer(result.stdout, whole.result.stdout):
-            return f"no result: {said[-1]!r}"
-    else:
-        place = folder / TOP / PLACE
+    if not said or not said[-1].startswith("stepaside: "):
+        return f"no word: {result.stderr[-300:]!r}"
+    if not _is_refusal(result) and not _is_answer(result.stdout, whole.stdout):
+        return f"no result: {said[-1]!r}"
+    return ""
+
+
+def _is_refusal(result: Result) -> bool:
+    """Whether nothing was computed, for the place was seen to be no good."""
+    return result.exit_code == REFUSED and "must" in result.stderr
+
+
+def _lost(name: str, folder: Path, fault: str, found: Told) -> str:
+    """What should be there and is not."""
+    place, strike = folder / TOP / PLACE, found.strike
+    if found.result.exit_code != REFUSED:
         for file in files_of(name, place):
-            if not file.exists() and not found.strike.has_done(file):
+            if not file.exists() and not strike.has_done(file):
                 return f"lost: {file.name}"
-    place = folder / TOP / PLACE / "output"
-    if name in RUNS and fault != "short of room" and not refused:
-        if not any(map(_is_run, _folders(folder, said))) and not (
-            found.strike.has_done(place)
-        ):
-            return f"no run: {result.stderr[-300:]!r}"
-    return unwhole(folder, killed=False) or _empty(folder)
+    # Where no file may grow, a run can be kept nowhere.
+    if name not in RUNS or fault == "short of room":
+        return ""
+    if _is_refusal(found.result) or strike.has_done(place / "output"):
+        return ""
+    said = found.result.stderr
+    kept = any(map(_is_run, _folders(folder, said.splitlines())))
+    return "" if kept else f"no run: {said[-300:]!r}"
 
 
 def _is_answer(text: str, whole: str) -> bool:
