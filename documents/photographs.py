@@ -92,7 +92,7 @@ def film(browser: Any) -> None:
             if abs(time - PUSHED) < 0.5 * EACH:
                 served.session.push(0, 0.6, 0.5 * pi)
             shot = Image.open(BytesIO(page.screenshot()))
-            frames.append(shot.convert("RGB").resize(SMALL, Image.LANCZOS))
+            frames.append(shot.convert("RGB").resize(SMALL, Image.Resampling.LANCZOS))
     palette = frames[-1].quantize(128)
     drawn = [frame.quantize(palette=palette) for frame in frames]
     drawn[0].save(
