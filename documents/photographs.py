@@ -32,6 +32,7 @@ from stepaside.report.viewer.page import Page
 from .pictures import IMAGES
 
 DESK = {"width": 1280, "height": 720}
+LANCZOS = Image.Resampling.LANCZOS
 SMALL = (640, 360)  # of a film, in [pixels]
 WAIT = 200_000  # in [ms]
 DRAWN = """() => new Promise((told) => requestAnimationFrame(
@@ -92,7 +93,8 @@ def film(browser: Any) -> None:
             if abs(time - PUSHED) < 0.5 * EACH:
                 served.session.push(0, 0.6, 0.5 * pi)
             shot = Image.open(BytesIO(page.screenshot()))
-            frames.append(shot.convert("RGB").resize(SMALL, Image.Resampling.LANCZOS))
+            small = shot.convert("RGB").resize(SMALL, LANCZOS)
+            frames.append(small)
     palette = frames[-1].quantize(128)
     drawn = [frame.quantize(palette=palette) for frame in frames]
     drawn[0].save(
