@@ -382,7 +382,9 @@ def test_no_claim_in_physics_is_without_a_fault() -> None:
         "durations": TOSSES | WALKS,
         "slip": NO_SLIP,
     }
-    assert set(faults) == {name for name, job in JOBS.items() if job.seeded}
+    seeded = {name for name, job in JOBS.items() if job.seeded}
+    # Those of games in rooms are in test_claims_evading.
+    assert set(faults) == seeded - {"evading", "rooms"}
     for name, by_key in faults.items():
         assert set(by_key) == set(claims(name))
         assert all(by_key.values())

@@ -83,9 +83,11 @@ class Case(NamedTuple):
     def duration(self) -> float:
         """Time in which all begin to walk, in [s].
 
-        Images have to arrive first, and feedback stands still for a second.
+        Images have to arrive first, somebody who comes is watched for a
+        while, and feedback stands still for a second.
         """
-        return 0.2 if self.body == "ideal" else 1.2
+        watched = self.pursuer == "person" and self.sensing == "cameras"
+        return 1.2 if self.body != "ideal" else 0.9 if watched else 0.2
 
     def settings(self) -> DuelSettings:
         """Settings of its duel."""

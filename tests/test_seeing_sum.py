@@ -110,7 +110,8 @@ def test_each_looks_for_the_trim_of_the_other() -> None:
 def test_only_the_evader_feels_depth(monkeypatch: pytest.MonkeyPatch) -> None:
     opened: list[tuple[Any, ...]] = []
 
-    def open_eyes(*arguments: Any, with_depth: bool) -> Any:
+    def open_eyes(*arguments: Any, with_depth: bool, looks_low: Any) -> Any:
+        assert looks_low is None  # where nobody comes
         opened.append((*arguments, with_depth))
         return f"eyes {len(opened)}"
 

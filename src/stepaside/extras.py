@@ -3,8 +3,8 @@
 EXTRAS = {  # as ``pyproject.toml`` has them; names as they are imported
     "fast": ("numba",),
     "mpc": ("daqp",),
-    "naoqi": ("qi",),
     "robot": ("msgpack",),
+    "naoqi": ("msgpack", "qi"),
     "ros2": ("cyclonedds",),
     "viewer": ("av", "msgspec", "trimesh", "viser", "websockets"),
     "vision": ("cv2",),
