@@ -1,6 +1,8 @@
 """Test records on disk: whole lines or none."""
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -68,3 +70,28 @@ def test_no_file_holds_nothing_and_is_not_made(tmp_path: Path) -> None:
     file = RecordFile(tmp_path / "none.jsonl")
     assert file.read() == {}
     assert not file.path.exists()
+
+
+SHORT_OF_ROOM = """
+import resource, sys
+from pathlib import Path
+from stepaside.errors import OutputError
+from stepaside.studies.records import RecordFile
+file = RecordFile(Path(sys.argv[1]))
+most = file.path.stat().st_size + 40  # less than a record
+resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
+try:
+    file.append("c", {"x": 4.0})
+except OutputError:
+    raise SystemExit(3)
+"""
+
+
+def test_no_half_of_a_record_stays_where_room_runs_out(
+    file: RecordFile,
+) -> None:
+    pytest.importorskip("resource")
+    before = file.path.read_bytes()
+    words = [sys.executable, "-c", SHORT_OF_ROOM, str(file.path)]
+    assert subprocess.run(words, check=False).returncode == 3
+    assert file.path.read_bytes() == before

@@ -66,14 +66,18 @@ class RecordFile:
         line = _line(key, record).encode()
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
-            with alone_in(self.path.parent), self.path.open("ab+") as out:
+            # Without a buffer, which would be written again as it is closed.
+            with (
+                alone_in(self.path.parent),
+                self.path.open("ab+", buffering=0) as out,
+            ):
                 end = out.seek(0, os.SEEK_END)
                 if end:
                     out.seek(-1, os.SEEK_END)
                     line = line if out.read(1) == b"\n" else b"\n" + line
                 try:
-                    out.write(line)
-                    out.flush()
+                    while line:
+                        line = line[out.write(line) :]
                 except OSError:  # no half of it stays where room ran out
                     os.truncate(self.path, end)
                     raise
