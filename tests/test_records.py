@@ -78,7 +78,8 @@ from pathlib import Path
 from stepaside.errors import OutputError
 from stepaside.studies.records import RecordFile
 file = RecordFile(Path(sys.argv[1]))
-most = file.path.stat().st_size + 40  # less than a record
+size = file.path.stat().st_size if file.path.exists() else 0
+most = size + 40  # less than a record
 resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
 try:
     file.append("c", {"x": 4.0})
@@ -95,3 +96,6 @@ def test_no_half_of_a_record_stays_where_room_runs_out(
     words = [sys.executable, "-c", SHORT_OF_ROOM, str(file.path)]
     assert subprocess.run(words, check=False).returncode == 3
     assert file.path.read_bytes() == before
+    file.path.unlink()
+    assert subprocess.run(words, check=False).returncode == 3
+    assert not file.path.exists()

@@ -78,8 +78,10 @@ class RecordFile:
                 try:
                     while line:
                         line = line[out.write(line) :]
-                except OSError:  # no half of it stays where room ran out
+                except OSError:  # nothing of it stays where room ran out
                     os.truncate(self.path, end)
+                    if not end:
+                        self.path.unlink()
                     raise
         except OSError as error:
             raise OutputError(
