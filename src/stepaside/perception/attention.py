@@ -55,6 +55,21 @@ class Attention(Protocol):
         """
 
 
+def lately_seen(
+    tracks: Sequence[Track], main: Track | None, now: float
+) -> list[Track]:
+    """Tracks that may be looked at, what counts before all others.
+
+    Args:
+        tracks: Everything followed.
+        main: What counts.
+        now: Time, in [s].
+    """
+    ordered = [] if main is None else [main]
+    ordered += [track for track in tracks if track is not main]
+    return [track for track in ordered if now - track.seen_at <= UNSEEN]
+
+
 class OneRobot:
     """Looks for a robot that is known by its trim."""
 
@@ -73,11 +88,7 @@ class OneRobot:
         y: float,
     ) -> Track | None:
         """What counts, and else what is near or moves."""
-        candidates = [] if main is None else [main]
-        candidates += [track for track in tracks if track is not main]
-        for track in candidates:
-            if now - track.seen_at > UNSEEN:
-                continue
+        for track in lately_seen(tracks, main, now):
             named = now - track.identified_at < UNSEEN
             moves = hypot(*track.velocity) > MOVING and track.confirmed
             if named or track.away_from(x, y, now) < STARE or moves:

@@ -5,7 +5,7 @@ from math import hypot
 
 from ..sensing.track import LAPSE, Track
 from ..sensing.tracker import Tracker
-from .attention import STARE, UNSEEN
+from .attention import STARE, UNSEEN, lately_seen
 
 AHEAD = 4.0  # for which somebody is taken to walk on, in [s]
 COMES = 1.0  # who comes nearer than this is not let out of sight, in [m]
@@ -57,9 +57,7 @@ class People:
         y: float,
     ) -> Track | None:
         """Who comes; else what was not looked at for a while."""
-        candidates = [] if main is None else [main]
-        candidates += [track for track in tracks if track is not main]
-        candidates = [t for t in candidates if now - t.seen_at <= UNSEEN]
+        candidates = lately_seen(tracks, main, now)
         for track in candidates:
             if track.walked and nearest(track, now, x, y) < COMES:
                 return track
