@@ -373,3 +373,19 @@ def test_changes_reach_the_deepest_section_after_whole_ones() -> None:
     )
     assert found.control.mpc.steps == 4
     assert found.body == changed(BODIES["delayed"], {"backlash": 0.01})
+
+
+@pytest.mark.parametrize("command", ["duel", "duels", "view"])
+def test_who_is_to_see_the_map_sees(command: str, tmp_path: Path) -> None:
+    room = f"{command} --room 3 --map seen"
+    assert printed(room)["sensing"] == "cameras"
+    assert printed(f"{command} --room 3 --map given")["sensing"] == "ideal"
+    assert printed(f"{command} --map seen")["sensing"] == "ideal"
+    refused = run(f"{room} --sensing ideal --print-config")
+    assert refused.exit_code == 2
+    assert "sensing must be 'cameras' where the map is seen" in refused.stderr
+    file = tmp_path / "told.toml"
+    file.write_text('sensing = "ideal"\n', encoding="utf-8")
+    assert run(f"{room} --config {file} --print-config").exit_code == 2
+    file.write_text("seed = 4\n", encoding="utf-8")
+    assert printed(f"{room} --config {file}")["sensing"] == "cameras"

@@ -26,7 +26,7 @@ from stepaside.outputs import (
     free_file,
     writing,
 )
-from stepaside.report import run_folder
+from stepaside.report import duel_figure
 from stepaside.report.run_folder import keep_run, write_run
 
 FULL = OSError(errno.ENOSPC, "No space left on device")
@@ -186,7 +186,7 @@ def test_a_run_that_cannot_be_written_is_kept_elsewhere(
         if there in path.parents:
             raise FULL
 
-    monkeypatch.setattr(run_folder, "draw_duel", full)
+    monkeypatch.setattr(duel_figure, "draw_duel", full)
     kept, why = keep_run(there / "run", short)
     assert kept == spare / "stepaside-run"
     assert why is not None and "no space left" in str(why)
@@ -324,7 +324,7 @@ def test_a_duel_is_told_even_if_it_is_not_written(
     def full(*arguments: Any) -> None:
         raise FULL
 
-    monkeypatch.setattr(run_folder, "draw_duel", full)
+    monkeypatch.setattr(duel_figure, "draw_duel", full)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     words = ["duel", "--duration", "0.1", "--output", str(tmp_path / "run")]
     result = CliRunner().invoke(main, words)

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import cv2
+import mujoco
 import numpy as np
 import pytest
 
@@ -15,16 +16,19 @@ from stepaside.games.judge import Tally
 from stepaside.games.outcome import Outcome
 from stepaside.games.pedestrian import Pedestrian
 from stepaside.games.seeing import Seeing, Witness
-from stepaside.games.settings import PLAYERS, DuelSettings
+from stepaside.games.settings import PLAYERS, DuelSettings, StartSettings
 from stepaside.games.sight_figures import SightFigures, Spread
+from stepaside.games.start import frames_of, walls_of, with_start
 from stepaside.games.walker import Walker
 from stepaside.robots.description import load_robot
+from stepaside.robots.head import load_head
 from stepaside.world.camera_settings import (
     CameraSettings,
     ColourSettings,
     RoomSettings,
     Thing,
 )
+from stepaside.world.person_settings import PersonSettings
 
 RAYS = CameraSettings(colour=ColourSettings(renderer="raycast"))
 SETTINGS = DuelSettings(
@@ -55,7 +59,9 @@ def judged(colour: Tally, depth: Tally, lost: float) -> Any:
 
 def prepared(*names: str, **changes: Any) -> Seeing:
     settings = SETTINGS if not changes else DuelSettings(**changes)
-    return Seeing(settings, load_robot("nao"), names or PLAYERS, tick=0.004)
+    return Seeing(
+        with_start(settings), load_robot("nao"), names or PLAYERS, tick=0.004
+    )
 
 
 def at(ticks: int) -> Any:
@@ -211,3 +217,44 @@ def test_both_judges_look_at_every_tick() -> None:
         both.acted(at(ticks))
     both.ended(at(3), Outcome.COMPLETED)
     assert looked == 3 * ["pursuer", "evader"]
+
+
+@pytest.mark.parametrize(
+    ("asked", "distance", "there"),
+    [
+        (5.0, 1.5, 5.0),
+        (2.0, 0.8, 2.0),
+        (5.0, 4.0, 5.0),
+        (5.0, 4.5, 8.0),
+        (5.0, 8.0, 11.5),
+        (20.0, 8.0, 20.0),
+        (0.0, 8.0, 0.0),
+    ],
+)
+def test_everybody_begins_well_inside_the_walls(
+    asked: float, distance: float, there: float
+) -> None:
+    settings = DuelSettings(
+        room=RoomSettings(walls=asked),
+        start=StartSettings(distance, 0.0, 0.0),
+    )
+    assert walls_of(settings) == pytest.approx(there)
+
+
+def test_no_wall_stands_between_a_robot_and_who_comes_fast() -> None:
+    settings = with_start(
+        DuelSettings(
+            pursuer="person",
+            person=PersonSettings("straight", 1.0),
+            sensing="cameras",
+            cameras=CameraSettings(colour=ColourSettings(renderer="raycast")),
+        )
+    )
+    seeing = Seeing(settings, load_robot("nao"), ("evader",), tick=0.004)
+    spec = mujoco.MjSpec()
+    head = load_head(load_robot("nao")).body
+    spec.worldbody.add_body(name=f"evader/{head}")
+    seeing.furnish(spec)
+    evader = frames_of(settings)[1]
+    assert evader.x > 5.0
+    assert spec.geom("wall 1 0").pos[0] - evader.x == pytest.approx(3.5)

@@ -29,6 +29,7 @@ from .match import Match
 from .outcome import Outcome
 from .settings import DuelSettings
 from .sight_figures import SeeingFigures, Seen
+from .start import walls_of
 
 GLANCES = {"pursuer": SELDOM, "evader": OFTEN}  # around, to map
 STILLS = 5  # images that a duel keeps of each camera
@@ -54,7 +55,7 @@ class Seeing:
         """Prepare the senses of some robots.
 
         Args:
-            settings: Of the duel.
+            settings: Of the duel, with the start filled in.
             description: The robots.
             names: Who they are.
             tick: Control period, in [s].
@@ -70,7 +71,11 @@ class Seeing:
         self.renderer = choose_renderer(settings.cameras.colour.renderer)
         self._people = settings.pursuer == "person"
         self.furnish = furnisher(
-            settings.room, "evader", self._head, lower=self._people
+            settings.room,
+            "evader",
+            self._head,
+            walls=walls_of(settings),
+            lower=self._people,
         )
         self._maps = (
             settings.room.plan is not None and settings.map.source == "seen"

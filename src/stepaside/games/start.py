@@ -11,6 +11,8 @@ from .settings import DuelSettings, StartSettings
 
 LEISURELY = 0.15  # speed up to which a person begins near by, in [m/s]
 AHEAD = 5.0  # time by which a faster one begins earlier, in [s]
+INSIDE = 1.0  # of the walls that are asked for everybody begins, in [m]
+APART = 3.5  # from a start to walls that stand elsewhere for it, in [m]
 SAME = 1e-6  # starts that differ less are one, in [m] and [rad]
 
 
@@ -81,6 +83,23 @@ def frames_of(settings: DuelSettings) -> tuple[Pose, Pose]:
         Pose(0.0, 0.0, start.pursuer_offset),
         Pose(start.distance, 0.0, pi + start.evader_offset),
     )
+
+
+def walls_of(settings: DuelSettings) -> float:
+    """Distance of the walls from the middle, in [m]; 0 for none.
+
+    Whoever begins beyond them would come through one, unseen until then: so
+    where a start is not well inside they stand beyond what a depth camera
+    sees from it.
+
+    Args:
+        settings: Of the duel, with the start filled in.
+    """
+    walls = settings.room.walls
+    reach = max(abs(c) for frame in frames_of(settings) for c in frame[:2])
+    if not walls or reach + INSIDE <= walls:
+        return walls
+    return reach + APART
 
 
 def _agreeing(asked: StartSettings, drawn: StartSettings) -> StartSettings:

@@ -6,7 +6,7 @@ import numpy as np
 from ..errors import ConfigurationError
 from ..games.run import Run
 from ..games.settings import EVADER, DuelSettings
-from ..games.start import frames_of
+from ..games.start import frames_of, walls_of
 from ..poses import Pose
 from ..robots.description import load_robot
 from ..robots.head import load_head
@@ -116,4 +116,4 @@ def surroundings_of(run: Run) -> Furnish | None:
     if settings.sensing != "cameras" or EVADER not in run.robots:
         return None
     head = load_head(load_robot(settings.robot_of(EVADER).robot))
-    return furnisher(settings.room, EVADER, head)
+    return furnisher(settings.room, EVADER, head, walls=walls_of(settings))

@@ -220,7 +220,8 @@ class RoomSettings:
 
     Attributes:
         walls: Distance of the walls that cameras see from the middle, in [m];
-            0 for none; 2 to 20 or 0.
+            where a player begins beyond, or less than 1 m inside, they stand
+            3.5 m beyond that player; 0 for none; 2 to 20 or 0.
         things: Boxes and figures that stand about.
         plan: Floor plan of the room that they play in, whatever they see
             with; none by default.

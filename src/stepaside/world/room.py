@@ -36,20 +36,22 @@ def furnisher(
     wearer: str,
     head: HeadDescription,
     *,
+    walls: float,
     lower: bool = False,
 ) -> Furnish:
     """What turns an empty world into a room.
 
     Args:
-        room: Walls and things.
+        room: Things in it.
         wearer: Robot that wears the depth camera.
         head: Its head.
+        walls: Distance of the walls from the middle, in [m]; 0 for none.
         lower: Whether the lower camera of the head is used, too.
     """
 
     def furnish(spec: mujoco.MjSpec) -> None:
-        if room.walls:
-            _add_walls(spec, room.walls)
+        if walls:
+            _add_walls(spec, walls)
         for index, thing in enumerate(room.things):
             body = spec.worldbody.add_body(
                 name=f"thing {index}", pos=[thing.x, thing.y, 0.0]

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from .body import BODY_PRESET, FEEDBACK, METHOD
 from .gait import PRESET
+from .game import SENSING
+from .rooms import MAP, PLAN
 
 if TYPE_CHECKING:
     from ...control.balance.settings import ControlSettings
@@ -102,4 +104,23 @@ def with_trigger(given: Mapping[str, Any], pursuer: str) -> dict[str, Any]:
     person = values.get("pursuer", pursuer) == "person"
     if person and values.get(PRESET.path) in STABILISED:
         values.setdefault("strategy.trigger", "time")
+    return values
+
+
+def with_senses(
+    given: Mapping[str, Any], *, in_room: bool, told: bool
+) -> dict[str, Any]:
+    """Values with the senses that others imply.
+
+    Who is to know of a room what was seen of it has to see.
+
+    Args:
+        given: Values by path.
+        in_room: Whether a file said in which room they play.
+        told: Whether a file said how they sense.
+    """
+    values = dict(given)
+    if values.get(MAP.path) == "seen" and not told:
+        if in_room or values.get(PLAN) is not None:
+            values.setdefault(SENSING.path, "cameras")
     return values

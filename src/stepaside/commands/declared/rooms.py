@@ -80,8 +80,8 @@ def _unseen() -> Collection[str]:
 
 MAP = Declaration(
     "--map",
-    "What they know of it: all, what their depth cameras have seen, or "
-    "nothing.",
+    "What they know of it: all, what their depth cameras have seen (with "
+    "--sensing cameras, unless that is given), or nothing.",
     "map.source",
     registry=_maps,
 )

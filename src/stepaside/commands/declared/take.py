@@ -14,7 +14,8 @@ from click.core import ParameterSource
 
 from ..terminal import echo
 from .body import METHOD
-from .build import changed, with_control, with_trigger
+from .build import changed, with_control, with_senses, with_trigger
+from .game import SENSING
 from .option import Declaration, DeclaredOption, Group, Kind
 from .rooms import with_room
 
@@ -144,6 +145,15 @@ def _begin(
     return base, needed
 
 
+def _says(config: Path | None, path: str) -> bool:
+    """Whether a file of settings, if there is one, says an entry."""
+    if config is None:
+        return False
+    from ...games.configuration import says
+
+    return says(config, path)
+
+
 def _settings(
     kind: Kind, values: dict[str, Any], aside: Callable[[], Collection[str]]
 ) -> Any:
@@ -165,13 +175,17 @@ def _settings(
     config = values.pop("config")
     settings, needed = _begin(kind, given, config, aside)
     if hasattr(settings, "control"):
-        from ...games.configuration import says
-
-        told = config is not None and says(config, METHOD.path)
+        told = _says(config, METHOD.path)
         control = settings.control
         given = with_control(given, control, needed=needed, told_method=told)
     if hasattr(settings, "pursuer"):
         given = with_trigger(given, settings.pursuer)
+    if hasattr(settings, "sensing"):
+        given = with_senses(
+            given,
+            in_room=settings.room.plan is not None,
+            told=_says(config, SENSING.path),
+        )
     for path in given.keys() & declarations.keys():
         given[path] = declarations[path].value_of(given[path])
     return changed(settings, with_room(given))

@@ -4,9 +4,46 @@ import numpy as np
 import viser
 from viser import uplot
 
+from ...poses import Array
 from ..palette import seen_by_all
 from ..style import EVADER, PURSUER, THEORY
 from .session import Session
+
+# Room above and to the right of a plot for its last marks, in [pixels].
+PADDING = (12, 12, 0, 0)
+
+
+def add_plot(
+    gui: viser.GuiApi,
+    title: str,
+    label: str,
+    colour: str,
+    data: tuple[Array, Array, Array],
+) -> viser.GuiUplotHandle:
+    """Add a plot over time beside what theory says.
+
+    Args:
+        gui: Of the page.
+        title: Says what is shown, and its unit.
+        label: Of what is shown.
+        colour: Of its line.
+        data: Times in [s], values, and the values of theory; shape (n,) each.
+    """
+    return gui.add_uplot(
+        data,
+        (
+            uplot.Series(label="time [s]"),
+            uplot.Series(label=label, stroke=seen_by_all(colour), width=2),
+            uplot.Series(
+                label="theory", stroke=seen_by_all(THEORY), dash=(5, 5)
+            ),
+        ),
+        title=title,
+        height=125,
+        padding=PADDING,
+        # Seconds of the run, which are no date.
+        scales={"x": uplot.Scale(time=False)},
+    )
 
 
 class Plots:
@@ -16,24 +53,7 @@ class Plots:
         """Add empty plots to a page."""
         empty = (np.zeros(1), np.zeros(1), np.zeros(1))
         self._plots = [
-            gui.add_uplot(
-                empty,
-                (
-                    uplot.Series(label="time [s]"),
-                    uplot.Series(
-                        label=label,
-                        stroke=seen_by_all(colour),
-                        width=2,
-                    ),
-                    uplot.Series(
-                        label="theory", stroke=seen_by_all(THEORY), dash=(5, 5)
-                    ),
-                ),
-                title=title,
-                height=125,
-                # Seconds of the run, which are no date.
-                scales={"x": uplot.Scale(time=False)},
-            )
+            add_plot(gui, title, label, colour, empty)
             for title, label, colour in (
                 ("Distance [m]", "distance", PURSUER),
                 ("Angle between the headings [deg]", "angle", EVADER),

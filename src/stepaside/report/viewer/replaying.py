@@ -7,12 +7,11 @@ from typing import Any
 
 import numpy as np
 import viser
-from viser import uplot
 
 from ...games.run import Run
 from ...poses import Array
 from ..inert import for_markdown
-from ..palette import LIGHTS, seen_by_all
+from ..palette import LIGHTS
 from ..stage import Stage
 from ..style import EVADER, PURSUER, PUSHED, THEORY, colours_of
 from .bodies import Bodies
@@ -26,6 +25,7 @@ from .layers import (
     safety_of,
 )
 from .layout import WATCH
+from .plots import add_plot
 from .serving import open_server
 from .viewers import CAMERAS, Viewers
 
@@ -116,25 +116,14 @@ class ReplayPage:
                 self._add_plot(title, values, level, colour)
 
     def _add_plot(
-        self, title: str, values: Array, level: float | None, colour: Any
+        self, title: str, values: Array, level: float | None, colour: str
     ) -> None:
         """Show one figure over time, and where theory ends."""
         times = self._run.times
         thin = slice(None, None, max(1, len(times) // MOST_PLOTTED))
         ends = np.full(len(times[thin]), level or np.nan)
-        self.server.gui.add_uplot(
-            (times[thin], values[thin], ends),
-            (
-                uplot.Series(label="time [s]"),
-                uplot.Series(label="run", stroke=seen_by_all(colour), width=2),
-                uplot.Series(
-                    label="theory", stroke=seen_by_all(THEORY), dash=(5, 5)
-                ),
-            ),
-            title=title,
-            height=125,
-            scales={"x": uplot.Scale(time=False)},
-        )
+        data = (times[thin], values[thin], ends)
+        add_plot(self.server.gui, title, "run", colour, data)
 
     def _add_views(self) -> None:
         """Let each viewer choose a camera, and a light."""
