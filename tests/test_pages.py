@@ -321,9 +321,8 @@ def test_the_written_page_opens_without_a_network(
 def seen_at(page: Any, time: float) -> str:
     """What a written page draws of a time, in [s], as text, and only once."""
     with looking(page):
-        page.evaluate(f"stepaside.seek({time})")
+        draws = page.evaluate(f"(stepaside.seek({time}), draws)")
         drawn = page.evaluate("document.getElementById('world').toDataURL()")
-        draws = page.evaluate("draws")
         page.evaluate(FRAMES)
         assert page.evaluate("draws") == draws > 0
     assert isinstance(drawn, str)
