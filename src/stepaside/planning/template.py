@@ -7,13 +7,24 @@ the CoM is ahead of it by as much as the ZMP is ahead of the ankles.
 
 import numpy as np
 
-from ..poses import Array
+from ..poses import Array, Pose
 from .footsteps import Foot
 from .schedule import Schedule
 from .settings import GaitSettings
 
 STILL = 1e-6  # samples nearer than this are one, in [m]
 SHORT = 0.18  # way of a step on the spot, at most, over the feet's distance
+
+
+def passed_beside(foot: Pose, side: Foot, foot_spacing: float) -> Pose:
+    """Pose with which the unicycle passes a foot that stands.
+
+    Args:
+        foot: The foot, in any frame.
+        side: Which it is.
+        foot_spacing: Coronal distance between feet, in [m].
+    """
+    return foot.compose(Pose(0.0, -0.5 * foot_spacing * side.value, 0.0))
 
 
 def path_samples(

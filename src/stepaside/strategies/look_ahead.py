@@ -14,6 +14,7 @@ from ..errors import (
     check_within,
 )
 from ..planning import Direction
+from ..poses import Pose
 from ..steps import (
     NO_VALUE,
     NOTHING,
@@ -164,6 +165,8 @@ class LookAhead:
         if not (memory.evading or near):
             return STAND, LookAheadMemory(False, trace)
         both = place_both(trace, pursuer_heading(trace, rules))
+        if knowledge.begins is not None:
+            both = moved_on(both, knowledge, knowledge.begins)
         bounded = bool(knowledge.obstacles)
         packed = pack(knowledge.obstacles) if bounded else NOTHING
         table = NO_VALUE
@@ -252,6 +255,32 @@ def place_both(trace: Trace, heading: float) -> Both:
         seen.y,
         cos(heading),
         sin(heading),
+    )
+
+
+def moved_on(both: Both, knowledge: Knowledge, begins: Pose) -> Both:
+    """Where both are when the step begins that is decided.
+
+    A body passes the foot that landed half a step after it did, and the
+    pursuer has gone on as long.
+
+    Args:
+        both: Where they were when the pursuer was seen.
+        knowledge: Of the own limits, and how long ago that was.
+        begins: Where the step begins, in the own odometry.
+    """
+    limits = knowledge.limits
+    steps = 0.5 + knowledge.age / limits.step_duration
+    way = limits.stride * steps
+    return Both(
+        begins.x,
+        begins.y,
+        cos(begins.theta),
+        sin(begins.theta),
+        both.px + way * both.pc,
+        both.py + way * both.ps,
+        both.pc,
+        both.ps,
     )
 
 
