@@ -190,4 +190,5 @@ class Decisions:
             moving,
             self._around.solids.known,
             drift,
+            spread=seen.spread,
         )

@@ -66,6 +66,7 @@ class Knowledge:
             the pose is; None where it begins there. A walker decides when
             a foot has landed, and its body passes that foot half a step
             later.
+        spread: Standard deviation of the place of the other, in [m].
     """
 
     time: float
@@ -80,6 +81,7 @@ class Knowledge:
     obstacles: tuple[Obstacle, ...] = ()
     velocity: tuple[float, float] | None = None
     begins: Pose | None = None
+    spread: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -35,6 +35,7 @@ ERROR = ConfigurationError
 ON_THE_SPOT = 0.05  # share of the speed at which a body but turns
 MARGIN = 0.005  # beyond the clearance that is asked for, in [m]
 PENALTY = 60.0  # of a metre too near: a centimetre is worth 0.6 m
+LOYALTY = 0.2  # by which another maneuver beats a turn on the spot, in [m]
 SPOTS = 12  # steps on the spot: half a turn is 12.5 of the sharpest
 LONGEST = 400  # steps of a maneuver
 OPEN = 3  # pieces that are enough where a table says what comes after
@@ -178,6 +179,7 @@ class LookAhead:
             PENALTY,
             self.sight,
             tight=self.tight,
+            loyalty=0.0 if knowledge.begins is None else LOYALTY,
         )
         plan, spot = memory.rest(knowledge.time, limits.step_duration)
         found = look_ahead(
