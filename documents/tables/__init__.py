@@ -57,6 +57,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "passers-by": people.passers_by,
     "people": people.people,
     "people-passed-by": people.passed_by,
+    "comers": people.comers,
     "people-seen": people.seen,
     "polygons": rooms.polygons,
     "printed": duels.printed,
