@@ -10,8 +10,6 @@ import pytest
 from stepaside.errors import ConfigurationError
 from stepaside.poses import Pose, wrap_angle
 from stepaside.rooms import Disc, Room, RoomRecipe, make_room
-from stepaside.steps import NO_VALUE, Aims, Both, pack
-from stepaside.steps.search import look_ahead
 from stepaside.strategies import (
     Evasion,
     Knowledge,
@@ -26,9 +24,6 @@ from stepaside.strategies import (
     tables,
 )
 from stepaside.strategies.look_ahead import (
-    maneuvers_of,
-    moved_on,
-    place_both,
     rules_of,
 )
 from stepaside.strategies.other import (
@@ -37,6 +32,7 @@ from stepaside.strategies.other import (
     note,
     pursuer_heading,
 )
+from stepaside.strategies.places import moved_on, place_both
 
 NAO = Limits(0.1, 0.2, 0.04, 0.4)
 FACING = (Pose(0.0, 0.0, 0.6), Pose(1.0, 0.1, 3.3))
@@ -325,30 +321,3 @@ def test_a_walker_looks_ahead_from_where_its_step_begins() -> None:
     two, other = mind.decide(there, mind.begin())
     assert one == two
     assert memory.plan == pytest.approx(other.plan, abs=0.1)
-
-
-def turns_on(loyalty: float, begun: float) -> float:
-    """First turn found by who has begun to turn on the spot.
-
-    There is a wall behind; the pursuer is ahead, a little to the left.
-    """
-    wall = Disc(-10.3, 0.0, 10.0)
-    both = Both(0.0, 0.0, 1.0, 0.0, 0.6, 0.08, -1.0, 0.0)
-    limits = rules_of(NAO)
-    aims = Aims(0.8, 0.2, 60.0, 2.6, tight=0.9, loyalty=loyalty)
-    most = limits.evader_share * pi
-    tried = maneuvers_of((2, 4, 8), 7, 10, pi / 2, most, 12)
-    plan = (begun * most,) * 6
-    packed, none = pack((wall,)), NO_VALUE
-    found = look_ahead(
-        both, plan, tried, limits, aims, packed, none, planned=6
-    )
-    return float(found.turns[0])
-
-
-def test_a_turn_on_the_spot_is_gone_on_with() -> None:
-    """Unless another maneuver is so much better."""
-    free = {begun: turns_on(0.0, begun) for begun in (1.0, -1.0)}
-    assert len({np.sign(turn) for turn in free.values()}) == 1
-    worse = -np.sign(free[1.0])
-    assert np.sign(turns_on(5.0, worse)) == worse

@@ -43,8 +43,6 @@ class Aims(NamedTuple):
         blindness: What a radian beyond that costs, in [m].
         gain: By how much a maneuver must beat the present one, in [m].
         tight: Score below which turning on the spot is tried as well, [m].
-        loyalty: By how much a maneuver must beat a turn on the spot that has
-            begun, in [m]: whoever turns to and fro gets nowhere.
     """
 
     enough: float = inf
@@ -54,7 +52,6 @@ class Aims(NamedTuple):
     blindness: float = 0.1
     gain: float = 1e-6
     tight: float = -inf
-    loyalty: float = 0.0
 
 
 class Found(NamedTuple):

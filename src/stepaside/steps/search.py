@@ -123,7 +123,7 @@ def search(
         are made on the spot.
     """
     horizon, angle = maneuvers.horizon, maneuvers.angle
-    start, spot, bar = aims.enough, 0, 0.0
+    start, spot = aims.enough, 0
     still = StepRules(
         rules.evader_stride * maneuvers.still, rules.evader_share,
         rules.pursuer_stride, rules.pursuer_share, rules.lead,
@@ -144,17 +144,14 @@ def search(
         if score > best - aims.gain:
             best, spot = score, planned
             chosen[:] = work
-            if planned > 0:
-                bar = aims.loyalty
     if len(maneuvers.pieces) == 0 or best >= start:
         return best, made, spot
-    bar += best
     found, made = descend(
-        both, start, 0, made, bar, maneuvers, rules, aims, packed, table,
+        both, start, 0, made, best, maneuvers, rules, aims, packed, table,
         chosen, work,
     )  # fmt: skip
-    if found > bar:
-        best, bar, spot = found, found, 0
+    if found > best:
+        best, spot = found, 0
     if best >= aims.tight:
         return best, made, spot
     most = np.abs(maneuvers.turns).max()
@@ -166,16 +163,16 @@ def search(
             score = judge(here, score, aims, packed)
             work[n] = side * most
             made += 1
-            if score <= bar + aims.gain:
+            if score <= best + aims.gain:
                 break
             if n % 2 == 0:
                 continue
             found, made = descend(
-                here, score, n + 1, made, bar, maneuvers, rules, aims, packed,
+                here, score, n + 1, made, best, maneuvers, rules, aims, packed,
                 table, chosen, work,
             )  # fmt: skip
-            if found > bar:
-                best, bar, spot = found, found, n + 1
+            if found > best:
+                best, spot = found, n + 1
     return best, made, spot
 
 

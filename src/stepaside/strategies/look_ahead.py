@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import cos, inf, pi, radians, sin
+from math import inf, pi, radians
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +14,6 @@ from ..errors import (
     check_within,
 )
 from ..planning import Direction
-from ..poses import Pose
 from ..steps import (
     NO_VALUE,
     NOTHING,
@@ -29,13 +28,13 @@ from ..steps.motion import half_turn, step_both
 from ..steps.packed import clearance_at
 from .knowledge import STAND, Intent, Knowledge, Limits
 from .other import Trace, note, pursuer_heading
+from .places import moved_on, place_both
 from .tables import pursuit_table
 
 ERROR = ConfigurationError
 ON_THE_SPOT = 0.05  # share of the speed at which a body but turns
 MARGIN = 0.005  # beyond the clearance that is asked for, in [m]
 PENALTY = 60.0  # of a metre too near: a centimetre is worth 0.6 m
-LOYALTY = 0.2  # by which another maneuver beats a turn on the spot, in [m]
 SPOTS = 12  # steps on the spot: half a turn is 12.5 of the sharpest
 LONGEST = 400  # steps of a maneuver
 OPEN = 3  # pieces that are enough where a table says what comes after
@@ -179,7 +178,6 @@ class LookAhead:
             PENALTY,
             self.sight,
             tight=self.tight,
-            loyalty=0.0 if knowledge.begins is None else LOYALTY,
         )
         plan, spot = memory.rest(knowledge.time, limits.step_duration)
         found = look_ahead(
@@ -238,52 +236,6 @@ def rules_of(limits: Limits, lead: float = 0.0) -> StepRules:
     """Steps of both players, who are alike, from the limits of one."""
     share = limits.gain * limits.stride / limits.speed
     return StepRules(limits.stride, share, limits.stride, share, lead)
-
-
-def place_both(trace: Trace, heading: float) -> Both:
-    """Where both are, in the own odometry.
-
-    Args:
-        trace: At least one sighting.
-        heading: Of the pursuer there, in [rad].
-    """
-    seen = trace[-1]
-    return Both(
-        seen.own_x,
-        seen.own_y,
-        cos(seen.own_theta),
-        sin(seen.own_theta),
-        seen.x,
-        seen.y,
-        cos(heading),
-        sin(heading),
-    )
-
-
-def moved_on(both: Both, knowledge: Knowledge, begins: Pose) -> Both:
-    """Where both are when the step begins that is decided.
-
-    A body passes the foot that landed half a step after it did, and the
-    pursuer has gone on as long.
-
-    Args:
-        both: Where they were when the pursuer was seen.
-        knowledge: Of the own limits, and how long ago that was.
-        begins: Where the step begins, in the own odometry.
-    """
-    limits = knowledge.limits
-    steps = 0.5 + knowledge.age / limits.step_duration
-    way = limits.stride * steps
-    return Both(
-        begins.x,
-        begins.y,
-        cos(begins.theta),
-        sin(begins.theta),
-        both.px + way * both.pc,
-        both.py + way * both.ps,
-        both.pc,
-        both.ps,
-    )
 
 
 @lru_cache(maxsize=16)
