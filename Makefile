@@ -9,8 +9,8 @@ STAMP := $(VENV)/.installed
 INSTALL := -m pip install --disable-pip-version-check --no-warn-script-location \
 	--root-user-action=ignore --constraint constraints.txt
 
-.PHONY: setup duel test python other other-setup other-test mutate fuzz bench \
-	figures wheel clean constraints
+.PHONY: setup duel test types suite python other other-setup other-test mutate \
+	fuzz bench figures wheel clean constraints
 
 setup: $(STAMP)
 
@@ -27,10 +27,19 @@ $(STAMP): pyproject.toml constraints.txt
 duel: setup
 	$(BIN)/stepaside duel
 
+# What Python compiled is kept, whatever the shell says: tests start a hundred
+# processes, and each would compile the package and the tests anew.
+test: export PYTHONDONTWRITEBYTECODE :=
 test: setup
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(MAKE) --no-print-directory --jobs 2 types suite
+
+# Beside each other, so that no core waits.
+types:
 	$(BIN)/mypy
+
+suite:
 	$(BIN)/pytest --numprocesses auto
 
 # The Python that the next environment is made with.

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +27,7 @@ from stepaside.outputs import (
     free_file,
     writing,
 )
-from stepaside.report import run_folder
+from stepaside.report import duel_figure, unicycle_sweep
 from stepaside.report.run_folder import keep_run, write_run
 
 FULL = OSError(errno.ENOSPC, "No space left on device")
@@ -186,7 +187,7 @@ def test_a_run_that_cannot_be_written_is_kept_elsewhere(
         if there in path.parents:
             raise FULL
 
-    monkeypatch.setattr(run_folder, "draw_duel", full)
+    monkeypatch.setattr(duel_figure, "draw_duel", full)
     kept, why = keep_run(there / "run", short)
     assert kept == spare / "stepaside-run"
     assert why is not None and "no space left" in str(why)
@@ -280,8 +281,10 @@ def test_every_option_for_files_is_one_of_these() -> None:
 
 
 def test_a_figure_without_a_suffix_is_told_as_it_is_written(
-    tmp_path: Path,
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    few = partial(unicycle_sweep.draw_sweep, marks=0)
+    monkeypatch.setattr(unicycle_sweep, "draw_sweep", few)
     words = ["circle", "--starts", "0", "--json"]
     figure = ["--sweep", str(tmp_path / "a")]
     result = CliRunner().invoke(main, [*words, *figure])
@@ -324,7 +327,7 @@ def test_a_duel_is_told_even_if_it_is_not_written(
     def full(*arguments: Any) -> None:
         raise FULL
 
-    monkeypatch.setattr(run_folder, "draw_duel", full)
+    monkeypatch.setattr(duel_figure, "draw_duel", full)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     words = ["duel", "--duration", "0.1", "--output", str(tmp_path / "run")]
     result = CliRunner().invoke(main, words)

@@ -25,7 +25,7 @@ from stepaside.games.settings import (
 )
 from stepaside.games.track import Track
 from stepaside.poses import Array
-from stepaside.report import run_folder, sight_figure
+from stepaside.report import duel_figure, sight_figure
 from stepaside.report.run_folder import check_output, free_folder, write_run
 from stepaside.report.stage import Stage
 from stepaside.strategies import Evasion
@@ -47,7 +47,7 @@ def draw_nothing(*arguments: Any) -> None:
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(run_folder, "draw_duel", draw_nothing)
+    monkeypatch.setattr(duel_figure, "draw_duel", draw_nothing)
 
 
 def test_a_run_comes_back_as_it_was(tmp_path: Path, result: DuelRun) -> None:
@@ -98,7 +98,7 @@ def test_an_error_leaves_nothing_behind(
         assert len(list(tmp_path.iterdir())) == 1  # the draft
         raise error
 
-    monkeypatch.setattr(run_folder, "draw_duel", fail)
+    monkeypatch.setattr(duel_figure, "draw_duel", fail)
     with pytest.raises(type(error)):
         write_run(tmp_path / "run", result)
     assert list(tmp_path.iterdir()) == []
@@ -110,7 +110,7 @@ def test_a_full_disk_is_told_in_one_line(
     def full(*_: Any) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(run_folder, "draw_duel", full)
+    monkeypatch.setattr(duel_figure, "draw_duel", full)
     said = "run could not be written: no space left"
     with pytest.raises(OutputError, match=said):
         write_run(tmp_path / "run", result)

@@ -4,6 +4,7 @@ import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import mujoco
 import numpy as np
 
 from ..errors import ModelError, ReachError
@@ -25,12 +26,15 @@ from .motors import (
 )
 from .posture import knee_limits, reach_of, standing_of, stiff_joints
 from .rehearsal import lengths_share, torque_share
+from .soles import check_size
 from .survey import Survey, survey
 
 HIGH = 0.96  # CoM height of a gait by the greatest that is reached
+SPREAD = 1.4  # greatest one by the distance between the hips
 SPACE = 1.25  # least foot spacing by twice the sole's inner edge
 TICK = 0.004  # of the kinematics that tries heights, in [s]
-ANYONE = ("model", "robot", "scene")  # names of files that say nothing
+# Names of files and folders that say nothing.
+ANYONE = ("model", "models", "robot", "robots", "scene", "urdf", "mjcf", "xml")
 FEET = ("stepaside_left_sole", "stepaside_right_sole")
 
 
@@ -85,8 +89,8 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
         published_torques(read_model(model)), found.mass, found.length
     )
     speeds = published_speeds(model)
-    sole = _sole_of(found)
-    spacing = _spacing_of(found, sole[3])
+    sole = shared_sole(found)
+    spacing = spacing_of(found, sole[3])
     guess = 0.9 * found.length
     description = _structure(
         found, folder, places, sole, gains_of(found, torques, guess), speeds
@@ -141,14 +145,7 @@ def _rehearsed(
 
 
 def _check_legs(found: Survey) -> None:
-    """Refuse legs that cannot place a foot."""
-    for side, leg in zip(("left", "right"), found.legs, strict=True):
-        count = len(leg.joints)
-        if count < 6:
-            raise ModelError(
-                f"the {side} leg must have at least 6 joints to place its "
-                f"foot, got {count}: {', '.join(leg.joints)}"
-            )
+    """Refuse legs of which one is not like the other."""
     left, right = found.legs
     if len(left.joints) != len(right.joints):
         raise ModelError(
@@ -157,7 +154,7 @@ def _check_legs(found: Survey) -> None:
         )
 
 
-def _sole_of(found: Survey) -> tuple[float, float, float, float]:
+def shared_sole(found: Survey) -> tuple[float, float, float, float]:
     """Back, front, outer and inner edge: what both feet have, in [m]."""
     left, right = (leg.outline for leg in found.legs)
     edges = (
@@ -167,13 +164,25 @@ def _sole_of(found: Survey) -> tuple[float, float, float, float]:
         min(-left[2], right[3]),
     )
     back, front, outer, inner = (round(edge, 4) for edge in edges)
+    wrong = check_size((back, front, -inner, outer), found.length)
+    if wrong:
+        raise ModelError(
+            f"what the soles of {found.legs[0].foot!r} and "
+            f"{found.legs[1].foot!r} have in common {wrong}: the feet of "
+            "the model must be mirror images"
+        )
     return back, front, outer, inner
 
 
-def _spacing_of(found: Survey, inner: float) -> float:
-    """Distance between ankles in the zero posture, or what soles need."""
+def spacing_of(found: Survey, inner: float) -> float:
+    """Distance between ankles in the zero posture, or what soles need.
+
+    Legs that are spread in the zero posture do not stand so.
+    """
     left, right = found.legs
-    return max(float(left.ankle[1] - right.ankle[1]), SPACE * 2.0 * inner)
+    apart = float(left.ankle[1] - right.ankle[1])
+    hips = float(left.hip[1] - right.hip[1])
+    return max(min(apart, SPREAD * hips), SPACE * 2.0 * inner)
 
 
 def _structure(
@@ -191,7 +200,7 @@ def _structure(
     reach = reach_of(found, standing, forward)
     return RobotDescription(
         folder=folder,
-        name=_name_of(found),
+        name=name_of(found),
         model=_path_from(folder, found.path),
         torso=found.torso,
         left_foot=FEET[0],
@@ -214,9 +223,12 @@ def _structure(
 
 def _sole_place(found: Survey, side: int) -> SolePlace:
     leg = found.legs[side]
-    under = np.array([leg.ankle[0], leg.ankle[1], leg.sole])
+    under = leg.ankle - (leg.ankle[2] - leg.sole) * leg.axes[:, 2]
     x, y, z = (found.place_in(leg.foot, under).round(5) + 0.0).tolist()
-    w, a, b, c = (found.turn_of(leg.foot).round(7) + 0.0).tolist()
+    turn = np.zeros(4)
+    mujoco.mju_mat2Quat(turn, leg.axes.ravel())
+    mujoco.mju_mulQuat(turn, found.turn_of(leg.foot), turn.copy())
+    w, a, b, c = (turn.round(7) + 0.0).tolist()
     return SolePlace(leg.foot, (x, y, z), (w, a, b, c))
 
 
@@ -253,12 +265,12 @@ def _heights(
     return kinematics.lowest_com(stance), highest
 
 
-def _name_of(found: Survey) -> str:
-    """Name of the file, or of its folder where files have all one name."""
-    name = found.path.stem
-    if name.lower() in ANYONE:
-        name = found.path.resolve().parent.name
-    return name.replace("_", " ")
+def name_of(found: Survey) -> str:
+    """Name of the file, or of a folder where files have all one name."""
+    path = found.path.resolve()
+    names = (path.stem, *(folder.name for folder in path.parents))
+    telling = (name for name in names if name.lower() not in ANYONE)
+    return next(telling, "").replace("_", " ") or path.stem
 
 
 def _path_from(folder: Path, path: Path) -> str:

@@ -8,12 +8,11 @@ import numpy as np
 
 from ..errors import ModelError
 from ..poses import Array
-from ..world.shapes import points_of
+from .soles import foot_points, sole_of
 
 LEVEL = 0.8  # least share of an axis along the one it is taken for
-FLAT = 0.012  # of the leg's length: what of a foot counts as its sole
-# Height of an ankle over the sole and edges of the sole, as parts of a leg.
-GUESS = (0.12, -0.12, 0.22, -0.09, 0.09)
+SLANTED = 0.5  # likewise of an axis that some other lies across
+APART = 0.1  # of the leg: places of an ankle's axes that are far apart
 MOVES = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
 
 
@@ -27,11 +26,14 @@ class Leg(NamedTuple):
         foot: Body of the foot.
         hip: Middle of its first three joints, in [m]. Shape (3,).
         ankle: Place of its last joint, in [m]. Shape (3,).
-        sole: Height of the sole, in [m].
+        sole: Height of the sole, were it level, in [m].
         outline: Edges of the sole from the ankle, in [m]: back, front,
             right, left.
         is_guessed: Whether sole and outline are a guess, for the foot has no
             geoms that say.
+        axes: Axes forward, left and up of the foot when it stands, as
+            columns. Shape (3, 3).
+        pivots: Places of the pitches, in [m]. Shape (3, 3).
     """
 
     joints: tuple[str, ...]
@@ -42,7 +44,9 @@ class Leg(NamedTuple):
     ankle: Array
     sole: float
     outline: tuple[float, float, float, float]
-    is_guessed: bool = False
+    is_guessed: bool
+    axes: Array
+    pivots: Array
 
 
 def find_legs(
@@ -105,42 +109,9 @@ def _ends(model: mujoco.MjModel) -> list[int]:
     return [body for body in jointed if body not in above]
 
 
-def _rigid(model: mujoco.MjModel, body: int) -> list[int]:
-    """A body and all that hangs on it."""
-    found = [body]
-    for other in range(body + 1, model.nbody):
-        if int(model.body_parentid[other]) in found:
-            found.append(other)
-    return found
-
-
 def _end(model: mujoco.MjModel, data: mujoco.MjData, body: int) -> _End:
-    points = _foot_points(model, data, body)
+    points = foot_points(model, data, body)
     return _End(body, float(points[:, 2].min()), float(data.xpos[body, 1]))
-
-
-def _foot_points(
-    model: mujoco.MjModel, data: mujoco.MjData, body: int
-) -> Array:
-    """Points on the surface of an end, those that collide if any do."""
-    geoms = [
-        geom
-        for part in _rigid(model, body)
-        for geom in range(
-            model.body_geomadr[part],
-            model.body_geomadr[part] + model.body_geomnum[part],
-        )
-    ]
-    touching = [
-        geom
-        for geom in geoms
-        if model.geom_contype[geom] or model.geom_conaffinity[geom]
-    ]
-    found = [points_of(model, data, geom) for geom in touching or geoms]
-    found = [points for points in found if len(points)]
-    if not found:
-        return np.array([data.xpos[body]])
-    return np.concatenate(found)
 
 
 def _chain(model: mujoco.MjModel, body: int) -> list[int]:
@@ -154,45 +125,64 @@ def _chain(model: mujoco.MjModel, body: int) -> list[int]:
     return chain
 
 
+def _lacking(data: mujoco.MjData, chain: list[int], knee: int) -> list[str]:
+    """Joints beside the pitches that a leg would need, in words."""
+    upper = [j for j in chain if j < knee]
+    lower = [j for j in chain if j > knee]
+    wanted = (
+        ("hip yaw", upper, 2),
+        ("hip roll", upper, 0),
+        ("ankle roll", lower, 0),
+    )
+    return [
+        what
+        for what, joints, axis in wanted
+        if not any(abs(data.xaxis[j, axis]) > SLANTED for j in joints)
+    ]
+
+
+def _ankle(data: mujoco.MjData, last: int, pitch: int, hip: Array) -> Array:
+    """Place of the last joint of a leg, in [m]. Shape (3,).
+
+    Wherever along a roll axis a model says that it is, it is taken to be
+    where the ankle's pitch crosses it, if they are far apart.
+    """
+    place: Array = data.xanchor[last].copy()
+    axis = data.xaxis[last]
+    along = float((data.xanchor[pitch] - place) @ axis)
+    if abs(axis[0]) < LEVEL or abs(along) < APART * (hip - place)[2]:
+        return place
+    ankle: Array = place + along * axis
+    return ankle
+
+
 def _leg(
     model: mujoco.MjModel, data: mujoco.MjData, body: int, chain: list[int]
 ) -> Leg:
     """Joints that a leg has to itself, and its sole."""
-    name = model.body(body).name
     pitches = [j for j in chain if abs(data.xaxis[j, 1]) > LEVEL]
-    if len(pitches) != 3 or len(chain) < 5:
+    if len(pitches) == 4 and pitches[3] == chain[-1] and len(chain) > 6:
+        # A toe: it stays, and what hangs on it is of the foot.
+        chain, pitches = chain[:-1], pitches[:-1]
+        body = int(model.jnt_bodyid[chain[-1]])
+    name = model.body(body).name
+    names = ", ".join(model.joint(j).name for j in chain)
+    if len(pitches) != 3:
         raise ModelError(
             f"the leg that ends in {name!r} must have a pitch joint at hip, "
             f"knee and ankle, got {len(chain)} joints of which {len(pitches)} "
-            "turn about the axis to the left"
+            f"turn about the axis to the left: {names}"
         )
-    ankle = data.xanchor[chain[-1]].copy()
-    hip = data.xanchor[chain[:3]].mean(axis=0)
-    points = _foot_points(model, data, body)
-    low = float(points[:, 2].min())
-    flat = points[points[:, 2] < low + FLAT * (hip[2] - low)]
-    (back, right), (front, left) = (
-        flat[:, :2].min(axis=0),
-        flat[:, :2].max(axis=0),
-    )
-    outline = (
-        float(back - ankle[0]),
-        float(front - ankle[0]),
-        float(right - ankle[1]),
-        float(left - ankle[1]),
-    )
-    guessed = len(points) == 1
-    if guessed:
-        length = float(hip[2] - ankle[2])
-        low = float(ankle[2]) - GUESS[0] * length
-        back, front, right, left = (x * length for x in GUESS[1:])
-        outline = back, front, right, left
-    elif not (outline[0] < 0.0 < outline[1] and outline[2] < 0.0 < outline[3]):
+    lacking = _lacking(data, chain, pitches[1])
+    if len(chain) < 6:
         raise ModelError(
-            f"the sole of {name!r} must lie under its ankle, got edges "
-            f"{', '.join(f'{edge:.3f}' for edge in outline)} [m] from it: "
-            "its geoms say nothing of a flat sole in the zero posture"
+            f"the leg that ends in {name!r} must have at least 6 joints to "
+            f"place its foot, got {len(chain)} and no "
+            f"{' and no '.join(lacking) or 'other'}: {names}"
         )
+    hip = data.xanchor[chain[:3]].mean(axis=0)
+    ankle = _ankle(data, chain[-1], pitches[2], hip)
+    sole = sole_of(model, data, body, hip, ankle)
     return Leg(
         tuple(model.joint(j).name for j in chain),
         tuple(model.joint(j).name for j in pitches),
@@ -200,7 +190,9 @@ def _leg(
         name,
         hip,
         ankle,
-        low,
-        outline,
-        guessed,
+        float(ankle[2]) - sole.height,
+        sole.outline,
+        sole.is_guessed,
+        sole.axes,
+        data.xanchor[pitches].copy(),
     )

@@ -4,11 +4,10 @@ import mujoco
 import numpy as np
 
 from ..world.shapes import points_of
+from .bending import STRAIGHT, bend_of, straight_of
 from .limbs import LEVEL, MOVES, Leg
 from .survey import Survey
 
-BENT = (-0.3, 0.6, -0.3)  # hip, knee and ankle, forward and back, in [rad]
-STRAIGHT = 0.05  # that a knee keeps from being straight, in [rad]
 ROOM = 0.02  # from the end of a joint's range, in [rad]
 LIFTED = 0.1  # of a leg's length: arms whose CoM is higher do not hang
 AWAY = 0.2  # that hanging arms stand off, in [rad]
@@ -19,9 +18,9 @@ def standing_of(found: Survey) -> dict[str, float]:
     """Angles of a stance that are not zero, by joint, in [rad]."""
     model = found.model
     angles = {
-        name: _inside(model, name, sign * bend)
+        name: _inside(model, name, bend)
         for leg in found.legs
-        for name, sign, bend in zip(leg.pitches, leg.signs, BENT, strict=True)
+        for name, bend in _bends(found, leg).items()
     }
     for name in _shoulders(found):
         angle = _hanging(found, name, angles)
@@ -38,18 +37,31 @@ def stiff_joints(found: Survey) -> list[str]:
     return [
         name
         for leg in found.legs
-        for name, sign, bend in zip(leg.pitches, leg.signs, BENT, strict=True)
-        if _inside(found.model, name, sign * bend) != sign * bend
+        for name, bend in _bends(found, leg).items()
+        if _inside(found.model, name, bend) != bend
     ]
+
+
+def _bends(found: Survey, leg: Leg) -> dict[str, float]:
+    """Angles of the pitch joints of a leg that stands, in [rad]."""
+    bends = bend_of(leg, _range_of(found, leg.pitches[1]))
+    return dict(zip(leg.pitches, bends, strict=True))
+
+
+def _range_of(found: Survey, name: str) -> tuple[float, float]:
+    """Range of a joint, a half turn each way if it has none, in [rad]."""
+    low, high = found.model.joint(name).range.tolist()
+    return (low, high) if low < high else (-np.pi, np.pi)
 
 
 def knee_limits(found: Survey, leg: Leg) -> tuple[float, float]:
     """Range in which a knee does not get straight, in [rad]."""
-    low, high = found.model.joint(leg.pitches[1]).range.tolist()
-    if low == high:
-        low, high = -np.pi, np.pi
-    bent = leg.signs[1] * STRAIGHT
-    if leg.signs[1] > 0.0:
+    name, sign = leg.pitches[1], leg.signs[1]
+    low, high = _range_of(found, name)
+    straight = straight_of(leg)
+    bends = sign * _bends(found, leg)[name] - straight
+    bent = sign * (straight + np.copysign(STRAIGHT, bends))
+    if sign * bends > 0.0:
         low = max(low, bent)
     else:
         high = min(high, bent)

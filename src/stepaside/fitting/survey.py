@@ -88,9 +88,7 @@ def survey(path: Path, folders: Sequence[Path]) -> Survey:
     try:
         spec = read_model(path)
         torso = _root_of(spec, path)
-        odd = {
-            n for each in odd_couplings(spec) for n in (each.name1, each.name2)
-        }
+        odd = [(each.name1, each.name2) for each in odd_couplings(spec)]
         missing = strip(spec, torso, path, list(folders))
         model = spec.compile()
     except ValueError as error:
@@ -98,11 +96,13 @@ def survey(path: Path, folders: Sequence[Path]) -> Survey:
             raise
         raise ModelError(f"{path} cannot be compiled: {error}") from error
     data, turn, legs = _legs(model, path)
-    for name in (*legs[0].joints, *legs[1].joints):
-        if name in odd:
+    of_legs = {*legs[0].joints, *legs[1].joints}
+    for name, leader in odd:
+        if name in of_legs and leader in of_legs:
             raise ModelError(
-                f"leg joint {name!r} of {path} follows another by more than "
-                "polycoef 0 1 0 0 0, which the legs' kinematics does not know"
+                f"leg joint {name!r} of {path} follows {leader!r} by more "
+                "than polycoef 0 1 0 0 0, which the legs' kinematics does "
+                "not know"
             )
     return Survey(path, model, data, torso, legs, tuple(missing), turn)
 

@@ -13,9 +13,6 @@ from ..games.play_run import PlayRun
 from ..games.run import Run
 from ..games.sealing import seal
 from ..outputs import check_folder, draft_prefix, reason_of, sweep
-from .duel_figure import draw_duel
-from .play_figure import draw_play
-from .walk_figure import draw_walk
 
 SIGHT = "sight.png"
 
@@ -51,11 +48,20 @@ def draw_run(run: Run, file: Path) -> None:
         run: The game.
         file: File, of a format that its suffix tells.
     """
+    # Matplotlib takes as long to import as all the rest: who only checks a
+    # folder shall not wait for it.
     if isinstance(run, PlayRun):
+        from .play_figure import draw_play
+
         draw_play(run, file)
-        return
-    draw = draw_walk if run.pair is None else draw_duel
-    draw(run, file)
+    elif run.pair is None:
+        from .walk_figure import draw_walk
+
+        draw_walk(run, file)
+    else:
+        from .duel_figure import draw_duel
+
+        draw_duel(run, file)
 
 
 def write_run(folder: Path, run: Run, *, drawn: bool = True) -> Path:

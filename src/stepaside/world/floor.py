@@ -4,7 +4,6 @@ from math import cos, sin
 
 import mujoco
 import numpy as np
-from scipy.ndimage import zoom
 
 from .settings import PhysicsSettings
 
@@ -89,6 +88,8 @@ def _add_heights(
 
     They are independent every grain and smooth between.
     """
+    from scipy.ndimage import zoom  # takes as long to import as all the rest
+
     grains = round(2.0 * HALF_SIZE / GRAIN) + 1
     coarse = generator.uniform(0.0, 1.0, (grains, grains))
     heights = np.clip(zoom(coarse, CELLS, order=1), 0.0, 1.0)
