@@ -10,7 +10,7 @@ from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run
 from stepaside.control.deciding import Decisions
 from stepaside.control.phase import Phase
 from stepaside.errors import StrategyError
-from stepaside.planning import Direction
+from stepaside.planning import Direction, Foot
 from stepaside.poses import Pose
 from stepaside.sensing.measurement import Sighting
 from stepaside.strategies import (
@@ -45,6 +45,21 @@ def test_it_tells_what_it_knows_in_the_frame_of_its_unicycle() -> None:
     assert (limits.stride, limits.step_duration) == (GAIT.stride, STEP)
     made.decide(3.0, Sighting(3.1, 0.4, 1.5), moving=False)
     assert made.memory[1].age == 0.0 and not made.memory[1].moving
+
+
+def test_a_step_begins_beside_the_foot_that_landed() -> None:
+    made = decisions()
+    foot = Pose(0.3, -0.2, 0.7)
+    seen = Sighting(2.5, 0.4, 1.5, spread=0.07)
+    made.decide(3.0, seen, moving=True, stands=(foot, Foot.LEFT))
+    made.decide(3.0, seen, moving=False, stands=(foot, Foot.LEFT))
+    made.decide(3.0, seen, moving=True)
+    known, *others = made.memory
+    back = foot.inverse().compose(known.begins)
+    half = 0.5 * GAIT.foot_spacing
+    assert back == pytest.approx(Pose(0.0, -half, 0.0))
+    assert [each.begins for each in others] == [None, None]
+    assert known.spread == 0.07
 
 
 def test_it_tells_how_fast_the_other_comes() -> None:

@@ -17,7 +17,7 @@ from stepaside.drivers.lola.frames import (
     unpack_sensors,
 )
 from stepaside.drivers.lola.link import SocketLink, connect
-from stepaside.drivers.lola.served_joints import FADING, SILENT
+from stepaside.drivers.lola.served_joints import FADING, SETTLED, SILENT
 from stepaside.drivers.lola.server import LolaServer
 from stepaside.drivers.lola.sight import MESSAGE, unpack_sight
 from stepaside.drivers.lola.wire import SENSOR_BYTES
@@ -129,6 +129,29 @@ def test_stiffness_decays_without_answers_and_not_before_100_ms(
     assert all(b <= a for a, b in zip(shares, shares[1:], strict=False))
     tick(server, link, STIFF)
     assert robot.stiffness[0] == 1.0
+    link.close()
+
+
+def test_who_holds_the_legs_half_stiff_is_ready_when_that_stays_so(
+    served: tuple[LolaServer, MadeUpRobot], address: Address
+) -> None:
+    """Others' code walks at a half; ours is ready at full stiffness only."""
+    server, _ = served
+    link = call(address)
+    posture = np.concatenate([STANCE, [0, 0]])
+
+    def held(stiffness: float) -> bool:
+        frame = ActuatorFrame(posture, np.full(25, stiffness))
+        tick(server, link, pack_actuators(frame))
+        link.receive()
+        return server.ready
+
+    assert not any(held(0.0) for _ in range(2 * SETTLED))
+    growing = np.linspace(0.01, 0.98, 2 * SETTLED)
+    assert not any(held(float(stiffness)) for stiffness in growing)
+    assert held(1.0)
+    ready = [held(0.5) for _ in range(SETTLED + 2)]
+    assert ready[-1] and ready.index(True) >= SETTLED - 1
     link.close()
 
 

@@ -23,8 +23,16 @@ from stepaside.strategies import (
     play_steps,
     tables,
 )
-from stepaside.strategies.look_ahead import rules_of
-from stepaside.strategies.other import Trace, note, pursuer_heading
+from stepaside.strategies.look_ahead import (
+    rules_of,
+)
+from stepaside.strategies.other import (
+    STEPS_OFF,
+    Trace,
+    note,
+    pursuer_heading,
+)
+from stepaside.strategies.places import moved_on, place_both
 
 NAO = Limits(0.1, 0.2, 0.04, 0.4)
 FACING = (Pose(0.0, 0.0, 0.6), Pose(1.0, 0.1, 3.3))
@@ -247,3 +255,69 @@ def test_a_solid_pursuer_stops_where_it_would_touch() -> None:
         # Who walks through things goes straight, and who does not, around.
         aside = np.abs(track.pursuer[:, 1]).max()
         assert bool(aside > 0.3) is solid
+
+
+def walked_past(spread: float, jump: float) -> Trace:
+    """Trace of one who walks along x, whose last sighting jumps aside."""
+    trace: Trace = ()
+    for n in range(4):
+        y = jump if n == 3 else 0.0
+        x = 1.0 - 0.03 * n
+        known = know(float(np.arctan2(y, x)), hypot(x, y), Pose(0, 0, 0), n)
+        known = replace(known, time=0.4 * n, spread=spread)
+        trace = note(trace, known)
+    return trace
+
+
+def test_what_is_not_sure_counts_as_much_as_it_is() -> None:
+    """Beside where the other would be by now."""
+    exact = walked_past(0.0, 0.2)
+    assert (exact[-1].x, exact[-1].y) == pytest.approx((0.91, 0.2))
+    steady = walked_past(0.1, 0.0)
+    assert steady[-1].y == pytest.approx(0.0, abs=1e-12)
+    half = walked_past(STEPS_OFF, 0.2)
+    assert half[-1].y == pytest.approx(0.1)
+    assert walked_past(10.0, 0.2)[-1].y == pytest.approx(0.0, abs=1e-4)
+    # Who goes on as before is found there, however vague it is.
+    trace = exact[:1]
+    for n in range(1, 9):
+        known = know(0.0, 1.0 - 0.03 * n, Pose(0.0, 0.0, 0.0), 0.4 * n)
+        trace = note(trace, replace(known, spread=STEPS_OFF))
+    assert trace[-1].x == pytest.approx(1.0 - 0.03 * 8, abs=0.01)
+
+
+def test_nobody_is_taken_to_go_on_faster_than_a_gait_walks() -> None:
+    trace: Trace = ()
+    for n, x in enumerate((1.0, 0.5, 0.4)):
+        known = know(0.0, x, Pose(0.0, 0.0, 0.0), 0.4 * n)
+        trace = note(trace, replace(known, spread=0.0 if n < 2 else 1e3))
+    assert trace[-1].x == pytest.approx(0.5 - NAO.stride, abs=1e-6)
+
+
+def test_a_walker_looks_ahead_from_where_its_step_begins() -> None:
+    """Half a step on, where the pursuer has gone on as well."""
+    disc = Disc(0.1, 0.6, 0.2)
+    mind = LookAhead()
+    here, begins = Pose(0.0, 0.0, 0.2), Pose(-0.02, -0.003, 0.33)
+    late = 0.1
+    known = replace(know(-0.2, 0.7, here, 1.0), obstacles=(disc,), age=late)
+    walker = replace(known, moving=True, begins=begins)
+    # The pursuer is at (0.7, 0) and looks here: along -x.
+    on = 0.7 - NAO.stride * (0.5 + late / NAO.step_duration)
+    x, y = on - begins.x, 0.0 - begins.y
+    there = replace(
+        known,
+        bearing=float(np.arctan2(y, x)) - begins.theta,
+        distance=hypot(x, y),
+        pose=begins,
+        age=0.0,
+    )
+    moved = moved_on(
+        place_both(note((), walker), pi), walker, walker.begins or here
+    )
+    still = place_both(note((), there), pi)
+    assert moved == pytest.approx(still)
+    one, memory = mind.decide(walker, mind.begin())
+    two, other = mind.decide(there, mind.begin())
+    assert one == two
+    assert memory.plan == pytest.approx(other.plan, abs=0.1)

@@ -4,12 +4,14 @@ import ast
 import json
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from documents.store import Store
 from documents.tables.mutation import score, survivors
+from mutation.__main__ import main
 from mutation.faults import Fault, draw, faults_of
 from mutation.places import optional_keywords
 from mutation.score import head, summary, write
@@ -150,10 +152,14 @@ def root(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def run(root: Path, *options: str) -> str:
+def words(root: Path, *options: str) -> list[str]:
+    return [f"--root={root}", "--all", "--jobs=2", f"--only={FILE}", *options]
+
+
+def run(root: Path) -> str:
+    """Try the faults, which forks: in a process without threads."""
     done = subprocess.run(
-        [sys.executable, "-m", "tests.mutation", f"--root={root}"]
-        + ["--all", "--jobs=2", f"--only={FILE}", *options],
+        [sys.executable, "-m", "tests.mutation", *words(root)],
         cwd=REPOSITORY,
         check=True,
         capture_output=True,
@@ -162,10 +168,28 @@ def run(root: Path, *options: str) -> str:
     return done.stdout
 
 
-def test_a_run_cut_short_ends_with_the_same_table(root: Path) -> None:
+@pytest.fixture
+def told(
+    root: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> Callable[..., str]:
+    """What the same command says where it tries nothing."""
+
+    def say(*options: str) -> str:
+        monkeypatch.setattr(sys, "argv", ["mutation", *words(root, *options)])
+        main()
+        return capsys.readouterr().out
+
+    return say
+
+
+def test_a_run_cut_short_ends_with_the_same_table(
+    root: Path, told: Callable[..., str]
+) -> None:
     whole = run(root)
     assert "killed" in whole
-    listed = run(root, "--list-survivors")
+    listed = told("--list-survivors")
     survivors = listed.splitlines()[:-1]
     unused = [line for line in survivors if "return x + 1.0" in line]
     assert len(unused) >= 2 and len(survivors) < 6, listed
@@ -178,12 +202,14 @@ def test_a_run_cut_short_ends_with_the_same_table(root: Path) -> None:
     rows.write_text(altered + lines[-1][:9])
     again = run(root)
     assert again.splitlines()[-1] == listed.splitlines()[-1]
-    assert run(root, "--list-survivors") == listed
+    assert told("--list-survivors") == listed
     keys = [json.loads(line)["key"] for line in rows.read_text().splitlines()]
     assert len(keys) == len(set(keys)) == len(lines)
 
 
-def test_only_the_run_of_make_mutate_is_written(root: Path) -> None:
-    with pytest.raises(subprocess.CalledProcessError) as caught:
-        run(root, "--write", "--list-survivors")
-    assert "--write is for the run of make mutate" in caught.value.stderr
+def test_only_the_run_of_make_mutate_is_written(
+    told: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        told("--write", "--list-survivors")
+    assert "--write is for the run of make mutate" in capsys.readouterr().err

@@ -311,12 +311,13 @@ def test_joints_are_found_by_name() -> None:
 CONTROL = """
 import sys
 import numpy as np
+from stepaside.drivers.lola.handling import Handling
 from stepaside.drivers.lola.safety import SafetySettings
 from stepaside.drivers.naoqi.joints import open_joints
 names = sys.argv[2].split(",")
 stance = np.array([float(v) for v in sys.argv[3].split(",")])
-patient = SafetySettings(silence=5.0)
-body = open_joints(sys.argv[1], names, stance, guarded=True, safety=patient)
+patient = Handling(guarded=True, safety=SafetySettings(silence=5.0))
+body = open_joints(sys.argv[1], names, stance, patient)
 while True:
     body.read()
     body.write(stance)

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.observing import (
     BESIDE,
     BLIND,
@@ -19,6 +20,7 @@ from stepaside.perception.observing import (
     VAGUE,
     angle_of,
     observe_obstacle,
+    observe_obstacles,
     observe_shadow,
     observe_trim,
 )
@@ -253,3 +255,24 @@ def test_columns_to_the_right_have_positive_angles() -> None:
     assert angle_of(IMAGE, 320.0) == 0.0
     assert angle_of(IMAGE, 420.0) == pytest.approx(atan2(100.0, 550.0))
     assert angle_of(DEPTH, 220.0) == pytest.approx(-atan2(100.0, 550.0))
+
+
+def test_in_a_mapped_room_only_what_is_where_the_other_is_counts() -> None:
+    """The pieces of a wall that an edge cuts are not the other."""
+
+    def thing(x: float, y: float) -> Obstacle:
+        bearing = atan2(y, x)
+        return Obstacle(x, y, hypot(x, y), bearing, 0.0, 0.3, 0.5, whole=False)
+
+    things = [thing(1.0, 0.1), thing(1.0, 0.6)]
+    empty = FloorMap()
+
+    def told(*known: Any) -> list[float]:
+        whole, cut = observe_obstacles(DEPTH, things, *known)
+        assert not whole
+        return [each.y for each in cut]
+
+    assert told(None) == [0.1, 0.6]
+    assert told(empty, (1.0, 0.0)) == [0.1]
+    assert told(empty, (1.0, 0.7)) == [0.6]
+    assert told(empty, None) == []

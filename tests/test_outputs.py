@@ -7,6 +7,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +27,7 @@ from stepaside.outputs import (
     free_file,
     writing,
 )
-from stepaside.report import duel_figure
+from stepaside.report import duel_figure, unicycle_sweep
 from stepaside.report.run_folder import keep_run, write_run
 
 FULL = OSError(errno.ENOSPC, "No space left on device")
@@ -280,8 +281,10 @@ def test_every_option_for_files_is_one_of_these() -> None:
 
 
 def test_a_figure_without_a_suffix_is_told_as_it_is_written(
-    tmp_path: Path,
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    few = partial(unicycle_sweep.draw_sweep, marks=0)
+    monkeypatch.setattr(unicycle_sweep, "draw_sweep", few)
     words = ["circle", "--starts", "0", "--json"]
     figure = ["--sweep", str(tmp_path / "a")]
     result = CliRunner().invoke(main, [*words, *figure])

@@ -1,5 +1,6 @@
 """A robot whose record cannot be written plays on, and its record is kept."""
 
+import resource
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator
@@ -57,7 +58,10 @@ def place(
 
 def play(folder: Path, strike: Callable[[], None]) -> None:
     """Record so many ticks, in whose midst something happens."""
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
     with ExitStack() as stack:
+        # Before the test is over: what tells of it may be a file, too.
+        stack.callback(resource.setrlimit, resource.RLIMIT_FSIZE, limits)
         record = PlayRecord(folder, DuelSettings(), dict(OPTIONS))
         stack.push(record.leave)
         for number in range(TICKS):

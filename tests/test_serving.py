@@ -13,6 +13,7 @@ from stepaside.control.balance.settings import ControlSettings
 from stepaside.drivers.lola.address import Address
 from stepaside.drivers.lola.body import LolaBody
 from stepaside.drivers.lola.camera_channel import CameraChannel
+from stepaside.drivers.lola.handling import Handling
 from stepaside.drivers.lola.opening import open_lola
 from stepaside.drivers.lola.safety import State
 from stepaside.drivers.minds import mind_maker
@@ -55,7 +56,7 @@ def client(
             address,
             kinematics.joint_names,
             targets,
-            open_eyes=None if sees_as is None else open_eyes,
+            Handling(open_eyes=None if sees_as is None else open_eyes),
         )
 
     make = mind_maker(

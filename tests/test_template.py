@@ -1,6 +1,7 @@
 """Test where a body is on the path of its template."""
 
-from math import cos, sin
+from dataclasses import replace
+from math import cos, pi, sin
 
 import numpy as np
 import pytest
@@ -12,11 +13,13 @@ from stepaside.planning import (
     ManeuverPlanner,
 )
 from stepaside.planning.steady import steady_plan
-from stepaside.planning.template import path_samples, poses_on_path
+from stepaside.planning.template import clock_of, path_samples, poses_on_path
 from stepaside.poses import Array, Pose
 
 GAIT = GaitSettings()
 STEP = GAIT.step_duration
+UNTIMED = np.array([[np.nan]])
+LED = replace(GAIT, zmp_forward=0.02)
 
 
 def circle(count: int, turn: float, stride: float) -> Array:
@@ -52,27 +55,29 @@ def test_way_and_heading_are_shared_out_by_the_way_of_the_com(
             place = path[step] + share * (path[step + 1] - path[step])
             theta = path[step, 2] + 0.5 * turn
             com = place[:2] + 0.02 * np.array([cos(theta), sin(theta)])
-            (found,) = poses_on_path(path, com[None], 0.02)
+            (found,) = poses_on_path(path, com[None], UNTIMED, LED)
             np.testing.assert_allclose(found, place, atol=1e-4)
 
 
 def test_sway_is_no_way() -> None:
     path = circle(3, 1e-9, 0.04)
     for side in (-0.03, 0.0, 0.03):
-        (found,) = poses_on_path(path, np.array([[0.05, side]]), 0.02)
+        (found,) = poses_on_path(path, np.array([[0.05, side]]), UNTIMED, LED)
         np.testing.assert_allclose(found[:2], [0.03, 0.0], atol=1e-8)
 
 
 def test_before_the_first_and_after_the_last_sample_the_body_waits() -> None:
     path = circle(3, 0.06, 0.04)
-    ends = poses_on_path(path, np.array([[-0.5, 0.0], [0.6, 0.02]]), 0.02)
+    ends = poses_on_path(
+        path, np.array([[-0.5, 0.0], [0.6, 0.02]]), UNTIMED, LED
+    )
     np.testing.assert_allclose(ends, path[[0, 2]], atol=1e-12)
 
 
 def test_feet_abreast_are_one_sample() -> None:
     """A body that starts or halts has its heading, and no way to make."""
     path = np.array([[0, 0, 0.0], [0, 0, 0.03], [0.04, 0, 0.07]])
-    (found,) = poses_on_path(path, np.array([[0.03, 0.0]]), 0.02)
+    (found,) = poses_on_path(path, np.array([[0.03, 0.0]]), UNTIMED, LED)
     np.testing.assert_allclose(found, [0.01, 0.0, 0.04], atol=3e-5)
 
 
@@ -89,7 +94,12 @@ def test_a_body_passes_its_sample_in_the_middle_of_single_support(
     apart = np.array([0.02, 0.1, 0.2, 0.21])
     samples = path_samples(plan.placements, Foot.LEFT, GAIT.foot_spacing)
     headings = [
-        poses_on_path(samples, plan.sample(times).com, GAIT.zmp_forward)[:, 2]
+        poses_on_path(
+            samples,
+            plan.sample(times).com,
+            clock_of(plan.schedule, np.array(times)),
+            GAIT,
+        )[:, 2]
         for times in ([middle], middle + apart, middle - apart)
     ]
     turn = plan.placements[2, 2]
@@ -108,7 +118,8 @@ def test_a_body_is_past_the_middle_of_its_feet_when_a_step_ends() -> None:
     )
     samples = path_samples(plan.placements, Foot.LEFT, GAIT.foot_spacing)
     com = plan.sample([STEP]).com
-    ((x, _, _),) = poses_on_path(samples, com, GAIT.zmp_forward)
+    clock = clock_of(plan.schedule, np.array([STEP]))
+    ((x, _, _),) = poses_on_path(samples, com, clock, GAIT)
     eta, rest, ramp = GAIT.eta, GAIT.single_support, GAIT.double_support
     # x - p over a standing foot is odd about the middle of support: a sinh;
     # during the ramp x - p is odd about its middle, too: a sinh and a line.
@@ -119,3 +130,31 @@ def test_a_body_is_past_the_middle_of_its_feet_when_a_step_ends() -> None:
     past = 0.5 - a * s
     assert x / GAIT.stride - 0.5 == pytest.approx(past, abs=1e-3)
     assert 1.0 / 7.0 < past < 1.0 / 6.0
+
+
+@pytest.mark.parametrize("speed", [0.05, 0.3, 0.5, 1.0])
+@pytest.mark.parametrize("bearing", [pi, -pi])
+def test_a_body_that_turns_has_the_heading_between_its_feet(
+    bearing: float, speed: float
+) -> None:
+    """On the spot too, where it sways by more than it goes."""
+    gait = replace(GAIT, speed=speed * GAIT.speed, stride=speed * GAIT.stride)
+    plan = steady_plan(
+        ManeuverPlanner(gait),
+        bearing,
+        Direction.BACKWARD,
+        first_foot=Foot.LEFT,
+    )
+    times = np.linspace(0.0, STEP, 40)
+    samples = path_samples(plan.placements, Foot.LEFT, GAIT.foot_spacing)
+    poses = poses_on_path(
+        samples,
+        plan.sample(times).com,
+        clock_of(plan.schedule, times),
+        GAIT,
+    )
+    # The middle of a support is half a single support after it begins.
+    passed = (times - 0.5 * GAIT.single_support) / STEP
+    turn = plan.placements[2, 2]
+    assert abs(turn) == pytest.approx(0.08 * pi)
+    assert np.abs(poses[:, 2] - passed * turn).max() < 0.35 * abs(turn)

@@ -1,6 +1,7 @@
 """Test the commands circle, unicycles and map."""
 
 import json
+from functools import partial
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -96,7 +97,11 @@ def test_held_turning_rates_reach_it_too() -> None:
         assert played[name] == pytest.approx(played["theory"][name], abs=1e-3)
 
 
-def test_figures_are_written(tmp_path: Path) -> None:
+def test_figures_are_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    few = partial(unicycle_sweep.draw_sweep, marks=1)
+    monkeypatch.setattr(unicycle_sweep, "draw_sweep", few)
     for command, words, name in [
         (unicycles, "--figure", "game.png"),
         (circle, "--starts 0 --sweep", "sweep.svg"),

@@ -37,6 +37,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "bound-speed": bounds.speed,
     "certified": many_duels.certified,
     "certified-starts": unicycles.certified_starts,
+    "comers": people.comers,
     "driven": served.driven,
     "stepped": served.stepped,
     "each": persons.each,

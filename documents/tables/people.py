@@ -105,3 +105,25 @@ def passed_by(*results: Mapping[str, Any]) -> str:
             for result in results
         ],
     )
+
+
+def comers(*results: Mapping[str, Any]) -> str:
+    """Those who come from ahead, one a seed, and those who pass."""
+    rows = [
+        (
+            *(row["body"], row["sensing"], f"{row['speed_m_s']:g}"),
+            "past it" if row["miss_m"] else "at it",
+            *(str(row["number"]), str(row["contacts"]), str(row["falls"])),
+            str(row["begun"]),
+            number(row["begun_at_m"], 1),
+            number(row["closest_m"], 2),
+            number(row["mean_closest_m"], 2),
+        )
+        for result in results
+        for row in result["rows"]
+    ]
+    head = (
+        *("body", "seen by", "speed [m/s]", "walks", "people", "touched"),
+        *("fell", "begun", "begun at [m]", "closest [m]", "mean [m]"),
+    )
+    return table(head, rows)

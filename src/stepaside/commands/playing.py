@@ -69,26 +69,26 @@ def _joints_of(
     """What opens the joints of a robot, given their names and its stance."""
     from functools import partial
 
-    robot = options["robot"]
-    told: dict[str, Any] = {"dry_run": options["dry_run"], "guarded": True}
+    from ..drivers.lola.handling import Handling
+    from .seeing import open_cameras
+
+    robot, dry_run = options["robot"], options["dry_run"]
     if robot.startswith(NAOQI):
         from ..drivers.naoqi.address import parse_url
         from ..drivers.naoqi.joints import open_joints as open_naoqi
-        from .seeing import open_cameras
 
         url = parse_url(robot)
         own = options | {"images": options["images"] or f"{NAOQI}{url}"}
-        if sees:
-            told["open_eyes"] = partial(open_cameras, settings, None, own)
-        return partial(open_naoqi, url, **told)
+        eyes = partial(open_cameras, settings, None, own) if sees else None
+        how = Handling(dry_run=dry_run, guarded=True, open_eyes=eyes)
+        return partial(open_naoqi, url, how=how)
     from ..drivers.lola.address import parse_address
     from ..drivers.lola.opening import open_lola
-    from .seeing import open_cameras
 
     address = parse_address(robot)
-    if sees:
-        told["open_eyes"] = partial(open_cameras, settings, address, options)
-    return partial(open_lola, address, **told)
+    eyes = partial(open_cameras, settings, address, options) if sees else None
+    how = Handling(dry_run=dry_run, guarded=True, open_eyes=eyes)
+    return partial(open_lola, address, how=how)
 
 
 def open_velocity(

@@ -5,7 +5,8 @@ from math import cos, pi, sin
 from typing import Any
 
 from ..errors import StrategyError
-from ..planning import Direction, GaitSettings
+from ..planning import Direction, Foot, GaitSettings
+from ..planning.template import passed_beside
 from ..poses import Pose, wrap_angle
 from ..sensing.measurement import Sighting
 from ..strategies.knowledge import Intent, Knowledge, Limits
@@ -54,6 +55,7 @@ class Decisions:
         self.headings: Memory[float] = Memory(tick)
         self.templates: Memory[Pose] = Memory(tick)
         self._step_duration = gait.step_duration
+        self._spacing = gait.foot_spacing
         self._whom = 0
         self._forget()
         self._limits = Limits(
@@ -107,7 +109,12 @@ class Decisions:
         return intent.walks and seen.settled
 
     def decide(
-        self, now: float, seen: Sighting | None, *, moving: bool
+        self,
+        now: float,
+        seen: Sighting | None,
+        *,
+        moving: bool,
+        stands: tuple[Pose, Foot] | None = None,
     ) -> Intent:
         """Ask what the robot wants, and remember it.
 
@@ -115,6 +122,8 @@ class Decisions:
             now: Time of the decision, in [s].
             seen: What was seen last; None for who looks around.
             moving: Whether it is under way.
+            stands: Foot that has just landed, in odometry, and which it
+                is; None for a body that is where its next step begins.
 
         Raises:
             StrategyError: If the strategy gives no intent.
@@ -122,6 +131,10 @@ class Decisions:
         if seen is None:
             return LOOK_AROUND
         known = self._knowledge(now, seen, moving=moving)
+        if moving and stands is not None:
+            begins = passed_beside(*stands, self._spacing)
+            there = self._around.frame.compose(begins)
+            known = replace(known, begins=there)
         intent, self.memory = self._ask(known)
         self.pace = next_pace(self.pace, intent.pace, standing=not moving)
         if intent.pace != self.pace:
@@ -177,4 +190,5 @@ class Decisions:
             moving,
             self._around.solids.known,
             drift,
+            spread=seen.spread,
         )

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..planning import GaitSettings, ManeuverPlan
 from ..planning.schedule import Sampler, Schedule
-from ..planning.template import path_samples, poses_on_path
+from ..planning.template import clock_of, path_samples, poses_on_path
 from ..poses import Pose, wrap_angle
 from ..robots.kinematics import BodyReference
 
@@ -98,14 +98,16 @@ class ReferenceTable:
         self._first = ceil((started - 1e-9) / tick)
         offset = self._first * tick - started
         count = max(1, ceil((duration - offset) / tick - 1e-6))
-        samples = plan.sample(self._sampler(plan.schedule, offset, count))
+        sampler = self._sampler(plan.schedule, offset, count)
+        samples = plan.sample(sampler)
         c, s = cos(plan_frame.theta), sin(plan_frame.theta)
         turn = np.array([[c, s], [-s, c]])
         settings = plan.schedule.settings
         path = path_samples(
             plan.placements, plan.first_foot, settings.foot_spacing
         )
-        template = poses_on_path(path, samples.com, settings.zmp_forward)
+        clock = clock_of(plan.schedule, sampler.times)
+        template = poses_on_path(path, samples.com, clock, settings)
         points = np.concatenate(
             [
                 samples.com,

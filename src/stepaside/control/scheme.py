@@ -91,17 +91,15 @@ class ControlScheme:
         self._resting: ReferenceSample
         self.plan: ManeuverPlan | None = None
         self.plan_frame = Pose(0.0, 0.0, 0.0)
-        self.plan_started = 0.0
+        self.plan_started = self._blocked_until = self._plan_ends = 0.0
         half = 0.5 * settings.foot_spacing
         self.left_foot = Pose(0.0, half, 0.0)
         self.right_foot = Pose(0.0, -half, 0.0)
         self.begun: StepBegun | None = None
         self._delay, self._late = delay, delay + tick
         self._maneuvers = Maneuvers(settings, self.balance, guard)
-        self._blocked_until = 0.0
         self._first_foot = first_foot
         self._table = ReferenceTable(tick)
-        self._plan_ends = 0.0
         self._stand()
         self.decisions.templates.note(0.0, self._resting.template)
         self.joint_targets: Array = kinematics.stand(self.reference)
@@ -234,8 +232,10 @@ class ControlScheme:
     ) -> None:
         """Plan from what was seen last, or come to rest (Sec. III-E)."""
         clock = process_time()
-        intent = self.decisions.decide(started, seen, moving=not standing)
         foot, who = self._first_foot, self.decisions.strategy
+        intent = self.decisions.decide(
+            started, seen, moving=not standing, stands=(support, foot.other)
+        )
         feet = support, self._support(foot.other)
         planned = None
         if intent.walks:

@@ -1,7 +1,7 @@
 """From what an image shows to a place in odometry, as sure as it is."""
 
 from collections.abc import Sequence
-from math import atan2, cos, radians, sin
+from math import atan2, cos, hypot, radians, sin
 
 from ..poses import Array, wrap_angle
 from ..robots.body_pose import BodyPose
@@ -22,6 +22,7 @@ NEARBY = 0.15  # beyond the near limit, of what casts a shadow, in [m]
 BESIDE = 0.45  # distance of what casts one, at least, in [m]
 BLIND = 3.0  # deviation of a distance that nothing tells, in [m]
 PULLED = 0.15  # of the bounds of a shadow, which the memory overran, in [m]
+BODY = 0.35  # from the middle of somebody to a part of it, in [m]
 PARTLY = 0.15  # of the axis of whom only a part was measured, in [m]
 
 
@@ -102,23 +103,34 @@ def observe_obstacle(image: DepthImage, thing: Obstacle) -> Observation:
 
 
 def observe_obstacles(
-    image: DepthImage, things: Sequence[Obstacle], floor: FloorMap | None
+    image: DepthImage,
+    things: Sequence[Obstacle],
+    floor: FloorMap | None,
+    other: tuple[float, float] | None = None,
 ) -> tuple[list[Observation], list[Observation]]:
     """Turn obstacles into observations.
 
     What the edge cuts may be a piece of a wall: it founds nobody. In a room
-    that is mapped nothing does but trim, and what is on the map is nobody.
+    that is mapped nothing does but trim, and what is on the map, or not
+    where the other is, is nobody.
 
     Args:
         image: The image.
         things: Obstacles in it.
         floor: Map of the floor, if one is kept.
+        other: Where the other is taken to be, in odometry, in [m].
 
     Returns:
         Those that may found a track, and those that may not.
     """
     if floor is not None:
-        things = [t for t in things if not floor.holds(t.x, t.y)]
+        things = [
+            t
+            for t in things
+            if not floor.holds(t.x, t.y)
+            and other is not None
+            and hypot(t.x - other[0], t.y - other[1]) < BODY
+        ]
     whole, cut = (
         [
             observe_obstacle(image, thing)

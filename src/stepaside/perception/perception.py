@@ -160,7 +160,8 @@ class Perception:
             away = track.away_from(x, y, now)
             who = track.number if self._people else 0
             settled = self._attention.settled(track, now, away)
-            self.sighting = Sighting(now, bearing, away, who, settled)
+            spread = track.deviation_at(now)
+            self.sighting = Sighting(now, bearing, away, who, settled, spread)
         return self.sighting
 
     def aim(self, joint_targets: Array) -> None:
@@ -236,13 +237,16 @@ class Perception:
         azimuths = tuple(o.azimuth for o in scene.obstacles)
         azimuths += tuple(s.azimuth for s in scene.shadows)
         self.reports.append(FrameReport(image, azimuths, depth=scene))
+        believed = None
         if self.floor is not None:
             other = self._attention.main(self._tracker, now, *own)
-            there = None
-            if other is not None and now - other.seen_at < SURE:
-                there = other.place_at(image.time)
+            believed = None if other is None else other.place_at(image.time)
+            sure = other is not None and now - other.seen_at < SURE
+            there = believed if sure else None
             self.floor.take(image, place, axes, own, there)
-        whole, cut = observe_obstacles(image, scene.obstacles, self.floor)
+        whole, cut = observe_obstacles(
+            image, scene.obstacles, self.floor, believed
+        )
         self._observe(whole, image, place, axes, named=False, cut=cut)
         for shadow in scene.shadows if self.floor is None else ():
             tracks = self._tracker.tracks

@@ -18,6 +18,7 @@ class Sighting(NamedTuple):
         distance: Horizontal distance to the other, in [m].
         who: Number of who it is, where several may come.
         settled: Whether it was watched long enough to tell where it goes.
+        spread: Standard deviation of its place, in [m].
     """
 
     time: float
@@ -25,6 +26,7 @@ class Sighting(NamedTuple):
     distance: float
     who: int = 0
     settled: bool = True
+    spread: float = 0.0
 
 
 class Measurement(NamedTuple):

@@ -62,6 +62,11 @@ class Knowledge:
             frame in which the pose is.
         velocity: Of the other on the floor, ahead and to the left in the
             frame, in [m/s]; None where it is not known yet.
+        begins: Where the step begins that is decided, in the frame in which
+            the pose is; None where it begins there. A walker decides when
+            a foot has landed, and its body passes that foot half a step
+            later.
+        spread: Standard deviation of the place of the other, in [m].
     """
 
     time: float
@@ -75,6 +80,8 @@ class Knowledge:
     moving: bool = False
     obstacles: tuple[Obstacle, ...] = ()
     velocity: tuple[float, float] | None = None
+    begins: Pose | None = None
+    spread: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

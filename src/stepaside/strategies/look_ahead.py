@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import cos, inf, pi, radians, sin
+from math import inf, pi, radians
 from typing import NamedTuple
 
 import numpy as np
@@ -28,6 +28,7 @@ from ..steps.motion import half_turn, step_both
 from ..steps.packed import clearance_at
 from .knowledge import STAND, Intent, Knowledge, Limits
 from .other import Trace, note, pursuer_heading
+from .places import moved_on, place_both
 from .tables import pursuit_table
 
 ERROR = ConfigurationError
@@ -164,6 +165,8 @@ class LookAhead:
         if not (memory.evading or near):
             return STAND, LookAheadMemory(False, trace)
         both = place_both(trace, pursuer_heading(trace, rules))
+        if knowledge.begins is not None:
+            both = moved_on(both, knowledge, knowledge.begins)
         bounded = bool(knowledge.obstacles)
         packed = pack(knowledge.obstacles) if bounded else NOTHING
         table = NO_VALUE
@@ -233,26 +236,6 @@ def rules_of(limits: Limits, lead: float = 0.0) -> StepRules:
     """Steps of both players, who are alike, from the limits of one."""
     share = limits.gain * limits.stride / limits.speed
     return StepRules(limits.stride, share, limits.stride, share, lead)
-
-
-def place_both(trace: Trace, heading: float) -> Both:
-    """Where both are, in the own odometry.
-
-    Args:
-        trace: At least one sighting.
-        heading: Of the pursuer there, in [rad].
-    """
-    seen = trace[-1]
-    return Both(
-        seen.own_x,
-        seen.own_y,
-        cos(seen.own_theta),
-        sin(seen.own_theta),
-        seen.x,
-        seen.y,
-        cos(heading),
-        sin(heading),
-    )
 
 
 @lru_cache(maxsize=16)

@@ -7,10 +7,11 @@ from typing import NamedTuple
 from ..planning import Direction
 from ..poses import wrap_angle
 from ..steps.motion import Both, StepRules, pursue
-from .knowledge import Intent, Knowledge
+from .knowledge import Intent, Knowledge, Limits
 
 KEPT = 3  # sightings, a step apart: over two steps no body sways
 APART = 0.75  # of a step between them
+STEPS_OFF = 0.05  # of a step of another from what was thought, in [m]
 MOVED = 0.3  # of a stride: who moves less may look anywhere
 
 
@@ -39,23 +40,46 @@ Trace = tuple[Seen, ...]
 
 
 def note(trace: Trace, knowledge: Knowledge) -> Trace:
-    """Take a sighting in; those that lie close together are thinned out."""
+    """Take a sighting in; those that lie close together are thinned out.
+
+    One that is not sure counts as much as it is, beside where the other
+    would be by now that goes on as it went.
+    """
     pose = knowledge.pose
     sight = pose.theta + knowledge.bearing
-    seen = Seen(
-        knowledge.time - knowledge.age,
-        pose.x + knowledge.distance * cos(sight),
-        pose.y + knowledge.distance * sin(sight),
-        pose.x,
-        pose.y,
-        pose.theta,
-    )
+    time = knowledge.time - knowledge.age
+    x = pose.x + knowledge.distance * cos(sight)
+    y = pose.y + knowledge.distance * sin(sight)
+    if trace and knowledge.spread > 0.0:
+        u, v = _gone_on(trace, time, knowledge.limits)
+        trust = STEPS_OFF**2 / (STEPS_OFF**2 + knowledge.spread**2)
+        x, y = u + trust * (x - u), v + trust * (y - v)
+    seen = Seen(time, x, y, pose.x, pose.y, pose.theta)
     step = knowledge.limits.step_duration
     kept = [s for s in trace if 0.0 < seen.time - s.time < 2 * KEPT * step]
     # The newest makes way if it came too soon after the one before.
     if len(kept) > 1 and kept[-1].time - kept[-2].time < APART * step:
         kept.pop()
     return tuple([*kept, seen][-KEPT:])
+
+
+def _gone_on(trace: Trace, time: float, limits: Limits) -> tuple[float, float]:
+    """Where the other is if it goes on as it went, as fast as the own gait.
+
+    Args:
+        trace: At least one sighting.
+        time: When, in [s].
+        limits: Of the own gait.
+    """
+    first, last = trace[0], trace[-1]
+    passed, ahead = last.time - first.time, max(time - last.time, 0.0)
+    if passed <= 0.0:
+        return last.x, last.y
+    rate = ahead / passed
+    dx, dy = rate * (last.x - first.x), rate * (last.y - first.y)
+    most = limits.stride * ahead / limits.step_duration
+    share = min(1.0, most / max(hypot(dx, dy), most, 1e-12))
+    return last.x + share * dx, last.y + share * dy
 
 
 def pursuer_heading(trace: Trace, rules: StepRules) -> float:

@@ -1,18 +1,17 @@
 """Connecting to a robot that speaks LoLA."""
 
 import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import ExitStack
 from functools import partial
 
 from ...poses import Array
-from ..cameras.source import PerceptSource
 from ..session import SessionLost
 from .address import Address
 from .body import LolaBody
 from .guardian import StiffnessGuardian, let_go
+from .handling import PLAIN, Handling
 from .link import connect
-from .safety import SafetySettings
 from .sight import MESSAGE
 from .sight_channel import SightChannel
 from .wire import SENSOR_BYTES
@@ -24,11 +23,7 @@ def open_lola(
     address: Address,
     joint_names: Sequence[str],
     stance: Array,
-    *,
-    safety: SafetySettings | None = None,
-    dry_run: bool = False,
-    guarded: bool = False,
-    open_eyes: Callable[[], PerceptSource] | None = None,
+    how: Handling = PLAIN,
 ) -> LolaBody:
     """Connect to a robot, and to the ideal line of sight if it offers one.
 
@@ -36,17 +31,12 @@ def open_lola(
         address: Where it listens.
         joint_names: Actuated joints, in the order of joint targets.
         stance: Posture in which control begins, in [rad].
-        safety: Limits of what is safe.
-        dry_run: Command nothing but lights.
-        guarded: Whether a second process lets go of the robot if this one
-            dies or freezes. Forks: not for a process with threads.
-        open_eyes: Opens its cameras, if it is played with those instead of
-            with an ideal line of sight. They may start threads.
+        how: What is asked of the session.
 
     Raises:
         SessionLost: If no robot listens there, or no camera.
     """
-    sees = open_eyes is not None
+    sees = how.open_eyes is not None
     sight = None if sees else _ideal_sight(address)
     with ExitStack() as stack:
         if sight is not None:
@@ -59,19 +49,18 @@ def open_lola(
         elif address.sight is not None and not sees:
             log.info("no ideal line of sight at %s", address.sight)
         guardian = None
-        if guarded and not dry_run:
+        if how.guards:
             guardian = StiffnessGuardian(partial(let_go, link.socket))
             stack.callback(guardian.dismiss)
-        eyes = None if open_eyes is None else open_eyes()
         body = LolaBody(
             link,
             joint_names,
             stance,
             sight=sight,
-            eyes=eyes,
+            eyes=how.eyes(),
             guardian=guardian,
-            safety=safety,
-            dry_run=dry_run,
+            safety=how.safety,
+            dry_run=how.dry_run,
         )
         stack.pop_all()  # they are the body's now
         return body

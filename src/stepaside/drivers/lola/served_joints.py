@@ -16,6 +16,7 @@ from .joints import JOINT_COUNT, LEGS, JointMap
 SILENT = 8  # ticks without an answer before stiffness decays: 0.1 s
 BELIEF = 0.5  # rate at which the accelerometer is believed, in [1/s]
 FADING = 0.5  # from full stiffness to none, in [s]
+SETTLED = 40  # ticks after which stiffness that stayed will grow no more
 
 
 class ServedRobot(Protocol):
@@ -53,6 +54,7 @@ class ServedJoints:
         self._robot, self._joints = robot, JointMap(joint_names)
         self._attitude = AttitudeFilter(BELIEF, 0.0, calibration=0.0)
         self._silent = 0
+        self._unchanged = 0
         self.share = 0.0
         self._commanded: Array = np.zeros(JOINT_COUNT)
         self.stiffness: Array = np.zeros(JOINT_COUNT)
@@ -61,8 +63,9 @@ class ServedJoints:
 
     @property
     def stiff(self) -> bool:
-        """Whether the legs are held as stiff as they can be."""
-        return bool(self.stiffness[LEGS].min() > 0.99)
+        """Whether the legs are held as stiff as their client wants them."""
+        least = float(self.stiffness[LEGS].min())
+        return least > 0.99 or (least > 0.0 and self._unchanged >= SETTLED)
 
     def sense(self) -> Measurement:
         """Read the sensors."""
@@ -109,6 +112,9 @@ class ServedJoints:
         if self._silent >= SILENT:
             self.share = max(0.0, self.share - TICK / FADING)
         self._silent += 1
-        self.stiffness = self.share * self._commanded
+        stiffness = self.share * self._commanded
+        stays = np.array_equal(stiffness, self.stiffness)
+        self._unchanged = self._unchanged + 1 if stays else 0
+        self.stiffness = stiffness
         pick = self._joints.from_lola
         self._robot.command(pick(self.targets), pick(self.stiffness))

@@ -1,16 +1,15 @@
 """Connecting to a robot on NAOqi whose joints are moved."""
 
 import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import ExitStack
 from functools import partial
 from typing import TYPE_CHECKING
 
 from ...poses import Array
-from ..cameras.source import PerceptSource
 from ..lola.body import LolaBody
 from ..lola.guardian import StiffnessGuardian
-from ..lola.safety import SafetySettings
+from ..lola.handling import PLAIN, Handling
 
 if TYPE_CHECKING:
     from .joint_line import JointLine
@@ -22,11 +21,7 @@ def open_joints(
     url: str,
     joint_names: Sequence[str],
     stance: Array,
-    *,
-    safety: SafetySettings | None = None,
-    dry_run: bool = False,
-    guarded: bool = False,
-    open_eyes: Callable[[], PerceptSource] | None = None,
+    how: Handling = PLAIN,
 ) -> LolaBody:
     """Connect to a robot, whose body is the one that LoLA's robots have.
 
@@ -34,18 +29,14 @@ def open_joints(
         url: Like tcp://HOST:PORT.
         joint_names: Actuated joints, in the order of joint targets.
         stance: Posture in which control begins, in [rad].
-        safety: Limits of what is safe.
-        dry_run: Command nothing.
-        guarded: Whether a second process lets go of the robot if this one
-            dies or freezes. Forks: not for a process with threads.
-        open_eyes: Opens its cameras, if it is played with those.
+        how: What is asked of the session; lights stay as they are.
 
     Raises:
         SessionLost: If no robot answers there, or no camera.
     """
     with ExitStack() as stack:
         guardian = None
-        if guarded and not dry_run:
+        if how.guards:
             # Forked here: what speaks to the robot starts threads.
             guardian = StiffnessGuardian(partial(_fade, url))
             stack.callback(guardian.dismiss)
@@ -53,7 +44,7 @@ def open_joints(
         stack.callback(line.close)
         from .joint_line import CODEC, MemorySight
 
-        eyes = None if open_eyes is None else open_eyes()
+        eyes = how.eyes()
         sight = MemorySight(line) if line.simulated and eyes is None else None
         if sight is not None:
             log.warning("sees by the ideal line of sight of the robot")
@@ -64,8 +55,8 @@ def open_joints(
             sight=sight,
             eyes=eyes,
             guardian=guardian,
-            safety=safety,
-            dry_run=dry_run,
+            safety=how.safety,
+            dry_run=how.dry_run,
             codec=CODEC,
         )
         stack.pop_all()  # they are the body's now

@@ -153,6 +153,7 @@ byId("legend").textContent = !run.distance ? "" : ["thin: each step", "thick: me
   run.safety ? "dotted: safety radius" : ""].filter(Boolean).join("; ");
 
 function put() {
+  stale = false;
   index = sampleAt(run.times, clock + 1e-9);
   const next = Math.min(index + 1, frames - 1), gap = run.times[next] - run.times[index];
   if (scene) {
@@ -211,7 +212,7 @@ function tick(now) {
     if (clock >= end) toggle(false);
   }
   last = now;
-  if (stale) { stale = false; put(); }
+  if (stale) put();
   requestAnimationFrame(tick);
 }
 new ResizeObserver(() => { stale = true; }).observe(canvas);
