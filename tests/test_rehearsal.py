@@ -9,7 +9,8 @@ from stepaside.fitting.rehearsal import (
     lengths_share,
     shortened,
     speed_share,
-    torque_share,
+    torques_borne,
+    zmp_share,
 )
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
@@ -49,12 +50,30 @@ def test_slow_joints_walk_shorter_steps_that_they_keep_up_with() -> None:
 def test_a_step_of_nao_bears_on_its_hips_by_its_weight() -> None:
     """The stance hip carries all but its leg, a hip's width aside."""
     torques = dict.fromkeys(NAO.legs, 10.0)
-    share, joint = torque_share(NAO, GAIT, torques)
+    borne = torques_borne(NAO, GAIT, torques)
+    share, joint = borne.usual, borne.joint
+    assert borne.most > share
     assert joint in ("LHipRoll", "RHipRoll", "LKneePitch", "RKneePitch")
     assert 1.0 < 10.0 * share < 5.3 * 9.81 * 0.1
     half = dict.fromkeys(NAO.legs, 5.0)
-    assert torque_share(NAO, GAIT, half)[0] == pytest.approx(2.0 * share)
+    assert torques_borne(NAO, GAIT, half).usual == pytest.approx(2.0 * share)
 
 
 def test_joints_that_hardly_move_get_the_least_steps() -> None:
     assert lengths_share(slow(0.01), GAIT) == LEAST
+
+
+def test_weak_ankles_get_the_zmp_that_they_bear() -> None:
+    """No farther ahead than leaves them something of their torque."""
+    strong = dict.fromkeys(NAO.legs, 100.0)
+    ankles = [name for name in NAO.legs if name.endswith("AnklePitch")]
+    gait = replace(GAIT, zmp_forward=0.03)
+    share, borne = zmp_share(NAO, gait, strong)
+    assert share == 1.0 and borne.most < 0.95
+    needs = torques_borne(NAO, gait, dict.fromkeys(ankles, 1.0)).most
+    weak = strong | dict.fromkeys(ankles, needs)
+    share, borne = zmp_share(NAO, gait, weak)
+    assert share == 0.5 and borne.most < 0.95
+    worse = strong | dict.fromkeys(ankles, 0.05 * needs)
+    share, borne = zmp_share(NAO, gait, worse)
+    assert share == 0.0 and borne.most > 0.95

@@ -274,3 +274,25 @@ def test_a_robot_of_other_size_plays_by_its_own_distances(
     assert run.outcome.value == "completed", run.message
     assert run.summary.start.distance_m is not None
     assert run.summary.start.distance_m >= settings.start.near
+
+
+def test_weak_ankles_get_a_gentler_gait(tmp_path: Path) -> None:
+    """The ZMP is nearer to them, servos give way, and feedback holds."""
+    model = stranger.mjcf(tmp_path)
+    text = model.read_text()
+    for side, _ in stranger.SIDES:
+        ankle = f'joint="{side}_tip" gear="30" ctrlrange="-3.0 3.0"'
+        assert ankle in text
+        text = text.replace(ankle, ankle.replace("3.0", "0.2"))
+    model.write_text(text)
+    found, robot = described(model, tmp_path / "robot")
+    assert found.ahead < 1.0 and found.is_weak
+    back, front, *_ = stranger.SOLE
+    ahead = 0.45 * (front + back)
+    assert robot.gait["zmp_forward"] == pytest.approx(
+        found.ahead * ahead, abs=1e-4
+    )
+    assert robot.control["feedback"] is True
+    servos = robot.overlay.servos
+    assert servos["near_tip"].stiffness < servos["near_bend"].stiffness
+    assert "the ankles bear no more" in write_description(found)

@@ -25,7 +25,7 @@ from .motors import (
     published_torques,
 )
 from .posture import knee_limits, reach_of, standing_of, stiff_joints
-from .rehearsal import lengths_share, torque_share
+from .rehearsal import Borne, lengths_share, zmp_share
 from .soles import check_size
 from .survey import Survey, survey
 
@@ -52,8 +52,10 @@ class Derived:
         told_speeds: Joints whose speed it tells.
         share: Of stride and step height, for which the joints are fast
             enough.
-        borne: Greatest share of its torque that a joint bears in most of a
-            step.
+        ahead: Of the ZMP's place ahead of the ankles, for which these are
+            strong enough.
+        borne: Shares of their torque that joints bear in a step.
+        is_weak: Whether servos are softened, and feedback is needed.
     """
 
     description: RobotDescription
@@ -63,8 +65,10 @@ class Derived:
     highest: float
     told_torques: frozenset[str]
     told_speeds: frozenset[str]
-    share: float = 1.0
-    borne: float = 0.0
+    share: float
+    ahead: float
+    borne: Borne
+    is_weak: bool
 
 
 def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
@@ -107,9 +111,11 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
     size = Size(height, found.mass, spacing, sole, description.place.reach)
     share = lengths_share(*_rehearsed(description, gait_of(size)))
     gait = gait_of(size, share)
-    borne, _ = torque_share(*_rehearsed(description, gait), torques)
+    ahead, borne = zmp_share(*_rehearsed(description, gait), torques)
+    gait["zmp_forward"] = round(ahead * gait["zmp_forward"], 4) + 0.0
     overlay = description.overlay
-    if borne > WEAK:
+    weak = borne.usual > WEAK or ahead < 1.0
+    if weak:
         servos = gains_of(found, torques, height, weak=True)
         overlay = replace(overlay, servos=servos)
     description = replace(
@@ -117,8 +123,8 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
         overlay=overlay,
         gait=dict(gait),
         control={
-            "method": "measured" if borne > WEAK else "closed-form",
-            "feedback": borne > WEAK,
+            "method": "measured" if weak else "closed-form",
+            "feedback": weak,
             "stabiliser": stabiliser_of(size),
         },
         game=game_of_size(size, gait),
@@ -132,7 +138,9 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
         frozenset(torques),
         frozenset(speeds),
         share,
+        ahead,
         borne,
+        weak,
     )
 
 

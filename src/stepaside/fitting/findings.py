@@ -14,7 +14,7 @@ from ..robots.compiling import compile_tree
 from ..robots.description import REMEDY, RobotDescription
 from ..robots.forward import ForwardKinematics
 from ..robots.kinematics import LegKinematics
-from .rehearsal import torque_share
+from .rehearsal import torques_borne
 
 UNEVEN = 0.05  # difference of the legs' masses that is still a mirror's
 ASIDE = 0.05  # of the CoM from the middle, by its height, likewise
@@ -174,7 +174,8 @@ def _strength(description: RobotDescription) -> Iterator[Finding]:
         model.joint(model.actuator_trnid[i, 0]).name: float(high)
         for i, high in enumerate(model.actuator_forcerange[:, 1])
     }
-    share, joint = torque_share(description, gait, torques)
+    borne = torques_borne(description, gait, torques)
+    share, joint = borne.usual, borne.joint
     weak = share > SPENT
     yield Finding(
         "torque of a step",

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,6 +23,8 @@ SWIFT = 1e3  # of joints that follow whatever is asked, in [rad/s]
 SPARE = 0.9  # of a joint's speed that a gait may ask for
 LEAST = 0.35  # share of a gait's lengths that is still worth walking
 TRIES = 4
+PARTS = (0.5, 0.9)  # of a step, in which torques are looked at
+BEARABLE = 0.95  # share of a torque that may be borne most of the time
 LIFTED = 1e-3  # a foot that is higher bears nothing, in [m]
 
 
@@ -38,23 +41,34 @@ def speed_share(description: RobotDescription, gait: GaitSettings) -> float:
     return max(_asked(description, gait, way) for way in Direction)
 
 
-def torque_share(
+class Borne(NamedTuple):
+    """Greatest shares of their torque that joints bear in a step.
+
+    Attributes:
+        usual: In half of the time at which one foot is lifted: what is asked
+            for a moment only, servos may miss.
+        joint: That bears it.
+        most: In a tenth of that time or more; more than 1 cannot be borne.
+        most_joint: That bears it.
+    """
+
+    usual: float
+    joint: str
+    most: float
+    most_joint: str
+
+
+def torques_borne(
     description: RobotDescription,
     gait: GaitSettings,
     torques: Mapping[str, float],
-) -> tuple[float, str]:
-    """Greatest share of a torque that a joint bears in most of a step.
-
-    The median over the times at which one foot is lifted: what is asked for
-    a moment only, servos may miss.
+) -> Borne:
+    """Shares of their torque that joints bear in a step.
 
     Args:
         description: The robot.
         gait: How it walks.
         torques: Greatest torque of each joint, in [N m].
-
-    Returns:
-        The share, and the joint that bears it.
 
     Raises:
         ReachError: If the legs do not reach so far.
@@ -71,13 +85,45 @@ def torque_share(
         )
         if left != right:
             borne[left].append(asked)
-    limits = [torques.get(name, inf) for name in legs.legs.tree.motors]
-    shares = np.max(
-        [np.median(each, axis=0) for each in borne.values()], axis=0
-    )
-    shares /= limits
-    joint = int(shares.argmax())
-    return float(shares[joint]), legs.legs.tree.motors[joint]
+    names = legs.legs.tree.motors
+    limits = np.array([torques.get(name, inf) for name in names])
+    found: list[float | str] = []
+    for part in PARTS:
+        steps = [np.quantile(each, part, axis=0) for each in borne.values()]
+        shares = np.max(steps, axis=0) / limits
+        joint = int(shares.argmax())
+        found += [float(shares[joint]), names[joint]]
+    return Borne(*found)  # type: ignore[arg-type]
+
+
+def zmp_share(
+    description: RobotDescription,
+    gait: GaitSettings,
+    torques: Mapping[str, float],
+) -> tuple[float, Borne]:
+    """Share of the ZMP's place ahead of the ankles that these can bear.
+
+    The farther ahead it is, the more an ankle bears; nothing else of a gait
+    changes so much of any torque.
+
+    Args:
+        description: The robot.
+        gait: How it would walk.
+        torques: Greatest torque of each joint, in [N m].
+
+    Returns:
+        The greatest of 1, 1/2 and 0 that leaves something of each torque, or
+        else the one that leaves most; and what is borne then.
+    """
+    tried = []
+    for share in (1.0, 0.5, 0.0):
+        forward = share * gait.zmp_forward
+        walk = replace(gait, zmp_forward=forward)
+        borne = torques_borne(description, walk, torques)
+        tried.append((share, borne))
+        if borne.most <= BEARABLE:
+            return share, borne
+    return min(tried, key=lambda each: each[1].most)
 
 
 def lengths_share(description: RobotDescription, gait: GaitSettings) -> float:

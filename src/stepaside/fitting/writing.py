@@ -6,7 +6,7 @@ from typing import Any
 from ..robots.description import RobotDescription
 from ..robots.own import NO_OVERLAY, ServoGains
 from .deriving import HIGH, Derived, coupled_of
-from .motors import GIVES, WEAK
+from .motors import GIVES
 
 ASK = "ASK: the model does not say;"
 GAIT_WHY = {
@@ -129,6 +129,9 @@ def _gait(derived: Derived) -> list[str]:
         slow = f"; {derived.share:.2f} of that: the joints are no faster"
         for name in ("stride", "step_height"):
             why[name] += slow
+    if derived.ahead < 1.0:
+        less = f"; {derived.ahead:g} of that: the ankles bear no more"
+        why["zmp_forward"] += less
     return _table("gait", own.gait, why)
 
 
@@ -148,9 +151,11 @@ def _overlay(derived: Derived) -> list[str]:
     untold = [n for n in own.overlay.servos if n not in derived.told_torques]
     why = "Torques as the model tells; stiffness and damping of the legs and "
     why += "the waist are 12 m g z and 0.3 sqrt(z / g) of that"
-    if derived.borne > WEAK:
+    if derived.is_weak:
         why += f", less where {GIVES} rad would ask for more than the torque, "
-        why += f"for a step asks for {100.0 * derived.borne:.0f} % of one"
+        why += (
+            f"for a step asks for {100.0 * derived.borne.usual:.0f} % of one"
+        )
     why += "; of others by what "
     why += "they carry; an armature is given where the model has hardly any."
     asked = f"{ASK} torques of {', '.join(untold)}." if untold else ""
