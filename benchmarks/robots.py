@@ -96,6 +96,14 @@ HUMANOIDS = (
         "MJCF of several files, inclined hips, meshes missing",
     ),
     Humanoid(
+        *(
+            "Pndbotics Adam Lite",
+            MENAGERIE,
+            "pndbotics_adam_lite/adam_lite.xml",
+        ),
+        "torques of ankles far below those of hips, meshes missing",
+    ),
+    Humanoid(
         *("RobotEra XBot-L", XBOT, "XBot/mjcf/XBot-L.xml"),
         "dated MJCF, hip roll before yaw and pitch",
     ),
