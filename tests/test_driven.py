@@ -3,6 +3,7 @@
 from dataclasses import replace
 from math import atan2, hypot
 
+import numpy as np
 import pytest
 
 from stepaside.control.balance.settings import STABILISED
@@ -106,3 +107,27 @@ def test_a_robot_may_keep_to_itself_what_it_sees() -> None:
     assert DrivenWalker(player).state().sighting is not None
     silent = DrivenWalker(player, offers_sight=False)
     assert silent.state().sighting is None
+
+
+def test_a_hardware_like_robot_turns_by_as_much_as_it_is_told() -> None:
+    """Its feet twist and its joints give, which only the gyro can see."""
+    hardware = replace(SETTINGS, seed=7, body=BODIES["hardware"])
+    duel = Duel(hardware, recorded=False)
+    players = []
+    for player, forward in zip(duel.players, (0.06, -0.06), strict=True):
+        assert isinstance(player, Walker)
+        players.append(DrivenWalker(player))
+        players[-1].commander = Told(Velocity(forward, 0.12))
+    turned = np.zeros(2)
+    headings = np.zeros(2)
+    learnt, cycles = round(12.0 / 0.012), round(14 * STEP / 0.012)
+    for tick in range(learnt + cycles):
+        now = np.array([player.truth.heading for player in players])
+        if tick > learnt:
+            turned += [wrap_angle(a) for a in now - headings]
+        headings = now
+        for player in players:
+            player.tick()
+        duel.world.step()
+    rates = turned / (14 * STEP)
+    np.testing.assert_allclose(rates, 0.12, rtol=0.03)

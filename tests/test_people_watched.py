@@ -217,14 +217,42 @@ def test_where_somebody_goes_is_told_after_a_while_of_watching(
         now, x = 0.05 * i, begin + 0.05 * i * speed
         place = Observation(now, x, 0.0, 0.0, 0.03, 0.03, False, True)
         track.correct(place)
-        settled.append(people.settled(track, now, x))
+        settled.append(people.settled(track, now, 0.0, 0.0))
     assert settled[-1] and not settled[0]
     assert 0.05 * (1 + settled.index(True)) == pytest.approx(wait, abs=0.26)
     # After a gap the watch begins anew, of somebody known whatever the time.
     track.correct(Observation(2.0, x, 0.0, 0.0, 0.03, 0.03, False, True))
-    assert not people.settled(track, 2.1, x)
-    for i in range(14):
+    assert not people.settled(track, 2.1, 0.0, 0.0)
+    for i in range(24):
         now = 2.05 + 0.05 * i
         track.correct(Observation(now, x, 0.0, 0.0, 0.03, 0.03, False, True))
-    assert people.settled(track, now, x)
-    assert not people.settled(track, now + 0.35, x)
+    assert people.settled(track, now, 0.0, 0.0)
+    assert not people.settled(track, now + 0.35, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("begin", "beside", "least"),
+    [
+        (3.2, 0.0, 0.6),
+        (3.2, 0.3, 0.6),
+        (3.2, 0.6, 1.1),
+        (3.2, 1.2, 1.1),
+        (1.6, 0.0, 0.3),
+        (1.6, 1.2, 1.1),
+    ],
+)
+def test_who_may_pass_is_watched_for_longer(
+    begin: float, beside: float, least: float
+) -> None:
+    """Far away and near by; who comes straight on is not."""
+    track = followed((begin, beside))
+    people, settled = People(), []
+    for i in range(1, 40):
+        now, x = 0.05 * i, begin - 0.05 * i * 0.8
+        track.correct(
+            Observation(now, x, beside, 0.0, 0.03, 0.03, False, True)
+        )
+        settled.append(people.settled(track, now, 0.0, 0.0))
+    told = 0.05 * (1 + settled.index(True))
+    assert told == pytest.approx(least, abs=0.26)
+    assert told >= least - 0.06

@@ -5,6 +5,7 @@ from typing import Protocol
 
 from ..control import Phase
 from ..control.senses import GivenSight
+from ..control.turning import TurnShare
 from ..control.velocity import accepted, walk_at
 from ..drivers.velocity.body import REST, Velocity
 from ..drivers.velocity.footsteps import FootMove
@@ -59,6 +60,7 @@ class DrivenWalker(Walker):
         self._ticks = -1
         self._steps = 0
         self._updated = False
+        self._turns = TurnShare(walker.robot.world.physics.tick)
 
     def tick(self) -> None:
         """Walk on, as it was told."""
@@ -67,14 +69,23 @@ class DrivenWalker(Walker):
             self._velocity = self.commander.act()
         if scheme.phase is Phase.STANDING:
             self._under_way = None
+        measurement = self._measured()
+        forward, turn = accepted(*self._velocity, scheme.settings)
         strategy = walk_at(
-            *self._velocity, scheme.settings, under_way=self._under_way
+            forward,
+            turn / self._turns.share,
+            scheme.settings,
+            under_way=self._under_way,
         )
         scheme.decisions.adopt(strategy)
-        measurement = self._measured()
         targets = scheme.update(measurement)
         self.robot.write(self._turned(targets) if self._head else targets)
         self._updated = True
+        self._turns.note(
+            float(measurement.gyro[2]),
+            scheme.decisions.templates.at(measurement.time).theta,
+            stands=scheme.phase is Phase.STANDING,
+        )
         begun = scheme.begun
         if begun is not None and begun.planning_time is not None:
             self._steps += 1

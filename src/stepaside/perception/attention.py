@@ -45,13 +45,14 @@ class Attention(Protocol):
             y: Likewise.
         """
 
-    def settled(self, track: Track, now: float, away: float) -> bool:
+    def settled(self, track: Track, now: float, x: float, y: float) -> bool:
         """Whether it is known well enough to begin to move.
 
         Args:
             track: What counts.
             now: Time, in [s].
-            away: Its distance, in [m].
+            x: Own place in odometry, in [m].
+            y: Likewise.
         """
 
 
@@ -95,6 +96,6 @@ class OneRobot:
                 return track
         return None
 
-    def settled(self, track: Track, now: float, away: float) -> bool:
+    def settled(self, track: Track, now: float, x: float, y: float) -> bool:
         """Always: where a robot is that is near decides."""
         return True

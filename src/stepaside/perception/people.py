@@ -14,6 +14,8 @@ GLANCE = 0.6  # for which anything else is looked at, in [s]
 AWAY = 3.0  # from one such glance to the next at what rests, in [s]
 AGAIN = 1.0  # the same at who walks, in [s]
 WATCHED = 0.6  # for which somebody must be seen who is to move it, in [s]
+LONGER = 1.1  # the same of somebody who may pass, in [s]
+STRAIGHT = 0.45  # who will come nearer than this seems not to pass, in [m]
 NEW = 1.0  # since when nobody knew of somebody, in [s]
 SOON = 1.6  # time in which somebody new would be near, in [s]
 NEAR = 0.7  # in [m]
@@ -79,19 +81,25 @@ class People:
                 return track
         return None
 
-    def settled(self, track: Track, now: float, away: float) -> bool:
+    def settled(self, track: Track, now: float, x: float, y: float) -> bool:
         """Whether it was watched for a while, or there is no time for that.
 
         Of whom the head only sweeps by, parts are seen, and their middles
         seem to walk; and the first steps of a way do not tell where it
-        leads. Only somebody who turns up near by leaves no time to see.
+        leads: by how far somebody will pass takes longer to see than that
+        they come. Only somebody who turns up near by leaves no time to see.
         """
         if now - track.seen_at > LAPSE:
             return False
-        if now - track.watched_since >= WATCHED:
+        watched = now - track.watched_since
+        if watched >= LONGER:
             return True
-        speed = hypot(*track.velocity)
-        return now - track.begun_at < NEW and away - NEAR < SOON * speed
+        least = nearest(track, now, x, y)
+        if watched >= WATCHED and least < STRAIGHT:
+            return True
+        away, speed = track.away_from(x, y, now), hypot(*track.velocity)
+        soon = away - NEAR < SOON * speed
+        return now - track.begun_at < NEW and soon and least < NEAR
 
 
 def nearest(track: Track, now: float, x: float, y: float) -> float:

@@ -159,7 +159,7 @@ class Perception:
             bearing = wrap_angle(track.turned_to(x, y, now) - heading)
             away = track.away_from(x, y, now)
             who = track.number if self._people else 0
-            settled = self._attention.settled(track, now, away)
+            settled = self._attention.settled(track, now, x, y)
             spread = track.deviation_at(now)
             self.sighting = Sighting(now, bearing, away, who, settled, spread)
         return self.sighting
