@@ -51,6 +51,8 @@ PLAYGROUND = "github.com/google-deepmind/mujoco_playground"
 DATA = "example-robot-data (PyPI)"
 N1 = "github.com/FFTAI/Wiki-GRx-Models, branch FourierN1"
 GMR = "github.com/YanjieZe/GMR"
+MENAGERIE = "github.com/google-deepmind/mujoco_menagerie"
+BITBOTS = "github.com/bit-bots/wolfgang_robot"
 XBOT = "github.com/roboterax/humanoid-gym"
 HUMANOIDS = (
     Humanoid(
@@ -62,12 +64,20 @@ HUMANOIDS = (
         "mirrored axes, much damping",
     ),
     Humanoid(
+        *("Wolfgang-OP", BITBOTS, "wolfgang_description/urdf/robot.urdf"),
+        "URDF, feet not level and knees not straight in the zero posture",
+    ),
+    Humanoid(
         *("Booster T1", T1, "T1/T1_serial.urdf"),
         "URDF without a free joint, weak hips, waist above the legs",
     ),
     Humanoid(
         *("Booster T1, 35 kg", T1, "T1/T1_serial.xml"),
         "torque motors, weak hips, narrow soles",
+    ),
+    Humanoid(
+        *("Booster T1, 32 kg", MENAGERIE, "booster_t1/t1.xml"),
+        "position servos, weak hips",
     ),
     Humanoid(
         *("Unitree G1", RL_GYM, "g1_description/g1_29dof.xml"),
@@ -84,6 +94,14 @@ HUMANOIDS = (
     Humanoid(
         *("EngineAI PM01", GMR, "engineai_pm01/pm_v2.xml"),
         "MJCF of several files, inclined hips, meshes missing",
+    ),
+    Humanoid(
+        *(
+            "Pndbotics Adam Lite",
+            MENAGERIE,
+            "pndbotics_adam_lite/adam_lite.xml",
+        ),
+        "torques of ankles far below those of hips, meshes missing",
     ),
     Humanoid(
         *("RobotEra XBot-L", XBOT, "XBot/mjcf/XBot-L.xml"),
@@ -104,10 +122,10 @@ HUMANOIDS = (
     Humanoid(
         *(
             "Apptronik Apollo",
-            PLAYGROUND,
-            "apollo/xmls/apollo_mjx_feetonly.xml",
+            MENAGERIE,
+            "apptronik_apollo/apptronik_apollo.xml",
         ),
-        "position servos, waist of three joints",
+        "position servos, waist of three joints, meshes missing",
     ),
     Humanoid(
         *("PAL Talos", DATA, "talos_data/robots/talos_reduced.urdf"),

@@ -19,7 +19,7 @@ from stepaside.world.world import build_model
 
 
 @cache
-def play(seed: int, duration: float = 90.0) -> DuelRun:
+def play(seed: int, duration: float = 70.0) -> DuelRun:
     return run_duel(DuelSettings(seed=seed, duration=duration))
 
 
@@ -129,7 +129,7 @@ def test_planned_footsteps_are_walked_in_physics(name: str) -> None:
     arrays = play(11).arrays()
     landings = arrays[f"{name}_landings"]
     last = arrays["times_s"][-1] - 0.3
-    steady = (landings[:, 0] > 60.0) & (landings[:, 0] < last)
+    steady = (landings[:, 0] > 40.0) & (landings[:, 0] < last)
     planned = landings[steady]
     walked = soles_on_the_floor(arrays, name, planned)
     assert len(walked) > 50

@@ -14,7 +14,12 @@ from stepaside.cli import main
 from stepaside.errors import ModelError
 from stepaside.fitting.deriving import Derived, derive
 from stepaside.fitting.lengths import Size, gait_of, game_of_size
-from stepaside.fitting.motors import GIVES, LEAST, STIFFNESS, gains_of
+from stepaside.fitting.motors import (
+    GIVES,
+    LEAST,
+    STIFFNESS,
+    gains_of,
+)
 from stepaside.fitting.survey import survey
 from stepaside.fitting.trials import WAYS, Trial, trials_of, walk_trial
 from stepaside.fitting.writing import write_description
@@ -296,3 +301,14 @@ def test_weak_ankles_get_a_gentler_gait(tmp_path: Path) -> None:
     servos = robot.overlay.servos
     assert servos["near_tip"].stiffness < servos["near_bend"].stiffness
     assert "the ankles bear no more" in write_description(found)
+
+
+def test_units_of_nao_are_one() -> None:
+    """What a robot is to NAO, NAO is to itself."""
+    nao = load_robot("nao")
+    mass = float(nao.compile().body_mass.sum())
+    sole = (-0.05, 0.1, 0.04, 0.04)
+    size = Size(0.268, mass, 0.1, sole, 0.2)
+    game = game_of_size(size, gait_of(size))
+    assert game["force_unit"] == pytest.approx(1.0, abs=2e-3)
+    assert game["length_unit"] == pytest.approx(1.0, abs=2e-3)

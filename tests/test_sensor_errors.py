@@ -231,3 +231,19 @@ def test_a_specification_of_mujoco_takes_the_errors() -> None:
     ratio = model.body_inertia[1] / model.body_mass[1]
     np.testing.assert_allclose(ratio, 0.5)
     assert np.abs(model.body_ipos[1][:2]).min() > 0.0
+
+
+def test_errors_of_other_robots_go_with_their_size() -> None:
+    body = BodySettings(force_noise=0.4, com_error=0.01)
+    noises, shifts = [], []
+    for unit in (1.0, 6.0):
+        generator = named_generator(1, "s")
+        sensors = SensorErrors(body, generator, force_unit=unit)
+        noises.append(sensors.foot_forces(np.full(8, 50.0)) - 50.0)
+        parts = [part("torso")]
+        generator = named_generator(1, "m")
+        perturb_masses(parts, body, "torso", generator, length_unit=unit)
+        shifts.append(parts[0].ipos - [0.1, 0.2, 0.3])
+    assert np.abs(noises[0]).max() > 0.0 and np.abs(shifts[0]).max() > 0.0
+    np.testing.assert_allclose(noises[1], 6.0 * noises[0], atol=1e-12)
+    np.testing.assert_allclose(shifts[1], 6.0 * shifts[0], atol=1e-12)

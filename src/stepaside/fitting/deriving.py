@@ -25,7 +25,7 @@ from .motors import (
     published_torques,
 )
 from .posture import knee_limits, reach_of, standing_of, stiff_joints
-from .rehearsal import Borne, lengths_share, zmp_share
+from .rehearsal import BEARABLE, Borne, lengths_share, zmp_share
 from .soles import check_size
 from .survey import Survey, survey
 
@@ -114,7 +114,7 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
     ahead, borne = zmp_share(*_rehearsed(description, gait), torques)
     gait["zmp_forward"] = round(ahead * gait["zmp_forward"], 4) + 0.0
     overlay = description.overlay
-    weak = borne.usual > WEAK or ahead < 1.0
+    weak = borne.usual > WEAK or borne.most > BEARABLE or ahead < 1.0
     if weak:
         servos = gains_of(found, torques, height, weak=True)
         overlay = replace(overlay, servos=servos)

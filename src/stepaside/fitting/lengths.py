@@ -31,6 +31,8 @@ ANKLE_RATE = 0.18
 # Speeds by that of the pendulum, sqrt(g z).
 STEP_SPEED = 0.92
 PUSH = 0.12
+# Sizes by NAO's: by its mass, in [1/kg], and by the height of its CoM, [1/m].
+WEIGHT, HEIGHT = 0.1885, 3.73
 # Distances by the circle's, 4 v sqrt(2) / (pi k).
 SAFETY = 0.89
 NEAREST, NEAR, FAR = 0.45, 0.67, 1.67
@@ -122,6 +124,8 @@ def game_of_size(size: Size, gait: dict[str, float]) -> dict[str, float]:
         "start_near": _round(max(NEAR * circle, 1.1 * least)),
         "start_far": _round(max(FAR * circle, 1.7 * least)),
         "push_unit": _round(PUSH * size.mass * size.speed),
+        "force_unit": _round(WEIGHT * size.mass),
+        "length_unit": _round(HEIGHT * size.com_height),
     }
 
 

@@ -25,6 +25,7 @@ LEAST = 0.35  # share of a gait's lengths that is still worth walking
 TRIES = 4
 PARTS = (0.5, 0.9)  # of a step, in which torques are looked at
 BEARABLE = 0.95  # share of a torque that may be borne most of the time
+HELPS = 0.9  # of a torque, if the ZMP is to be elsewhere all the same
 LIFTED = 1e-3  # a foot that is higher bears nothing, in [m]
 
 
@@ -113,7 +114,8 @@ def zmp_share(
 
     Returns:
         The greatest of 1, 1/2 and 0 that leaves something of each torque, or
-        else the one that leaves most; and what is borne then.
+        else the one that leaves most, if it leaves much more than 1 does;
+        and what is borne then.
     """
     tried = []
     for share in (1.0, 0.5, 0.0):
@@ -123,7 +125,8 @@ def zmp_share(
         tried.append((share, borne))
         if borne.most <= BEARABLE:
             return share, borne
-    return min(tried, key=lambda each: each[1].most)
+    best = min(tried, key=lambda each: each[1].most)
+    return best if best[1].most < HELPS * tried[0][1].most else tried[0]
 
 
 def lengths_share(description: RobotDescription, gait: GaitSettings) -> float:

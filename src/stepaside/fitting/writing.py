@@ -43,6 +43,8 @@ GAME_WHY = {
     "start_near": "[m]: starts are drawn from here",
     "start_far": "[m]: to here",
     "push_unit": "[N s]: 0.12 m sqrt(g z)",
+    "force_unit": "errors of forces by NAO's: its weight by NAO's",
+    "length_unit": "likewise of lengths: its CoM's height by NAO's",
 }
 
 
@@ -152,10 +154,10 @@ def _overlay(derived: Derived) -> list[str]:
     why = "Torques as the model tells; stiffness and damping of the legs and "
     why += "the waist are 12 m g z and 0.3 sqrt(z / g) of that"
     if derived.is_weak:
+        usual = 100.0 * derived.borne.usual
+        usual = 100.0 * derived.borne.usual
         why += f", less where {GIVES} rad would ask for more than the torque, "
-        why += (
-            f"for a step asks for {100.0 * derived.borne.usual:.0f} % of one"
-        )
+        why += f"for a step asks for {usual:.0f} % of one, at times for more"
     why += "; of others by what "
     why += "they carry; an armature is given where the model has hardly any."
     asked = f"{ASK} torques of {', '.join(untold)}." if untold else ""

@@ -12,6 +12,7 @@ from .configuration import parse_settings
 from .settings import DuelSettings, RobotSettings, StartSettings
 
 S = TypeVar("S")
+UNITS = {"push_unit": "N s", "force_unit": "N"}  # of what is no length
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +25,8 @@ class GameOfRobot:
         start_near: Least distance that is drawn for a start, in [m].
         start_far: Greatest one, in [m].
         push_unit: Impulse that does to it what 1 N s does to NAO, in [N s].
+        force_unit: Force that is to its weight what 1 N is to NAO's, in [N].
+        length_unit: Length that is to it what 1 m is to NAO, in [m].
     """
 
     safety_radius: float
@@ -31,11 +34,13 @@ class GameOfRobot:
     start_near: float
     start_far: float
     push_unit: float
+    force_unit: float = 1.0
+    length_unit: float = 1.0
 
     def __post_init__(self) -> None:
         """Refuse what is no distance."""
         for field in fields(self):
-            unit = "N s" if field.name == "push_unit" else "m"
+            unit = UNITS.get(field.name, "m")
             value = getattr(self, field.name)
             check_positive(value, f"game.{field.name}", unit)
         if not self.start_least <= self.start_near <= self.start_far:

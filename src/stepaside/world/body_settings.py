@@ -39,11 +39,13 @@ class BodySettings:
         gyro_bias: Greatest constant error, in [rad/s]; 0 to 10.
         accelerometer_noise: Standard deviation, in [m/s^2]; 0 to 100.
         accelerometer_bias: Greatest constant error, in [m/s^2]; 0 to 100.
-        force_noise: Standard deviation of a foot force, in [N]; 0 to 1000.
+        force_noise: Standard deviation of a foot force, in [N], of a robot
+            of NAO's weight; it goes with the weight; 0 to 1000.
         force_gain_error: Greatest relative error of each foot force; 0 to 1.
         mass_error: Greatest relative error of the mass of each link; 0 to 0.9.
         com_error: Greatest horizontal shift of the torso's CoM on each axis,
-            in [m]; 0 to 0.1.
+            in [m], of a robot of NAO's size; it goes with the height of the
+            CoM; 0 to 0.1.
     """
 
     cycle: float = 0.0

@@ -115,7 +115,8 @@ class SimulatedRobot:
         self._imu: AveragedImu | None = None
         self._errors: SensorErrors | None = None
         if generator is not None and body.has_sensor_errors:
-            self._errors = SensorErrors(body, generator)
+            unit = description.game.get("force_unit", 1.0)
+            self._errors = SensorErrors(body, generator, force_unit=unit)
         sensors = description.sensors
         self._gyro = self._sensor(sensors.gyro)
         self._accelerometer = self._sensor(sensors.accelerometer)

@@ -48,9 +48,18 @@ class SensorErrors:
         self,
         body: BodySettings,
         generator: np.random.Generator,
+        *,
+        force_unit: float = 1.0,
     ) -> None:
-        """Draw the constant errors of one robot."""
+        """Draw the constant errors of one robot.
+
+        Args:
+            body: Size of the errors.
+            generator: Of the errors.
+            force_unit: Force of the robot for one of NAO's.
+        """
         self._body = body
+        self._force_noise = body.force_noise * force_unit  # in [N]
         self._generator = generator
         self._gyro_bias = body.gyro_bias * generator.uniform(-1, 1, 3)
         self._specific_force_bias = (
@@ -77,7 +86,7 @@ class SensorErrors:
 
     def foot_forces(self, forces: Array) -> Array:
         """Pressing forces, in [N], never below zero. Shape (8,)."""
-        noise = self._body.force_noise * self._generator.standard_normal(8)
+        noise = self._force_noise * self._generator.standard_normal(8)
         spoilt: Array = np.maximum(forces * self._gains + noise, 0.0)
         return spoilt
 
@@ -87,6 +96,8 @@ def perturb_masses(
     body: BodySettings,
     torso: str,
     generator: np.random.Generator,
+    *,
+    length_unit: float = 1.0,
 ) -> None:
     """Give a robot's links other masses than its description has.
 
@@ -95,6 +106,7 @@ def perturb_masses(
         body: Size of the errors.
         torso: Name of the torso, whose CoM is shifted.
         generator: Of the errors.
+        length_unit: Length of the robot for one of NAO's.
     """
     for part in spec_bodies:  # type: ignore[attr-defined]
         error = generator.uniform(-1, 1)
@@ -106,4 +118,4 @@ def perturb_masses(
         part.fullinertia *= factor
         part.inertia *= factor
         if part.name == torso:
-            part.ipos[:2] += body.com_error * shift
+            part.ipos[:2] += body.com_error * length_unit * shift

@@ -61,7 +61,13 @@ def build_model(
                 geom.friction[0] = physics.friction
         if body is not None and body.mass_error + body.com_error > 0.0:
             generator = named_generator(seed, f"masses/{name}")
-            perturb_masses(part.bodies, body, description.torso, generator)
+            perturb_masses(
+                part.bodies,
+                body,
+                description.torso,
+                generator,
+                length_unit=description.game.get("length_unit", 1.0),
+            )
         if name in COLOURS:
             _dye(part, description, COLOURS[name])
         # What the world has of its own wins, without a word about it.
