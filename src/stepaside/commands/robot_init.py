@@ -94,10 +94,17 @@ def _print(facts: dict[str, Any]) -> None:
             f"{facts['gait']['double_support']:g} s on both",
         ),
         ("safety radius", f"{facts['game']['safety_radius']:g} m"),
+        ("head", _head(facts["head"])),
         ("meshes left out", str(facts["left_out_meshes"])),
         ("asked for", _asked(asked)),
     ]
     print_table(rows)
+
+
+def _head(head: dict[str, Any]) -> str:
+    joints = [name for name in (head["yaw"], head["pitch"]) if name]
+    cameras = ", ".join(head["cameras"]) or "none"
+    return f"turned by {', '.join(joints) or 'nothing'}, cameras {cameras}"
 
 
 def _asked(asked: dict[str, Any]) -> str:

@@ -3,6 +3,7 @@
 from typing import Any
 
 from .deriving import Derived, coupled_of
+from .heads import head_of
 
 
 def facts_of(derived: Derived) -> dict[str, Any]:
@@ -34,6 +35,7 @@ def facts_of(derived: Derived) -> dict[str, Any]:
         "torque_share": round(derived.borne.usual, 3),
         "game": dict(own.game),
         "coupled": sorted(coupled_of(found)),
+        "head": head_of(found),
         "left_out_meshes": len(found.missing),
         "asked_for": {
             "sole": any(leg.is_guessed for leg in found.legs),

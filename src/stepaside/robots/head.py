@@ -99,7 +99,8 @@ def load_head(description: RobotDescription) -> HeadDescription:
         )
     except OSError as error:
         raise ModelError(
-            f"{description.name} cannot look about: {path} is missing"
+            f"{description.name} cannot look about: {path} is missing; "
+            "without it sensing must be ideal"
         ) from error
     except (KeyError, TypeError, ValueError) as error:
         raise ModelError(f"{path}: {error!r}") from error
