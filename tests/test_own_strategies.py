@@ -1,5 +1,7 @@
 """Test how strategies are found by name and in files."""
 
+import os
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -274,3 +276,18 @@ def test_own_strategies_play_in_physics(file: Path) -> None:
     assert result.summary.converged_at_s is None
     assert ways[1] > 0.25
     assert ways[0] == pytest.approx(0.5 * ways[1], abs=0.03)
+
+
+def test_a_file_is_read_as_it_is_now(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also one that was written anew in the same second, and is as long."""
+    monkeypatch.setattr(sys, "dont_write_bytecode", False)
+    path = tmp_path / "own.py"
+    for text in ("1 / 0", "def ("):
+        path.write_text(text, encoding="utf-8")
+        os.utime(path, (1e9, 1e9))
+        wrong = "ZeroDivisionError" if "/" in text else "SyntaxError"
+        with pytest.raises(ConfigurationError, match=wrong):
+            load_strategy(f"{path}:Timid")
+    assert list(tmp_path.iterdir()) == [path]

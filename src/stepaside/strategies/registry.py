@@ -3,9 +3,10 @@
 import re
 import sys
 from collections.abc import Callable, Mapping
+from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
-from types import FunctionType, ModuleType
+from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
 from ..errors import ConfigurationError
@@ -119,6 +120,20 @@ def _made(path: str, name: str) -> Any:
         ) from error
 
 
+class _Anew(SourceFileLoader):
+    """Reads a file as it is now, and leaves nothing beside it.
+
+    What Python keeps of a file that it compiled counts for another that was
+    written in the same second and is as long.
+    """
+
+    def get_code(self, fullname: str) -> CodeType:
+        """Compile the file."""
+        source = self.get_data(self.path)
+        code: CodeType = self.source_to_code(source, self.path)
+        return code
+
+
 def _load(path: str, name: str) -> ModuleType:
     """Run the file of a strategy."""
     file = Path(path).expanduser()
@@ -127,7 +142,8 @@ def _load(path: str, name: str) -> ModuleType:
             f"strategy {path}:{name}: there is no file {path}"
         )
     module = f"stepaside_strategy_{file.stem}"
-    spec = spec_from_file_location(module, file)
+    loader = _Anew(module, str(file))
+    spec = spec_from_file_location(module, file, loader=loader)
     assert spec is not None and spec.loader is not None
     loaded = module_from_spec(spec)
     before = sys.modules.get(module)
