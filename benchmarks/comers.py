@@ -60,7 +60,7 @@ def row_of(kind: str, records: list[Record]) -> Record:
     closest = [record["min_distance_m"] for record in records]
     return {
         "kind": kind,
-        "body": "hardware" if kind.startswith("hardware") else "ideal",
+        "body": next(k for k, body in BODIES.items() if body == settings.body),
         "sensing": settings.sensing,
         "speed_m_s": settings.person.speed,
         "miss_m": settings.person.miss,
@@ -84,7 +84,8 @@ def main() -> None:
     parser.add_argument("--workers", type=int)
     asked = parser.parse_args()
     asked.records.mkdir(parents=True, exist_ok=True)
-    rows, every = [], len(asked.seeds) * len(asked.kinds)
+    rows: list[Record] = []
+    every = len(asked.seeds) * len(asked.kinds)
     with (
         worker_pool(asked.workers) as executor,
         tqdm(total=every, unit="duel", disable=None) as bar,
@@ -92,11 +93,16 @@ def main() -> None:
         for kind in asked.kinds:
             file = RecordFile(asked.records / f"{kind}.jsonl")
             if asked.verify is not None:
-                again = KINDS[kind], file, asked.verify, executor
-                print(f"{kind}: otherwise: seeds {verify_duels(*again)[1]}")
-            found = run_duels(KINDS[kind], asked.seeds, file, executor)
+                taken = KINDS[kind], file, asked.verify, executor
+                print(f"{kind}: otherwise: seeds {verify_duels(*taken)[1]}")
+            before = len(rows) * len(asked.seeds)
+
+            def report(number: int, before: int = before) -> None:
+                bar.n = before + number
+                bar.refresh()
+
+            found = run_duels(KINDS[kind], asked.seeds, file, executor, report)
             rows.append(row_of(kind, list(found.values())))
-            bar.update(len(asked.seeds))
     seeds = [asked.seeds.start, asked.seeds.stop]
     libraries = ["mujoco", "numpy", "opencv-python-headless"]
     head = header({"seeds": seeds}, libraries=libraries)
