@@ -35,7 +35,11 @@ COMPILED = {
     "test_tournament": "steps",
     "test_unicycle_": "unicycle",
 }
-LONG = ("browser", "bound", "unicycle", "steps", "duel 11")  # begin first
+# Begin first, so that no worker is left alone with one at the end.
+LONG = (
+    *("browser", "bound", "unicycle", "steps", "duel 11"),
+    *("test_duel", "test_walk", "test_seeing", "test_robot_init"),
+)
 
 
 @pytest.hookimpl(tryfirst=True)
