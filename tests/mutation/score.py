@@ -19,11 +19,14 @@ ROOMS = (
     "perception",
     "strategies",
     "world",
+    "rooms",
+    "steps",
     "games",
     "studies",
 )
 REASONS = Path("tests/mutation/reasons.toml")
 RESULTS = Path("docs/results/mutation.json")
+SAMPLE = 400  # faults
 NOTICED = ("killed", "timeout")
 
 
@@ -91,11 +94,12 @@ def head(*, sample: int, seed: int, cap: float) -> dict[str, Any]:
         seed: Seed of the draw.
         cap: Processor time of tests that a fault can take, in [s].
     """
+    make = "make mutate"
     return header(
         {"sample": sample, "seed": seed, "cap_s": cap},
         rooms=ROOMS,
         libraries=(*LIBRARIES, "hypothesis"),
-        command="make mutate",
+        command=make if sample == SAMPLE else f"{make} SAMPLE={sample}",
     )
 
 

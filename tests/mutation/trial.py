@@ -13,6 +13,8 @@ from .child import allow, cpu_time, run_tests
 QUICK = 0.5  # [s]; slower tests run only when these have noticed nothing
 RAN = (0, 1)  # exit status of pytest when tests ran, all green or not
 START = 60.0  # [s] of processor time to import and collect
+SPARE = 10.0  # [s] of processor time that any test may take
+COMPILING = 60.0  # [s], the same where functions are compiled anew
 
 
 class Judge:
@@ -21,11 +23,15 @@ class Judge:
     Args:
         times: Usual processor time of each chosen test, in [s].
         note: File that always tells the test that is running.
+        spare: Processor time that any test may take, in [s].
     """
 
-    def __init__(self, times: Mapping[str, float], note: Path) -> None:
+    def __init__(
+        self, times: Mapping[str, float], note: Path, spare: float = SPARE
+    ) -> None:
         self._times = dict(times)
         self._note = note
+        self._spare = spare
         self.red = ""
 
     def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
@@ -49,7 +55,7 @@ class Judge:
     def pytest_runtest_logstart(self, nodeid: str) -> None:
         """Note what runs, and limit its time."""
         self._note.write_text(nodeid, encoding="utf-8")
-        allow(10.0 + 5.0 * self._times[nodeid])
+        allow(self._spare + 5.0 * self._times[nodeid])
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         """Note the first test that does not pass."""
@@ -100,7 +106,12 @@ def choose(
     return sorted(chosen, key=lambda test: rank(test, times))
 
 
-def run(tree: Path, chosen: Mapping[str, float], note: Path) -> None:
+def run(
+    tree: Path,
+    chosen: Mapping[str, float],
+    note: Path,
+    spare: float = SPARE,
+) -> None:
     """Run tests in this process until one is red, and write the verdict.
 
     Args:
@@ -108,6 +119,7 @@ def run(tree: Path, chosen: Mapping[str, float], note: Path) -> None:
         chosen: Usual time of each test, in [s].
         note: File for the verdict; until there is one it names the test
             that is running.
+        spare: Processor time that any test may take, in [s].
     """
     sys.dont_write_bytecode = True  # of the fault
     os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
@@ -120,7 +132,7 @@ def run(tree: Path, chosen: Mapping[str, float], note: Path) -> None:
             files = sorted({test.partition("::")[0] for test in part})
             note.write_text(f"start of {files[0]}", encoding="utf-8")
             allow(START)
-            judge = Judge(part, note)
+            judge = Judge(part, note, spare)
             status = run_tests(tree, files, judge, "--exitfirst")
             red = judge.red
     verdict = {"red": red, "status": status, "cpu": round(cpu_time(), 2)}
