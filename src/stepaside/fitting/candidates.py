@@ -6,6 +6,7 @@ from math import hypot, log
 
 from ..games.robot_settings import settings_of
 from ..robots.description import RobotDescription
+from ..robots.description_file import LEANS
 from .deriving import SPACE
 from .trials import WAYS, Trial, control_with
 
@@ -14,6 +15,7 @@ from .trials import WAYS, Trial, control_with
 CHOICES: dict[str, tuple[float, ...]] = {
     "times": (0.8, 0.65, 1.25),
     "spacing": (0.85, 0.7, 1.12),
+    "lean": (0.06, 0.12),
     "feedback": (0.0, 1.0),
     "zmp": (-0.1, 0.1, -0.2),
     "stride": (0.75, 0.5),
@@ -35,6 +37,7 @@ class Candidate:
         spacing: Factor on the distance between the feet.
         zmp: Shift of the ZMP reference ahead, by the sole's length.
         height: Factor on the CoM's height.
+        lean: Farther lean of the torso over the foot that stands, in [rad].
     """
 
     feedback: float
@@ -44,19 +47,20 @@ class Candidate:
     spacing: float = 1.0
     zmp: float = 0.0
     height: float = 1.0
+    lean: float = 0.0
 
     @property
     def cost(self) -> float:
         """What it costs to be farther from the description: small."""
         factors = (self.stiffness, self.times, self.spacing, self.height)
-        far = hypot(*(log(factor) for factor in factors), self.zmp)
+        far = hypot(*(log(factor) for factor in factors), self.zmp, self.lean)
         return 0.02 * far + 0.2 * max(0.0, 1.0 - self.stride)
 
     def neighbours(self) -> Iterator["Candidate"]:
         """Candidates with one change more, or one undone or other."""
         for name, values in CHOICES.items():
             now = getattr(self, name)
-            begin = 0.0 if name in ("feedback", "zmp") else 1.0
+            begin = 0.0 if name in ("feedback", "zmp", "lean") else 1.0
             others = (*values, begin) if begin not in values else values
             for value in [each for each in others if each != now]:
                 yield replace(self, **{name: value})
@@ -71,6 +75,8 @@ class Candidate:
         if spacing < 2.0 * SPACE * sole.inner and self.spacing < 1.0:
             return None
         if abs(ahead - middle) > FARTHEST * (sole.front - sole.back):
+            return None
+        if own.lean + self.lean > LEANS:
             return None
         values = {
             "speed": self.stride * gait.speed,
@@ -92,6 +98,7 @@ class Candidate:
         }
         return replace(
             own,
+            lean=own.lean + self.lean,
             gait=own.gait | told,
             control=own.control
             | {"method": control.method, "feedback": control.feedback},
