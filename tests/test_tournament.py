@@ -94,7 +94,12 @@ def test_the_figures_of_a_game_are_those_of_its_track(
     )
     monkeypatch.setattr(studied, "play_track", lambda *_: (None, track))
     asked: list[Any] = []
-    monkeypatch.setattr(studied, "bound_of", lambda *to: asked.append(to) or 9)
+
+    def bound_of(*words: Any) -> int:
+        asked.append(words)
+        return 9
+
+    monkeypatch.setattr(studied, "bound_of", bound_of)
     settings = replace(SETTINGS, level=level)
     record = play_record(settings, PAIRINGS[0], 3)
     seconds = 12.0 * SHORT.period / decisions
