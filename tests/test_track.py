@@ -1,6 +1,7 @@
 """Test following things through frames: gates, memory, latency."""
 
 from math import hypot, inf
+from typing import Any
 
 import numpy as np
 import pytest
@@ -306,7 +307,7 @@ def test_what_takes_over_knows_what_both_knew() -> None:
     assert not unsure.confirmed
 
 
-def trailed(times: list[float], speed: float = 0.4, **changes: float) -> Track:
+def trailed(times: list[float], speed: float = 0.4, **changes: Any) -> Track:
     """Track of what is seen along x, at no place near nought."""
     first, *rest = (
         look(time, 3.0 + speed * time, -2.0)._replace(**changes)
