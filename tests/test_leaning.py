@@ -17,6 +17,7 @@ from stepaside.fitting import leaning
 from stepaside.fitting.deriving import derive
 from stepaside.fitting.leaning import LEANS, least_lean
 from stepaside.fitting.rehearsal import Borne
+from stepaside.fitting.trials import Walked
 from stepaside.fitting.writing import write_description
 from stepaside.games.robot_settings import settings_of
 from stepaside.robots.description import (
@@ -164,3 +165,14 @@ def test_the_file_says_how_far_it_leans(tmp_path: Path) -> None:
         file.write_text(text, encoding="utf-8")
         with pytest.raises(ModelError, match="lean must be"):
             load_robot(tmp_path)
+
+
+def test_a_walk_that_leans_on_purpose_may_tilt_by_that_too() -> None:
+    def unsteadiness(tilt: float, lean: float) -> float:
+        nothing = (0.0, 1.0, None, None)
+        return Walked(
+            *("forward", True, "walked", True, 1.0, tilt), *nothing, lean
+        ).unsteadiness
+
+    assert unsteadiness(8.0, 0.0) == pytest.approx(1.0)
+    assert unsteadiness(8.0, 8.0) == pytest.approx(0.5)

@@ -163,7 +163,8 @@ def _ankle(
         if abs(data.xaxis[roll, 0]) < LEVEL:
             return place
         across: Array = data.xanchor[roll] - place
-        return place + float(across @ axis) * axis
+        crossing: Array = place + float(across @ axis) * axis
+        return crossing
     along = float((data.xanchor[pitch] - place) @ axis)
     if abs(axis[0]) < LEVEL or abs(along) < APART * (hip - place)[2]:
         return place

@@ -117,7 +117,7 @@ def _legs(
         ModelError: If it has none whichever way it is turned; as it is found
             in the torso's own axes.
     """
-    refused = None
+    refused: ModelError | None = None
     for quarters in (0, 2, 1, 3):
         half = 0.25 * np.pi * quarters
         turn = (float(np.cos(half)), 0.0, 0.0, float(np.sin(half)))
