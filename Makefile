@@ -77,9 +77,10 @@ wheel: setup
 
 # Faults that the tests should notice; goes on where it was cut short.
 SAMPLE ?= 400
+CAP ?= 40
 mutate: setup
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m tests.mutation --write \
-		--sample $(SAMPLE)
+		--sample $(SAMPLE) --cap $(CAP)
 
 bench: setup
 	$(BIN)/python $(INSTALL) --editable ".[bench]"

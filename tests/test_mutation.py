@@ -15,7 +15,7 @@ from mutation.__main__ import main
 from mutation.again import survivors_of, write_noticed
 from mutation.faults import Fault, draw, faults_of
 from mutation.places import optional_keywords
-from mutation.score import SAMPLE, head, summary, write
+from mutation.score import CAP, SAMPLE, head, summary, write
 from mutation.source import Source
 from mutation.trial import choose
 
@@ -131,8 +131,8 @@ def test_the_score_counts_what_was_noticed(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="want 5 faults tried, got 4"):
         write(path, head(sample=5, seed=1, cap=1.0), found)
     result = Store(tmp_path).result("mutation")
-    assert result["command"] == "make mutate SAMPLE=4"
-    assert head(sample=SAMPLE, seed=1, cap=1.0)["command"] == "make mutate"
+    assert result["command"] == "make mutate SAMPLE=4 CAP=1"
+    assert head(sample=SAMPLE, seed=1, cap=CAP)["command"] == "make mutate"
     assert result["settings"] == {"sample": 4, "seed": 1, "cap_s": 1.0}
     assert "2 of 4 faults noticed (50.0 %)" in score(result)
     assert "| planning | 4 | 2 | 50 % |" in score(result)

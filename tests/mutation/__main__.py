@@ -15,6 +15,7 @@ from .faults import Fault, draw, faults_of, modules_of
 from .mention import Index
 from .places import optional_keywords
 from .score import (
+    CAP,
     REASONS,
     RESULTS,
     ROOMS,
@@ -92,7 +93,7 @@ def _options() -> argparse.Namespace:
     add(
         "--cap",
         type=float,
-        default=40.0,
+        default=CAP,
         metavar="SECONDS",
         help="processor time of the tests that one fault may take",
     )
@@ -107,7 +108,7 @@ def _options() -> argparse.Namespace:
     options = parser.parse_args()
     given = [
         f"--{name}"
-        for name in ("only", "tests", "all", "seed", "cap", "root")
+        for name in ("only", "tests", "all", "seed", "root")
         if getattr(options, name) != parser.get_default(name)
     ]
     if options.write and given:

@@ -27,6 +27,7 @@ ROOMS = (
 REASONS = Path("tests/mutation/reasons.toml")
 RESULTS = Path("docs/results/mutation.json")
 SAMPLE = 400  # faults
+CAP = 40.0  # processor time of the tests of one fault, in [s]
 NOTICED = ("killed", "timeout")
 
 
@@ -95,11 +96,13 @@ def head(*, sample: int, seed: int, cap: float) -> dict[str, Any]:
         cap: Processor time of tests that a fault can take, in [s].
     """
     make = "make mutate"
+    options = f" SAMPLE={sample}" if sample != SAMPLE else ""
+    options += f" CAP={cap:g}" if cap != CAP else ""
     return header(
         {"sample": sample, "seed": seed, "cap_s": cap},
         rooms=ROOMS,
         libraries=(*LIBRARIES, "hypothesis"),
-        command=make if sample == SAMPLE else f"{make} SAMPLE={sample}",
+        command=make + options,
     )
 
 

@@ -4,6 +4,7 @@ import json
 import os
 import sys
 from collections.abc import Collection, Iterable, Mapping
+from math import inf
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ RAN = (0, 1)  # exit status of pytest when tests ran, all green or not
 START = 60.0  # [s] of processor time to import and collect
 SPARE = 10.0  # [s] of processor time that any test may take
 COMPILING = 60.0  # [s], the same where functions are compiled anew
+PATIENCE = 2.0  # by which all tests may take longer than usual, and a test
 
 
 class Judge:
@@ -32,6 +34,7 @@ class Judge:
         self._times = dict(times)
         self._note = note
         self._spare = spare
+        self._until = inf  # processor time at which no other test begins
         self.red = ""
 
     def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
@@ -51,6 +54,15 @@ class Judge:
                 self._times.setdefault(item.nodeid, time)
         items[:] = [item for item in items if item.nodeid in self._times]
         items.sort(key=lambda item: rank(item.nodeid, self._times))
+        usual = sum(self._times[item.nodeid] for item in items)
+        self._until = cpu_time() + PATIENCE * usual + self._spare
+
+    def pytest_runtest_protocol(self) -> bool | None:
+        """Run no more tests when they have taken far longer than usual.
+
+        A test may be the only one left of those that share what is dear.
+        """
+        return True if cpu_time() > self._until else None
 
     def pytest_runtest_logstart(self, nodeid: str) -> None:
         """Note what runs, and limit its time."""
