@@ -14,9 +14,11 @@ from stepaside.control.balance.estimation import BodyState
 from stepaside.control.balance.settings import StabiliserSettings
 from stepaside.errors import ModelError
 from stepaside.fitting import leaning
+from stepaside.fitting.candidates import Candidate
 from stepaside.fitting.deriving import derive
 from stepaside.fitting.leaning import LEANS, least_lean
 from stepaside.fitting.rehearsal import Borne
+from stepaside.fitting.rewriting import rewritten
 from stepaside.fitting.trials import Walked
 from stepaside.fitting.writing import write_description
 from stepaside.games.robot_settings import settings_of
@@ -176,3 +178,21 @@ def test_a_walk_that_leans_on_purpose_may_tilt_by_that_too() -> None:
 
     assert unsteadiness(8.0, 0.0) == pytest.approx(1.0)
     assert unsteadiness(8.0, 8.0) == pytest.approx(0.5)
+
+
+def test_a_lean_that_a_search_found_is_written(tmp_path: Path) -> None:
+    found = derive(stranger.mjcf(tmp_path), tmp_path, [])
+    file = tmp_path / FILE
+    file.write_text(write_description(found), encoding="utf-8")
+    own = load_robot(tmp_path)
+    for lean in (0.06, 0.12):  # none stood there, then one did
+        made = Candidate(1.0, lean=lean, even=1.0).applied(own)
+        assert made is not None and made.lean == lean
+        text = rewritten(file.read_text(encoding="utf-8"), made, ["found"])
+        file.write_text(text, encoding="utf-8")
+        again = load_robot(tmp_path)
+        assert again.lean == lean and again.legs == own.legs
+        assert settings_of(again).gait.swing_profile == "even"
+    assert Candidate(1.0, lean=0.31).applied(own) is None
+    tried = {each.lean for each in Candidate(1.0).neighbours()}
+    assert tried == {0.0, 0.06, 0.12}

@@ -21,7 +21,9 @@ CHOICES: dict[str, tuple[float, ...]] = {
     "stride": (0.75, 0.5),
     "stiffness": (1.6, 0.6, 2.5),
     "height": (0.98, 0.95),
+    "even": (0.0, 1.0),
 }
+FROM_ZERO = ("feedback", "zmp", "lean", "even")  # no factors
 FARTHEST = 0.35  # of a sole's length: a ZMP reference beyond is of no use
 
 
@@ -38,6 +40,8 @@ class Candidate:
         zmp: Shift of the ZMP reference ahead, by the sole's length.
         height: Factor on the CoM's height.
         lean: Farther lean of the torso over the foot that stands, in [rad].
+        even: 1 for swing feet that go evenly, which twists the other foot
+            less; 0 for the smoothest ones.
     """
 
     feedback: float
@@ -48,6 +52,7 @@ class Candidate:
     zmp: float = 0.0
     height: float = 1.0
     lean: float = 0.0
+    even: float = 0.0
 
     @property
     def cost(self) -> float:
@@ -60,7 +65,7 @@ class Candidate:
         """Candidates with one change more, or one undone or other."""
         for name, values in CHOICES.items():
             now = getattr(self, name)
-            begin = 0.0 if name in ("feedback", "zmp", "lean") else 1.0
+            begin = 0.0 if name in FROM_ZERO else 1.0
             others = (*values, begin) if begin not in values else values
             for value in [each for each in others if each != now]:
                 yield replace(self, **{name: value})
@@ -87,7 +92,11 @@ class Candidate:
             "com_height": self.height * gait.com_height,
             "zmp_forward": ahead,
         }
-        told = {name: float(f"{v:.4g}") for name, v in values.items()}
+        told: dict[str, float | str] = {
+            name: float(f"{v:.4g}") for name, v in values.items()
+        }
+        if self.even:
+            told["swing_profile"] = "even"
         control = control_with(settings.control, bool(self.feedback))
         servos = {
             name: gains._replace(

@@ -115,8 +115,9 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
     gait["zmp_forward"] = round(ahead * gait["zmp_forward"], 4) + 0.0
     overlay, lean = description.overlay, 0.0
     weak = borne.usual > WEAK or borne.most > BEARABLE or ahead < 1.0
-    if weak:
+    if borne.most > BEARABLE:
         lean, borne = least_lean(*rehearsed(description, gait), torques)
+    if weak:
         servos = gains_of(found, torques, height, weak=True)
         overlay = replace(overlay, servos=servos)
     description = replace(

@@ -24,7 +24,7 @@ def least_lean(
 ) -> tuple[float, Borne]:
     """Least lean at which a step leaves something of each torque.
 
-    To be asked for a robot with weak joints: any lean steadies its steps.
+    To be asked for a robot whose joints bear too much without.
 
     Args:
         description: The robot, whose torso stays level.
