@@ -76,8 +76,11 @@ wheel: setup
 	.venv-wheel/bin/python tests/from_wheel.py
 
 # Faults that the tests should notice; goes on where it was cut short.
+SAMPLE ?= 400
+CAP ?= 40
 mutate: setup
-	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m tests.mutation --write
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m tests.mutation --write \
+		--sample $(SAMPLE) --cap $(CAP)
 
 bench: setup
 	$(BIN)/python $(INSTALL) --editable ".[bench]"

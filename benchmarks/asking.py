@@ -2,24 +2,69 @@
 
 import os
 import platform
-from argparse import ArgumentParser, RawDescriptionHelpFormatter
+from argparse import ArgumentParser, Namespace, RawDescriptionHelpFormatter
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Any
+
+from stepaside.errors import ConfigurationError
+from stepaside.outputs import check_file
 
 RESULTS = Path(__file__).parents[1] / "docs" / "results"
 
 
-def ask(description: str | None, name: str) -> ArgumentParser:
+class _Asking(ArgumentParser):
+    """Parser that tells where the results go before they are measured."""
+
+    name_of: Callable[[Namespace], str]
+
+    def parse_args(
+        self, args: Iterable[str] | None = None, namespace: Any = None
+    ) -> Any:
+        """Read the command line; exit with a message if it is wrong."""
+        given = super().parse_args(args, namespace)
+        try:
+            given.output = _file_of(given.output, self.name_of(given))
+        except ConfigurationError as error:
+            self.error(str(error))
+        return given
+
+
+def ask(
+    description: str | None, name: str | Callable[[Namespace], str]
+) -> ArgumentParser:
     """Parser with the one option that all have.
+
+    What it reads holds ``output``, the file of results: a place that can be
+    written, so that nothing is measured in vain.
 
     Args:
         description: Of the command.
-        name: Of the file of results, by default.
+        name: Of the file of results, in the folder of results or in one
+            that is given; or what tells it from all that was asked.
     """
-    parser = ArgumentParser(
+    parser = _Asking(
         description=description, formatter_class=RawDescriptionHelpFormatter
     )
-    parser.add_argument("--output", type=Path, default=RESULTS / name)
+    parser.name_of = (lambda _: name) if isinstance(name, str) else name
+    parser.add_argument(
+        "--output",
+        type=Path,
+        default=RESULTS,
+        help="file of results, or the folder that it goes to",
+    )
     return parser
+
+
+def _file_of(output: Path, name: str) -> Path:
+    """File of results that is meant by a file or folder.
+
+    Raises:
+        ConfigurationError: If it cannot be written.
+    """
+    file = output / name if output.is_dir() else output
+    check_file(file, suffixes=[".json"], overwrite=True)
+    return file
 
 
 def seeds_of(text: str) -> range:

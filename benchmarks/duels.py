@@ -43,13 +43,13 @@ KINDS = {
 
 def main() -> None:
     """Play, and write what came out."""
-    parser = ask(__doc__, ".")
+    parser = ask(__doc__, lambda given: f"duels-{given.kind}.json")
     parser.add_argument("kind", choices=list(KINDS))
     parser.add_argument("--seeds", type=seeds_of, default=range(0, 40))
     parser.add_argument("--verify", type=int)
     parser.add_argument("--workers", type=int)
     asked = parser.parse_args()
-    output = asked.output / f"duels-{asked.kind}.json"
+    output = asked.output
     settings, seeds = KINDS[asked.kind], asked.seeds
     file = RecordFile(output.with_suffix(".jsonl"))
     with (

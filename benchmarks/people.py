@@ -7,9 +7,10 @@ are taken, made of rays. Depth images and echoes come as ever::
     python benchmarks/people.py --speed 0.5 --seeds 1:6 --body hardware
 """
 
+from argparse import Namespace
 from dataclasses import replace
 
-from asking import RESULTS, ask, seeds_of
+from asking import ask, seeds_of
 from gathering import Row, finished, gather
 
 from stepaside.control.balance.settings import STABILISED
@@ -60,9 +61,14 @@ def grid(
     ]
 
 
+def _name(asked: Namespace) -> str:
+    end = "" if asked.body == "ideal" else f"-{asked.body}"
+    return f"people-cameras{end}.json"
+
+
 def main() -> None:
     """Play and write."""
-    asked = ask(__doc__, "people-cameras.json")
+    asked = ask(__doc__, _name)
     asked.add_argument("--speed", type=float, default=0.8)
     asked.add_argument("--seeds", type=seeds_of, default="1:3")
     asked.add_argument("--body", choices=BODIES, default="ideal")
@@ -70,8 +76,6 @@ def main() -> None:
     arguments = asked.parse_args()
     speed, seeds, body = arguments.speed, arguments.seeds, arguments.body
     output = arguments.output
-    if output == asked.get_default("output") and body != "ideal":
-        output = RESULTS / f"people-cameras-{body}.json"
     groups = {
         "ahead": grid(body, speed, seeds, AHEAD, *AIMED),
         "behind": grid(body, speed, seeds[:1], BEHIND, AIMED[0]),

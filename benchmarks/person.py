@@ -12,7 +12,7 @@ ever.
 
 from typing import NamedTuple
 
-from asking import RESULTS, ask, seeds_of
+from asking import ask, seeds_of
 from gathering import Row, finished, gather, spread
 
 from stepaside.games import DuelSettings, run_duel
@@ -74,7 +74,7 @@ def together(rows: list[Row]) -> Row:
 
 def main() -> None:
     """Play and write."""
-    asked = ask(__doc__, "person-SENSING.json")
+    asked = ask(__doc__, lambda given: f"person-{given.sensing}.json")
     asked.add_argument("sensing", choices=["ideal", "cameras"])
     asked.add_argument("--seeds", type=seeds_of, default="1:6")
     asked.add_argument(
@@ -87,8 +87,6 @@ def main() -> None:
     if arguments.slow is not None:
         each["steers-slowly"] = arguments.slow
     output = arguments.output
-    if output == asked.get_default("output"):
-        output = RESULTS / f"person-{sensing}.json"
     jobs = {
         f"{name}/{seed}": Walk(name, seed, sensing)
         for name in WALKS

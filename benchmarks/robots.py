@@ -54,6 +54,15 @@ GMR = "github.com/YanjieZe/GMR"
 MENAGERIE = "github.com/google-deepmind/mujoco_menagerie"
 BITBOTS = "github.com/bit-bots/wolfgang_robot"
 XBOT = "github.com/roboterax/humanoid-gym"
+UNITREE = "github.com/unitreerobotics/unitree_ros"
+LITE = "github.com/HybridRobotics/Berkeley-Humanoid-Lite-Assets"
+ATOM = "github.com/Roboparty/atom01_train"
+HIGHTORQUE = "github.com/HighTorque-Robotics/robot_urdf"
+DARWIN = "github.com/HumaRobotics/darwin_description"
+NASA = "github.com/gkjohnson/nasa-urdf-robots"
+TIENKUNG = "github.com/x-humanoid-robomind/TienKung_URDF"
+BXI = "github.com/bxirobotics/robot_models"
+GRX = "github.com/FFTAI/Wiki-GRx-Models"
 HUMANOIDS = (
     Humanoid(
         *("HighTorque Hi", GMR, "hightorque_hi/hi_25dof.urdf"),
@@ -64,8 +73,40 @@ HUMANOIDS = (
         "mirrored axes, much damping",
     ),
     Humanoid(
+        *("Darwin-OP", DARWIN, "urdf/darwin.urdf"),
+        "URDF, inertias in wrong units, slow joints",
+    ),
+    Humanoid(
+        *("HighTorque Pi", HIGHTORQUE, "pi_12dof/mjcf/pi_12dof.xml"),
+        "legs only, wide hips under a low CoM, meshes missing",
+    ),
+    Humanoid(
         *("Wolfgang-OP", BITBOTS, "wolfgang_description/urdf/robot.urdf"),
         "URDF, feet not level and knees not straight in the zero posture",
+    ),
+    Humanoid(
+        *("Berkeley Humanoid Lite", LITE, "mjcf/berkeley_humanoid_lite.xml"),
+        "inclined hips, motors and joints of one class",
+    ),
+    Humanoid(
+        *(
+            "Berkeley Humanoid",
+            MENAGERIE,
+            "berkeley_humanoid/berkeley_humanoid.xml",
+        ),
+        "feet not level in the zero posture, narrow soles",
+    ),
+    Humanoid(
+        *("Unitree R1", UNITREE, "r1_description/R1.urdf"),
+        "URDF with the rods of its ankles as fixed links, inclined hips",
+    ),
+    Humanoid(
+        *("BXI Elf2", BXI, "elf2_dof25/xml/elf2_dof25.xml"),
+        "weak ankles, soles as long behind as ahead, meshes missing",
+    ),
+    Humanoid(
+        *("Roboparty Atom01", ATOM, "atom/mjcf/atom01.xml"),
+        "three slides and a ball in place of a free joint, inclined hips",
     ),
     Humanoid(
         *("Booster T1", T1, "T1/T1_serial.urdf"),
@@ -108,6 +149,18 @@ HUMANOIDS = (
         "dated MJCF, hip roll before yaw and pitch",
     ),
     Humanoid(
+        *(
+            "Tiangong Pro",
+            TIENKUNG,
+            "pro_urdf_publish/pro_urdf_publish/urdf/humanoid.urdf",
+        ),
+        "URDF without a free joint, hands of many joints, meshes missing",
+    ),
+    Humanoid(
+        *("Fourier GR1T2", GRX, "GR1/gr1t2/basic_urdf/gr1t2.urdf"),
+        "URDF without a free joint, narrow soles, weak ankles",
+    ),
+    Humanoid(
         *("Leju Kuavo S45", GMR, "kuavo_s45/biped_s45.urdf"),
         "URDF without a free joint, feet close together",
     ),
@@ -130,6 +183,14 @@ HUMANOIDS = (
     Humanoid(
         *("PAL Talos", DATA, "talos_data/robots/talos_reduced.urdf"),
         "URDF without a free joint, torso of two joints",
+    ),
+    Humanoid(
+        *(
+            "NASA Valkyrie",
+            NASA,
+            "val_description/model/robots/valkyrie_D.urdf",
+        ),
+        "URDF without a free joint, 134 kg, meshes missing",
     ),
 )
 

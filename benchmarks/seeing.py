@@ -9,7 +9,7 @@ and a figure standing in the room::
 
 from typing import NamedTuple
 
-from asking import RESULTS, ask, machine, seeds_of
+from asking import ask, machine, seeds_of
 from gathering import Row, finished, gather, spread
 
 from stepaside.games import DuelSettings, run_duel
@@ -72,15 +72,13 @@ def play(seen: Seen) -> Row:
 
 def main() -> None:
     """Play and write."""
-    asked = ask(__doc__, "seeing-KIND.json")
+    asked = ask(__doc__, lambda given: f"seeing-{given.kind}.json")
     asked.add_argument("kind", choices=["plain", "degraded"])
     asked.add_argument("--seeds", type=seeds_of, default="302:309")
     asked.add_argument("--workers", type=int)
     arguments = asked.parse_args()
     seeds, kind = arguments.seeds, arguments.kind
     output = arguments.output
-    if output == asked.get_default("output"):
-        output = RESULTS / f"seeing-{kind}.json"
     settings = {
         "kind": kind,
         "seeds": [seeds.start, seeds.stop],

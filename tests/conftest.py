@@ -35,16 +35,26 @@ COMPILED = {
     "test_tournament": "steps",
     "test_unicycle_": "unicycle",
 }
-LONG = ("browser", "bound", "unicycle", "steps", "duel 11")  # begin first
+# Begin first, so that no worker is left alone with one at the end.
+LONG = (
+    *("browser", "bound", "unicycle", "steps", "duel 11"),
+    *("test_duel", "test_walk", "test_seeing", "test_robot_init"),
+)
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Let tests of the same compiled code share a worker."""
+    """Let tests of a file, and of the same compiled code, share a worker.
+
+    What a module makes once for its tests is made by one worker then.
+    """
     for item in items:
-        for prefix, group in COMPILED.items():
-            if item.path.name.startswith(prefix):
-                item.add_marker(pytest.mark.xdist_group(group))
+        if item.get_closest_marker("xdist_group") is None:
+            group = item.path.stem
+            for prefix, compiled in COMPILED.items():
+                if group.startswith(prefix):
+                    group = compiled
+            item.add_marker(pytest.mark.xdist_group(group))
     items.sort(key=_turn)
 
 

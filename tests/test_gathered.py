@@ -15,17 +15,16 @@ def test_tests_of_a_group_share_a_worker(
     assert request.node.nodeid.endswith("@gathered")
 
 
-def test_compiled_code_of_one_room_is_a_group(
+def test_files_and_compiled_code_are_groups(
     request: pytest.FixtureRequest,
 ) -> None:
-    marked = {
-        item.path.name
-        for item in request.session.items
-        if item.get_closest_marker("xdist_group")
-    }
-    wanted = {
-        item.path.name
-        for item in request.session.items
-        if item.path.name.startswith("test_unicycle_")
-    }
-    assert wanted <= marked
+    """Unless a test names another one."""
+    groups: dict[str, set[str]] = {}
+    for item in request.session.items:
+        mark = item.get_closest_marker("xdist_group")
+        assert mark is not None
+        groups.setdefault(item.path.stem, set()).add(mark.args[0])
+    assert groups["test_gathered"] == {"gathered", "test_gathered"}
+    for name, found in groups.items():
+        if name.startswith("test_unicycle_"):
+            assert found == {"unicycle"}

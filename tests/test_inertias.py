@@ -44,3 +44,30 @@ def test_an_inertia_that_can_be_stays_as_it_is() -> None:
     before = np.array(spec.body("link").fullinertia)
     assert mend_inertias(spec) == []
     np.testing.assert_array_equal(spec.body("link").fullinertia, before)
+
+
+@pytest.mark.parametrize(
+    "how", ["fullinertia='{0} {0} {0} 0 0 0'", "diaginertia='{0} {0} {0}'"]
+)
+def test_inertias_in_wrong_units_become_those_of_links(how: str) -> None:
+    """One of masses 20 m away tells that those of 0.3 m are wrong, too."""
+
+    def model(worst: float) -> mujoco.MjSpec:
+        rows = [how.format(moment) for moment in (worst, 0.1, 1e-4)]
+        return mujoco.MjSpec.from_string(
+            "<mujoco><worldbody><body name='torso'><freejoint/>"
+            f"<inertial mass='1' pos='0 0 0' {rows[0]}/>"
+            "<body name='thigh' pos='0 0 -0.1'><joint name='hip'/>"
+            f"<inertial mass='1' pos='0 0 0' {rows[1]}/>"
+            "<body name='shank' pos='0 0 -0.2'><joint name='knee'/>"
+            f"<inertial mass='1' pos='0 0 0' {rows[2]}/>"
+            "</body></body></body></worldbody></mujoco>"
+        )
+
+    spec = model(400.0)
+    assert mend_inertias(spec) == ["torso", "thigh"]
+    moments = spec.compile().body_inertia[1:, 0]
+    np.testing.assert_allclose(moments, [0.0016, 0.0064, 1e-4])
+    spec = model(0.3)  # large for such a robot, but who knows
+    assert mend_inertias(spec) == []
+    np.testing.assert_allclose(spec.compile().body_inertia[2], 0.1)

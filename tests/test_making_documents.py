@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from documents.__main__ import old_results
 from documents.blocks import make
 from documents.document import complaints, remade
 from documents.numbers import show
@@ -14,6 +15,7 @@ from documents.pictures import PICTURES, draw_picture, drawn_from
 from documents.store import DocumentError, Store
 from documents.tables.markdown import interval, number, table
 from stepaside.studies.results import header, write_result
+from stepaside.studies.version import GROUND
 
 FOUND: dict[str, Any] = {
     "ratio": 0.98765,
@@ -254,3 +256,19 @@ def test_choices_of_heading_and_point_become_means(tmp_path: Path) -> None:
 def test_all_results_stand_in_the_index(store: Store) -> None:
     row = make("all", "index", store).splitlines()[2]
     assert row.startswith("| [run](run.json) | `none` | ")
+
+
+def test_results_of_other_code_are_told_with_what_renews_them(
+    tmp_path: Path,
+) -> None:
+    now = header({}, rooms=GROUND, command="make now")
+    others = {
+        "changed": now | {"version": "0" * 12, "command": "make changed"},
+        "moved": now | {"rooms": ["cellar"], "command": "make moved"},
+    }
+    for name, head in {"new": now, **others}.items():
+        write_result(tmp_path / f"{name}.json", head)
+    assert old_results(Store(tmp_path)) == [
+        f"{name}: made with other code; again by: make {name}"
+        for name in others
+    ]

@@ -12,12 +12,14 @@ import pytest
 from documents.store import Store
 from documents.tables.mutation import score, survivors
 from mutation.__main__ import main
+from mutation.again import survivors_of, write_noticed
 from mutation.faults import Fault, draw, faults_of
 from mutation.places import optional_keywords
-from mutation.score import head, summary, write
+from mutation.score import CAP, SAMPLE, head, summary, write
 from mutation.source import Source
 from mutation.trial import choose
 
+RECORDED = ("key", "file", "line", "operator", "before", "after")
 REPOSITORY = Path(__file__).parents[1]
 FILE = "src/stepaside/planning/toy.py"
 TEXT = '''"""Doc with 1.0 number."""
@@ -129,13 +131,39 @@ def test_the_score_counts_what_was_noticed(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="want 5 faults tried, got 4"):
         write(path, head(sample=5, seed=1, cap=1.0), found)
     result = Store(tmp_path).result("mutation")
-    assert result["command"] == "make mutate"
+    assert result["command"] == "make mutate SAMPLE=4 CAP=1"
+    assert head(sample=SAMPLE, seed=1, cap=CAP)["command"] == "make mutate"
     assert result["settings"] == {"sample": 4, "seed": 1, "cap_s": 1.0}
     assert "2 of 4 faults noticed (50.0 %)" in score(result)
     assert "| planning | 4 | 2 | 50 % |" in score(result)
     table = survivors(result)
     assert "| planning/toy.py:2 | `a \\| b` | `b` | same |" in table
     assert "| `b` | no test reaches |" in table
+
+
+def test_tests_written_since_tell_survivors_and_leave_the_score(
+    tmp_path: Path,
+) -> None:
+    path = tmp_path / "mutation.json"
+    first, second, *_ = faults()
+    rows = {
+        fault.key: {"outcome": "survived", "test": ""}
+        | {name: getattr(fault, name) for name in RECORDED}
+        for fault in (first, second)
+    }
+    found = summary(list(rows.values()), {})
+    write(path, head(sample=2, seed=1, cap=1.0), found)
+    assert survivors_of(path, faults()) == [first, second]
+    rows[first.key] |= {"outcome": "killed", "test": "tests/test_x.py::f[1]"}
+    for _ in range(2):
+        assert write_noticed(path, rows) == 1
+        result = Store(tmp_path).result("mutation")
+        assert result["noticed"] == 0 and len(result["survivors"]) == 2
+        assert "notice 1 of the survivors" in score(result)
+        assert "| noticed since by `test_x.py::f` |" in survivors(result)
+    assert write_noticed(path, {}) == 0
+    result = Store(tmp_path).result("mutation")
+    assert "survivors" not in score(result)
 
 
 @pytest.fixture

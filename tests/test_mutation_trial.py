@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -111,6 +112,19 @@ def test_a_test_that_a_fault_renames_is_run_all_the_same(
     assert [item.nodeid for item in items] == ["a::f[3]", "a::g[1]"]
     judge.pytest_runtest_logstart("a::f[3]")
     assert limits == [pytest.approx(10.5)]
+
+
+def test_tests_that_take_far_longer_than_usual_end_a_trial(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Processor time of 7 s before the tests, which take 0.3 s all told."""
+    now = [7.0]
+    monkeypatch.setattr(trial, "cpu_time", lambda: now[0])
+    judge = Judge({"a::f": 0.1, "a::g": 0.2}, tmp_path / "note", 4.0)
+    items: Any = [SimpleNamespace(nodeid=name) for name in ("a::f", "a::g")]
+    judge.pytest_collection_modifyitems(items)
+    for now[0], over in ((11.5, None), (11.7, True)):
+        assert judge.pytest_runtest_protocol() is over
 
 
 def test_a_process_that_ends_early_inherits_no_verdict(root: Path) -> None:

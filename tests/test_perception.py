@@ -1,6 +1,6 @@
 """Test the way from images to a line of sight."""
 
-from math import atan2, hypot
+from math import atan2, cos, hypot, sin
 
 import numpy as np
 import pytest
@@ -152,3 +152,20 @@ def test_the_head_goes_where_the_gaze_turns(eyes: Eyes) -> None:
     assert targets[names.index("HeadYaw")] == 0.4
     assert targets[names.index("HeadPitch")] == -0.2
     assert (targets == 9.0).sum() == JOINTS - 2
+
+
+@pytest.mark.parametrize(
+    ("share", "missed"), [(0.848, True), (0.852, False), (2.0, False)]
+)
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_what_an_image_should_have_shown_counts_as_missed(
+    eyes: Eyes, share: float, missed: bool, side: float
+) -> None:
+    """Well within the view of the camera, to the edge of which it is 80."""
+    body = eyes.perception.body
+    assert body is not None
+    x, y, _ = body.head_place + body.head_axes @ HEAD.top.place
+    angle = SUPPORT.theta + side * share * atan2(80.0, 140.0)
+    track = eyes.know(x + 2.0 * cos(angle), y + 2.0 * sin(angle))
+    eyes.see(TICK, colour(TICK))
+    assert list(track._hits) == ([True, False] if missed else [True])

@@ -1,11 +1,20 @@
 """Test following things through frames: gates, memory, latency."""
 
 from math import hypot, inf
+from typing import Any
 
 import numpy as np
 import pytest
 
-from stepaside.sensing.track import Observation, Track
+from stepaside.sensing.track import (
+    APART,
+    HEARD,
+    LEAST,
+    SHARP,
+    TRAIL,
+    Observation,
+    Track,
+)
 from stepaside.sensing.tracker import PATIENCE, Tracker
 
 FRAME = 1.0 / 15.0
@@ -296,3 +305,63 @@ def test_what_takes_over_knows_what_both_knew() -> None:
     unsure = Track(look(0.0, 2.0))
     unsure.take_over(Track(look(0.1, 2.0)))
     assert not unsure.confirmed
+
+
+def trailed(times: list[float], speed: float = 0.4, **changes: Any) -> Track:
+    """Track of what is seen along x, at no place near nought."""
+    first, *rest = (
+        look(time, 3.0 + speed * time, -2.0)._replace(**changes)
+        for time in times
+    )
+    track = Track(first)
+    for seen in rest:
+        track.correct(seen)
+    return track
+
+
+@pytest.mark.parametrize("speed", [0.0, 0.4, -0.9])
+def test_how_it_moves_is_told_once_it_was_seen_for_a_while(
+    speed: float,
+) -> None:
+    """Whatever way it went meanwhile; and until it was not seen for long."""
+    early = trailed([0.0, 0.1, 0.2, 0.3], speed)
+    assert not early.is_told(0.3) and early.drift == (0.0, 0.0)
+    told = trailed([0.0, 0.1, 0.2, 0.3, LEAST], speed)
+    assert told.is_told(LEAST) and told.is_told(LEAST + TRAIL - 1e-9)
+    assert not told.is_told(LEAST + TRAIL + 1e-6)
+    late = trailed([0.0, 0.15, 0.3, 0.45, 0.6], speed)
+    assert late.drift == pytest.approx((speed, 0.0), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "blurred", [{"along": SHARP + 0.01}, {"across": SHARP + 0.01}]
+)
+def test_only_what_is_seen_sharply_tells_how_it_moves(
+    blurred: dict[str, float],
+) -> None:
+    times = [0.0, 0.15, 0.3, 0.45, 0.6]
+    assert not trailed(times, **blurred).is_told(0.6)
+    assert not trailed(times, ranged=False).is_told(0.6)
+    assert trailed(times, along=SHARP, across=SHARP).is_told(0.6)
+
+
+def test_places_are_kept_apart_and_not_for_long() -> None:
+    """Two kinds of speed, one long before the other: the late one counts."""
+    track = Track(look(0.0, 1.0, 0.0))
+    for i in range(1, 200):
+        time = 0.02 * i
+        x = 1.0 + 0.5 * time if time < 2.0 else 2.0 - 0.3 * (time - 2.0)
+        track.correct(look(time, x, 0.0))
+        trail = [at for at, *_ in track._trail]
+        assert time - trail[0] <= TRAIL + APART
+        assert np.diff(trail).min(initial=inf) >= APART - 1e-9
+    assert track.drift[0] == pytest.approx(-0.3, abs=1e-9)
+
+
+def test_an_ear_sights_nobody() -> None:
+    heard = look(1.0, 1.0)._replace(across=HEARD)
+    assert Track(heard).sighted_at == -inf
+    track = Track(look(1.0, 1.0))
+    assert track.sighted_at == 1.0
+    track.correct(heard._replace(time=1.2))
+    assert track.sighted_at == 1.0 and track.seen_at == 1.2

@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from typing import Any
 
+from stepaside.studies.survival import wilson
+
 from .markdown import number, table
 
 PACKAGE = "src/stepaside/"
@@ -11,6 +13,16 @@ PACKAGE = "src/stepaside/"
 def score(result: Mapping[str, Any]) -> str:
     """How many faults were noticed, in all and by package."""
     outcomes = result["outcomes"]
+    since = sum("noticed_by" in row for row in result["survivors"])
+    later = (
+        f" Tests written since notice {since} of the survivors."
+        if since
+        else ""
+    )
+    low, high = (
+        number(100.0 * share, 0)
+        for share in wilson(result["noticed"], result["faults"])
+    )
     rows = [
         (
             name,
@@ -22,11 +34,13 @@ def score(result: Mapping[str, Any]) -> str:
     ]
     return (
         f"**{result['noticed']} of {result['faults']} faults noticed "
-        f"({number(100.0 * result['score'], 1)} %)**; drawn by seed "
-        f"{result['settings']['seed']}, on code version "
+        f"({number(100.0 * result['score'], 1)} %)**; `{result['command']}`, "
+        f"drawn by seed {result['settings']['seed']}, on code version "
         f"`{result['version']}`. {outcomes.get('timeout', 0)} were noticed "
         f"by a time limit; {outcomes.get('unreached', 0)} are reached by no "
-        f"test.\n\n{table(('package', 'faults', 'noticed', 'share'), rows)}"
+        f"test. Of all places, {low} to {high} % are as well guarded, at 95 % "
+        f"confidence.{later}\n\n"
+        + table(("package", "faults", "noticed", "share"), rows)
     )
 
 
@@ -39,11 +53,18 @@ def survivors(result: Mapping[str, Any]) -> str:
             f"{row['file'].removeprefix(PACKAGE)}:{row['line']}",
             _code(row["before"]),
             _code(row["after"]),
-            row["reason"] or ("" if row["reached"] else "no test reaches"),
+            _reason(row),
         )
         for row in result["survivors"]
     ]
     return table(("where", "before", "after", "reason"), rows)
+
+
+def _reason(row: Mapping[str, Any]) -> str:
+    if "noticed_by" in row:
+        test = row["noticed_by"].partition("[")[0]
+        return f"noticed since by `{test.rpartition('/')[2]}`"
+    return str(row["reason"]) or ("" if row["reached"] else "no test reaches")
 
 
 def _code(text: str) -> str:

@@ -8,15 +8,18 @@ from typing import Any
 
 from stepaside.studies.records import RecordFile
 
+from .again import survivors_of, write_noticed
 from .campaign import record_reach, try_faults
 from .child import warm_up
 from .faults import Fault, draw, faults_of, modules_of
 from .mention import Index
 from .places import optional_keywords
 from .score import (
+    CAP,
     REASONS,
     RESULTS,
     ROOMS,
+    SAMPLE,
     head,
     read_reasons,
     score_line,
@@ -42,6 +45,8 @@ def main() -> None:
     }
     count = None if options.all else options.sample
     faults = _drawn(root, texts, count, options.seed)
+    if options.again:
+        faults = survivors_of(root / RESULTS, faults)
     version = digest(
         root, [f for f in files if f.parts[0] in ("src", "tests")]
     )
@@ -69,7 +74,10 @@ def main() -> None:
     for row in found["survivors"]:
         print(f"{row['file']}:{row['line']} {row['before']} => {row['after']}")
     print(score_line(found))
-    if options.write:
+    if options.write and options.again:
+        noticed = write_noticed(root / RESULTS, rows)
+        print(f"{noticed} survivors of the run are noticed now")
+    elif options.write:
         write(root / RESULTS, where_from, found)
 
 
@@ -78,24 +86,29 @@ def _options() -> argparse.Namespace:
     add = parser.add_argument
     add("--only", nargs="+", metavar="PATH", help="folders or files to change")
     add("--tests", nargs="+", metavar="FILE", help="files of tests to run")
-    add("--sample", type=int, default=400, metavar="N")
+    add("--sample", type=int, default=SAMPLE, metavar="N")
     add("--all", action="store_true", help="every fault, not a sample")
     add("--seed", type=int, default=1, metavar="S")
     add("--jobs", type=int, default=os.cpu_count(), metavar="N")
     add(
         "--cap",
         type=float,
-        default=40.0,
+        default=CAP,
         metavar="SECONDS",
         help="processor time of the tests that one fault may take",
     )
     add("--list-survivors", action="store_true", help="of earlier runs")
+    add(
+        "--again",
+        action="store_true",
+        help="only survivors of what is written",
+    )
     add("--write", action="store_true", help="write the file of results")
     add("--root", type=Path, default=Path(__file__).parents[2])
     options = parser.parse_args()
     given = [
         f"--{name}"
-        for name in ("only", "tests", "sample", "all", "seed", "cap", "root")
+        for name in ("only", "tests", "all", "seed", "root")
         if getattr(options, name) != parser.get_default(name)
     ]
     if options.write and given:

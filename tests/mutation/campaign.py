@@ -14,6 +14,9 @@ from .runner import Job, numba_cache, run_jobs
 from .source import Source
 from .tree import Tree, digest, files_of
 
+# Below src/stepaside/: what is compiled, or read by what is.
+COMPILED = ("unicycle", "steps", "bound", "laws.py")
+
 
 def record_reach(
     root: Path, trees: list[Tree], tests: list[str], out: Path
@@ -119,11 +122,19 @@ def job_of(fault: Fault, text: str, index: Index, chosen: list[str]) -> Job:
         tree.change(fault.file, Source(text).apply(fault.edit))
 
     def work(tree: Tree) -> None:
-        numba_cache(tree, fresh="unicycle" in fault.file)
+        anew = is_compiled(fault.file)
+        numba_cache(tree, fresh=anew)
         times = {test: index.times[test] for test in chosen}
-        trial.run(tree.path, times, tree.path.with_suffix(".note"))
+        spare = trial.COMPILING if anew else trial.SPARE
+        note = tree.path.with_suffix(".note")
+        trial.run(tree.path, times, note, spare, index.near(fault))
 
     return Job(fault.key, prepare, work)
+
+
+def is_compiled(file: str) -> bool:
+    """Whether machine code may hang on a file of the package."""
+    return Path(file).parts[2] in COMPILED
 
 
 def verdict(note: str, status: int) -> tuple[str, str]:

@@ -9,7 +9,11 @@ from .imports import Imports
 from .places import Place, walk
 from .reach import Reach
 
-HIDDEN = ("compiled", "compiled_inline", "compiled_parallel", "cache")
+# Decorators of functions whose lines are not traced whenever they act.
+HIDDEN = (
+    *("compiled", "compiled_parallel", "inlined", "shared"),
+    *("cache", "cached_property", "lru_cache"),
+)
 
 
 class Index:
@@ -100,7 +104,7 @@ class Index:
         for node in ast.walk(tree):
             if isinstance(node, ast.FunctionDef):
                 called = {_called(item) for item in node.decorator_list}
-                if called & {*HIDDEN, "lru_cache"}:
+                if called & set(HIDDEN):
                     self._hidden.add(node.name)
             elif isinstance(node, ast.Call) and _called(node) in HIDDEN:
                 self._hidden.update(_called(arg) for arg in node.args)

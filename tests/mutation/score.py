@@ -19,11 +19,15 @@ ROOMS = (
     "perception",
     "strategies",
     "world",
+    "rooms",
+    "steps",
     "games",
     "studies",
 )
 REASONS = Path("tests/mutation/reasons.toml")
 RESULTS = Path("docs/results/mutation.json")
+SAMPLE = 400  # faults
+CAP = 40.0  # processor time of the tests of one fault, in [s]
 NOTICED = ("killed", "timeout")
 
 
@@ -91,11 +95,14 @@ def head(*, sample: int, seed: int, cap: float) -> dict[str, Any]:
         seed: Seed of the draw.
         cap: Processor time of tests that a fault can take, in [s].
     """
+    make = "make mutate"
+    options = f" SAMPLE={sample}" if sample != SAMPLE else ""
+    options += f" CAP={cap:g}" if cap != CAP else ""
     return header(
         {"sample": sample, "seed": seed, "cap_s": cap},
         rooms=ROOMS,
         libraries=(*LIBRARIES, "hypothesis"),
-        command="make mutate",
+        command=make + options,
     )
 
 

@@ -4,6 +4,7 @@ import json
 import os
 import sys
 from collections.abc import Collection, Iterable, Mapping
+from math import inf
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,9 @@ from .child import allow, cpu_time, run_tests
 QUICK = 0.5  # [s]; slower tests run only when these have noticed nothing
 RAN = (0, 1)  # exit status of pytest when tests ran, all green or not
 START = 60.0  # [s] of processor time to import and collect
+SPARE = 10.0  # [s] of processor time that any test may take
+COMPILING = 60.0  # [s], the same where functions are compiled anew
+PATIENCE = 2.0  # by which all tests may take longer than usual, and a test
 
 
 class Judge:
@@ -21,11 +25,16 @@ class Judge:
     Args:
         times: Usual processor time of each chosen test, in [s].
         note: File that always tells the test that is running.
+        spare: Processor time that any test may take, in [s].
     """
 
-    def __init__(self, times: Mapping[str, float], note: Path) -> None:
+    def __init__(
+        self, times: Mapping[str, float], note: Path, spare: float = SPARE
+    ) -> None:
         self._times = dict(times)
         self._note = note
+        self._spare = spare
+        self._until = inf  # processor time at which no other test begins
         self.red = ""
 
     def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
@@ -45,11 +54,20 @@ class Judge:
                 self._times.setdefault(item.nodeid, time)
         items[:] = [item for item in items if item.nodeid in self._times]
         items.sort(key=lambda item: rank(item.nodeid, self._times))
+        usual = sum(self._times[item.nodeid] for item in items)
+        self._until = cpu_time() + PATIENCE * usual + self._spare
+
+    def pytest_runtest_protocol(self) -> bool | None:
+        """Run no more tests when they have taken far longer than usual.
+
+        A test may be the only one left of those that share what is dear.
+        """
+        return True if cpu_time() > self._until else None
 
     def pytest_runtest_logstart(self, nodeid: str) -> None:
         """Note what runs, and limit its time."""
         self._note.write_text(nodeid, encoding="utf-8")
-        allow(10.0 + 5.0 * self._times[nodeid])
+        allow(self._spare + 5.0 * self._times[nodeid])
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         """Note the first test that does not pass."""
@@ -100,7 +118,13 @@ def choose(
     return sorted(chosen, key=lambda test: rank(test, times))
 
 
-def run(tree: Path, chosen: Mapping[str, float], note: Path) -> None:
+def run(
+    tree: Path,
+    chosen: Mapping[str, float],
+    note: Path,
+    spare: float = SPARE,
+    near: Collection[str] = (),
+) -> None:
     """Run tests in this process until one is red, and write the verdict.
 
     Args:
@@ -108,19 +132,23 @@ def run(tree: Path, chosen: Mapping[str, float], note: Path) -> None:
         chosen: Usual time of each test, in [s].
         note: File for the verdict; until there is one it names the test
             that is running.
+        spare: Processor time that any test may take, in [s].
+        near: Tests that run before the others, as they are the likeliest to
+            notice: no other file need be read then.
     """
     sys.dont_write_bytecode = True  # of the fault
     os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
     allow(START)
-    quick = {test: s for test, s in chosen.items() if s <= QUICK}
-    slow = {test: s for test, s in chosen.items() if s > QUICK}
+    parts: list[dict[str, float]] = [{}, {}, {}]
+    for test, time in chosen.items():
+        parts[2 if time > QUICK else test not in near][test] = time
     red, status = "", 0
-    for part in (quick, slow):
+    for part in parts:
         if part and status == 0:
             files = sorted({test.partition("::")[0] for test in part})
             note.write_text(f"start of {files[0]}", encoding="utf-8")
             allow(START)
-            judge = Judge(part, note)
+            judge = Judge(part, note, spare)
             status = run_tests(tree, files, judge, "--exitfirst")
             red = judge.red
     verdict = {"red": red, "status": status, "cpu": round(cpu_time(), 2)}

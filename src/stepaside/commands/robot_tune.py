@@ -27,8 +27,8 @@ KEPT = "tune.jsonl"
 def tune(folder: Path, workers: int | None, as_json: bool) -> None:
     """Find how the robot in FOLDER walks most steadily, and write it.
 
-    Tries servo gains, durations of the supports, stride, spacing, place of
-    the ZMP, CoM height, and feedback, in short walks on all cores. What it
+    Tries servo gains, durations of the supports, stride, spacing, lean, place
+    of the ZMP, CoM height, and feedback, in short walks on all cores. What it
     finds goes into the description, with what was measured. Each walk is
     kept in FOLDER/tune.jsonl: a search that was stopped goes on from there.
     """

@@ -57,7 +57,13 @@ def build_balance(
         forward, forward.force_sensors(), gait.eta, tick
     )
     return ClosedLoop(
-        Stabiliser(control, estimator, gait, tick=tick, delay=delay), loads
+        Stabiliser(
+            *(control, estimator, gait),
+            tick=tick,
+            delay=delay,
+            lean=description.lean,
+        ),
+        loads,
     )
 
 

@@ -6,6 +6,7 @@ from math import hypot, log
 
 from ..games.robot_settings import settings_of
 from ..robots.description import RobotDescription
+from ..robots.description_file import LEANS
 from .deriving import SPACE
 from .trials import WAYS, Trial, control_with
 
@@ -14,12 +15,15 @@ from .trials import WAYS, Trial, control_with
 CHOICES: dict[str, tuple[float, ...]] = {
     "times": (0.8, 0.65, 1.25),
     "spacing": (0.85, 0.7, 1.12),
+    "lean": (0.06, 0.12),
     "feedback": (0.0, 1.0),
     "zmp": (-0.1, 0.1, -0.2),
     "stride": (0.75, 0.5),
     "stiffness": (1.6, 0.6, 2.5),
     "height": (0.98, 0.95),
+    "even": (0.0, 1.0),
 }
+FROM_ZERO = ("feedback", "zmp", "lean", "even")  # no factors
 FARTHEST = 0.35  # of a sole's length: a ZMP reference beyond is of no use
 
 
@@ -35,6 +39,9 @@ class Candidate:
         spacing: Factor on the distance between the feet.
         zmp: Shift of the ZMP reference ahead, by the sole's length.
         height: Factor on the CoM's height.
+        lean: Farther lean of the torso over the foot that stands, in [rad].
+        even: 1 for swing feet that go evenly, which twists the other foot
+            less; 0 for the smoothest ones.
     """
 
     feedback: float
@@ -44,19 +51,21 @@ class Candidate:
     spacing: float = 1.0
     zmp: float = 0.0
     height: float = 1.0
+    lean: float = 0.0
+    even: float = 0.0
 
     @property
     def cost(self) -> float:
         """What it costs to be farther from the description: small."""
         factors = (self.stiffness, self.times, self.spacing, self.height)
-        far = hypot(*(log(factor) for factor in factors), self.zmp)
+        far = hypot(*(log(factor) for factor in factors), self.zmp, self.lean)
         return 0.02 * far + 0.2 * max(0.0, 1.0 - self.stride)
 
     def neighbours(self) -> Iterator["Candidate"]:
         """Candidates with one change more, or one undone or other."""
         for name, values in CHOICES.items():
             now = getattr(self, name)
-            begin = 0.0 if name in ("feedback", "zmp") else 1.0
+            begin = 0.0 if name in FROM_ZERO else 1.0
             others = (*values, begin) if begin not in values else values
             for value in [each for each in others if each != now]:
                 yield replace(self, **{name: value})
@@ -72,6 +81,8 @@ class Candidate:
             return None
         if abs(ahead - middle) > FARTHEST * (sole.front - sole.back):
             return None
+        if own.lean + self.lean > LEANS:
+            return None
         values = {
             "speed": self.stride * gait.speed,
             "stride": self.stride * gait.stride,
@@ -81,7 +92,11 @@ class Candidate:
             "com_height": self.height * gait.com_height,
             "zmp_forward": ahead,
         }
-        told = {name: float(f"{v:.4g}") for name, v in values.items()}
+        told: dict[str, float | str] = {
+            name: float(f"{v:.4g}") for name, v in values.items()
+        }
+        if self.even:
+            told["swing_profile"] = "even"
         control = control_with(settings.control, bool(self.feedback))
         servos = {
             name: gains._replace(
@@ -92,6 +107,7 @@ class Candidate:
         }
         return replace(
             own,
+            lean=own.lean + self.lean,
             gait=own.gait | told,
             control=own.control
             | {"method": control.method, "feedback": control.feedback},

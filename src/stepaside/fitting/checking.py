@@ -10,6 +10,7 @@ from .strain import Strain
 from .trials import Walked, trials_of, walk_trial
 
 SAGS = 0.02  # of the CoM's height that is much
+NARROW = 0.35  # unsteadiness of a walk whose circle is within 5 % of theory's
 TORQUE = 0.9  # share of a torque limit that leaves little
 
 
@@ -131,7 +132,10 @@ def _walks(walks: Iterable[Walked], feedback: bool) -> list[Finding]:
         if not failed:
             worst = max(own, key=lambda walk: walk.unsteadiness)
             text = f"all steady, at worst {worst.unsteadiness:.2f} of 1"
-            found.append(Finding(name, "pass", text))
+            wide = way is feedback and worst.unsteadiness > NARROW
+            hint = "`stepaside robot tune` looks for what keeps to the plan"
+            verdict = "warn" if wide else "pass"
+            found.append(Finding(name, verdict, text, hint if wide else ""))
             continue
         worst = max(failed, key=lambda walk: walk.unsteadiness)
         verdict = "fail" if way is feedback else "warn"

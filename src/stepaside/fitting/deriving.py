@@ -7,13 +7,11 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from ..errors import ModelError, ReachError
-from ..games.robot_settings import settings_of
-from ..planning import GaitSettings
+from ..errors import ModelError
 from ..robots.description import RobotDescription
-from ..robots.kinematics import BodyReference, LegKinematics
 from ..robots.own import Overlay, Place, ServoGains, SolePlace
 from ..robots.reading import read_model
+from .leaning import least_lean
 from .lengths import Size, gait_of, game_of_size, stabiliser_of
 from .motors import (
     SPEED,
@@ -25,14 +23,14 @@ from .motors import (
     published_torques,
 )
 from .posture import knee_limits, reach_of, standing_of, stiff_joints
-from .rehearsal import BEARABLE, Borne, lengths_share, zmp_share
+from .rehearsal import BEARABLE, Borne, zmp_share
 from .soles import check_size
+from .stature import heights_of, rehearsed, stature_of
 from .survey import Survey, survey
 
-HIGH = 0.96  # CoM height of a gait by the greatest that is reached
 SPREAD = 1.4  # greatest one by the distance between the hips
+WIDE = 0.38  # likewise by the CoM's height: wider feet slide and twist
 SPACE = 1.25  # least foot spacing by twice the sole's inner edge
-TICK = 0.004  # of the kinematics that tries heights, in [s]
 # Names of files and folders that say nothing.
 ANYONE = ("model", "models", "robot", "robots", "scene", "urdf", "mjcf", "xml")
 FEET = ("stepaside_left_sole", "stepaside_right_sole")
@@ -95,31 +93,36 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
     speeds = published_speeds(model)
     sole = shared_sole(found)
     spacing = spacing_of(found, sole[3])
-    guess = 0.9 * found.length
-    description = _structure(
-        found, folder, places, sole, gains_of(found, torques, guess), speeds
-    )
+    servos = gains_of(found, torques, 0.9 * found.length)
+    description = _structure(found, folder, places, sole, servos, speeds)
     stiff = stiff_joints(found)
-    lowest, highest = _heights(description, spacing, sole, stiff)
-    height = HIGH * highest
+    lowest, highest = heights_of(description, spacing, sole, stiff)
+    narrow = max(WIDE * highest, SPACE * 2.0 * sole[3])
+    if spacing > narrow:  # which lifts the CoM: a second time is enough
+        spacing = narrow
+        lowest, highest = heights_of(description, spacing, sole, stiff)
+    guess = Size(highest, found.mass, spacing, sole, description.place.reach)
+    size, share = stature_of(description, guess, lowest)
+    height = size.com_height
     description = replace(
         description,
         overlay=replace(
             description.overlay, servos=gains_of(found, torques, height)
         ),
     )
-    size = Size(height, found.mass, spacing, sole, description.place.reach)
-    share = lengths_share(*_rehearsed(description, gait_of(size)))
     gait = gait_of(size, share)
-    ahead, borne = zmp_share(*_rehearsed(description, gait), torques)
+    ahead, borne = zmp_share(*rehearsed(description, gait), torques)
     gait["zmp_forward"] = round(ahead * gait["zmp_forward"], 4) + 0.0
-    overlay = description.overlay
+    overlay, lean = description.overlay, 0.0
     weak = borne.usual > WEAK or borne.most > BEARABLE or ahead < 1.0
+    if borne.most > BEARABLE:
+        lean, borne = least_lean(*rehearsed(description, gait), torques)
     if weak:
         servos = gains_of(found, torques, height, weak=True)
         overlay = replace(overlay, servos=servos)
     description = replace(
         description,
+        lean=lean,
         overlay=overlay,
         gait=dict(gait),
         control={
@@ -142,14 +145,6 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
         borne,
         weak,
     )
-
-
-def _rehearsed(
-    description: RobotDescription, gait: dict[str, float]
-) -> tuple[RobotDescription, GaitSettings]:
-    """A robot and its gait, to go through."""
-    made = replace(description, gait=dict(gait))
-    return made, settings_of(made).gait
 
 
 def _check_legs(found: Survey) -> None:
@@ -238,39 +233,6 @@ def _sole_place(found: Survey, side: int) -> SolePlace:
     mujoco.mju_mulQuat(turn, found.turn_of(leg.foot), turn.copy())
     w, a, b, c = (turn.round(7) + 0.0).tolist()
     return SolePlace(leg.foot, (x, y, z), (w, a, b, c))
-
-
-def _heights(
-    description: RobotDescription,
-    spacing: float,
-    sole: tuple[float, float, float, float],
-    stiff: list[str],
-) -> tuple[float, float]:
-    """Least and greatest height of the CoM with the feet abreast, in [m].
-
-    Raises:
-        ModelError: If there is none; names joints that do not bend.
-    """
-    ahead = 0.45 * (sole[0] + sole[1])
-    half = 0.5 * spacing
-    stance = BodyReference(
-        (ahead, 0.0, 1.0), (0.0, half, 0.0, 0.0), (0.0, -half, 0.0, 0.0)
-    )
-    kinematics = LegKinematics(description, tick=TICK)
-    highest = kinematics.highest_com(stance)
-    if highest == 0.0:
-        try:
-            kinematics.stand(stance)
-        except ReachError as error:
-            why = str(error)
-            if stiff:
-                why = f"see the ranges of {', '.join(stiff)}, which cannot "
-                why += "bend as legs with bent knees do"
-            raise ModelError(
-                f"{description.name} can stand at no height with its feet "
-                f"{spacing:.3f} m apart: {why}"
-            ) from error
-    return kinematics.lowest_com(stance), highest
 
 
 def name_of(found: Survey) -> str:

@@ -32,6 +32,7 @@ def facts_of(derived: Derived) -> dict[str, Any]:
         "gait": dict(own.gait),
         "lengths_share": round(derived.share, 3),
         "zmp_share": derived.ahead,
+        "lean_rad": own.lean,
         "torque_share": round(derived.borne.usual, 3),
         "game": dict(own.game),
         "coupled": sorted(coupled_of(found)),

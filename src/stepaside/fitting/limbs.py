@@ -16,6 +16,10 @@ APART = 0.1  # of the leg: places of an ankle's axes that are far apart
 MOVES = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
 
 
+class NoLegsError(ModelError):
+    """There are no two legs."""
+
+
 class Leg(NamedTuple):
     """One leg in the zero posture, seen from the torso.
 
@@ -55,7 +59,8 @@ def find_legs(
     """Left and right leg of a robot that stands as it is seen.
 
     Raises:
-        ModelError: If there are no two; says what is missing.
+        ModelError: If there are no two, or they are none to walk on; says
+            what is missing.
     """
     ends = [_end(model, data, body) for body in _ends(model)]
     feet = [
@@ -64,7 +69,7 @@ def find_legs(
         if any(side * e.y > 0.0 for e in ends)
     ]
     if len(feet) < 2:
-        raise ModelError(
+        raise NoLegsError(
             f"{path} has no two legs: of {len(ends)} chains of joints none "
             "ends to the left of the torso's origin and one to the right; "
             "the torso's z axis must point up, and its x or y axis forward"
@@ -141,14 +146,25 @@ def _lacking(data: mujoco.MjData, chain: list[int], knee: int) -> list[str]:
     ]
 
 
-def _ankle(data: mujoco.MjData, last: int, pitch: int, hip: Array) -> Array:
+def _ankle(
+    data: mujoco.MjData, chain: list[int], pitch: int, hip: Array
+) -> Array:
     """Place of the last joint of a leg, in [m]. Shape (3,).
 
     Wherever along a roll axis a model says that it is, it is taken to be
-    where the ankle's pitch crosses it, if they are far apart.
+    where the ankle's pitch crosses it, if they are far apart; and wherever
+    along a pitch axis, where the ankle's roll does.
     """
+    last = chain[-1]
     place: Array = data.xanchor[last].copy()
     axis = data.xaxis[last]
+    if last == pitch:
+        roll = chain[-2]
+        if abs(data.xaxis[roll, 0]) < LEVEL:
+            return place
+        across: Array = data.xanchor[roll] - place
+        crossing: Array = place + float(across @ axis) * axis
+        return crossing
     along = float((data.xanchor[pitch] - place) @ axis)
     if abs(axis[0]) < LEVEL or abs(along) < APART * (hip - place)[2]:
         return place
@@ -181,7 +197,7 @@ def _leg(
             f"{' and no '.join(lacking) or 'other'}: {names}"
         )
     hip = data.xanchor[chain[:3]].mean(axis=0)
-    ankle = _ankle(data, chain[-1], pitches[2], hip)
+    ankle = _ankle(data, chain, pitches[2], hip)
     sole = sole_of(model, data, body, hip, ankle)
     return Leg(
         tuple(model.joint(j).name for j in chain),

@@ -71,10 +71,11 @@ def likely_torques(
 
 def published_speeds(path: Path) -> dict[str, float]:
     """Greatest speed of each joint that a URDF tells, in [rad/s]."""
-    if path.suffix.lower() != ".urdf":
+    root = ElementTree.parse(path).getroot()
+    if root.tag != "robot":
         return {}
     found = {}
-    for joint in ElementTree.parse(path).getroot().iter("joint"):
+    for joint in root.iter("joint"):
         limit = joint.find("limit")
         speed = 0.0 if limit is None else float(limit.get("velocity", 0.0))
         if 0.0 < speed < FASTEST:

@@ -23,6 +23,8 @@ def rewritten(text: str, tuned: RobotDescription, words: list[str]) -> str:
             of an earlier search.
     """
     control = {k: tuned.control[k] for k in ("method", "feedback")}
+    if tuned.lean > 0.0:
+        text = _with(text, "", {"lean": tuned.lean})
     text = _with(text, "gait", dict(tuned.gait))
     text = _with(text, "control", control)
     if tuned.overlay.servos:

@@ -12,9 +12,10 @@ from ..errors import ModelError
 from ..poses import Array
 from ..robots.overlaying import odd_couplings, strip
 from ..robots.reading import read_model
-from .limbs import MOVES, Leg, find_legs
+from .limbs import MOVES, Leg, NoLegsError, find_legs
 
 TOES = 0.1  # of a foot's length: more ahead of the ankle than behind
+KNEES = 0.3  # what a knee that bends one way counts by the foot's length
 Turn = tuple[float, float, float, float]
 
 
@@ -116,7 +117,7 @@ def _legs(
         ModelError: If it has none whichever way it is turned; as it is found
             in the torso's own axes.
     """
-    refused = None
+    refused: ModelError | None = None
     for quarters in (0, 2, 1, 3):
         half = 0.25 * np.pi * quarters
         turn = (float(np.cos(half)), 0.0, 0.0, float(np.sin(half)))
@@ -125,8 +126,12 @@ def _legs(
         mujoco.mj_forward(model, data)
         try:
             legs = find_legs(model, data, path)
-        except ModelError as error:
+        except NoLegsError as error:
             refused = refused or error
+            continue
+        except ModelError as error:  # of legs that are there: says more
+            told = refused is None or isinstance(refused, NoLegsError)
+            refused = error if told else refused
             continue
         if sum(_looks_ahead(model, leg) for leg in legs) >= 0.0:
             return data, turn, legs
@@ -136,12 +141,18 @@ def _legs(
 
 
 def _looks_ahead(model: mujoco.MjModel, leg: Leg) -> float:
-    """1 if toes, or else the knee, say that forward is ahead, -1 if not."""
+    """How much toes and knees say that forward is ahead; below 0 if not.
+
+    Some feet are longer behind the ankle, some knees bend backward, none
+    are known to do both.
+    """
     back, front, *_ = leg.outline
-    if not leg.is_guessed and abs(front + back) > TOES * (front - back):
-        return float(np.sign(front + back))
     low, high = leg.signs[1] * model.joint(leg.pitches[1]).range
-    return float(np.sign(round(low + high, 3)))
+    bends = round(low + high, 3) / max(abs(high - low), 0.1)
+    toes = (front + back) / (front - back)
+    if leg.is_guessed or abs(toes) < TOES:
+        toes = 0.0
+    return float(toes + KNEES * bends)
 
 
 def _root_of(spec: Any, path: Path) -> str:

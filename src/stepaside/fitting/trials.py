@@ -1,7 +1,7 @@
 """Short walks that say whether a robot walks, and how steadily."""
 
 from dataclasses import dataclass, replace
-from math import radians
+from math import degrees, radians
 from typing import Any, NamedTuple
 
 from ..control.balance.settings import ControlSettings, Method
@@ -77,6 +77,7 @@ class Walked(NamedTuple):
         speed: Speed by what was planned, likewise.
         turning: Turning by what was planned; None if it was to go straight.
         strain: What the joints bore; None if it could not begin.
+        lean: Of the torso on purpose, in [deg], which is no tilt.
     """
 
     way: str
@@ -89,6 +90,7 @@ class Walked(NamedTuple):
     speed: float | None
     turning: float | None
     strain: Strain | None
+    lean: float = 0.0
 
     @property
     def is_steady(self) -> bool:
@@ -101,7 +103,7 @@ class Walked(NamedTuple):
         if not self.completed:
             return FALLEN + 1.0 - self.lasted
         parts = [
-            (self.tilt or 0.0) / TILTED,
+            (self.tilt or 0.0) / (TILTED + self.lean),
             (self.strays or 0.0) / STRAYS,
             abs((self.speed or 0.0) - 1.0) / MISSES,
             0.0 if self.turning is None else abs(self.turning - 1.0) / MISSES,
@@ -174,6 +176,7 @@ def walk_trial(trial: Trial) -> Walked:
         summary["speed_ratio"],
         summary["yaw_ratio"] if way.bearing else None,
         gauge.strain(),
+        degrees(trial.description.lean),
     )
 
 

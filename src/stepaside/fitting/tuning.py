@@ -198,6 +198,7 @@ def _stamp_of(description: RobotDescription) -> str:
         digest_of(description),
         *(description.gait, description.sole, description.control),
         *(description.standing, description.working_limits),
-        *(description.speed_limits, code_version(ROOMS), library_versions()),
+        *(description.speed_limits, description.lean),
+        *(code_version(ROOMS), library_versions()),
     )
     return sha256(repr(said).encode()).hexdigest()[:16]

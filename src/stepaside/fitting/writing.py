@@ -5,7 +5,7 @@ from typing import Any
 
 from ..robots.description import RobotDescription
 from ..robots.own import NO_OVERLAY, ServoGains
-from .deriving import HIGH, Derived, coupled_of
+from .deriving import Derived, coupled_of
 from .motors import GIVES
 
 ASK = "ASK: the model does not say;"
@@ -74,6 +74,7 @@ def write_description(derived: Derived) -> str:
         f"left_foot = {_quoted(own.left_foot)}",
         f"right_foot = {_quoted(own.right_foot)}",
         'accent = ""                      # no material: the torso is dyed',
+        *_lean(derived),
         "",
         "# Chains from the torso to the lowest ends on either side, without",
         f"# the joints that both share; joints that follow others: {coupled}.",
@@ -120,12 +121,21 @@ def _missing(derived: Derived) -> list[str]:
     ]
 
 
+def _lean(derived: Derived) -> list[str]:
+    lean = derived.description.lean
+    if lean == 0.0:
+        return []
+    why = "[rad], of the torso over a foot that stands: relieves the hips"
+    return [_line("lean", lean, why)]
+
+
 def _gait(derived: Derived) -> list[str]:
     own = derived.description
     why = dict(GAIT_WHY)
+    low, high = derived.lowest, derived.highest
     why["com_height"] = (
-        f"[m]: {HIGH} of the greatest of {derived.lowest:.3f} to "
-        f"{derived.highest:.3f} in reach"
+        f"[m]: {derived.size.com_height / high:.2f} of the greatest of "
+        f"{low:.3f} to {high:.3f} in reach"
     )
     if derived.share < 1.0:
         slow = f"; {derived.share:.2f} of that: the joints are no faster"

@@ -47,6 +47,8 @@ class RobotDescription:
         sensors: Its sensors, by the names in the model.
         place: The point that stands for it, and how far it reaches.
         overlay: What is put on the model when it is read.
+        lean: Roll of the torso towards a foot that the CoM is right over,
+            in [rad]: it relieves the roll joint of that hip; 0 to 0.3.
     """
 
     folder: Path
@@ -69,6 +71,7 @@ class RobotDescription:
     sensors: Sensors = Sensors()
     place: Place = Place()
     overlay: Overlay = NO_OVERLAY
+    lean: float = 0.0
 
     @property
     def path(self) -> Path:

@@ -10,6 +10,7 @@ from ..errors import ModelError
 from .own import Overlay, Place, Sensors, ServoGains, SolePlace
 
 Entries = dict[str, Any]
+LEANS = 0.3  # a torso at most, in [rad]
 
 
 def read_entries(path: Path) -> Entries:
@@ -70,6 +71,13 @@ def _not_negative(name: str, value: object) -> float:
     number = _number(name, value)
     if number < 0.0:
         raise _refuse(name, "a number >= 0", value)
+    return number
+
+
+def _lean(name: str, value: object) -> float:
+    number = _number(name, value)
+    if not 0.0 <= number <= LEANS:
+        raise _refuse(name, f"0 to {LEANS} rad", value)
     return number
 
 
@@ -173,6 +181,7 @@ OPTIONAL: dict[str, Callable[[str, object], Any]] = {
         {},
         {"gyro": _text, "accelerometer": _text, "feet": _row(_text, 8)},
     ),
+    "lean": _lean,
     "place": _fields(Place, {}, {"forward": _number, "reach": _positive}),
     "overlay": _fields(
         Overlay,

@@ -1,9 +1,9 @@
 """Joint motion generation by damped pseudo-inverse (paper, Sec. III-A).
 
-Unknowns are place and heading of the torso, which stays level, and the leg
-joints, where joints that share a motor are one unknown; rows are the poses
-of both feet and the CoM. Where hip yaws are independent there is one more
-unknown, and one more row: the torso heads where the feet do on average.
+Unknowns are place and heading of the torso, which is level or leans as it is
+told, and the leg joints, where joints that share a motor are one unknown; rows
+are the poses of both feet and the CoM. Where hip yaws are independent there is
+one more unknown, and a row: the torso heads where the feet do on average.
 """
 
 from functools import cached_property
@@ -76,7 +76,7 @@ class LegKinematics:
         )
         self._free: tuple[float, ...] = self._start
         self._place: tuple[float, ...] = (0.0, 0.0, 0.0)
-        self._heading = self._faced = 0.0
+        self._heading = self._faced = self._roll = 0.0
         self._error = np.zeros(FIXED_ROWS)
         fixed = dict(zip(tree.joints, legs.fixed, strict=True))
         self._still = np.array([fixed[name] for name in tree.motors])
@@ -102,8 +102,9 @@ class LegKinematics:
     @property
     def posture(self) -> Array:
         """Position and quaternion of the torso, then all joints."""
-        half = 0.5 * self._heading
-        turned = (cos(half), 0.0, 0.0, sin(half))
+        half, tilt = 0.5 * self._heading, 0.5 * self._roll
+        c, s, r, t = cos(half), sin(half), cos(tilt), sin(tilt)
+        turned = (c * r, c * t + 0.0, s * t + 0.0, s * r)
         joints = self.legs.angles(self._free)
         return np.array([*self._place, *turned, *joints], dtype=np.float64)
 
@@ -111,7 +112,7 @@ class LegKinematics:
     def stance(self) -> Stance:
         """Torso and free joints as they are asked for now."""
         x, y, z = self._place
-        return Stance((x, y, z), self._heading, self._free)
+        return Stance((x, y, z), self._heading, self._free, self._roll)
 
     @property
     def torso_heading(self) -> float:
@@ -265,16 +266,10 @@ class LegKinematics:
     def _arguments(self, reference: BodyReference) -> tuple[float, ...]:
         """Arguments of the solver's functions."""
         com, left, right, left_tilt, right_tilt = reference
-        return (
-            *self._free,
-            *self._place,
-            self._heading,
-            *com,
-            *left,
-            *right,
-            *left_tilt,
-            *right_tilt,
-        )
+        feet = (*left, *right, *left_tilt, *right_tilt)
+        self._roll = reference.roll(self.legs.lean)
+        rolled = self.legs.rolled(self._roll)
+        return (*self._free, *self._place, self._heading, *com, *feet, *rolled)
 
     def _step(self, reference: BodyReference, reach: Array) -> None:
         """One damped Newton step; leaves the error before it.

@@ -1,8 +1,9 @@
 """Errors of a request, and what the unknowns do to them.
 
-All in the torso frame. The torso stays level, so that its unknowns are its
-velocity and its turning about the vertical; a row for each foot's place and
-rotation, and for the CoM.
+All in a level frame at the torso that heads as it does. The torso stays
+level, or leans by what is given, so that its unknowns are its velocity and
+its turning about the vertical; a row for each foot's place and rotation, and
+for the CoM.
 """
 
 from collections.abc import Callable
@@ -16,6 +17,7 @@ from .algebra import (
     scale,
     subtract,
     transpose,
+    turn,
 )
 from .legs import BASE, FIXED_ROWS, Legs
 from .links import Moments, PlacedLinks, gather_moments, motion_of, place_links
@@ -112,7 +114,8 @@ class TracedLegs(NamedTuple):
         legs: The legs.
         trace: The trace. Its arguments are the angles of the free joints,
             place and heading of the torso, and what is asked, as the fields
-            of :class:`.BodyReference` name it.
+            of :class:`.BodyReference` name it; the roll of a torso that
+            leans.
         free: The free joints.
         torso: Where the torso is.
         placed: All links.
@@ -138,16 +141,22 @@ class TracedLegs(NamedTuple):
         ]
         place = [trace.variable(f"torso_{axis}") for axis in "xyz"]
         torso = Torso(place, trace.variable("torso_t"))
-        placed = place_links(legs.tree, legs.angles(free))
         asked = trace_asked(trace, torso)
+        axes = legs.torso_axes(trace)
+        placed = place_links(legs.tree, legs.angles(free), axes)
         moments = gather_moments(placed)
         return cls(legs, trace, free, torso, placed, moments, asked)
+
+    @property
+    def first_moment(self) -> list[Number]:
+        """Mass times CoM of all links from the torso, in [kg m]."""
+        return turn(self.placed.axes[0], self.moments.firsts[0])
 
     @property
     def com_error(self) -> list[Number]:
         """How far the CoM has to move, in [m]."""
         share = 1.0 / self.moments.masses[0]
-        com = scale(share, self.moments.firsts[0])
+        com = scale(share, self.first_moment)
         return subtract(self.asked.com, com)
 
     def foot_error(self, side: int) -> FootError:
@@ -220,7 +229,7 @@ def trace_rows(
     errors += traced.com_error
     for k in range(3):
         rows[k][12 + k] = 1.0
-    rows[3][12:] = scale(1.0 / mass, cross(UP, moments.firsts[0]))
+    rows[3][12:] = scale(1.0 / mass, cross(UP, traced.first_moment))
     for link, moved in enumerate(legs.columns):
         if moved is not None:
             column = rows[BASE + moved]

@@ -54,7 +54,7 @@ def solver_of(description: RobotDescription, tree: RobotTree) -> LegSolver:
     """Solver of a robot's legs; formulas are written once for each tree."""
     legs = Legs.of(description, tree)
     hints = description.standing
-    legs_key = (tree, legs.columns, legs.fixed, legs.sites)
+    legs_key = (tree, legs.columns, legs.fixed, legs.sites, legs.lean > 0.0)
     key = (*legs_key, tuple(hints.items()), preferred())
     if key not in _KNOWN:
         if len(_KNOWN) >= KEPT:

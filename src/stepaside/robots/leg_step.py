@@ -64,7 +64,7 @@ def trace_step(
     moments = traced.moments
     mass = moments.masses[0]
     # Momentum: mass (v + turn x CoM) + what the legs add = what is asked.
-    spun = cross(UP, moments.firsts[0])
+    spun = cross(UP, traced.first_moment)
     matrix: list[list[Number]] = []
     for row in range(3):
         along = [mass if k == row else 0.0 for k in range(3)]

@@ -11,8 +11,10 @@ import numpy as np
 
 from ..errors import ModelError
 from ..poses import Array
+from .algebra import Matrix, rotation_about
 from .description import RobotDescription
-from .tracing import Number
+from .links import LEVEL
+from .tracing import Number, Trace
 from .tree import HINGE, RobotTree
 
 FIXED_ROWS = 15  # two feet, and the CoM
@@ -37,6 +39,7 @@ class Legs:
         sites: Names of the soles, left and right.
         holds_heading: Whether the torso's heading has a row of its own: it
             does where legs have a joint to spare for it.
+        lean: See :class:`~.description.RobotDescription`, in [rad].
     """
 
     tree: RobotTree
@@ -49,6 +52,7 @@ class Legs:
     feet: tuple[int, int]
     sites: tuple[str, str]
     holds_heading: bool
+    lean: float = 0.0
 
     @classmethod
     def of(cls, description: RobotDescription, tree: RobotTree) -> "Legs":
@@ -93,6 +97,7 @@ class Legs:
             (left, right),
             sites,
             len(free) + BASE > FIXED_ROWS,
+            description.lean,
         )
 
     def angles(self, free: Sequence[Number]) -> list[Number]:
@@ -101,6 +106,19 @@ class Legs:
             fixed if column is None else free[column]
             for column, fixed in zip(self.columns[1:], self.fixed, strict=True)
         ]
+
+    def torso_axes(self, trace: Trace) -> Matrix:
+        """Axes of the torso in a level frame that heads as it does.
+
+        Takes an argument of the trace where the torso leans: its roll.
+        """
+        if self.lean == 0.0:
+            return LEVEL
+        return rotation_about((1.0, 0.0, 0.0), trace.variable("roll"))
+
+    def rolled(self, roll: float) -> tuple[float, ...]:
+        """That argument: the roll of a torso that leans, in [rad]."""
+        return (roll,) if self.lean > 0.0 else ()
 
     def chain(self, side: int) -> list[int]:
         """Links between the torso and a foot that the free joints move."""

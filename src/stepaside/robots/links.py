@@ -23,11 +23,11 @@ LEVEL: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 class PlacedLinks(NamedTuple):
-    """Links of a tree in the torso frame.
+    """Links of a tree in the torso frame, or in a level one at the torso.
 
     Attributes:
         tree: The tree.
-        axes: Rotation of each link's frame.
+        axes: Rotation of each link's frame, the torso's first.
         places: Origin of each, which is where its joint is, in [m].
         turns: Rotation of each in its parent.
         offsets: Origin of each in its parent, in [m].
@@ -49,15 +49,18 @@ class PlacedLinks(NamedTuple):
         return multiply(self.axes[frame.link], frame.axes)
 
 
-def place_links(tree: RobotTree, angles: Sequence[Number]) -> PlacedLinks:
+def place_links(
+    tree: RobotTree, angles: Sequence[Number], torso: Matrix = LEVEL
+) -> PlacedLinks:
     """Place every link of a tree.
 
     Args:
         tree: The tree.
         angles: Of all joints, in [rad] or [m], in the order of the links.
+        torso: Axes of the torso in the frame that all is seen from.
     """
     nowhere: Vector = (0.0, 0.0, 0.0)
-    axes, places = [LEVEL], [nowhere]
+    axes, places = [torso], [nowhere]
     turns, offsets = [LEVEL], [nowhere]
     for link, angle in zip(tree.links[1:], angles, strict=True):
         moved = angle - link.zero

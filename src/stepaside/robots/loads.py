@@ -64,7 +64,7 @@ class LegLoads:
         Returns:
             Of all motors, in [N m]. Shape (joints,).
         """
-        place, heading, free = self._kinematics.stance
+        place, heading, free, roll = self._kinematics.stance
         found = self._write(
             *free,
             *place,
@@ -74,6 +74,7 @@ class LegLoads:
             *self._last,
             self._rate if self._seen > 1 else 0.0,
             *self._floor(reference, zmp),
+            *self._kinematics.legs.rolled(roll),
         )
         count = len(self._at)
         self._before, self._last = self._last, found[count:]
@@ -133,7 +134,10 @@ KEPT = 16  # robots whose formulas are kept
 
 def _written(legs: Legs) -> Function:
     """Torques of a robot's legs; formulas are written once for each tree."""
-    key = (legs.tree, legs.columns, legs.fixed, legs.sites, preferred())
+    key = (
+        *(legs.tree, legs.columns, legs.fixed, legs.sites),
+        *(legs.lean > 0.0, preferred()),
+    )
     if key not in _KNOWN:
         if len(_KNOWN) >= KEPT:
             _KNOWN.clear()
@@ -146,7 +150,8 @@ def _trace_loads(legs: Legs) -> Function:
 
     Arguments: free joints; place of the torso, cosine and sine of its
     heading; places of the masses two ticks ago and one; by what their
-    second difference counts; anchors of both feet; share of the left one.
+    second difference counts; anchors of both feet; share of the left one;
+    roll of a torso that leans.
     """
     trace, tree = Trace(), legs.tree
 
@@ -167,7 +172,8 @@ def _trace_loads(legs: Legs) -> Function:
         """A vector of the torso in the world."""
         return [c * a[0] - s * a[1], s * a[0] + c * a[1], a[2]]
 
-    placed = place_links(tree, legs.angles(free))
+    axes = legs.torso_axes(trace)
+    placed = place_links(tree, legs.angles(free), axes)
     firsts: list[Vector] = [NOTHING] * len(masses)
     for i, weighed in enumerate(tree.links):
         com = add(placed.places[i], turn(placed.axes[i], weighed.com))

@@ -25,6 +25,14 @@ if TYPE_CHECKING:
 
 IMU = "stepaside_imu"
 THICK = 0.15  # of a sole's box, as a part of its width
+# Numbers that the size of a geom needs.
+SIZES = {
+    int(mujoco.mjtGeom.mjGEOM_SPHERE): 1,
+    int(mujoco.mjtGeom.mjGEOM_CAPSULE): 1,
+    int(mujoco.mjtGeom.mjGEOM_CYLINDER): 1,
+    int(mujoco.mjtGeom.mjGEOM_ELLIPSOID): 3,
+    int(mujoco.mjtGeom.mjGEOM_BOX): 3,
+}
 SEEN, HIDDEN = 3, 4  # groups of what collides and of what senses
 
 
@@ -87,10 +95,12 @@ def strip(
             f"torso must be a root of {path}, one of {', '.join(roots)}, "
             f"got {torso!r}"
         )
+    # What refers to others goes first: MuJoCo takes it away with them.
     for thing in (
-        *[body for body in world.bodies if body.name != torso],
-        *(*world.geoms, *world.lights, *world.cameras, *world.sites),
         *(*spec.keys, *spec.pairs, *spec.sensors, *spec.actuators),
+        *(*world.geoms, *world.lights, *world.cameras, *world.sites),
+        *[body for body in world.bodies if body.name != torso],
+        *[geom for geom in spec.geoms if _is_empty(geom)],
     ):
         spec.delete(thing)
     for coupling in odd_couplings(spec):
@@ -103,6 +113,12 @@ def strip(
             spec.delete(joint)
         root.add_freejoint()
     return missing
+
+
+def _is_empty(geom: mujoco.MjsGeom) -> bool:
+    """Whether a geom has no size, as a mark of a place in some URDF."""
+    needed = SIZES.get(int(geom.type), 0)
+    return not bool((geom.size[:needed] > 0.0).all())
 
 
 def odd_couplings(spec: mujoco.MjSpec) -> list[mujoco.MjsEquality]:

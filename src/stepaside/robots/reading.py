@@ -10,6 +10,7 @@ import mujoco
 # of them from version to version, and refuses files that still have them.
 ASIDE = ("option", "flag", "size", "visual", "global", "quality", "statistic")
 ASIDE_TOO = ("map", "scale", "headlight", "rgba", "compiler")
+ENDINGS = (".xml", ".urdf")  # of files that MuJoCo takes for models
 UNKNOWN = re.compile(
     r"unrecognized attribute: '(\w+)'\s+Element '(\w+)'", re.DOTALL
 )
@@ -30,32 +31,50 @@ def read_model(path: Path) -> mujoco.MjSpec:
     """
     path = path.resolve()  # MuJoCo loses includes of a relative path
     try:
-        return mujoco.MjSpec.from_file(str(path))
+        if path.suffix in ENDINGS:
+            return mujoco.MjSpec.from_file(str(path))
+        return _read_text(path, _root_of(path))
     except ValueError as error:
         if UNKNOWN.search(str(error)) is None:
             raise
         return _read_dated(path, error)
 
 
+def _root_of(path: Path) -> ElementTree.Element:
+    """Root of a file with what it includes.
+
+    Raises:
+        ValueError: If it is no XML.
+    """
+    try:
+        return _included(path, path.parent)
+    except (ElementTree.ParseError, UnicodeDecodeError) as error:
+        raise ValueError(f"no XML: {error}") from error
+
+
+def _read_text(path: Path, root: ElementTree.Element) -> mujoco.MjSpec:
+    """Read what lies at a path, whatever its name ends with."""
+    text = ElementTree.tostring(root, encoding="unicode")
+    spec = mujoco.MjSpec.from_string(text)
+    spec.modelfiledir = str(path.parent)
+    return spec
+
+
 def _read_dated(path: Path, error: ValueError) -> mujoco.MjSpec:
     """Read a file without the words that MuJoCo has forgotten."""
-    root = _included(path, path.parent)
+    root = _root_of(path)
     while True:
         found = UNKNOWN.search(str(error))
         if found is None or found[2] not in (*ASIDE, *ASIDE_TOO):
             raise error
         for element in root.iter(found[2]):
             element.attrib.pop(found[1], None)
-        text = ElementTree.tostring(root, encoding="unicode")
         try:
-            spec = mujoco.MjSpec.from_string(text)
+            return _read_text(path, root)
         except ValueError as other:
             if str(other) == str(error):
                 raise
             error = other
-            continue
-        spec.modelfiledir = str(path.parent)
-        return spec
 
 
 def _included(path: Path, folder: Path) -> ElementTree.Element:

@@ -1,6 +1,6 @@
 """What the body is asked to do at one instant."""
 
-from math import remainder, tau
+from math import cos, remainder, sin, tau
 from typing import NamedTuple
 
 
@@ -28,6 +28,23 @@ class BodyReference(NamedTuple):
         left, right = self.left_foot[3], self.right_foot[3]
         return left + 0.5 * remainder(right - left, tau)
 
+    def roll(self, lean: float) -> float:
+        """Roll of a torso that leans over the foot that stands, in [rad].
+
+        It goes with the CoM: level midway between the feet, and leaning
+        where the CoM is right over one of them.
+
+        Args:
+            lean: How far it leans there, in [rad].
+        """
+        if lean == 0.0:
+            return 0.0
+        (x, y, _), (u, v, *_), (p, q, *_) = self[:3]
+        c, s = cos(self.heading), sin(self.heading)
+        aside = c * (y - 0.5 * (v + q)) - s * (x - 0.5 * (u + p))
+        apart = c * (v - q) - s * (u - p)
+        return -2.0 * lean * aside / apart
+
 
 class Stance(NamedTuple):
     """A posture by what joint motion moves.
@@ -36,8 +53,10 @@ class Stance(NamedTuple):
         place: Origin of the torso in the frame of the reference, in [m].
         heading: Heading of the torso, in [rad].
         free: Angles of the legs' free joints, in [rad].
+        roll: Of the torso, in [rad].
     """
 
     place: tuple[float, float, float]
     heading: float
     free: tuple[float, ...]
+    roll: float = 0.0

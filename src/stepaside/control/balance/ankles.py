@@ -11,21 +11,26 @@ class Ankles:
 
     def __init__(self, gains: StabiliserSettings, tick: float) -> None:
         """Begin with level feet, for a clock with a given tick, in [s]."""
-        self._gains = gains
+        self._gains, self._tick = gains, tick
+        self._meant = 0.0
         self._blend = min(1.0, gains.ankle_bandwidth * tick)
         self._tilts = (0.0, 0.0, 0.0, 0.0)
 
-    def tilts(self, state: BodyState) -> tuple[Tilt, Tilt]:
+    def tilts(self, state: BodyState, meant: float = 0.0) -> tuple[Tilt, Tilt]:
         """Tilts to ask for at one tick.
 
         Args:
             state: Of the body.
+            meant: Roll of the torso that was asked for, in [rad].
 
         Returns:
             Roll and pitch of the left foot and of the right one, in [rad].
         """
         gains, blend = self._gains, self._blend
-        roll = gains.ankle * state.tilt[0] + gains.ankle_rate * state.rate[0]
+        tilt = state.tilt[0] - meant
+        rate = state.rate[0] - (meant - self._meant) / self._tick
+        self._meant = meant
+        roll = gains.ankle * tilt + gains.ankle_rate * rate
         pitch = gains.ankle * state.tilt[1] + gains.ankle_rate * state.rate[1]
         left = min(1.0, 2.0 * state.left_share)
         right = min(1.0, 2.0 - 2.0 * state.left_share)

@@ -85,6 +85,7 @@ class Stabiliser:
         *,
         tick: float,
         delay: float = 0.0,
+        lean: float = 0.0,
     ) -> None:
         """Prepare feedback.
 
@@ -94,9 +95,9 @@ class Stabiliser:
             gait: Gait.
             tick: Control period, in [s].
             delay: Time from a request to the motion, in [s].
+            lean: See :meth:`BodyReference.roll`, in [rad].
         """
-        self.settings = settings
-        self.estimator = estimator
+        self.settings, self.estimator = settings, estimator
         self.state: BodyState | None = None
         self.error: Vector = ZERO
         self.com_error: Vector = ZERO
@@ -117,7 +118,7 @@ class Stabiliser:
         self.stride = StrideLearning(
             gait, gains.stride_gain, gains.stride_bound
         )
-        self._gait, self._tick = gait, tick
+        self._gait, self._tick, self._lean = gait, tick, lean
         self._grow = exp(gait.eta * tick)
         self._ankles = Ankles(gains, tick)
         self._asked: deque[Asked] = deque(
@@ -150,7 +151,8 @@ class Stabiliser:
         body = self.stride.aimed(body, step)
         x, y, z = row.body.com
         assert self.state is not None
-        left, right = self._ankles.tilts(self.state)
+        asked = self._asked[0].body
+        left, right = self._ankles.tilts(self.state, asked.roll(self._lean))
         return body._replace(
             com=(x + self.com_shift[0], y + self.com_shift[1], z),
             left_tilt=left,

@@ -1,0 +1,46 @@
+"""Survivors of a written run, before tests that were written since."""
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from stepaside.studies.results import read_result, write_result
+
+from .faults import Fault
+from .score import NOTICED
+
+
+def survivors_of(path: Path, faults: Iterable[Fault]) -> list[Fault]:
+    """Faults that a run has written down as survivors.
+
+    Args:
+        path: File of results.
+        faults: Those of the code as it is now, in which a survivor lacks
+            if its line has changed.
+    """
+    keys = {row["key"] for row in read_result(path)["survivors"]}
+    return [fault for fault in faults if fault.key in keys]
+
+
+def write_noticed(path: Path, rows: Mapping[str, Mapping[str, Any]]) -> int:
+    """Write beside the survivors of a run which tests notice them now.
+
+    The score stays that of the run.
+
+    Args:
+        path: File of results.
+        rows: Records of later trials by key of the fault.
+
+    Returns:
+        How many are noticed.
+    """
+    result = read_result(path)
+    noticed = 0
+    for survivor in result["survivors"]:
+        row = rows.get(survivor["key"])
+        survivor.pop("noticed_by", None)
+        if row is not None and row["outcome"] in NOTICED:
+            survivor["noticed_by"] = row["test"]
+            noticed += 1
+    write_result(path, result)
+    return noticed

@@ -1,0 +1,198 @@
+"""Test a torso that leans over the foot that stands."""
+
+from dataclasses import replace
+from math import atan2
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+import published_humanoid as stranger
+from stepaside.control.balance.ankles import Ankles
+from stepaside.control.balance.estimation import BodyState
+from stepaside.control.balance.settings import StabiliserSettings
+from stepaside.errors import ModelError
+from stepaside.fitting import leaning
+from stepaside.fitting.candidates import Candidate
+from stepaside.fitting.deriving import derive
+from stepaside.fitting.leaning import LEANS, least_lean
+from stepaside.fitting.rehearsal import Borne
+from stepaside.fitting.rewriting import rewritten
+from stepaside.fitting.trials import Walked
+from stepaside.fitting.writing import write_description
+from stepaside.games.robot_settings import settings_of
+from stepaside.robots.description import (
+    FILE,
+    RobotDescription,
+    load_robot,
+)
+from stepaside.robots.kinematics import BodyReference, LegKinematics
+from stepaside.robots.loads import LegLoads
+
+NAO = load_robot("nao")
+TICK = 0.004
+LEAN = 0.1
+HEADING = 0.4
+
+
+def standing(sway: float, lift: float = 0.0) -> BodyReference:
+    """NAO that heads somewhere, the CoM to one side, a foot lifted."""
+    c, s = np.cos(HEADING), np.sin(HEADING)
+    rows = np.array([(0.02, sway), (0.0, 0.05), (0.0, -0.05)])
+    com, left, right = (rows @ np.array([[c, s], [-s, c]])).tolist()
+    return BodyReference(
+        (com[0], com[1], 0.26),
+        (left[0], left[1], 0.0, HEADING),
+        (right[0], right[1], lift, HEADING),
+    )
+
+
+def leans(robot: RobotDescription, lean: float) -> RobotDescription:
+    """The same robot with a torso that leans."""
+    return replace(robot, lean=lean)
+
+
+def test_a_torso_leans_where_the_com_is() -> None:
+    """To the left over the left foot: that is a negative roll."""
+    assert standing(0.0).roll(LEAN) == pytest.approx(0.0, abs=1e-12)
+    assert standing(0.05).roll(LEAN) == pytest.approx(-LEAN)
+    assert standing(-0.025).roll(LEAN) == pytest.approx(0.5 * LEAN)
+    assert standing(0.05).roll(0.0) == 0.0
+
+
+@pytest.mark.parametrize("sway", [0.03, -0.03])
+def test_legs_reach_the_same_under_a_torso_that_leans(sway: float) -> None:
+    """By MuJoCo: feet and CoM are where they are asked, the torso rolled."""
+    robot, asked = leans(NAO, LEAN), standing(sway, 0.01)
+    legs = LegKinematics(robot, tick=TICK)
+    legs.stand(asked)
+    model = robot.compile()
+    data = mujoco.MjData(model)
+    data.qpos[:] = legs.posture
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    np.testing.assert_allclose(data.subtree_com[0], asked.com, atol=2e-4)
+    for name, foot in (
+        (robot.left_foot, asked.left_foot),
+        (robot.right_foot, asked.right_foot),
+    ):
+        site = data.site(name)
+        np.testing.assert_allclose(site.xpos, foot[:3], atol=2e-4)
+        assert site.xmat[8] == pytest.approx(1.0, abs=1e-6)
+    torso = data.body(robot.torso).xmat
+    roll = atan2(torso[7], torso[8])
+    assert roll == pytest.approx(asked.roll(LEAN), abs=1e-9)
+    assert roll * sway < 0.0
+
+
+def test_a_tick_goes_on_from_there() -> None:
+    """The step that is written out knows of the lean, too."""
+    legs = LegKinematics(leans(NAO, LEAN), tick=TICK)
+    legs.stand(standing(0.02))
+    for _ in range(3):
+        targets = legs.track(standing(0.0205))
+    again = LegKinematics(leans(NAO, LEAN), tick=TICK)
+    np.testing.assert_allclose(
+        targets, again.stand(standing(0.0205)), atol=1e-4
+    )
+
+
+def test_a_hip_bears_less_of_a_torso_that_leans_over_it() -> None:
+    asked, borne = standing(0.05, 0.02), []
+    for lean in (0.0, 0.1, 0.2):
+        legs = LegKinematics(leans(NAO, lean), tick=TICK)
+        legs.stand(asked)
+        loads = LegLoads(legs, zmp_forward=0.02, tick=TICK)
+        found = loads.torques(asked, asked.com[:2])
+        hip = legs.joint_names.index("LHipRoll")
+        borne.append(abs(float(found[hip])))
+    assert borne[0] > borne[1] + 0.1 > borne[2] + 0.2
+
+
+def test_a_lean_on_purpose_is_no_tilt() -> None:
+    """Feet answer to what the torso tilts beyond it."""
+    gains = StabiliserSettings(ankle=0.5, ankle_rate=0.1)
+    zero = (0.0, 0.0)
+    ankles = Ankles(gains, TICK)
+    for i in range(100):
+        roll = 0.0005 * i
+        state = BodyState(
+            *(zero, zero, zero, zero),
+            tilt=(roll, 0.0),
+            rate=(0.0005 / TICK * (i > 0), 0.0, 0.0),
+            left_share=0.5,
+            weight=50.0,
+        )
+        left, right = ankles.tilts(state, roll)
+        assert left == pytest.approx(zero, abs=1e-12)
+        assert right == pytest.approx(zero, abs=1e-12)
+    assert abs(ankles.tilts(state, 0.0)[0][0]) > 1e-3
+
+
+@pytest.mark.parametrize(
+    ("shares", "lean"),
+    [
+        ((0.9, 0.8), 0.06),
+        ((1.0, 0.94, 0.84), 0.12),
+        ((1.3, 1.2, 1.1, 1.0), 0.24),
+        ((1.0, 1.0, 1.01, 1.02), 0.06),
+    ],
+)
+def test_it_leans_no_farther_than_it_has_to(
+    shares: tuple[float, ...], lean: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By what a step asks for at each lean that is tried."""
+
+    def borne(robot: RobotDescription, *_: object) -> Borne:
+        return Borne(0.5, "hip", shares[LEANS.index(robot.lean)], "hip")
+
+    monkeypatch.setattr(leaning, "torques_borne", borne)
+    found, kept = least_lean(NAO, settings_of(NAO).gait, {})
+    assert found == lean
+    assert kept.most == shares[LEANS.index(lean)]
+
+
+def test_the_file_says_how_far_it_leans(tmp_path: Path) -> None:
+    found = derive(stranger.mjcf(tmp_path), tmp_path, [])
+    assert found.description.lean == 0.0
+    assert "\nlean =" not in write_description(found)
+    leant = replace(found, description=leans(found.description, 0.06))
+    file = tmp_path / FILE
+    file.write_text(write_description(leant), encoding="utf-8")
+    assert load_robot(tmp_path).lean == 0.06
+    for wrong in ("-0.1", "0.4", "inf", '"far"'):
+        text = write_description(leant)
+        text = text.replace("lean = 0.06", f"lean = {wrong}")
+        file.write_text(text, encoding="utf-8")
+        with pytest.raises(ModelError, match="lean must be"):
+            load_robot(tmp_path)
+
+
+def test_a_walk_that_leans_on_purpose_may_tilt_by_that_too() -> None:
+    def unsteadiness(tilt: float, lean: float) -> float:
+        nothing = (0.0, 1.0, None, None)
+        return Walked(
+            *("forward", True, "walked", True, 1.0, tilt), *nothing, lean
+        ).unsteadiness
+
+    assert unsteadiness(8.0, 0.0) == pytest.approx(1.0)
+    assert unsteadiness(8.0, 8.0) == pytest.approx(0.5)
+
+
+def test_a_lean_that_a_search_found_is_written(tmp_path: Path) -> None:
+    found = derive(stranger.mjcf(tmp_path), tmp_path, [])
+    file = tmp_path / FILE
+    file.write_text(write_description(found), encoding="utf-8")
+    own = load_robot(tmp_path)
+    for lean in (0.06, 0.12):  # none stood there, then one did
+        made = Candidate(1.0, lean=lean, even=1.0).applied(own)
+        assert made is not None and made.lean == lean
+        text = rewritten(file.read_text(encoding="utf-8"), made, ["found"])
+        file.write_text(text, encoding="utf-8")
+        again = load_robot(tmp_path)
+        assert again.lean == lean and again.legs == own.legs
+        assert settings_of(again).gait.swing_profile == "even"
+    assert Candidate(1.0, lean=0.31).applied(own) is None
+    tried = {each.lean for each in Candidate(1.0).neighbours()}
+    assert tried == {0.0, 0.06, 0.12}

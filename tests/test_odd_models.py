@@ -1,0 +1,214 @@
+"""Test what published models have that none of the others had before."""
+
+import shutil
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+import published_humanoid as stranger
+from stepaside.errors import ModelError
+from stepaside.fitting import stature
+from stepaside.fitting.deriving import SPACE, WIDE, derive
+from stepaside.fitting.lengths import Size
+from stepaside.fitting.limbs import Leg
+from stepaside.fitting.motors import published_speeds
+from stepaside.fitting.stature import stature_of
+from stepaside.fitting.survey import _looks_ahead, survey
+from stepaside.robots.description import load_robot
+from stepaside.robots.reading import read_model
+
+NAO = load_robot("nao")
+SOLE = (-0.05, 0.095, 0.042, 0.035)
+
+
+@pytest.mark.parametrize("ending", ["URDF", "mjcf", "txt"])
+def test_a_model_is_one_whatever_its_name_ends_with(
+    ending: str, tmp_path: Path
+) -> None:
+    publish = stranger.urdf if ending == "URDF" else stranger.mjcf
+    model = publish(tmp_path)
+    renamed = model.with_suffix(f".{ending}")
+    shutil.move(model, renamed)
+    assert len(survey(renamed, []).legs[0].joints) == 6
+    assert bool(published_speeds(renamed)) is (ending == "URDF")
+
+
+def test_what_is_no_xml_is_told_to_be_none(tmp_path: Path) -> None:
+    file = tmp_path / "robot.mjcf"
+    file.write_text("a robot", encoding="utf-8")
+    with pytest.raises(ValueError, match="no XML"):
+        read_model(file)
+    with pytest.raises(ModelError, match="cannot be compiled: no XML"):
+        survey(file, [])
+
+
+def test_marks_without_a_size_are_left_out(tmp_path: Path) -> None:
+    """As spheres of radius 0 at the corners of feet."""
+    model = stranger.urdf(tmp_path)
+    text = model.read_text()
+    mark = "<collision><geometry><sphere radius='0.0'/></geometry></collision>"
+    model.write_text(text.replace("</link>", f"{mark}</link>"))
+    assert len(survey(model, []).legs) == 2
+
+
+def test_what_moves_things_around_the_robot_goes_with_them(
+    tmp_path: Path,
+) -> None:
+    """A body of the world's with motor and sensor: once a crash."""
+    model = stranger.mjcf(tmp_path)
+    text = model.read_text()
+    text = text.replace(
+        "</worldbody>",
+        "<body name='ghost' pos='0 0 20'><joint name='spare'/>"
+        "<geom size='0.01'/></body></worldbody>",
+    ).replace(
+        "<keyframe>",
+        "<sensor><jointactuatorfrc joint='spare'/><jointpos joint='spare'/>"
+        "</sensor><keyframe>",
+    )
+    text = text.replace("</actuator>", "<motor joint='spare'/></actuator>")
+    model.write_text(text)
+    found = survey(model, [])
+    assert "spare" not in found.joints
+    assert found.model.nu == 0 and found.model.nsensor == 0
+
+
+def _leg(outline: tuple[float, ...], **changes: Any) -> Leg:
+    nothing = np.zeros(3)
+    values = {
+        "joints": ("knee",),
+        "pitches": ("hip", "knee", "ankle"),
+        "signs": (1.0, 1.0, 1.0),
+        "is_guessed": False,
+    } | changes
+    return Leg(
+        foot="foot",
+        hip=nothing,
+        ankle=nothing,
+        sole=0.0,
+        outline=outline,  # type: ignore[arg-type]
+        axes=np.eye(3),
+        pivots=np.zeros((3, 3)),
+        **values,  # type: ignore[arg-type]
+    )
+
+
+@pytest.mark.parametrize(
+    ("edges", "bends", "ahead"),
+    [
+        ((-0.06, 0.12), (0.0, 2.4), 1.0),
+        ((-0.12, 0.06), (-2.4, 0.0), -1.0),
+        ((-0.098, 0.072), (0.0, 2.8), 1.0),  # heels, but knees say more
+        ((-0.05, 0.15), (-2.0, 0.0), 1.0),  # a bird's knees
+        ((-0.09, 0.085), (-3.1, 3.1), 0.0),  # nobody says
+    ],
+)
+def test_toes_and_knees_say_together_where_forward_is(
+    edges: tuple[float, float], bends: tuple[float, float], ahead: float
+) -> None:
+    low, high = bends
+    model = mujoco.MjModel.from_xml_string(
+        "<mujoco><compiler angle='radian'/><worldbody><body>"
+        f"<joint name='knee' range='{low} {high}'/><geom size='1'/>"
+        "</body></worldbody></mujoco>"
+    )
+    leg = _leg((*edges, -0.04, 0.04))
+    assert np.sign(_looks_ahead(model, leg)) == ahead
+
+
+def test_of_legs_that_look_aside_it_is_said_what_they_lack(
+    tmp_path: Path,
+) -> None:
+    """Not that there are none in the axes of the torso."""
+    model = stranger.mjcf(tmp_path, joints=5)
+    text = model.read_text()
+    turned = text.replace('<inertial mass="12"', '<site/><inertial mass="12"')
+    quarter = 'euler="0 0 1.5707963"'
+    for side in ("near", "far"):
+        body = f'<body name="{side}_spin_link"'
+        start = turned.index(body)
+        end = turned.index(">", start)
+        old = turned[start : end + 1]
+        x, y, z = old.split('pos="')[1].split('"')[0].split()
+        aside = old.replace(
+            f'pos="{x} {y} {z}"', f'pos="{-float(y)} {x} {z}" {quarter}'
+        )
+        turned = turned.replace(old, aside)
+    model.write_text(turned)
+    with pytest.raises(ModelError, match="at least 6 joints.*ankle roll"):
+        survey(model, [])
+
+
+def test_wherever_along_its_axis_the_last_pitch_is(tmp_path: Path) -> None:
+    """The ankle is where the roll axis crosses it."""
+    model = stranger.mjcf(tmp_path)
+    text = model.read_text()
+    # Roll before pitch, whose place is off to the side.
+    for side, sign in stranger.SIDES:
+        text = text.replace(f"{side}_tip", f"{side}_x").replace(
+            f"{side}_lean", f"{side}_tip"
+        )
+        text = text.replace(f"{side}_x", f"{side}_lean")
+        text = _swapped(text, side, sign)
+    model.write_text(text)
+    left, right = survey(model, []).legs
+    assert left.joints[-2:] == ("near_lean", "near_tip")
+    for leg in (left, right):
+        assert abs(leg.ankle[1]) == pytest.approx(0.5 * stranger.WIDTH)
+        _, _, inner, outer = leg.outline
+        assert -inner == pytest.approx(outer)
+
+
+def _swapped(text: str, side: str, sign: float) -> str:
+    """Exchange the axes of the ankle's joints, the pitch's place aside."""
+    pitch = f'<joint name="{side}_lean" axis="0 1 0"'
+    roll = f'<joint name="{side}_tip" axis="1 0 0"'
+    assert pitch in text and roll in text
+    text = text.replace(pitch, f'<joint name="{side}_lean" axis="1 0 0"')
+    return text.replace(
+        roll, f'<joint name="{side}_tip" axis="0 1 0" pos="0 {0.03 * sign} 0"'
+    )
+
+
+@pytest.mark.parametrize(
+    ("shares", "part", "share"),
+    [
+        ((1.0,), 0.96, 1.0),
+        ((0.4, 0.7, 1.0), 0.92, 1.0),
+        ((0.4, 0.42, 0.43, 0.44), 0.96, 0.4),
+        ((0.4, 0.6, 0.62, 0.64), 0.94, 0.6),
+    ],
+)
+def test_it_stands_lower_where_straight_knees_were_too_fast(
+    shares: tuple[float, ...],
+    part: float,
+    share: float,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    left = list(shares)
+    monkeypatch.setattr(stature, "lengths_share", lambda *_: left.pop(0))
+    size = Size(0.28, 5.3, 0.1, SOLE, 0.2)
+    found, walked = stature_of(NAO, size, 0.2)
+    assert found.com_height == pytest.approx(part * 0.28)
+    assert walked == share and not left
+
+
+def test_no_feet_are_wider_apart_than_suits_their_height(
+    tmp_path: Path,
+) -> None:
+    model = stranger.mjcf(tmp_path)
+    half = 0.5 * stranger.WIDTH
+    wide = 2.2 * half
+    model.write_text(
+        model.read_text()
+        .replace(f" {half} -0.08", f" {wide} -0.08")
+        .replace(f" {-half} -0.08", f" {-wide} -0.08")
+    )
+    found = derive(model, tmp_path, [])
+    spacing, highest = found.size.foot_spacing, found.highest
+    assert spacing == pytest.approx(WIDE * highest, rel=0.02)
+    assert spacing < 2.0 * wide
+    assert spacing > SPACE * 2.0 * found.size.sole[3]

@@ -1,0 +1,257 @@
+"""Test what is put on a published model, joint by joint and edge by edge."""
+
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.errors import ModelError
+from stepaside.poses import Array
+from stepaside.robots.overlaying import IMU, THICK, odd_couplings, put_overlay
+from stepaside.robots.own import Overlay, Sensors, ServoGains, SolePlace
+
+MODEL = """<mujoco>
+  <option gravity="0 0 -1" timestep="0.1" integrator="RK4"/>
+  <visual><headlight ambient="1 0 0"/><map znear="0.5"/></visual>
+  <worldbody>
+    <light pos="0 0 3"/><camera pos="0 -3 1"/><site name="mark"/>
+    <geom name="ground" type="plane" size="1 1 1"/>
+    <body name="rail"><geom size="0.1"/></body>
+    <body name="trunk" pos="0 0 0.5">
+      {joints}
+      <geom size="0.1"/>
+      <body name="left" pos="0 0.1 -0.3">
+        <joint name="left_bend" axis="0 1 0" damping="3" armature="0.2"
+          actuatorfrcrange="-1 1" actuatorfrclimited="true"/>
+        <geom size="0.02"/>
+        <body name="toe" pos="0.1 0 0"><geom size="0.01"/></body>
+      </body>
+      <body name="right" pos="0 -0.1 -0.3">
+        <joint name="right_bend" axis="0 1 0" armature="0.2"/>
+        <geom size="0.02"/><site name="r_sole"/>
+      </body>
+    </body>
+  </worldbody>
+  <actuator><motor joint="left_bend"/></actuator>
+  <sensor><framepos objtype="body" objname="trunk"/></sensor>
+  <keyframe><key time="1"/></keyframe>
+</mujoco>"""
+TURN = (0.9, 0.1, -0.3, 0.2)  # of both soles, as quaternions of any length
+SOLES = (
+    SolePlace("left", (0.01, 0.02, -0.05), TURN),
+    SolePlace("right", (0.03, -0.01, -0.04), TURN),
+)
+SERVOS = {
+    "left_bend": ServoGains(50.0, 2.0, 7.0, 0.03),
+    "right_bend": ServoGains(40.0, 1.0, 60.0),
+}
+SOLE = {"back": -0.05, "front": 0.11, "outer": 0.045, "inner": 0.03}
+ROBOT = SimpleNamespace(
+    overlay=Overlay(SOLES, SERVOS),
+    sensors=Sensors(),
+    path=Path("made-up.xml"),
+    path_of=Path,
+    torso="trunk",
+    left_foot="l_sole",
+    right_foot="r_sole",
+    sole=SOLE,
+)
+
+
+def overlaid(joints: str = "", robot: Any = ROBOT) -> mujoco.MjModel:
+    spec = mujoco.MjSpec.from_string(MODEL.format(joints=joints))
+    put_overlay(spec, robot)
+    return spec.compile()
+
+
+def at_rest(model: mujoco.MjModel) -> mujoco.MjData:
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return data
+
+
+def in_sole(data: mujoco.MjData, sole: str, point: Array) -> Array:
+    """A point of the world in the frame of a sole."""
+    site = data.site(sole)
+    seen: Array = site.xmat.reshape(3, 3).T @ (point - site.xpos)
+    return seen
+
+
+@pytest.mark.parametrize("sole", ["l_sole", "r_sole"])
+def test_a_sole_is_a_box_over_its_outline(sole: str) -> None:
+    model = overlaid()
+    data, box = at_rest(model), model.geom(f"{sole}_box")
+    place = SOLES[sole == "r_sole"]
+    body = data.body(place.body)
+    origin = body.xpos + body.xmat.reshape(3, 3) @ place.place
+    np.testing.assert_allclose(data.site(sole).xpos, origin, atol=1e-12)
+    middle = in_sole(data, sole, data.geom(box.id).xpos)
+    edge = SOLE["outer"], SOLE["inner"]
+    left, inner = edge if sole == "l_sole" else edge[::-1]
+    low, high = middle - box.size, middle + box.size
+    wide = left + inner
+    np.testing.assert_allclose(low, [SOLE["back"], -inner, 0.0], atol=1e-12)
+    np.testing.assert_allclose(
+        high, [SOLE["front"], left, THICK * wide], atol=1e-12
+    )
+    turn = np.array(TURN) / np.linalg.norm(TURN)
+    seen = np.zeros(9)
+    mujoco.mju_quat2Mat(seen, turn)
+    axes = body.xmat.reshape(3, 3) @ seen.reshape(3, 3)
+    for thing in (data.site(sole), data.geom(box.id)):
+        np.testing.assert_allclose(thing.xmat.reshape(3, 3), axes, atol=1e-12)
+
+
+@pytest.mark.parametrize("foot", [0, 1])
+def test_its_corners_feel_the_floor(foot: int) -> None:
+    """Front left, front right, rear left, rear right, of the left foot."""
+    model, sole = overlaid(), ("l_sole", "r_sole")[foot]
+    data, box = at_rest(model), model.geom(f"{sole}_box")
+    middle = in_sole(data, sole, data.geom(box.id).xpos)
+    names = ROBOT.sensors.feet[4 * foot : 4 * foot + 4]
+    signs = [(1, 1), (1, -1), (-1, 1), (-1, -1)]
+    for name, sign in zip(names, signs, strict=True):
+        site = data.site(name)
+        corner = in_sole(data, sole, site.xpos)
+        wanted = middle[:2] + np.array(sign) * box.size[:2]
+        np.testing.assert_allclose(corner, [*wanted, 0.0], atol=1e-12)
+        size = model.site(name).size
+        np.testing.assert_allclose(size[:2], 0.95 * box.size[:2])
+        sensor = model.sensor(name)
+        assert sensor.type == mujoco.mjtSensor.mjSENS_TOUCH
+        assert sensor.objid == site.id
+
+
+def test_nothing_of_a_foot_but_its_sole_meets_anything() -> None:
+    model = overlaid()
+    feet = {model.body(name).id for name in ("left", "right", "toe")}
+    for number in range(model.ngeom):
+        geom = model.geom(number)
+        meets = geom.contype[0], geom.conaffinity[0]
+        if geom.name.endswith("_box"):
+            assert meets == (1, 1) and geom.bodyid[0] in feet
+            assert model.body(geom.bodyid[0]).mass > 0.0
+            np.testing.assert_allclose(geom.friction, [0.8, 0.005, 0.0001])
+        else:
+            assert meets == ((0, 0) if geom.bodyid[0] in feet else (1, 1))
+
+
+def test_a_sole_weighs_nothing() -> None:
+    bare = mujoco.MjModel.from_xml_string(MODEL.format(joints=""))
+    laid = overlaid()
+    for name in ("trunk", "left", "right"):
+        assert laid.body(name).mass == pytest.approx(bare.body(name).mass)
+
+
+@pytest.mark.parametrize(
+    "joints",
+    [
+        "",
+        "<freejoint/>",
+        '<joint type="slide" axis="1 0 0"/><joint axis="0 0 1"/>',
+    ],
+)
+def test_whatever_held_the_torso_it_is_free(joints: str) -> None:
+    model = overlaid(joints)
+    free = mujoco.mjtJoint.mjJNT_FREE
+    assert [j == free for j in model.jnt_type] == [True, False, False]
+    assert model.body("trunk").jntnum == 1
+
+
+def test_what_is_not_the_robot_is_left_out() -> None:
+    model = overlaid()
+    bodies = {model.body(i).name for i in range(model.nbody)}
+    assert bodies == {"world", "trunk", "left", "right", "toe"}
+    assert not (model.nlight or model.ncam or model.nkey)
+    assert model.nu == 2 and model.nsensor == 2 + 8
+    sites = {model.site(i).name for i in range(model.nsite)}
+    assert sites == {IMU, "l_sole", "r_sole", *ROBOT.sensors.feet}
+    plain = mujoco.MjSpec().compile()
+    np.testing.assert_array_equal(model.opt.gravity, plain.opt.gravity)
+    assert model.opt.timestep == plain.opt.timestep
+    assert model.opt.integrator == mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    assert model.vis.map.znear == plain.vis.map.znear
+    np.testing.assert_array_equal(
+        model.vis.headlight.ambient, plain.vis.headlight.ambient
+    )
+
+
+def test_the_torso_feels_its_turns_and_pushes() -> None:
+    model, sensors = overlaid(), ROBOT.sensors
+    site = model.site(IMU)
+    assert model.body(site.bodyid[0]).name == "trunk"
+    assert not site.pos.any()
+    kinds = mujoco.mjtSensor
+    for name, kind in {
+        sensors.gyro: kinds.mjSENS_GYRO,
+        sensors.accelerometer: kinds.mjSENS_ACCELEROMETER,
+    }.items():
+        assert model.sensor(name).type == kind
+        assert model.sensor(name).objid == site.id
+
+
+@pytest.mark.parametrize("target", [0.05, 0.5, -0.5])
+def test_a_servo_is_a_spring_a_damper_and_a_limit(target: float) -> None:
+    model = overlaid()
+    data = mujoco.MjData(model)
+    for name in SERVOS:
+        data.joint(name).qpos[:] = 0.02
+        data.joint(name).qvel[:] = 0.3
+        data.actuator(name).ctrl[:] = target
+    mujoco.mj_forward(model, data)
+    for name, gains in SERVOS.items():
+        torque = gains.stiffness * (target - 0.02) - gains.damping * 0.3
+        torque = np.clip(torque, -gains.torque, gains.torque)
+        assert data.actuator(name).force == pytest.approx(torque)
+        assert data.joint(name).qfrc_actuator == pytest.approx(torque)
+        assert data.joint(name).qfrc_passive == 0.0
+
+
+def test_a_rotor_is_that_of_the_servo_or_else_of_the_model() -> None:
+    model = overlaid()
+    inertias = [model.dof_armature[model.joint(n).dofadr[0]] for n in SERVOS]
+    assert inertias == [0.03, 0.2]
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"torso": "left"}, "torso must be a root .* rail, trunk, got 'left'"),
+        ({"sole": {"back": -0.05}}, r"entry sole\.front is missing"),
+        (
+            {"overlay": Overlay(SOLES, {"knee": SERVOS["left_bend"]})},
+            "no joint 'knee'; there are .*left_bend, right_bend",
+        ),
+        (
+            {"overlay": Overlay((SOLES[0]._replace(body="hoof"), SOLES[1]))},
+            "no body 'hoof'; there are .*trunk, left, toe, right",
+        ),
+    ],
+)
+def test_what_the_model_lacks_is_told(
+    changes: dict[str, Any], message: str
+) -> None:
+    robot = SimpleNamespace(**(vars(ROBOT) | changes))
+    with pytest.raises(ModelError, match=message):
+        overlaid(robot=robot)
+
+
+@pytest.mark.parametrize(
+    ("numbers", "odd"),
+    [("0 1 0 0 0", 0), ("0 -1 0 0 0", 1), ("0 1 0 0.1 0", 1), ("1 1", 1)],
+)
+def test_only_joints_that_are_simply_equal_stay_coupled(
+    numbers: str, odd: int
+) -> None:
+    words = (
+        '<equality><joint joint1="left_bend" joint2="right_bend" '
+        f'polycoef="{numbers}"/></equality></mujoco>'
+    )
+    text = MODEL.format(joints="").replace("</mujoco>", words)
+    spec = mujoco.MjSpec.from_string(text)
+    assert len(odd_couplings(spec)) == odd
+    put_overlay(spec, ROBOT)  # type: ignore[arg-type]
+    assert spec.compile().neq == 1 - odd

@@ -1,0 +1,93 @@
+"""Test what a robot that stands in a room is told of it."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from stepaside.control.assembly import Clearance
+from stepaside.control.clearance.outline import BodyOutline, sway_of
+from stepaside.control.clearance.settings import MapSettings
+from stepaside.games import standing
+from stepaside.games.standing import clearance_in, fitting
+from stepaside.planning import GaitSettings
+from stepaside.poses import Pose
+from stepaside.rooms import Disc, Room
+from stepaside.strategies import Evasion
+from stepaside.strategies.look_ahead import LookAhead
+
+GAIT = GaitSettings()
+FRAME = Pose(0.4, -0.2, 0.9)
+PILLAR, UNSEEN = Disc(1.0, 0.0, 0.2), Disc(-1.0, 0.0, 0.3)
+ROOM = Room(4.0, 3.0, (PILLAR,))
+MIND: Any = SimpleNamespace(
+    floor=SimpleNamespace(
+        version=1, taken=lambda: (PILLAR,), unseen=lambda place: (UNSEEN,)
+    )
+)
+
+
+@pytest.fixture(autouse=True)
+def outline(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Outline of a robot that nobody need measure."""
+    made: Any = SimpleNamespace(radius=0.25)
+    measured = {("robot", GAIT): made}
+    monkeypatch.setattr(
+        standing, "measure_outline", lambda *asked: measured[asked]
+    )
+    return made
+
+
+def known(room: Room | None = ROOM, **settings: Any) -> Clearance | None:
+    return clearance_in(
+        room,
+        MapSettings(**settings),
+        "robot",  # type: ignore[arg-type]
+        GAIT,
+        FRAME,
+        MIND if settings.get("source") == "seen" else None,
+    )
+
+
+def test_who_plays_in_no_room_or_knows_none_keeps_clear_of_nothing() -> None:
+    assert known(None) is None
+    assert known(None, source="seen") is None
+    assert known(source="none") is None
+
+
+def test_a_given_room_is_known_as_it_is(outline: BodyOutline) -> None:
+    clearance = known(margin=0.07)
+    assert clearance is not None
+    assert clearance.outline is outline and clearance.margin == 0.07
+    assert clearance.surroundings.frame == FRAME
+    assert PILLAR in clearance.surroundings.solids.known
+
+
+@pytest.mark.parametrize("unseen", ["free", "taken"])
+def test_a_seen_room_is_known_by_the_own_map(
+    unseen: str, outline: BodyOutline
+) -> None:
+    clearance = known(source="seen", unseen=unseen)
+    assert clearance is not None and clearance.outline is outline
+    assert clearance.surroundings.frame == Pose(0.0, 0.0, 0.0)
+    assert clearance.surroundings.solids.known == ()
+    now: Any = SimpleNamespace(time=0.0)
+    body: Any = SimpleNamespace(com=(0.1, 0.2, 0.26))
+    clearance.surroundings.note(now, body)
+    others = (UNSEEN,) if unseen == "taken" else ()
+    assert clearance.surroundings.solids.known == (PILLAR, *others)
+
+
+def test_who_reckons_with_a_body_reckons_with_the_own_one() -> None:
+    """With its outline, its margin and its sway, if that is more."""
+    clearance = known(margin=0.07)
+    assert clearance is not None
+    needs = 0.25 + 0.07 + sway_of(GAIT)
+    small, wide = LookAhead(body_radius=0.1), LookAhead(body_radius=0.6)
+    fitted = fitting(small, clearance, GAIT)
+    assert isinstance(fitted, LookAhead)
+    assert fitted.body_radius == pytest.approx(needs)
+    assert fitting(wide, clearance, GAIT) is wide
+    assert fitting(small, None, GAIT) is small
+    law = Evasion()
+    assert fitting(law, clearance, GAIT) is law
