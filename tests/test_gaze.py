@@ -6,14 +6,18 @@ import numpy as np
 import pytest
 
 from stepaside.perception.gaze import (
+    AWAY,
     HIPS,
+    LONG,
     LOOKOUT,
     REACH,
     SCAN_PITCH,
     SCAN_SPEED,
     SPEED,
+    TOO_NEAR,
     UPWARD,
     Gaze,
+    Glances,
 )
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
@@ -183,3 +187,40 @@ def test_it_looks_up_as_somebody_tall_comes_near() -> None:
     assert hips + pitches[2] == pytest.approx(20.0, abs=0.1)
     # A robot is looked at as ever.
     assert pitch_at(0.6, 0.6) == pitch_at(0.6, 0.0) > 0.0
+
+
+def seen_sides(bearing: float, seconds: float = 9.0) -> set[float]:
+    """Over which shoulders it looks while somebody is at a bearing."""
+    glances = Glances(TICK, 2.0)
+    looks = {
+        glances.turned(bearing, 1.0) for _ in range(round(seconds / TICK))
+    }
+    return looks - {bearing}
+
+
+def test_glances_go_over_both_shoulders_of_who_walks_backward() -> None:
+    assert seen_sides(0.0, 2.5) == {REACH}
+    assert seen_sides(0.0) == seen_sides(0.1) == {REACH, -REACH}
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_nobody_looks_away_so_far_that_the_other_is_lost(side: float) -> None:
+    """Who is on one side leaves only the shoulder of that side."""
+    assert seen_sides(side * 1.2) == {side * REACH}
+    assert abs(REACH + 1.2) > AWAY > abs(REACH - 1.2)
+
+
+def test_from_who_is_very_near_nobody_looks_away() -> None:
+    glances = Glances(TICK, 2.0)
+    near = TOO_NEAR - 0.01
+    assert {glances.turned(1.2, near) for _ in range(2000)} == {1.2}
+
+
+def test_a_glance_takes_its_time_and_comes_back_as_often() -> None:
+    glances = Glances(TICK, 2.0)
+    looks = np.array(
+        [glances.turned(1.2, 1.0) for _ in range(round(29.0 / TICK))]
+    )
+    away = looks != 1.2
+    assert np.diff(away.astype(int)).tolist().count(1) == 10
+    assert away.mean() == pytest.approx(LONG / (2.0 + LONG), abs=0.01)

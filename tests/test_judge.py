@@ -285,6 +285,16 @@ def test_what_was_not_noted_is_not_judged_nor_twice() -> None:
     scene.judge.note(SonarEcho(0.0, "left", 0.5))
 
 
+def test_an_image_in_which_nobody_was_sought_is_not_judged() -> None:
+    scene = Scene()
+    scene.stand(TOP, 0.0, 1.0)
+    image = colour()
+    scene.judge.note(image)
+    scene.judge.judge(FrameReport(image, (), sought=False))
+    assert scene.judge.colour == Tally()
+    assert not scene.judge._true and not scene.judge.stills["colour"]
+
+
 def test_a_look_notes_what_is_exposed_and_judges_what_is_reported() -> None:
     """What is exposed and reported at one tick too; each tick once."""
     scene = Scene()

@@ -22,7 +22,7 @@ from made_up_eyes import (
 )
 from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.hearing import CHEST, EAR, FRESH
-from stepaside.perception.perception import BROAD, SURE
+from stepaside.perception.perception import BROAD, EDGE, SURE
 from stepaside.poses import Pose, wrap_angle
 from stepaside.sensing.depth_detector import Shadow
 from stepaside.sensing.images import SonarEcho
@@ -314,3 +314,18 @@ def test_a_place_of_the_other_that_is_old_frees_no_floor(
         track.seen_at = TICK - age
         eyes.see(TICK, depth(TICK))
         assert (floor.others[-1] is not None) is known
+
+
+@pytest.mark.parametrize(("beyond", "missed"), [(-0.05, 0), (0.05, 1)])
+def test_who_is_too_near_to_be_measured_is_not_missed(
+    eyes: Eyes, monkeypatch: pytest.MonkeyPatch, beyond: float, missed: int
+) -> None:
+    """Else nobody near would be confirmed where the cameras take turns."""
+    eyes.perception.floor = NoFloor()
+    show(monkeypatch)
+    forward = HEAD.depth.place[0]
+    image = depth(TICK)
+    away = image.near + EDGE + forward + beyond
+    track = eyes.know(*eyes.beside(away, 0.0))
+    eyes.see(TICK, image)
+    assert list(track._hits).count(False) == missed

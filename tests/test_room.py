@@ -13,7 +13,7 @@ HEAD = load_head(load_robot("nao"))
 
 
 def furnished(
-    room: RoomSettings, *, lower: bool = False
+    room: RoomSettings, *, lower: tuple[str, ...] = ()
 ) -> tuple[mujoco.MjModel, mujoco.MjData]:
     spec = mujoco.MjSpec()
     spec.worldbody.add_body(name="me/head", pos=[1.0, 2.0, 0.5]).add_geom(
@@ -151,7 +151,7 @@ def test_the_depth_camera_is_worn_without_weight_behind_its_window() -> None:
 
 def test_the_lower_camera_looks_where_its_mount_has_it() -> None:
     """Along its own -z, with x to the right; nobody has it unasked."""
-    model, data = furnished(RoomSettings(walls=0.0), lower=True)
+    model, data = furnished(RoomSettings(walls=0.0), lower=("me",))
     mujoco.mj_camlight(model, data)
     camera, mount = model.camera(f"me/{LOWER}").id, HEAD.bottom
     assert mount is not None

@@ -2,13 +2,14 @@
 
 from dataclasses import replace
 from time import process_time
+from typing import Any
 
 import numpy as np
 import pytest
 
 from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run, measure
 from stepaside.control.phase import Phase
-from stepaside.control.scheme import SETTLING
+from stepaside.control.scheme import PATIENCE, SETTLING
 from stepaside.control.senses import GivenSight
 from stepaside.planning import Direction, Foot
 from stepaside.poses import Pose
@@ -282,3 +283,32 @@ def test_the_state_is_what_the_scheme_has() -> None:
     rest = Run(first_foot=Foot.RIGHT).scheme
     assert rest.state.step(3.0) == rest.step(3.0)
     assert rest.state.step(3.0).support == rest.left_foot
+
+
+@pytest.mark.parametrize("foot", Foot)
+@pytest.mark.parametrize("blocked", [0, 1, 2])
+def test_who_has_no_room_for_one_foot_tries_the_other(
+    foot: Foot, blocked: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """And if there is room for neither, both again, but not at once."""
+    run = Run(first_foot=foot)
+    asked: list[Foot] = []
+    planned = run.scheme._maneuvers.plan
+
+    def plan(*words: Any, standing: bool) -> Any:
+        asked.append(words[-1])
+        none = words[-1] in (foot, foot.other)[:blocked]
+        return None if none else planned(*words, standing=standing)
+
+    monkeypatch.setattr(run.scheme._maneuvers, "plan", plan)
+    run.until(TICK)
+    assert asked == [foot, foot.other][: 1 + min(blocked, 1)]
+    if blocked < 2:
+        assert run.phase() is Phase.WALKING
+        assert run.landings[0][1] is asked[-1]
+        return
+    assert run.phase() is Phase.STANDING and not run.steps
+    run.until(PATIENCE)
+    assert len(asked) == 2
+    run.until(PATIENCE + 2.0 * TICK)
+    assert asked == 2 * [foot, foot.other]

@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from typing import Any
 
+from stepaside.studies.survival import wilson
+
 from .markdown import number, table
 
 PACKAGE = "src/stepaside/"
@@ -17,6 +19,10 @@ def score(result: Mapping[str, Any]) -> str:
         if since
         else ""
     )
+    low, high = (
+        number(100.0 * share, 0)
+        for share in wilson(result["noticed"], result["faults"])
+    )
     rows = [
         (
             name,
@@ -28,11 +34,12 @@ def score(result: Mapping[str, Any]) -> str:
     ]
     return (
         f"**{result['noticed']} of {result['faults']} faults noticed "
-        f"({number(100.0 * result['score'], 1)} %)**; drawn by seed "
-        f"{result['settings']['seed']}, on code version "
+        f"({number(100.0 * result['score'], 1)} %)**; `{result['command']}`, "
+        f"drawn by seed {result['settings']['seed']}, on code version "
         f"`{result['version']}`. {outcomes.get('timeout', 0)} were noticed "
         f"by a time limit; {outcomes.get('unreached', 0)} are reached by no "
-        f"test.{later}\n\n"
+        f"test. Of all places, {low} to {high} % are as well guarded, at 95 % "
+        f"confidence.{later}\n\n"
         + table(("package", "faults", "noticed", "share"), rows)
     )
 

@@ -126,7 +126,8 @@ def job_of(fault: Fault, text: str, index: Index, chosen: list[str]) -> Job:
         numba_cache(tree, fresh=anew)
         times = {test: index.times[test] for test in chosen}
         spare = trial.COMPILING if anew else trial.SPARE
-        trial.run(tree.path, times, tree.path.with_suffix(".note"), spare)
+        note = tree.path.with_suffix(".note")
+        trial.run(tree.path, times, note, spare, index.near(fault))
 
     return Job(fault.key, prepare, work)
 

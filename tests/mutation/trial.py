@@ -123,6 +123,7 @@ def run(
     chosen: Mapping[str, float],
     note: Path,
     spare: float = SPARE,
+    near: Collection[str] = (),
 ) -> None:
     """Run tests in this process until one is red, and write the verdict.
 
@@ -132,14 +133,17 @@ def run(
         note: File for the verdict; until there is one it names the test
             that is running.
         spare: Processor time that any test may take, in [s].
+        near: Tests that run before the others, as they are the likeliest to
+            notice: no other file need be read then.
     """
     sys.dont_write_bytecode = True  # of the fault
     os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
     allow(START)
-    quick = {test: s for test, s in chosen.items() if s <= QUICK}
-    slow = {test: s for test, s in chosen.items() if s > QUICK}
+    parts: list[dict[str, float]] = [{}, {}, {}]
+    for test, time in chosen.items():
+        parts[2 if time > QUICK else test not in near][test] = time
     red, status = "", 0
-    for part in (quick, slow):
+    for part in parts:
         if part and status == 0:
             files = sorted({test.partition("::")[0] for test in part})
             note.write_text(f"start of {files[0]}", encoding="utf-8")

@@ -130,7 +130,7 @@ class Judge:
     def judge(self, report: FrameReport) -> None:
         """Compare what an image was found to show with the truth."""
         truth = self._true.pop(report.image, None)
-        if truth is None:
+        if truth is None or not report.sought:
             return
         azimuth, shown, others = truth
         kind = "colour" if isinstance(report.image, ColourImage) else "depth"

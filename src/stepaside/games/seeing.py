@@ -70,15 +70,17 @@ class Seeing:
         self._head = load_head(description)
         self.renderer = choose_renderer(settings.cameras.colour.renderer)
         self._people = settings.pursuer == "person"
+        self._maps = (
+            settings.room.plan is not None and settings.map.source == "seen"
+        )
+        # Where people come the evader alone is a robot.
+        self._low = tuple(names) if self._people or self._maps else ()
         self.furnish = furnisher(
             settings.room,
             "evader",
             self._head,
             walls=walls_of(settings),
-            lower=self._people,
-        )
-        self._maps = (
-            settings.room.plan is not None and settings.map.source == "seen"
+            lower=self._low,
         )
         self.perceptions = {
             name: Perception(
@@ -105,7 +107,7 @@ class Seeing:
             self._settings.seed,
             with_depth=self._maps or name == "evader",
             looks_low=self.perceptions[name].looks_low
-            if self._people
+            if name in self._low
             else None,
         )
 

@@ -31,6 +31,8 @@ NEARBY = 1.2  # within which unseen floor can count, in [m]
 WINDOW = round(NEARBY / CELL) + 2  # cells to the edge of what is near
 SAME = 0.2  # of what was measured from what it belongs to, in [m]
 SECTOR = np.pi / 8  # in which a polygon of unseen floor lies, in [rad]
+FEW = 3  # pixels of floor that show a cell
+MIXED = 0.25  # share of other pixels from which a cell is no floor
 # Steps of a cell to all cells around one.
 STENCIL = np.argwhere(np.ones((17, 17))) - 8
 
@@ -44,9 +46,10 @@ class FloorMap:
     all the time, is left out. Where a player stands nothing else does, and a
     robot that begins has room to turn.
 
-    What is nearer than a camera measures, or out of its view, stays unseen
-    until a ray passes over it: a thing that hides the floor behind it keeps
-    the floor in front of it unseen as well.
+    What is nearer than a depth camera measures, or out of its view, stays
+    unseen until a ray passes over it: a thing that hides the floor behind it
+    keeps the floor in front of it unseen as well, unless another camera shows
+    that floor.
 
     Attributes:
         version: Counts the changes.
@@ -91,10 +94,8 @@ class FloorMap:
             apart = points[..., :2] - np.array(other)
             theirs = np.hypot(apart[..., 0], apart[..., 1]) < OTHER
         self._pass(flat, away, there & (level < LEVEL), struck, own)
-        cells = self._cells(points[struck & ~theirs][:, :2])
-        counts = np.zeros((SIDE, SIDE), dtype=np.int64)
-        np.add.at(counts, (cells[:, 0], cells[:, 1]), 1)
-        hit = counts > 1  # one pixel alone may be noise
+        # One pixel alone may be noise.
+        hit = self._counts(points[struck & ~theirs][:, :2]) > 1
         self._evidence[hit] += STRUCK
         self._seen |= hit
         if other is not None:
@@ -149,6 +150,41 @@ class FloorMap:
         chosen = cells[:, 0], cells[:, 1]
         self._seen[chosen] = True
         self._evidence[chosen] = np.minimum(self._evidence[chosen], 0.0)
+
+    def show(self, floor: Array, strange: Array) -> None:
+        """Take in which floor another camera saw.
+
+        A cell beside one that shows anything else stays as it was: where an
+        image was taken is known to a few centimetres.
+
+        Args:
+            floor: Places whose pixels look like floor, in [m]. Shape (n, 2).
+            strange: Places whose pixels do not, in [m]. Shape (m, 2).
+        """
+        bare, other = self._counts(floor), self._counts(strange)
+        mixed = np.pad(other >= np.maximum(1.0, MIXED * (bare + other)), 1)
+        beside = sliding_window_view(mixed, (3, 3)).any(axis=(2, 3))
+        self._seen |= (bare >= FEW) & ~beside
+        self.version += 1
+
+    def is_free(self, points: Array) -> NDArray[np.bool_]:
+        """Whether rays have passed over places that nothing stands at.
+
+        Args:
+            points: In odometry, in [m]. Shape (n, 2).
+        """
+        inside = np.abs(points).max(axis=1, initial=0.0) < HALF
+        found = np.zeros(len(points), dtype=np.bool_)
+        cells = self._cells(points[inside])
+        found[inside] = self._evidence[cells[:, 0], cells[:, 1]] <= PASSED
+        return found
+
+    def _counts(self, points: Array) -> NDArray[np.int64]:
+        """How many of some places lie in each cell."""
+        cells = self._cells(points)
+        counts = np.zeros((SIDE, SIDE), dtype=np.int64)
+        np.add.at(counts, (cells[:, 0], cells[:, 1]), 1)
+        return counts
 
     def taken(self) -> tuple[Polygon, ...]:
         """What stands there, as far as it was seen, in odometry."""

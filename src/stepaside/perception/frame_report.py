@@ -17,9 +17,11 @@ class FrameReport:
             camera's axis, in [rad], positive leftward.
         colour: What a colour image shows.
         depth: What a depth image shows.
+        sought: Whether the other was looked for in it.
     """
 
     image: ColourImage | DepthImage
     azimuths: tuple[float, ...]
     colour: ColourDetection | None = None
     depth: DepthScene | None = None
+    sought: bool = True

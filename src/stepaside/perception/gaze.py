@@ -20,7 +20,8 @@ UPWARD = radians(13.0)  # at most for it: the floor stays in view, too
 OFTEN = 2.0  # between two glances of one who walks backward, in [s]
 SELDOM = 4.0  # of one who walks where it looks, in [s]
 LONG = 0.9  # of a glance, the way there included, in [s]
-TOO_NEAR = 0.45  # to look away, in [m]
+TOO_NEAR = 0.8  # to look away: no depth tells where it is meanwhile, in [m]
+AWAY = 2.3  # from the other at most, or it is lost, in [rad]
 
 
 class Gaze:
@@ -120,6 +121,13 @@ class Glances:
         self._passed += 1
         if self._passed < self._every or distance < TOO_NEAR:
             return bearing
+        if self._passed == self._every and not self._is_beside(bearing):
+            self._side = -self._side
         if self._passed >= self._every + self._long:
             self._passed, self._side = 0, -self._side
-        return self._side * REACH
+            return bearing
+        return self._side * REACH if self._is_beside(bearing) else bearing
+
+    def _is_beside(self, bearing: float) -> bool:
+        """Whether a look over the shoulder is soon back at a bearing."""
+        return abs(self._side * REACH - wrap_angle(bearing)) < AWAY

@@ -16,11 +16,11 @@ from ..sensing.measurement import Measurement, Sighting
 from ..sensing.track import Observation, Track
 from ..sensing.tracker import Tracker
 from .attention import UNSEEN, Attention, OneRobot
-from .feet import Feet
 from .floor_map import FloorMap
 from .frame_report import FrameReport
 from .gaze import Gaze, Glances
 from .hearing import is_heard, observe_echo
+from .lower import LowerCamera
 from .observing import (
     angle_of,
     camera_of,
@@ -33,6 +33,7 @@ from .people import People
 MEMORY = 1.0  # how long past poses are kept, in [s]
 SURE = 0.5  # age up to which the other is known to be where it is, in [s]
 BOTH = 2  # ends of a scan
+EDGE = 0.1  # beyond the near limit, where somebody is measured in part, in [m]
 BROAD = 0.12  # shadow of somebody who was not seen before, in [rad]
 
 
@@ -75,8 +76,8 @@ class Perception:
         """
         self._attention: Attention = People() if people else OneRobot()
         self._people = people
-        self._feet = Feet() if people and head.bottom is not None else None
         self.floor = floor
+        self._lower = LowerCamera(head.bottom, people=people, floor=floor)
         self._glances = None if glances is None else Glances(tick, glances)
         self._head = head
         self.forward = ForwardKinematics(description, head.body)
@@ -108,13 +109,9 @@ class Perception:
         Returns:
             Where the other is now, as far as is known.
         """
-        joints = measurement.joint_positions
-        return self._see(
-            measurement,
-            self._kinematics.pose(
-                measurement.time, joints, support, left_supports, tilt
-            ),
-        )
+        now, joints = measurement.time, measurement.joint_positions
+        body = self._kinematics.pose(now, joints, support, left_supports, tilt)
+        return self._see(measurement, body)
 
     @property
     def head_joints(self) -> tuple[int, int]:
@@ -132,12 +129,14 @@ class Perception:
         return self.floor is not None and self._gaze.turned < BOTH
 
     def looks_low(self) -> bool:
-        """Whether the lower camera of the head is asked for images."""
-        if self._feet is None or self.body is None:
+        """Whether the lower camera of the head is asked for an image."""
+        if self.body is None:
             return False
         now, (x, y, _) = self.body.time, self.body.torso
         main = self._attention.main(self._tracker, now, x, y)
-        return self._feet.wanted(main, now, x, y, self.body.yaw)
+        # Who has lost the other needs all images of the upper one.
+        lost = self.sighting is None and not self.looking
+        return self._lower.wanted(self.body, main, lost=lost)
 
     def _see(
         self, measurement: Measurement, body: BodyPose
@@ -205,34 +204,31 @@ class Perception:
             self._take_low(image, body)
             return
         place, axes = camera_of(body, self._head.top)
-        if self._feet is not None:
-            own, tracks = body.torso[:2], self._tracker.tracks
-            self._feet.learn(image, place, axes, own, tracks)
+        own, other = body.torso[:2], None
+        if self.floor is not None:
+            other = self._attention.main(self._tracker, now, *own)
+        tracks = self._tracker.tracks
+        self._lower.learn(image, place, axes, own, tracks, other)
         found = self._detector.detect(image)
         azimuths: tuple[float, ...] = ()
         seen: list[Observation] = []
         if found is not None:
             azimuths = (-angle_of(image, found.column),)
-            look, tracks = self._detector.appearance, self._tracker.tracks
+            look = self._detector.appearance
             seen = [observe_trim(image, found, place, axes, look, tracks)]
         self.reports.append(FrameReport(image, azimuths, colour=found))
         self._observe(seen, image, place, axes, named=True)
 
     def _take_low(self, image: ColourImage, body: BodyPose) -> None:
-        if self._feet is None or self._head.bottom is None:
-            return
-        place, axes = camera_of(body, self._head.bottom)
-        seen = self._feet.observe(image, place, axes, body.torso[:2])
-        ahead = atan2(axes[1, 0], axes[0, 0])
-        azimuths = tuple(wrap_angle(each.bearing - ahead) for each in seen)
-        self.reports.append(FrameReport(image, azimuths))
+        seen, report = self._lower.see(image, body)
+        self.reports.append(report)
         self._tracker.observe(seen, founds=False, walkers=True)
 
     def _take_depth(
         self, image: DepthImage, body: BodyPose, now: float
     ) -> None:
         place, axes = camera_of(body, self._head.depth)
-        own = body.torso.x, body.torso.y
+        own = body.torso[:2]
         scene = detect_obstacles(image, place, axes, own)
         azimuths = tuple(o.azimuth for o in scene.obstacles)
         azimuths += tuple(s.azimuth for s in scene.shadows)
@@ -295,6 +291,10 @@ class Perception:
                 continue
             if named and image.time - track.identified_at > UNSEEN:
                 continue
+            if self.floor is not None and isinstance(image, DepthImage):
+                # What is so near it does not measure.
+                if track.away_from(x, y, image.time) < image.near + EDGE:
+                    continue
             off = wrap_angle(track.turned_to(x, y, image.time) - ahead)
             if abs(off) < half:
                 track.count(False)

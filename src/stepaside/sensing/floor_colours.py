@@ -37,8 +37,14 @@ class Footing(NamedTuple):
 class FloorColours:
     """Colours that the floor was seen to have."""
 
-    def __init__(self) -> None:
-        """Know no floor."""
+    def __init__(self, rare: float = RARE) -> None:
+        """Know no floor.
+
+        Args:
+            rare: Share of the pixels below which a colour is not the
+                floor's, but of what stood before it.
+        """
+        self._rare = rare
         self._counts = np.zeros((LEVELS,) * 3, dtype=np.int64)
 
     @property
@@ -58,7 +64,7 @@ class FloorColours:
 
     def strange(self, pixels: Pixels) -> NDArray[np.bool_]:
         """Which pixels look like no floor. Shape (height, width)."""
-        least = RARE * max(1, int(self._counts.sum()))
+        least = self._rare * max(1, int(self._counts.sum()))
         floor = np.asarray(self._counts >= least)
         # A little lighter or darker is floor as well.
         near = sliding_window_view(np.pad(floor, 1), (3, 3, 3))

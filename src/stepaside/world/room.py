@@ -1,6 +1,6 @@
 """Walls, things that stand about, and what robots wear to see."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import mujoco
 import numpy as np
@@ -37,7 +37,7 @@ def furnisher(
     head: HeadDescription,
     *,
     walls: float,
-    lower: bool = False,
+    lower: Sequence[str] = (),
 ) -> Furnish:
     """What turns an empty world into a room.
 
@@ -46,7 +46,7 @@ def furnisher(
         wearer: Robot that wears the depth camera.
         head: Its head.
         walls: Distance of the walls from the middle, in [m]; 0 for none.
-        lower: Whether the lower camera of the head is used, too.
+        lower: Robots that use the lower camera of their heads, too.
     """
 
     def furnish(spec: mujoco.MjSpec) -> None:
@@ -58,8 +58,10 @@ def furnisher(
             )
             _add_thing(body, thing.kind)
         _add_housing(spec, wearer, head)
-        if lower and head.bottom is not None:
-            _add_lower(spec.body(f"{wearer}/{head.body}"), wearer, head.bottom)
+        for name in lower:
+            if head.bottom is not None:
+                body = spec.body(f"{name}/{head.body}")
+                _add_lower(body, name, head.bottom)
 
     return furnish
 

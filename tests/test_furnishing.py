@@ -1,0 +1,43 @@
+"""Test that a duel's world holds what the duel asks for, and no more."""
+
+from dataclasses import replace
+
+import mujoco
+import pytest
+
+from stepaside.games import DuelSettings
+from stepaside.games.duel import furnisher_of
+from stepaside.rooms import Disc, Room
+
+ALONE = DuelSettings()
+INSIDE = replace(
+    ALONE, room=replace(ALONE.room, plan=Room(3.0, 3.0, (Disc(0, 0, 0.2),)))
+)
+PERSON = DuelSettings(pursuer="person")
+
+
+@pytest.mark.parametrize("lit", [False, True])
+@pytest.mark.parametrize(
+    ("settings", "wanted"),
+    [
+        (ALONE, set()),
+        (INSIDE, {"disc 1", "wall 1"}),
+        (PERSON, {"pursuer/trunk", "pursuer/left leg"}),
+    ],
+)
+def test_a_world_has_what_its_duel_asks_for(
+    settings: DuelSettings, wanted: set[str], lit: bool
+) -> None:
+    spec = mujoco.MjSpec()
+
+    def light(spec: mujoco.MjSpec) -> None:
+        spec.worldbody.add_light(name="lamp")
+
+    furnish = furnisher_of(settings, light if lit else None)
+    if furnish is not None:
+        furnish(spec)
+    bodies = {body.name for body in spec.bodies} - {"world"}
+    assert wanted <= bodies and bool(wanted) == bool(bodies)
+    assert len(spec.lights) == lit
+    kinds = {name.partition("/")[0].rstrip(" 1234") for name in bodies}
+    assert kinds <= {name.partition("/")[0].rstrip(" 1") for name in wanted}

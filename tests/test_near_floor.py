@@ -1,0 +1,182 @@
+"""Test the floor before the feet, by the lower camera of the head."""
+
+from math import atan2, cos, pi, radians, sin
+
+import numpy as np
+import pytest
+
+from drawn_depth import Post, draw, paint
+from made_up_eyes import HEAD, Eyes
+from stepaside.perception.floor_map import CELL, FloorMap, _centres
+from stepaside.perception.lower import LowerCamera
+from stepaside.perception.near_floor import NearFloor
+from stepaside.poses import Array
+from stepaside.robots.head import rotation
+from stepaside.sensing.camera_model import CameraModel
+from stepaside.sensing.images import ColourImage
+
+CAMERA = CameraModel.of_field_of_view(160, 120, radians(60.9), radians(47.6))
+DEPTH = CameraModel.of_field_of_view(80, 60, radians(58.0), radians(45.0))
+EYE, HIGH = np.array([0.05, 0.0, 0.46]), np.array([0.03, 0.0, 0.54])
+HERE = 0.0, 0.0
+POST: Post = (0.6, 0.0, 0.15, 0.8)
+BEFORE, INSIDE, BESIDE = (0.38, 0.0), (0.6, 0.0), (0.45, 0.2)
+
+
+def axes_of(pitch: float, yaw: float = 0.0) -> Array:
+    return rotation(0.0, radians(pitch), yaw)
+
+
+def around(posts: list[Post]) -> FloorMap:
+    """A map of what the depth camera saw all around, twice."""
+    made = FloorMap()
+    for yaw in np.arange(-pi, pi, 0.5).tolist() * 2:
+        axes = axes_of(8.0, yaw)
+        image = draw(DEPTH, HIGH, axes, posts)
+        made.take(image, HIGH, axes, HERE, None)
+    return made
+
+
+def image(posts: list[Post], axes: Array, *, low: bool) -> ColourImage:
+    return ColourImage(0.0, CAMERA, paint(CAMERA, EYE, axes, posts), low)
+
+
+def learnt(floor: FloorMap, posts: list[Post]) -> NearFloor:
+    """Who saw the floor behind, where nothing stands."""
+    near = NearFloor(floor)
+    for yaw in (2.0, pi, -2.0):
+        axes = axes_of(1.2, yaw)
+        near.learn(image(posts, axes, low=False), EYE, axes, HERE, None)
+    return near
+
+
+def lower_of(floor: FloorMap) -> LowerCamera:
+    """The lower camera of who knows what the floor looks like."""
+    made = LowerCamera(HEAD.bottom, people=False, floor=floor)
+    made.near = learnt(floor, [])
+    return made
+
+
+def hidden(floor: FloorMap, place: tuple[float, float]) -> bool:
+    """Whether a place counts as unseen."""
+    clear = [
+        part.clearance(np.array([place]))[0] for part in floor.unseen(HERE)
+    ]
+    return min(clear, default=1.0) <= 0.0
+
+
+def test_the_floor_before_a_thing_that_is_too_near_is_seen() -> None:
+    floor = around([POST])
+    assert all(hidden(floor, place) for place in (BEFORE, INSIDE))
+    near, axes = learnt(floor, [POST]), axes_of(39.7)
+    near.show(image([POST], axes, low=True), EYE, axes, HERE)
+    assert not hidden(floor, BEFORE) and not hidden(floor, BESIDE)
+    assert hidden(floor, INSIDE) and not floor.taken()
+
+
+@pytest.mark.parametrize("away", [0.45, 0.55, 0.7])
+@pytest.mark.parametrize("bearing", [-0.4, 0.0, 0.3])
+def test_nothing_of_a_thing_or_right_beside_it_is_shown(
+    away: float, bearing: float
+) -> None:
+    """Where an image was taken is known to a few centimetres."""
+    post = away * cos(bearing), away * sin(bearing), 0.1, 0.8
+    near, axes = learnt(around([post]), [post]), axes_of(39.7)
+    floor = near._floor = FloorMap()
+    near.show(image([post], axes, low=True), EYE, axes, HERE)
+    shown = _centres(floor._seen)
+    gaps = np.hypot(*(shown - np.array(post[:2])).T) - post[2]
+    assert len(gaps) > 10 and gaps.min() > 0.5 * CELL
+    # It is not shown through it, either.
+    turned = np.abs(np.arctan2(shown[:, 1], shown[:, 0]) - bearing)
+    behind = np.hypot(*shown.T) > away
+    assert (away * np.sin(turned[behind]) > post[2]).all()
+
+
+def test_other_colours_show_no_floor() -> None:
+    """A dark thing that fills the view leaves all as it was."""
+    post = [(0.45, 0.0, 0.3, 0.8)]
+    floor = around(post)
+    before = floor._seen.copy()
+    near, axes = learnt(floor, post), axes_of(39.7)
+    near.show(image(post, axes, low=True), EYE, axes, HERE)
+    shown = np.argwhere(floor._seen & ~before)
+    assert not len(shown)
+
+
+def test_the_floor_is_learnt_where_rays_passed() -> None:
+    """What stands before it, and floor that nobody saw, teaches nothing."""
+    post = [(1.2, 0.0, 0.3, 0.8)]
+    floor, axes = around(post), axes_of(1.2)
+    near = NearFloor(floor)
+    near.learn(image(post, axes, low=False), EYE, axes, HERE, None)
+    dark = np.full((4, 4, 3), 64, dtype=np.uint8)
+    light = np.full((4, 4, 3), 212, dtype=np.uint8)
+    assert near._colours.strange(dark).all()
+    assert not near._colours.strange(light).any()
+    blind = NearFloor(FloorMap())
+    blind.learn(image([], axes, low=False), EYE, axes, HERE, None)
+    assert not blind._colours._counts.any()
+
+
+def test_who_stands_on_the_floor_is_not_learnt() -> None:
+    """Nor what the image shows behind: the map may not know of it."""
+    floor, axes = around([]), axes_of(1.2)
+    other = 0.9, 0.1
+    post = [(*other, 0.12, 0.58)]
+    near = NearFloor(floor)
+    near.learn(image(post, axes, low=False), EYE, axes, HERE, other)
+    dark = np.full((4, 4, 3), 64, dtype=np.uint8)
+    assert not near._colours._counts[4, 4, 4]
+    assert near._colours.strange(dark).all()
+    alone = NearFloor(floor)
+    alone.learn(image(post, axes, low=False), EYE, axes, HERE, None)
+    assert alone._colours._counts[4, 4, 4]
+
+
+def test_the_lower_camera_looks_every_other_time_once_it_knows() -> None:
+    floor = around([])
+    near = NearFloor(floor)
+    assert not any(near.wanted() for _ in range(6))
+    near = learnt(floor, [])
+    asked = [near.wanted() for _ in range(6)]
+    assert asked in ([True, False] * 3, [False, True] * 3)
+
+
+def test_what_rays_struck_stays_taken() -> None:
+    """Colours only add floor that was seen."""
+    post = [(1.2, 0.0, 0.1, 0.8)]
+    floor = around(post)
+    before = len(floor.taken())
+    near, axes = learnt(floor, post), axes_of(39.7)
+    for _ in range(20):
+        near.show(image([], axes, low=True), EYE, axes, HERE)
+    assert before == len(floor.taken()) > 0
+    assert atan2(0.0, 1.2) == 0.0 and floor.holds(1.1, 0.0)
+
+
+def test_who_has_lost_the_other_looks_with_the_upper_camera() -> None:
+    """The lower one shows nobody's trim."""
+    eyes = Eyes()
+    eyes.see(0.0)
+    perception = eyes.perception
+    perception._lower = lower_of(around([]))
+    eyes.know(*eyes.beside(1.5, 0.5))
+    eyes.see(0.0)
+    assert [perception.looks_low() for _ in range(4)].count(True) == 2
+    eyes.tracks.clear()
+    eyes.see(0.0)
+    assert perception.searching
+    assert not any(perception.looks_low() for _ in range(4))
+    perception.floor, eyes.gaze.turned = FloorMap(), 0
+    assert perception.looking  # around, before anybody is looked for
+    assert [perception.looks_low() for _ in range(4)].count(True) == 2
+
+
+def test_nobody_is_sought_in_an_image_of_the_floor() -> None:
+    eyes = Eyes()
+    eyes.see(0.0)
+    eyes.perception._lower = lower_of(around([]))
+    eyes.see(0.02, image([], axes_of(39.7), low=True))
+    (report,) = eyes.reports
+    assert not report.sought and not report.azimuths

@@ -1,0 +1,73 @@
+"""Test that the points of a geom reach as far as the geom does."""
+
+from collections.abc import Callable
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.poses import Array
+from stepaside.world.shapes import points_of
+
+SIZE = np.array([0.3, 0.2, 0.1])
+QUAT = "0.8 0.3 -0.4 0.2"
+PLACE = np.array([1.0, -2.0, 0.5])
+# How far each shape reaches along the axes of the world from its middle, by
+# the axes of the shape in its columns.
+REACHES: dict[str, Callable[[Array], Array]] = {
+    "box": lambda axes: np.abs(axes) @ SIZE,
+    "sphere": lambda axes: np.full(3, SIZE[0]),
+    "ellipsoid": lambda axes: np.sqrt((axes**2) @ SIZE**2),
+    "capsule": lambda axes: SIZE[0] + SIZE[1] * np.abs(axes[:, 2]),
+    "cylinder": lambda axes: (
+        SIZE[0] * np.sqrt(1.0 - axes[:, 2] ** 2) + SIZE[1] * np.abs(axes[:, 2])
+    ),
+}
+CORNERS = "0 0 0  0.4 0 0  0 0.3 0  0 0 0.2"
+
+
+def points(geom: str, assets: str = "") -> tuple[Array, Array]:
+    """Points of a geom that is turned, and its axes."""
+    model = mujoco.MjModel.from_xml_string(
+        f'<mujoco><asset>{assets}</asset><worldbody><body pos="1 -2 0.5" '
+        f'quat="{QUAT}"><geom {geom}/></body></worldbody></mujoco>'
+    )
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return points_of(model, data, 0), data.geom_xmat[0].reshape(3, 3)
+
+
+@pytest.mark.parametrize("kind", REACHES)
+def test_points_reach_as_far_as_the_shape(kind: str) -> None:
+    """Those of the rims of a cylinder lie every 15 degrees."""
+    found, axes = points(f'type="{kind}" size="0.3 0.2 0.1"')
+    reach = REACHES[kind](axes)
+    slack = 0.01 * SIZE[0] if kind == "cylinder" else 1e-12
+    for sign in (1.0, -1.0):
+        far = (sign * (found - PLACE)).max(axis=0)
+        assert (far <= reach + 1e-12).all()
+        np.testing.assert_allclose(far, reach, rtol=0.0, atol=slack)
+
+
+def test_points_of_a_mesh_are_its_corners() -> None:
+    """MuJoCo puts its frame into the middle of its mass."""
+    found, _ = points(
+        'type="mesh" mesh="tip"', f'<mesh name="tip" vertex="{CORNERS}"/>'
+    )
+    wanted = np.array(CORNERS.split(), dtype=float).reshape(4, 3)
+    axes = np.zeros(9)
+    quat = np.array(QUAT.split(), dtype=float)
+    mujoco.mju_quat2Mat(axes, quat / np.linalg.norm(quat))
+    wanted = PLACE + wanted @ axes.reshape(3, 3).T
+    order, other = np.lexsort(found.T.round(6)), np.lexsort(wanted.T.round(6))
+    np.testing.assert_allclose(found[order], wanted[other], atol=1e-6)
+
+
+def test_a_plane_has_no_end() -> None:
+    model = mujoco.MjModel.from_xml_string(
+        '<mujoco><worldbody><geom type="plane" size="1 1 1"/></worldbody>'
+        "</mujoco>"
+    )
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    assert points_of(model, data, 0).shape == (0, 3)
