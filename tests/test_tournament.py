@@ -330,3 +330,22 @@ def test_only_humanoids_see_a_map() -> None:
     with pytest.raises(ConfigurationError, match="map must be 'given'"):
         TournamentSettings(map="seen")
     assert TournamentSettings("physics", map="seen").map == "seen"
+
+
+def test_a_duel_that_is_stopped_is_no_game_and_stops_the_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Who plays here, and not in processes of its own, is interrupted."""
+    ended = SimpleNamespace(outcome=Outcome.INTERRUPTED)
+    played: list[int] = []
+
+    def cut_short(settings: Any) -> Any:
+        played.append(settings.seed)
+        return ended
+
+    monkeypatch.setattr("stepaside.games.duel.run_duel", cut_short)
+    settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
+    file = RecordFile(tmp_path / "games.jsonl")
+    with pytest.raises(KeyboardInterrupt):
+        play_tournament(settings, [("aside", "pure")], [3, 4], file)
+    assert len(played) == 1 and not file.read()

@@ -48,12 +48,17 @@ def play_ways(
 def _play_humanoids(
     settings: TournamentSettings, pairing: Pairing, seed: int
 ) -> "tuple[Room, DuelRun]":
-    """Play one game in physics."""
+    """Play one game in physics.
+
+    Raises:
+        KeyboardInterrupt: If it was stopped: one that was cut short is none.
+    """
     from ..games.duel import run_duel
+    from ..games.outcome import Outcome
     from .physics_game import duel_settings
 
     room, starts = settings.arena(seed)
-    return room, run_duel(
+    run = run_duel(
         duel_settings(
             pairing,
             room,
@@ -64,6 +69,9 @@ def _play_humanoids(
             source=settings.map,
         )
     )
+    if run.outcome is Outcome.INTERRUPTED:
+        raise KeyboardInterrupt
+    return room, run
 
 
 def play_track(
