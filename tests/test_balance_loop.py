@@ -1,5 +1,6 @@
 """Test what keeps a robot up: nothing that changes anything, or feedback."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -179,6 +180,10 @@ def test_settings_open_or_close_the_loop() -> None:
     assert made._tick == 0.012
     # A request, and those still on their way.
     assert made._asked.maxlen == 4
+    assert made._lean == 0.0
+    leaning = replace(NAO, lean=0.1)
+    bent = build_balance(leaning, GAIT, STABILISED, **options)
+    assert isinstance(bent, ClosedLoop) and bent.stabiliser._lean == 0.1
 
 
 @pytest.mark.parametrize("seen", [None, Sighting(0.0, 0.1, 2.0)])

@@ -169,6 +169,20 @@ def test_feet_tilt_with_the_torso() -> None:
     same(body.left_tilt, (0.05 * part, -0.1 * part))
 
 
+def test_a_lean_that_was_asked_for_tilts_no_foot() -> None:
+    meant = BODY.roll(0.1)
+    assert abs(meant) > 0.01
+    tilts = {}
+    for lean in (0.1, 0.0):
+        feedback, fake = stabiliser(lean=lean)
+        fake.tilt = (meant, 0.0)
+        for _ in range(400):  # until the onset has passed
+            body = feedback.update(MEASUREMENT, ROW, step())
+        tilts[lean] = body.left_tilt
+    same(tilts[0.1], ZERO)
+    same(tilts[0.0], (0.3 * meant, 0.0))
+
+
 def test_what_the_sole_cannot_hold_is_stepped_out() -> None:
     """No faster than a swing foot can follow: 1.5 m/s."""
     for sign in (1.0, -1.0):
