@@ -74,7 +74,14 @@ def body(scene: Scene) -> Iterator[NaoqiBody]:
 
 
 def heard(body: NaoqiBody) -> Report:
-    report: Report = until(lambda: body.listen(1.0))
+    """Next report of a robot that stands: that answer may be on its way."""
+
+    def told() -> Report | None:
+        report = body.listen(1.0)
+        rises = report is not None and report.hindrance == "stands up"
+        return None if rises else report
+
+    report: Report = until(told)
     return report
 
 
