@@ -261,6 +261,7 @@ def test_what_a_second_client_asks_holds_until_the_first_asks_again(
     now = [100.0]
     body = NaoqiBody(scene.server.url, clock=lambda: now[0])
     asked = Velocity(0.05, 0.1)
+    heard(body)  # what is asked of one that still rises is forgotten
     body.command(asked)
     until(lambda: scene.round() == asked)
     other = connect(scene.server.url)
@@ -287,6 +288,7 @@ def test_a_dry_run_wakes_nobody_and_commands_nothing(scene: Scene) -> None:
 def test_a_guardian_can_stop_the_robot_by_itself(
     scene: Scene, body: NaoqiBody
 ) -> None:
+    heard(body)
     body.command(Velocity(0.05, 0.1))
     until(lambda: scene.round() == Velocity(0.05, 0.1))
     stop(scene.server.url)
