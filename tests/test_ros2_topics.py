@@ -5,7 +5,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from math import atan2, cos, hypot, nan, pi, sin
-from threading import Thread
+from threading import Event, Thread
 from typing import Any
 
 import pytest
@@ -14,6 +14,7 @@ pytest.importorskip("cyclonedds")
 
 from stepaside.drivers.ros2.address import parse_namespace  # noqa: E402
 from stepaside.drivers.ros2.body import Ros2Body, rest  # noqa: E402
+from stepaside.drivers.ros2 import domain  # noqa: E402
 from stepaside.drivers.ros2.domain import Dds, taken  # noqa: E402
 from stepaside.drivers.ros2.messages import (  # noqa: E402
     Clock,
@@ -376,6 +377,35 @@ def test_who_leaves_a_domain_is_gone_whatever_is_held() -> None:
     dds.close()
     with pytest.raises(DDSException):
         writer.write(Clock(Time.of(2.0)))
+
+
+def test_no_two_topics_are_made_at_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """DDS failed for one of two threads, now and then."""
+    entered = [Event(), Event()]
+    overlapped = []
+    made = iter(entered)
+
+    class Slow:
+        def __init__(self, *given: object, **named: object) -> None:
+            next(made).set()
+            overlapped.append(entered[1].wait(0.05))
+
+    monkeypatch.setattr(domain, "Topic", Slow)
+    monkeypatch.setattr(domain, "DataReader", lambda *given, **named: None)
+    everybody = [Dds(0, tag=TAG), Dds(0, tag=TAG)]
+    threads = [
+        Thread(target=dds.reader, args=("rt/odom", Odometry))
+        for dds in everybody
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for dds in everybody:
+        dds.close()
+    assert overlapped[0] is False
 
 
 def test_a_domain_that_has_no_ports_is_refused(

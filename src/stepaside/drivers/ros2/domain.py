@@ -3,6 +3,7 @@
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from threading import RLock
 from typing import Any
 
 from ...errors import ConfigurationError
@@ -15,6 +16,7 @@ from cyclonedds.sub import DataReader  # isort: skip
 from cyclonedds.topic import Topic  # isort: skip
 
 SETTING = "CYCLONEDDS_URI"
+MAKING = RLock()  # two topics that are made at once may fail, one of them
 LONGEST_DOMAIN = 232  # number of the last domain that has ports
 HERE = """
 <CycloneDDS><Domain>
@@ -60,7 +62,7 @@ class Dds:
             raise ConfigurationError(
                 f"domain must lie in [0, {LONGEST_DOMAIN}], got {number}"
             )
-        with _configured(None if beyond else HERE.format(tag=tag)):
+        with MAKING, _configured(None if beyond else HERE.format(tag=tag)):
             try:
                 self.participant = DomainParticipant(number)
             except DDSException as error:
@@ -82,7 +84,9 @@ class Dds:
             Policy.History.KeepLast(depth),
             Policy.DataRepresentation(use_cdrv0_representation=True),
         )
-        return DataWriter(self.participant, self._topic(topic, kind), qos=qos)
+        with MAKING:
+            topic_of_it = self._topic(topic, kind)
+            return DataWriter(self.participant, topic_of_it, qos=qos)
 
     def reader(self, topic: str, kind: type[Any], depth: int = 10) -> Any:
         """Something that reads a topic, whatever its writers promise.
@@ -97,7 +101,9 @@ class Dds:
             Policy.History.KeepLast(depth),
             Policy.DataRepresentation(use_cdrv0_representation=True),
         )
-        return DataReader(self.participant, self._topic(topic, kind), qos=qos)
+        with MAKING:
+            topic_of_it = self._topic(topic, kind)
+            return DataReader(self.participant, topic_of_it, qos=qos)
 
     def _topic(self, name: str, kind: type[Any]) -> Any:
         if name not in self._topics:
