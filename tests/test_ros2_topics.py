@@ -12,9 +12,9 @@ import pytest
 
 pytest.importorskip("cyclonedds")
 
+from stepaside.drivers.ros2 import domain  # noqa: E402
 from stepaside.drivers.ros2.address import parse_namespace  # noqa: E402
 from stepaside.drivers.ros2.body import Ros2Body, rest  # noqa: E402
-from stepaside.drivers.ros2 import domain  # noqa: E402
 from stepaside.drivers.ros2.domain import Dds, taken  # noqa: E402
 from stepaside.drivers.ros2.messages import (  # noqa: E402
     Clock,
