@@ -5,7 +5,7 @@ from math import atan2, pi
 import numpy as np
 import pytest
 
-from stepaside.perception.floor_map import CELL, START, FloorMap
+from stepaside.perception.floor_map import CELL, START, FloorMap, _centres
 from stepaside.poses import Array
 from stepaside.rooms import Disc, Obstacle, box
 from stepaside.rooms.covering import cover
@@ -162,3 +162,20 @@ def test_a_corner_of_two_walls_becomes_few_polygons(heading: float) -> None:
     clearance = np.min([p.clearance(cells) for p in found], axis=0)
     assert clearance.max() <= 1e-9
     assert sum(p.area for p in found) < 2.5 * len(cells) * CELL**2
+
+
+def test_columns_beside_what_is_too_near_show_no_floor_there() -> None:
+    """While the head turns, where it looks is known to some degrees."""
+    near, seen = Disc(0.6, 0.0, 0.12), FloorMap()
+    for wrong in np.radians([-3.0, 0.0, 3.0]):  # what is believed is off
+        for heading in np.arange(-0.6, 0.7, 0.1):
+            image, eye, _ = view((near,), (0.0, 0.0), heading)
+            turned = heading + wrong
+            c, s = np.cos(turned), np.sin(turned)
+            axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+            seen.take(image, eye, axes, (0.0, 0.0), None)
+    shown = _centres(seen._seen)
+    assert near.clearance(shown).min() > -0.5 * CELL
+    beyond = np.array([[0.6, 0.35], [0.6, -0.35], [1.2, 0.5]])
+    gaps = np.hypot(*(shown[:, None] - beyond).transpose(2, 0, 1))
+    assert gaps.min(axis=0).max() < CELL  # and what is clear of it does

@@ -1,5 +1,6 @@
 """Test the floor before the feet, by the lower camera of the head."""
 
+from dataclasses import replace
 from math import atan2, cos, pi, radians, sin
 
 import numpy as np
@@ -70,6 +71,21 @@ def test_the_floor_before_a_thing_that_is_too_near_is_seen() -> None:
     assert all(hidden(floor, place) for place in (BEFORE, INSIDE))
     near, axes = learnt(floor, [POST]), axes_of(39.7)
     near.show(image([POST], axes, low=True), EYE, axes, HERE)
+    assert not hidden(floor, BEFORE) and not hidden(floor, BESIDE)
+    assert hidden(floor, INSIDE) and not floor.taken()
+
+
+def test_floor_that_is_lighter_close_by_is_seen() -> None:
+    """As by a lamp at the eyes: the steeper one looks, the lighter it is."""
+    floor = around([POST])
+    near, axes = learnt(floor, [POST]), axes_of(39.7)
+    picture = image([POST], axes, low=True)
+    steep = -(CAMERA.rays() @ axes.T)[..., 2].clip(-1.0, 0.0)
+    lamp = 0.5 + 0.7 * steep[..., None]
+    lighter = (picture.pixels * lamp).clip(0, 255).astype(np.uint8)
+    unknown = near._colours.strange(lighter)
+    assert unknown[60, 80] or unknown[110, 20]
+    near.show(replace(picture, pixels=lighter), EYE, axes, HERE)
     assert not hidden(floor, BEFORE) and not hidden(floor, BESIDE)
     assert hidden(floor, INSIDE) and not floor.taken()
 

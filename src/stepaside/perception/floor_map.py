@@ -18,6 +18,7 @@ LOW, HIGH = 0.07, 0.7  # of what a body runs into, in [m]
 LEVEL = 0.5  # below which a ray shows that the floor is free, in [m]
 SELF = 0.22  # what is nearer to the own axis is the robot itself, in [m]
 OTHER = 0.32  # what is nearer to the other player belongs to it, in [m]
+BLUR = 9  # columns, of 0.7 degrees each, that one may stand for
 SHORT = 0.1  # by which evidence ends before what a ray struck, in [m]
 BRIEF = 0.03  # by which what a ray shows ends before that, in [m]
 START = 0.35  # of floor that is free around a robot that begins, in [m]
@@ -93,7 +94,8 @@ class FloorMap:
         if other is not None:
             apart = points[..., :2] - np.array(other)
             theirs = np.hypot(apart[..., 0], apart[..., 1]) < OTHER
-        self._pass(flat, away, there & (level < LEVEL), struck, own)
+        low = there & (level < LEVEL)
+        self._pass(flat, away, low, struck, own, image.near)
         # One pixel alone may be noise.
         hit = self._counts(points[struck & ~theirs][:, :2]) > 1
         self._evidence[hit] += STRUCK
@@ -111,8 +113,14 @@ class FloorMap:
         low: NDArray[np.bool_],
         struck: NDArray[np.bool_],
         own: tuple[float, float],
+        near: float,
     ) -> None:
-        """Take evidence away along the rays of each column."""
+        """Take evidence away along the rays of each column.
+
+        What is too near for any depth blocks all of a column. Where the head
+        looked is known to a few degrees while it turns: columns beside such
+        a one tell nothing of what is as near.
+        """
         far = np.where(low, away, 0.0)
         row = far.argmax(axis=0)
         columns = np.arange(far.shape[1])
@@ -121,19 +129,25 @@ class FloorMap:
         good = np.minimum(reach, first) > FIRST
         if not good.any():
             return
+        blocked = np.convolve(reach == 0.0, np.ones(BLUR), "same") > 0.5
+        begin = np.where(blocked, near, FIRST)[good]
         ahead = flat[row, columns][good] / far[row, columns][good][:, None]
         reach, first = reach[good], first[good]
         shown = np.minimum(reach, first - BRIEF)
-        self._seen |= self._along(own, ahead, shown)
+        self._seen |= self._along(own, ahead, begin, shown)
         passed = np.minimum(reach, first - SHORT)
-        self._evidence[self._along(own, ahead, passed)] += PASSED
+        self._evidence[self._along(own, ahead, begin, passed)] += PASSED
 
     def _along(
-        self, own: tuple[float, float], ahead: Array, reach: Array
+        self,
+        own: tuple[float, float],
+        ahead: Array,
+        begin: Array,
+        reach: Array,
     ) -> NDArray[np.bool_]:
-        """Cells along lines of a length from near the own axis on."""
+        """Cells along lines between two distances from the own axis."""
         shares = np.arange(FIRST, max(FIRST, float(reach.max())), CELL)
-        inside = shares[None, :] < reach[:, None]
+        inside = (shares >= begin[:, None]) & (shares < reach[:, None])
         points: Array = (
             np.array(own) + shares[None, :, None] * ahead[:, None, :]
         )

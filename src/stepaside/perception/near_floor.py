@@ -4,6 +4,7 @@ import numpy as np
 
 from ..poses import Array
 from ..sensing.floor_colours import FloorColours, floor_points
+from ..sensing.floor_growing import grow_floor
 from ..sensing.images import ColourImage
 from .floor_map import FloorMap
 
@@ -23,7 +24,8 @@ class NearFloor:
     Within the near limit of that camera a thing hides the floor before it,
     too. The lower camera sees this floor. What floor looks like is learnt
     from images of the upper camera, where the depth camera saw that nothing
-    stands. It adds nothing that stands there, and takes nothing away: what
+    stands; close by floor is lighter, and what is even with floor counts as
+    floor. It adds nothing that stands there, and takes nothing away: what
     looks like floor was seen, and is free unless rays struck something.
     """
 
@@ -86,5 +88,6 @@ class NearFloor:
         points = floor_points(image, place, axes)[::SPARSE, ::SPARSE]
         away = np.hypot(points[..., 0] - own[0], points[..., 1] - own[1])
         near = (away > SHOWN[0]) & (away < SHOWN[1])
-        strange = self._colours.strange(image.pixels[::SPARSE, ::SPARSE])
-        self._floor.show(points[near & ~strange], points[near & strange])
+        pixels = image.pixels[::SPARSE, ::SPARSE]
+        bare = grow_floor(pixels, ~self._colours.strange(pixels))
+        self._floor.show(points[near & bare], points[near & ~bare])
