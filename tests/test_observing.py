@@ -1,6 +1,6 @@
 """Test the way from what an image shows to a place in odometry."""
 
-from math import atan2, cos, hypot, pi, radians, sin
+from math import atan2, cos, hypot, pi, radians, sin, tan
 from typing import Any
 
 import numpy as np
@@ -276,3 +276,42 @@ def test_in_a_mapped_room_only_what_is_where_the_other_is_counts() -> None:
     assert told(empty, (1.0, 0.0)) == [0.1]
     assert told(empty, (1.0, 0.7)) == [0.6]
     assert told(empty, None) == []
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+@pytest.mark.parametrize("left_out", [0.3, 0.5])
+def test_trim_that_an_edge_hides_in_part_is_put_where_its_middle_is(
+    side: float, left_out: float
+) -> None:
+    """Side +1 is the right one; what is seen of it ends at the edge."""
+    away, edge = 0.6, 0.5 * CAMERA.width
+    whole = BREADTH / away
+    half = abs(angle_of(IMAGE, 0.0))
+    middle = side * (half - (0.5 - left_out) * whole)  # positive rightward
+    inner = middle - side * 0.5 * whole
+    ends = sorted([inner, side * half])
+    left, right = (edge + CAMERA.focal_x * tan(angle) for angle in ends)
+    shown = edge + CAMERA.focal_x * tan(0.5 * sum(ends))
+    found = trim(
+        away, YAW, column=shown, left=left, right=right, confidence=0.5
+    )
+    known = track(away, YAW - middle)
+    level = rotation(0.0, 0.0, YAW)
+    near = observe_trim(IMAGE, found, PLACE, level, RED, [known], near=True)
+    blind = observe_trim(IMAGE, found, PLACE, level, RED, [known])
+    off = [wrap_angle(seen.bearing - YAW + middle) for seen in (near, blind)]
+    assert off[0] == pytest.approx(0.0, abs=0.01)
+    assert off[1] == pytest.approx(side * 0.5 * left_out * whole, abs=0.01)
+    assert near.across > 0.4 * left_out * BREADTH > blind.across
+    assert not near.ranged and near.along > 0.5
+
+
+def test_trim_in_the_middle_is_whole_however_narrow_it_looks() -> None:
+    """From the side it is half as broad."""
+    found = trim(0.9, YAW)
+    ways = [
+        observe_trim(IMAGE, found, PLACE, AXES, RED, [track(0.9, YAW)], near=n)
+        for n in (True, False)
+    ]
+    assert ways[0]._replace(across=ways[1].across) == ways[1]
+    assert ways[0].across == pytest.approx(0.03) and ways[1].across < 0.01

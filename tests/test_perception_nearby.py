@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from made_up_eyes import (
+    CAMERA,
     HEAD,
+    NAO,
     SUPPORT,
     TICK,
     Eyes,
@@ -22,10 +24,12 @@ from made_up_eyes import (
 )
 from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.hearing import CHEST, EAR, FRESH
-from stepaside.perception.perception import BROAD, EDGE, SURE
+from stepaside.perception.perception import BROAD, EDGE, SURE, Perception
 from stepaside.poses import Pose, wrap_angle
+from stepaside.sensing.colour_detector import RED, ColourDetection
 from stepaside.sensing.depth_detector import Shadow
-from stepaside.sensing.images import SonarEcho
+from stepaside.sensing.images import ColourImage, SonarEcho
+from stepaside.sensing.track import ANYBODY, WALKER
 
 HEARD = [  # sonar, bearing from the heading in [deg], whether it is heard
     ("left", 49.0, True),
@@ -329,3 +333,30 @@ def test_who_is_too_near_to_be_measured_is_not_missed(
     track = eyes.know(*eyes.beside(away, 0.0))
     eyes.see(TICK, image)
     assert list(track._hits).count(False) == missed
+
+
+@pytest.mark.parametrize(
+    ("floor", "people", "calm"),
+    [(None, False, False), (FloorMap, False, True), (FloorMap, True, False)],
+)
+def test_among_things_that_rest_a_robot_is_followed_as_one_that_walks(
+    floor: Any, people: bool, calm: bool
+) -> None:
+    """And an edge that hides a part of one so near is looked out for."""
+    eyes = Eyes()
+    made = eyes.perception = Perception(
+        *(NAO, HEAD, RED),
+        tick=TICK,
+        floor=None if floor is None else floor(),
+        people=people,
+    )
+    made._detector, made._gaze = eyes.detector, eyes.gaze
+    right = float(CAMERA.width - 4)
+    ends = right - 2.0, 40.0, 80.0, right - 4.0, right
+    eyes.detector.found = ColourDetection(*ends, 0.5, False, False, False)
+    black = np.zeros((CAMERA.height, CAMERA.width, 3), np.uint8)
+    eyes.see(0.0, ColourImage(0.0, CAMERA, black))
+    (track,) = eyes.tracks
+    assert track._push == (WALKER if calm else ANYBODY).push
+    deviation = np.sqrt(np.linalg.eigvalsh(track._covariance[:2, :2])[0])
+    assert bool(deviation > 0.05) is calm

@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from stepaside.control.clearance.settings import MapSettings
 from stepaside.control.senses import CameraSight
 from stepaside.games import seeing
 from stepaside.games.duel import Duel
@@ -22,6 +23,7 @@ from stepaside.games.start import frames_of, walls_of, with_start
 from stepaside.games.walker import Walker
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
+from stepaside.rooms import RoomRecipe, make_room
 from stepaside.world.camera_settings import (
     CameraSettings,
     ColourSettings,
@@ -258,3 +260,21 @@ def test_no_wall_stands_between_a_robot_and_who_comes_fast() -> None:
     evader = frames_of(settings)[1]
     assert evader.x > 5.0
     assert spec.geom("wall 1 0").pos[0] - evader.x == pytest.approx(3.5)
+
+
+def test_who_maps_a_room_begins_when_the_evader_has_looked_behind() -> None:
+    room = RoomSettings(plan=make_room(RoomRecipe(discs=1), 3))
+    mapping = prepared(
+        seed=3,
+        sensing="cameras",
+        cameras=RAYS,
+        room=room,
+        map=MapSettings(source="seen"),
+    ).perceptions
+    arounds = {name: each.around for name, each in mapping.items()}
+    assert arounds["pursuer"].company == [mapping["evader"]]
+    assert arounds["evader"].company == []
+    assert arounds["evader"]._behind and not arounds["pursuer"]._behind
+    assert mapping["pursuer"].looking and mapping["evader"].looking
+    for each in prepared().perceptions.values():
+        assert not each.looking and not each.around.company

@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 
 from stepaside.sensing.track import (
+    ANYBODY,
     APART,
     HEARD,
     LEAST,
     SHARP,
     TRAIL,
+    WALKER,
     Observation,
     Track,
 )
@@ -365,3 +367,15 @@ def test_an_ear_sights_nobody() -> None:
     assert track.sighted_at == 1.0
     track.correct(heard._replace(time=1.2))
     assert track.sighted_at == 1.0 and track.seen_at == 1.2
+
+
+def test_a_robot_that_walks_is_not_thought_to_run() -> None:
+    """Errors of where it is seen near by are of its place, not of its way."""
+    away = []
+    for motion in (ANYBODY, WALKER):
+        made = Track(look(0.0, 0.5), 1, motion)
+        for time, x in ((0.15, 0.62), (0.3, 0.75)):
+            made.correct(look(time, x, along=0.15))
+        away.append(made.place_at(1.3)[0] - made.place_at(0.3)[0])
+        assert made.place_at(0.3)[0] > 0.5
+    assert away[0] > 0.15 and 0.0 < away[1] < 0.25 * away[0]

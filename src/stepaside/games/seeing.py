@@ -91,9 +91,13 @@ class Seeing:
                 floor=FloorMap() if self._maps else None,
                 glances=GLANCES[name] if self._maps else None,
                 people=self._people,
+                behind=self._maps and name == "evader",
             )
             for name in names
         }
+        for name, perception in self.perceptions.items():
+            if self._maps and name == "pursuer":
+                perception.around.company.append(self.perceptions["evader"])
 
     def eyes(self, world: World, name: str) -> Eyes:
         """Open the eyes of a robot of a world."""

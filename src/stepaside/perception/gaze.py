@@ -71,11 +71,15 @@ class Gaze:
         pitch = max(pitch, -UPWARD) if tall else pitch
         self._turn(bearing, pitch, SPEED)
 
-    def search(self) -> None:
-        """Sweep from side to side."""
+    def search(self, *, stay: bool = False) -> None:
+        """Sweep from side to side.
+
+        Args:
+            stay: Whether to stay at the end of a scan.
+        """
         self.searching = True
         edge = min(REACH, float(self._yaws[-1]))
-        if self._side * self.yaw >= edge - 1e-6:
+        if self._side * self.yaw >= edge - 1e-6 and not stay:
             self._side = -self._side
             self.turned += 1
         self._turn(self._side * edge, SCAN_PITCH, SCAN_SPEED)

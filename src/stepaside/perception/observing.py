@@ -9,7 +9,7 @@ from ..robots.head import Mount
 from ..sensing.colour_detector import Appearance, ColourDetection
 from ..sensing.depth_detector import Obstacle, Shadow
 from ..sensing.images import ColourImage, DepthImage
-from ..sensing.ranging import range_of_breadth, range_of_trim
+from ..sensing.ranging import BREADTH, range_of_breadth, range_of_trim
 from ..sensing.track import Observation, Track
 from .floor_map import FloorMap
 
@@ -23,6 +23,7 @@ BESIDE = 0.45  # distance of what casts one, at least, in [m]
 BLIND = 3.0  # deviation of a distance that nothing tells, in [m]
 PULLED = 0.15  # of the bounds of a shadow, which the memory overran, in [m]
 BODY = 0.35  # from the middle of somebody to a part of it, in [m]
+AXIS = 0.03  # from the middle of what is seen of trim to the axis, in [m]
 PARTLY = 0.15  # of the axis of whom only a part was measured, in [m]
 
 
@@ -33,6 +34,8 @@ def observe_trim(
     axes: Array,
     appearance: Appearance,
     tracks: Sequence[Track],
+    *,
+    near: bool = False,
 ) -> Observation:
     """Turn trim in an image into a place in odometry.
 
@@ -46,11 +49,20 @@ def observe_trim(
         axes: Its axes as columns. Shape (3, 3).
         appearance: Whose trim it is.
         tracks: What is followed already.
+        near: Whether it may be so near that an edge hides a part of it, of
+            which no trim tells; then its middle is not its axis either, and
+            to believe that would be to take sway for a change of distance.
     """
     camera = image.camera
     middle = 0.5 * (found.top + found.bottom)
     x, y, _ = (axes @ camera.ray(found.column, middle)).tolist()
     bearing = atan2(y, x)
+    hidden = 0.0
+    if near:
+        hidden = _hidden(
+            image, found, _remembered(tracks, image.time, bearing, place)
+        )
+        bearing = wrap_angle(bearing - 0.5 * hidden)
     away = None
     whole = not (found.cut_above or found.cut_below)
     if whole and found.confidence >= SURE:
@@ -64,7 +76,7 @@ def observe_trim(
     along = VAGUE
     if away is not None:
         along = 0.02 + 0.05 * away
-    elif not found.cut_aside and found.cut_below:
+    elif not (found.cut_aside or hidden) and found.cut_below:
         away = range_of_breadth(
             angle_of(image, found.right) - angle_of(image, found.left)
         )
@@ -74,16 +86,32 @@ def observe_trim(
         if away <= CLOSEST:
             along = 0.1
     aside = 0.005 if not found.cut_aside else 0.06
+    across = 0.003 + max(aside, 0.5 * abs(hidden)) * away
     return Observation(
         image.time,
         float(place[0] + away * cos(bearing)),
         float(place[1] + away * sin(bearing)),
         bearing,
         along,
-        0.003 + aside * away,
+        max(across, AXIS) if near else across,
         True,
         ranged,
     )
+
+
+def _hidden(image: ColourImage, found: ColourDetection, away: float) -> float:
+    """Angle of the trim beyond an edge, in [rad], positive rightward.
+
+    Args:
+        image: The image.
+        found: The trim in it.
+        away: Distance of who wears it, in [m].
+    """
+    left, right = angle_of(image, found.left), angle_of(image, found.right)
+    missing = max(0.0, BREADTH / away - (right - left))
+    edge = -angle_of(image, 0.0)
+    beyond_left, beyond_right = edge + left < missing, edge - right < missing
+    return missing * (float(beyond_right) - float(beyond_left))
 
 
 def observe_obstacle(image: DepthImage, thing: Obstacle) -> Observation:

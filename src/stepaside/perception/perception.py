@@ -13,13 +13,14 @@ from ..sensing.colour_detector import Appearance, ColourDetector
 from ..sensing.depth_detector import detect_obstacles
 from ..sensing.images import ColourImage, DepthImage, Percept, SonarEcho
 from ..sensing.measurement import Measurement, Sighting
-from ..sensing.track import Observation, Track
+from ..sensing.track import ANYBODY, WALKER, Observation, Track
 from ..sensing.tracker import Tracker
 from .attention import UNSEEN, Attention, OneRobot
 from .floor_map import FloorMap
 from .frame_report import FrameReport
 from .gaze import Gaze, Glances
 from .hearing import is_heard, observe_echo
+from .looking_around import LookAround
 from .lower import LowerCamera
 from .observing import (
     angle_of,
@@ -32,7 +33,6 @@ from .people import People
 
 MEMORY = 1.0  # how long past poses are kept, in [s]
 SURE = 0.5  # age up to which the other is known to be where it is, in [s]
-BOTH = 2  # ends of a scan
 EDGE = 0.1  # beyond the near limit, where somebody is measured in part, in [m]
 BROAD = 0.12  # shadow of somebody who was not seen before, in [rad]
 
@@ -48,6 +48,7 @@ class Perception:
         reports: What the images that arrived at the last tick show.
         forward: Kinematics of the measured body, for balance to share.
         floor: Map of the floor, if it keeps one.
+        around: Its look around, before a game begins.
     """
 
     def __init__(
@@ -60,6 +61,7 @@ class Perception:
         floor: FloorMap | None = None,
         glances: float | None = None,
         people: bool = False,
+        behind: bool = False,
     ) -> None:
         """Know the own body and what the other looks like.
 
@@ -68,15 +70,16 @@ class Perception:
             head: Its head.
             appearance: The other's look, if it is the one that is known.
             tick: Control period, in [s].
-            floor: Map of the floor to keep. Who keeps one looks all around
-                first, and says nothing of the other before it has.
+            floor: Map of the floor to keep; who keeps one looks around first.
             glances: Time between two looks over its shoulders, to see the
                 floor that it walks backward onto, in [s]; None for none.
             people: Whether people come, who wear no trim.
+            behind: Whether it turns to look behind itself at first.
         """
         self._attention: Attention = People() if people else OneRobot()
         self._people = people
         self.floor = floor
+        self.around = LookAround(behind=behind)
         self._lower = LowerCamera(head.bottom, people=people, floor=floor)
         self._glances = None if glances is None else Glances(tick, glances)
         self._head = head
@@ -84,7 +87,8 @@ class Perception:
         self._kinematics = BodyKinematics(description, head, self.forward)
         self._detector = ColourDetector(appearance)
         self._gaze = Gaze(head.coupling, tick)
-        self._tracker = Tracker()
+        self._calm = floor is not None and not people
+        self._tracker = Tracker(WALKER if self._calm else ANYBODY)
         self._poses: deque[BodyPose] = deque(maxlen=round(MEMORY / tick))
         self.body: BodyPose | None = None
         self.sighting: Sighting | None = None
@@ -126,7 +130,7 @@ class Perception:
     @property
     def looking(self) -> bool:
         """Whether it looks around, before it says anything of the other."""
-        return self.floor is not None and self._gaze.turned < BOTH
+        return self.floor is not None and self.around.lasts(self._gaze)
 
     def looks_low(self) -> bool:
         """Whether the lower camera of the head is asked for an image."""
@@ -150,7 +154,7 @@ class Perception:
         track = self._attention.main(self._tracker, now, *body.torso[:2])
         self.sighting = None
         if self.looking:
-            self._gaze.search()
+            self.around.look(self._gaze, now, body.torso.theta)
             return None
         self._look(now, body, track)
         if track is not None:
@@ -184,10 +188,8 @@ class Perception:
         self._gaze.follow(bearing, distance, chosen.height)
 
     def _pose_at(self, time: float) -> BodyPose:
-        for pose in reversed(self._poses):
-            if pose.time <= time + 1e-9:
-                return pose
-        return self._poses[0]
+        known = (p for p in reversed(self._poses) if p.time <= time + 1e-9)
+        return next(known, self._poses[0])
 
     def _take(self, percept: Percept, body: BodyPose, now: float) -> None:
         if isinstance(percept, ColourImage):
@@ -214,8 +216,8 @@ class Perception:
         seen: list[Observation] = []
         if found is not None:
             azimuths = (-angle_of(image, found.column),)
-            look = self._detector.appearance
-            seen = [observe_trim(image, found, place, axes, look, tracks)]
+            view = image, found, place, axes, self._detector.appearance
+            seen = [observe_trim(*view, tracks, near=self._calm)]
         self.reports.append(FrameReport(image, azimuths, colour=found))
         self._observe(seen, image, place, axes, named=True)
 
@@ -233,15 +235,14 @@ class Perception:
         azimuths = tuple(o.azimuth for o in scene.obstacles)
         azimuths += tuple(s.azimuth for s in scene.shadows)
         self.reports.append(FrameReport(image, azimuths, depth=scene))
-        believed = None
+        there = None
         if self.floor is not None:
             other = self._attention.main(self._tracker, now, *own)
-            believed = None if other is None else other.place_at(image.time)
+            there = None if other is None else other.place_at(image.time)
             sure = other is not None and now - other.seen_at < SURE
-            there = believed if sure else None
-            self.floor.take(image, place, axes, own, there)
+            self.floor.take(image, place, axes, own, there if sure else None)
         whole, cut = observe_obstacles(
-            image, scene.obstacles, self.floor, believed
+            image, scene.obstacles, self.floor, there
         )
         self._observe(whole, image, place, axes, named=False, cut=cut)
         for shadow in scene.shadows if self.floor is None else ():
@@ -287,9 +288,8 @@ class Perception:
         half = 0.85 * abs(angle_of(image, 0.0))
         x, y = float(place[0]), float(place[1])
         for track in self._tracker.tracks:
-            if track in updated:
-                continue
-            if named and image.time - track.identified_at > UNSEEN:
+            late = image.time - track.identified_at > UNSEEN
+            if track in updated or (named and late):
                 continue
             if self.floor is not None and isinstance(image, DepthImage):
                 # What is so near it does not measure.

@@ -8,10 +8,8 @@ import numpy as np
 
 from ..poses import Array
 
-RESTLESS = 1.0  # acceleration that things have, in [m/s^2]
 HOLD = 0.4  # how long a speed is believed unseen, in [s]
 DECAY = 0.7  # time in which it is forgotten thereafter, in [s]
-HURRY = 0.25  # speed that a thing may have when first seen, in [m/s]
 WINDOW = 5  # frames that are remembered for confirmation
 ENOUGH = 3  # of them that must have found a thing
 GATE = 16.0  # squared distance, in deviations, beyond which it is another
@@ -22,6 +20,22 @@ LEAST = 0.35  # that they must span to tell a velocity, in [s]
 LAPSE = 0.3  # without a look, after which a new one begins, in [s]
 HEARD = 0.2  # deviation across that only an ear has, in [m]
 WALKED = 0.2  # way from where it was first seen sharply that is none, in [m]
+
+
+class Motion(NamedTuple):
+    """How things move that are followed.
+
+    Attributes:
+        push: Acceleration that they have, in [m/s^2].
+        hurry: Speed that one may have when it is first seen, in [m/s].
+    """
+
+    push: float
+    hurry: float
+
+
+ANYBODY = Motion(1.0, 0.25)
+WALKER = Motion(0.3, 0.1)  # a humanoid robot among things that rest
 
 
 class Observation(NamedTuple):
@@ -76,9 +90,11 @@ class Track:
         number: Tells it from others.
     """
 
-    def __init__(self, first: Observation, number: int = 0) -> None:
+    def __init__(
+        self, first: Observation, number: int = 0, motion: Motion = ANYBODY
+    ) -> None:
         """Begin with a first observation."""
-        self.number = number
+        self.number, self._push = number, motion.push
         self.walked = False
         self.sighted_at = -inf
         self._first: tuple[float, float] | None = None
@@ -92,7 +108,7 @@ class Track:
         self._state = np.array([first.x, first.y, 0.0, 0.0])
         self._covariance = np.zeros((4, 4))
         self._covariance[:2, :2] = first.covariance
-        self._covariance[2, 2] = self._covariance[3, 3] = HURRY**2
+        self._covariance[2, 2] = self._covariance[3, 3] = motion.hurry**2
         self._hits: deque[bool] = deque([True], maxlen=WINDOW)
         self._mark(first)
 
@@ -229,7 +245,7 @@ class Track:
         move = np.diag([1.0, 1.0, kept, kept])
         move[0, 2] = move[1, 3] = ahead
         covariance = move @ self._covariance @ move.T
-        push = RESTLESS**2 * np.array(
+        push = self._push**2 * np.array(
             [[0.25 * step**4, 0.5 * step**3], [0.5 * step**3, step**2]]
         )
         # White noise within the step: it must not depend on how it is cut.

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from itertools import count
 
-from .track import GATE, Observation, Track
+from .track import ANYBODY, GATE, Motion, Observation, Track
 
 IDENTITY = 5.0  # how long a thing stays the other robot unseen, in [s]
 PATIENCE = 4.0  # how long a confirmed thing is remembered, in [s]
@@ -26,8 +26,13 @@ class Tracker:
         tracks: Everything followed.
     """
 
-    def __init__(self) -> None:
-        """Follow nothing yet."""
+    def __init__(self, motion: Motion = ANYBODY) -> None:
+        """Follow nothing yet.
+
+        Args:
+            motion: How what is followed moves.
+        """
+        self._motion = motion
         self.tracks: list[Track] = []
         self._numbers = count(1)
 
@@ -62,7 +67,10 @@ class Tracker:
                 fresh.remove(best)
                 updated.append(track)
         if founds:
-            begun = [Track(each, next(self._numbers)) for each in fresh]
+            begun = [
+                Track(each, next(self._numbers), self._motion)
+                for each in fresh
+            ]
             self.tracks += begun
             updated += begun
         return updated

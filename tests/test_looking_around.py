@@ -1,0 +1,68 @@
+"""Test the look around before a game begins."""
+
+from math import radians
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from made_up_eyes import HEAD
+from stepaside.perception.gaze import Gaze
+from stepaside.perception.looking_around import BEHIND, LONGEST, LookAround
+from stepaside.poses import Array
+
+TICK = 0.02
+HALF = radians(29.0)  # of the view of the depth camera
+BEGINS, RATE = 0.8, -0.46  # of a turn on the spot, in [s] and [rad/s]
+
+
+def looked(
+    *, behind: bool, rate: float = RATE
+) -> tuple[float, Array, LookAround]:
+    """How long a look takes, in [s], and where the eyes were turned."""
+    gaze, around = Gaze(HEAD.coupling, TICK), LookAround(behind=behind)
+    now, turned = 0.0, []
+    while around.lasts(gaze):
+        heading = rate * max(0.0, now - BEGINS)
+        around.look(gaze, now, heading)
+        turned.append(heading + gaze.yaw)
+        now += TICK
+        assert now < 60.0
+    return now, np.array(turned), around
+
+
+def share_seen(turned: Array) -> float:
+    """Share of the directions that were in view."""
+    around = np.linspace(-np.pi, np.pi, 721)
+    off = np.abs((around[:, None] - turned + np.pi) % (2.0 * np.pi) - np.pi)
+    return float((off < HALF).any(axis=1).mean())
+
+
+def test_a_head_alone_does_not_see_what_is_behind() -> None:
+    lasted, turned, _ = looked(behind=False, rate=0.0)
+    assert 1.8 < lasted < 2.3 and 0.7 < share_seen(turned) < 0.85
+
+
+def test_a_body_that_turns_has_seen_all_around() -> None:
+    """And no later than it has turned as far as it must."""
+    lasted, turned, _ = looked(behind=True)
+    assert share_seen(turned) > 0.99
+    assert lasted == pytest.approx(BEGINS + BEHIND / -RATE, abs=0.1)
+    assert share_seen(looked(behind=False)[1]) < 0.95
+
+
+def test_a_turn_that_does_not_come_is_not_waited_for_ever() -> None:
+    lasted, turned, _ = looked(behind=True, rate=0.0)
+    assert lasted == pytest.approx(LONGEST, abs=0.1)
+    assert turned.min() == pytest.approx(-radians(115.0), abs=0.01)
+
+
+def test_a_game_begins_when_everybody_has_looked() -> None:
+    _, _, around = looked(behind=False)
+    gaze = SimpleNamespace(turned=2)
+    other = SimpleNamespace(looking=True)
+    assert not around.lasts(gaze)  # type: ignore[arg-type]
+    around.company.append(other)
+    assert around.lasts(gaze)  # type: ignore[arg-type]
+    other.looking = False
+    assert not around.lasts(gaze)  # type: ignore[arg-type]
