@@ -5,7 +5,10 @@ from math import pi
 import numpy as np
 import pytest
 
+from made_up_robot import TICK as FAKE_TICK
+from made_up_robot import FakeStrategy, Run, measure
 from stepaside.control.turning import LEAST, MOST, TurnShare
+from stepaside.sensing.measurement import Measurement
 
 TICK = 0.012
 BIAS = 0.01  # [rad/s]
@@ -55,8 +58,45 @@ def test_what_was_long_ago_is_forgotten() -> None:
     assert walked(turns, 1.05)[-1] == pytest.approx(1.05, abs=0.01)
 
 
+def test_what_is_asked_for_is_made() -> None:
+    turns = stood()
+    assert turns.asked(1.2) == 1.2
+    walked(turns, 0.9)
+    for heading in (-1.6, -0.3, 0.0, 0.8, 1.6):
+        assert turns.share * turns.asked(heading) == pytest.approx(heading)
+    assert turns.asked(-3.1) == -pi and turns.asked(3.1) == pi
+
+
 def test_nothing_is_believed_without_a_bias_a_turn_or_a_reason() -> None:
     assert set(walked(TurnShare(TICK), 0.9)) == {1.0}
     assert set(walked(stood(), 0.9, rate=0.01)) == {1.0}
     assert walked(stood(), 0.2)[-1] == LEAST
     assert walked(stood(), 3.0)[-1] == MOST
+
+
+def turn_of_a_step(made: float, *, learns: bool) -> float:
+    """Turn that is asked of the last step of one that walks a circle."""
+    run = Run(FakeStrategy(heading=0.4))
+    decisions = run.scheme.decisions
+    decisions.turns = TurnShare(FAKE_TICK) if learns else None
+    believed = 0.0
+    for tick in range(round(40.0 / FAKE_TICK)):
+        now = tick * FAKE_TICK
+        heading = decisions.templates.at(now).theta
+        rate, believed = made * (heading - believed) / FAKE_TICK, heading
+        run.scheme.update(turned(now, rate))
+        if run.scheme.begun is not None:
+            run.steps.append(run.scheme.begun)
+    return run.landings[-1][2].theta - run.landings[-3][2].theta
+
+
+def turned(now: float, rate: float) -> Measurement:
+    return measure(now)._replace(gyro=np.array([0.0, 0.0, rate + BIAS]))
+
+
+def test_a_robot_whose_feet_twist_turns_as_it_wants() -> None:
+    wanted = turn_of_a_step(0.9, learns=False)
+    assert wanted == turn_of_a_step(1.0, learns=False) > 0.05
+    asked = turn_of_a_step(0.9, learns=True)
+    assert 0.9 * asked == pytest.approx(wanted, rel=0.01)
+    assert turn_of_a_step(1.0, learns=True) == pytest.approx(wanted, rel=1e-3)

@@ -19,6 +19,7 @@ from .clearance.outline import BodyOutline, sway_of
 from .clearance.surroundings import Surroundings
 from .scheme import ControlScheme
 from .senses import CameraSight, GivenSight
+from .turning import TurnShare
 
 if TYPE_CHECKING:
     from ..perception.perception import Perception
@@ -110,7 +111,7 @@ def build_scheme(
         ReachError: If the robot cannot stand as the gait asks.
     """
     kinematics = LegKinematics(description, tick=tick)
-    return ControlScheme(
+    scheme = ControlScheme(
         strategy,
         gait,
         kinematics,
@@ -132,6 +133,9 @@ def build_scheme(
         if clearance is None
         else guard_of(clearance, gait, control),
     )
+    if control.learn_turns:
+        scheme.decisions.turns = TurnShare(tick)
+    return scheme
 
 
 def guard_of(

@@ -8,13 +8,14 @@ from ..errors import StrategyError
 from ..planning import Direction, Foot, GaitSettings
 from ..planning.template import passed_beside
 from ..poses import Pose, wrap_angle
-from ..sensing.measurement import Sighting
+from ..sensing.measurement import Measurement, Sighting
 from ..strategies.knowledge import Intent, Knowledge, Limits
 from ..strategies.rates import FloorVelocity, SightRates
 from ..strategies.strategy import Strategy
 from .clearance.surroundings import OpenFloor, Surroundings
 from .memory import Memory
 from .pace import next_pace
+from .turning import TurnShare
 
 # Of who looks around first: a turn on the spot, away from where the head looks
 # first, so that it sees behind the robot what it could not before.
@@ -31,6 +32,7 @@ class Decisions:
         headings: Past headings of the torso in odometry, in [rad], from
             which sightings count.
         templates: Past poses of the unicycle that stands for the body.
+        turns: How much of its turns the body makes; None for all of them.
     """
 
     def __init__(
@@ -54,6 +56,7 @@ class Decisions:
         self.pace = 1.0
         self.headings: Memory[float] = Memory(tick)
         self.templates: Memory[Pose] = Memory(tick)
+        self.turns: TurnShare | None = None
         self._step_duration = gait.step_duration
         self._spacing = gait.foot_spacing
         self._whom = 0
@@ -66,6 +69,18 @@ class Decisions:
         """Know nothing of how the other moves."""
         self._rates = SightRates(self._step_duration)
         self._drift = FloorVelocity(self._step_duration)
+
+    def feel(self, measurement: Measurement, *, stands: bool) -> None:
+        """Take in how the body turns, if that is to be learnt.
+
+        Args:
+            measurement: What the sensors give.
+            stands: Whether the robot stands still.
+        """
+        if self.turns is not None:
+            believed = self.templates.at(measurement.time).theta
+            rate = float(measurement.gyro[2])
+            self.turns.note(rate, believed, stands=stands)
 
     def adopt(self, strategy: Strategy) -> None:
         """Follow another strategy from the next decision on.
@@ -136,6 +151,8 @@ class Decisions:
             there = self._around.frame.compose(begins)
             known = replace(known, begins=there)
         intent, self.memory = self._ask(known)
+        if self.turns is not None:
+            intent = replace(intent, heading=self.turns.asked(intent.heading))
         self.pace = next_pace(self.pace, intent.pace, standing=not moving)
         if intent.pace != self.pace:
             intent = replace(intent, pace=self.pace)

@@ -123,6 +123,7 @@ class ControlScheme:
         now, balance = measurement.time, self.balance
         measured = balance.torso_heading
         known = self.kinematics.torso_heading if measured is None else measured
+        self.decisions.feel(measurement, stands=self.plan is None)
         late = self._delay if measured is None else 0.0
         self.decisions.headings.note(now + late, known)
         self.sighting = self.senses.see(measurement, self.step, balance.tilt)
@@ -134,8 +135,7 @@ class ControlScheme:
         elif now >= self._plan_ends - 1e-9:
             self._finish(self.plan)
         sample = self._resting if self.plan is None else self._table.at(now)
-        arrives = now + self._late
-        self.decisions.templates.note(arrives, sample.template)
+        self.decisions.templates.note(now + self._late, sample.template)
         self.zmp_reference = sample.zmp
         self.reference = balance.update(measurement, sample, self.step)
         if balance.has_fallen:

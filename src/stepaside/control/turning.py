@@ -1,6 +1,6 @@
 """How much of a turn is made, by the gyro."""
 
-from math import exp
+from math import exp, pi
 
 from ..poses import wrap_angle
 
@@ -31,6 +31,13 @@ class TurnShare:
         self._made = self._believed = 0.0
         self._heading: float | None = None
         self.share = 1.0
+
+    def asked(self, heading: float) -> float:
+        """What to ask for so that a heading is what is made, in [rad].
+
+        The template turns in proportion to the desired heading (eq. (2)).
+        """
+        return min(max(heading / self.share, -pi), pi)
 
     def note(self, rate: float, heading: float, *, stands: bool) -> None:
         """Take one reading.

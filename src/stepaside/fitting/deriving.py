@@ -128,6 +128,7 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
         control={
             "method": "measured" if weak else "closed-form",
             "feedback": weak,
+            "learn_turns": True,
             "stabiliser": stabiliser_of(size),
         },
         game=game_of_size(size, gait),

@@ -37,6 +37,11 @@ GAIN_WHY = {
     "joint_leak": "[1/s]",
     "load_share": "what the servos give way under load is asked beforehand",
 }
+HOW = {
+    "method": "",
+    "feedback": "",
+    "learn_turns": "feet twist on the floor: turns are made whole by the gyro",
+}
 GAME_WHY = {
     "safety_radius": "[m]: 0.89 of the distance on the circle",
     "start_least": "[m]: nearer, what reaches out would touch",
@@ -94,7 +99,7 @@ def write_description(derived: Derived) -> str:
         "# Stiff joints alone carry many robots; `stepaside robot check`",
         "# says whether they do, `robot tune` writes what is better.",
         "[control]",
-        *_lines({k: own.control[k] for k in ("method", "feedback")}),
+        *_lines({k: own.control[k] for k in HOW}, HOW),
         "",
         "# By the height of the CoM and the time of its pendulum.",
         *_table("control.stabiliser", own.control["stabiliser"], GAIN_WHY),

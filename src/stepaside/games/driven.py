@@ -49,6 +49,7 @@ class DrivenWalker(Walker):
         self.commander: Commander | None = None
         self.scheme.senses = GivenSight(SOMEBODY)
         self.scheme.decisions.adopt(Stand())
+        self.scheme.decisions.turns = None  # learnt here, by what was told
         self._offers_sight = offers_sight
         self._under_way: Direction | None = None
         self._velocity = REST

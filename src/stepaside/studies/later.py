@@ -7,7 +7,7 @@ LATER = (
     *("start.least", "start.near", "start.far"),
     *("strategy.trigger", "strategy.contact_time", "strategy.clearance"),
     *("strategy.calmest", "control.stabiliser.stride_bound"),
-    "control.stabiliser.load_share",
+    *("control.stabiliser.load_share", "control.learn_turns"),
     *("gait.outer_stride", "gait.swing_profile", "gait.swing_reaction"),
     *("person.halt_after", "person.turn_after", "person.turn"),
     *("person.backward", "person.figure"),

@@ -162,6 +162,12 @@ CONTROL = Group(
         METHOD,
         FEEDBACK,
         Declaration(
+            "--learn-turns/--no-learn-turns",
+            "Learn by the gyro how much of a turn the feet make, and ask for "
+            "as much more.",
+            "control.learn_turns",
+        ),
+        Declaration(
             "--mpc-steps",
             "Steps in the horizon of the MPC",
             "control.mpc.steps",
