@@ -5,7 +5,13 @@ from math import atan2, pi
 import numpy as np
 import pytest
 
-from stepaside.perception.floor_map import CELL, START, FloorMap, _centres
+from stepaside.perception.floor_map import (
+    CELL,
+    START,
+    FloorMap,
+    _broad,
+    _centres,
+)
 from stepaside.poses import Array
 from stepaside.rooms import Disc, Obstacle, box
 from stepaside.rooms.covering import cover
@@ -179,3 +185,25 @@ def test_columns_beside_what_is_too_near_show_no_floor_there() -> None:
     beyond = np.array([[0.6, 0.35], [0.6, -0.35], [1.2, 0.5]])
     gaps = np.hypot(*(shown[:, None] - beyond).transpose(2, 0, 1))
     assert gaps.min(axis=0).max() < CELL  # and what is clear of it does
+
+
+@pytest.mark.parametrize("width", [8, 21])
+def test_few_columns_are_read_too(width: int) -> None:
+    camera = CameraModel.of_field_of_view(width, 8, 1.01, 0.785)
+    depths = np.full((8, width), 2.0, np.float32)
+    depths[:, width // 2] = 0.0
+    seen = FloorMap()
+    image = DepthImage(0.0, camera, depths, 0.8, FAR)
+    seen.take(image, np.array([0.0, 0.0, EYE]), np.eye(3), (0.0, 0.0), None)
+    assert seen.version == 1
+
+
+def test_the_rim_of_what_is_unseen_is_unseen() -> None:
+    """Round things are not shorn; strips are noise."""
+    hidden = np.zeros((12, 12), dtype=np.bool_)
+    hidden[3:7, 4:8] = True
+    hidden[2, 5:7] = hidden[7, 5:7] = hidden[4:6, 3] = hidden[4:6, 8] = True
+    assert (_broad(hidden) == hidden).all()
+    strip = np.zeros((12, 12), dtype=np.bool_)
+    strip[4:6] = True
+    assert not _broad(strip).any()

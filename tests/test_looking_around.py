@@ -20,7 +20,8 @@ def looked(
     *, behind: bool, rate: float = RATE
 ) -> tuple[float, Array, LookAround]:
     """How long a look takes, in [s], and where the eyes were turned."""
-    gaze, around = Gaze(HEAD.coupling, TICK), LookAround(behind=behind)
+    gaze, around = Gaze(HEAD.coupling, TICK), LookAround()
+    around.behind = behind
     now, turned = 0.0, []
     while around.lasts(gaze):
         heading = rate * max(0.0, now - BEGINS)
@@ -58,11 +59,16 @@ def test_a_turn_that_does_not_come_is_not_waited_for_ever() -> None:
 
 
 def test_a_game_begins_when_everybody_has_looked() -> None:
+    """Or who does not look is waited for no longer."""
     _, _, around = looked(behind=False)
-    gaze = SimpleNamespace(turned=2)
+    gaze = SimpleNamespace(turned=2, search=lambda **_: None)
     other = SimpleNamespace(looking=True)
     assert not around.lasts(gaze)  # type: ignore[arg-type]
     around.company.append(other)
     assert around.lasts(gaze)  # type: ignore[arg-type]
+    around.look(gaze, 100.0, 0.0)  # type: ignore[arg-type]
+    assert not around.lasts(gaze)  # type: ignore[arg-type]
+    _, _, around = looked(behind=False)
     other.looking = False
+    around.company.append(other)
     assert not around.lasts(gaze)  # type: ignore[arg-type]

@@ -274,7 +274,6 @@ def test_who_maps_a_room_begins_when_the_evader_has_looked_behind() -> None:
     arounds = {name: each.around for name, each in mapping.items()}
     assert arounds["pursuer"].company == [mapping["evader"]]
     assert arounds["evader"].company == []
-    assert arounds["evader"]._behind and not arounds["pursuer"]._behind
     assert mapping["pursuer"].looking and mapping["evader"].looking
     for each in prepared().perceptions.values():
         assert not each.looking and not each.around.company

@@ -1,13 +1,13 @@
 """Test what a gyro tells of turns that are believed."""
 
-from math import pi
+from math import nan, pi
 
 import numpy as np
 import pytest
 
 from made_up_robot import TICK as FAKE_TICK
 from made_up_robot import FakeStrategy, Run, measure
-from stepaside.control.turning import LEAST, MOST, TurnShare
+from stepaside.control.turning import LEAST, MOST, RESTED, TurnShare
 from stepaside.sensing.measurement import Measurement
 
 TICK = 0.012
@@ -65,6 +65,7 @@ def test_what_is_asked_for_is_made() -> None:
     for heading in (-1.6, -0.3, 0.0, 0.8, 1.6):
         assert turns.share * turns.asked(heading) == pytest.approx(heading)
     assert turns.asked(-3.1) == -pi and turns.asked(3.1) == pi
+    assert turns.asked(4.0) == 4.0  # as by (8), where a turn is not wrapped
 
 
 def test_nothing_is_believed_without_a_bias_a_turn_or_a_reason() -> None:
@@ -92,6 +93,22 @@ def turn_of_a_step(made: float, *, learns: bool) -> float:
 
 def turned(now: float, rate: float) -> Measurement:
     return measure(now)._replace(gyro=np.array([0.0, 0.0, rate + BIAS]))
+
+
+def test_a_reading_that_is_no_number_tells_nothing() -> None:
+    turns = stood()
+    turns.note(nan, 0.0, stands=False)
+    turns.note(nan, 0.0, stands=True)
+    assert walked(turns, 0.9)[-1] == pytest.approx(0.9, abs=0.01)
+
+
+def test_who_learns_stands_until_the_bias_of_the_gyro_is_known() -> None:
+    run = Run()
+    run.scheme.decisions.turns = turns = TurnShare(FAKE_TICK)
+    run.until(RESTED - 2 * FAKE_TICK)
+    assert run.replans == 0 and not turns.rested
+    run.until(RESTED + 2 * FAKE_TICK)
+    assert run.replans == 1 and turns.rested
 
 
 def test_a_robot_whose_feet_twist_turns_as_it_wants() -> None:

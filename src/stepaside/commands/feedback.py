@@ -18,6 +18,7 @@ def with_feedback(settings: "DuelSettings") -> "DuelSettings":
     source = click.get_current_context().get_parameter_source
     asked = (source("control__feedback"), source("control__method"))
     said = any(one is not ParameterSource.DEFAULT for one in asked)
-    if said or settings.control != OPEN_LOOP:
+    learns = settings.control.learn_turns
+    if said or replace(settings.control, learn_turns=False) != OPEN_LOOP:
         return settings
-    return replace(settings, control=STABILISED)
+    return replace(settings, control=replace(STABILISED, learn_turns=learns))

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..planning import GaitSettings, ManeuverPlanner
+from ..planning import Direction, GaitSettings, ManeuverPlanner
 from ..robots.description import RobotDescription
 from ..robots.forward import ForwardKinematics
 from ..robots.kinematics import LegKinematics
@@ -111,6 +111,8 @@ def build_scheme(
         ReachError: If the robot cannot stand as the gait asks.
     """
     kinematics = LegKinematics(description, tick=tick)
+    if perception is not None:
+        perception.around.behind = strategy.direction is Direction.BACKWARD
     scheme = ControlScheme(
         strategy,
         gait,

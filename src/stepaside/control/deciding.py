@@ -98,6 +98,7 @@ class Decisions:
     ) -> bool:
         """Whether a robot that stands is to walk.
 
+        Who learns how much of a turn it makes stands for a while first.
         Who walks backward turns its back while it looks around: the floor
         straight behind it is in no image, and is where it will go.
 
@@ -113,6 +114,8 @@ class Decisions:
         Raises:
             StrategyError: If the strategy gives no intent.
         """
+        if self.turns is not None and not self.turns.rested:
+            return False
         if seen is None:
             back = self.strategy.direction is Direction.BACKWARD
             return looking and back

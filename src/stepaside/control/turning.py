@@ -1,10 +1,11 @@
 """How much of a turn is made, by the gyro."""
 
-from math import exp, pi
+from math import exp, isfinite, pi
 
 from ..poses import wrap_angle
 
 FORGETS = 10.0  # time over which turns count, in [s]: some cycles of a gait
+RESTED = 1.0  # standing that tells a bias in spite of noise, in [s]
 ENOUGH = 0.3  # turn that tells something, in [rad]
 LEAST, MOST = 0.8, 1.25  # share of a turn that is believed
 
@@ -32,12 +33,18 @@ class TurnShare:
         self._heading: float | None = None
         self.share = 1.0
 
+    @property
+    def rested(self) -> bool:
+        """Whether it stood long enough to know the bias of its gyro."""
+        return self._stood * self._tick >= RESTED
+
     def asked(self, heading: float) -> float:
         """What to ask for so that a heading is what is made, in [rad].
 
         The template turns in proportion to the desired heading (eq. (2)).
         """
-        return min(max(heading / self.share, -pi), pi)
+        most = max(pi, abs(heading))
+        return min(max(heading / self.share, -most), most)
 
     def note(self, rate: float, heading: float, *, stands: bool) -> None:
         """Take one reading.
@@ -47,6 +54,8 @@ class TurnShare:
             heading: As the robot believes it, unwrapped, in [rad].
             stands: Whether it stands still.
         """
+        if not isfinite(rate):
+            return
         last, self._heading = self._heading, heading
         if stands:
             self._stood += 1

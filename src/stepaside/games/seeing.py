@@ -91,7 +91,6 @@ class Seeing:
                 floor=FloorMap() if self._maps else None,
                 glances=GLANCES[name] if self._maps else None,
                 people=self._people,
-                behind=self._maps and name == "evader",
             )
             for name in names
         }

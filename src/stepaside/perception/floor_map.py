@@ -18,7 +18,7 @@ LOW, HIGH = 0.07, 0.7  # of what a body runs into, in [m]
 LEVEL = 0.5  # below which a ray shows that the floor is free, in [m]
 SELF = 0.22  # what is nearer to the own axis is the robot itself, in [m]
 OTHER = 0.32  # what is nearer to the other player belongs to it, in [m]
-BLUR = 9  # columns, of 0.7 degrees each, that one may stand for
+BLUR = 0.05  # by which the direction of a column may be off, in [rad]
 SHORT = 0.1  # by which evidence ends before what a ray struck, in [m]
 BRIEF = 0.03  # by which what a ray shows ends before that, in [m]
 START = 0.35  # of floor that is free around a robot that begins, in [m]
@@ -95,7 +95,10 @@ class FloorMap:
             apart = points[..., :2] - np.array(other)
             theirs = np.hypot(apart[..., 0], apart[..., 1]) < OTHER
         low = there & (level < LEVEL)
-        self._pass(flat, away, low, struck, own, image.near)
+        beside = round(BLUR * image.camera.focal_x)
+        blocked = _beside(np.asarray(~low.any(axis=0)), beside)
+        begin = np.where(blocked, image.near, FIRST)
+        self._pass(flat, away, low, struck, own, begin)
         # One pixel alone may be noise.
         hit = self._counts(points[struck & ~theirs][:, :2]) > 1
         self._evidence[hit] += STRUCK
@@ -113,13 +116,13 @@ class FloorMap:
         low: NDArray[np.bool_],
         struck: NDArray[np.bool_],
         own: tuple[float, float],
-        near: float,
+        begin: Array,
     ) -> None:
         """Take evidence away along the rays of each column.
 
         What is too near for any depth blocks all of a column. Where the head
         looked is known to a few degrees while it turns: columns beside such
-        a one tell nothing of what is as near.
+        a one begin to tell something where depth does.
         """
         far = np.where(low, away, 0.0)
         row = far.argmax(axis=0)
@@ -129,10 +132,8 @@ class FloorMap:
         good = np.minimum(reach, first) > FIRST
         if not good.any():
             return
-        blocked = np.convolve(reach == 0.0, np.ones(BLUR), "same") > 0.5
-        begin = np.where(blocked, near, FIRST)[good]
         ahead = flat[row, columns][good] / far[row, columns][good][:, None]
-        reach, first = reach[good], first[good]
+        reach, first, begin = reach[good], first[good], begin[good]
         shown = np.minimum(reach, first - BRIEF)
         self._seen |= self._along(own, ahead, begin, shown)
         passed = np.minimum(reach, first - SHORT)
@@ -261,10 +262,21 @@ class FloorMap:
 
 
 def _broad(chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Cells of squares of three by three that are chosen; less is noise."""
+    """Cells of squares of three by three that are chosen, and beside them.
+
+    Strips that are narrower are noise; the rim of something round is not.
+    """
     whole = sliding_window_view(chosen, (3, 3)).all(axis=(2, 3))
-    wide = sliding_window_view(np.pad(whole, 2), (3, 3))
-    found: NDArray[np.bool_] = np.any(wide, axis=(2, 3))
+    square = sliding_window_view(np.pad(whole, 2), (3, 3)).any(axis=(2, 3))
+    wide = sliding_window_view(np.pad(square, 1), (3, 3))
+    found: NDArray[np.bool_] = np.any(wide, axis=(2, 3)) & chosen
+    return found
+
+
+def _beside(chosen: NDArray[np.bool_], steps: int) -> NDArray[np.bool_]:
+    """Columns that are chosen, and those within some steps of them."""
+    wide = sliding_window_view(np.pad(chosen, steps), 2 * steps + 1)
+    found: NDArray[np.bool_] = np.any(wide, axis=1)
     return found
 
 

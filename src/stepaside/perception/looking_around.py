@@ -9,7 +9,7 @@ BOTH = 2  # ends of a scan
 # How far the body turns so that the head sees what was behind it: it reaches
 # 115 degrees to either side, and its camera 29 more.
 BEHIND = 1.3  # [rad]
-LONGEST = 8.0  # that a turn is waited for, in [s]
+LONGEST = 8.0  # that a turn, or somebody else, is waited for, in [s]
 
 
 class Looker(Protocol):
@@ -29,22 +29,22 @@ class LookAround:
     everybody has.
 
     Attributes:
-        company: Who is waited for.
+        company: Who is waited for, if not for ever.
+        behind: Whether the body turns, and what is behind is looked at.
     """
 
-    def __init__(self, *, behind: bool) -> None:
-        """Have seen nothing yet.
-
-        Args:
-            behind: Whether the body turns, and what is behind is looked at.
-        """
+    def __init__(self) -> None:
+        """Have seen nothing yet."""
         self.company: list[Looker] = []
-        self._behind = behind
+        self.behind = False
         self._began: tuple[float, float] | None = None
+        self._late = False
 
     def lasts(self, gaze: Gaze) -> bool:
         """Whether there is something left to look at, or somebody."""
-        return gaze.turned < BOTH or any(each.looking for each in self.company)
+        if gaze.turned < BOTH:
+            return True
+        return not self._late and any(each.looking for each in self.company)
 
     def look(self, gaze: Gaze, now: float, heading: float) -> None:
         """Turn the head on.
@@ -58,5 +58,6 @@ class LookAround:
             self._began = now, heading
         time, before = self._began
         turned = abs(wrap_angle(heading - before)) >= BEHIND
-        done = not self._behind or turned or now - time >= LONGEST
+        self._late = now - time >= LONGEST
+        done = not self.behind or turned or self._late
         gaze.search(stay=not done and gaze.turned == BOTH - 1)

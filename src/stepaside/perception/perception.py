@@ -61,7 +61,6 @@ class Perception:
         floor: FloorMap | None = None,
         glances: float | None = None,
         people: bool = False,
-        behind: bool = False,
     ) -> None:
         """Know the own body and what the other looks like.
 
@@ -74,12 +73,11 @@ class Perception:
             glances: Time between two looks over its shoulders, to see the
                 floor that it walks backward onto, in [s]; None for none.
             people: Whether people come, who wear no trim.
-            behind: Whether it turns to look behind itself at first.
         """
         self._attention: Attention = People() if people else OneRobot()
         self._people = people
         self.floor = floor
-        self.around = LookAround(behind=behind)
+        self.around = LookAround()
         self._lower = LowerCamera(head.bottom, people=people, floor=floor)
         self._glances = None if glances is None else Glances(tick, glances)
         self._head = head

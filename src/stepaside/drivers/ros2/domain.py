@@ -116,8 +116,9 @@ class Dds:
         A participant that lives on keeps the configuration of its domain for
         all that come after it in this process.
         """
-        self._topics.clear()
-        self.participant.__del__()  # the package has no other way to say it
+        with MAKING:
+            self._topics.clear()
+            self.participant.__del__()  # there is no other way to say it
         del self.participant
 
 
