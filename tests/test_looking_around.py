@@ -6,10 +6,17 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from made_up_eyes import HEAD
+from made_up_eyes import HEAD, NAO
+from made_up_robot import GAIT, FakeStrategy
+from stepaside.control.assembly import build_scheme
+from stepaside.control.balance.settings import OPEN_LOOP
+from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.gaze import Gaze
 from stepaside.perception.looking_around import BEHIND, LONGEST, LookAround
+from stepaside.perception.perception import Perception
+from stepaside.planning import Direction
 from stepaside.poses import Array
+from stepaside.sensing.colour_detector import RED
 
 TICK = 0.02
 HALF = radians(29.0)  # of the view of the depth camera
@@ -72,3 +79,19 @@ def test_a_game_begins_when_everybody_has_looked() -> None:
     other.looking = False
     around.company.append(other)
     assert not around.lasts(gaze)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("direction", list(Direction))
+def test_who_walks_backward_looks_behind(direction: Direction) -> None:
+    """Whatever its role: only that one turns its back meanwhile."""
+    perception = Perception(NAO, HEAD, RED, tick=TICK, floor=FloorMap())
+    assert not perception.around.behind
+    build_scheme(
+        FakeStrategy(direction=direction),
+        NAO,
+        GAIT,
+        OPEN_LOOP,
+        tick=TICK,
+        perception=perception,
+    )
+    assert perception.around.behind is (direction is Direction.BACKWARD)

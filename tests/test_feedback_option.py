@@ -1,0 +1,46 @@
+"""Test that feedback comes to who needs it, unless somebody says otherwise."""
+
+from dataclasses import replace
+
+import click
+import pytest
+from click.core import ParameterSource
+
+from stepaside.commands.feedback import with_feedback
+from stepaside.control.balance.settings import (
+    OPEN_LOOP,
+    STABILISED,
+    ControlSettings,
+)
+from stepaside.games.settings import DuelSettings
+
+LEARNS = replace(OPEN_LOOP, learn_turns=True)
+
+
+def chosen(control: ControlSettings, *said: str) -> ControlSettings:
+    """Control of settings after an option of the command was or was not."""
+    with click.Context(click.Command("serve")) as context:
+        for name in ("control__feedback", "control__method"):
+            given = name in said
+            source = ParameterSource.COMMANDLINE if given else None
+            context.set_parameter_source(
+                name, source or ParameterSource.DEFAULT
+            )
+        return with_feedback(DuelSettings(control=control)).control
+
+
+@pytest.mark.parametrize("name", ["control__feedback", "control__method"])
+def test_what_is_said_holds(name: str) -> None:
+    assert chosen(OPEN_LOOP, name) == OPEN_LOOP
+
+
+def test_whoever_says_nothing_gets_feedback() -> None:
+    assert chosen(OPEN_LOOP) == STABILISED
+    mpc = ControlSettings("mpc", feedback=True)
+    assert chosen(mpc) == mpc
+
+
+def test_to_learn_turns_takes_no_feedback_away() -> None:
+    """A real robot's joints would walk in open loop."""
+    assert chosen(LEARNS) == replace(STABILISED, learn_turns=True)
+    assert chosen(LEARNS, "control__feedback") == LEARNS
