@@ -158,17 +158,17 @@ class ControlSettings:
             footsteps keep to the free side of half planes. The last two need
             feedback.
         feedback: Whether to estimate the state and stabilise the walk.
-        learn_turns: Whether to learn by the gyro how much of a turn is made,
-            and to ask for as much more: feet twist on the floor.
         stabiliser: Gains of the feedback.
         mpc: Horizon and weights of the MPC.
+        learn_turns: Whether to learn by the gyro how much of a turn is made,
+            and to ask for as much more: feet twist on the floor.
     """
 
     method: Method = "closed-form"
     feedback: bool = False
-    learn_turns: bool = False
     stabiliser: StabiliserSettings = field(default_factory=StabiliserSettings)
     mpc: MpcSettings = field(default_factory=MpcSettings)
+    learn_turns: bool = False
 
     def __post_init__(self) -> None:
         """Refuse an unknown method, and a measured state without sensors."""
