@@ -200,12 +200,13 @@ def test_a_mind_is_put_together_without_a_world(seen: Sighting | None) -> None:
 
 
 def test_a_mind_with_a_perception_sees_with_it() -> None:
-    eyes: Any = SimpleNamespace(forward=ForwardKinematics(NAO))
+    around = SimpleNamespace(behind=True)
+    eyes: Any = SimpleNamespace(forward=ForwardKinematics(NAO), around=around)
     mind = build_scheme(
         *(Pursuit(), NAO, GAIT, STABILISED), tick=0.004, perception=eyes
     )
     assert isinstance(mind.senses, CameraSight)
-    assert mind.senses.perception is eyes
+    assert mind.senses.perception is eyes and not around.behind
     assert isinstance(mind.balance, ClosedLoop)
     # The measured body is worked out once, for eyes and balance.
     assert mind.balance.stabiliser.estimator._kinematics is eyes.forward
