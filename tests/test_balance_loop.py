@@ -13,6 +13,7 @@ from stepaside.control.balance.loop import ClosedLoop, OpenLoop
 from stepaside.control.balance.settings import OPEN_LOOP, STABILISED
 from stepaside.control.reference import resting_sample, standing_reference
 from stepaside.control.senses import CameraSight, GivenSight
+from stepaside.control.turning import TurnShare
 from stepaside.planning import CenterState, GaitSettings
 from stepaside.poses import Pose
 from stepaside.robots.description import load_robot
@@ -197,6 +198,13 @@ def test_a_mind_is_put_together_without_a_world(seen: Sighting | None) -> None:
     targets = mind.update(measure(0.0, distance=None))
     assert mind.sighting == seen and (mind.plan is None) is (seen is None)
     assert targets is mind.joint_targets
+
+
+def test_a_mind_learns_turns_if_it_is_to() -> None:
+    for control in (OPEN_LOOP, replace(OPEN_LOOP, learn_turns=True)):
+        mind = build_scheme(Pursuit(), NAO, GAIT, control, tick=0.004)
+        learns = isinstance(mind.decisions.turns, TurnShare)
+        assert learns is control.learn_turns
 
 
 def test_a_mind_with_a_perception_sees_with_it() -> None:

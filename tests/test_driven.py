@@ -109,6 +109,16 @@ def test_a_robot_may_keep_to_itself_what_it_sees() -> None:
     assert silent.state().sighting is None
 
 
+def test_a_robot_that_is_driven_makes_up_for_its_turns_once() -> None:
+    """By what it is told; its own control would do so again."""
+    control = replace(SETTINGS.control, learn_turns=True)
+    duel = Duel(replace(SETTINGS, control=control), recorded=False)
+    player = duel.players[0]
+    assert isinstance(player, Walker)
+    assert player.scheme.decisions.turns is not None
+    assert DrivenWalker(player).scheme.decisions.turns is None
+
+
 def test_a_hardware_like_robot_turns_by_as_much_as_it_is_told() -> None:
     """Its feet twist and its joints give, which only the gyro can see."""
     hardware = replace(SETTINGS, seed=7, body=BODIES["hardware"])

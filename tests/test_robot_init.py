@@ -77,6 +77,7 @@ def test_what_is_written_is_what_was_derived(
     assert robot.legs == own.legs and robot.standing == own.standing
     assert robot.overlay == own.overlay and robot.place == own.place
     assert robot.gait == own.gait and robot.control == own.control
+    assert robot.control["learn_turns"] is True
     gait = settings_of(robot).gait
     assert gait.com_height == pytest.approx(found.size.com_height, abs=1e-4)
     assert gait.sole.front == pytest.approx(stranger.SOLE[1])
