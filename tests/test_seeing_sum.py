@@ -252,9 +252,8 @@ def test_the_walls_of_a_room_stand_beyond_every_start(
 ) -> None:
     """Whichever player begins far out, and on whichever side."""
     starts = [Pose(0.5, 0.0, 0.0), Pose(-0.5, 0.0, 0.0)]
-    far = [0.0, 0.0]
-    far[axis] = side * 4.5
-    starts[who] = Pose(*far, 0.0)
+    far = side * 4.5
+    starts[who] = Pose(far, 0.0, 0.0) if axis == 0 else Pose(0.0, far, 0.0)
     plan = Room(10.0, 10.0, starts=(starts[0], starts[1]))
     settings = with_start(DuelSettings(room=RoomSettings(plan=plan)))
     assert walls_of(settings) == pytest.approx(8.0)
