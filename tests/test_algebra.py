@@ -75,3 +75,27 @@ def test_rows_that_share_a_number_cost_no_division() -> None:
 def test_a_singular_matrix_is_refused() -> None:
     with pytest.raises(ZeroDivisionError):
         Factors([[1.0, 2.0], [2.0, 4.0]])
+
+
+@pytest.mark.parametrize("size", [3, 6])
+@pytest.mark.parametrize("corner", [0, -1])
+def test_what_is_zero_for_good_stays_zero(size: int, corner: int) -> None:
+    """An arrow: of its pivots only a row of the diagonal fills nothing."""
+    arrow = np.diag(RANDOM.uniform(1.0, 2.0, size))
+    arrow[corner, :] = arrow[:, corner] = RANDOM.uniform(1.0, 2.0, size)
+    arrow[corner, corner] = 9.0
+    factors = Factors(arrow.tolist())
+    assert sum(len(made) for _, _, made in factors._steps) == size - 1
+    right = RANDOM.uniform(-1, 1, size)
+    found = numbers(factors.solve(right.tolist()))
+    np.testing.assert_allclose(arrow @ found, right, atol=1e-12)
+
+
+def test_no_row_is_divided_by_what_is_nearly_zero() -> None:
+    """However many zeros are beside it."""
+    matrix = np.array([[1e-13, 1.0, 1.0], [1.0, 1.0, 0.5], [0.0, 1.0, 2.0]])
+    factors = Factors(matrix.tolist())
+    for row, column, _ in factors._steps:
+        assert abs(factors._rows[row][column]) > 0.01  # type: ignore[arg-type]
+    found = numbers(factors.solve([1.0, 2.0, 3.0]))
+    np.testing.assert_allclose(matrix @ found, [1, 2, 3], atol=1e-12)

@@ -172,6 +172,22 @@ def test_the_search_leaves_nothing_out(
     assert score == pytest.approx(expected, abs=1e-7)
 
 
+def test_a_branch_is_left_at_the_first_step_that_is_no_better() -> None:
+    """Both walk away from each other: the first step is the nearest."""
+    both = place(Pose(0.8, 0.0, pi), Pose(0.0, 0.0, pi))
+    turns = np.array([0.0, -0.1, 0.1, -0.2, 0.2])
+    law = Maneuvers(np.array([], int), turns, 12)
+    every = Maneuvers(np.array([2, 3]), turns, 12, spots=4)
+    aims = Aims(2.0, gain=0.01, tight=inf)
+    alone, found = (
+        look_ahead(both, (), tried, RULES, aims, NOTHING, NO_VALUE)
+        for tried in (law, every)
+    )
+    assert found.score == alone.score and found.spot == 0
+    # One step of each turn, and one on the spot to either side.
+    assert (alone.steps, found.steps) == (12, 12 + len(turns) + 2)
+
+
 def test_on_equal_terms_the_plan_is_kept() -> None:
     """Far from everything any maneuver is good enough."""
     both = place(Pose(5.0, 0.0, 3.0), Pose(0.0, 0.0, 0.0))
