@@ -233,15 +233,20 @@ NO_SLIP: dict[str, Duels] = {
 ENDED = walked_duel(
     radius=0.5, speed=0.06, slide=0.02, outcome=Outcome.CONTACT
 )
+ONE_STANDS = (
+    changed(SLIPS, pursuer_torso=lambda t: t * (0.0, 0.0, 1.0)),
+    changed(SLIPS, evader_torso=lambda t: t * (0.0, 0.0, 1.0)),
+)
 
 
 @pytest.mark.parametrize("key", claims("slip"))
 def test_every_claim_on_slip_holds_and_fails(key: str) -> None:
     claim, grip = claims("slip")[key], walked_duel()
     assert claim.holds([read.read_slip(grip, SLIPS)[key]])
-    for fault in (*NO_SLIP[key], ENDED, standing_duel()):
+    for fault in (*NO_SLIP[key], ENDED, standing_duel(), *ONE_STANDS):
         assert not claim.holds([read.read_slip(grip, fault)[key]])
-    assert not claim.holds([read.read_slip(ENDED, SLIPS)[key]])
+    for fault in (ENDED, *ONE_STANDS):
+        assert isnan(read.read_slip(fault, SLIPS)[key])
 
 
 # --- measures -------------------------------------------------------------
