@@ -154,3 +154,27 @@ def test_what_is_faint_above_a_robot_is_not_of_it(colour: str) -> None:
         behind = pixels.copy()
         behind[top:bottom, left:right] = pale(colour)
         assert find(ColourImage(0.0, CAMERA, behind)) == plain
+
+
+@pytest.mark.parametrize(
+    ("width", "least"), [(80, 3), (160, 3), (320, 6), (480, 14)]
+)
+def test_specks_are_no_patches_of_trim(
+    width: int, least: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Under three pixels, or 1.5 of an image of 160 columns."""
+    camera = CameraModel.of_field_of_view(width, 3 * width // 4, 1.063, 0.831)
+    detector, columns = ColourDetector(RED), round(least**0.5) + 1
+    tall = 10 * columns
+    for count in (least, least - 1):
+        mask = np.zeros((3 * width // 4, width), np.uint8)
+        for (x, y), _ in TRIM:
+            row = round(0.3 * width + (y - 0.5) * tall)
+            column = round(0.5 * width + x * tall)
+            for i in range(count):
+                at = row + i // columns, column + i % columns
+                mask[at] = 255
+        monkeypatch.setattr(detector, "mask", lambda *_, m=mask: m)
+        empty = np.zeros((*mask.shape, 3), np.uint8)
+        found = detector.detect(ColourImage(0.0, camera, empty))
+        assert (found is not None) is (count == least)

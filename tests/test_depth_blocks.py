@@ -202,6 +202,12 @@ def test_a_shadow_is_as_broad_as_the_floor_it_hides(yaw: float) -> None:
         assert shadow.bearing == pytest.approx(yaw + middle)
 
 
+def test_a_shadow_is_whole_unless_it_is_at_an_edge() -> None:
+    for left, right in ((0, 10), (1, 10), (30, 40), (70, 79), (70, 80)):
+        (shadow,) = draw((43, 60, left, right, 0.0)).shadows
+        assert shadow.whole is (left > 0 and right < 80)
+
+
 def test_only_floor_that_must_answer_can_be_hidden() -> None:
     """Between 1.1 of the near limit and 0.85 of the far one."""
     near = [(55, 60, 30, 40, 0.0), (51, 55, 30, 40, 0.0)]

@@ -1,0 +1,32 @@
+"""Test that arrays are read as they were written."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.games.reading import read_arrays
+
+KNOWN = frozenset({"rows"})
+
+
+@pytest.mark.parametrize("order", ["C", "F"])
+@pytest.mark.parametrize("shape", [(), (5,), (4, 3), (1, 7), (0, 3)])
+@pytest.mark.parametrize("kind", ["<f4", "<f8"])
+@pytest.mark.parametrize("packed", [False, True])
+def test_an_array_is_what_was_written(
+    shape: tuple[int, ...],
+    order: Any,
+    kind: str,
+    packed: bool,
+    tmp_path: Path,
+) -> None:
+    """By rows or by columns, packed or not."""
+    rows = np.random.default_rng(1).normal(size=shape).astype(kind)
+    file = tmp_path / "arrays.npz"
+    save = np.savez_compressed if packed else np.savez
+    save(file, rows=np.asarray(rows, order=order))
+    found = read_arrays(file, KNOWN)["rows"]
+    assert found.dtype == kind
+    np.testing.assert_array_equal(found, rows)
