@@ -83,10 +83,15 @@ def test_who_has_turned_back_waits_for_others_without_turning() -> None:
     assert not around.lasts(gaze)
 
 
-def test_a_turn_that_does_not_come_is_not_waited_for_ever() -> None:
-    lasted, turned, _ = looked(behind=True, rate=0.0)
+@pytest.mark.parametrize("rate", [0.0, 0.05, -0.05])
+def test_a_turn_that_does_not_come_is_not_waited_for_ever(
+    rate: float,
+) -> None:
+    lasted, turned, around = looked(behind=True, rate=rate)
     assert lasted == pytest.approx(LONGEST, abs=0.1)
-    assert turned.min() == pytest.approx(-radians(115.0), abs=0.01)
+    assert around.turning == 0.0
+    if not rate:
+        assert turned.min() == pytest.approx(-radians(115.0), abs=0.01)
 
 
 def test_a_game_begins_when_everybody_has_looked() -> None:
