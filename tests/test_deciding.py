@@ -225,3 +225,16 @@ def test_nobody_begins_to_walk_for_who_is_not_watched_long_enough() -> None:
     assert not made.starts(0.0, seen._replace(settled=False))
     intent = made.decide(0.0, seen._replace(settled=False), moving=True)
     assert intent.walks
+
+
+def test_a_strategy_is_told_when_the_body_is_under_way() -> None:
+    """It stands before its first step, and again after it has halted."""
+    run = Run()
+    run.until(FIRST + 2.2 * STEP)
+    under_way = [known.moving for known in run.scheme.decisions.memory]
+    assert under_way == [False, True, True, True]
+    run.until(FIRST + 8.0 * STEP, distance=3.0)
+    assert run.phase() is Phase.STANDING
+    run.until(run.ticks * TICK + STEP)
+    known = run.scheme.decisions.memory[len(under_way)]
+    assert not known.moving and run.phase() is Phase.WALKING

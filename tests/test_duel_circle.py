@@ -184,15 +184,20 @@ def test_the_last_five_seconds_must_be_on_the_circle() -> None:
     assert since(late) is None
 
 
-def test_a_cycle_that_the_end_cuts_is_not_judged() -> None:
-    """Sway whose half cycles are off, but whose whole ones are not."""
+@pytest.mark.parametrize("samples", [3, 9, 55])
+def test_a_cycle_that_the_end_cuts_is_not_judged(samples: int) -> None:
+    """Sway whose half cycles are off, but whose whole ones are not.
+
+    However few samples a cycle has.
+    """
+    times = CYCLE / samples * np.arange(30 * samples, dtype=float)
 
     def sway(times: Array) -> Array:
         phase = 2.0 * pi * (times - times[-1]) / CYCLE
         off: Array = np.radians(12.0) * np.sin(phase)
         return THEORY.headings_apart_rad + off
 
-    found = since(Record(apart=sway))
+    found = since(Record(apart=sway, times=times))
     assert found is not None and found < CYCLE
 
 

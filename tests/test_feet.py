@@ -1,6 +1,6 @@
 """Test that the lower camera tells of the feet of who is near."""
 
-from math import atan2, hypot, radians
+from math import atan2, cos, hypot, radians, sin
 
 import numpy as np
 import pytest
@@ -14,6 +14,7 @@ from stepaside.poses import Pose, wrap_angle
 from stepaside.robots.head import Mount
 from stepaside.sensing.camera_model import CameraModel
 from stepaside.sensing.colour_detector import RED
+from stepaside.sensing.floor_colours import floor_points
 from stepaside.sensing.images import ColourImage
 from stepaside.sensing.measurement import Measurement
 from stepaside.sensing.track import Observation, Track
@@ -119,6 +120,68 @@ def test_who_looks_for_a_robot_uses_one_camera() -> None:
     robot.see(0.02, robot.image(0.02, [], low=False))
     robot.follow(0.8, 0.0)
     assert not robot.perception.looks_low()
+
+
+@pytest.mark.parametrize("frame", [(2.0, -1.5, 0.0), (-0.7, 3.0, 2.5)])
+def test_it_is_the_same_wherever_odometry_began(
+    frame: tuple[float, float, float],
+) -> None:
+    """What is learnt of the floor, and where feet are found on it."""
+    robot, began = Standing(), Pose(*frame)
+    body = robot.perception.body
+    assert body is not None
+    c, s = cos(began.theta), sin(began.theta)
+    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    shift = np.array([began.x, began.y, 0.0])
+    up, down = (camera_of(body, robot.mount(low=low)) for low in (False, True))
+    x, y = began.transform_points([(2.4, 0.9)])[0].tolist()
+    people = [robot.follow(2.4, 0.9)], [robot.follow(x, y)]
+    both = Feet(), Feet()
+    for i in range(2):
+        far = robot.image(0.02 * i, [], low=False)
+        both[0].learn(far, *up, (0.0, 0.0), people[0])
+        place, axes = turn @ up[0] + shift, turn @ up[1]
+        both[1].learn(far, place, axes, (began.x, began.y), people[1])
+    one, other = (feet.colours._counts for feet in both)
+    assert np.abs(one - other).sum() < 1e-3 * one.sum()  # pixels on an edge
+    near = robot.image(0.04, legs_at(0.6, 0.2), low=True)
+    (here,) = both[0].observe(near, *down, (0.0, 0.0))
+    place, axes = turn @ down[0] + shift, turn @ down[1]
+    (there,) = both[1].observe(near, place, axes, (began.x, began.y))
+    moved = began.transform_points([(here.x, here.y)])[0]
+    assert (there.x, there.y) == pytest.approx(tuple(moved), abs=1e-6)
+    assert here.bearing == pytest.approx(atan2(here.y, here.x), abs=1e-6)
+    off = wrap_angle(there.bearing - here.bearing - began.theta)
+    assert off == pytest.approx(0.0, abs=1e-6)
+
+
+def test_floor_is_learnt_where_nobody_hides_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """From half a metre to 2.5 m, not near anybody nor behind."""
+    feet, robot, floors = Feet(), Standing(), []
+    monkeypatch.setattr(
+        feet.colours, "learn", lambda _, floor: floors.append(floor)
+    )
+    body = robot.perception.body
+    assert body is not None
+    place, axes = camera_of(body, HEAD.top)
+    image = robot.image(0.02, [], low=False)
+    people = [robot.follow(1.9, 0.6), robot.follow(2.4, -1.2)]
+    feet.learn(image, place, axes, (0.1, 0.0), people)
+    points = floor_points(image, place, axes)
+    wanted, farther = np.zeros(points.shape[:2], bool), 0
+    for row, column in np.ndindex(wanted.shape):
+        x, y = points[row, column]
+        away = hypot(x - 0.1, y)
+        near = [
+            hypot(x - u, y - v) < 0.7 for u, v in ((1.9, 0.6), (2.4, -1.2))
+        ]
+        hidden = away > hypot(1.8, 0.6) - 0.7
+        farther += hidden and not any(near) and away < 2.5
+        wanted[row, column] = 0.5 < away < 2.5 and not hidden and not any(near)
+    np.testing.assert_array_equal(floors[0], wanted)
+    assert wanted.any() and farther > 100
 
 
 def test_of_the_floor_under_somebody_nothing_is_learnt() -> None:

@@ -8,12 +8,14 @@ import pytest
 from stepaside.games import DuelSettings
 from stepaside.games.duel import furnisher_of
 from stepaside.rooms import Disc, Room
+from stepaside.world.passer import Passer
 
 ALONE = DuelSettings()
 INSIDE = replace(
     ALONE, room=replace(ALONE.room, plan=Room(3.0, 3.0, (Disc(0, 0, 0.2),)))
 )
 PERSON = DuelSettings(pursuer="person")
+PASSED = replace(PERSON, passers=(Passer(0.8, 3.0), Passer(0.0, 4.0)))
 
 
 @pytest.mark.parametrize("lit", [False, True])
@@ -23,6 +25,13 @@ PERSON = DuelSettings(pursuer="person")
         (ALONE, set()),
         (INSIDE, {"disc 1", "wall 1"}),
         (PERSON, {"pursuer/trunk", "pursuer/left leg"}),
+        (
+            PASSED,
+            {
+                *("pursuer/trunk", "pursuer/left leg"),
+                *("passer 1/trunk", "passer 2/trunk"),
+            },
+        ),
     ],
 )
 def test_a_world_has_what_its_duel_asks_for(
@@ -40,4 +49,4 @@ def test_a_world_has_what_its_duel_asks_for(
     assert wanted <= bodies and bool(wanted) == bool(bodies)
     assert len(spec.lights) == lit
     kinds = {name.partition("/")[0].rstrip(" 1234") for name in bodies}
-    assert kinds <= {name.partition("/")[0].rstrip(" 1") for name in wanted}
+    assert kinds <= {name.partition("/")[0].rstrip(" 12") for name in wanted}

@@ -22,6 +22,7 @@ from stepaside.fitting.rewriting import rewritten
 from stepaside.fitting.trials import Walked
 from stepaside.fitting.writing import write_description
 from stepaside.games.robot_settings import settings_of
+from stepaside.poses import Pose
 from stepaside.robots.description import (
     FILE,
     RobotDescription,
@@ -59,6 +60,25 @@ def test_a_torso_leans_where_the_com_is() -> None:
     assert standing(0.05).roll(LEAN) == pytest.approx(-LEAN)
     assert standing(-0.025).roll(LEAN) == pytest.approx(0.5 * LEAN)
     assert standing(0.05).roll(0.0) == 0.0
+
+
+def test_a_lean_is_that_of_the_frame_of_the_feet() -> None:
+    """Wherever they stand and head, and whatever their own headings are."""
+    random = np.random.default_rng(3)
+    for _ in range(10):
+        x, y, yaw, ahead, sway = random.uniform(-1.0, 1.0, 5).tolist()
+        middle, half = Pose(x, y, 3.0 * yaw), 0.05
+        com = middle.compose(Pose(ahead, sway * half, 0.0))
+        left, right = (
+            middle.compose(Pose(0.3 * ahead * side, side * half, side * 0.2))
+            for side in (1.0, -1.0)
+        )
+        asked = BodyReference(
+            (com.x, com.y, 0.26),
+            (left.x, left.y, 0.0, left.theta),
+            (right.x, right.y, 0.01, right.theta),
+        )
+        assert asked.roll(LEAN) == pytest.approx(-LEAN * sway)
 
 
 @pytest.mark.parametrize("sway", [0.03, -0.03])

@@ -278,16 +278,21 @@ def test_in_a_mapped_room_only_what_is_where_the_other_is_counts() -> None:
     assert told(empty, None) == []
 
 
+@pytest.mark.parametrize("behind", [False, True])
 @pytest.mark.parametrize("side", [-1.0, 1.0])
 @pytest.mark.parametrize("left_out", [0.3, 0.5])
 def test_trim_that_an_edge_hides_in_part_is_put_where_its_middle_is(
-    side: float, left_out: float
+    side: float, left_out: float, behind: bool
 ) -> None:
-    """Side +1 is the right one; what is seen of it ends at the edge."""
+    """Side +1 is the right one; what is seen of it ends at the edge.
+
+    Behind, its middle is beyond the half turn, and what is seen is not.
+    """
     away, edge = 0.6, 0.5 * CAMERA.width
     whole = BREADTH / away
     half = abs(angle_of(IMAGE, 0.0))
     middle = side * (half - (0.5 - left_out) * whole)  # positive rightward
+    yaw = middle - side * (pi + 0.02) if behind else YAW
     inner = middle - side * 0.5 * whole
     ends = sorted([inner, side * half])
     left, right = (edge + CAMERA.focal_x * tan(angle) for angle in ends)
@@ -295,13 +300,14 @@ def test_trim_that_an_edge_hides_in_part_is_put_where_its_middle_is(
     found = trim(
         away, YAW, column=shown, left=left, right=right, confidence=0.5
     )
-    known = track(away, YAW - middle)
-    level = rotation(0.0, 0.0, YAW)
+    known = track(away, yaw - middle)
+    level = rotation(0.0, 0.0, yaw)
     near = observe_trim(IMAGE, found, PLACE, level, RED, [known], near=True)
     blind = observe_trim(IMAGE, found, PLACE, level, RED, [known])
-    off = [wrap_angle(seen.bearing - YAW + middle) for seen in (near, blind)]
+    off = [wrap_angle(seen.bearing - yaw + middle) for seen in (near, blind)]
     assert off[0] == pytest.approx(0.0, abs=0.01)
     assert off[1] == pytest.approx(side * 0.5 * left_out * whole, abs=0.01)
+    assert max(abs(near.bearing), abs(blind.bearing)) <= pi
     assert near.across > 0.4 * left_out * BREADTH > blind.across
     assert not near.ranged and near.along > 0.5
 

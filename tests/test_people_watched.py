@@ -168,6 +168,28 @@ def test_at_what_rests_the_head_only_glances() -> None:
     assert 0.05 < looks(3.0, 0.0, 30.0, 0.03) < 0.35
 
 
+@pytest.mark.parametrize("walks", [False, True])
+def test_glances_come_every_few_seconds_and_sooner_at_who_walks(
+    walks: bool,
+) -> None:
+    """0.6 s long, 3 s apart at what rests, 1 s at a walker who leaves."""
+    people, track, looked = People(), followed((3.0, 0.0)), []
+    track.walked = walks
+    track._state[2] = 0.3 if walks else 0.0
+    for i in range(2000):
+        now = 0.01 * i
+        track.seen_at = now
+        looked.append(people.look([track], None, now, 0.0, 0.0) is track)
+    edges = np.flatnonzero(np.diff(np.array(looked, int)))
+    begins, ends = edges[1::2], edges[2::2]
+    count = min(len(begins), len(ends))
+    assert count >= 4
+    lasts = 0.01 * (ends[:count] - begins[:count])
+    pauses = 0.01 * (begins[1:count] - ends[: count - 1])
+    np.testing.assert_allclose(lasts, 0.6, atol=0.03)
+    np.testing.assert_allclose(pauses, 1.0 if walks else 3.0, atol=0.03)
+
+
 def test_who_comes_is_looked_at_and_who_leaves_is_not() -> None:
     assert looks(3.0, -0.5, 5.0, 0.03) > 0.9
     assert looks(1.5, 0.5, 8.0, 0.03) < 0.45

@@ -225,6 +225,7 @@ def test_a_robot_that_walks_by_itself_is_a_template(tmp_path: Path) -> None:
     run = seal_play(tmp_path / "p", settings, Outcome.COMPLETED, "done")
     assert run.robots == () and run.persons == ()
     assert run.summary.radius_m == pytest.approx(1.0, abs=0.01)
+    assert run.summary.distance_m == pytest.approx(1.0, abs=0.01)
     assert run.summary.seen_share == pytest.approx(179 / 199, abs=0.01)
     np.testing.assert_allclose(run.tracks["evader"].com, 0.0, atol=1e-6)
     assert run.player.command is not None

@@ -30,6 +30,7 @@ from stepaside.rooms import (
     room_text,
     wall_between,
 )
+from stepaside.rooms.measures import measure_room
 
 PILLAR = Room(4.0, 2.0, (Disc(0.0, 0.0, 0.3),))
 APART = (Pose(-1.0, 0.0, 0.0), Pose(1.0, 0.0, 3.0))
@@ -115,6 +116,12 @@ def test_a_way_leads_through_gaps_that_are_wide_enough(
 ) -> None:
     found = has_way(two_rooms(gap), (-1.0, 1.0), (1.0, 0.7), radius)
     assert found == bool(there_is)
+
+
+def test_a_disc_goes_through_a_corridor_that_is_as_wide() -> None:
+    ends = (0.0, -1.0), (0.0, 1.0)
+    assert has_way(Room(0.6, 3.0), *ends, 0.3)
+    assert not has_way(Room(0.6, 3.0), *ends, 0.3 + 1e-6)
 
 
 def test_a_way_leads_around_corners_and_out_of_doors() -> None:
@@ -275,6 +282,13 @@ def test_the_command_measures_and_draws(tmp_path: Path) -> None:
     )
     assert told["free_for_body_m2"] < 2.6**2
     assert figure.read_text(encoding="utf-8").startswith("<?xml")
+
+
+def test_a_body_has_the_floor_that_its_radius_leaves() -> None:
+    told = measure_room(PILLAR, 0.24)
+    assert told["body_radius_m"] == 0.24 and told["floor_m2"] == 8.0
+    left = 3.52 * 1.52 - np.pi * 0.54**2
+    assert told["free_for_body_m2"] == pytest.approx(left, abs=0.02)
 
 
 @pytest.mark.parametrize("value", [nan, inf, 0.0, -1.0])

@@ -132,3 +132,45 @@ def test_all_that_stands_is_as_far_as_each_of_it() -> None:
     found = standing(tuple(room.solids)).clearances(points)
     np.testing.assert_allclose(found, expected, atol=1e-12)
     assert standing(()).clearances(points).shape == (300, 0)
+
+
+@pytest.mark.parametrize("side", [-1, 0, 1])
+@pytest.mark.parametrize("seed", range(8))
+def test_a_way_is_the_same_wherever_its_floor_lies(
+    side: int, seed: int
+) -> None:
+    """And mirrored, the way on the other side."""
+    random = np.random.default_rng(seed)
+    turn, beside = random.uniform(-0.2, 0.2, 2).tolist()
+    walls = (box(0.0, beside, 0.1, 1.0, turn), box(0.8, -0.4, 0.3, 0.4))
+    start, end = (-1.0, 0.1), (1.6, -0.05)
+    found = first_point(walls, start, end, RADIUS, side)
+    frame = Pose(*random.uniform(-3.0, 3.0, 3).tolist())
+
+    def there(point: Point) -> Point:
+        x, y = frame.transform_points([point])[0].tolist()
+        return x, y
+
+    moved = tuple(wall.moved(frame) for wall in walls)
+    again = first_point(moved, there(start), there(end), RADIUS, side)
+    assert again == pytest.approx(there(found), abs=1e-9)
+    mirrored = (box(0.0, -beside, 0.1, 1.0, -turn), box(0.8, 0.4, 0.3, 0.4))
+    ends = (start[0], -start[1]), (end[0], -end[1])
+    x, y = first_point(mirrored, *ends, RADIUS, -side)
+    assert (x, -y) == pytest.approx(found, abs=1e-9)
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+@pytest.mark.parametrize("turn", [0.0, 2.0, -2.5])
+def test_it_goes_around_on_the_side_that_it_prefers(
+    side: int, turn: float
+) -> None:
+    """Unless that is 0.4 m longer; wherever start and end are."""
+    here = Pose(1.3, -0.7, turn)
+    goal = here.compose(Pose(1.0, 0.0, 0.0))
+    for beside, preferred in ((0.05, True), (0.3, False)):
+        wall = box(0.5, side * beside, 0.1, 1.0).moved(here)
+        start, end = (here.x, here.y), (goal.x, goal.y)
+        corner = first_point((wall,), start, end, RADIUS, side)
+        ahead = here.inverse().transform_points([corner])[0]
+        assert bool(side * ahead[1] > 0.0) is preferred

@@ -16,6 +16,7 @@ from stepaside.rooms import (
     hull,
     wall_between,
 )
+from stepaside.rooms.outline import SMALLEST
 
 SQUARE = box(0.0, 0.0, 2.0, 2.0)
 RING = np.linspace(0.0, 2.0 * pi, 721)
@@ -179,3 +180,38 @@ def test_a_disc_is_what_is_near_its_centre() -> None:
     np.testing.assert_allclose(disc.clearance(ring), 0.5, atol=1e-14)
     assert disc.clearance([[1.0, -2.0]])[0] == -0.5
     assert hypot(*disc.centre) == pytest.approx(sqrt(5.0))
+
+
+@pytest.mark.parametrize(("height", "taken"), [(1.1, True), (0.9, False)])
+@pytest.mark.parametrize("at", [0.003, 5.0])
+def test_a_polygon_is_nowhere_thinner_than_an_edge_may_be_short(
+    at: float, height: float, taken: bool
+) -> None:
+    """A triangle over 10 m, however short its other edges are."""
+    corners = ((0.0, 0.0), (10.0, 0.0), (at, height * SMALLEST))
+    if taken:
+        assert Polygon(corners).area == pytest.approx(5e-3 * height)
+        return
+    with pytest.raises(ConfigurationError, match="must have an inside"):
+        Polygon(corners)
+
+
+@pytest.mark.parametrize("name", ["points", "normals", "offsets"])
+def test_nobody_changes_a_polygon(name: str) -> None:
+    with pytest.raises(ValueError, match="read-only"):
+        getattr(SQUARE, name)[0] = 0.0
+
+
+@pytest.mark.parametrize("name", ["x", "y", "width", "depth", "heading"])
+@pytest.mark.parametrize("value", [nan, 1e4, -1e4])
+def test_what_is_wrong_with_a_box_is_named(name: str, value: float) -> None:
+    given = {"x": 0.1, "y": 0.2, "width": 0.3, "depth": 0.4} | {name: value}
+    with pytest.raises(ConfigurationError, match=f"box {name} must"):
+        box(**given)
+
+
+@pytest.mark.parametrize("name", ["width", "depth"])
+def test_a_side_of_a_box_is_an_edge(name: str) -> None:
+    given = {"width": 0.3, "depth": 0.4, name: 0.9 * SMALLEST}
+    with pytest.raises(ConfigurationError, match=f"box {name} must"):
+        box(0.0, 0.0, **given)

@@ -21,9 +21,10 @@ from stepaside.games.settings import PLAYERS, DuelSettings, StartSettings
 from stepaside.games.sight_figures import SightFigures, Spread
 from stepaside.games.start import frames_of, walls_of, with_start
 from stepaside.games.walker import Walker
+from stepaside.poses import Pose
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
-from stepaside.rooms import RoomRecipe, make_room
+from stepaside.rooms import Room, RoomRecipe, make_room
 from stepaside.world.camera_settings import (
     CameraSettings,
     ColourSettings,
@@ -241,6 +242,21 @@ def test_everybody_begins_well_inside_the_walls(
         start=StartSettings(distance, 0.0, 0.0),
     )
     assert walls_of(settings) == pytest.approx(there)
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize("who", [0, 1])
+def test_the_walls_of_a_room_stand_beyond_every_start(
+    who: int, axis: int, side: float
+) -> None:
+    """Whichever player begins far out, and on whichever side."""
+    starts = [Pose(0.5, 0.0, 0.0), Pose(-0.5, 0.0, 0.0)]
+    far = side * 4.5
+    starts[who] = Pose(far, 0.0, 0.0) if axis == 0 else Pose(0.0, far, 0.0)
+    plan = Room(10.0, 10.0, starts=(starts[0], starts[1]))
+    settings = with_start(DuelSettings(room=RoomSettings(plan=plan)))
+    assert walls_of(settings) == pytest.approx(8.0)
 
 
 def test_no_wall_stands_between_a_robot_and_who_comes_fast() -> None:

@@ -1,0 +1,107 @@
+"""Test where a robot whose joints were moved believed itself to be."""
+
+from math import atan2, pi
+
+import mujoco
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from stepaside.games.played_joints import PRESSED, Believed, _quaternion
+from stepaside.games.played_rows import PlayedRows
+from stepaside.games.track import Track
+from stepaside.planning import Foot, GaitSettings
+from stepaside.poses import Array, Pose, wrap_angle
+from stepaside.robots.description import load_robot
+from stepaside.robots.forward import ForwardKinematics
+
+NAO = load_robot("nao")
+FORWARD = ForwardKinematics(NAO)
+BENT = np.array([NAO.standing.get(name, 0.0) for name in FORWARD.tree.motors])
+SUPPORT = Pose(0.4, -0.7, 2.2)
+TILT = (0.07, -0.05)
+
+
+def believed(forces: Array, foot: Foot = Foot.LEFT) -> Track:
+    """Track of a robot that stands on a foot and leans, at one instant."""
+    columns = {
+        "joint_positions": BENT[None],
+        "gyro": np.zeros((1, 3)),
+        "accelerometer": np.array([[0.0, 0.0, 9.81]]),
+        "foot_forces": forces[None],
+        "mind": np.zeros(1),
+        "support": np.array([[*SUPPORT, float(foot.value)]]),
+        "com_reference": np.array([[0.1, 0.2]]),
+        "zmp_reference": np.array([[0.3, 0.4]]),
+        "begun": np.full((1, 6), np.nan),
+        "state": np.zeros(1),
+    }
+    body = Believed(PlayedRows(columns, np.zeros(1), ()), NAO)
+    body._tilts = np.array([TILT])
+    return body.track(GaitSettings(), np.full((1, 3), np.nan))
+
+
+def shown(track: Track) -> mujoco.MjData:
+    """The body of a track, as MuJoCo moves it."""
+    model = NAO.compile()
+    data = mujoco.MjData(model)
+    assert track.qpos is not None
+    data.qpos[:] = track.qpos[0]
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    return data
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_a_quaternion_is_the_turn_of_its_angles(seed: int) -> None:
+    """Yaw, then pitch, then roll, as SciPy has it."""
+    angles = np.random.default_rng(seed).uniform(-pi, pi, 3) * [1, 0.5, 1]
+    roll, pitch, yaw = angles.tolist()
+    w, *vector = _quaternion(roll, pitch, yaw)
+    found = Rotation.from_quat([*vector, w])
+    wanted = Rotation.from_euler("ZYX", [yaw, pitch, roll])
+    np.testing.assert_allclose(
+        found.as_matrix(), wanted.as_matrix(), atol=1e-12
+    )
+
+
+@pytest.mark.parametrize("foot", Foot)
+def test_it_stands_on_its_foot_and_leans_as_it_measured(foot: Foot) -> None:
+    track = believed(np.zeros(8), foot)
+    data = shown(track)
+    name = NAO.left_foot if foot is Foot.LEFT else NAO.right_foot
+    site = data.site(name)
+    np.testing.assert_allclose(site.xpos, [*SUPPORT[:2], 0.0], atol=1e-6)
+    axes = site.xmat.reshape(3, 3)
+    off = wrap_angle(atan2(axes[1, 0], axes[0, 0]) - SUPPORT.theta)
+    assert off == pytest.approx(0.0, abs=1e-6)
+    torso = Rotation.from_matrix(data.body(NAO.torso).xmat.reshape(3, 3))
+    heading, pitch, roll = torso.as_euler("ZYX").tolist()
+    assert (roll, pitch) == pytest.approx(TILT, abs=1e-6)
+    assert wrap_angle(heading - track.torso[0, 2]) == pytest.approx(
+        0.0, abs=1e-6
+    )
+    np.testing.assert_allclose(track.com[0], data.subtree_com[0], atol=1e-5)
+
+
+@pytest.mark.parametrize("foot", Foot)
+def test_the_zmp_is_midway_between_what_bears(foot: Foot) -> None:
+    """By weight; four sensors are under each foot."""
+    random = np.random.default_rng(2)
+    under = FORWARD.force_sensors()
+    for forces in (*np.diag(np.full(8, 30.0)), random.uniform(0, 9, 8)):
+        track = believed(forces, foot)
+        data, places = shown(track), []
+        for number, (x, y) in enumerate(under.tolist()):
+            site = data.site(NAO.left_foot if number < 4 else NAO.right_foot)
+            place = site.xpos + site.xmat.reshape(3, 3) @ [x, y, 0.0]
+            places.append(place[:2])
+        assert track.zmp is not None
+        wanted = forces @ np.array(places) / forces.sum()
+        np.testing.assert_allclose(track.zmp[0], wanted, atol=1e-6)
+
+
+def test_feet_that_hardly_press_have_no_zmp() -> None:
+    for total, known in ((0.9 * PRESSED, False), (1.1 * PRESSED, True)):
+        zmp = believed(np.full(8, total / 8.0)).zmp
+        assert zmp is not None and bool(np.isfinite(zmp).all()) is known
