@@ -127,9 +127,9 @@ class Decisions:
         now: float,
         seen: Sighting | None,
         turning: float = 0.0,
+        stands: tuple[Pose, Foot] | None = None,
         *,
         moving: bool,
-        stands: tuple[Pose, Foot] | None = None,
     ) -> Intent:
         """Ask what the robot wants, and remember it.
 
@@ -137,9 +137,9 @@ class Decisions:
             now: Time of the decision, in [s].
             seen: What was seen last; None for who looks around.
             turning: How that one turns: 1 to the left, -1 to the right.
-            moving: Whether it is under way.
             stands: Foot that has just landed, in odometry, and which it
                 is; None for a body that is where its next step begins.
+            moving: Whether it is under way.
 
         Raises:
             StrategyError: If the strategy gives no intent.

@@ -231,11 +231,10 @@ class ControlScheme:
         standing: bool,
     ) -> None:
         """Plan from what was seen last, or come to rest (Sec. III-E)."""
-        clock = process_time()
-        foot, who = self._first_foot, self.decisions.strategy
-        stands, turning = (support, foot.other), self.senses.turning
+        clock, who = process_time(), self.decisions.strategy
+        foot, turning = self._first_foot, self.senses.turning
         intent = self.decisions.decide(
-            started, seen, turning, moving=not standing, stands=stands
+            started, seen, turning, (support, foot.other), moving=not standing
         )
         feet = support, self._support(foot.other)
         planned = None
