@@ -168,9 +168,8 @@ def feeding(strategy: Any = None) -> tuple[Run, FakeFeedback]:
 class FakePerception:
     """Sees what it is told and turns the head."""
 
-    looking = False
-
     def __init__(self) -> None:
+        self.around = SimpleNamespace(turning=0.0)
         self.seen: Sighting | None = None
         self.stood: list[tuple[Pose, bool]] = []
         self.tilts: list[tuple[float, float]] = []

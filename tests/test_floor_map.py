@@ -8,6 +8,7 @@ import pytest
 from stepaside.perception.floor_map import (
     CELL,
     START,
+    TAKEN,
     FloorMap,
     _broad,
     _centres,
@@ -141,6 +142,19 @@ def test_where_the_other_stands_nothing_else_does() -> None:
     assert seen.taken()
     seen.take(*view(body, (0.0, 0.0), 0.0), (0.0, 0.0), (1.2, 0.0))
     assert not seen.taken()
+
+
+def test_what_the_other_stands_beside_stays() -> None:
+    """Who walks along a wall does not wipe it off the map."""
+    wall = box(1.4, 0.0, 0.1, 2.0)
+    seen = looked(FloorMap(), (wall,), times=4)
+    cells = _centres(seen._evidence > TAKEN)
+    assert len(cells) == 40
+    for place in ((0.9, 0.0), (1.22, 0.0)):
+        both = wall, Disc(*place, 0.09)
+        seen.take(*view(both, (0.0, 0.0), 0.0), (0.0, 0.0), place)
+        assert np.array_equal(_centres(seen._evidence > TAKEN), cells)
+    assert not seen.is_free(np.array([[1.42, 0.0]])).any()
 
 
 def test_the_map_tells_what_belongs_to_the_room() -> None:

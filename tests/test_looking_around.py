@@ -12,15 +12,21 @@ from stepaside.control.assembly import build_scheme
 from stepaside.control.balance.settings import OPEN_LOOP
 from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.gaze import Gaze
-from stepaside.perception.looking_around import BEHIND, LONGEST, LookAround
+from stepaside.perception.looking_around import (
+    BEHIND,
+    FACING,
+    LONGEST,
+    LookAround,
+)
 from stepaside.perception.perception import Perception
 from stepaside.planning import Direction
 from stepaside.poses import Array
 from stepaside.sensing.colour_detector import RED
 
 TICK = 0.02
+START = 3.0  # heading at first, near to a turn of pi, in [rad]
 HALF = radians(29.0)  # of the view of the depth camera
-BEGINS, RATE = 0.8, -0.46  # of a turn on the spot, in [s] and [rad/s]
+BEGINS, RATE = 0.8, 0.46  # of a turn on the spot, in [s] and [rad/s]
 
 
 def looked(
@@ -29,12 +35,13 @@ def looked(
     """How long a look takes, in [s], and where the eyes were turned."""
     gaze, around = Gaze(HEAD.coupling, TICK), LookAround()
     around.behind = behind
-    now, turned = 0.0, []
+    now, heading, turned = 0.0, 0.0, []
     while around.lasts(gaze):
-        heading = rate * max(0.0, now - BEGINS)
-        around.look(gaze, now, heading)
+        around.look(gaze, now, START + heading)
         turned.append(heading + gaze.yaw)
         now += TICK
+        if now > BEGINS:
+            heading += rate * around.turning * TICK
         assert now < 60.0
     return now, np.array(turned), around
 
@@ -52,17 +59,39 @@ def test_a_head_alone_does_not_see_what_is_behind() -> None:
 
 
 def test_a_body_that_turns_has_seen_all_around() -> None:
-    """And no later than it has turned as far as it must."""
-    lasted, turned, _ = looked(behind=True)
+    """And faces again where it did, no later than it can."""
+    lasted, turned, around = looked(behind=True)
     assert share_seen(turned) > 0.99
-    assert lasted == pytest.approx(BEGINS + BEHIND / -RATE, abs=0.1)
+    way = 2.0 * BEHIND - FACING
+    assert lasted == pytest.approx(BEGINS + way / RATE, abs=0.1)
+    assert around.turning == 0.0
     assert share_seen(looked(behind=False)[1]) < 0.95
 
 
-def test_a_turn_that_does_not_come_is_not_waited_for_ever() -> None:
-    lasted, turned, _ = looked(behind=True, rate=0.0)
+def test_who_has_turned_back_waits_for_others_without_turning() -> None:
+    gaze, around = Gaze(HEAD.coupling, TICK), LookAround()
+    other = SimpleNamespace(looking=True)
+    around.behind, around.company = True, [other]
+    headings = np.array([0.0, -0.7, -1.4, -1.4, -0.7, 0.0, 0.1])
+    turnings = []
+    for heading in START + np.repeat(headings, 100):
+        around.look(gaze, len(turnings) * TICK / 4, heading)
+        turnings.append(around.turning)
+    assert turnings == [-1.0] * 200 + [1.0] * 300 + [0.0] * 200
+    assert around.lasts(gaze)
+    other.looking = False
+    assert not around.lasts(gaze)
+
+
+@pytest.mark.parametrize("rate", [0.0, 0.05, -0.05])
+def test_a_turn_that_does_not_come_is_not_waited_for_ever(
+    rate: float,
+) -> None:
+    lasted, turned, around = looked(behind=True, rate=rate)
     assert lasted == pytest.approx(LONGEST, abs=0.1)
-    assert turned.min() == pytest.approx(-radians(115.0), abs=0.01)
+    assert around.turning == 0.0
+    if not rate:
+        assert turned.min() == pytest.approx(-radians(115.0), abs=0.01)
 
 
 def test_a_game_begins_when_everybody_has_looked() -> None:

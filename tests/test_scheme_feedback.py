@@ -122,26 +122,26 @@ def test_perception_stands_on_the_support_foot(foot: Foot) -> None:
     assert run.phase() is Phase.HALTING
 
 
+@pytest.mark.parametrize("turning", [-1.0, 0.0, 1.0])
 @pytest.mark.parametrize("direction", Direction)
-def test_who_walks_backward_turns_its_back_while_it_looks_around(
-    direction: Direction,
+def test_eyes_that_look_around_turn_the_body(
+    direction: Direction, turning: float
 ) -> None:
     """On the spot, to see the floor behind it; then it plays on."""
     eyes: Any = FakePerception()
-    eyes.looking = True
+    eyes.around.turning = turning
     run = Run(
         FakeStrategy(direction=direction), senses=CameraSight(eyes, tick=TICK)
     )
     scheme = run.until(FIRST + 2.5 * STEP, distance=None)
-    back = direction is Direction.BACKWARD
-    assert run.phase() is (Phase.WALKING if back else Phase.STANDING)
+    assert run.phase() is (Phase.WALKING if turning else Phase.STANDING)
     assert run.asked == []
-    if not back:
+    if not turning:
         return
     landed = 0.5 * (np.array(scheme.left_foot) + np.array(scheme.right_foot))
-    assert landed[2] == pytest.approx(-2.5 * 0.08 * np.pi, abs=0.01)
+    assert landed[2] == pytest.approx(turning * 2.5 * 0.08 * np.pi, abs=0.01)
     assert np.hypot(*landed[:2]) < 0.02
-    eyes.looking, eyes.seen = False, Sighting(0.0, 0.2, 1.0)
+    eyes.around.turning, eyes.seen = 0.0, Sighting(0.0, 0.2, 1.0)
     run.until(FIRST + 3.5 * STEP, distance=None)
     assert run.phase() is Phase.WALKING and len(run.asked) == 1
     eyes.seen = None

@@ -1,5 +1,6 @@
 """Test that a robot's control keeps nothing of what has been."""
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -44,7 +45,7 @@ class Dull(FakeStrategy):
 class DullPerception:
     """Sees the other always at the same place."""
 
-    looking = False
+    around = SimpleNamespace(turning=0.0)
 
     def see(self, measurement: Any, *told: Any) -> Any:
         """See what a measurement says."""

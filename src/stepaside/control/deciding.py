@@ -5,7 +5,7 @@ from math import cos, pi, sin
 from typing import Any
 
 from ..errors import StrategyError
-from ..planning import Direction, Foot, GaitSettings
+from ..planning import Foot, GaitSettings
 from ..planning.template import passed_beside
 from ..poses import Pose, wrap_angle
 from ..sensing.measurement import Measurement, Sighting
@@ -17,9 +17,7 @@ from .memory import Memory
 from .pace import next_pace
 from .turning import TurnShare
 
-# Of who looks around first: a turn on the spot, away from where the head looks
-# first, so that it sees behind the robot what it could not before.
-LOOK_AROUND = Intent(-pi, 0.05)
+ON_THE_SPOT = 0.05  # share of the speed of who turns to look around
 
 
 class Decisions:
@@ -94,13 +92,11 @@ class Decisions:
         self.strategy = strategy
 
     def starts(
-        self, now: float, seen: Sighting | None, *, looking: bool = False
+        self, now: float, seen: Sighting | None, turning: float = 0.0
     ) -> bool:
         """Whether a robot that stands is to walk.
 
         Who learns how much of a turn it makes stands for a while first.
-        Who walks backward turns its back while it looks around: the floor
-        straight behind it is in no image, and is where it will go.
 
         A robot that is to walk is asked again for the instant at which the
         step takes effect, and what it would remember of this time is
@@ -109,7 +105,8 @@ class Decisions:
         Args:
             now: Time of the decision, in [s].
             seen: What was seen last; None for nobody.
-            looking: Whether the robot looks around before it begins.
+            turning: How it turns while it looks around before it begins:
+                1 to the left, -1 to the right, 0 not at all.
 
         Raises:
             StrategyError: If the strategy gives no intent.
@@ -117,8 +114,7 @@ class Decisions:
         if self.turns is not None and not self.turns.rested:
             return False
         if seen is None:
-            back = self.strategy.direction is Direction.BACKWARD
-            return looking and back
+            return turning != 0.0
         known = self._knowledge(now, seen, moving=False)
         intent, memory = self._ask(known)
         if not intent.walks:
@@ -130,24 +126,26 @@ class Decisions:
         self,
         now: float,
         seen: Sighting | None,
+        turning: float = 0.0,
+        stands: tuple[Pose, Foot] | None = None,
         *,
         moving: bool,
-        stands: tuple[Pose, Foot] | None = None,
     ) -> Intent:
         """Ask what the robot wants, and remember it.
 
         Args:
             now: Time of the decision, in [s].
             seen: What was seen last; None for who looks around.
-            moving: Whether it is under way.
+            turning: How that one turns: 1 to the left, -1 to the right.
             stands: Foot that has just landed, in odometry, and which it
                 is; None for a body that is where its next step begins.
+            moving: Whether it is under way.
 
         Raises:
             StrategyError: If the strategy gives no intent.
         """
         if seen is None:
-            return LOOK_AROUND
+            return Intent(turning * pi, ON_THE_SPOT)
         known = self._knowledge(now, seen, moving=moving)
         if moving and stands is not None:
             begins = passed_beside(*stands, self._spacing)

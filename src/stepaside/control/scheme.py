@@ -186,7 +186,7 @@ class ControlScheme:
         seen = self.sighting
         if not self.balance.ready or now < self._blocked_until:
             return
-        if not self.decisions.starts(now, seen, looking=self.senses.looking):
+        if not self.decisions.starts(now, seen, self.senses.turning):
             return
         x, y, _ = self.reference.com
         for _ in Foot:
@@ -216,7 +216,7 @@ class ControlScheme:
             return
         self._first_foot = plan.first_foot.other
         ended = self.plan_started + plan.schedule.first_step_duration
-        if self.sighting is None and not self.senses.looking:
+        if self.sighting is None and not self.senses.turning:
             self._halt(ended, landed, state)
         else:
             self._replan(ended, landed, state, self.sighting, standing=False)
@@ -231,10 +231,10 @@ class ControlScheme:
         standing: bool,
     ) -> None:
         """Plan from what was seen last, or come to rest (Sec. III-E)."""
-        clock = process_time()
-        foot, who = self._first_foot, self.decisions.strategy
+        clock, who = process_time(), self.decisions.strategy
+        foot, turning = self._first_foot, self.senses.turning
         intent = self.decisions.decide(
-            started, seen, moving=not standing, stands=(support, foot.other)
+            started, seen, turning, (support, foot.other), moving=not standing
         )
         feet = support, self._support(foot.other)
         planned = None

@@ -20,12 +20,13 @@ class Senses(Protocol):
     """What tells a robot of the other, and moves its head.
 
     Attributes:
-        looking: Whether it looks around before it says anything.
+        turning: How the body is to turn on the spot while it looks around,
+            before anything is said: 1 to the left, -1 to the right, or 0.
     """
 
     @property
-    def looking(self) -> bool:
-        """Whether it looks around before it says anything."""
+    def turning(self) -> float:
+        """How the body is to turn on the spot: 1 left, -1 right, or 0."""
 
     def see(
         self,
@@ -50,10 +51,10 @@ class GivenSight:
     """Sightings that come with the measurements; the last one counts.
 
     Attributes:
-        looking: Never.
+        turning: Never.
     """
 
-    looking = False
+    turning = 0.0
 
     def __init__(self, sighting: Sighting | None = None) -> None:
         """Know what is known before anything is seen."""
@@ -91,9 +92,9 @@ class CameraSight:
         self._tick = tick
 
     @property
-    def looking(self) -> bool:
-        """Whether the head still looks around for the first time."""
-        return self.perception.looking
+    def turning(self) -> float:
+        """How the body is to turn while it looks around: 1, -1 or 0."""
+        return self.perception.around.turning
 
     def see(
         self,

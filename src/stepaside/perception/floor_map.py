@@ -22,7 +22,8 @@ BLUR = 0.05  # by which the direction of a column may be off, in [rad]
 SHORT = 0.1  # by which evidence ends before what a ray struck, in [m]
 BRIEF = 0.03  # by which what a ray shows ends before that, in [m]
 START = 0.35  # of floor that is free around a robot that begins, in [m]
-STOOD = 0.2  # of floor that is free around a player who stands on it, in [m]
+STOOD = 0.06  # of floor that is free where the other player stands, in [m]
+BODY = 0.2  # of what was struck of it before it was recognised, in [m]
 FIRST = 0.3  # of a ray that counts, from the own axis, in [m]
 STRUCK, PASSED = 1.0, -0.35  # evidence of a ray
 LEAST, MOST = -2.0, 5.0  # of the evidence of a cell
@@ -37,6 +38,8 @@ MIXED = 0.25  # share of other pixels from which a cell is no floor
 # Steps of a cell to all cells around one.
 STENCIL = np.argwhere(np.ones((17, 17))) - 8
 
+Cells = tuple[NDArray[np.int64], NDArray[np.int64]]
+
 
 class FloorMap:
     """Which cells of the floor are taken, free or unseen, in odometry.
@@ -44,8 +47,8 @@ class FloorMap:
     Each image adds evidence where its rays strike something as high as a
     body, and takes some away where they pass: so what has moved is cleared
     when its place is seen again. The place of the other player, who moves
-    all the time, is left out. Where a player stands nothing else does, and a
-    robot that begins has room to turn.
+    all the time, is left out, and what was struck of it until it was
+    recognised. A robot that begins has room to turn.
 
     What is nearer than a depth camera measures, or out of its view, stays
     unseen until a ray passes over it: a thing that hides the floor behind it
@@ -60,6 +63,7 @@ class FloorMap:
         """Know nothing yet."""
         self._evidence = np.zeros((SIDE, SIDE))
         self._seen = np.zeros((SIDE, SIDE), dtype=np.bool_)
+        self._recognised = False
         self.version = 0
 
     def take(
@@ -104,8 +108,11 @@ class FloorMap:
         self._evidence[hit] += STRUCK
         self._seen |= hit
         if other is not None:
-            # It may have been taken for a thing before it was recognised.
             self._stand(other, STOOD)
+            if not self._recognised:
+                # Later nothing it stands beside is to be forgotten.
+                self._forget(other, BODY)
+        self._recognised = other is not None
         np.clip(self._evidence, LEAST, MOST, out=self._evidence)
         self.version += 1
 
@@ -159,12 +166,16 @@ class FloorMap:
 
     def _stand(self, place: tuple[float, float], radius: float) -> None:
         """Free the floor on which somebody stands."""
+        self._seen[self._forget(place, radius)] = True
+
+    def _forget(self, place: tuple[float, float], radius: float) -> Cells:
+        """Take evidence away around a place, and tell where."""
         cells = self._cells(np.array([place])) + STENCIL
         away = (cells + 0.5) * CELL - HALF - place
         cells = cells[np.hypot(away[:, 0], away[:, 1]) < radius]
         chosen = cells[:, 0], cells[:, 1]
-        self._seen[chosen] = True
         self._evidence[chosen] = np.minimum(self._evidence[chosen], 0.0)
+        return chosen
 
     def show(self, floor: Array, strange: Array) -> None:
         """Take in which floor another camera saw.

@@ -8,6 +8,7 @@ strategy wants.
 """
 
 from collections.abc import Callable, Iterator
+from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -53,6 +54,17 @@ class Passage(NamedTuple):
     now: float
     least: float
     last: float
+
+    def leaves(self, margin: float, blur: float) -> bool:
+        """Whether it leads out of a place that is too narrow.
+
+        Args:
+            margin: Distance from which a place is not too narrow, in [m].
+            blur: How much nearer it may come on the way, in [m].
+        """
+        farther = self.last > self.now + NEARER
+        near = self.least >= self.now - blur - NEARER
+        return self.now < margin and farther and near
 
 
 class Guard:
@@ -107,12 +119,24 @@ class Guard:
             The first choice that keeps clear: as wanted, then slower and
             slower, down to a turn on the spot, then a turn the other way,
             and from standing a step back, sharply if need be; None if the
-            robot had better stand.
+            robot had better stand. Where none keeps clear of a map that may
+            be wrong, the one out of too narrow a place that comes least
+            near: else nobody would ever leave it.
         """
+        ways = []
         for choice in _choices(intent, standing=standing):
-            if self.accepts(plan_for(choice), support, standing=standing):
+            plan = plan_for(choice)
+            if self.accepts(plan, support, standing=standing):
                 return choice
-        return None
+            if standing and self.surroundings.blur > 0.0:
+                ways.append((self.passage(plan, support), choice))
+        blur = self.surroundings.blur
+        out = [
+            (passage.least, choice)
+            for passage, choice in ways
+            if passage.leaves(self.margin, blur)
+        ]
+        return max(out, key=itemgetter(0))[1] if out else None
 
     def fit(self, plan: ManeuverPlan, support: Pose) -> ManeuverPlan:
         """A plan with footsteps that keep clear, if those are to be moved.
@@ -143,8 +167,7 @@ class Guard:
         passage = self.passage(plan, support)
         if passage.least >= self.margin:
             return True
-        leaves = passage.least >= passage.now - NEARER
-        return standing and leaves and passage.last > passage.now + NEARER
+        return standing and passage.leaves(self.margin, 0.0)
 
     def passage(self, plan: ManeuverPlan, support: Pose) -> Passage:
         """How clear the first step of a plan and the halt after it are."""

@@ -2,7 +2,7 @@
 
 from typing import Protocol
 
-from ...perception.floor_map import FloorMap
+from ...perception.floor_map import CELL, FloorMap
 from ...poses import Pose
 from ...robots.reference import BodyReference
 from ...rooms import Room
@@ -20,7 +20,10 @@ class Surroundings(Protocol):
     Attributes:
         solids: All that it knows of.
         frame: Pose of the own odometry in the frame in which they are.
+        blur: How far off that may be, in [m].
     """
+
+    blur: float
 
     @property
     def solids(self) -> Solids:
@@ -44,6 +47,7 @@ class OpenFloor:
 
     solids = NOTHING
     frame = HERE
+    blur = 0.0
 
     def note(self, measurement: Measurement, body: BodyReference) -> None:
         """Learn nothing."""
@@ -60,7 +64,10 @@ class GivenRoom:
         solids: All that stands in the room, and the floor that what moves
             covers until a halt begun with the next step is over.
         frame: Pose of the own odometry in the room.
+        blur: None.
     """
+
+    blur = 0.0
 
     def __init__(self, room: Room, start: Pose) -> None:
         """Know a room.
@@ -92,9 +99,11 @@ class SeenRoom:
         solids: All that was seen to stand there, and, if unseen floor
             counts as taken, that as well.
         frame: Odometry itself.
+        blur: A cell of the map.
     """
 
     frame = HERE
+    blur = CELL
 
     def __init__(self, floor: FloorMap, *, unseen_is_free: bool) -> None:
         """Know nothing yet.
