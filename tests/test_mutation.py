@@ -15,7 +15,15 @@ from mutation.__main__ import main
 from mutation.again import survivors_of, write_noticed
 from mutation.faults import Fault, draw, faults_of
 from mutation.places import optional_keywords
-from mutation.score import CAP, SAMPLE, head, summary, write
+from mutation.score import (
+    CAP,
+    REASONS,
+    SAMPLE,
+    head,
+    read_reasons,
+    summary,
+    write,
+)
 from mutation.source import Source
 from mutation.trial import choose
 
@@ -156,14 +164,24 @@ def test_tests_written_since_tell_survivors_and_leave_the_score(
     assert survivors_of(path, faults()) == [first, second]
     rows[first.key] |= {"outcome": "killed", "test": "tests/test_x.py::f[1]"}
     for _ in range(2):
-        assert write_noticed(path, rows) == 1
+        assert write_noticed(path, rows, {second.key: "same"}) == 1
         result = Store(tmp_path).result("mutation")
         assert result["noticed"] == 0 and len(result["survivors"]) == 2
         assert "notice 1 of the survivors" in score(result)
         assert "| noticed since by `test_x.py::f` |" in survivors(result)
-    assert write_noticed(path, {}) == 0
+        assert survivors(result).count("| same |") == 1
+    assert write_noticed(path, {}, {}) == 0
     result = Store(tmp_path).result("mutation")
-    assert "survivors" not in score(result)
+    assert "survivors" not in score(result) + survivors(result)
+    assert "same" not in survivors(result)
+
+
+def test_every_survivor_that_is_written_is_accounted_for() -> None:
+    """By a test that notices it now, or by a reason."""
+    reasons = read_reasons(REPOSITORY / REASONS)
+    for row in Store().result("mutation")["survivors"]:
+        assert row["reason"] == reasons.get(row["key"], ""), row["key"]
+        assert "noticed_by" in row or row["reason"], row["key"]
 
 
 @pytest.fixture

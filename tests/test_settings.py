@@ -26,7 +26,7 @@ OTHERS = sorted(SETTINGS.keys() - NUMBERS - LISTS.keys())
 @pytest.mark.parametrize("path", NUMBERS)
 def test_the_docstring_says_the_range(path: str) -> None:
     setting = SETTINGS[path]
-    allowed = ranges_of(setting.kind)[setting.name]
+    allowed: Range = setting.kind.ranges[setting.name]
     assert allowed.words in meanings(setting.kind)[setting.name]
     assert allowed.unit and allowed.why and allowed.low < allowed.high
 

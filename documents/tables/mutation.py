@@ -15,7 +15,8 @@ def score(result: Mapping[str, Any]) -> str:
     outcomes = result["outcomes"]
     since = sum("noticed_by" in row for row in result["survivors"])
     later = (
-        f" Tests written since notice {since} of the survivors."
+        " Tests written since, and those that the limit on time left out, "
+        f"notice {since} of the survivors."
         if since
         else ""
     )

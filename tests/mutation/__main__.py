@@ -66,16 +66,15 @@ def main() -> None:
     )
     if not options.list_survivors:
         _try(root, records, faults, texts, chosen, options)
-    rows = records.read()
+    rows, reasons = records.read(), read_reasons(root / REASONS)
     found = summary(
-        [rows[fault.key] for fault in faults if fault.key in rows],
-        read_reasons(root / REASONS),
+        [rows[fault.key] for fault in faults if fault.key in rows], reasons
     )
     for row in found["survivors"]:
         print(f"{row['file']}:{row['line']} {row['before']} => {row['after']}")
     print(score_line(found))
     if options.write and options.again:
-        noticed = write_noticed(root / RESULTS, rows)
+        noticed = write_noticed(root / RESULTS, rows, reasons)
         print(f"{noticed} survivors of the run are noticed now")
     elif options.write:
         write(root / RESULTS, where_from, found)

@@ -22,7 +22,11 @@ def survivors_of(path: Path, faults: Iterable[Fault]) -> list[Fault]:
     return [fault for fault in faults if fault.key in keys]
 
 
-def write_noticed(path: Path, rows: Mapping[str, Mapping[str, Any]]) -> int:
+def write_noticed(
+    path: Path,
+    rows: Mapping[str, Mapping[str, Any]],
+    reasons: Mapping[str, str],
+) -> int:
     """Write beside the survivors of a run which tests notice them now.
 
     The score stays that of the run.
@@ -30,6 +34,7 @@ def write_noticed(path: Path, rows: Mapping[str, Mapping[str, Any]]) -> int:
     Args:
         path: File of results.
         rows: Records of later trials by key of the fault.
+        reasons: Why the others are no gap, by key.
 
     Returns:
         How many are noticed.
@@ -39,6 +44,7 @@ def write_noticed(path: Path, rows: Mapping[str, Mapping[str, Any]]) -> int:
     for survivor in result["survivors"]:
         row = rows.get(survivor["key"])
         survivor.pop("noticed_by", None)
+        survivor["reason"] = reasons.get(survivor["key"], "")
         if row is not None and row["outcome"] in NOTICED:
             survivor["noticed_by"] = row["test"]
             noticed += 1
