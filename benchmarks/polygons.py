@@ -64,9 +64,11 @@ class Taken:
     Attributes:
         solids: All of it.
         frame: Of odometry.
+        blur: How far off that may be, in [m].
     """
 
     frame = HERE
+    blur = CELL
 
     def __init__(self, solids: Solids) -> None:
         """Know it."""

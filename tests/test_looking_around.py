@@ -73,7 +73,7 @@ def test_who_has_turned_back_waits_for_others_without_turning() -> None:
     other = SimpleNamespace(looking=True)
     around.behind, around.company = True, [other]
     headings = np.array([0.0, -0.7, -1.4, -1.4, -0.7, 0.0, 0.1])
-    turnings = []
+    turnings: list[float] = []
     for heading in START + np.repeat(headings, 100):
         around.look(gaze, len(turnings) * TICK / 4, heading)
         turnings.append(around.turning)
