@@ -134,7 +134,7 @@ def test_a_robot_begins_with_room_to_turn() -> None:
     assert clearance[0] > 0.0 > clearance[1]
 
 
-def test_where_the_other_stands_nothing_else_does() -> None:
+def test_what_was_struck_of_the_other_is_forgotten_when_it_is_known() -> None:
     """It was taken for a thing before it was recognised."""
     seen, body = FloorMap(), (Disc(1.2, 0.0, 0.12),)
     for _ in range(4):
@@ -150,9 +150,10 @@ def test_what_the_other_stands_beside_stays() -> None:
     seen = looked(FloorMap(), (wall,), times=4)
     cells = _centres(seen._evidence > TAKEN)
     assert len(cells) == 40
-    for place in ((0.9, 0.0), (1.22, 0.0)):
-        both = wall, Disc(*place, 0.09)
-        seen.take(*view(both, (0.0, 0.0), 0.0), (0.0, 0.0), place)
+    for place in ((0.9, 0.0), (1.22, 0.0), None, (1.22, 0.0)):
+        both = (wall,) if place is None else (wall, Disc(*place, 0.09))
+        facing = pi if place is None else 0.0  # a glance away
+        seen.take(*view(both, (0.0, 0.0), facing), (0.0, 0.0), place)
         assert np.array_equal(_centres(seen._evidence > TAKEN), cells)
     assert not seen.is_free(np.array([[1.42, 0.0]])).any()
 

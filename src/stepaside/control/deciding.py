@@ -9,15 +9,13 @@ from ..planning import Foot, GaitSettings
 from ..planning.template import passed_beside
 from ..poses import Pose, wrap_angle
 from ..sensing.measurement import Measurement, Sighting
-from ..strategies.knowledge import Intent, Knowledge, Limits
+from ..strategies.knowledge import ON_THE_SPOT, Intent, Knowledge, Limits
 from ..strategies.rates import FloorVelocity, SightRates
 from ..strategies.strategy import Strategy
 from .clearance.surroundings import OpenFloor, Surroundings
 from .memory import Memory
 from .pace import next_pace
 from .turning import TurnShare
-
-ON_THE_SPOT = 0.05  # share of the speed of who turns to look around
 
 
 class Decisions:
@@ -209,4 +207,5 @@ class Decisions:
             self._around.solids.known,
             drift,
             spread=seen.spread,
+            blur=self._around.blur,
         )

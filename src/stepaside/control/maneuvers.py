@@ -1,5 +1,7 @@
 """From what a strategy wants to a plan that the body may walk."""
 
+from collections.abc import Iterator
+
 from ..planning import (
     CenterState,
     Direction,
@@ -35,6 +37,21 @@ class Maneuvers:
         """
         self.planner = ManeuverPlanner(settings)
         self.guard, self._balance = guard, balance
+        self._loosely = False
+
+    def tries(self) -> Iterator[None]:
+        """What who stands tries one after the other, once with each foot.
+
+        Where both fail by a map that may be off, each may try again to get
+        out of too narrow a place; see :meth:`Guard.choose`.
+        """
+        blurred = self.guard is not None and self.guard.surroundings.blur > 0.0
+        try:
+            for self._loosely in (False, True)[: 1 + blurred]:
+                for _ in Foot:
+                    yield
+        finally:
+            self._loosely = False
 
     def plan(
         self,
@@ -90,6 +107,7 @@ class Maneuvers:
                 lambda choice: plan_of(choice, state),
                 support,
                 standing=standing,
+                loosely=self._loosely,
             )
         if chosen is None:
             return None

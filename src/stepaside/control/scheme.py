@@ -189,7 +189,7 @@ class ControlScheme:
         if not self.decisions.starts(now, seen, self.senses.turning):
             return
         x, y, _ = self.reference.com
-        for _ in Foot:
+        for _ in self._maneuvers.tries():
             support = self._support(self._first_foot)
             rest = support.inverse().compose(Pose(x, y, 0.0))
             state = CenterState(rest[:2], (0.0, 0.0))

@@ -23,7 +23,7 @@ SHORT = 0.1  # by which evidence ends before what a ray struck, in [m]
 BRIEF = 0.03  # by which what a ray shows ends before that, in [m]
 START = 0.35  # of floor that is free around a robot that begins, in [m]
 STOOD = 0.06  # of floor that is free where the other player stands, in [m]
-BODY = 0.2  # of what was struck of it before it was recognised, in [m]
+BODY = 0.2  # of what was struck of it before it was ever recognised, in [m]
 FIRST = 0.3  # of a ray that counts, from the own axis, in [m]
 STRUCK, PASSED = 1.0, -0.35  # evidence of a ray
 LEAST, MOST = -2.0, 5.0  # of the evidence of a cell
@@ -112,7 +112,7 @@ class FloorMap:
             if not self._recognised:
                 # Later nothing it stands beside is to be forgotten.
                 self._forget(other, BODY)
-        self._recognised = other is not None
+                self._recognised = True
         np.clip(self._evidence, LEAST, MOST, out=self._evidence)
         self.version += 1
 

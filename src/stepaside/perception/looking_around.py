@@ -28,9 +28,9 @@ class LookAround:
 
     Who walks backward turns on the spot meanwhile, away from where it looks
     first, and keeps looking over the other shoulder until it has seen what
-    was behind it; then it turns back to where it faced, so that the game
-    begins from there. Who has seen all may wait for others: a game begins
-    when everybody has.
+    was behind it, or half of the time is over; then it turns back to where
+    it faced, so that the game begins from there. Who has seen all may wait
+    for others: a game begins when everybody has.
 
     Attributes:
         company: Who is waited for, if not for ever.
@@ -66,7 +66,8 @@ class LookAround:
         time, before = self._began
         aside = wrap_angle(heading - before)
         self._late = now - time >= LONGEST
-        done = not self.behind or abs(aside) >= BEHIND or self._late
+        half = now - time >= 0.5 * LONGEST
+        done = not self.behind or abs(aside) >= BEHIND or half
         gaze.search(stay=not done and gaze.turned == BOTH - 1)
         if not self.behind or self._late:
             self.turning = 0.0

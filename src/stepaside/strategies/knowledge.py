@@ -67,6 +67,7 @@ class Knowledge:
             a foot has landed, and its body passes that foot half a step
             later.
         spread: Standard deviation of the place of the other, in [m].
+        blur: How far off what is known to stand around may be, in [m].
     """
 
     time: float
@@ -82,6 +83,7 @@ class Knowledge:
     velocity: tuple[float, float] | None = None
     begins: Pose | None = None
     spread: float = 0.0
+    blur: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,6 +128,8 @@ class Intent:
         """Whether it asks for any motion."""
         return self.moving and self.speed_factor > 0.0
 
+
+ON_THE_SPOT = 0.05  # share of the speed at which a body but turns
 
 STAND = Intent(moving=False)
 """Stay, or come to rest."""

@@ -26,17 +26,18 @@ from ..steps import (
 from ..steps.maneuvers import DEEPEST
 from ..steps.motion import half_turn, step_both
 from ..steps.packed import clearance_at
-from .knowledge import STAND, Intent, Knowledge, Limits
+from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge, Limits
 from .other import Trace, note, pursuer_heading
 from .places import moved_on, place_both
 from .tables import pursuit_table
 
 ERROR = ConfigurationError
-ON_THE_SPOT = 0.05  # share of the speed at which a body but turns
 MARGIN = 0.005  # beyond the clearance that is asked for, in [m]
 PENALTY = 60.0  # of a metre too near: a centimetre is worth 0.6 m
+WORTH = 0.5  # of as much too near as a map may be off, in [m]
 SPOTS = 12  # steps on the spot: half a turn is 12.5 of the sharpest
 LONGEST = 400  # steps of a maneuver
+GAIN = 1e-6  # by which a maneuver must beat the present one, in [m]
 OPEN = 3  # pieces that are enough where a table says what comes after
 
 
@@ -74,7 +75,9 @@ class LookAhead:
     A maneuver is a sequence of pieces with a constant turn each, then the
     paper's law for a while. It is good if the pursuer never comes near,
     nothing is touched and the pursuer stays in sight. Without pieces, and
-    with nothing on the floor, it is the paper's law.
+    with nothing on the floor, it is the paper's law. Where a map may be
+    off, what it says changes from step to step: then a plan is kept until
+    another is better by as much, and to come too near costs less.
 
     Attributes:
         pieces: Steps of each piece.
@@ -172,11 +175,13 @@ class LookAhead:
         table = NO_VALUE
         if not bounded and self.cells and self.pieces:
             table = pursuit_table(self.cells, limits.speed / limits.gain)
+        blur = max(knowledge.blur, GAIN)
         aims = Aims(
             self.enough if bounded else inf,
             self.body_radius + MARGIN,
-            PENALTY,
+            min(PENALTY, WORTH / blur),
             self.sight,
+            gain=blur,
             tight=self.tight,
         )
         plan, spot = memory.rest(knowledge.time, limits.step_duration)

@@ -5,9 +5,14 @@ step *and* the halt after it keep clear of all that is known. Else the robot
 halts, which was found to be clear when the step before was accepted: by
 induction a robot that starts clear touches nothing that rests, whatever its
 strategy wants.
+
+A map that was seen may be off by a cell. Who stands by it where no step keeps
+clear, since every step sways, would stand there for ever: once neither foot
+has another way, it takes the one out that comes least near, by a cell at most.
 """
 
 from collections.abc import Callable, Iterator
+from math import pi
 from operator import itemgetter
 from typing import NamedTuple
 
@@ -24,6 +29,7 @@ from .surroundings import Surroundings
 SLOWER = (1.0, 0.5, 0.05)  # shares of the wanted speed; the last but turns
 SHARP = 2.0  # heading of a step back where no other is clear, in [rad]
 NEARER = 1e-6  # than this no robot comes that is too near already, in [m]
+GAINED = 0.004  # by a way out that comes nearer meanwhile, in [m]
 
 
 class Choice(NamedTuple):
@@ -39,6 +45,11 @@ class Choice(NamedTuple):
     back: bool = False
 
 
+WAYS_OUT = tuple(
+    Choice(Intent(heading), back)
+    for heading in (pi, -pi)
+    for back in (False, True)
+)
 PlanFor = Callable[[Choice], ManeuverPlan]
 
 
@@ -55,14 +66,17 @@ class Passage(NamedTuple):
     least: float
     last: float
 
-    def leaves(self, margin: float, blur: float) -> bool:
+    def leaves(
+        self, margin: float, blur: float, gained: float = NEARER
+    ) -> bool:
         """Whether it leads out of a place that is too narrow.
 
         Args:
             margin: Distance from which a place is not too narrow, in [m].
             blur: How much nearer it may come on the way, in [m].
+            gained: By how much it ends farther, or at the margin, in [m].
         """
-        farther = self.last > self.now + NEARER
+        farther = self.last > min(self.now + gained, margin)
         near = self.least >= self.now - blur - NEARER
         return self.now < margin and farther and near
 
@@ -105,6 +119,7 @@ class Guard:
         support: Pose,
         *,
         standing: bool,
+        loosely: bool = False,
     ) -> Choice | None:
         """What comes nearest to what is wanted and keeps clear.
 
@@ -114,29 +129,30 @@ class Guard:
             support: Frame of the plans in odometry.
             standing: Whether the robot stands; then it may also leave a
                 place that is too near to something.
+            loosely: Whether a way out of such a place is asked for that
+                comes nearer meanwhile, by as much as a map may be off.
 
         Returns:
             The first choice that keeps clear: as wanted, then slower and
             slower, down to a turn on the spot, then a turn the other way,
             and from standing a step back, sharply if need be; None if the
-            robot had better stand. Where none keeps clear of a map that may
-            be wrong, the one out of too narrow a place that comes least
-            near: else nobody would ever leave it.
+            robot had better stand. Loosely, the way out that comes least
+            near.
         """
-        ways = []
-        for choice in _choices(intent, standing=standing):
-            plan = plan_for(choice)
-            if self.accepts(plan, support, standing=standing):
-                return choice
-            if standing and self.surroundings.blur > 0.0:
-                ways.append((self.passage(plan, support), choice))
+        if not loosely:
+            for choice in _choices(intent, standing=standing):
+                plan = plan_for(choice)
+                if self.accepts(plan, support, standing=standing):
+                    return choice
+            return None
+        out: list[tuple[float, Choice]] = []
         blur = self.surroundings.blur
-        out = [
-            (passage.least, choice)
-            for passage, choice in ways
-            if passage.leaves(self.margin, blur)
-        ]
-        return max(out, key=itemgetter(0))[1] if out else None
+        for choice in (*_choices(intent, standing=standing), *WAYS_OUT):
+            plan = plan_for(choice)
+            passage = self.passage(plan, support)
+            if passage.leaves(self.margin, blur, GAINED):
+                out.append((passage.least, choice))
+        return max(out, key=itemgetter(0))[1] if standing and out else None
 
     def fit(self, plan: ManeuverPlan, support: Pose) -> ManeuverPlan:
         """A plan with footsteps that keep clear, if those are to be moved.
