@@ -5,15 +5,20 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import GAIT
-from stepaside.control.clearance.guard import Choice, Guard, Passage
+from made_up_robot import GAIT, FakeStrategy, Run
+from stepaside.control.clearance.guard import (
+    GAINED,
+    Choice,
+    Guard,
+    Passage,
+)
 from stepaside.control.clearance.solids import Solids
 from stepaside.control.clearance.surroundings import GivenRoom, SeenRoom
 from stepaside.perception.floor_map import CELL, FloorMap
 from stepaside.planning import Direction, Foot, ManeuverPlan, ManeuverPlanner
 from stepaside.poses import Pose
 from stepaside.robots.description import load_robot
-from stepaside.rooms import Room, box
+from stepaside.rooms import Disc, Room, box
 from stepaside.strategies import Intent
 from stepaside.world.outline import measure_outline
 
@@ -33,18 +38,16 @@ def plan_for(choice: Choice) -> ManeuverPlan:
     )
 
 
-def beside(
-    gap: float, around: Any, *, standing: bool, loosely: bool = True
-) -> Choice | None:
+def beside(gap: float, around: Any, *, out: bool) -> Choice | None:
     """What is chosen beside a wall on the left, at a distance in [m]."""
     guard = Guard(around, NAO, PLANNER, margin=MARGIN)
     half = float(NAO.trunk[:, 1].max())
     around.solids = Solids((box(0.0, half + gap + 0.5, 9.0, 1.0),))
     passage = guard.passage(plan_for(Choice(Intent(0.0))), SUPPORT)
     assert passage.now == pytest.approx(gap, abs=1e-9)
-    return guard.choose(
-        Intent(0.6), plan_for, SUPPORT, standing=standing, loosely=loosely
-    )
+    if out:
+        return guard.way_out(Intent(0.6), plan_for, SUPPORT)
+    return guard.choose(Intent(0.6), plan_for, SUPPORT, standing=True)
 
 
 def given() -> GivenRoom:
@@ -57,24 +60,21 @@ def seen() -> SeenRoom:
 
 def test_a_step_sways_to_where_a_map_sees_a_wall() -> None:
     """Beside a wall that is known to be there nobody does that."""
-    kept = beside(0.3, given(), standing=True, loosely=False)
-    assert kept == Choice(Intent(0.6))
-    assert beside(0.009, given(), standing=True) is None
-    assert beside(0.009, seen(), standing=True, loosely=False) is None
-    chosen = beside(0.009, seen(), standing=True)
+    assert beside(0.3, given(), out=False) == Choice(Intent(0.6))
+    for around in (given(), seen()):
+        assert beside(0.009, around, out=False) is None
+    assert beside(0.009, given(), out=True) is None
+    around = seen()
+    chosen = beside(0.009, around, out=True)
     assert chosen is not None
-    guard = Guard(seen(), NAO, PLANNER, margin=MARGIN)
-    guard.surroundings.solids = Solids(  # type: ignore[misc]
-        (box(0.0, float(NAO.trunk[:, 1].max()) + 0.509, 9.0, 1.0),)
-    )
+    guard = Guard(around, NAO, PLANNER, margin=MARGIN)
     passage = guard.passage(plan_for(chosen), SUPPORT)
-    assert passage.last > passage.now
-    assert passage.least > passage.now - CELL
+    assert passage.last > passage.now + GAINED
+    assert passage.now > passage.least > passage.now - CELL
 
 
-def test_who_walks_or_has_room_to_stand_takes_no_such_way() -> None:
-    assert beside(0.009, seen(), standing=False) is None
-    assert beside(0.021, seen(), standing=True) is None
+def test_who_has_room_to_stand_takes_no_such_way() -> None:
+    assert beside(0.021, seen(), out=True) is None
 
 
 @pytest.mark.parametrize(
@@ -112,8 +112,37 @@ def test_of_two_ways_out_the_one_that_comes_least_near_is_taken(
     around.solids = Solids((box(0.0, 1.0, 1.0, 1.0),))
     guard = Guard(around, NAO, PLANNER, margin=MARGIN)
     same: Any = lambda choice: choice  # noqa: E731
-    chosen = guard.choose(
-        Intent(0.6), same, SUPPORT, standing=True, loosely=True
-    )
+    chosen = guard.way_out(Intent(0.6), same, SUPPORT)
     assert chosen is not None and len(told) > 3
     assert told[chosen].least == max(p.least for p in told.values())
+
+
+def test_a_way_out_ends_farther_by_a_little_or_at_the_margin() -> None:
+    """Else somebody would shuffle there for ever."""
+    for last, leaves in ((0.013, False), (0.0141, True)):
+        assert Passage(0.01, 0.0, last).leaves(MARGIN, 0.05, GAINED) is leaves
+    assert Passage(0.018, 0.0, 0.0201).leaves(MARGIN, 0.05, GAINED)
+    assert GAINED == 0.004
+
+
+def begun(around: Any) -> Foot | None:
+    """The foot with which a robot leads who wants to go to the left."""
+    guard = Guard(around, NAO, PLANNER, margin=MARGIN)
+    run = Run(FakeStrategy(heading=0.6), guard=guard)
+    plan = run.until(0.1).plan
+    return None if plan is None else plan.first_foot
+
+
+def test_neither_foot_is_left_out_for_a_loose_way() -> None:
+    """A disc at the right: who swings the right foot first sways off it."""
+    ahead = plan_for(Choice(Intent(0.0)))
+    around: Any
+    for around in (given(), seen()):
+        guard, away = Guard(around, NAO, PLANNER, margin=MARGIN), 0.1
+        while True:
+            centre = away * np.cos(-1.83), away * np.sin(-1.83)
+            around.solids = Solids((Disc(*centre, 0.1),))
+            if guard.passage(ahead, SUPPORT).now > 0.012:
+                break
+            away += 0.001
+        assert begun(around) is Foot.RIGHT

@@ -43,7 +43,7 @@ class Maneuvers:
         """What who stands tries one after the other, once with each foot.
 
         Where both fail by a map that may be off, each may try again to get
-        out of too narrow a place; see :meth:`Guard.choose`.
+        out of too narrow a place; see :meth:`Guard.way_out`.
         """
         blurred = self.guard is not None and self.guard.surroundings.blur > 0.0
         try:
@@ -102,13 +102,15 @@ class Maneuvers:
         chosen: Choice | None = Choice(intent)
         if self.guard is not None:
             # Fitting moves no foot, so it can wait until the choice is made.
-            chosen = self.guard.choose(
-                intent,
-                lambda choice: plan_of(choice, state),
-                support,
-                standing=standing,
-                loosely=self._loosely,
-            )
+            def planned(choice: Choice) -> ManeuverPlan:
+                return plan_of(choice, state)
+
+            if self._loosely:
+                chosen = self.guard.way_out(intent, planned, support)
+            else:
+                chosen = self.guard.choose(
+                    intent, planned, support, standing=standing
+                )
         if chosen is None:
             return None
         walked = chosen

@@ -119,7 +119,6 @@ class Guard:
         support: Pose,
         *,
         standing: bool,
-        loosely: bool = False,
     ) -> Choice | None:
         """What comes nearest to what is wanted and keeps clear.
 
@@ -129,30 +128,39 @@ class Guard:
             support: Frame of the plans in odometry.
             standing: Whether the robot stands; then it may also leave a
                 place that is too near to something.
-            loosely: Whether a way out of such a place is asked for that
-                comes nearer meanwhile, by as much as a map may be off.
 
         Returns:
             The first choice that keeps clear: as wanted, then slower and
             slower, down to a turn on the spot, then a turn the other way,
             and from standing a step back, sharply if need be; None if the
-            robot had better stand. Loosely, the way out that comes least
-            near.
+            robot had better stand.
         """
-        if not loosely:
-            for choice in _choices(intent, standing=standing):
-                plan = plan_for(choice)
-                if self.accepts(plan, support, standing=standing):
-                    return choice
-            return None
-        out: list[tuple[float, Choice]] = []
+        for choice in _choices(intent, standing=standing):
+            if self.accepts(plan_for(choice), support, standing=standing):
+                return choice
+        return None
+
+    def way_out(
+        self, intent: Intent, plan_for: PlanFor, support: Pose
+    ) -> Choice | None:
+        """How who stands gets out of a place that a map calls too narrow.
+
+        Args:
+            intent: What is wanted.
+            plan_for: Plans from a choice.
+            support: Frame of the plans in odometry.
+
+        Returns:
+            The way out that comes least near to anything, nearer than now by
+            no more than the map may be off; None if there is none.
+        """
         blur = self.surroundings.blur
-        for choice in (*_choices(intent, standing=standing), *WAYS_OUT):
-            plan = plan_for(choice)
-            passage = self.passage(plan, support)
+        out = []
+        for choice in (*_choices(intent, standing=True), *WAYS_OUT):
+            passage = self.passage(plan_for(choice), support)
             if passage.leaves(self.margin, blur, GAINED):
                 out.append((passage.least, choice))
-        return max(out, key=itemgetter(0))[1] if standing and out else None
+        return max(out, key=itemgetter(0))[1] if out else None
 
     def fit(self, plan: ManeuverPlan, support: Pose) -> ManeuverPlan:
         """A plan with footsteps that keep clear, if those are to be moved.
