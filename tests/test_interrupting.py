@@ -7,13 +7,22 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+import click
 import pytest
 
+from stepaside.cli import LazyGroup
+from stepaside.commands.outputs import writes_files
 from stepaside.games.outcome import Outcome
 from stepaside.games.player_record import Record
 from stepaside.games.walk import run_walk
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.interrupting import Held, interrupt, is_loading, stoppable
+from stepaside.interrupting import (
+    Held,
+    interrupt,
+    is_loading,
+    stoppable,
+    was_interrupted,
+)
 from stepaside.studies.version import ROOT
 
 LOADERS = """
@@ -106,6 +115,57 @@ def test_an_interrupt_while_a_lost_one_is_sent_again_is_not_lost(
         Lost()
         while True:
             pass
+
+
+def mistake(sign: signal.Signals) -> None:
+    """As a library does whose compiled parts ask Python things."""
+    try:
+        signal.raise_signal(sign)
+    except KeyboardInterrupt:
+        raise ValueError("invalid bounding box") from None
+
+
+@pytest.mark.parametrize("sign", SIGNALS)
+def test_an_interrupt_that_a_library_mistook_is_told_from_an_error(
+    sign: signal.Signals,
+) -> None:
+    with stoppable():
+        assert not was_interrupted()
+        with pytest.raises(ValueError, match="bounding"):
+            mistake(sign)
+        assert was_interrupted()
+    with stoppable():
+        assert not was_interrupted()
+
+
+class Group(LazyGroup):
+    """Has one command."""
+
+    def __init__(self, calls: dict[str, click.Command]) -> None:
+        super().__init__("stepaside")
+        self.calls = calls
+
+    def get_command(
+        self, ctx: click.Context, cmd_name: str
+    ) -> click.Command | None:
+        """The one that is asked for."""
+        return self.calls.get(cmd_name)
+
+
+@pytest.mark.parametrize("writes", [False, True])
+def test_a_command_that_is_interrupted_so_says_it_in_a_line(
+    writes: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def command() -> None:
+        mistake(signal.SIGTERM)
+
+    call = click.command("draw")(writes_files(command) if writes else command)
+    with pytest.raises(SystemExit) as status:
+        Group({"draw": call}).main(["draw"])
+    assert status.value.code == 130
+    said = capsys.readouterr().err
+    assert said.startswith("stepaside: interrupted; ")
+    assert said.count("\n") == 1
 
 
 def test_whoever_has_a_handler_keeps_it() -> None:

@@ -10,7 +10,7 @@ import click
 from . import __version__
 from .errors import StepAsideError, shortened
 from .extras import remedy
-from .interrupting import stoppable
+from .interrupting import stoppable, was_interrupted
 
 INTERRUPTED = 130  # exit status
 COMMANDS = {
@@ -79,9 +79,11 @@ class LazyGroup(click.Group):
             place = f"{error.filename}: " if error.filename else ""
             _refuse(f"{place}{(error.strerror or str(error)).lower()}")
         except (click.Abort, KeyboardInterrupt):
-            said = "stepaside: interrupted; what is not whole is not kept"
-            click.echo(said, err=True)
-            sys.exit(INTERRUPTED)
+            _leave()
+        except Exception:
+            if was_interrupted():
+                _leave()
+            raise
         sys.exit(status if isinstance(status, int) else 0)
 
 
@@ -107,6 +109,12 @@ def all_commands() -> dict[str, click.Command]:
             if alone:
                 found[words] = command
     return found
+
+
+def _leave() -> NoReturn:
+    said = "stepaside: interrupted; what is not whole is not kept"
+    click.echo(said, err=True)
+    sys.exit(INTERRUPTED)
 
 
 def _refuse(message: str) -> NoReturn:

@@ -4,7 +4,9 @@ An interrupt that comes while a compiled library begins is taken for an error
 of that library, and one that comes while Python tidies up after an import is
 passed over; a process that a library asks as it loads would die with words of
 its own. So none is raised there, but a moment later. One that comes while a
-game is at a tick waits for the end of that, so that the record is whole.
+game is at a tick waits for the end of that, so that the record is whole. One
+that a library mistook for an error of its own all the same, as those do whose
+compiled parts ask Python things, is told from such an error afterwards.
 """
 
 import os
@@ -22,6 +24,8 @@ IMPORTING = "<frozen importlib._bootstrap"  # and ..._external>
 ASKING = os.path.join(os.path.dirname(os.__file__), "subprocess.py")
 COMPILED = ("create_module", "exec_module")  # of a loader
 
+_raised: set[int] = set()  # signals that were told to what runs
+
 
 @contextmanager
 def stoppable() -> Iterator[None]:
@@ -32,6 +36,7 @@ def stoppable() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
+    _raised.clear()
     before = {signal.SIGTERM: signal.signal(signal.SIGTERM, interrupt)}
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         before[signal.SIGINT] = signal.signal(signal.SIGINT, interrupt)
@@ -105,8 +110,14 @@ def interrupt(number: int, frame: FrameType | None) -> None:
         KeyboardInterrupt: Now, or a moment later.
     """
     if not is_loading(frame):
+        _raised.add(number)
         raise KeyboardInterrupt
     _again(number)
+
+
+def was_interrupted() -> bool:
+    """Whether an error that nobody expects may have been an interrupt."""
+    return bool(_raised)
 
 
 def is_loading(frame: FrameType | None) -> bool:

@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Callable
+from concurrent.futures import BrokenExecutor
 from contextlib import suppress
 from functools import wraps
 from pathlib import Path
@@ -9,7 +10,8 @@ from typing import Any
 
 import click
 
-from ..errors import ConfigurationError, OutputError
+from ..errors import ConfigurationError, OutputError, StepAsideError
+from ..interrupting import was_interrupted
 from ..outputs import check_file
 from .declared.kinds import OutputFile
 from .declared.option import Declaration
@@ -19,6 +21,10 @@ OVERWRITE = Declaration(
     "--overwrite/--no-overwrite", "Replace files that are there already."
 )
 FAILED = "stepaside.outputs.failed"
+EXPECTED = (
+    *(StepAsideError, OSError, ImportError, BrokenExecutor),
+    *(click.ClickException, click.Abort, click.exceptions.Exit),
+)
 
 
 def writes_files(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -45,6 +51,10 @@ def writes_files(function: Callable[..., Any]) -> Callable[..., Any]:
             leave_stopped(_kept(before, _files(context)))
         except SystemExit as status:
             left = status
+        except Exception as error:
+            if isinstance(error, EXPECTED) or not was_interrupted():
+                raise
+            leave_stopped(_kept(before, _files(context)))
         for failed in context.meta.get(FAILED, ())[:1]:
             raise failed
         if left is not None:
