@@ -1,5 +1,6 @@
 """One line on the terminal that says what the robot does."""
 
+import re
 from collections.abc import Callable
 from enum import Enum
 from math import degrees
@@ -9,6 +10,7 @@ from typing import Protocol, TextIO
 from ..sensing.measurement import Sighting
 
 PERIOD = 0.2  # between two looks of the line, in [s]
+_NUMBER = re.compile(r"[-+]?\d+(\.\d+)?")
 
 
 class Shown(Protocol):
@@ -17,6 +19,10 @@ class Shown(Protocol):
     @property
     def state(self) -> Enum:
         """What the robot is doing."""
+
+    @property
+    def reason(self) -> str:
+        """Why, in words."""
 
     @property
     def time(self) -> float:
@@ -43,7 +49,11 @@ def words_of(tick: Shown) -> str:
 
 
 class StatusLine:
-    """Keeps a line up to date, and leaves one behind at each change."""
+    """Keeps a line up to date, and leaves one behind at each change.
+
+    A change is another state, or another reason for it; a reason whose
+    numbers alone differ ("no odometry for 0.31 s") is the same.
+    """
 
     def __init__(
         self, stream: TextIO, clock: Callable[[], float] = monotonic
@@ -52,17 +62,18 @@ class StatusLine:
         self._stream, self._clock = stream, clock
         self._is_terminal = stream.isatty()
         self._said = -PERIOD
-        self._state: Enum | None = None
+        self._last: tuple[Enum, str] | None = None
 
     def note(self, tick: Shown) -> None:
         """Say what a tick was, if it is time to."""
         now = self._clock()
-        changed = tick.state is not self._state
+        kind = tick.state, _NUMBER.sub("", tick.reason)
+        changed = kind != self._last
         if not changed and not self._is_terminal:
             return
         if not changed and now - self._said < PERIOD:
             return
-        self._state, self._said = tick.state, now
+        self._last, self._said = kind, now
         text = words_of(tick)
         if self._is_terminal:
             text = f"\r{text:<79.120}" + ("\n" if changed else "")

@@ -1,0 +1,73 @@
+"""Test the line that says what a robot does, where it is no terminal."""
+
+import io
+from enum import Enum
+from typing import NamedTuple
+
+from stepaside.drivers.status_line import StatusLine
+from stepaside.sensing.measurement import Sighting
+
+
+class State(Enum):
+    """What a made-up robot does."""
+
+    WAITING = "waiting"
+    WALKING = "walking"
+
+
+class Shown(NamedTuple):
+    """A made-up tick."""
+
+    state: State
+    reason: str
+    time: float = 0.0
+    sighting: Sighting | None = None
+
+    @property
+    def words(self) -> str:
+        """The tick in one line."""
+        return f"{self.state.value} ({self.reason})"
+
+
+def lines(*ticks: Shown) -> list[str]:
+    """What is left behind where stderr is no terminal."""
+    stream = io.StringIO()
+    line = StatusLine(stream, clock=lambda: 0.0)
+    for tick in ticks:
+        line.note(tick)
+    line.close()
+    return stream.getvalue().splitlines()
+
+
+def test_each_changed_reason_is_one_line() -> None:
+    said = lines(
+        Shown(State.WAITING, "has not been heard yet"),
+        Shown(State.WAITING, "has not been heard yet"),
+        Shown(State.WAITING, "sees nobody"),
+        Shown(State.WAITING, "sees nobody"),
+        Shown(State.WALKING, "sees the other"),
+        Shown(State.WAITING, "sees nobody"),
+    )
+    reasons = ["has not been heard yet", "sees nobody"]
+    reasons += ["sees the other", "sees nobody"]
+    assert len(said) == len(reasons)
+    for line, reason in zip(said, reasons, strict=True):
+        assert f"({reason})" in line
+
+
+def test_a_reason_that_counts_is_one_line() -> None:
+    """Every tick says another number, and all mean the same."""
+    ages = (0.55, 0.6, 9.95, 10.0, 123.4)
+    said = lines(
+        *(
+            Shown(State.WAITING, f"the other was seen {age:.1f} s ago")
+            for age in ages
+        ),
+        *(
+            Shown(State.WAITING, f"no odometry for {age:.2f} s")
+            for age in ages
+        ),
+    )
+    assert len(said) == 2
+    assert "was seen 0.6 s ago" in said[0] or "0.5 s ago" in said[0]
+    assert "no odometry for 0.55 s" in said[1]
