@@ -27,6 +27,7 @@ SAMPLES: dict[str, Any] = {
     "builtin_interfaces/msg/Time": STAMP,
     "std_msgs/msg/Header": HEADER,
     "geometry_msgs/msg/Twist": TWIST,
+    "geometry_msgs/msg/TwistStamped": m.TwistStamped(HEADER, TWIST),
     "geometry_msgs/msg/PointStamped": m.PointStamped(
         HEADER, m.Point(1.5, -0.5, 0.0)
     ),

@@ -18,6 +18,20 @@ from cyclonedds.topic import Topic  # isort: skip
 SETTING = "CYCLONEDDS_URI"
 MAKING = RLock()  # two topics that are made at once may fail, one of them
 LONGEST_DOMAIN = 232  # number of the last domain that has ports
+LOCAL = (
+    "ROS 2 topics stay on this machine: start its ROS 2 programs with "
+    "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST, or give --network to reach others"
+)
+# Fast DDS, vendor 1.15: version 3, of ROS 2 Kilted, describes types in a form
+# that CycloneDDS takes for invalid, and then no endpoint of them is matched.
+# ROS 2 itself matches types by their names.
+COMPATIBLE = """
+<CycloneDDS><Domain>
+  <Compatibility>
+    <IgnoreTypeInformation>1.15</IgnoreTypeInformation>
+  </Compatibility>
+</Domain></CycloneDDS>
+"""
 HERE = """
 <CycloneDDS><Domain>
   <General>
@@ -62,14 +76,15 @@ class Dds:
             raise ConfigurationError(
                 f"domain must lie in [0, {LONGEST_DOMAIN}], got {number}"
             )
-        with MAKING, _configured(None if beyond else HERE.format(tag=tag)):
+        base = os.environ.get(SETTING, "") if beyond else HERE.format(tag=tag)
+        with MAKING, _configured(base, COMPATIBLE):
             try:
                 self.participant = DomainParticipant(number)
             except DDSException as error:
                 raise ConfigurationError(
                     f"DDS cannot start: {error}"
                 ) from error
-        self._topics: dict[str, Any] = {}
+        self._topics: dict[tuple[str, type[Any]], Any] = {}
 
     def writer(self, topic: str, kind: type[Any], depth: int = 1) -> Any:
         """Something that writes a topic, reliably.
@@ -106,9 +121,10 @@ class Dds:
             return DataReader(self.participant, topic_of_it, qos=qos)
 
     def _topic(self, name: str, kind: type[Any]) -> Any:
-        if name not in self._topics:
-            self._topics[name] = Topic(self.participant, name, kind)
-        return self._topics[name]
+        key = name, kind
+        if key not in self._topics:
+            self._topics[key] = Topic(self.participant, name, kind)
+        return self._topics[key]
 
     def close(self) -> None:
         """Leave the domain, whoever still holds a reader or a writer.
@@ -135,11 +151,15 @@ def taken(reader: Any) -> list[Any]:
 
 
 @contextmanager
-def _configured(text: str | None) -> Iterator[None]:
-    """Configure the domain that the first participant of a process makes."""
+def _configured(*parts: str) -> Iterator[None]:
+    """Configure the domain that the first participant of a process makes.
+
+    Args:
+        parts: Files or documents; what a later one says counts.
+    """
     before = os.environ.get(SETTING)
-    if text is not None:
-        os.environ[SETTING] = "".join(text.split("\n"))
+    lines = ("".join(part.split("\n")) for part in parts if part)
+    os.environ[SETTING] = ",".join(lines)
     try:
         yield
     finally:

@@ -98,6 +98,14 @@ class Twist(IdlStruct, typename="geometry_msgs.msg.dds_.Twist_"):
 
 
 @dataclass
+class TwistStamped(IdlStruct, typename="geometry_msgs.msg.dds_.TwistStamped_"):
+    """Velocities at an instant."""
+
+    header: Header
+    twist: Twist
+
+
+@dataclass
 class PointStamped(IdlStruct, typename="geometry_msgs.msg.dds_.PointStamped_"):
     """A point at an instant."""
 

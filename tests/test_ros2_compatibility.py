@@ -1,0 +1,76 @@
+"""Test what CycloneDDS is told, so that ROS 2 and we hear each other."""
+
+import os
+from collections.abc import Callable
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+
+pytest.importorskip("cyclonedds")
+
+from stepaside.drivers.ros2 import domain  # noqa: E402
+from stepaside.drivers.ros2.domain import Dds  # noqa: E402
+
+FAST_DDS = "1.15"  # vendor's number of Fast DDS, ROS 2's own DDS
+OWN = "<CycloneDDS><Domain><General/></Domain></CycloneDDS>"
+FILE = "file:///etc/cyclonedds.xml"
+
+
+@pytest.fixture
+def told(monkeypatch: pytest.MonkeyPatch) -> Callable[..., str]:
+    """What CycloneDDS is told when a participant is made."""
+
+    def tell(before: str | None = None, **changes: Any) -> str:
+        seen: list[str] = []
+        if before is None:
+            monkeypatch.delenv("CYCLONEDDS_URI", raising=False)
+        else:
+            monkeypatch.setenv("CYCLONEDDS_URI", before)
+
+        def participant(number: int) -> None:
+            seen.append(os.environ.get("CYCLONEDDS_URI", ""))
+
+        monkeypatch.setattr(domain, "DomainParticipant", participant)
+        Dds(0, **changes)
+        assert os.environ.get("CYCLONEDDS_URI") == before
+        return seen[0]
+
+    return tell
+
+
+def last_ignored(told: str) -> str | None:
+    """Vendors whose type information is ignored, by the last word on it."""
+    config = ElementTree.fromstring(told[told.rindex("<CycloneDDS>") :])
+    return config.findtext("Domain/Compatibility/IgnoreTypeInformation")
+
+
+@pytest.mark.parametrize("before", [None, "", OWN, FILE, f"{FILE},{OWN}"])
+@pytest.mark.parametrize("beyond", [False, True])
+def test_type_information_of_fast_dds_is_ignored_always(
+    told: Callable[..., str], before: str | None, beyond: bool
+) -> None:
+    """Fast DDS 3 sends what CycloneDDS takes for invalid, and nothing came."""
+    assert last_ignored(told(before, beyond=beyond)) == FAST_DDS
+
+
+@pytest.mark.parametrize("before", [OWN, FILE, f"{FILE},{OWN}"])
+def test_beyond_this_machine_the_own_configuration_counts(
+    told: Callable[..., str], before: str
+) -> None:
+    assert told(before, beyond=True).startswith(f"{before},")
+    assert before not in told(before)
+
+
+@pytest.mark.parametrize("beyond", [False, True])
+def test_a_participant_begins_with_it(
+    beyond: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """CycloneDDS refuses a configuration that it does not know."""
+    loopback = (
+        "<CycloneDDS><Domain><General><Interfaces>"
+        '<NetworkInterface name="lo" multicast="false"/>'
+        "</Interfaces></General></Domain></CycloneDDS>"
+    )
+    monkeypatch.setenv("CYCLONEDDS_URI", loopback)
+    Dds(73, beyond=beyond, tag="" if beyond else f"{os.getpid()}").close()
