@@ -10,8 +10,10 @@ from ...poses import Pose
 from ...sensing.measurement import Sighting
 from ..session import SessionLost
 from ..velocity.body import REST, Report, Velocity
+from .commands import CommandWriter
+from .discovery import Endpoints
 from .domain import Dds, taken
-from .messages import Odometry, PointStamped, PoseStamped, Twist
+from .messages import Header, Odometry, PointStamped, PoseStamped, Time
 from .topics import (
     COMMAND,
     IDEAL,
@@ -21,7 +23,6 @@ from .topics import (
     dds_topic,
     place_of,
     pose_of,
-    vector,
 )
 
 POLL = 0.001  # between two looks for what has arrived, in [s]
@@ -29,6 +30,7 @@ PARTING = 5  # times that rest is asked for at the end
 PARTING_PAUSE = 0.02  # between them, in [s]
 LETTING_GO = 3.0  # how long rest is asked for in control's place, in [s]
 POSE_TICK = 0.01  # of remembered poses, in [s]
+UNSTAMPED = Header(Time(0, 0), "")  # robots take it for now, or for too old
 log = logging.getLogger(__name__)
 
 
@@ -38,7 +40,9 @@ class Ros2Body:
     It hears ``odom`` and where the other is: ``other`` (a point) or
     ``other_pose``, in the frame of the odometry if that is what the header
     says, else in the robot's own frame, x ahead and y left; from a
-    simulated robot also ``ideal_sight``. It writes ``cmd_vel``.
+    simulated robot also ``ideal_sight``. It writes ``cmd_vel``, as ``Twist``
+    or ``TwistStamped``: what the robot subscribes to. A stamp is that of the
+    newest odometry, since robots refuse stamps that are old by their clock.
     """
 
     def __init__(
@@ -52,7 +56,6 @@ class Ros2Body:
             dry_run: Whether nothing is ever commanded.
         """
         self._dds, self._namespace = dds, namespace
-        self._dry_run = dry_run
 
         def reader(name: str, kind: type[Any]) -> Any:
             return dds.reader(dds_topic(namespace, name), kind)
@@ -63,10 +66,12 @@ class Ros2Body:
             POSE: reader(POSE, PoseStamped),
             IDEAL: reader(IDEAL, PointStamped),
         }
-        self._others = reader(COMMAND, Twist)
-        self._command: Any = None
+        topic = dds_topic(namespace, COMMAND)
+        self._others = Endpoints(dds, topic, writers=True)
+        self._commands: CommandWriter | None = None
         if not dry_run:
-            self._command = dds.writer(dds_topic(namespace, COMMAND), Twist)
+            self._commands = CommandWriter(dds, namespace)
+        self._header = UNSTAMPED
         self._poses: Memory[Pose] = Memory(POSE_TICK)
         self._sighting: Sighting | None = None
         self._told_ideal = False
@@ -74,8 +79,7 @@ class Ros2Body:
     @property
     def commanders(self) -> int:
         """How many others command this robot."""
-        all_of_them = len(self._others.get_matched_publications())
-        return all_of_them - (not self._dry_run and all_of_them > 0)
+        return self._others.participants
 
     def listen(self, patience: float) -> Report | None:
         """Newest report since the last; None if none comes in time.
@@ -98,13 +102,10 @@ class Ros2Body:
         Raises:
             SessionLost: If it cannot be written.
         """
-        if self._dry_run:
+        if self._commands is None:
             return
-        taken(self._others)  # what is commanded comes back: nobody reads it
         try:
-            self._command.write(
-                Twist(vector(velocity.forward), vector(z=velocity.turn))
-            )
+            self._commands.write(velocity, self._header)
         except Exception as error:
             raise SessionLost(f"the robot takes no command: {error}") from (
                 error
@@ -113,18 +114,20 @@ class Ros2Body:
     def close(self) -> None:
         """Ask for rest a few times, and leave."""
         try:
-            for _ in range(0 if self._dry_run else PARTING):
+            for _ in range(PARTING if self._commands else 0):
                 self.command(REST)
                 sleep(PARTING_PAUSE)
         except SessionLost as error:
             log.warning("%s", error)
         finally:
-            del self._odometry, self._sights, self._others, self._command
+            del self._odometry, self._sights, self._others, self._commands
             self._dds.close()
 
     def _report(self, odometry: Odometry) -> Report:
         pose = pose_of(odometry.pose.pose)
-        time = odometry.header.stamp.seconds
+        stamp = odometry.header.stamp
+        time = stamp.seconds
+        self._header = Header(stamp, odometry.child_frame_id)
         self._poses.note(time, pose)
         for name, reader in self._sights.items():
             for message in taken(reader):
@@ -135,9 +138,14 @@ class Ros2Body:
                         self._namespace or "/",
                     )
                 self._note(message, odometry.header.frame_id)
+        return Report(time, pose, self._sighting, self._hindrance())
+
+    def _hindrance(self) -> str:
+        """Why the robot must not be asked to move, if anything is."""
+        if self._commands is not None and (why := self._commands.hindrance()):
+            return why
         others = self.commanders
-        hindrance = f"{others} others command this robot" if others else ""
-        return Report(time, pose, self._sighting, hindrance)
+        return f"{others} others command this robot" if others else ""
 
     def _note(
         self, message: PointStamped | PoseStamped, odometry_frame: str
@@ -159,9 +167,9 @@ def rest(dds: Dds, namespace: str, duration: float = LETTING_GO) -> None:
         namespace: Of the robot.
         duration: How long, in [s]: it takes a while to be found.
     """
-    writer = dds.writer(dds_topic(namespace, COMMAND), Twist)
+    commands = CommandWriter(dds, namespace)
     for _ in range(round(duration / PARTING_PAUSE)):
-        writer.write(Twist(vector(), vector()))
+        commands.write(REST, UNSTAMPED)
         sleep(PARTING_PAUSE)
-    del writer
+    del commands
     dds.close()

@@ -20,7 +20,7 @@ MAKING = RLock()  # two topics that are made at once may fail, one of them
 LONGEST_DOMAIN = 232  # number of the last domain that has ports
 LOCAL = (
     "ROS 2 topics stay on this machine: start its ROS 2 programs with "
-    "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST, or give --network to reach others"
+    "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; --network reaches others"
 )
 # Fast DDS, vendor 1.15: version 3, of ROS 2 Kilted, describes types in a form
 # that CycloneDDS takes for invalid, and then no endpoint of them is matched.

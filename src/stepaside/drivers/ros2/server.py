@@ -9,7 +9,8 @@ from ...sensing.measurement import Sighting
 from ..velocity.body import REST, Velocity
 from ..velocity.served import WalkerState, WalkingRobot
 from .camera_topics import CameraTopics
-from .domain import Dds, taken
+from .commands import CommandReader
+from .domain import Dds
 from .messages import (
     Clock,
     Header,
@@ -26,7 +27,6 @@ from .messages import (
     TwistWithCovariance,
 )
 from .topics import (
-    COMMAND,
     IDEAL,
     JOINTS,
     ODOMETRY,
@@ -41,7 +41,6 @@ EVERY = 4  # ticks from one report to the next: 48 ms
 SILENCE = 0.5  # of the commander before the robot rests, in [s]
 LOOKS = 400  # for an answer in lock step before it is asked for again
 UNKNOWN = (0.0,) * 36  # covariance of what nobody has estimated
-HANDLES = 1 << 64  # handles are signed in some places, unsigned in others
 log = logging.getLogger(__name__)
 
 
@@ -64,7 +63,8 @@ class Ros2Server:
     """Speaks ROS 2 topics for one robot.
 
     The first who commands is the commander until it leaves; what others ask
-    for is refused.
+    for is refused. Commands are ``Twist`` or ``TwistStamped``; a stamp is
+    not looked at.
 
     Attributes:
         refused: Commands that were not followed.
@@ -105,7 +105,7 @@ class Ros2Server:
         self._joints = writer(JOINTS, JointState)
         self._sight = writer(IDEAL, PointStamped)
         self._transforms = dds.writer(dds_topic("", "tf"), TFMessage, 100)
-        self._commands = dds.reader(dds_topic(namespace, COMMAND), Twist)
+        self._commands = CommandReader(dds, namespace)
         self._cameras = CameraTopics(dds, namespace)
         self._commander: int | None = None
         self._told: Sighting | None = None
@@ -148,20 +148,18 @@ class Ros2Server:
 
     def hear(self) -> bool:
         """Take commands that have come; whether nobody is waited for."""
-        present = {
-            handle % HANDLES
-            for handle in self._commands.get_matched_publications()
-        }
+        present = self._commands.commanders()
         if self._commander is not None and self._commander not in present:
             log.warning("%s: commander left", self._namespace or "/")
             self._commander, self._velocity = None, REST
-        for sample in taken(self._commands):
-            who = sample.sample_info.publication_handle % HANDLES
+        if self._commander is None:
+            self._commands.choose()
+        for who, twist in self._commands.taken():
             if self._commander is None and who in present:
                 self._commander = who
                 log.info("%s: commander came", self._namespace or "/")
             if who == self._commander:
-                self._take(sample)
+                self._take(twist)
             else:
                 self.refused += 1
         waits = self._lock_step and self.connected and not self.answered

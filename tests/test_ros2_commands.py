@@ -1,0 +1,280 @@
+"""Test that commands are written as those who take them want them."""
+
+import os
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+pytest.importorskip("cyclonedds")
+
+from stepaside.drivers.ros2.body import Ros2Body, rest  # noqa: E402
+from stepaside.drivers.ros2.domain import Dds, taken  # noqa: E402
+from stepaside.drivers.ros2.messages import (  # noqa: E402
+    Header,
+    Odometry,
+    PointStamped,
+    PoseWithCovariance,
+    Time,
+    Twist,
+    TwistStamped,
+    TwistWithCovariance,
+    Vector3,
+)
+from stepaside.drivers.ros2.server import Ros2Server, WorldClock  # noqa: E402
+from stepaside.drivers.ros2.topics import (  # noqa: E402
+    dds_topic,
+    pose_message,
+    vector,
+)
+from stepaside.drivers.velocity.body import REST, Report, Velocity  # noqa: E402
+from stepaside.drivers.velocity.limits import VelocityLimits  # noqa: E402
+from stepaside.drivers.velocity.mind import TemplateMind  # noqa: E402
+from stepaside.drivers.velocity.playing import (  # noqa: E402
+    Driving,
+    VelocityPlaying,
+)
+from stepaside.drivers.velocity.watchdog import WatchSettings  # noqa: E402
+from stepaside.planning import GaitSettings  # noqa: E402
+from stepaside.poses import Pose  # noqa: E402
+from stepaside.strategies import Pursuit  # noqa: E402
+
+from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
+
+TAG = f"stepaside-commands-{os.getpid()}"
+TOPIC = dds_topic("/nao", "cmd_vel")
+ZERO = (0.0,) * 36
+ASKED = Velocity(0.05, -0.2)
+
+
+class Robot:
+    """A robot of others: it tells its odometry, and takes some type."""
+
+    def __init__(self, *kinds: type[Any]) -> None:
+        self.dds = Dds(0, tag=TAG)
+        self.odometry = self.dds.writer(dds_topic("/nao", "odom"), Odometry)
+        self.sight = self.dds.writer(dds_topic("/nao", "other"), PointStamped)
+        self.readers = {kind: self.subscribe(kind) for kind in kinds}
+        self.time = 50.0
+
+    def subscribe(self, kind: type[Any]) -> Any:
+        """Take commands of a type."""
+        return self.dds.reader(TOPIC, kind)
+
+    def tell(self) -> None:
+        """Say where it is, and that somebody is ahead."""
+        self.time += 0.05
+        header = Header(Time.of(self.time), "nao/odom")
+        own = Header(header.stamp, "nao/base_link")
+        self.sight.write(PointStamped(own, Vector3(2.0, 0.5, 0.0)))
+        self.odometry.write(
+            Odometry(
+                header,
+                "nao/base_link",
+                PoseWithCovariance(pose_message(Pose(0.0, 0.0, 0.0)), ZERO),
+                TwistWithCovariance(Twist(vector(), vector()), ZERO),
+            )
+        )
+
+    def close(self) -> None:
+        """Leave."""
+        self.dds.close()
+
+
+@pytest.fixture
+def body() -> Iterator[Ros2Body]:
+    body = Ros2Body(Dds(0, tag=TAG), "/nao")
+    yield body
+    body.close()
+
+
+def heard(robot: Robot, body: Ros2Body) -> Report:
+    """The next report of a robot."""
+
+    def report() -> Report | None:
+        robot.tell()
+        return body.listen(0.005)
+
+    found: Report = until(report)
+    return found
+
+
+def taken_by(robot: Robot, body: Ros2Body, kind: type[Any]) -> Any:
+    """The newest message that a robot takes."""
+
+    def message() -> Any:
+        heard(robot, body)
+        body.command(ASKED)
+        found = taken(robot.readers[kind])
+        return found and found[-1]
+
+    return until(message)
+
+
+@pytest.mark.parametrize("kind", [Twist, TwistStamped])
+def test_a_robot_is_commanded_in_the_type_that_it_takes(
+    kind: type[Any], body: Ros2Body
+) -> None:
+    robot = Robot(kind)
+    message = taken_by(robot, body, kind)
+    twist = message if kind is Twist else message.twist
+    assert (twist.linear.x, twist.angular.z) == ASKED
+    publishers = robot.readers[kind].get_matched_publications()
+    assert len(publishers) == 1
+    robot.close()
+
+
+def test_a_stamp_is_of_the_robots_clock_and_frame(body: Ros2Body) -> None:
+    """Robots refuse commands whose stamp is old, by their own clock."""
+    robot = Robot(TwistStamped)
+    header = taken_by(robot, body, TwistStamped).header
+    assert header.frame_id == "nao/base_link"
+    assert robot.time - 1.0 < header.stamp.seconds <= robot.time
+    robot.close()
+
+
+def test_who_takes_both_gets_both(body: Ros2Body) -> None:
+    """One may be the robot, the other may only look on."""
+    robot = Robot(Twist, TwistStamped)
+    stamped = taken_by(robot, body, TwistStamped)
+    assert stamped.twist == taken_by(robot, body, Twist)
+    robot.close()
+
+
+def test_a_type_that_is_taken_later_is_written_from_then_on(
+    body: Ros2Body,
+) -> None:
+    robot = Robot(Twist)
+    taken_by(robot, body, Twist)
+    del robot.readers[Twist]
+    robot.readers[TwistStamped] = robot.subscribe(TwistStamped)
+    assert taken_by(robot, body, TwistStamped).twist.linear.x == 0.05
+    robot.close()
+
+
+def test_without_a_subscriber_nothing_walks_and_the_reason_is_said(
+    body: Ros2Body,
+) -> None:
+    robot = Robot()
+    playing = VelocityPlaying(
+        body,
+        lambda: TemplateMind(Pursuit(), GaitSettings()),
+        VelocityLimits(),
+        WatchSettings(silence=60.0, lead=10.0),
+    )
+
+    def tick() -> Any:
+        robot.tell()
+        return playing.tick()
+
+    why = "nothing subscribes to /nao/cmd_vel"
+    waits = until(lambda: (t := tick()).reason == why and t)
+    assert waits.state is Driving.WAITING and waits.velocity == REST
+    for _ in range(20):
+        assert tick().state is Driving.WAITING
+    robot.readers[TwistStamped] = robot.subscribe(TwistStamped)
+    until(lambda: tick().state is Driving.WALKING)
+    del robot.readers[TwistStamped]
+    until(lambda: (t := tick()).reason == why and t.velocity == REST)
+    robot.close()
+
+
+def test_a_subscriber_of_something_else_is_named(body: Ros2Body) -> None:
+    robot = Robot(Vector3)
+    said = until(lambda: heard(robot, body).hindrance.startswith("/") and 1)
+    assert said
+    assert heard(robot, body).hindrance == (
+        "/nao/cmd_vel is subscribed as geometry_msgs/Vector3, not as "
+        "geometry_msgs/Twist or geometry_msgs/TwistStamped"
+    )
+    robot.close()
+
+
+def test_another_publisher_of_either_type_hinders(body: Ros2Body) -> None:
+    robot, other = Robot(Twist), Dds(0, tag=TAG)
+    until(lambda: not heard(robot, body).hindrance)
+    writer = other.writer(TOPIC, TwistStamped)
+    said = "1 others command this robot"
+    until(lambda: heard(robot, body).hindrance == said)
+    del writer
+    until(lambda: not heard(robot, body).hindrance)
+    other.close()
+    robot.close()
+
+
+def test_one_that_only_reads_and_thinks_offers_no_commands() -> None:
+    body = Ros2Body(Dds(0, tag=TAG), "/nao", dry_run=True)
+    robot = Robot(Twist, TwistStamped)
+    for _ in range(20):
+        assert heard(robot, body).hindrance == ""
+        body.command(ASKED)
+    for reader in robot.readers.values():
+        assert not reader.get_matched_publications()
+    body.close()
+    robot.close()
+
+
+def test_rest_in_place_of_control_is_written_as_it_is_taken() -> None:
+    robot = Robot(TwistStamped)
+    rest(Dds(0, tag=TAG), "/nao", 0.5)
+    found = taken(robot.readers[TwistStamped])
+    assert found and all(m.twist.linear.x == 0.0 for m in found)
+    robot.close()
+
+
+@pytest.mark.parametrize("kind", [Twist, TwistStamped])
+def test_a_served_robot_follows_either_type(kind: type[Any]) -> None:
+    dds, other = Dds(0, tag=TAG), Dds(0, tag=TAG)
+    walker = MadeUpWalker()
+    clock = WorldClock(dds)
+    server = Ros2Server(dds, "/nao", walker, ["a"], clock, tick=0.012)
+    writers = [other.writer(TOPIC, kind)]
+    twist = Twist(Vector3(0.05), Vector3(0.0, 0.0, 0.1))
+    header = Header(Time.of(3.0), "base_link")
+    message = twist if kind is Twist else TwistStamped(header, twist)
+
+    def obeys() -> bool:
+        writers[0].write(message)
+        server.speak()
+        return server.act() == Velocity(0.05, 0.1)
+
+    until(obeys)
+    assert server.connected and not server.refused
+    writers.clear()
+
+    def left() -> bool:
+        server.speak()
+        return not server.connected and server.act() == REST
+
+    until(left)
+    server.close()
+    other.close()
+    dds.close()
+
+
+def test_a_served_robot_goes_from_one_type_to_the_other() -> None:
+    """One type at a time: the second commander waits for the first."""
+    dds, other = Dds(0, tag=TAG), Dds(0, tag=TAG)
+    server = Ros2Server(
+        dds, "/nao", MadeUpWalker(), ["a"], WorldClock(dds), tick=0.012
+    )
+    writers = [other.writer(TOPIC, Twist)]
+
+    def asked(message: Any, forward: float) -> bool:
+        writers[-1].write(message)
+        server.speak()
+        return server.act().forward == forward
+
+    first = Twist(Vector3(0.01), Vector3())
+    until(lambda: asked(first, 0.01))
+    writers.append(other.writer(TOPIC, TwistStamped))
+    second = TwistStamped(
+        Header(Time.of(0.0), ""), Twist(Vector3(0.02), Vector3())
+    )
+    for _ in range(20):
+        assert not asked(second, 0.02)
+    del writers[0]
+    until(lambda: asked(second, 0.02))
+    other.close()
+    server.close()
+    dds.close()
