@@ -71,6 +71,33 @@ def test_a_robot_on_naoqi_that_is_not_there_is_said(
     assert "no robot answers" in refused(capsys, *words, "--by", "joints")
 
 
+LOCALHOST = "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST"
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "serve --ros2 evader=/alone",
+        "play --role evader --robot ros2:/alone",
+        "play --role evader --robot ros2:/alone --dry-run",
+    ],
+)
+def test_topics_that_stay_here_say_what_ros_needs(words: str) -> None:
+    pytest.importorskip("cyclonedds")
+    process = subprocess.Popen(
+        [sys.executable, "-c", PLAY, *words.split(), "--domain", "73"],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        assert process.stderr is not None
+        assert any(LOCALHOST in line for line in process.stderr)
+    finally:
+        process.kill()
+        process.communicate(timeout=20.0)
+
+
 @pytest.mark.parametrize("way", ["velocity", "footsteps"])
 def test_play_that_is_killed_is_outlived_by_who_stops_its_robot(
     way: str, tmp_path: Path

@@ -49,11 +49,11 @@ def offers_of(
             offers[name] = NaoqiJointsOffer(parse_url(place), ideal_sight)
     if options["ros2"]:
         from ..drivers.ros2.address import parse_namespace
-        from ..drivers.ros2.domain import Dds
         from ..drivers.ros2.server import WorldClock
         from ..games.ros2_offer import Ros2Offer
+        from .ros2_domain import join_domain
 
-        dds = Dds(options["domain"], beyond=options["network"])
+        dds = join_domain(options)
         stack.callback(dds.close)
         clock = WorldClock(dds)
         for name, place in _entries("ros2", options["ros2"], offers):

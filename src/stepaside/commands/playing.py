@@ -153,9 +153,9 @@ def _line_to(
 
         def open_ros2() -> "VelocityBody":
             from ..drivers.ros2.body import Ros2Body
-            from ..drivers.ros2.domain import Dds
+            from .ros2_domain import join_domain
 
-            dds = Dds(domain, beyond=beyond)
+            dds = join_domain(options)
             return Ros2Body(dds, namespace, dry_run=dry_run)
 
         def rest_ros2() -> None:

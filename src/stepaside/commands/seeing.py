@@ -47,12 +47,11 @@ def open_cameras(
         return open_video(url, model, rate=seen.rate, latency=latency)
     if camera.startswith(ROS2):
         from ..drivers.ros2.address import parse_namespace
-        from ..drivers.ros2.domain import Dds
         from ..drivers.ros2.images import TopicCamera
+        from .ros2_domain import join_domain
 
         topic = parse_namespace(camera)
-        dds = Dds(options["domain"], beyond=options["network"])
-        return TopicCamera(dds, topic, model, latency=latency)
+        return TopicCamera(join_domain(options), topic, model, latency=latency)
     raise click.BadParameter(
         f"must begin with {V4L2}, {NAOQI} or {ROS2}, got {camera!r}",
         param_hint="--images",

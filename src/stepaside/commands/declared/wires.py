@@ -12,7 +12,9 @@ DOMAIN = Declaration(
 )
 NETWORK = Declaration(
     "--network/--no-network",
-    "Let other machines take part in ROS 2 topics, not this one alone.",
+    "Let other machines take part in ROS 2 topics, not this one alone; "
+    "without it ROS 2 programs of this machine need "
+    "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST.",
 )
 MAX_SPEED = Declaration(
     "--max-speed",
