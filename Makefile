@@ -10,7 +10,7 @@ INSTALL := -m pip install --disable-pip-version-check --no-warn-script-location 
 	--root-user-action=ignore --constraint constraints.txt
 
 .PHONY: setup duel test types suite python other other-setup other-test mutate \
-	fuzz bench figures wheel clean constraints
+	fuzz bench figures wheel clean constraints ros2-peers
 
 setup: $(STAMP)
 
@@ -75,6 +75,26 @@ wheel: setup
 	.venv-wheel/bin/python $(INSTALL) dist/*.whl
 	.venv-wheel/bin/python tests/from_wheel.py
 
+# Real ROS 2 nodes against our topics, on the loopback interface; their wheels
+# are for Python 3.12, and where there is none nothing is checked.
+ROS2 ?= jazzy kilted
+PYTHON312 ?= $(call works,3.12)
+ROS2_PACKAGES := rclpy rmw-fastrtps-cpp geometry-msgs nav-msgs sensor-msgs
+ros2-peers: $(if $(PYTHON312),setup $(ROS2:%=.venv-ros2-%/.installed))
+ifeq ($(PYTHON312),)
+	@echo "skipped: real ROS 2 needs Python 3.12, as python3.12 on the path;" \
+		"or make ros2-peers PYTHON312=/path/to/python3.12"
+else
+	$(BIN)/python checks/ros2_peers.py \
+		$(foreach name,$(ROS2),$(name)=.venv-ros2-$(name)/bin/python)
+endif
+
+.venv-ros2-%/.installed:
+	$(PYTHON312) -m venv .venv-ros2-$*
+	.venv-ros2-$*/bin/python -m pip install --disable-pip-version-check \
+		--quiet $(ROS2_PACKAGES:%=ros-$*-%)
+	touch $@
+
 # Faults that the tests should notice; goes on where it was cut short.
 SAMPLE ?= 400
 CAP ?= 40
@@ -98,4 +118,4 @@ constraints:
 		pyproject.toml
 
 clean:
-	rm -rf $(VENV) .venv-other .venv-wheel dist runs
+	rm -rf $(VENV) .venv-other .venv-wheel .venv-ros2-* dist runs

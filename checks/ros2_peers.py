@@ -1,0 +1,425 @@
+"""Check our ROS 2 topics against real ROS 2 nodes, both ways.
+
+    make ros2-peers
+
+makes an environment of its own for each distribution (``.venv-ros2-jazzy``,
+``.venv-ros2-kilted``: Python 3.12 and the wheels of ``rclpy``, Fast DDS and
+the standard messages), or
+
+    python checks/ros2_peers.py jazzy=/path/to/python
+
+takes a Python that has them. Nodes and we meet in a domain of their own on
+the loopback interface (``ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST``). The
+result goes to ``docs/results/ros2-peers.json``, whose table is in
+``docs/robots-real.md``; the exit status is 1 if anything was not heard.
+"""
+
+import argparse
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from math import atan2, hypot
+from pathlib import Path
+from queue import Empty, SimpleQueue
+from tempfile import TemporaryFile
+from threading import Thread
+from time import monotonic, sleep
+from typing import Any
+
+import numpy as np
+import ros2_peer as peer
+
+from stepaside.drivers.ros2.body import Ros2Body
+from stepaside.drivers.ros2.domain import Dds, taken
+from stepaside.drivers.ros2.images import pixels_of
+from stepaside.drivers.ros2.messages import (
+    CompressedImage,
+    Image,
+    JointState,
+    Odometry,
+)
+from stepaside.drivers.ros2.server import Ros2Server, WorldClock
+from stepaside.drivers.ros2.topics import dds_topic
+from stepaside.drivers.velocity.body import REST, Velocity
+from stepaside.drivers.velocity.served import WalkerState
+from stepaside.poses import Pose
+from stepaside.sensing.camera_model import CameraModel
+from stepaside.sensing.images import ColourImage
+from stepaside.sensing.measurement import Sighting
+from stepaside.studies.results import header, write_result
+
+RESULT = Path("docs/results/ros2-peers.json")
+ROOMS = ("errors", "poses", "sensing", "control", "drivers")
+LIBRARIES = ("cyclonedds", "numpy")
+DOMAIN = 60 + os.getpid() % 40  # of ROS 2: others are not met there
+LONGEST = 60.0  # for anything to be heard, in [s]
+WALKED = 2.0  # seconds of a walk by play, or in a served world
+TICK = 0.012
+KINDS = ("Twist", "TwistStamped")
+ASKED = Velocity(*peer.ASKED)
+TYPES = {
+    "odom": "nav_msgs/Odometry",
+    "joint_states": "sensor_msgs/JointState",
+    "ideal_sight": "geometry_msgs/PointStamped",
+    "other": "geometry_msgs/PointStamped",
+    "camera/image_raw": "sensor_msgs/Image",
+    "camera/image_raw/compressed": "sensor_msgs/CompressedImage",
+    "/clock": "rosgraph_msgs/Clock",
+}
+
+
+class Peer:
+    """A node of ROS 2 in a process of its own."""
+
+    def __init__(self, python: str, part: str, *words: str) -> None:
+        """Start it."""
+        self._process = subprocess.Popen(
+            [python, str(Path(peer.__file__)), part, *words],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        self._lines: SimpleQueue[str] = SimpleQueue()
+        self._reads = Thread(target=self._read, daemon=True)
+        self._reads.start()
+        self.told: dict[str, Any] = {"complete": False, "heard": {}}
+
+    def _read(self) -> None:
+        for line in self._process.stdout or ():
+            self._lines.put(line)
+
+    @property
+    def complete(self) -> bool:
+        """Whether it has heard all that it waits for."""
+        try:
+            while True:
+                self.told = json.loads(self._lines.get_nowait())
+        except Empty:
+            return bool(self.told["complete"])
+
+    def end(self) -> dict[str, Any]:
+        """End it, however it is; what it has heard."""
+        assert self._process.stdin is not None
+        try:
+            self._process.stdin.close()
+            self._process.wait(LONGEST)
+        except (OSError, subprocess.TimeoutExpired):
+            self._process.kill()
+            self._process.wait()
+        self._reads.join(LONGEST)
+        assert self.complete in (True, False)
+        return self.told
+
+
+@contextmanager
+def started(python: str, part: str, *words: str) -> Iterator[Peer]:
+    """A node, while it is needed."""
+    node = Peer(python, part, *words)
+    try:
+        yield node
+    finally:
+        node.end()
+
+
+def until(done: Callable[[], bool], longest: float = LONGEST) -> bool:
+    """Go on until something is so; whether it ever was."""
+    end = monotonic() + longest
+    while not done():
+        if monotonic() > end:
+            return False
+        sleep(0.002)
+    return True
+
+
+def row(
+    what: str, kind: str, way: str, heard: int | None, right: bool
+) -> dict[str, Any]:
+    """One line of the result.
+
+    Args:
+        what: Topic, or what was done.
+        kind: Type of its messages.
+        way: From whom to whom.
+        heard: Messages that came; None where none is to come.
+        right: Whether all is as it was sent.
+    """
+    enough = heard is None or heard >= peer.ENOUGH
+    return {
+        "topic": what,
+        "type": kind,
+        "way": way,
+        "heard": heard,
+        "passed": enough and right,
+    }
+
+
+class Sensors:
+    """What we hear of a robot of ROS 2, beside what a body reads."""
+
+    def __init__(self, dds: Dds) -> None:
+        """Take part in its topics."""
+        kinds = {
+            "odom": (Odometry, self.odometry),
+            "joint_states": (JointState, self.joints),
+            "camera/image_raw": (Image, self.image),
+            "camera/image_raw/compressed": (CompressedImage, self.squeezed),
+        }
+        self._readers = {
+            name: (dds.reader(dds_topic("/theirs", name), kind), right)
+            for name, (kind, right) in kinds.items()
+        }
+        self.heard = peer.Heard(*kinds, "other")
+
+    def look(self) -> None:
+        """Take what has come."""
+        for name, (reader, right) in self._readers.items():
+            for message in taken(reader):
+                self.heard.note(name, right(message))
+
+    def close(self) -> None:
+        """Leave the topics."""
+        self._readers.clear()
+
+    @staticmethod
+    def odometry(message: Odometry) -> bool:
+        """Whether odometry is what was sent."""
+        return (
+            message.child_frame_id == peer.FRAME
+            and peer.exact(message.pose.covariance, peer.COVARIANCE)
+            and peer.exact(message.twist.covariance, peer.COVARIANCE[::-1])
+        )
+
+    @staticmethod
+    def joints(message: JointState) -> bool:
+        """Whether joints are what was sent."""
+        return (
+            peer.exact(message.name, peer.NAMES)
+            and peer.exact(message.position, peer.ANGLES)
+            and peer.exact(message.velocity, peer.RATES)
+            and peer.exact(message.effort, peer.EFFORTS)
+        )
+
+    @staticmethod
+    def image(message: Image) -> bool:
+        """Whether an image is what was sent."""
+        pixels = pixels_of(message)
+        return pixels is not None and pixels.tobytes() == peer.PIXELS
+
+    @staticmethod
+    def squeezed(message: CompressedImage) -> bool:
+        """Whether a compressed image is what was sent."""
+        return bytes(message.data) == peer.PIXELS[:1000]
+
+
+def their_robot(python: str, kind: str) -> Iterator[dict[str, Any]]:
+    """Our body at a robot of ROS 2 that takes one type of command."""
+    dds = Dds(DOMAIN)
+    sensors = Sensors(dds)
+    body = Ros2Body(dds, "/theirs")
+    with started(python, "robot", "--command", kind) as node:
+
+        def done() -> bool:
+            sensors.look()
+            report = body.listen(0.01)
+            if report is not None:
+                body.command(REST if report.hindrance else ASKED)
+                if report.sighting is not None:
+                    seen = report.sighting
+                    x, y = peer.OTHER
+                    right = seen.bearing == atan2(y, x)
+                    right &= seen.distance == hypot(x, y)
+                    sensors.heard.note("other", right)
+            return sensors.heard.complete and node.complete
+
+        until(done)
+        sensors.close()
+        body.close()
+        told = node.end()
+    if kind == KINDS[0]:
+        for name, count in sensors.heard.count.items():
+            right = sensors.heard.right[name]
+            yield row(name, TYPES[name], "ROS 2 to us", count, right)
+    count, right = told["heard"].get(kind, 0), told.get("right", {})
+    right = right.get(kind, False)
+    yield row("cmd_vel", f"geometry_msgs/{kind}", "us to ROS 2", count, right)
+
+
+class Walker:
+    """A robot to be served: it stands, and shows a pattern."""
+
+    def __init__(self) -> None:
+        """Begin at a time and a place."""
+        self.time, self.velocity = 3.0, REST
+
+    def look(self, angles: Any) -> None:
+        """Nothing to turn."""
+
+    def state(self) -> WalkerState:
+        """What it says of itself."""
+        shape = peer.HEIGHT, peer.WIDTH, 3
+        pixels = np.frombuffer(peer.PIXELS, np.uint8).reshape(shape)
+        x, y = peer.OTHER
+        model = CameraModel(peer.WIDTH, peer.HEIGHT, 100.0, 100.0)
+        return WalkerState(
+            self.time,
+            Pose(*peer.START, 0.0),
+            self.velocity,
+            peer.ANGLES,
+            Sighting(self.time, atan2(y, x), hypot(x, y)),
+            image=ColourImage(self.time, model, pixels),
+        )
+
+
+def our_robot(python: str, kind: str) -> Iterator[dict[str, Any]]:
+    """A commander of ROS 2 at our server."""
+    dds = Dds(DOMAIN)
+    walker: Any = Walker()
+    server = Ros2Server(
+        dds, "/ours", walker, peer.NAMES, WorldClock(dds), tick=TICK
+    )
+    obeyed = 0
+    words = ("--namespace", "/ours", "--command", kind)
+    with started(python, "commander", *words) as node:
+
+        def done() -> bool:
+            nonlocal obeyed
+            server.speak()
+            walker.time += TICK
+            walker.velocity = server.act()
+            obeyed += walker.velocity == ASKED
+            sleep(TICK)
+            return node.complete and obeyed >= peer.ENOUGH
+
+        until(done)
+        told = node.end()
+    server.close()
+    dds.close()
+    if kind == KINDS[0]:
+        for name, count in told["heard"].items():
+            right = told["right"][name]
+            yield row(name, TYPES[name], "us to ROS 2", count, right)
+    right = not server.refused
+    yield row("cmd_vel", f"geometry_msgs/{kind}", "ROS 2 to us", obeyed, right)
+
+
+def command(name: str, *words: str, **streams: Any) -> "subprocess.Popen[str]":
+    """Start a command of this package."""
+    code = "from stepaside.cli import main; main()"
+    domain = ("--domain", str(DOMAIN))
+    return subprocess.Popen(
+        [sys.executable, "-c", code, name, *words, *domain],
+        text=True,
+        **streams,
+    )
+
+
+def played(python: str, kind: str) -> dict[str, Any]:
+    """``stepaside play`` at a robot of ROS 2; with none, it says so."""
+    words = ("--role", "pursuer", "--robot", "ros2:/theirs")
+    with TemporaryFile("w+") as said:
+        with started(python, "robot", "--command", kind) as node:
+            process = command(
+                "play", *words, "--duration", str(WALKED), stderr=said
+            )
+
+            def done() -> bool:
+                said.seek(0)
+                waits = "nothing subscribes to /theirs/cmd_vel" in said.read()
+                return (waits and kind == "none") or process.poll() is not None
+
+            ended = until(done) and kind != "none"
+            if process.poll() is None:
+                process.send_signal(signal.SIGINT)
+            process.wait(LONGEST)
+            told = node.end()
+        said.seek(0)
+        words_said = said.read()
+    if kind == "none":
+        right = "nothing subscribes to /theirs/cmd_vel" in words_said
+        right &= "walking" not in words_said
+        name = "play waits where nothing subscribes to cmd_vel"
+        return row(name, "-", "us to ROS 2", None, right)
+    right = ended and process.returncode == 0 and "walking" in words_said
+    right &= told.get("way_m", 0.0) > 0.0
+    count = told["heard"].get(kind, 0)
+    name = "play walks a robot"
+    return row(name, f"geometry_msgs/{kind}", "us to ROS 2", count, right)
+
+
+def served(python: str, kind: str) -> dict[str, Any]:
+    """``stepaside serve`` with a robot that ROS 2 commands."""
+    world = command(
+        *("serve", "--ros2", "pursuer=/ours", "--json"),
+        *("--duration", str(WALKED), "--wait", str(LONGEST)),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+    )
+    words = ("--namespace", "/ours", "--command", kind)
+    with started(python, "commander", *words) as node:
+        output, _ = world.communicate(timeout=3.0 * LONGEST)
+        told = node.end()
+    right = world.returncode == 0
+    right = right and json.loads(output)["outcome"] == "completed"
+    right &= told.get("way_m", 0.0) > 0.0
+    count = told["heard"].get("odom", 0)
+    name = "serve's robot is walked"
+    return row(name, f"geometry_msgs/{kind}", "ROS 2 to us", count, right)
+
+
+def checked(python: str) -> Iterator[dict[str, Any]]:
+    """Everything with one distribution."""
+    for kind in KINDS:
+        yield from their_robot(python, kind)
+        yield from our_robot(python, kind)
+    for kind in KINDS:
+        yield played(python, kind)
+        yield served(python, kind)
+    yield played(python, "none")
+
+
+def main() -> int:
+    """Check each distribution; the exit status is 1 if anything failed."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument(
+        "pythons",
+        nargs="+",
+        metavar="NAME=PYTHON",
+        help="a distribution and a Python that has its rclpy",
+    )
+    parser.add_argument("--output", type=Path, default=RESULT)
+    arguments = parser.parse_args()
+    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    os.environ["ROS_DOMAIN_ID"] = str(DOMAIN)
+    os.environ["RMW_IMPLEMENTATION"] = "rmw_fastrtps_cpp"
+    found = []
+    for entry in arguments.pythons:
+        name, _, python = entry.partition("=")
+        asks = [python, str(Path(peer.__file__)), "versions"]
+        own = json.loads(subprocess.check_output(asks, text=True))
+        rows = []
+        for each in checked(python):
+            state = "passed" if each["passed"] else "FAILED"
+            words = f"{each['way']}, {each['topic']}, {each['type']}"
+            heard = "" if each["heard"] is None else f"{each['heard']} heard, "
+            print(f"{name}: {words}: {heard}{state}", flush=True)
+            rows.append(each)
+        found.append({"name": name.capitalize(), **own, "rows": rows})
+    settings = {"walked_s": WALKED, "enough": peer.ENOUGH}
+    names = " ".join(entry.partition("=")[0] for entry in arguments.pythons)
+    head = header(
+        settings,
+        rooms=ROOMS,
+        libraries=LIBRARIES,
+        command=f"make ros2-peers ROS2='{names}'",
+    )
+    write_result(arguments.output, head, distributions=found)
+    passed = all(r["passed"] for each in found for r in each["rows"])
+    return 0 if passed else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
