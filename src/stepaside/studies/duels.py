@@ -25,9 +25,11 @@ from ..unicycle.relative import Start
 from ..workers import give_up
 from .later import LATER
 from .records import RecordFile
-from .version import PHYSICS, code_version, library_versions
+from .version import code_version, library_versions
 
 Record = dict[str, Any]
+# Modules that play a duel and make its record.
+ROOMS = ("studies/duels",)
 # Of a record, what depends on the machine and not on the duel alone.
 MACHINE = ("version", "libraries", "verified", "wall_s")
 
@@ -67,7 +69,7 @@ def key_of(settings: DuelSettings) -> str:
 @cache
 def _stamp() -> Record:
     return {
-        "version": code_version(PHYSICS),
+        "version": code_version(ROOMS),
         "libraries": library_versions(("mujoco", "numpy")),
     }
 

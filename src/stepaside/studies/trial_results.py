@@ -4,10 +4,10 @@ from pathlib import Path
 from typing import Any
 
 from .records import RecordFile
-from .version import PHYSICS, code_version, library_versions
+from .version import code_version, library_versions
 
-# What a walk depends on, and the file that sets up the walk of a trial.
-ROOMS = (*PHYSICS, "studies/changes", "studies/robustness")
+# Modules that play a trial and judge it.
+ROOMS = ("studies/robustness", "studies/encounters")
 
 
 def read_results(file: Path | None) -> dict[str, bool]:
