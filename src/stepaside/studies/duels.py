@@ -15,6 +15,7 @@ from ..errors import PlanError
 from ..games.duel import run_duel
 from ..games.duel_run import DuelRun
 from ..games.settings import DuelSettings
+from ..games.strategy_objects import check_named
 from ..poses import Pose
 from ..randomness import named_generator
 from ..robots.machine import prefer_for
@@ -49,12 +50,12 @@ def settings_hash(settings: DuelSettings) -> str:
     Of strategies in files, what the files hold counts, too; what they import
     does not.
     """
-    entries = asdict(replace(settings, seed=0))
+    entries = asdict(replace(settings.named(), seed=0))
     plain = asdict(DuelSettings(seed=0))
     for path in LATER:
         _drop(entries, plain, path.split("."))
     for name in (settings.evader_strategy, settings.pursuer_strategy):
-        file = file_of(name)
+        file = file_of(name) if isinstance(name, str) else None
         if file is not None and file.is_file():
             entries[f"content of {name}"] = file.read_bytes().hex()
     text = json.dumps(entries, sort_keys=True)
@@ -186,6 +187,7 @@ def run_duels(
     }
     results: dict[str, Record] = {} if done is None else done
     if file is not None:
+        check_named(settings)
         results |= {
             key: record
             for key, record in file.read().items()

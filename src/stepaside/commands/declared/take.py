@@ -188,4 +188,26 @@ def _settings(
         )
     for path in given.keys() & declarations.keys():
         given[path] = declarations[path].value_of(given[path])
-    return changed(settings, with_room(given))
+    settings = changed(settings, with_room(given))
+    if not getattr(settings, "uses_evasion", True):
+        _refuse_unused(declarations, settings.named().evader_strategy)
+    return settings
+
+
+def _refuse_unused(
+    declarations: Mapping[str, Declaration], played: str
+) -> None:
+    """Refuse options of the paper's evader where no player plays it."""
+    from ...strategies.registry import OF_EVASION
+
+    unused = [
+        declaration.name.partition("/")[0]
+        for path, declaration in declarations.items()
+        if path.startswith("strategy.")
+    ]
+    if unused:
+        raise click.UsageError(
+            f"{', '.join(unused)} must be left out beside a strategy other "
+            f"than {' and '.join(OF_EVASION)}, which alone use it, got "
+            f"--strategy {played}"
+        )
