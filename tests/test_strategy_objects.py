@@ -204,6 +204,26 @@ def test_options_that_the_strategy_ignores_are_refused(
     assert option in told and name in told.replace(" ", "")
 
 
+@pytest.mark.parametrize(
+    "given",
+    [
+        ["--angle", "1.2"],
+        ["--strategy", "move-back"],
+        ["--law", "saturated"],
+        ["--side-rule", "latched"],
+        ["--side-hysteresis", "0.1"],
+    ],
+)
+def test_unicycles_refuse_options_that_the_strategy_ignores(
+    given: list[str],
+) -> None:
+    words = ["unicycles", "--duration", "1", "--evader-strategy"]
+    told = refusal(*words, "stand", *given)
+    assert given[0].replace("side-h", "h") in told
+    result = CliRunner().invoke(main, [*words, "evasion", *given])
+    assert result.exit_code == 0
+
+
 @pytest.mark.parametrize("strategy", ["evasion", "deflected"])
 def test_options_that_the_strategy_uses_are_taken(strategy: str) -> None:
     words = ["duel", "--strategy", strategy, "--safety-radius", "1.2"]
