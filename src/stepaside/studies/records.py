@@ -66,6 +66,7 @@ class RecordFile:
         line = _line(key, record).encode()
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
+            made = not self.path.exists()
             # Without a buffer, which would be written again as it is closed.
             with (
                 alone_in(self.path.parent),
@@ -80,7 +81,7 @@ class RecordFile:
                         line = line[out.write(line) :]
                 except OSError:  # nothing of it stays where room ran out
                     os.truncate(self.path, end)
-                    if not end:
+                    if made and not end:
                         self.path.unlink()
                     raise
         except OSError as error:
