@@ -184,7 +184,7 @@ def test_an_empty_file_that_was_there_stays_where_room_runs_out(
         if made_before:
             file.path.touch()
         with monkeypatch.context() as patch:
-            patch.setattr(Path, "open", lambda *w, **k: Full(file.path))
+            patch.setattr(Path, "open", lambda path, *w, **k: Full(path))
             with pytest.raises(OutputError):
                 file.append("a", {})
         assert file.path.exists() is made_before

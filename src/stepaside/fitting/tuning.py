@@ -89,7 +89,7 @@ class Search:
         self._report = report
         self._file = None if kept is None else RecordFile(kept)
         self._stamp = _stamp_of(description)
-        self._known = {} if self._file is None else self._file.read()
+        self._known = {} if self._file is None else self._file.read(["walks"])
         self._judged: dict[Candidate, Judged] = {}
         self._goal = 1
 

@@ -11,6 +11,7 @@ from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
 from ..errors import ConfigurationError
+from .asking import FAILURES
 from .deflected import Deflected
 from .evasion import Evasion
 from .lead import LeadPursuit
@@ -164,7 +165,7 @@ def _made(path: str, name: str) -> Any:
         )
     try:
         return thing()
-    except Exception as error:
+    except FAILURES as error:
         raise ConfigurationError(
             f"strategy {path}:{name}: {name}() must make a strategy, got "
             f"{type(error).__name__}: {error}"
@@ -201,7 +202,7 @@ def _load(path: str, name: str) -> ModuleType:
     sys.modules[module] = loaded  # where dataclasses look for their module
     try:
         spec.loader.exec_module(loaded)
-    except (Exception, SystemExit) as error:
+    except FAILURES as error:
         if before is None:
             del sys.modules[module]
         else:

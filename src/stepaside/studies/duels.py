@@ -24,6 +24,7 @@ from ..unicycle.certificate import certify
 from ..unicycle.laws import make_game
 from ..unicycle.relative import Start
 from ..workers import give_up
+from .duel_statistics import FIELDS
 from .later import LATER
 from .records import RecordFile
 from .version import code_version, library_versions
@@ -190,7 +191,7 @@ def run_duels(
         check_named(settings)
         results |= {
             key: record
-            for key, record in file.read().items()
+            for key, record in file.read(FIELDS).items()
             if key in wanted and is_current(record)
         }
     if report is not None:
@@ -246,7 +247,7 @@ def verify_duels(
         Seeds that were played again, and those that came out otherwise.
     """
     own = settings_hash(settings)
-    records = file.read()
+    records = file.read(FIELDS)
     old = [
         key
         for key, record in records.items()

@@ -22,7 +22,7 @@ def read_results(file: Path | None) -> dict[str, bool]:
     now = stamp()
     return {
         key: bool(record["survived"])
-        for key, record in RecordFile(file).read().items()
+        for key, record in RecordFile(file).read(["survived"]).items()
         if all(record.get(name) == now[name] for name in now)
     }
 

@@ -12,7 +12,7 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
-from ..terminal import echo
+from ..options import answer
 from .body import METHOD
 from .build import changed, with_control, with_senses, with_trigger
 from .game import SENSING
@@ -84,7 +84,7 @@ def takes_settings(
             if values.pop("print_config"):
                 from .print_config import commented
 
-                echo(commented(settings), nl=False)
+                answer(commented(settings))
                 return None
             return function(settings=settings, **values)
 
