@@ -3,6 +3,7 @@
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 from click.testing import CliRunner
@@ -85,9 +86,9 @@ def refusal(*words: str) -> str:
 def test_an_object_of_the_registry_is_recorded_by_its_name(name: str) -> None:
     evasion = Evasion(angle=1.2)
     for player in ("evader_strategy", "pursuer_strategy"):
-        by_name = replace(SHORT, strategy=evasion, **{player: name})
-        given = STRATEGIES[name](evasion)
-        assert replace(SHORT, strategy=evasion, **{player: given}) == by_name
+        named: dict[str, Any] = {"strategy": evasion, player: name}
+        given = named | {player: STRATEGIES[name](evasion)}
+        assert replace(SHORT, **given) == replace(SHORT, **named)
 
 
 def test_an_evasion_is_recorded_with_its_values() -> None:
@@ -177,7 +178,7 @@ def test_an_object_that_does_not_answer_is_refused() -> None:
             """Say nothing."""
 
     with pytest.raises(ConfigurationError, match="must return"):
-        run_duel(replace(SHORT, evader_strategy=Mute()))
+        run_duel(replace(SHORT, evader_strategy=Mute()))  # type: ignore[arg-type]
 
 
 def test_records_are_kept_of_named_strategies_alone(tmp_path: Path) -> None:

@@ -96,7 +96,7 @@ def number_in(value: object, *, whole: bool = False) -> float | None:
     if whole:
         return int(value)  # type: ignore[call-overload, no-any-return]
     try:
-        return float(value)  # type: ignore[arg-type]
+        return float(value)
     except OverflowError:
         return inf if value > 0 else -inf  # type: ignore[operator]
 

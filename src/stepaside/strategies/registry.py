@@ -51,7 +51,7 @@ def describe_strategy(strategy: str | Strategy) -> str:
     if isinstance(strategy, str):
         return strategy
     kind = type(strategy)
-    values = (
+    values: list[tuple[str, Any]] = (
         [
             (each.name, getattr(strategy, each.name))
             for each in fields(strategy)
