@@ -26,9 +26,8 @@ from numpy.typing import NDArray
 from stepaside.bound import Grid, Scheme, against_pursuit, solve_bound
 from stepaside.bound.game import BoundGame
 from stepaside.studies.results import header, write_result
-from stepaside.studies.version import GROUND
 
-ROOMS = (*GROUND, "bound", "unicycle")
+ROOMS = ("bound", "unicycle")
 Array = NDArray[np.float64]
 ACCURACY = {Scheme.LAX: "very_high", Scheme.FIRST_LAX: "low"}
 WITHIN = 5e-4  # difference that counts as none, in [m]

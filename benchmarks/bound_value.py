@@ -19,10 +19,9 @@ from stepaside.bound.checks import check_barrier
 from stepaside.bound.refine import refine_bound
 from stepaside.bound.rollout import Steering, moving, play_bound
 from stepaside.studies.results import header, write_result
-from stepaside.studies.version import GROUND
 
 Array = NDArray[np.float64]
-ROOMS = (*GROUND, "bound", "unicycle")
+ROOMS = ("bound", "unicycle")
 LIBRARIES = ("numpy", "numba")
 GAMES = 4000
 # least and largest distance [v/k], largest bearing of evader and pursuer

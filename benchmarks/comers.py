@@ -21,7 +21,7 @@ from stepaside.control.balance.settings import ControlSettings
 from stepaside.games.settings import DuelSettings
 from stepaside.planning import PRESETS
 from stepaside.strategies import Evasion
-from stepaside.studies.duels import Record, run_duels, verify_duels
+from stepaside.studies.duels import ROOMS, Record, run_duels, verify_duels
 from stepaside.studies.records import RecordFile
 from stepaside.studies.results import header, write_result
 from stepaside.workers import worker_pool
@@ -105,7 +105,7 @@ def main() -> None:
             rows.append(row_of(kind, list(found.values())))
     seeds = [asked.seeds.start, asked.seeds.stop]
     libraries = ["mujoco", "numpy", "opencv-python-headless"]
-    head = header({"seeds": seeds}, libraries=libraries)
+    head = header({"seeds": seeds}, rooms=ROOMS, libraries=libraries)
     write_result(asked.output, head, rows=rows)
 
 

@@ -119,7 +119,7 @@ def main() -> None:
     played = 60.0 * given.minutes - max(left, 0.0)
     write_result(
         given.output,
-        header(settings, libraries=libraries),
+        header(settings, rooms=("studies/encounters",), libraries=libraries),
         machine=machine(),
         played_s=played,
         wall_s=perf_counter() - began,

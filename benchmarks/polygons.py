@@ -53,7 +53,7 @@ NAO = measure_outline(load_robot("nao"), GAIT)
 PLANNER = ManeuverPlanner(GAIT)
 MARGIN, CELL = 0.02, 0.05  # of the guard, and of a map, in [m]
 NEEDS = NAO.radius + MARGIN + sway_of(GAIT)
-ROOMS = ("errors", "poses", "planning", "rooms", "steps", "strategies")
+ROOMS = ("planning", "rooms", "steps", "strategies", "control/clearance")
 RECIPES = (RoomRecipe(), RoomRecipe(discs=3), RoomRecipe(discs=6))
 WIDE = 2.0  # half of the side of a map, in [m]
 

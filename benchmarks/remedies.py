@@ -10,7 +10,6 @@ from asking import ask
 from stepaside.commands.circles import describe_circles, describe_remedies
 from stepaside.commands.game_options import describe_game
 from stepaside.studies.results import header, write_result
-from stepaside.studies.version import UNICYCLES
 from stepaside.unicycle.laws import make_game
 
 GAME = make_game(2.0, 1.0, 1.0, 4.0)  # twice as fast, turning a quarter
@@ -30,7 +29,7 @@ def main() -> None:
         "body_m": asked.body,
     }
     drawn = asked.starts, asked.seed, asked.body
-    rooms = (*UNICYCLES, "commands/circles")
+    rooms = ("commands/circles", "commands/game_options")
     write_result(
         asked.output,
         header(settings, rooms=rooms, libraries=("numpy", "numba")),

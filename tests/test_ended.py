@@ -15,6 +15,7 @@ import pytest
 from fuzz.case import complaint_of
 from fuzz.moments import SIGNALS, moment_case
 from stepaside.commands import reproduce_figures
+from stepaside.errors import OutputError
 from stepaside.interrupting import stoppable
 from stepaside.outputs import DRAFT, draft_prefix, sweep, writing
 from stepaside.studies.kept import Kept
@@ -96,7 +97,7 @@ def test_readings_that_were_altered_are_set_aside_by_name(
         file.write_text(spoilt)
         assert kept.load("one", {"seed": 1}, ["x"]) is None
         assert told == [tmp_path / "one.json.aside"] and not file.exists()
-        told.clear()
+        told.pop().unlink()
 
 
 def test_a_figure_is_trusted_by_what_it_holds(
@@ -163,3 +164,49 @@ def test_the_package_is_a_command_too() -> None:
         check=True,
     )
     assert "stepaside" in said.stdout and not said.stderr
+
+
+def test_what_lies_aside_already_stays(tmp_path: Path) -> None:
+    """It may be an earlier one, or a file of somebody else."""
+    kept = Kept(tmp_path)
+    (tmp_path / "one.json.aside").write_text("mine")
+    (tmp_path / "one.json").write_text("torn")
+    assert kept.load("one", {}, ["x"]) is None
+    found = {file.read_text() for file in tmp_path.iterdir()}
+    assert found == {"mine", "torn"}
+
+
+def test_an_empty_file_that_was_there_stays_where_room_runs_out(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for made_before in (True, False):
+        file = RecordFile(tmp_path / f"{made_before}.jsonl")
+        if made_before:
+            file.path.touch()
+        with monkeypatch.context() as patch:
+            patch.setattr(Path, "open", lambda path, *w, **k: Full(path))
+            with pytest.raises(OutputError):
+                file.append("a", {})
+        assert file.path.exists() is made_before
+
+
+class Full:
+    """A file that takes nothing."""
+
+    def __init__(self, path: Path) -> None:
+        """Make the file."""
+        path.touch()
+
+    def __enter__(self) -> "Full":
+        return self
+
+    def __exit__(self, *words: object) -> None:
+        pass
+
+    def seek(self, *words: int) -> int:
+        """Place of the end."""
+        return 0
+
+    def write(self, data: bytes) -> int:
+        """Run out of room."""
+        raise OSError(28, "No space left on device")

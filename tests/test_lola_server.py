@@ -282,6 +282,52 @@ def test_a_file_is_not_taken_for_a_socket(address: Address) -> None:
     assert Path(address.path).read_text() == "mine"
 
 
+@pytest.mark.parametrize(
+    "suffix", ["", ".new", ".ideal-sight", ".ideal-sight.new", ".cameras"]
+)
+@pytest.mark.parametrize("kind", ["file", "link", "lost link", "datagrams"])
+def test_nothing_of_others_is_removed_or_replaced(
+    address: Address, suffix: str, kind: str
+) -> None:
+    """Whether the server starts or not, and wherever something lies."""
+    theirs, aim = Path(address.path + suffix), Path(address.path + ".aim")
+    other = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+    if kind == "file":
+        theirs.write_text("mine")
+    elif kind == "datagrams":
+        other.bind(str(theirs))
+    else:
+        theirs.symlink_to(aim)
+        if kind == "link":
+            aim.write_text("mine")
+    before = theirs.lstat().st_ino
+    try:
+        LolaServer(address, MadeUpRobot(), JOINTS, cameras=True).close()
+    except ConfigurationError as error:
+        assert address.path in str(error)
+    assert theirs.lstat().st_ino == before
+    found = {*Path(address.path).parent.iterdir()} - {theirs, aim}
+    assert found == set()
+    if kind in ("file", "link"):
+        assert theirs.read_text() == "mine"
+    other.close()
+
+
+@pytest.mark.parametrize("length", [40, 83])
+def test_a_socket_may_have_any_name_in_a_long_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, length: int
+) -> None:
+    folder = "d" * (length - 2)
+    (tmp_path / folder).mkdir()
+    monkeypatch.chdir(tmp_path)
+    place = parse_address(f"lola:{folder}/p")
+    server = LolaServer(place, MadeUpRobot(), JOINTS)
+    link = call(place)
+    assert len([*(tmp_path / folder).iterdir()]) == 2
+    link.close()
+    server.close()
+
+
 def test_nobody_at_home_is_said_at_once(address: Address) -> None:
     with pytest.raises(SessionLost, match="no robot listens at .*r.sock"):
         call(address)

@@ -4,11 +4,20 @@ from dataclasses import fields, replace
 from math import inf, nan
 from typing import Any
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
 from stepaside.cli import main
-from stepaside.errors import PlanError, StepAsideError
+from stepaside.errors import (
+    PlanError,
+    StepAsideError,
+    check_finite,
+    check_not_negative,
+    check_positive,
+    check_within,
+)
+from stepaside.games.configuration import dump_configuration
 from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.planning import (
     Direction,
@@ -112,3 +121,67 @@ def test_commands_refuse_the_absurd_in_one_line(words: str) -> None:
     result = CliRunner().invoke(main, words.split())
     assert result.exit_code == 2, result.output
     assert result.stderr.count("\n") == 1
+
+
+def holds(check: Any, value: Any, *bounds: float) -> bool:
+    try:
+        check(value, *bounds, "x", "m")
+    except PlanError:
+        return False
+    return True
+
+
+NARROW = [np.float16, np.float32, np.float64, np.longdouble]
+
+
+@pytest.mark.filterwarnings("ignore:overflow")
+@pytest.mark.parametrize("kind", NARROW)
+@pytest.mark.parametrize(
+    "text", "inf -inf nan 0 1 -1 6e-8 1e-13 1e-7 65504 1e13 3e38 1e300".split()
+)
+def test_a_narrow_number_is_checked_as_the_number_that_it_is(
+    kind: Any, text: str
+) -> None:
+    narrow = kind(text)
+    wide = float(narrow)
+    for check in (check_finite, check_positive, check_not_negative):
+        assert holds(check, narrow) == holds(check, wide)
+    for bounds in ((0.0, 1e9), (1e-9, 1.0), (1e-3, 65504.5), (0.0, 1e40)):
+        assert holds(check_within, narrow, *bounds) == holds(
+            check_within, wide, *bounds
+        )
+
+
+@pytest.mark.filterwarnings("ignore:overflow")
+@pytest.mark.parametrize("kind", NARROW)
+@pytest.mark.parametrize(("owner", "name"), ALL)
+@pytest.mark.parametrize("text", ["inf", "-inf", "nan", "0", "1e-13"])
+def test_settings_take_a_narrow_number_as_the_number_that_it_is(
+    owner: Any, name: str, kind: Any, text: str
+) -> None:
+    def made(value: Any) -> Any:
+        try:
+            return replace(owner(), **{name: value})
+        except StepAsideError:
+            return None
+
+    wide = float(kind(text))
+    narrow = made(kind(text))
+    assert narrow == made(wide)
+    if narrow is not None:
+        assert type(getattr(narrow, name)) is float
+
+
+@pytest.mark.parametrize("value", [10**400, -(10**400)])
+def test_an_integer_beyond_all_doubles_is_refused(value: int) -> None:
+    for check in (check_finite, check_positive):
+        assert not holds(check, value)
+
+
+def test_settings_of_numpy_are_written_like_those_of_python() -> None:
+    settings = DuelSettings(
+        seed=np.int64(3),  # type: ignore[arg-type]
+        duration=np.float32(2.5),  # type: ignore[arg-type]
+    )
+    wanted = dump_configuration(DuelSettings(seed=3, duration=2.5))
+    assert dump_configuration(settings) == wanted

@@ -57,6 +57,15 @@ def test_a_stored_tree_comes_back_as_it_was(
     assert load_tree(robot).sites == tree.sites
 
 
+@pytest.mark.parametrize("text", ["mine", "{}", "[1]", '{"version": 1}'])
+def test_another_file_of_that_name_stays(tmp_path: Path, text: str) -> None:
+    robot = made_up(tmp_path)
+    (robot.folder / FILE).write_text(text)
+    with pytest.raises(ModelError, match="must be a compiled tree"):
+        store_tree(robot)
+    assert (robot.folder / FILE).read_text() == text
+
+
 def test_an_old_tree_is_compiled_again(tmp_path: Path) -> None:
     robot = made_up(tmp_path)
     store_tree(robot)

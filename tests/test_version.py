@@ -1,23 +1,63 @@
 """Test the fingerprints that results are kept under."""
 
+import shutil
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from stepaside.studies import version
-from stepaside.studies.version import PHYSICS, code_version, library_versions
+from stepaside.studies import (
+    duels,
+    jobs,
+    tournament_settings,
+    trial_results,
+    version,
+)
+from stepaside.studies.dependencies import dependencies
+from stepaside.studies.version import (
+    PHYSICS,
+    PLANNER,
+    ROOT,
+    UNICYCLES,
+    code_version,
+    library_versions,
+)
+
+FILES = {
+    "__init__.py": "",
+    "front/__init__.py": "if TYPE_CHECKING:\n    from .door import open\n"
+    "    from .other import shut\nelse:\n    __getattr__ = None\n",
+    "front/door.py": '"""Doc."""\nfrom ..deep.down import X\n',
+    "front/other.py": "",
+    "front/data.toml": "y = 1\n",
+    "deep/__init__.py": "from . import always\n",
+    "deep/always.py": "",
+    "deep/down.py": "def f():\n    try:\n"
+    "        from stepaside.lazy import a\n"
+    "    finally:\n        import stepaside.plain.one\n",
+    "deep/table/values.csv": "1\n",
+    "lazy.py": "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n"
+    "    from . import types_alone\nfrom os import path\n",
+    "types_alone.py": "",
+    "plain/__init__.py": "from .two import *\n",
+    "plain/one.py": "",
+    "plain/two.py": "",
+    "beside.py": "Z = 1\n",
+    "play.py": "from .front import open\n",
+    "whole.py": "from . import front\n",
+}
+UNUSED = ("beside", "types_alone", "front/other", "whole")
 
 
 @pytest.fixture
 def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """Small package in place of this one."""
-    (tmp_path / "room").mkdir()
-    (tmp_path / "room" / "a.py").write_text('"""Doc."""\nX = 1\n')
-    (tmp_path / "room" / "b.toml").write_text("y = 1\n")
-    (tmp_path / "other.py").write_text("Z = 1\n")
+    for name, text in FILES.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True, parents=True)
+        (tmp_path / name).write_text(text)
     monkeypatch.setattr(version, "ROOT", tmp_path)
-    code_version.cache_clear()
     yield tmp_path
     code_version.cache_clear()
 
@@ -27,22 +67,43 @@ def fingerprint(*rooms: str) -> str:
     return code_version(rooms)
 
 
-@pytest.mark.parametrize(
-    ("file", "text", "moves"),
-    [
-        ("room/a.py", '"""Other doc."""\n# why\nX  =  1\n', False),
-        ("room/a.py", '"""Doc."""\nX = 2\n', True),
-        ("room/b.toml", "y = 2\n", True),
-        ("room/c.py", "", True),
-        ("other.py", "Z = 2\n", False),
-    ],
-)
-def test_only_what_the_room_does_moves_its_version(
-    package: Path, file: str, text: str, moves: bool
+def edit(file: Path) -> None:
+    """Change what a file does, or holds."""
+    file.write_text(file.read_text() + "\nadded = 1\n")
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_version_changes_with_all_that_is_imported_and_nothing_else(
+    package: Path, name: str
 ) -> None:
-    before = fingerprint("room")
-    (package / file).write_text(text)
-    assert (fingerprint("room") != before) is moves
+    before = fingerprint("play")
+    edit(package / name)
+    unused = name.removesuffix(".py") in UNUSED
+    assert (fingerprint("play") == before) is unused
+
+
+def test_a_package_that_is_used_as_a_whole_depends_on_its_public_names(
+    package: Path,
+) -> None:
+    found = dependencies(package, ["whole"])
+    assert {package / "front/other.py", package / "lazy.py"} <= found
+
+
+@pytest.mark.parametrize("name", ["front/new.py", "front/new/data.json"])
+def test_all_files_of_a_folder_count(package: Path, name: str) -> None:
+    before = fingerprint("front")
+    (package / name).parent.mkdir(exist_ok=True)
+    (package / name).write_text("")
+    assert fingerprint("front") != before
+
+
+def test_a_version_stays_with_words_and_layout(package: Path) -> None:
+    before = fingerprint("play")
+    file = package / "front" / "door.py"
+    file.write_text(
+        '"""Other doc."""\n# why\nfrom   ..deep.down import (\n    X\n)\n'
+    )
+    assert fingerprint("play") == before
 
 
 def test_a_room_that_is_not_there_is_named(package: Path) -> None:
@@ -50,8 +111,81 @@ def test_a_room_that_is_not_there_is_named(package: Path) -> None:
         fingerprint("attic")
 
 
-def test_every_room_of_physics_has_a_version() -> None:
-    assert len(code_version(PHYSICS)) == 12
+PLAYED = """
+import sys
+from dataclasses import replace
+from stepaside.games.settings import DuelSettings
+from stepaside.studies import duels
+from stepaside.strategies.registry import STRATEGIES
+duels.play_record.__globals__["_stamp"] = dict  # of the version itself
+for settings in (
+    DuelSettings(duration=0.1),
+    DuelSettings(duration=0.1, evader_strategy="look-ahead"),
+    DuelSettings(duration=0.1, sensing="cameras"),
+    DuelSettings(duration=0.1, pursuer="person"),
+):
+    duels.play_record(settings)
+for name in sys.modules:
+    if name.split(".")[0] == "stepaside":
+        print(sys.modules[name].__file__)
+"""
+
+
+def test_a_duel_loads_no_module_that_its_version_leaves_out() -> None:
+    """The interpreter is asked which modules a game needs."""
+    told = subprocess.run(
+        [sys.executable, "-c", PLAYED],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=300,
+    )
+    loaded = {Path(line) for line in told.stdout.split()}
+    assert ROOT / "laws.py" in loaded
+    assert loaded <= dependencies(ROOT, duels.ROOMS)
+
+
+@pytest.mark.parametrize(
+    ("name", "rooms", "changes"),
+    [
+        ("steps/search.py", duels.ROOMS, True),
+        ("robots/nao/model.xml", duels.ROOMS, True),
+        ("unicycle/certificate.py", duels.ROOMS, True),
+        ("cli.py", duels.ROOMS, False),
+        ("commands/duels.py", duels.ROOMS, False),
+        ("drivers/lola/wire.py", duels.ROOMS, False),
+        ("report/page/page.js", duels.ROOMS, False),
+        ("laws.py", PHYSICS, True),
+        ("laws.py", UNICYCLES, True),
+        ("laws.py", PLANNER, True),
+        ("world/servos.py", UNICYCLES, False),
+        ("laws.py", trial_results.ROOMS, True),
+        ("bound/solve.py", tournament_settings.ROOMS, True),
+        ("constants.py", jobs.DUELS, True),
+        ("bound/table.py", jobs.EVADING, True),
+        ("control/scheme.py", jobs.PLANS, False),
+    ],
+)
+def test_results_depend_on_the_code_that_makes_them(
+    name: str, rooms: tuple[str, ...], changes: bool
+) -> None:
+    assert (ROOT / name in dependencies(ROOT, rooms)) is changes
+
+
+def test_records_of_duels_are_made_again_with_other_laws(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    copy = tmp_path / "stepaside"
+    shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.setattr(version, "ROOT", copy)
+    found = [fingerprint(*duels.ROOMS)]
+    for name in ("laws.py", "constants.py", "bound/numerics.py"):
+        edit(copy / name)
+        found.append(fingerprint(*duels.ROOMS))
+    edit(copy / "report" / "duel_figure.py")
+    assert len(set(found)) == len(found)
+    assert fingerprint(*duels.ROOMS) == found[-1]
+    code_version.cache_clear()
 
 
 def test_a_library_that_is_not_there_has_no_version() -> None:

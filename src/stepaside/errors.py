@@ -1,6 +1,7 @@
 """Errors raised by this package, and the checks that raise them."""
 
 import sys
+from math import inf
 from numbers import Integral, Real
 
 # Of what is greater or smaller, cubes and ratios leave the numbers that a
@@ -78,18 +79,26 @@ def _spelled(value: object) -> str:
 
 
 def number_in(value: object, *, whole: bool = False) -> float | None:
-    """A value that is a number; None for truth, text and all else.
+    """A number in double precision; None for truth, text and all else.
+
+    NumPy compares a narrow number with the bounds in its own precision, in
+    which they may be zero or infinite.
 
     Args:
         value: Whatever was given.
-        whole: Whether it must be an integer.
+        whole: Whether it must be an integer, which is exact at any size.
     """
     if type(value) is float and not whole:
         return value
     kind = Integral if whole else Real
     if isinstance(value, bool) or not isinstance(value, kind):
         return None
-    return value  # type: ignore[return-value]
+    if whole:
+        return int(value)  # type: ignore[call-overload, no-any-return]
+    try:
+        return float(value)
+    except OverflowError:
+        return inf if value > 0 else -inf  # type: ignore[operator]
 
 
 def check_finite(

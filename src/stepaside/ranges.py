@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from functools import cache
+from numbers import Integral
+from types import NoneType
 from typing import Any, NamedTuple
 
 from .errors import ConfigurationError, StepAsideError, number_in, shown
@@ -102,6 +104,8 @@ def check_settings(
 ) -> None:
     """Refuse settings that leave their ranges or are of another type.
 
+    Numbers of other types than Python's become those.
+
     Args:
         settings: A dataclass with ``ranges``, by attribute. What has none
             must be of the type of its default: truth, text or a section.
@@ -112,7 +116,11 @@ def check_settings(
         StepAsideError: Of the kind asked for.
     """
     for name, allowed in ranges_of(type(settings)).items():
-        allowed.check(getattr(settings, name), f"{prefix}{name}", error)
+        value = getattr(settings, name)
+        allowed.check(value, f"{prefix}{name}", error)
+        if type(value) not in (int, float, NoneType):  # of NumPy, or a ratio
+            number = number_in(value, whole=isinstance(value, Integral))
+            object.__setattr__(settings, name, number)
     for name, kind in _kinds(type(settings)).items():  # type: ignore[arg-type]
         value = getattr(settings, name)
         if not isinstance(value, kind):

@@ -145,6 +145,7 @@ def _print(summary: dict[str, Any], unsettled: str = "not reached") -> None:
         ),
         ("speed", f"{summary['real_time_factor']:.1f} x real time"),
     ]
+    rows += [("note", note) for note in summary.get("notes", ())]
     if "camera" in summary:
         rows += _sight_rows(summary)
     print_table(rows)

@@ -1,8 +1,17 @@
 """Types and habits that all commands share."""
 
 import json
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import (
+    ExitStack,
+    contextmanager,
+    nullcontext,
+    redirect_stdout,
+)
 from math import pi, radians
-from typing import Any
+from typing import Any, TextIO
 
 import click
 
@@ -10,6 +19,7 @@ from ..errors import shown
 from ..ranges import Range
 from .terminal import echo
 
+STDOUT, STDERR = 1, 2  # descriptors
 UNITS = {"rad": 1.0, "deg": radians(1.0)}
 USUAL = "of what is smaller or greater, squares and ratios are no numbers"
 TURNS = Range(-4 * pi, 4 * pi, "rad", "who means more turns means seconds")
@@ -101,9 +111,66 @@ SECONDS = NumberType("s")
 POSITIVE = NumberType("1")
 
 
+_only: list[TextIO] = []  # where JSON goes while nothing else goes there
+
+
+@contextmanager
+def json_alone() -> Iterator[None]:
+    """Keep standard output for :func:`print_json`.
+
+    What others write there, like strategies of the user and the processes
+    that they start, goes to standard error.
+    """
+    shared = sys.stdout
+    with ExitStack() as stack:
+        stream = shared
+        if _descriptor(shared) == STDOUT:
+            shared.flush()
+            kept = os.dup(STDOUT)
+            stack.callback(os.close, kept)
+            stream = stack.enter_context(
+                open(
+                    os.dup(STDOUT),
+                    "w",
+                    encoding=shared.encoding,
+                    errors=shared.errors,
+                )
+            )
+            stack.callback(os.dup2, kept, STDOUT)
+            stack.callback(shared.flush)
+            os.dup2(_elsewhere(stack), STDOUT)
+        stack.enter_context(redirect_stdout(sys.stderr))
+        _only.append(stream)
+        stack.callback(_only.pop)
+        yield
+
+
+def _descriptor(stream: TextIO) -> int | None:
+    try:
+        return stream.fileno()
+    except (OSError, ValueError):  # it is not of the system
+        return None
+
+
+def _elsewhere(stack: ExitStack) -> int:
+    """Descriptor of standard error; of nowhere if that is closed."""
+    try:
+        other = os.dup(STDERR)
+    except OSError:
+        other = os.open(os.devnull, os.O_WRONLY)
+    stack.callback(os.close, other)
+    return other
+
+
 def print_json(value: Any) -> None:
     """Print a value as one JSON object."""
-    echo(json.dumps(value, allow_nan=False))
+    answer(json.dumps(value, allow_nan=False) + "\n")
+
+
+def answer(text: str) -> None:
+    """Write what was asked for to standard output, see :func:`json_alone`."""
+    with redirect_stdout(_only[-1]) if _only else nullcontext():
+        echo(text, nl=False)
 
 
 def print_table(rows: list[tuple[str, str]]) -> None:

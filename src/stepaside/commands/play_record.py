@@ -16,6 +16,7 @@ from ..games.play_settings import PlaySettings
 from ..games.played import seal_play
 from ..games.settings import EVADER
 from ..outputs import free_file, reason_of
+from ..strategies.registry import describe_strategy
 
 if TYPE_CHECKING:
     from ..drivers.playing import Tick
@@ -123,9 +124,11 @@ def settings_of_play(
         role=role,
         language=options["robot"].partition(":")[0],
         robot=options["description"],
-        plays=settings.evader_strategy
-        if role == EVADER
-        else settings.pursuer_strategy,
+        plays=describe_strategy(
+            settings.evader_strategy
+            if role == EVADER
+            else settings.pursuer_strategy
+        ),
         strategy=settings.strategy,
         gait=settings.gait,
         control=settings.control,

@@ -5,8 +5,6 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-FIGURE_CODE = ("studies/unicycle_claims", "report")
-
 
 def draw_figures(
     folder: Path, seed: int, *, duration: float = 120.0, marks: int = 7
@@ -25,12 +23,7 @@ def draw_figures(
     """
     from ..studies.kept import Kept
     from ..studies.unicycle_claims import FIG_2, START
-    from ..studies.version import (
-        PHYSICS,
-        UNICYCLES,
-        code_version,
-        library_versions,
-    )
+    from ..studies.version import code_version, library_versions
     from .campaigns import tell_aside
 
     games = f"{FIG_2!r}; {START!r}"
@@ -40,7 +33,7 @@ def draw_figures(
             "Unicycles under (1)-(4), in the manner of Fig. 2",
             _draw_game,
             games,
-            (*UNICYCLES, *FIGURE_CODE),
+            ("studies/unicycle_claims", "report/unicycle_figures"),
         ),
         (
             "sweep.png",
@@ -48,14 +41,14 @@ def draw_figures(
             "as marks",
             lambda file: _draw_sweep(file, marks),
             f"{games}; {marks} marks",
-            (*UNICYCLES, *FIGURE_CODE),
+            ("studies/unicycle_claims", "report/unicycle_sweep"),
         ),
         (
             f"duel-seed{seed}.png",
             "Two NAOs in physics, in the manner of Fig. 5",
             lambda file: _draw_duel(file, seed, duration),
             f"seed {seed}, {duration} s",
-            (*PHYSICS, *FIGURE_CODE),
+            ("games/duel", "report/duel_figure"),
         ),
     ]
     kept = Kept(folder / "rows", tell_aside)

@@ -2,6 +2,9 @@
 
 from typing import TYPE_CHECKING, Any
 
+import click
+from click.core import ParameterSource
+
 from .options import print_table
 from .terminal import echo
 
@@ -9,7 +12,36 @@ if TYPE_CHECKING:
     from ..unicycle.laws import Game
     from ..unicycle.relative import Start
 
+# Options of an evader of the paper, by their parameter.
+OF_EVADER = ("angle", "strategy", "law", "side_rule", "hysteresis")
 EVERYWHERE = 1e9  # safety radius of a game that has no safety area, in [m]
+
+
+def check_used(names: tuple[str, str]) -> None:
+    """Refuse options of the paper's evader where no player plays it.
+
+    Args:
+        names: Strategies of pursuer and evader.
+
+    Raises:
+        UsageError: If such an option was given.
+    """
+    from ..strategies.registry import OF_EVASION
+
+    if set(names) & set(OF_EVASION):
+        return
+    context = click.get_current_context()
+    given = [
+        f"--{name.replace('_', '-')}"
+        for name in OF_EVADER
+        if context.get_parameter_source(name) is ParameterSource.COMMANDLINE
+    ]
+    if given:
+        raise click.UsageError(
+            f"{', '.join(given)} must be left out beside a strategy other "
+            f"than {' and '.join(OF_EVASION)}, which alone use it, got "
+            f"--evader-strategy {names[1]}"
+        )
 
 
 def play_named(

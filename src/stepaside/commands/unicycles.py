@@ -29,7 +29,7 @@ from .options import (
     print_table,
 )
 from .outputs import attempt, writes_files
-from .unicycle_strategies import play_named, print_named
+from .unicycle_strategies import check_used, play_named, print_named
 
 SHORT = 0.01  # time between decisions that are not held, in [s]
 
@@ -110,10 +110,12 @@ def unicycles(
             raise click.UsageError(
                 "--figure and --delay are for games of the paper"
             )
+        names = (pursuer_strategy or "pursuit", evader_strategy or "evasion")
+        check_used(names)
         result |= play_named(
             game,
             start,
-            (pursuer_strategy or "pursuit", evader_strategy or "evasion"),
+            names,
             (duration, sample_time or SHORT),
             capture_distance,
         )

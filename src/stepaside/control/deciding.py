@@ -4,11 +4,11 @@ from dataclasses import replace
 from math import cos, pi, sin
 from typing import Any
 
-from ..errors import StrategyError
 from ..planning import Foot, GaitSettings
 from ..planning.template import passed_beside
 from ..poses import Pose, wrap_angle
 from ..sensing.measurement import Measurement, Sighting
+from ..strategies.asking import ask
 from ..strategies.knowledge import ON_THE_SPOT, Intent, Knowledge, Limits
 from ..strategies.rates import FloorVelocity, SightRates
 from ..strategies.strategy import Strategy
@@ -114,7 +114,7 @@ class Decisions:
         if seen is None:
             return turning != 0.0
         known = self._knowledge(now, seen, moving=False)
-        intent, memory = self._ask(known)
+        intent, memory = ask(self.strategy, known, self.memory)
         if not intent.walks:
             self.memory = memory
         # The first steps of somebody tell little of where the way leads.
@@ -149,23 +149,13 @@ class Decisions:
             begins = passed_beside(*stands, self._spacing)
             there = self._around.frame.compose(begins)
             known = replace(known, begins=there)
-        intent, self.memory = self._ask(known)
+        intent, self.memory = ask(self.strategy, known, self.memory)
         if self.turns is not None:
             intent = replace(intent, heading=self.turns.asked(intent.heading))
         self.pace = next_pace(self.pace, intent.pace, standing=not moving)
         if intent.pace != self.pace:
             intent = replace(intent, pace=self.pace)
         return intent
-
-    def _ask(self, known: Knowledge) -> tuple[Intent, Any]:
-        """Answer of a strategy that anybody may have written."""
-        try:
-            intent, memory = self.strategy.decide(known, self.memory)
-        except Exception as error:
-            raise StrategyError(f"{type(error).__name__}: {error}") from error
-        if not isinstance(intent, Intent):
-            raise StrategyError(f"decide gave no Intent, got {intent!r}")
-        return intent, memory
 
     def _knowledge(
         self, now: float, seen: Sighting, *, moving: bool

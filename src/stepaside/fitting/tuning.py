@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from ..robots.description import RobotDescription
 from ..robots.stored import digest_of
 from ..studies.records import RecordFile
-from ..studies.version import PHYSICS, code_version, library_versions
+from ..studies.version import code_version, library_versions
 from .candidates import Candidate
 from .trials import FALLEN, WAYS, Walked, walk_trial
 
@@ -26,7 +26,7 @@ BETTER = 0.02  # by which a change must better it to stay
 TOGETHER = 4  # candidates at a time: the same whatever walks them
 FARTHER = 0.9 / len(WAYS)  # of who walks one way more before it falls
 STEADY = 1.0  # unsteadiness below which a robot walks
-ROOMS = (*PHYSICS, "fitting/trials", "fitting/strain", "fitting/candidates")
+ROOMS = ("fitting/trials", "fitting/candidates")
 IMPOSSIBLE = FALLEN + 2.0  # of changes that are too much
 
 
@@ -89,7 +89,7 @@ class Search:
         self._report = report
         self._file = None if kept is None else RecordFile(kept)
         self._stamp = _stamp_of(description)
-        self._known = {} if self._file is None else self._file.read()
+        self._known = {} if self._file is None else self._file.read(["walks"])
         self._judged: dict[Candidate, Judged] = {}
         self._goal = 1
 

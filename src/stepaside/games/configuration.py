@@ -207,6 +207,8 @@ def dump_configuration(settings: Any) -> str:
 
 def plain_settings(settings: Any) -> dict[str, Any]:
     """Nested entries of settings, as a configuration has them."""
+    if isinstance(settings, DuelSettings):
+        settings = settings.named()
     entries: dict[str, Any] = _plain(_unfolded(settings))
     return entries
 

@@ -10,7 +10,7 @@ from ..poses import Pose
 from ..randomness import named_generator
 from ..robots.description import RobotDescription, load_robot
 from ..robots.machine import prefer_for
-from ..strategies import load_strategy
+from ..strategies import Strategy, load_strategy
 from ..world.body_settings import with_cycle
 from ..world.figures import FIGURES
 from ..world.passers import add_passers, passer_mover
@@ -165,7 +165,7 @@ class _Setting:
         evader = self._walker(EVADER, settings.evader_strategy)
         self.players = (pursuer, evader)
 
-    def _walker(self, name: str, strategy: str) -> Walker:
+    def _walker(self, name: str, strategy: str | Strategy) -> Walker:
         """Stand a robot, with the senses that the settings give it."""
         settings, seeing = self._settings, self._seeing
         own, description = self._robots[name], self._descriptions[name]

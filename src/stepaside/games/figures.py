@@ -91,6 +91,8 @@ class DuelSummary:
         evader: Figures of the evader.
         sight: Of both as to what they saw, if with cameras.
         touched: Names of who and what met, if that ended it.
+        notes: What a reader must know, such as that the configuration does
+            not repeat the run.
         run_folder: Where the run lies, if it was written.
     """
 
@@ -115,6 +117,7 @@ class DuelSummary:
     evader: PlayerFigures
     sight: SeeingFigures | None = None
     touched: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
     run_folder: str | None = None
 
     def to_json(self) -> dict[str, Any]:
@@ -128,8 +131,9 @@ class DuelSummary:
         plain |= plain.pop("sight") or {}
         if self.run_folder is None:
             del plain["run_folder"]
-        if not self.touched:
-            del plain["touched"]
+        for name in ("touched", "notes"):
+            if not plain[name]:
+                del plain[name]
         return plain
 
     @classmethod

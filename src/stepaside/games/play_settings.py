@@ -11,7 +11,8 @@ from ..strategies import Evasion
 from ..strategies.registry import check_strategy_name
 from ..world.body_settings import BodySettings
 from ..world.settings import PhysicsSettings
-from .settings import EVADER, EVASION, PLAYERS, PURSUER, RobotSettings
+from .settings import EVADER, PLAYERS, PURSUER, RobotSettings
+from .strategy_objects import EVASION
 
 LANGUAGES = LOLA, NAOQI, ROS2 = ("lola", "naoqi", "ros2")
 

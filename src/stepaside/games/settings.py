@@ -1,6 +1,6 @@
 """Settings of a duel: one value that repeats it."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from math import pi
 from typing import ClassVar
 
@@ -9,19 +9,25 @@ from ..control.clearance.settings import MapSettings
 from ..errors import ConfigurationError, check_within
 from ..planning import GaitSettings
 from ..ranges import RUNTIME, SEEDS, Range, Ranges, check_count, check_settings
-from ..strategies import Evasion
-from ..strategies.registry import check_strategy_name
+from ..strategies import Evasion, Strategy
+from ..strategies.registry import (
+    OF_EVASION,
+    check_strategy_name,
+    describe_strategy,
+    is_described,
+)
 from ..world.body_settings import BodySettings
 from ..world.camera_settings import CameraSettings, RoomSettings
 from ..world.passer import MOST_PASSERS, Passer
 from ..world.person_settings import PersonSettings, check_pursuer
 from ..world.push import MOST_PUSHES, Push, check_pushes
 from ..world.settings import PhysicsSettings, SightSettings
+from .strategy_objects import EVASION, settled
 
 ERROR = ConfigurationError
 SENSING = ("ideal", "cameras")
 PLAYERS = PURSUER, EVADER = ("pursuer", "evader")
-EVASION, PURSUIT = "evasion", "pursuit"  # strategies of the paper
+PURSUIT = "pursuit"  # of the paper, like EVASION
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +109,7 @@ class DuelSettings:
         strategy: How an evader of the paper evades.
         evader_strategy: What the evader plays: "evasion" as the paper's,
             another name of :data:`~stepaside.strategies.STRATEGIES`, or
-            FILE.py:NAME.
+            FILE.py:NAME; from Python also a strategy itself.
         pursuer_strategy: What a pursuing robot plays, likewise.
         gait: How both walk, but for one that is another robot.
         sight: What they see.
@@ -126,8 +132,8 @@ class DuelSettings:
     robot: str = "nao"
     start: StartSettings = field(default_factory=StartSettings)
     strategy: Evasion = field(default_factory=Evasion)
-    evader_strategy: str = EVASION
-    pursuer_strategy: str = PURSUIT
+    evader_strategy: str | Strategy = EVASION
+    pursuer_strategy: str | Strategy = PURSUIT
     gait: GaitSettings = field(default_factory=GaitSettings)
     sight: SightSettings = field(default_factory=SightSettings)
     physics: PhysicsSettings = field(default_factory=PhysicsSettings)
@@ -148,10 +154,20 @@ class DuelSettings:
 
     def __post_init__(self) -> None:
         """Refuse a negative seed, a duration that is none, other senses."""
+        for name, value in settled(
+            self.strategy, self.evader_strategy, self.pursuer_strategy
+        ).items():
+            object.__setattr__(self, name, value)
+        if not (
+            isinstance(self.evader_strategy, str)
+            and isinstance(self.pursuer_strategy, str)
+        ):
+            self.named()  # checks all of it, with texts for strategies
+            return
         check_settings(self)
         check_pursuer(self.pursuer)
-        check_strategy_name(self.evader_strategy, "evader_strategy")
-        check_strategy_name(self.pursuer_strategy, "pursuer_strategy")
+        for name in ("evader_strategy", "pursuer_strategy"):
+            check_strategy_name(getattr(self, name), name, recorded=True)
         if self.pursuer == "person" and self.pursuer_strategy != PURSUIT:
             raise ConfigurationError(
                 f"pursuer_strategy must be {PURSUIT!r} for a person, who "
@@ -190,6 +206,50 @@ class DuelSettings:
         """
         own = self.pursuer_robot if player == PURSUER else self.evader_robot
         return own or RobotSettings(self.robot, self.gait, self.control)
+
+    def named(self) -> "DuelSettings":
+        """Return the settings with a text for each strategy object."""
+        return replace(
+            self,
+            evader_strategy=describe_strategy(self.evader_strategy),
+            pursuer_strategy=describe_strategy(self.pursuer_strategy),
+        )
+
+    @property
+    def uses_evasion(self) -> bool:
+        """Whether a player plays by ``strategy``."""
+        played = (self.evader_strategy, self.pursuer_strategy)
+        return any(
+            each in OF_EVASION
+            if isinstance(each, str)
+            else isinstance(each, Evasion)
+            for each in played
+        )
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a reader of the run must know, in sentences."""
+        named = self.named()
+        found = []
+        for name in ("evader_strategy", "pursuer_strategy"):
+            text = getattr(named, name)
+            if is_described(text):
+                found.append(
+                    f"{name} is a Python object: the configuration of this "
+                    f"run does not repeat it ({text})"
+                )
+        usual = Evasion()
+        unused = [
+            f"strategy.{each.name}"
+            for each in fields(usual)
+            if getattr(self.strategy, each.name) != getattr(usual, each.name)
+        ]
+        if unused and not self.uses_evasion:
+            found.append(
+                f"without effect: {', '.join(unused)}, for no player plays "
+                f"by it (evader_strategy {named.evader_strategy})"
+            )
+        return tuple(found)
 
     @property
     def cycle(self) -> float:

@@ -39,11 +39,17 @@ def store_tree(description: RobotDescription) -> Path:
     """Compile the tree of a robot and write it beside its description.
 
     Raises:
-        ModelError: If the model lacks what is described.
+        ModelError: If the model lacks what is described, or a file of that
+            name holds something else.
     """
     from .compiling import compile_tree
 
     path = description.folder / FILE
+    if path.exists() and not _is_tree(path):
+        raise ModelError(
+            f"{path} must be a compiled tree, which is replaced, or absent, "
+            "got another file"
+        )
     tree = compile_tree(description)
     text = write_tree(tree, digest_of(description), VERSION)
     path.write_text(text, encoding="utf-8")
@@ -67,6 +73,15 @@ def digest_of(description: RobotDescription) -> str:
         overlay, sole = description.overlay, description.sole
         digest.update(f"{overlay} {sole} {description.sensors}".encode())
     return digest.hexdigest()[:16]
+
+
+def _is_tree(path: Path) -> bool:
+    """Whether a file is a tree that was stored before."""
+    try:
+        entries = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return False
+    return isinstance(entries, dict) and {"version", "digest"} <= set(entries)
 
 
 def _stored_or_compiled(

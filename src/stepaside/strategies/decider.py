@@ -3,8 +3,10 @@
 from math import cos, sin
 from typing import Any
 
+from ..errors import StrategyError
 from ..poses import Pose
 from ..rooms import Obstacle
+from .asking import ask
 from .knowledge import Intent, Knowledge, Limits
 from .rates import FloorVelocity, SightRates
 from .strategy import Strategy
@@ -52,6 +54,9 @@ class Decider:
             pose: Own pose.
             bearing: Of the other, in [rad].
             distance: To the other, in [m].
+
+        Raises:
+            StrategyError: If the strategy gives no intent.
         """
         rates = self._rates.note(time, pose.theta + bearing, distance)
         known = Knowledge(
@@ -67,7 +72,11 @@ class Decider:
             self._solids,
             velocity=self._velocity(time, pose, bearing, distance),
         )
-        intent, self._memory = self.strategy.decide(known, self._memory)
+        try:
+            intent, self._memory = ask(self.strategy, known, self._memory)
+        except StrategyError as error:
+            name = type(self.strategy).__name__
+            raise StrategyError(f"strategy {name}: {error}") from error
         self._moving = intent.walks
         return intent
 

@@ -3,6 +3,7 @@
 import re
 import sys
 from collections.abc import Callable, Mapping
+from dataclasses import fields, is_dataclass
 from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
@@ -10,6 +11,7 @@ from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
 from ..errors import ConfigurationError
+from .asking import FAILURES
 from .deflected import Deflected
 from .evasion import Evasion
 from .lead import LeadPursuit
@@ -34,19 +36,57 @@ STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
 }
 """Makes a strategy of each name, given how an evader of the paper evades."""
 
+OF_EVASION = ("evasion", "deflected")  # that play by it
+_OBJECT = re.compile(r"object [\w.<>]+\(.*\)", re.DOTALL)
 _IN_FILE = re.compile(r"(?P<file>.+\.py):(?P<name>[^:]*)", re.DOTALL)
 
 
-def check_strategy_name(name: str, what: str = "strategy") -> None:
+def describe_strategy(strategy: str | Strategy) -> str:
+    """Return the text that records a strategy: its name, or its class.
+
+    Args:
+        strategy: A name, which is returned, or a strategy, whose class and
+            plain values are.
+    """
+    if isinstance(strategy, str):
+        return strategy
+    kind = type(strategy)
+    values: list[tuple[str, Any]] = (
+        [
+            (each.name, getattr(strategy, each.name))
+            for each in fields(strategy)
+        ]
+        if is_dataclass(strategy)
+        else []
+    )
+    plain = ", ".join(
+        f"{name}={value!r}"
+        for name, value in values
+        if isinstance(value, bool | int | float | str | None)
+    )
+    return f"object {kind.__module__}.{kind.__qualname__}({plain})"
+
+
+def is_described(name: str) -> bool:
+    """Return whether a name only records the class of a strategy."""
+    return _OBJECT.fullmatch(name) is not None
+
+
+def check_strategy_name(
+    name: str, what: str = "strategy", *, recorded: bool = False
+) -> None:
     """Refuse what names no strategy, without opening a file.
 
     Args:
         name: One of :data:`STRATEGIES`, or FILE.py:NAME.
         what: What it is the name of, for the message.
+        recorded: Whether it may be text of :func:`describe_strategy`.
 
     Raises:
         ConfigurationError: If it is neither.
     """
+    if recorded and is_described(name):
+        return
     found = _IN_FILE.fullmatch(name)
     if name not in STRATEGIES and not (found and found["name"].isidentifier()):
         raise ConfigurationError(
@@ -55,21 +95,33 @@ def check_strategy_name(name: str, what: str = "strategy") -> None:
         )
 
 
-def load_strategy(name: str, evasion: Evasion | None = None) -> Strategy:
+def load_strategy(
+    name: str | Strategy, evasion: Evasion | None = None
+) -> Strategy:
     """Find a strategy.
 
     Args:
         name: One of :data:`STRATEGIES`, or FILE.py:NAME; there NAME is a
             strategy, or a class or function that makes one when it is
-            called with nothing. The file is run.
+            called with nothing. The file is run. A strategy itself is
+            returned.
         evasion: How an evader of the paper evades; by default as there.
 
     Returns:
-        The strategy; that of a file has answered a few questions.
+        The strategy; one of your own has answered a few questions.
 
     Raises:
         ConfigurationError: If there is none, or it is no strategy.
     """
+    if not isinstance(name, str):
+        try_strategy(name, describe_strategy(name))
+        return name
+    if is_described(name):
+        raise ConfigurationError(
+            f"strategy must be a name or FILE.py:NAME, got {name!r}: it was "
+            "given as a Python object, which a configuration cannot make "
+            "again; give its FILE.py:NAME, or the object from Python"
+        )
     check_strategy_name(name)
     found = _IN_FILE.fullmatch(name)
     if found is None:
@@ -113,7 +165,7 @@ def _made(path: str, name: str) -> Any:
         )
     try:
         return thing()
-    except Exception as error:
+    except FAILURES as error:
         raise ConfigurationError(
             f"strategy {path}:{name}: {name}() must make a strategy, got "
             f"{type(error).__name__}: {error}"
@@ -150,7 +202,7 @@ def _load(path: str, name: str) -> ModuleType:
     sys.modules[module] = loaded  # where dataclasses look for their module
     try:
         spec.loader.exec_module(loaded)
-    except (Exception, SystemExit) as error:
+    except FAILURES as error:
         if before is None:
             del sys.modules[module]
         else:

@@ -6,6 +6,7 @@ from typing import Any
 
 from ..errors import ConfigurationError
 from ..planning import Direction
+from .asking import FAILURES
 from .knowledge import Intent, Knowledge, Limits
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.547)
@@ -49,17 +50,23 @@ def try_strategy(candidate: Any, name: str) -> None:
     for method in ("begin", "decide"):
         if not callable(getattr(candidate, method, None)):
             raise refuse(f"must have a method {method}", f"a {kind} without")
-    direction = getattr(candidate, "direction", None)
+    try:
+        direction = getattr(candidate, "direction", None)
+        saturated = getattr(candidate, "saturated", None)
+    except FAILURES as error:
+        raise refuse(
+            "direction and saturated must be there",
+            f"{type(error).__name__}: {error}",
+        ) from error
     if not isinstance(direction, Direction):
         raise refuse("direction must be a Direction", repr(direction))
-    saturated = getattr(candidate, "saturated", None)
     if not isinstance(saturated, bool):
         raise refuse("saturated must be true or false", repr(saturated))
 
     def asked(knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
         try:
             answer = candidate.decide(knowledge, memory)
-        except Exception as error:
+        except FAILURES as error:
             raise refuse(
                 "decide(knowledge, memory) must answer",
                 f"{type(error).__name__}: {error}",
@@ -74,7 +81,7 @@ def try_strategy(candidate: Any, name: str) -> None:
 
     try:
         memory = candidate.begin()
-    except Exception as error:
+    except FAILURES as error:
         raise refuse(
             "begin() must give a memory", f"{type(error).__name__}: {error}"
         ) from error

@@ -10,6 +10,14 @@ from ..games.circle import theory_of
 from ..games.settings import DuelSettings
 from .survival import CONFIDENCE, wilson
 
+FIELDS = (  # of every record
+    *("seed", "outcome", "message", "duration_s", "start_distance_m"),
+    *("pursuer_radius_m", "evader_radius_m", "distance_m"),
+    *("relative_orientation_deg", "converged_at_s", "min_distance_m"),
+    *("triggered_at_s", "triggered_at_distance_m", "min_zmp_margin_m"),
+    *("max_com_velocity_jump_m_s", "evading_min_distance_m"),
+    *("certified_m", "digest"),
+)
 Record = dict[str, Any]
 OUTCOMES = ("completed", "fall", "contact")  # counted also where there is none
 # Figure of a record, the theory that it stands beside, and which end of its

@@ -15,6 +15,7 @@ from ..errors import PlanError
 from ..games.duel import run_duel
 from ..games.duel_run import DuelRun
 from ..games.settings import DuelSettings
+from ..games.strategy_objects import check_named
 from ..poses import Pose
 from ..randomness import named_generator
 from ..robots.machine import prefer_for
@@ -23,11 +24,14 @@ from ..unicycle.certificate import certify
 from ..unicycle.laws import make_game
 from ..unicycle.relative import Start
 from ..workers import give_up
+from .duel_statistics import FIELDS
 from .later import LATER
 from .records import RecordFile
-from .version import PHYSICS, code_version, library_versions
+from .version import code_version, library_versions
 
 Record = dict[str, Any]
+# Modules that play a duel and make its record.
+ROOMS = ("studies/duels",)
 # Of a record, what depends on the machine and not on the duel alone.
 MACHINE = ("version", "libraries", "verified", "wall_s")
 
@@ -47,12 +51,12 @@ def settings_hash(settings: DuelSettings) -> str:
     Of strategies in files, what the files hold counts, too; what they import
     does not.
     """
-    entries = asdict(replace(settings, seed=0))
+    entries = asdict(replace(settings.named(), seed=0))
     plain = asdict(DuelSettings(seed=0))
     for path in LATER:
         _drop(entries, plain, path.split("."))
     for name in (settings.evader_strategy, settings.pursuer_strategy):
-        file = file_of(name)
+        file = file_of(name) if isinstance(name, str) else None
         if file is not None and file.is_file():
             entries[f"content of {name}"] = file.read_bytes().hex()
     text = json.dumps(entries, sort_keys=True)
@@ -67,7 +71,7 @@ def key_of(settings: DuelSettings) -> str:
 @cache
 def _stamp() -> Record:
     return {
-        "version": code_version(PHYSICS),
+        "version": code_version(ROOMS),
         "libraries": library_versions(("mujoco", "numpy")),
     }
 
@@ -184,9 +188,10 @@ def run_duels(
     }
     results: dict[str, Record] = {} if done is None else done
     if file is not None:
+        check_named(settings)
         results |= {
             key: record
-            for key, record in file.read().items()
+            for key, record in file.read(FIELDS).items()
             if key in wanted and is_current(record)
         }
     if report is not None:
@@ -242,7 +247,7 @@ def verify_duels(
         Seeds that were played again, and those that came out otherwise.
     """
     own = settings_hash(settings)
-    records = file.read()
+    records = file.read(FIELDS)
     old = [
         key
         for key, record in records.items()

@@ -28,6 +28,10 @@ STANDING = 1.5  # time that a robot has before anybody counts, in [s]
 SPACE = 4.0  # from a robot that sees to the walls, in [m]
 PAST = 2.5  # how far behind the robot they walk on, in [m]
 Record = dict[str, Any]
+FIELDS = (  # of every record
+    *("outcome", "duration_s", "triggered_at_s", "triggered_at_distance_m"),
+    *("closest_m", "theory_closest_m"),
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,7 +174,7 @@ def run_encounters(
     results: dict[str, Record] = {} if done is None else done
     now, store = stamp(), None if file is None else RecordFile(file)
     wanted = {encounter.key for encounter in grid}
-    known = {} if store is None else store.read()
+    known = {} if store is None else store.read(FIELDS)
     for key, record in known.items():
         if key in wanted and all(record.get(k) == v for k, v in now.items()):
             results[key] = {k: v for k, v in record.items() if k not in now}

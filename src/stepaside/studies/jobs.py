@@ -17,20 +17,14 @@ from .evading_readings import (
     room_settings,
 )
 from .readings import Readings
-from .tournament_settings import ROOMS
-from .version import LIBRARIES, PHYSICS, PLANNER, UNICYCLES
+from .version import LIBRARIES
 
-# Code that readings depend on. Verdicts are found anew each time.
-GAMES = (*UNICYCLES, "studies/readings", "studies/unicycle_claims")
-PLANS = (*PLANNER, "studies/readings", "studies/planner_claims")
-BALANCE = (*PLANS, "studies/balance_claims")
-DUELS = (
-    *(*PHYSICS, "studies/readings", "studies/watching"),
-    *("studies/walk_measures", "studies/physics_readings"),
-)
-
-STEPS = (*ROOMS, "studies/readings", "studies/evading_readings")
-IN_ROOMS = (*DUELS, "studies/physics_game", "studies/evading_readings")
+# Modules that take readings. Verdicts are found anew each time.
+GAMES = ("studies/unicycle_claims",)
+PLANS = ("studies/planner_claims",)
+BALANCE = ("studies/balance_claims",)
+DUELS = ("studies/physics_readings",)
+EVADING = ("studies/evading_readings",)
 
 
 def _game(claims: tuple[Claim, ...], measure: Callable[[], Readings]) -> Job:
@@ -90,7 +84,7 @@ JOBS: dict[str, Job] = {
     "evading": Job(
         evading.EVADING,
         measure_evading,
-        STEPS,
+        EVADING,
         ("numba", "numpy"),
         lambda _: repr(WORLDS),
         seeded=True,
@@ -98,7 +92,7 @@ JOBS: dict[str, Job] = {
     "rooms": Job(
         evading.ROOM,
         measure_room,
-        IN_ROOMS,
+        EVADING,
         ("mujoco", "numba", "numpy"),
         lambda seed: repr(room_settings(seed)),
         seeded=True,

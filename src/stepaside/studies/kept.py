@@ -7,7 +7,7 @@ from math import isfinite, nan
 from pathlib import Path
 from typing import Any
 
-from ..outputs import writing
+from ..outputs import free_file, writing
 from .readings import Readings
 
 Key = dict[str, Any]
@@ -53,7 +53,7 @@ class Kept:
         if found is not None and found[0] != key:
             return None
         if found is None or set(found[1]) != set(wanted):
-            aside = file.with_name(file.name + ".aside")
+            aside = free_file(file.with_name(file.name + ".aside"))
             file.replace(aside)
             self._tell(aside)
             return None

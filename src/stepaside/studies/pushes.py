@@ -10,10 +10,8 @@ from .limits import RESOLUTION
 from .results import header
 from .robustness import mass_of
 from .survival import DEFAULT, PUSH, summarise_limits, walking_reach
-from .trial_results import ROOMS as WALKS
 
-# The walks, what is tried of them, and the bounds beside it.
-ROOMS = (*WALKS, "studies/limits", "studies/survival")
+ROOMS = ("studies/survival",)  # module that finds limits and the bounds
 
 
 def pushes_result(

@@ -2,7 +2,7 @@
 
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from hashlib import sha256
 from pathlib import Path
@@ -36,20 +36,24 @@ class RecordFile:
         self.path = path
         self.aside = 0
 
-    def read(self) -> dict[str, dict[str, Any]]:
-        """Records by key; of several with one key, the last."""
+    def read(self, fields: Iterable[str] = ()) -> dict[str, dict[str, Any]]:
+        """Records by key; of several with one key, the last.
+
+        Args:
+            fields: That every record must have; one without is foreign.
+        """
         if not self.path.exists():
             return {}
         with alone_in(self.path.parent):
-            return self._read()
+            return self._read(set(fields))
 
-    def _read(self) -> dict[str, dict[str, Any]]:
+    def _read(self, fields: set[str]) -> dict[str, dict[str, Any]]:
         found: dict[str, dict[str, Any]] = {}
         bad: list[str] = []
         text = self.path.read_text(encoding="utf-8", errors="replace")
         for line in filter(None, text.split("\n")):
             entry = _parse(line)
-            if entry is None:
+            if entry is None or not fields <= entry[1].keys():
                 bad.append(line)
             else:
                 found[entry[0]] = entry[1]
@@ -66,6 +70,7 @@ class RecordFile:
         line = _line(key, record).encode()
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
+            made = not self.path.exists()
             # Without a buffer, which would be written again as it is closed.
             with (
                 alone_in(self.path.parent),
@@ -80,7 +85,7 @@ class RecordFile:
                         line = line[out.write(line) :]
                 except OSError:  # nothing of it stays where room ran out
                     os.truncate(self.path, end)
-                    if not end:
+                    if made and not end:
                         self.path.unlink()
                     raise
         except OSError as error:

@@ -25,6 +25,11 @@ if TYPE_CHECKING:
     from .physics_game import DuelWays
 
 Record = dict[str, Any]
+FIELDS = (  # of every record
+    *("evader", "pursuer", "seed", "outcome", "survived_s", "closest_m"),
+    *("bound_m", "floor_m2", "walked_m", "turning_rad_s", "unseen"),
+    *("decision_s", "longest_decision_s"),
+)
 CELLS = 64  # of the bound's table
 FEEDBACK = 8  # decisions in a step, of unicycles
 
@@ -198,7 +203,7 @@ def play_tournament(
     }
     results: dict[str, Record] = {} if done is None else done
     if file is not None:
-        for key, record in file.read().items():
+        for key, record in file.read(FIELDS).items():
             now = _stamp(*settings.depends)
             stamp = {name: record.get(name) for name in now}
             if key in wanted and stamp == now:

@@ -10,18 +10,12 @@ from ..errors import ConfigurationError, check_within
 from ..poses import Pose
 from ..rooms import Room, RoomRecipe, draw_starts, make_room, room_entries
 from ..strategies.steps import StepGame
-from .version import GROUND, PHYSICS
 
 ERROR = ConfigurationError
 HUMANOIDS = "physics"
 LEVELS = ("steps", "unicycles", HUMANOIDS)
 MAPS = ("given", "seen", "none")
-ROOMS = (
-    *(*GROUND, "laws", "randomness", "rooms", "unicycle", "bound", "steps"),
-    *("strategies", "studies/entrants", "studies/tournament"),
-    *("studies/tournament_settings", "studies/floor_used"),
-)
-PLAYED = (*ROOMS, *PHYSICS, "studies/physics_game")  # by humanoids
+ROOMS = ("studies/tournament",)  # modules that play a game and record it
 BLOCK = 10  # games that a process is given at once
 
 
@@ -94,7 +88,7 @@ class TournamentSettings:
     def depends(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Rooms of the code and libraries that its games depend on."""
         if self.level == HUMANOIDS:
-            return PLAYED, ("mujoco", "numba", "numpy")
+            return ROOMS, ("mujoco", "numba", "numpy")
         return ROOMS, ("numba", "numpy")
 
     @property

@@ -4,10 +4,10 @@ from pathlib import Path
 from typing import Any
 
 from .records import RecordFile
-from .version import PHYSICS, code_version, library_versions
+from .version import code_version, library_versions
 
-# What a walk depends on, and the file that sets up the walk of a trial.
-ROOMS = (*PHYSICS, "studies/changes", "studies/robustness")
+# Modules that play a trial and judge it.
+ROOMS = ("studies/robustness", "studies/encounters")
 
 
 def read_results(file: Path | None) -> dict[str, bool]:
@@ -22,7 +22,7 @@ def read_results(file: Path | None) -> dict[str, bool]:
     now = stamp()
     return {
         key: bool(record["survived"])
-        for key, record in RecordFile(file).read().items()
+        for key, record in RecordFile(file).read(["survived"]).items()
         if all(record.get(name) == now[name] for name in now)
     }
 

@@ -7,35 +7,37 @@ from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from .dependencies import dependencies
+
 ROOT = Path(__file__).parents[1]
-GROUND = ("errors", "poses")
-PLANNER = (*GROUND, "planning")
-UNICYCLES = (*GROUND, "unicycle")
-# What moves a robot, and what measures how it moved.
-PHYSICS = (
-    *PLANNER,
-    *("unicycle", "robots", "sensing", "perception", "strategies"),
-    *("control", "world", "games", "randomness", "rooms", "steps"),
-)
+# Where results begin; what these import is found from their code.
+PLANNER = ("planning",)
+UNICYCLES = ("unicycle",)
+PHYSICS = ("games/duel", "games/walk")
 LIBRARIES = ("mujoco", "numpy")
 DIGITS = 12
 
 
 @cache
 def code_version(rooms: tuple[str, ...]) -> str:
-    """Fingerprint of the code and data of some rooms of this package.
+    """Return a fingerprint of modules and of all that they import.
 
     Comments, docstrings and layout do not count, so that a result is not
-    made again because a sentence was mended.
+    made again because a sentence was mended. Imports are followed inside
+    this package, see :func:`~stepaside.studies.dependencies.dependencies`.
 
     Args:
-        rooms: Names of modules or folders in the package.
+        rooms: Modules or folders of the package with which the computation
+            of the result begins, such as "games/duel".
 
     Returns:
         Hexadecimal digits.
+
+    Raises:
+        FileNotFoundError: If there is no such module or folder.
     """
     digest = sha256()
-    for file in sorted(_files(rooms)):
+    for file in sorted(dependencies(ROOT, rooms)):
         digest.update(str(file.relative_to(ROOT).as_posix()).encode())
         digest.update(_substance(file))
     return digest.hexdigest()[:DIGITS]
@@ -52,21 +54,6 @@ def library_versions(
         except PackageNotFoundError:
             found[name] = None
     return found
-
-
-def _files(rooms: Iterable[str]) -> Iterable[Path]:
-    for room in rooms:
-        folder, module = ROOT / room, ROOT / f"{room}.py"
-        found = [module] if module.is_file() else []
-        if folder.is_dir():
-            found += [
-                file
-                for file in folder.rglob("*")
-                if file.is_file() and "__pycache__" not in file.parts
-            ]
-        if not found:
-            raise FileNotFoundError(f"no module or folder {room!r} in {ROOT}")
-        yield from found
 
 
 def _substance(file: Path) -> bytes:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ..poses import Pose
 from ..randomness import named_generator
 from ..robots.description import RobotDescription
+from ..robots.stored import load_tree
 from .body_settings import BodySettings
 from .floor import add_floor, tilt_gravity
 from .sensor_errors import perturb_masses
@@ -119,7 +120,12 @@ class World:
         """Compile a world in which every robot still has to be placed.
 
         Args are those of :func:`build_model`.
+
+        Raises:
+            ModelError: If a model lacks what its description names.
         """
+        for robot in robots.values():
+            load_tree(robot)  # refuses a model that lacks what is described
         self.physics = physics
         self.model = build_model(robots, physics, body, seed, furnish)
         self.data = mujoco.MjData(self.model)

@@ -1,12 +1,16 @@
 """Options of commands themselves, which no configuration holds."""
 
+from collections.abc import Callable
+from contextlib import nullcontext
+from functools import wraps
 from pathlib import Path
+from typing import Any
 
 import click
 
 from ...outputs import FIGURES
 from ...report.sizes import SHEETS, figures_on
-from ..options import NumberType
+from ..options import NumberType, json_alone
 from .kinds import NameType, OutputFile
 from .option import Declaration
 
@@ -14,7 +18,19 @@ INTERRUPTED = 130  # exit status of a command that was stopped
 JSON = Declaration(
     "--json/--no-json", "Print one JSON object.", more_names=("as_json",)
 )
-json_option = JSON.option(default=False)
+
+
+def json_option(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command ``--json``, with which it prints nothing else."""
+
+    @wraps(function)
+    def command(*words: Any, **values: Any) -> Any:
+        with json_alone() if values["as_json"] else nullcontext():
+            return function(*words, **values)
+
+    return JSON.option(default=False)(command)
+
+
 FOLDER = Declaration(
     "--output",
     "Folder of results.",

@@ -12,7 +12,7 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
-from ..terminal import echo
+from ..options import answer
 from .body import METHOD
 from .build import changed, with_control, with_senses, with_trigger
 from .game import SENSING
@@ -84,7 +84,7 @@ def takes_settings(
             if values.pop("print_config"):
                 from .print_config import commented
 
-                echo(commented(settings), nl=False)
+                answer(commented(settings))
                 return None
             return function(settings=settings, **values)
 
@@ -188,4 +188,26 @@ def _settings(
         )
     for path in given.keys() & declarations.keys():
         given[path] = declarations[path].value_of(given[path])
-    return changed(settings, with_room(given))
+    settings = changed(settings, with_room(given))
+    if not getattr(settings, "uses_evasion", True):
+        _refuse_unused(declarations, settings.named().evader_strategy)
+    return settings
+
+
+def _refuse_unused(
+    declarations: Mapping[str, Declaration], played: str
+) -> None:
+    """Refuse options of the paper's evader where no player plays it."""
+    from ...strategies.registry import OF_EVASION
+
+    unused = [
+        declaration.name.partition("/")[0]
+        for path, declaration in declarations.items()
+        if path.startswith("strategy.")
+    ]
+    if unused:
+        raise click.UsageError(
+            f"{', '.join(unused)} must be left out beside a strategy other "
+            f"than {' and '.join(OF_EVASION)}, which alone use it, got "
+            f"--strategy {played}"
+        )

@@ -9,8 +9,8 @@ SCHEME = "lola:"
 ON_THE_ROBOT = "/tmp/robocup"  # where every NAO V6 listens
 SIGHT_SUFFIX = ".ideal-sight"  # where a simulated robot offers the truth
 CAMERAS_SUFFIX = ".cameras"  # where it shows what its cameras see
-EARLY = ".new"  # of a socket at which nobody listens yet
-LONGEST_PATH = 107 - len(SIGHT_SUFFIX + EARLY)  # in bytes
+EARLY = "s"  # in a folder of its own, of a socket that does not listen yet
+LONGEST_PATH = 107 - len(SIGHT_SUFFIX) - len("/.12345678/s")  # in bytes
 
 
 @dataclass(frozen=True, slots=True)

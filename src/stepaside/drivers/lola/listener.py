@@ -6,6 +6,7 @@ import os
 import socket
 import stat
 from contextlib import suppress
+from tempfile import TemporaryDirectory
 
 from ...errors import ConfigurationError
 from .address import EARLY, Address
@@ -51,21 +52,19 @@ class Listener:
                 f"cannot listen at {address}: {error}"
             ) from error
         self._socket.setblocking(False)
-        if address.path:
-            self._inode = _inode(address.path)
 
     def _listen_at(self, path: str) -> None:
         """Listen at a path; once it is there somebody listens."""
-        early = path + EARLY
-        with suppress(FileNotFoundError):
-            os.unlink(early)
-        self._socket.bind(early)
-        try:
+        # In a folder of our own, so that no other file is in the way. Unlike
+        # a renamed file, a linked one replaces nothing.
+        with TemporaryDirectory(
+            prefix=".", dir=os.path.dirname(path) or "."
+        ) as own:
+            early = os.path.join(own, EARLY)
+            self._socket.bind(early)
             self._socket.listen()
-            os.rename(early, path)
-        except OSError:
-            os.unlink(early)
-            raise
+            self._inode = _inode(early)
+            os.link(early, path)
 
     def accept(self) -> bool:
         """Take whoever has come; whether that is a new client."""
@@ -138,7 +137,7 @@ class Listener:
 
 
 def _inode(path: str) -> tuple[int, int]:
-    found = os.stat(path)
+    found = os.lstat(path)
     return found.st_dev, found.st_ino
 
 
@@ -146,7 +145,7 @@ def _remove_stale(address: Address) -> None:
     """Remove a socket that is left over; refuse one that is in use."""
     path = address.path
     try:
-        if not stat.S_ISSOCK(os.stat(path).st_mode):
+        if not stat.S_ISSOCK(os.lstat(path).st_mode):
             raise OSError(errno.EEXIST, "there is a file of that name")
     except FileNotFoundError:
         return
@@ -156,7 +155,7 @@ def _remove_stale(address: Address) -> None:
             probe.connect(path)
         except BlockingIOError:
             pass  # somebody listens, and is busy
-        except OSError:
+        except ConnectionRefusedError:
             os.unlink(path)
             return
     raise OSError(errno.EADDRINUSE, "somebody listens there")

@@ -8,7 +8,8 @@ import viser
 
 from ...errors import StepAsideError
 from ...games.duel import Duel
-from ...games.settings import EVASION, SENSING
+from ...games.settings import SENSING
+from ...games.strategy_objects import EVASION
 from ...games.walker import Walker
 from ...planning import GaitSettings
 from .body_choices import body_choices

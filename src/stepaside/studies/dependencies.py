@@ -1,0 +1,196 @@
+"""Files of the package that a module depends on, found from its imports.
+
+The source is parsed, not run. Imports inside functions count like those at
+the top of a file; imports for type checkers alone do not, except where a
+package resolves its public names from them when they are first used.
+"""
+
+import ast
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+PACKAGE = __name__.split(".")[0]
+INIT = "__init__.py"
+Import = tuple[str, str | None]  # module in the package, and a name in it
+
+
+def dependencies(root: Path, names: Iterable[str]) -> frozenset[Path]:
+    """Return the files that modules or folders depend on, themselves included.
+
+    Data files count together with the modules of the package they lie in.
+
+    Args:
+        root: Folder of the package.
+        names: Modules or folders, as paths below ``root`` without suffix.
+
+    Raises:
+        FileNotFoundError: If there is no such module or folder.
+    """
+    graph = _Graph(root)
+    for name in names:
+        graph.add_root(name)
+    return frozenset(graph.files | graph.data())
+
+
+class _Graph:
+    """Import graph of a package, followed from some of its modules.
+
+    Attributes:
+        root: Folder of the package.
+        files: Python files that were reached.
+    """
+
+    def __init__(self, root: Path) -> None:
+        self.root = root
+        self.files: set[Path] = set()
+        self._folders: set[Path] = set()
+        self._trees: dict[Path, ast.Module] = {}
+
+    def add_root(self, name: str) -> None:
+        """Follow a module, or all that is in a folder."""
+        folder, module = self.root / name, self.root / f"{name}.py"
+        found = [module] if module.is_file() else []
+        if folder.is_dir():
+            self._folders.add(folder)
+            found += sorted(folder.rglob("*.py"))
+        if not found and not folder.is_dir():
+            raise FileNotFoundError(
+                f"no module or folder {name!r} in {self.root}"
+            )
+        self._follow(found)
+
+    def data(self) -> set[Path]:
+        """Return the data files of the packages that were reached."""
+        own = {file.parent for file in self.files if file.name != INIT}
+        found = {file for folder in own for file in self._data_in(folder)}
+        for folder in self._folders:
+            found |= {
+                file
+                for file in folder.rglob("*")
+                if file.is_file() and not _is_code(file)
+            }
+        return found
+
+    def _data_in(self, folder: Path) -> Iterator[Path]:
+        """Data files of a package, not those of packages inside it."""
+        for file in folder.iterdir():
+            if file.is_dir():
+                if file.name != "__pycache__" and not (file / INIT).is_file():
+                    yield from self._data_in(file)
+            elif not _is_code(file):
+                yield file
+
+    def _follow(self, files: Iterable[Path]) -> None:
+        left = list(files)
+        while left:
+            file = left.pop()
+            if file in self.files:
+                continue
+            self.files.add(file)
+            left += self._packages_of(file)
+            for module, name in _imports(self._parse(file), self._names(file)):
+                left += self._resolve(module, name)
+
+    def _packages_of(self, file: Path) -> list[Path]:
+        """Packages around a file, whose own files run before it."""
+        around = file.relative_to(self.root).parents
+        files = [self.root / folder / INIT for folder in around]
+        return [each for each in files if each.is_file()]
+
+    def _resolve(self, module: str, name: str | None) -> list[Path]:
+        """Files that importing a module, or a name from it, depends on."""
+        file = self._file(module)
+        if file is None:
+            return []
+        if file.name != INIT:
+            return [file]
+        if name in (None, "*"):  # any public name may be used through it
+            return [file, *self._public(file)]
+        inside = f"{module}.{name}".lstrip(".")
+        if self._file(inside) is not None:
+            return [file, *self._resolve(inside, None)]
+        return [file, *self._public(file, name)]
+
+    def _public(self, file: Path, name: str | None = None) -> list[Path]:
+        """Files behind the public names of a package, or behind one."""
+        found: list[Path] = []
+        tree, names = self._parse(file), self._names(file)
+        for node in _import_nodes(tree, for_types=True):
+            for alias, (module, own) in _named(node, names):
+                if name in (None, alias):
+                    found += self._resolve(module, own)
+        return found
+
+    def _file(self, module: str) -> Path | None:
+        path = self.root.joinpath(*module.split(".")) if module else self.root
+        beside = path.with_suffix(".py")
+        if module and beside.is_file():
+            return beside
+        return path / INIT if (path / INIT).is_file() else None
+
+    def _names(self, file: Path) -> tuple[str, ...]:
+        """Package that a file is in, as names below the root."""
+        return file.relative_to(self.root).parts[:-1]
+
+    def _parse(self, file: Path) -> ast.Module:
+        if file not in self._trees:
+            self._trees[file] = ast.parse(file.read_text(encoding="utf-8"))
+        return self._trees[file]
+
+
+def _is_code(file: Path) -> bool:
+    return file.suffix == ".py" or "__pycache__" in file.parts
+
+
+def _imports(tree: ast.AST, package: tuple[str, ...]) -> Iterator[Import]:
+    """Modules of the package that a file imports when it runs."""
+    for node in _import_nodes(tree, for_types=False):
+        for _, found in _named(node, package):
+            yield found
+
+
+def _import_nodes(
+    tree: ast.AST, *, for_types: bool
+) -> Iterator[ast.Import | ast.ImportFrom]:
+    """Import statements, at any depth.
+
+    Args:
+        tree: Where to look.
+        for_types: Whether those under ``if TYPE_CHECKING`` count.
+    """
+    for node in ast.iter_child_nodes(tree):
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            yield node
+        elif isinstance(node, ast.If) and _asks_for_types(node.test):
+            for each in (*(node.body if for_types else ()), *node.orelse):
+                wrapped = ast.Module([each], [])
+                yield from _import_nodes(wrapped, for_types=for_types)
+        else:
+            yield from _import_nodes(node, for_types=for_types)
+
+
+def _asks_for_types(test: ast.expr) -> bool:
+    name = test.attr if isinstance(test, ast.Attribute) else test
+    name = name.id if isinstance(name, ast.Name) else name
+    return name == "TYPE_CHECKING"
+
+
+def _named(
+    node: ast.Import | ast.ImportFrom, package: tuple[str, ...]
+) -> Iterator[tuple[str, Import]]:
+    """Names that a statement binds, and what of the package they are."""
+    if isinstance(node, ast.Import):
+        for alias in node.names:
+            first, _, rest = alias.name.partition(".")
+            if first == PACKAGE:
+                yield alias.asname or first, (rest, None)
+        return
+    words = node.module.split(".") if node.module else []
+    if node.level:
+        words = [*package[: len(package) - node.level + 1], *words]
+    elif words and words[0] == PACKAGE:
+        del words[0]
+    else:
+        return
+    for alias in node.names:
+        yield alias.asname or alias.name, (".".join(words), alias.name)

@@ -1,0 +1,221 @@
+"""Test what strategies, models and records of others must not do to us."""
+
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from stepaside import DuelSettings, run_duel
+from stepaside.cli import main
+from stepaside.robots.description import load_robot
+from stepaside.studies import duel_statistics, tournament
+from stepaside.studies.records import RecordFile
+
+STRATEGY = """
+import os, sys
+from stepaside import Direction, Intent
+{top}
+class Own:
+    direction = Direction.BACKWARD
+    saturated = False
+    def __init__(self):
+        {made}
+    def begin(self):
+        {begin}
+        return 0
+    def decide(self, knowledge, memory):
+        {decide}
+        return Intent(0.4), memory + 1
+"""
+PLACES = ("top", "made", "begin", "decide")
+EXITS = ("sys.exit(0)", "sys.exit()", "exit('bye')", "raise SystemExit(3)")
+
+
+def strategy(folder: Path, **code: str) -> str:
+    """Name of a strategy that runs some code in some places."""
+    file = folder / "own.py"
+    file.write_text(STRATEGY.format(**(dict.fromkeys(PLACES, "pass") | code)))
+    return f"{file}:Own"
+
+
+def command(*words: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "stepaside", *words],
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+
+
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("code", EXITS)
+def test_a_strategy_that_exits_is_refused_with_its_name(
+    tmp_path: Path, place: str, code: str
+) -> None:
+    name = strategy(tmp_path, **{place: code})
+    words = ("unicycles", "--duration", "1", "--evader-strategy", name)
+    result = CliRunner().invoke(main, words)
+    assert result.exit_code == 2
+    assert "SystemExit" in result.output and "own.py" in result.output
+
+
+LATE = "{} if knowledge.time > 2.6 else None"
+
+
+@pytest.mark.parametrize("code", ["sys.exit(0)", "1 / 0"])
+def test_a_strategy_that_fails_later_ends_its_game_in_words(
+    tmp_path: Path, code: str
+) -> None:
+    name = strategy(tmp_path, decide=LATE.format(code))
+    words = ("unicycles", "--duration", "9", "--evader-strategy", name)
+    result = CliRunner().invoke(main, words)
+    assert result.exit_code == 2
+    assert (
+        "strategy Own" in result.output
+        and "Error" in result.output
+        or ("SystemExit" in result.output)
+    )
+    run = run_duel(DuelSettings(duration=4.0, evader_strategy=name))
+    assert run.outcome.value == "failed"
+    assert ("SystemExit" if "exit" in code else "ZeroDivision") in run.message
+
+
+PRINTS = (
+    "print('noise')",
+    "sys.stdout.write('noise')",
+    "sys.__stdout__.write('noise')",
+    "os.write(1, b'noise')",
+    "os.system('echo noise')",
+)
+
+
+@pytest.mark.parametrize("code", PRINTS)
+def test_what_a_strategy_prints_is_not_among_json(
+    tmp_path: Path, code: str
+) -> None:
+    name = strategy(tmp_path, **dict.fromkeys(PLACES, code))
+    found = command(
+        *("unicycles", "--duration", "0.1", "--json"),
+        *("--evader-strategy", name),
+    )
+    assert found.returncode == 0, found.stderr
+    assert json.loads(found.stdout)["evader_strategy"] == name
+    assert found.stdout.count("\n") == 1 and "noise" in found.stderr
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("duel", "--duration", "0.5", "--strategy"),
+        ("duels", "--seeds", "1:3", "--duration", "0.5", "--strategy"),
+        ("tournament", "--seeds", "1:3", "--duration", "2", "--evader"),
+    ],
+)
+def test_what_workers_print_is_not_among_json(
+    tmp_path: Path, words: tuple[str, ...]
+) -> None:
+    name = strategy(tmp_path, decide="print('noise', flush=True)")
+    found = command(*words, name, "--json")
+    assert found.returncode == 0, found.stderr
+    assert json.loads(found.stdout)
+    assert "noise" in found.stderr
+
+
+def test_json_goes_out_where_standard_error_is_closed(tmp_path: Path) -> None:
+    name = strategy(tmp_path, decide="print('noise')")
+    line = [sys.executable, "-m", "stepaside", "unicycles", "--json"]
+    line += ["--duration", "0.1", "--evader-strategy", name]
+    found = subprocess.run(
+        ["sh", "-c", '"$@" 2>&-', "sh", *line],
+        stdout=subprocess.PIPE,
+        text=True,
+        timeout=100,
+    )
+    assert json.loads(found.stdout)["evader_strategy"] == name
+
+
+def test_json_and_a_configuration_are_printed_as_before() -> None:
+    for words in (("walk",), ("robustness",), ("duel",)):
+        result = CliRunner().invoke(
+            main, [*words, "--json", "--print-config"], catch_exceptions=False
+        )
+        assert result.exit_code == 0 and "[gait]" in result.stdout
+
+
+MODELS = (
+    "<mujoco/>",
+    "<mujoco><worldbody/></mujoco>",
+    '<mujoco><worldbody><body name="other"/></worldbody></mujoco>',
+    '<mujoco><worldbody><body name="torso"/></worldbody></mujoco>',
+    "",
+    "<robot/>",
+)
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("duel", "--duration", "1", "--json", "--robot"),
+        ("walk", "--duration", "1", "--json", "--robot"),
+        ("robot",),
+        ("duel", "--duration", "1", "--json", "--pursuer", "ROBOT"),
+    ],
+)
+def test_a_model_without_the_robot_is_refused(
+    tmp_path: Path, model: str, words: tuple[str, ...]
+) -> None:
+    if words[-1] == "ROBOT":
+        words = (*words[:-2], "--evader-robot")
+    folder = tmp_path / "robot"
+    shutil.copytree(load_robot("nao").folder, folder)
+    (folder / "tree.json").unlink()
+    (folder / "model.xml").write_text(model)
+    result = CliRunner().invoke(main, [*words, str(folder)])
+    assert result.exit_code == 2, result.output
+    assert result.output.startswith("stepaside: ")
+
+
+def without(file: Path, field: str) -> None:
+    """Take a field out of every record of a file, with right checksums."""
+    records = RecordFile(file).read()
+    file.unlink()
+    for key, record in records.items():
+        left = {k: v for k, v in record.items() if k != field}
+        RecordFile(file).append(key, left)
+
+
+CAMPAIGNS: dict[str, tuple[str, ...]] = {
+    "duels": ("duels", "--seeds", "1:2", "--duration", "0.2"),
+    "tournament": ("tournament", "--seeds", "1:2", "--duration", "2"),
+}
+
+
+@pytest.mark.parametrize("name", CAMPAIGNS)
+def test_a_record_without_a_field_is_set_aside_and_made_again(
+    tmp_path: Path, name: str
+) -> None:
+    folder = tmp_path / "kept"
+    words = [*CAMPAIGNS[name], "--workers", "1", "--output", str(folder)]
+
+    def run() -> Any:
+        result = CliRunner().invoke(main, [*words, "--json"])
+        assert result.exit_code == 0, result.output
+        return json.loads(result.stdout)
+
+    run()
+    (file,) = folder.glob("*.jsonl")
+    fields = sorted({k for r in RecordFile(file).read().values() for k in r})
+    for field in fields:
+        number = len(RecordFile(file).read())
+        without(file, field)
+        run()
+        again = RecordFile(file).read()
+        assert len(again) == number
+        if field in (*duel_statistics.FIELDS, *tournament.FIELDS, "version"):
+            assert all(field in record for record in again.values()), field
