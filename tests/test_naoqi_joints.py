@@ -312,7 +312,7 @@ CONTROL = """
 import sys
 import numpy as np
 from stepaside.drivers.lola.handling import Handling
-from stepaside.drivers.lola.safety import SafetySettings
+from stepaside.drivers.lola.conditions import SafetySettings
 from stepaside.drivers.naoqi.joints import open_joints
 names = sys.argv[2].split(",")
 stance = np.array([float(v) for v in sys.argv[3].split(",")])
