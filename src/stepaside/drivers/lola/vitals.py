@@ -24,6 +24,7 @@ class Vitals:
         self._read: Array | None = None
         self._since = 0.0
         self._legs: Array = np.zeros(0)
+        self._travel = 0.0
 
     def seen(
         self, frame: SensorFrame, now: float, *, walks: bool, reached: bool
@@ -63,10 +64,8 @@ class Vitals:
         """Time since the accelerometer changed, if the legs moved since."""
         legs = frame.position[LEGS]
         if self._read is None or np.any(frame.accelerometer != self._read):
-            self._read, self._since, self._legs = (
-                frame.accelerometer,
-                now,
-                legs,
-            )
-        moved = float(np.abs(legs - self._legs).max()) > MOVED
-        return now - self._since if moved else 0.0
+            self._read, self._since = frame.accelerometer, now
+            self._legs, self._travel = legs, 0.0
+        away = float(np.abs(legs - self._legs).max())
+        self._travel = max(self._travel, away)
+        return now - self._since if self._travel > MOVED else 0.0
