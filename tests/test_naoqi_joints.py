@@ -26,6 +26,7 @@ from stepaside.drivers.lola.joints import NAMES  # noqa: E402
 from stepaside.drivers.lola.safety import State  # noqa: E402
 from stepaside.drivers.lola.wire import WireError  # noqa: E402
 from stepaside.drivers.minds import mind_maker  # noqa: E402
+from stepaside.drivers.naoqi.chains import CHAINS  # noqa: E402
 from stepaside.drivers.naoqi.joint_line import (  # noqa: E402
     JointLine,
     fade,
@@ -302,10 +303,32 @@ def test_joints_are_found_by_name() -> None:
     assert not motion.robotIsWakeUp()
     motion.wakeUp()
     assert motion.getAngles("LKneePitch", False) == [0.0]
-    assert motion.getBodyNames("Body") == list(NAMES)
+    assert set(motion.getBodyNames("Body")) == {*NAMES, "RHipYawPitch"}
     robot.values["a"] = 1.0
     assert JointMemory(robot).getListData(["a", "b"]) == [1.0, None]
     assert JointMemory(robot).getData("a") == 1.0
+
+
+def test_a_chain_is_its_joints_and_no_others() -> None:
+    robot = JointRobot()
+    motion = JointMotion(robot)
+    motion.wakeUp()
+    motion.setStiffnesses("Head", 0.0)
+    assert [NAMES[i] for i in np.flatnonzero(robot.stiffness == 0.0)] == [
+        "HeadYaw",
+        "HeadPitch",
+    ]
+    for chain, joints in CHAINS.items():
+        assert motion.getBodyNames(chain) == list(joints)
+        wanted = np.linspace(0.1, 0.3, len(joints))
+        if "RHipYawPitch" in joints and "LHipYawPitch" in joints:
+            wanted[:] = 0.2  # one motor
+        motion.setAngles(chain, wanted.tolist(), 0.5)
+        assert motion.getAngles(chain, False) == wanted.tolist()
+        motion.setAngles([chain, "HeadYaw"], 0.4, 0.5)
+        assert motion.getAngles([chain, "HeadYaw"], False) == pytest.approx(
+            (len(joints) + 1) * [0.4]
+        )
 
 
 CONTROL = """
