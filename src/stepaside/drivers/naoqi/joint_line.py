@@ -22,8 +22,16 @@ from ..lola.frames import ActuatorFrame, Codec, SensorFrame
 from ..lola.guardian import FADING
 from ..lola.joints import JOINT_COUNT, NAMES
 from ..session import SessionLost
+from ..sightings import fault_of
 from .address import IDEAL_SIGHT
-from .sensor_keys import FRAME, KEYS, QUICK_KEYS, frame_of
+from .sensor_keys import (
+    ACCELEROMETER,
+    FRAME,
+    KEYS,
+    OLDER,
+    QUICK_KEYS,
+    frame_of,
+)
 from .session import answer_of, ask, connect
 
 ASKING = 2.0  # longest time for a service or a single answer, in [s]
@@ -93,14 +101,19 @@ class JointLine:
         try:
             self._motion = service_of(self._session, "ALMotion")
             self._memory = service_of(self._session, "ALMemory")
-            told = ask(self._memory, "getListData", [FRAME], within=ASKING)
+            asked = [FRAME, ACCELEROMETER[0], OLDER[ACCELEROMETER[0]]]
+            told = ask(self._memory, "getListData", asked, within=ASKING)
         except TimeoutError as error:
             self._session.close()
             raise SessionLost(f"the robot: {error}") from error
         except BaseException:
             self._session.close()
             raise
-        self.simulated = told[0] is not None
+        frame, newer, older = told
+        self.simulated = frame is not None
+        self._names = OLDER if newer is None and older is not None else {}
+        if self._names:
+            log.warning("the robot's gyro has two axes: it does not see turns")
         self.sight: tuple[float, float, float] | None = None
         self._began, self._number = clock(), -1
         self._heard: Heard | None = None
@@ -174,7 +187,8 @@ class JointLine:
         if self.simulated and not self._has_spoken(patience):
             return
         keys = QUICK_KEYS if self._reads % EVERY else KEYS
-        asked = [*keys, FRAME, IDEAL_SIGHT]
+        names = [self._names.get(key, key) for key in keys]
+        asked = [*names, FRAME, IDEAL_SIGHT]
         told = ask(self._memory, "getListData", asked, within=patience)
         *known, frame, sight = told
         self._told.update(zip(keys, known, strict=True))
@@ -285,5 +299,8 @@ def _sight(told: Any) -> tuple[float, float, float] | None:
         age, bearing, distance = (float(value) for value in told)
     except (TypeError, ValueError) as error:
         raise SessionLost(f"the robot's sight is {told!r:.60}") from error
-    good = isfinite(age) and isfinite(bearing) and isfinite(distance)
-    return (age, bearing, distance) if good else None
+    fault = fault_of(bearing, distance)
+    if fault or not isfinite(age):
+        log.warning("sighting dropped: %s", fault or f"its age is {age} s")
+        return None
+    return age, bearing, distance
