@@ -254,8 +254,32 @@ def stop(url: str) -> None:
     """
     session = connect(url)
     try:
-        future = session.service("ALMotion", _async=True)
-        motion = answer_of(future, "ALMotion", within=PARTING)
+        motion = _motion_of(session)
         ask(motion, "stopMove", within=PARTING)
     finally:
         session.close()
+
+
+def stopper_of(url: str) -> Callable[[], None]:
+    """Connect to a robot in advance, and return what stops it.
+
+    Raises:
+        SessionLost: If there is no such robot.
+    """
+    motion = _motion_of(connect(url))
+
+    def stop_now() -> None:
+        try:
+            ask(motion, "stopMove", within=PARTING)
+        except (SessionLost, TimeoutError):
+            stop(url)  # the session was lost meanwhile
+
+    return stop_now
+
+
+def _motion_of(session: Any) -> Any:
+    future = session.service("ALMotion", _async=True)
+    try:
+        return answer_of(future, "ALMotion", within=PARTING)
+    except TimeoutError as error:
+        raise SessionLost(f"the robot: {error}") from error
