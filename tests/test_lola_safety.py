@@ -198,12 +198,12 @@ def lasting(
 
 
 # What each sensor reads when something is wrong, and a word of the reason.
-TO_REST = {
+TO_REST: dict[str, tuple[dict[str, Any], str]] = {
     "battery": ({"charge": 0.09}, "battery"),
     "empty": ({"charge": 0.0}, "battery"),
     "current": ({"current": 1.1}, "current"),
 }
-TO_STAND = {
+TO_STAND: dict[str, tuple[dict[str, Any], str]] = {
     "lifted": ({"load": 0.0}, "in the air"),
     "nearly_lifted": ({"load": 0.45}, "in the air"),
     "bumper": ({"bumper": True}, "bumper"),
@@ -301,7 +301,7 @@ def test_a_worse_reason_while_it_stops_makes_it_rest() -> None:
 
 def test_the_worst_of_several_reasons_counts() -> None:
     machine = at(State.WALKING)
-    everything = {"load": 0.0, "charge": 0.01, "tilt": 1.0}
+    everything: dict[str, Any] = {"load": 0.0, "charge": 0.01, "tilt": 1.0}
     assert lasting(machine, LASTING, **everything) is State.LIMP
     assert "falls" in machine.reason
 

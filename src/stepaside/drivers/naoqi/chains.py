@@ -8,10 +8,14 @@ import numpy as np
 
 from ...poses import Array
 
-LEG = ("HipYawPitch", "HipRoll", "HipPitch")
-LEG += ("KneePitch", "AnklePitch", "AnkleRoll")
-ARM = ("ShoulderPitch", "ShoulderRoll", "ElbowYaw", "ElbowRoll")
-ARM += ("WristYaw", "Hand")
+LEG = (
+    *("HipYawPitch", "HipRoll", "HipPitch"),
+    *("KneePitch", "AnklePitch", "AnkleRoll"),
+)
+ARM = (
+    *("ShoulderPitch", "ShoulderRoll", "ElbowYaw", "ElbowRoll"),
+    *("WristYaw", "Hand"),
+)
 SIMPLE = {
     "Head": ("HeadYaw", "HeadPitch"),
     "LArm": tuple(f"L{joint}" for joint in ARM),
