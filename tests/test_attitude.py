@@ -1,6 +1,6 @@
 """Test roll and pitch from gyro and accelerometer."""
 
-from math import cos, hypot, sin
+from math import cos, hypot, nan, sin
 
 import numpy as np
 import pytest
@@ -212,3 +212,17 @@ def test_a_level_rotation_about_a_tilted_axis_leaves_the_tilt_alone() -> None:
     assert (attitude.roll, attitude.pitch) == pytest.approx(
         (0.2, 0.3), abs=1e-9
     )
+
+
+def test_a_gyro_of_two_axes_tells_roll_and_pitch_of_a_level_torso() -> None:
+    attitudes = [
+        AttitudeFilter(GAIN, 0.0, calibration=calibration)
+        for calibration in (0.0, CALIBRATION)
+    ]
+    for attitude in attitudes:
+        run(attitude, np.array([0.0, 0.0, nan]), force(0.0, 0.0), 2.0)
+        run(attitude, np.array([0.1, -0.2, nan]), force(0.0, 0.0), 0.1)
+        whole = AttitudeFilter(GAIN, 0.0, calibration=0.0)
+        run(whole, np.array([0.1, -0.2, 0.0]), force(0.0, 0.0), 0.1)
+        assert attitude.roll == pytest.approx(whole.roll, rel=1e-9)
+        assert attitude.pitch == pytest.approx(whole.pitch, rel=1e-9)

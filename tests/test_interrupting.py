@@ -30,7 +30,7 @@ class {name}:
     def exec_module(self, call):
         return call()
 """
-SIGNALS = (signal.SIGINT, signal.SIGTERM)
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 def loader(name: str) -> Callable[[Callable[[], Any]], Any]:
@@ -266,3 +266,22 @@ def test_little_is_loaded_before_it_is_known_what_ctrl_c_does() -> None:
     )
     loaded = set(said.stdout.split())
     assert "stepaside" in loaded and not loaded & {"enum", "re", "typing"}
+
+
+def test_a_terminal_that_hangs_up_interrupts_once() -> None:
+    """The shell sends a SIGHUP, and the system another one."""
+    with stoppable():
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGHUP)
+        signal.raise_signal(signal.SIGHUP)
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+
+
+def test_what_shall_survive_its_terminal_does() -> None:
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with stoppable():
+            signal.raise_signal(signal.SIGHUP)
+    finally:
+        signal.signal(signal.SIGHUP, before)

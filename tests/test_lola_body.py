@@ -18,7 +18,7 @@ from lola_fakes import (
 from stepaside.drivers.lola.body import LolaBody
 from stepaside.drivers.lola.frame_clock import TICK
 from stepaside.drivers.lola.frames import pack_sensors
-from stepaside.drivers.lola.joints import NAMES
+from stepaside.drivers.lola.joints import LEGS, NAMES
 from stepaside.drivers.lola.lights import COLOURS
 from stepaside.drivers.lola.safety import State
 from stepaside.drivers.lola.sight import SightMessage, pack_sight
@@ -167,6 +167,78 @@ def test_falling_goes_limp_at_once(change: dict[str, Any]) -> None:
     play(body, 59)
     stiffness = link.sent[-1].stiffness
     assert stiffness is not None and stiffness.max() == 0.0
+
+
+def moved(count: int, **changes: Any) -> list[Any]:
+    """Frames of a robot whose legs move."""
+    frames = []
+    for i in range(count):
+        frame = sensor_frame(**changes)
+        frame.position[LEGS] += 0.1 * np.sin(0.3 * i)
+        frames.append(frame)
+    return frames
+
+
+def touching(at: int) -> list[Any]:
+    touch = [0.0] * 14
+    touch[at] = 1.0
+    return 30 * [sensor_frame(touch=tuple(touch))]
+
+
+def drawing(joint: str, current: float) -> list[Any]:
+    drawn = np.zeros(25)
+    drawn[NAMES.index(joint)] = current
+    return 60 * [sensor_frame(current=drawn)]
+
+
+@pytest.mark.parametrize(
+    ("frames", "word"),
+    [
+        (60 * [sensor_frame(fsr=np.zeros(8))], "in the air"),
+        (60 * [sensor_frame(battery=(0.02, 0.0, 0.0, 36.0))], "2 %"),
+        (60 * [sensor_frame(current=np.full(25, 6.0))], "current"),
+        (drawing("RKneePitch", 3.5), "current"),
+        (drawing("LWristYaw", -0.6), "current"),
+        (touching(4), "bumper"),
+        (touching(5), "bumper"),
+        (touching(9), "bumper"),
+        (touching(10), "bumper"),
+        (60 * [sensor_frame(accelerometer=np.zeros(3))], "accelerometer"),
+        (
+            60 * [sensor_frame(accelerometer=np.array([0.0, 0.0, 9.81]))],
+            "accelerometer reads a tilt of 180 deg",
+        ),
+        (moved(60), "accelerometer does not change"),
+    ],
+)
+def test_a_walk_ends_when_a_sensor_says_that_it_must(
+    frames: list[Any], word: str
+) -> None:
+    body, _, _ = walking(frames)
+    play(body, len(frames))
+    assert body.state is State.STOPPING and word in body.reason
+
+
+@pytest.mark.parametrize(
+    "frames",
+    [
+        drawing("RKneePitch", 2.0),  # a hard landing, within the motor
+        drawing("LHand", 9.0),  # of which nothing is published
+        touching(0)[:1],
+        touching(1),  # the head's buttons
+        60 * [sensor_frame(battery=(0.12, 0.0, 0.0, 36.0))],
+        [
+            frame._replace(
+                accelerometer=np.array([0.0, 0.02 * (i % 2), -9.81])
+            )
+            for i, frame in enumerate(moved(60))
+        ],
+    ],
+)
+def test_a_walk_goes_on_where_all_is_well(frames: list[Any]) -> None:
+    body, _, _ = walking(frames)
+    play(body, len(frames))
+    assert body.state is State.WALKING
 
 
 def test_turning_about_the_vertical_is_no_fall() -> None:

@@ -4,12 +4,8 @@ from typing import Any
 
 import pytest
 
-from stepaside.drivers.lola.safety import (
-    Safety,
-    SafetySettings,
-    Seen,
-    State,
-)
+from stepaside.drivers.lola.conditions import SafetySettings, Seen
+from stepaside.drivers.lola.safety import Safety, State
 from stepaside.errors import ConfigurationError
 
 SETTINGS = SafetySettings()
@@ -191,9 +187,130 @@ def test_rest_stops_who_walks_and_lowers_who_stands() -> None:
         assert machine.state is after
 
 
+def lasting(
+    machine: Safety, duration: float, begin: float = 1.0, **changes: Any
+) -> State:
+    """What frames of that duration, 12 ms apart, lead to."""
+    count = round(duration / 0.012)
+    for i in range(count + 1):
+        state = machine.frame(seen(begin + 0.012 * i, **changes))
+    return state
+
+
+# What each sensor reads when something is wrong, and a word of the reason.
+TO_REST: dict[str, tuple[dict[str, Any], str]] = {
+    "battery": ({"charge": 0.09}, "battery"),
+    "empty": ({"charge": 0.0}, "battery"),
+    "current": ({"current": 1.1}, "current"),
+}
+TO_STAND: dict[str, tuple[dict[str, Any], str]] = {
+    "lifted": ({"load": 0.0}, "in the air"),
+    "nearly_lifted": ({"load": 0.45}, "in the air"),
+    "bumper": ({"bumper": True}, "bumper"),
+    "dead": ({"force": (0.0, 0.0, 0.0)}, "accelerometer"),
+    "upside_down": ({"force": (0.0, 0.0, -9.81)}, "accelerometer"),
+    "sideways": ({"force": (0.0, 9.81, 0.5)}, "accelerometer"),
+    "beyond_range": ({"force": (0.0, 0.0, 56.0)}, "accelerometer"),
+    "frozen": ({"frozen": 1.0}, "accelerometer"),
+}
+LASTING = 0.75  # longer than any condition has to last, in [s]
+
+
+@pytest.mark.parametrize(("changes", "word"), TO_REST.values(), ids=TO_REST)
+@pytest.mark.parametrize(
+    ("state", "after"),
+    [
+        (State.WALKING, State.STOPPING),
+        (State.STOPPING, State.STOPPING),
+        (State.READY, State.RESTING),
+        (State.REACHING, State.RESTING),
+        (State.RESTING, State.RESTING),
+        (State.LIMP, State.LIMP),
+    ],
+)
+def test_a_robot_that_must_not_go_on_stops_and_rests(
+    state: State, after: State, changes: dict[str, Any], word: str
+) -> None:
+    machine = at(state)
+    assert lasting(machine, LASTING, **changes) is after
+    if state not in (State.STOPPING, State.RESTING):
+        assert word in machine.reason
+    machine.halted(2.0)
+    rests = (State.WALKING, State.STOPPING)
+    assert machine.state is (State.RESTING if state in rests else after)
+
+
+@pytest.mark.parametrize(("changes", "word"), TO_STAND.values(), ids=TO_STAND)
+def test_a_robot_that_may_stand_but_not_walk_stops_and_stands(
+    changes: dict[str, Any], word: str
+) -> None:
+    machine = at(State.WALKING)
+    assert lasting(machine, LASTING, **changes) is State.STOPPING
+    assert word in machine.reason
+    machine.halted(2.0)
+    assert machine.state is State.READY and word in machine.reason
+    # Nothing but the button lets it walk on, and not while that lasts.
+    machine.frame(seen(2.1, chest_pressed=True, **changes))
+    assert machine.frame(seen(2.2, **changes)) is State.READY
+    assert word in machine.reason
+    assert lasting(machine, LASTING, 3.0) is State.READY
+    assert press(machine, 5.0) is State.WALKING
+
+
+@pytest.mark.parametrize("state", [State.REACHING, State.READY, State.LIMP])
+@pytest.mark.parametrize(("changes", "word"), TO_STAND.values(), ids=TO_STAND)
+def test_a_robot_that_may_not_walk_may_take_its_stance(
+    changes: dict[str, Any], word: str, state: State
+) -> None:
+    assert lasting(at(state), LASTING, **changes) is state
+
+
+@pytest.mark.parametrize("name", [*TO_REST, *TO_STAND])
+def test_every_third_frame_alone_is_no_reason_to_stop(name: str) -> None:
+    changes, _ = (TO_REST | TO_STAND)[name]
+    machine = at(State.WALKING)
+    for i in range(400):
+        odd = changes if i % 3 == 0 else {}
+        assert machine.frame(seen(1.0 + 0.012 * i, **odd)) is State.WALKING
+
+
+def test_what_a_walk_reads_is_no_reason_to_stop() -> None:
+    machine = at(State.WALKING)
+    for i in range(400):
+        lands = i % 40 == 0
+        state = machine.frame(
+            seen(
+                1.0 + 0.012 * i,
+                load=0.3 if lands else 5.0,
+                current=1.5 if lands else 0.5,
+                force=(4.0, -3.0, 2.0 if lands else 12.0),
+                frozen=0.1,
+                charge=0.11,
+            )
+        )
+        assert state is State.WALKING
+
+
+def test_a_worse_reason_while_it_stops_makes_it_rest() -> None:
+    machine = at(State.WALKING)
+    lasting(machine, LASTING, bumper=True)
+    lasting(machine, LASTING, 2.0, charge=0.05)
+    machine.halted(3.0)
+    assert machine.state is State.RESTING
+
+
+def test_the_worst_of_several_reasons_counts() -> None:
+    machine = at(State.WALKING)
+    everything: dict[str, Any] = {"load": 0.0, "charge": 0.01, "tilt": 1.0}
+    assert lasting(machine, LASTING, **everything) is State.LIMP
+    assert "falls" in machine.reason
+
+
 @pytest.mark.parametrize(
     ("name", "value"),
     [
+        ("lowest_charge", 1.0),
+        ("least_load", -0.1),
         ("silence", 0.001),
         ("warm_up", 0),
         ("fall", 3.0),

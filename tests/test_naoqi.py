@@ -3,7 +3,10 @@
 import subprocess
 import sys
 from collections.abc import Iterator
+from contextlib import contextmanager
 from math import nan
+from time import monotonic, sleep
+from typing import Any
 
 import pytest
 
@@ -11,6 +14,7 @@ pytest.importorskip("qi")
 
 from stepaside.drivers.naoqi.address import parse_url  # noqa: E402
 from stepaside.drivers.naoqi.body import NaoqiBody, stop  # noqa: E402
+from stepaside.drivers.naoqi.chains import CHAINS  # noqa: E402
 from stepaside.drivers.naoqi.memory_service import (  # noqa: E402
     SILENCE as SILENCE_HEARD,
 )
@@ -20,17 +24,31 @@ from stepaside.drivers.naoqi.memory_service import (  # noqa: E402
     ALSonar,
 )
 from stepaside.drivers.naoqi.moving import REPEATED, STUCK  # noqa: E402
+from stepaside.drivers.naoqi.robot import Robot  # noqa: E402
 from stepaside.drivers.naoqi.server import SILENCE, NaoqiServer  # noqa: E402
-from stepaside.drivers.naoqi.session import connect  # noqa: E402
+from stepaside.drivers.naoqi.services import (  # noqa: E402
+    ALMotion,
+    ALRobotPosture,
+)
+from stepaside.drivers.naoqi.session import connect, listen  # noqa: E402
 from stepaside.drivers.session import SessionLost  # noqa: E402
 from stepaside.drivers.velocity.body import (  # noqa: E402
     REST,
     Report,
     Velocity,
 )
+from stepaside.drivers.velocity.limits import VelocityLimits  # noqa: E402
+from stepaside.drivers.velocity.mind import TemplateMind  # noqa: E402
+from stepaside.drivers.velocity.playing import (  # noqa: E402
+    Driving,
+    VelocityPlaying,
+)
+from stepaside.drivers.velocity.watchdog import WatchSettings  # noqa: E402
 from stepaside.errors import ConfigurationError  # noqa: E402
+from stepaside.planning import GaitSettings  # noqa: E402
 from stepaside.poses import Pose  # noqa: E402
 from stepaside.sensing.measurement import Sighting  # noqa: E402
+from stepaside.strategies import Pursuit  # noqa: E402
 
 from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
 
@@ -155,6 +173,75 @@ def test_what_robots_are_asked_by_name_is_answered(scene: Scene) -> None:
     session.close()
 
 
+class Chained:
+    """ALMotion of a robot that has head and legs, without messaging."""
+
+    def __init__(self) -> None:
+        names = [*CHAINS["Head"], *CHAINS["LLeg"], *CHAINS["RLeg"]]
+        angles = [0.01 * i for i in range(len(names))]
+        state = MadeUpWalker().state()._replace(joints=angles)
+        self.robot = Robot(state, names)
+        self.motion = ALMotion(self.robot, Velocity(0.07, 0.4), GaitSettings())
+        self.motion.wakeUp()
+
+
+def test_a_limp_head_does_not_rest_the_robot() -> None:
+    chained = Chained()
+    motion = chained.motion
+    motion.move(0.05, 0.0, 0.0)
+    motion.setStiffnesses("Head", 0.0)
+    assert motion.robotIsWakeUp() and motion.moveIsActive()
+    motion.setAngles("Head", [0.3, 0.2], 0.2)
+    assert chained.robot.head == {}
+    motion.setStiffnesses("Head", 1.0)
+    motion.setAngles("Head", [0.3, 0.2], 0.2)
+    assert chained.robot.head == {"HeadYaw": 0.3, "HeadPitch": 0.2}
+
+
+@pytest.mark.parametrize("chain", ["LLeg", "RLeg", "Legs", "Body"])
+def test_a_limp_leg_does(chain: str) -> None:
+    motion = Chained().motion
+    motion.move(0.05, 0.0, 0.0)
+    motion.setStiffnesses(chain, 0.0)
+    assert not motion.robotIsWakeUp() and not motion.moveIsActive()
+    motion.setStiffnesses("Head", 1.0)
+    assert not motion.robotIsWakeUp()
+    motion.setStiffnesses(chain, 0.8)
+    assert motion.robotIsWakeUp()
+
+
+def test_chains_are_known_by_name() -> None:
+    motion = Chained().motion
+    assert motion.getBodyNames("Head") == ["HeadYaw", "HeadPitch"]
+    assert motion.getAngles("Head", True) == [0.0, 0.01]
+    assert motion.getAngles(["LKneePitch", "Head"], True) == [0.05, 0.0, 0.01]
+    assert motion.getBodyNames("RLeg") == list(CHAINS["RLeg"])
+    assert len(motion.getBodyNames("Body")) == 14
+    assert motion.getBodyNames("LArm") == []  # it has none
+
+
+@pytest.mark.parametrize(
+    ("method", "values", "said"),
+    [
+        ("setStiffnesses", ("Tail", 0.0), "no joint 'Tail'"),
+        ("setStiffnesses", ("Head", [0.0, 1.0, 1.0]), "each of 2 joints"),
+        ("setStiffnesses", ("Head", 1.5), "must lie in"),
+        ("getBodyNames", ("Tail",), "chains Head"),
+        ("getAngles", ("Tail", True), "no joint"),
+        ("setAngles", ("LLeg", 0.1, 0.2), "only HeadYaw and HeadPitch"),
+        ("setAngles", ("Head", nan, 0.2), "finite"),
+        ("setAngles", (["HeadYaw"], [0.1, 0.2], 0.2), "each of 1 joints"),
+    ],
+)
+def test_names_and_values_that_do_not_fit_are_refused(
+    method: str, values: tuple[object, ...], said: str
+) -> None:
+    motion = Chained().motion
+    with pytest.raises(ValueError, match=said):
+        getattr(motion, method)(*values)
+    assert motion.robotIsWakeUp()
+
+
 def test_sonars_are_heard_while_somebody_listens(scene: Scene) -> None:
     state = scene.walker.state()
     scene.server.robot.state = state._replace(
@@ -211,6 +298,130 @@ def test_the_chest_button_holds_the_robot_until_it_is_pressed_again(
         scene.server.robot.pressed = pressed
         said.append(heard(body).hindrance)
     assert said == ["", *4 * ["chest button"], ""]
+
+
+def test_a_robot_that_fell_stays_down_until_its_button_is_let_go(
+    scene: Scene, body: NaoqiBody
+) -> None:
+    robot = scene.server.robot
+    robot.fallen = True
+    assert heard(body).hindrance == "has fallen"
+    robot.fallen, robot.awake, robot.posture = False, False, "Crouch"
+    for _ in range(5):
+        assert "has fallen" in heard(body).hindrance
+    robot.pressed = True
+    assert "has fallen" in heard(body).hindrance
+    assert not robot.awake
+    robot.pressed = False
+    assert heard(body).hindrance == ""
+    assert robot.awake and robot.posture == "StandInit"
+
+
+@contextmanager
+def offering(**services: object) -> Iterator[tuple[str, Robot]]:
+    """Services of a robot, some of them other than ours."""
+    robot = Robot(MadeUpWalker().state(), ["a", "b"])
+    for service in services.values():
+        service._robot = robot  # type: ignore[attr-defined]
+    ours = {
+        "ALMotion": ALMotion(robot, Velocity(0.07, 0.4), GaitSettings()),
+        "ALMemory": ALMemory(robot),
+        "ALRobotPosture": ALRobotPosture(robot),
+    }
+    session = listen("tcp://127.0.0.1:0", ours | services)
+    try:
+        yield session.endpoints()[0], robot
+    finally:
+        session.close()
+
+
+class Unwilling:
+    """A posture that is reached at the second try."""
+
+    def __init__(self) -> None:
+        self.tries = 0
+
+    def goToPosture(self, name: str, speed: float) -> bool:
+        """Fail once."""
+        self.tries += 1
+        return self.tries > 1
+
+
+def test_a_robot_that_could_not_stand_up_tries_again_by_the_button() -> None:
+    posture = Unwilling()
+    with offering(ALRobotPosture=posture) as (url, robot):
+        body = NaoqiBody(url)
+        until(lambda: "could not stand up" in heard(body).hindrance)
+        assert "could not stand up" in heard(body).hindrance
+        robot.pressed = True
+        assert "could not stand up" in heard(body).hindrance
+        robot.pressed = False
+        assert heard(body).hindrance == "" and posture.tries == 2
+        body.close()
+
+
+@pytest.mark.parametrize("slow", [0.06, 0.1])
+def test_a_robot_that_answers_slowly_is_heard_and_walks(slow: float) -> None:
+    """The answer to a call that took longer than one look is not lost."""
+
+    class Slow(ALMotion):
+        """A service whose answers take some time."""
+
+        def getRobotPosition(self, use_sensors: bool) -> list[float]:
+            """Answer late."""
+            sleep(slow)
+            return super().getRobotPosition(use_sensors)
+
+    motion = Slow(None, Velocity(0.07, 0.4), GaitSettings())  # type: ignore[arg-type]
+    with offering(ALMotion=motion) as (url, robot):
+        drive_and_hear(url, robot)
+
+
+def drive_and_hear(url: str, robot: Robot) -> None:
+    """Let control drive a robot that sees somebody, and see that it walks."""
+    walker = MadeUpWalker()
+    body = NaoqiBody(url)
+    player = VelocityPlaying(
+        body,
+        lambda: TemplateMind(Pursuit(), GaitSettings()),
+        VelocityLimits(),
+        WatchSettings(),
+    )
+    try:
+        end = monotonic() + 20.0
+        while robot.asked == REST and monotonic() < end:
+            walker.time += 0.05
+            walker.sighting = Sighting(walker.time, 0.1, 2.0)
+            robot.state = walker.state()
+            player.tick()
+        assert robot.asked.forward > 0.0
+        ticks = [player.tick() for _ in range(20)]
+        assert all(tick.state is Driving.WALKING for tick in ticks)
+    finally:
+        body.close()
+
+
+class Refusing(ALMotion):
+    """A motion that walks no way, and says at length why."""
+
+    def move(self, *values: Any) -> None:
+        """Refuse."""
+        raise RuntimeError("ALMotion::move\n\tmotors are hot:\n\tLHipRoll")
+
+
+def test_the_whole_reason_of_a_refused_call_is_told() -> None:
+    motion = Refusing(None, Velocity(0.07, 0.4), GaitSettings())  # type: ignore[arg-type]
+    with offering(ALMotion=motion) as (url, _):
+        body = NaoqiBody(url)
+        heard(body)
+        with pytest.raises(SessionLost) as refused:
+            for i in range(1000):
+                body.command(Velocity(0.05, 0.001 * i))
+                sleep(0.002)
+        said = str(refused.value)
+        assert "ALMotion::move motors are hot: LHipRoll" in said
+        assert ".py" not in said
+        body.close()
 
 
 def test_a_robot_that_nobody_asks_anything_rests(

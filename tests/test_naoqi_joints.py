@@ -4,7 +4,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from dataclasses import replace
-from math import nan
+from math import isnan, nan, radians
 from threading import Thread
 from time import monotonic
 from typing import Any
@@ -26,6 +26,7 @@ from stepaside.drivers.lola.joints import NAMES  # noqa: E402
 from stepaside.drivers.lola.safety import State  # noqa: E402
 from stepaside.drivers.lola.wire import WireError  # noqa: E402
 from stepaside.drivers.minds import mind_maker  # noqa: E402
+from stepaside.drivers.naoqi.chains import CHAINS  # noqa: E402
 from stepaside.drivers.naoqi.joint_line import (  # noqa: E402
     JointLine,
     fade,
@@ -41,9 +42,11 @@ from stepaside.drivers.naoqi.joint_services import (  # noqa: E402
 from stepaside.drivers.naoqi.joints import open_joints  # noqa: E402
 from stepaside.drivers.naoqi.sensor_keys import (  # noqa: E402
     KEYS,
+    OLDER,
     frame_of,
     values_of,
 )
+from stepaside.drivers.naoqi.session import listen  # noqa: E402
 from stepaside.drivers.playing import Playing, Tick  # noqa: E402
 from stepaside.drivers.session import SessionLost  # noqa: E402
 from stepaside.games.duel import run_duel  # noqa: E402
@@ -84,7 +87,11 @@ def test_what_a_frame_says_is_told_by_key_and_read_again() -> None:
         angles=(0.05, -0.04),
         fsr=np.linspace(0.1, 0.8, 8),
         sonar=(0.3, 1.2),
+        current=np.linspace(-0.5, 2.0, 25),
     )
+    touch = list(frame.touch)
+    touch[5] = touch[9] = 1.0
+    frame = frame._replace(touch=tuple(touch))
     read = frame_of(told_of(frame), 7, lock_step=True)
     assert read.battery[COUNTER] == 7 and read.robot_config[0] == LOCK_STEP
     assert read.battery[0] == frame.battery[0]
@@ -102,6 +109,8 @@ def test_the_names_are_those_of_naoqi() -> None:
         f"{device}/InertialSensor/AngleY/Sensor/Value",
         f"{device}/RFoot/FSR/RearRight/Sensor/Value",
         f"{device}/US/Left/Sensor/Value",
+        f"{device}/LFoot/Bumper/Left/Sensor/Value",
+        f"{device}/RKneePitch/ElectricCurrent/Sensor/Value",
     ):
         assert KEYS.count(key) == 1
 
@@ -121,10 +130,58 @@ def test_what_is_no_number_is_no_frame(key: str, value: object) -> None:
 def test_what_some_robots_lack_is_not_needed() -> None:
     told = told_of(sensor_frame())
     for at, key in enumerate(KEYS):
-        if "Hand/" in key or "Wrist" in key or "Status" in key or "US" in key:
+        absent = ("Hand/", "Wrist", "Status", "US", "Bumper", "Battery")
+        if any(word in key for word in (*absent, "Current", "GyroscopeZ")):
             told[at] = None
     frame = frame_of(told, 0, lock_step=False)
     assert frame.sonar == (2.55, 2.55) and max(frame.status) == 0
+    assert frame.battery[0] == 1.0  # no reason to stop
+    assert isnan(frame.gyroscope[2]) and frame.gyroscope[0] == 0.0
+
+
+class OlderMemory(JointMemory):
+    """ALMemory of a NAO V3 or V4."""
+
+    def _renamed(self, key: str) -> str:
+        newer = {older: newer for newer, older in OLDER.items()}
+        gone = key in OLDER or key.endswith("GyroscopeZ/Sensor/Value")
+        return "nothing" if gone else newer.get(key, key)
+
+    def getData(self, key: str) -> Any:
+        """One value."""
+        return super().getData(self._renamed(key))
+
+    def getListData(self, keys: Any) -> list[Any]:
+        """Values; None for what there is not."""
+        return super().getListData([self._renamed(key) for key in keys])
+
+
+def test_robots_with_the_older_inertial_unit_are_read() -> None:
+    device = "Device/SubDeviceList/InertialSensor"
+    assert set(OLDER.values()) == {
+        f"{device}/{name}/Sensor/Value"
+        for name in ("AccX", "AccY", "AccZ", "GyrX", "GyrY")
+    }
+    robot = JointRobot()
+    robot.values = values_of(
+        sensor_frame(
+            accelerometer=np.array([0.5, -0.25, -9.5]),
+            gyroscope=np.array([0.1, -0.2, 7.0]),
+        )
+    )
+    services = {"ALMotion": JointMotion(robot), "ALMemory": OlderMemory(robot)}
+    session = listen(ANYWHERE, services)
+    try:
+        body = open_joints(session.endpoints()[0], JOINTS, STANCE)
+        for _ in range(3):
+            measured = body.read()
+            body.write(STANCE)
+        assert measured.accelerometer.tolist() == [-0.5, 0.25, 9.5]
+        assert measured.gyro[:2].tolist() == [0.1, -0.2]
+        assert isnan(measured.gyro[2])
+        body.close()
+    finally:
+        session.close()
 
 
 class Scene:
@@ -191,6 +248,16 @@ def test_what_the_sensors_give_is_what_control_reads(scene: Scene) -> None:
     age = read.time - read.sighting.time
     assert age == pytest.approx(given.time + 0.25)
     assert read.sighting[1:3] == (0.5, 0.9)
+
+
+@pytest.mark.parametrize("bearing", [radians(-238.0), 3.2, nan])
+def test_a_bearing_that_is_none_is_not_steered_by(
+    scene: Scene, bearing: float
+) -> None:
+    scene.robot.sighting = Sighting(0.0, bearing, 0.9)
+    scene.ticks(1)
+    scene.server.speak()
+    assert scene.body.read().sighting is None
 
 
 def test_a_robot_is_limp_first_and_stiffens_slowly(scene: Scene) -> None:
@@ -302,17 +369,39 @@ def test_joints_are_found_by_name() -> None:
     assert not motion.robotIsWakeUp()
     motion.wakeUp()
     assert motion.getAngles("LKneePitch", False) == [0.0]
-    assert motion.getBodyNames("Body") == list(NAMES)
+    assert set(motion.getBodyNames("Body")) == {*NAMES, "RHipYawPitch"}
     robot.values["a"] = 1.0
     assert JointMemory(robot).getListData(["a", "b"]) == [1.0, None]
     assert JointMemory(robot).getData("a") == 1.0
+
+
+def test_a_chain_is_its_joints_and_no_others() -> None:
+    robot = JointRobot()
+    motion = JointMotion(robot)
+    motion.wakeUp()
+    motion.setStiffnesses("Head", 0.0)
+    assert [NAMES[i] for i in np.flatnonzero(robot.stiffness == 0.0)] == [
+        "HeadYaw",
+        "HeadPitch",
+    ]
+    for chain, joints in CHAINS.items():
+        assert motion.getBodyNames(chain) == list(joints)
+        wanted = np.linspace(0.1, 0.3, len(joints))
+        if "RHipYawPitch" in joints and "LHipYawPitch" in joints:
+            wanted[:] = 0.2  # one motor
+        motion.setAngles(chain, wanted.tolist(), 0.5)
+        assert motion.getAngles(chain, False) == wanted.tolist()
+        motion.setAngles([chain, "HeadYaw"], 0.4, 0.5)
+        assert motion.getAngles([chain, "HeadYaw"], False) == pytest.approx(
+            (len(joints) + 1) * [0.4]
+        )
 
 
 CONTROL = """
 import sys
 import numpy as np
 from stepaside.drivers.lola.handling import Handling
-from stepaside.drivers.lola.safety import SafetySettings
+from stepaside.drivers.lola.conditions import SafetySettings
 from stepaside.drivers.naoqi.joints import open_joints
 names = sys.argv[2].split(",")
 stance = np.array([float(v) for v in sys.argv[3].split(",")])

@@ -1,5 +1,6 @@
 """Test one player at one robot, with control that is made up."""
 
+import errno
 import io
 import json
 from pathlib import Path
@@ -141,6 +142,20 @@ def test_the_button_lets_control_stop_and_the_next_walk_has_a_new_mind() -> (
     assert game.minds[1].decisions.strategy is WISH
 
 
+def test_a_robot_that_was_lifted_stands_and_walks_anew_by_the_button() -> None:
+    lifted = pack_sensors(sensor_frame(fsr=np.zeros(8)))
+    script = [*TO_READY, *PRESS, *40 * [lifted], *5 * [FINE], *PRESS, FINE]
+    game = Game(script)
+    tick = game.play(142)
+    assert tick.state is State.READY and "in the air" in tick.reason
+    assert game.play(5).state is State.READY
+    assert len(game.minds) == 2
+    game.play(3)
+    assert game.playing.body.state is State.WALKING
+    assert game.minds[1].decisions.strategy is WISH
+    np.testing.assert_allclose(game.minds[1].times, [0.0, 0.012])
+
+
 @pytest.mark.parametrize("kind", ["footing", "strategy", "falling"])
 def test_control_that_gives_up_lets_the_robot_go_limp(kind: str) -> None:
     game = Game([*TO_READY, *PRESS, *5 * [FINE]])
@@ -200,6 +215,23 @@ class Terminal(io.StringIO):
     def isatty(self) -> bool:
         """Be one."""
         return True
+
+
+class HungUp(Terminal):
+    """A terminal whose line was cut."""
+
+    def write(self, text: str) -> int:
+        """Fail as the system does."""
+        raise OSError(errno.EIO, "Input/output error")
+
+
+def test_a_terminal_that_hung_up_does_not_end_the_walk() -> None:
+    game = Game([*TO_READY, *PRESS])
+    line = StatusLine(HungUp(), clock=game.link.clock)
+    for _ in range(102):
+        line.note(game.playing.tick())
+    line.close()
+    assert game.playing.body.state is State.WALKING
 
 
 @pytest.mark.parametrize("stream", [io.StringIO(), Terminal()])

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Iterator
 from math import atan2, cos, hypot, nan, pi, sin
 from threading import Event, Thread
+from time import sleep
 from typing import Any
 
 import pytest
@@ -14,7 +15,11 @@ pytest.importorskip("cyclonedds")
 
 from stepaside.drivers.ros2 import domain  # noqa: E402
 from stepaside.drivers.ros2.address import parse_namespace  # noqa: E402
-from stepaside.drivers.ros2.body import Ros2Body, rest  # noqa: E402
+from stepaside.drivers.ros2.body import (  # noqa: E402
+    Ros2Body,
+    rest,
+    rester_of,
+)
 from stepaside.drivers.ros2.domain import Dds, taken  # noqa: E402
 from stepaside.drivers.ros2.messages import (  # noqa: E402
     Clock,
@@ -308,6 +313,23 @@ def test_in_place_of_control_rest_is_written_for_a_while() -> None:
     guardian.join()
     assert len(taken(reader)) > 1
     dds.close()
+
+
+def test_who_joined_in_advance_commands_nobody_until_rest_is_asked() -> None:
+    body = Ros2Body(Dds(0, tag=TAG), "/nao")
+    reader_of = Dds(0, tag=TAG)
+    reader = reader_of.reader(dds_topic("/nao", "cmd_vel"), Twist)
+    let_go = rester_of(Dds(0, tag=TAG), "/nao")
+    sleep(0.5)
+    assert body.commanders == 0
+    guardian = Thread(target=let_go)
+    guardian.start()
+    until(lambda: body.commanders == 1)
+    told = until(lambda: taken(reader))[0]
+    assert (told.linear.x, told.angular.z) == (0.0, 0.0)
+    guardian.join()
+    body.close()
+    reader_of.close()
 
 
 COMMANDER = f"""

@@ -4,8 +4,10 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+import pytest
 
 from stepaside.games.served import MOVED, ServedBody
+from stepaside.sensing.measurement import Measurement
 
 
 class FakeRobot:
@@ -18,10 +20,16 @@ class FakeRobot:
         self.shares: list[Any] = []
         self.servos = SimpleNamespace(soften=self.shares.append)
 
-    def read(self) -> int:
+    weight = 48.0
+
+    def read(self) -> Measurement:
         """Another measurement each time, as noise makes it."""
         self.readings += 1
-        return self.readings
+        nothing = np.zeros(3)
+        return Measurement(
+            *(float(self.readings), nothing, nothing, nothing, np.zeros(8)),
+            None,
+        )
 
     def write(self, targets: Any) -> None:
         """Note it."""
@@ -35,9 +43,20 @@ def body_of() -> tuple[Any, FakeRobot]:
 
 def test_sensors_are_read_once_a_tick_however_often_they_are_asked() -> None:
     body, robot = body_of()
-    assert [body.sensors() for _ in range(3)] == [1, 1, 1]
+    assert [body.sensors().time for _ in range(3)] == [1.0, 1.0, 1.0]
     robot.world.ticks = 1
-    assert [body.sensors() for _ in range(3)] == [2, 2, 2]
+    assert [body.sensors().time for _ in range(3)] == [2.0, 2.0, 2.0]
+
+
+def test_a_robot_in_a_world_that_stands_still_reads_as_one_at_rest() -> None:
+    """It has weight on its feet, or it would not be let walk."""
+    body, _ = body_of()
+    held = body.sensors()
+    assert held.accelerometer.tolist() == [0.0, 0.0, 9.81]
+    assert held.foot_forces.sum() == pytest.approx(48.0)
+    body.let_go()
+    assert not body.sensors().accelerometer.any()
+    assert body.sensors().time == held.time
 
 
 def test_a_robot_that_is_held_does_nothing() -> None:

@@ -102,6 +102,18 @@ def test_a_reading_that_is_no_number_tells_nothing() -> None:
     assert walked(turns, 0.9)[-1] == pytest.approx(0.9, abs=0.01)
 
 
+def test_a_robot_without_a_gyro_about_the_vertical_turns_as_it_is_told() -> (
+    None
+):
+    turns = TurnShare(FAKE_TICK)
+    for i in range(round(2.0 * RESTED / FAKE_TICK)):
+        assert turns.rested == (i * FAKE_TICK >= RESTED)
+        turns.note(nan, 0.0, stands=True)
+    for i in range(1000):
+        turns.note(nan, 0.01 * i, stands=False)
+    assert turns.share == 1.0 and turns.asked(0.5) == 0.5
+
+
 def test_who_learns_stands_until_the_bias_of_the_gyro_is_known() -> None:
     run = Run()
     run.scheme.decisions.turns = turns = TurnShare(FAKE_TICK)

@@ -19,7 +19,7 @@ CONTROL = """
 import sys, time
 from pathlib import Path
 from stepaside.drivers.velocity.guardian import guardian_of
-guardian = guardian_of(lambda: Path(sys.argv[1]).touch())
+guardian = guardian_of(lambda: Path(sys.argv[1]).touch)
 tell = guardian.hold if sys.argv[2] == "moves" else guardian.leave
 for _ in range(10):
     tell()
@@ -75,9 +75,61 @@ def test_a_robot_that_moves_is_stopped_when_control_is_gone(
         assert process.returncode == -signal.SIGKILL
 
 
+# Control whose guardian notes when it joined, and fails to do so at first.
+JOINING = """
+import sys, time
+from pathlib import Path
+from stepaside.drivers.session import SessionLost
+from stepaside.drivers.velocity.guardian import guardian_of
+folder = Path(sys.argv[1])
+def join():
+    late = (folder / "tried").exists()
+    (folder / "tried").touch()
+    if sys.argv[2] == "late" and not late:
+        raise SessionLost("no robot yet")
+    (folder / "joined").touch()
+    return (folder / "rest").touch
+guardian = guardian_of(join)
+print("forked", flush=True)
+sys.stdin.readline()
+guardian.hold()
+print("holds", flush=True)
+time.sleep(60.0)
+"""
+
+
+@pytest.mark.parametrize("when", ["at once", "late"])
+def test_a_guardian_joins_before_it_is_needed_or_tries_again(
+    when: str, tmp_path: Path
+) -> None:
+    process = subprocess.Popen(
+        [sys.executable, "-c", JOINING, str(tmp_path), when],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+    )
+    assert process.stdin is not None and process.stdout is not None
+    try:
+        process.stdout.readline()
+        assert appears(tmp_path / "tried", 20.0)
+        early = appears(tmp_path / "joined", 20.0 if when != "late" else 0.5)
+        assert early == (when == "at once")
+        assert not (tmp_path / "rest").exists()
+        process.stdin.write(b"\n")
+        process.stdin.flush()
+        process.stdout.readline()
+        process.kill()
+        assert appears(tmp_path / "rest", 20.0)
+        assert (tmp_path / "joined").exists()
+    finally:
+        process.kill()
+        process.wait(20.0)
+        process.stdout.close()
+        process.stdin.close()
+
+
 def test_a_guarded_robot_is_asked_as_any_other(tmp_path: Path) -> None:
     robot = FakeWalker([])
-    guardian = guardian_of(lambda: (tmp_path / "rest").touch())
+    guardian = guardian_of(lambda: (tmp_path / "rest").touch)
     body = GuardedBody(robot, guardian)
     body.command(Velocity(0.1, 0.2))
     assert body.listen(0.0) is None

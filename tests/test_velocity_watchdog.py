@@ -1,6 +1,6 @@
 """Test when a robot that walks by itself must rest."""
 
-from math import inf, nan
+from math import inf, nan, pi, radians
 
 import pytest
 
@@ -86,6 +86,12 @@ def test_a_lead_is_made_up_for_by_waiting() -> None:
         (Sighting(STAMP + 0.25, nan, 1.0), "no number"),
         (Sighting(STAMP + 0.25, 0.0, inf), "no number"),
         (Sighting(nan, 0.0, 1.0), "no number"),
+        (Sighting(STAMP + 0.25, radians(-238.0), 1.0), "got -238 deg"),
+        (Sighting(STAMP + 0.25, 3.15, 1.0), "bearing of the sighting must"),
+        (Sighting(STAMP + 0.25, pi, 1.0), ""),
+        (Sighting(STAMP + 0.25, -pi, 1.0), ""),
+        (Sighting(STAMP + 0.25, 0.0, -1.0), "distance of the sighting must"),
+        (Sighting(STAMP + 0.25, 0.0, 2e3), "got 2000 m"),
         (Sighting(STAMP + 0.4, 0.0, 1.0), "from the future, by 0.15 s"),
         (Sighting(STAMP - 0.36, 0.0, 1.0), "was seen 0.6 s ago"),
         (Sighting(STAMP - 0.2, 0.0, 1.0), ""),

@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM end a command, also while it loads its libraries.
+"""Ctrl-C, SIGTERM and SIGHUP end a command, also while it loads libraries.
 
 An interrupt that comes while a compiled library begins is taken for an error
 of that library, and one that comes while Python tidies up after an import is
@@ -22,6 +22,8 @@ AGAIN = 0.01  # after which it is tried again, in [s]
 LONGEST = 0.5  # that an interrupt is kept back for a whole, in [s]
 IMPORTING = "<frozen importlib._bootstrap"  # and ..._external>
 ASKING = os.path.join(os.path.dirname(os.__file__), "subprocess.py")
+ENDINGS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+BY_DEFAULT = (signal.default_int_handler, signal.SIG_DFL)
 COMPILED = ("create_module", "exec_module")  # of a loader
 
 _raised: set[int] = set()  # signals that were told to what runs
@@ -29,17 +31,20 @@ _raised: set[int] = set()  # signals that were told to what runs
 
 @contextmanager
 def stoppable() -> Iterator[None]:
-    """Let SIGTERM end what runs as Ctrl-C does: what is done is kept.
+    """Let SIGTERM and SIGHUP end what runs as Ctrl-C does.
 
-    Whoever has a handler of their own for Ctrl-C keeps it.
+    What is done is kept. A handler of one's own for Ctrl-C stays, and a
+    process that is told to survive its terminal (``nohup``) does.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
     _raised.clear()
-    before = {signal.SIGTERM: signal.signal(signal.SIGTERM, interrupt)}
-    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-        before[signal.SIGINT] = signal.signal(signal.SIGINT, interrupt)
+    before = {}
+    for number in ENDINGS:
+        handler = signal.getsignal(number)
+        if number == signal.SIGTERM or handler in BY_DEFAULT:
+            before[number] = signal.signal(number, interrupt)
     unraisable = sys.unraisablehook
     sys.unraisablehook = _again_if_lost
     try:
@@ -51,7 +56,7 @@ def stoppable() -> Iterator[None]:
 
 
 class Held:
-    """Keeps Ctrl-C and SIGTERM back until what is being done is whole.
+    """Keeps what ends a command back until what is being done is whole.
 
     Within it, whoever handles them is called where the work says that it is
     whole, when they come a second time, or after half a second.
@@ -66,7 +71,7 @@ class Held:
     def __enter__(self) -> "Held":
         """Keep back what somebody handles."""
         if threading.current_thread() is threading.main_thread():
-            for number in (signal.SIGINT, signal.SIGTERM):
+            for number in ENDINGS:
                 if callable(before := signal.getsignal(number)):
                     self._before[number] = before
                     signal.signal(number, self._keep)
@@ -106,9 +111,14 @@ class Held:
 def interrupt(number: int, frame: FrameType | None) -> None:
     """Raise KeyboardInterrupt, where it is not lost.
 
+    A terminal that hangs up says so once: the shell and the system each
+    send a SIGHUP then, and the second is no second wish.
+
     Raises:
         KeyboardInterrupt: Now, or a moment later.
     """
+    if number == signal.SIGHUP and number in _raised:
+        return
     if not is_loading(frame):
         _raised.add(number)
         raise KeyboardInterrupt

@@ -121,11 +121,11 @@ def _guarded(
     """A robot, with a guardian where one can be needed."""
     from ..drivers.velocity.guardian import GuardedBody, guardian_of
 
-    open_body, let_go = _line_to(settings, options)
+    open_body, join = _line_to(settings, options)
     if options["dry_run"] or options["sim_time"]:
         return open_body()
     # Forked here: what speaks to the robot starts threads.
-    guardian = guardian_of(let_go)
+    guardian = guardian_of(join)
     try:
         return GuardedBody(open_body(), guardian)
     except BaseException:
@@ -136,8 +136,8 @@ def _guarded(
 def _line_to(
     settings: "DuelSettings",
     options: dict[str, Any],
-) -> "tuple[Callable[[], VelocityBody], Callable[[], None]]":
-    """What opens a robot, and what makes it rest without control."""
+) -> "tuple[Callable[[], VelocityBody], Callable[[], Callable[[], None]]]":
+    """What opens a robot, and what joins it to make it rest."""
     robot, dry_run = options["robot"], options["dry_run"]
     sees = settings.sensing == "cameras"
     if sees and not robot.startswith(NAOQI):
@@ -158,13 +158,13 @@ def _line_to(
             dds = join_domain(options)
             return Ros2Body(dds, namespace, dry_run=dry_run)
 
-        def rest_ros2() -> None:
-            from ..drivers.ros2.body import rest
+        def join_ros2() -> "Callable[[], None]":
+            from ..drivers.ros2.body import rester_of
             from ..drivers.ros2.domain import Dds
 
-            rest(Dds(domain, beyond=beyond), namespace)
+            return rester_of(Dds(domain, beyond=beyond), namespace)
 
-        return open_ros2, rest_ros2
+        return open_ros2, join_ros2
     if robot.startswith(NAOQI):
         from ..drivers.naoqi.address import parse_url
 
@@ -181,12 +181,12 @@ def _line_to(
                 url, dry_run=dry_run, make_mover=mover_of(settings, options)
             )
 
-        def rest_naoqi() -> None:
-            from ..drivers.naoqi.body import stop
+        def join_naoqi() -> "Callable[[], None]":
+            from ..drivers.naoqi.body import stopper_of
 
-            stop(url)
+            return stopper_of(url)
 
-        return open_naoqi, rest_naoqi
+        return open_naoqi, join_naoqi
     raise click.BadParameter(
         f"must begin with {LOLA}, {NAOQI} or {ROS2}, got {robot!r}",
         param_hint="--robot",

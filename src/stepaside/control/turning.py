@@ -28,15 +28,18 @@ class TurnShare:
             tick: Between two readings, in [s].
         """
         self._tick, self._keeps = tick, exp(-tick / FORGETS)
-        self._stood, self._read = 0, 0.0
+        self._stood, self._read, self._blind = 0, 0.0, 0
         self._made = self._believed = 0.0
         self._heading: float | None = None
         self.share = 1.0
 
     @property
     def rested(self) -> bool:
-        """Whether it stood long enough to know the bias of its gyro."""
-        return self._stood * self._tick >= RESTED
+        """Whether it stood long enough to know the bias of its gyro.
+
+        Without a gyro there is none to know.
+        """
+        return (self._stood + self._blind) * self._tick >= RESTED
 
     def asked(self, heading: float) -> float:
         """What to ask for so that a heading is what is made, in [rad].
@@ -49,12 +52,16 @@ class TurnShare:
     def note(self, rate: float, heading: float, *, stands: bool) -> None:
         """Take one reading.
 
+        Without a gyro about the vertical nothing is learnt: what is asked
+        for stays as it is.
+
         Args:
-            rate: Of the gyro about the vertical, in [rad/s].
+            rate: Of the gyro about the vertical, in [rad/s]; NaN without.
             heading: As the robot believes it, unwrapped, in [rad].
             stands: Whether it stands still.
         """
         if not isfinite(rate):
+            self._blind += stands
             return
         last, self._heading = self._heading, heading
         if stands:

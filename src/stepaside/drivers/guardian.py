@@ -22,7 +22,11 @@ class Guardian:
     """Control's end of the line to the guardian."""
 
     def __init__(
-        self, let_go: Callable[[bytes], None], silence: float
+        self,
+        let_go: Callable[[bytes], None],
+        silence: float,
+        *,
+        prepare: Callable[[], None] | None = None,
     ) -> None:
         """Fork the guardian, which watches until it hears goodbye.
 
@@ -30,6 +34,7 @@ class Guardian:
             let_go: Lets go of the robot, given the last that was told of
                 it. It is called in the other process.
             silence: Of control before the guardian acts, in [s].
+            prepare: Called there at once, so that letting go is quick.
         """
         near, far = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         parent = os.getpid()
@@ -40,6 +45,8 @@ class Guardian:
                 near.close()
                 for ending in ENDINGS:  # control's, and it will hear of it
                     signal.signal(ending, signal.SIG_IGN)
+                if prepare is not None:
+                    prepare()
                 word = _watch(far, parent, silence)
                 if word is not None:
                     let_go(word)

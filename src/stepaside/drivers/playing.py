@@ -105,12 +105,12 @@ class Playing:
         body = self.body
         measurement = body.read()
         state = body.state
-        if state is State.LIMP and self._used:
-            self._think_anew()
-        targets = self._scheme.joint_targets
         thinks = state.moves_by_control
         if self._dry_run:
             thinks = state in (State.REACHING, State.READY, State.WALKING)
+        if self._used and not thinks and state is not State.RESTING:
+            self._think_anew()
+        targets = self._scheme.joint_targets
         if thinks:
             targets = self._think(measurement, state)
         body.write(targets)

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable
+from contextlib import suppress
 from enum import Enum
 from math import degrees
 from time import monotonic
@@ -79,10 +80,15 @@ class StatusLine:
             text = f"\r{text:<79.120}" + ("\n" if changed else "")
         else:
             text += "\n"
-        self._stream.write(text)
-        self._stream.flush()
+        self._write(text)
 
     def close(self) -> None:
         """End the line."""
         if self._is_terminal:
-            self._stream.write("\n")
+            self._write("\n")
+
+    def _write(self, text: str) -> None:
+        """Write what can be written: a terminal that hung up ends no walk."""
+        with suppress(OSError):
+            self._stream.write(text)
+            self._stream.flush()

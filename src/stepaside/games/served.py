@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from ..constants import GRAVITY
 from ..control.walking import StepBegun
 from ..poses import Array
 from ..sensing.measurement import Measurement
@@ -32,8 +33,9 @@ class JointServer(Protocol):
 class ServedBody:
     """A simulated robot as the server of its joints sees it.
 
-    Until the game begins somebody holds the robot up: its sensors say the
-    same all the time, and what is commanded does nothing.
+    Until the game begins the world stands still: its sensors say the same
+    all the time, which is what they say of a robot that stands at rest, and
+    what is commanded does nothing.
 
     Attributes:
         is_moving: Whether its targets have left the stance.
@@ -65,7 +67,19 @@ class ServedBody:
         ticks = self._robot.world.ticks
         if self._seen is None or ticks != self._ticks:
             self._seen, self._ticks = self._robot.read(), ticks
-        return self._seen
+        return self._at_rest(self._seen) if self._held else self._seen
+
+    def _at_rest(self, seen: Measurement) -> Measurement:
+        """Add gravity to what sensors give before the first step of physics.
+
+        Until then no force acts, neither in the torso nor on the soles.
+        """
+        forces = np.full_like(
+            seen.foot_forces, self._robot.weight / seen.foot_forces.size
+        )
+        return seen._replace(
+            accelerometer=np.array([0.0, 0.0, GRAVITY]), foot_forces=forces
+        )
 
     def command(self, targets: Array, stiffness: Array) -> None:
         """Set joint targets, in [rad], and shares of the torque."""

@@ -1,6 +1,6 @@
 """Roll and pitch of the torso from gyro and accelerometer."""
 
-from math import atan2, cos, hypot, sin, tan
+from math import atan2, cos, hypot, isnan, sin, tan
 
 from ..constants import GRAVITY
 from ..poses import Array
@@ -85,6 +85,7 @@ class AttitudeFilter:
             self._calibrate(gyro, specific_force, duration)
             return
         wx, wy, wz = gyro.tolist()
+        wz = 0.0 if isnan(wz) else wz  # a gyro with two axes
         wx, wy = wx - self._bias[0], wy - self._bias[1]
         self.rate = wx, wy, wz
         roll, pitch = self.roll, self.pitch

@@ -36,8 +36,8 @@ class Measurement(NamedTuple):
         time: Time of the tick, in [s].
         joint_positions: Encoders, in [rad], in the order of the joint
             targets. Shape (joints,).
-        gyro: Angular velocity of the torso in its frame, in [rad/s].
-            Shape (3,).
+        gyro: Angular velocity of the torso in its frame, in [rad/s]; its
+            third axis is NaN where the robot measures two. Shape (3,).
         accelerometer: Specific force at the torso in its frame, in [m/s^2].
             Shape (3,).
         foot_forces: Pressing force at the corners of the soles, in [N]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import mujoco
 import numpy as np
 
+from ..constants import GRAVITY
 from ..errors import ModelError
 from ..poses import Array, Pose
 from ..robots.description import REMEDY, RobotDescription
@@ -156,6 +157,12 @@ class SimulatedRobot:
         self.qpos_slice = slice(at, at + posture.size)
         qpos[self.qpos_slice] = posture
         qpos[at : at + 7] = place_free_body(posture[:7].tolist(), pose)
+
+    @property
+    def weight(self) -> float:
+        """Of the whole robot, in [N]."""
+        mass = self.world.model.body_subtreemass[self._torso]
+        return GRAVITY * float(mass)
 
     def read(self) -> Measurement:
         """Read the sensors."""

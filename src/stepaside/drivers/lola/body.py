@@ -10,7 +10,8 @@ from ...poses import Array
 from ...sensing.measurement import Measurement, Sighting
 from ..cameras.source import PerceptSource
 from ..session import SessionLost
-from .conventions import CHEST_BUTTON, measurement_of
+from .conditions import SafetySettings, Seen
+from .conventions import measurement_of
 from .frame_clock import TICK
 from .frames import ON_THE_WIRE, ActuatorFrame, Codec, SensorFrame
 from .guardian import StiffnessGuardian
@@ -19,8 +20,9 @@ from .joints import LEGS, JointMap
 from .lights import lights_for
 from .link import Link
 from .motion import Motion
-from .safety import Safety, SafetySettings, Seen, State
+from .safety import Safety, State
 from .sight_channel import Sights
+from .vitals import Vitals
 
 log = logging.getLogger(__name__)
 
@@ -80,7 +82,7 @@ class LolaBody:
         self._eyes = eyes
         self._joints = JointMap(joint_names)
         self._motion = Motion(self._joints, stance)
-        self._look_ahead = settings.look_ahead
+        self._vitals = Vitals(settings.look_ahead)
         self._silence = settings.silence
         self._safety = Safety(settings)
         self._hearing = Hearing(link, settings.silence, clock, codec.read)
@@ -124,14 +126,16 @@ class LolaBody:
         if self._hearing.lock_step and self._guardian is not None:
             self._guardian.dismiss()  # time may stand still in such a world
             self._guardian = None
-        now, count = self._clock(), self._hearing.count
+        count = self._hearing.count
         if self.frame is not None and gap > self._silence:
             if not self._hearing.lock_step:
-                self._safety.fail(f"no frame was read for {gap:.2f} s", now)
+                self._safety.fail(
+                    f"no frame was read for {gap:.2f} s", self._time
+                )
                 self._motion.weaken(float(frame.stiffness[LEGS].max()))
         self.frame = frame
         walked = self._state.moves_by_control
-        self._change(self._safety.frame(self._seen(frame, now)))
+        self._change(self._safety.frame(self._seen(frame)))
         if self._state is State.WALKING and not walked:
             self._start = count
         if self._sight is not None:
@@ -179,17 +183,17 @@ class LolaBody:
 
     def halted(self) -> None:
         """Note that control has brought a robot that stops to rest."""
-        self._safety.halted(self._clock())
+        self._safety.halted(self._time)
         self._change(self._safety.state)
 
     def rest(self, reason: str) -> None:
         """Stop and rest."""
-        self._safety.rest(reason, self._clock())
+        self._safety.rest(reason, self._time)
         self._change(self._safety.state)
 
     def fail(self, reason: str) -> None:
         """Go limp, for a reason that control knows."""
-        self._safety.fail(reason, self._clock())
+        self._safety.fail(reason, self._time)
         self._change(self._safety.state)
 
     def close(self) -> None:
@@ -204,17 +208,19 @@ class LolaBody:
                     beside.close()
             self._link.close()
 
-    def _seen(self, frame: SensorFrame, now: float) -> Seen:
-        leans = zip(frame.angles, frame.gyroscope.tolist(), strict=False)
-        tilt = max(abs(a + self._look_ahead * rate) for a, rate in leans)
-        return Seen(
-            now,
-            chest_pressed=frame.touch[CHEST_BUTTON] > 0.5,
-            tilt=tilt,
-            status=max(frame.status[LEGS]),
-            temperature=float(frame.temperature[LEGS].max()),
+    @property
+    def _time(self) -> float:
+        """When the newest frame was, in [s]: some worlds wait for us."""
+        return self._hearing.count * TICK
+
+    def _seen(self, frame: SensorFrame) -> Seen:
+        state = self._state
+        return self._vitals.seen(
+            frame,
+            self._time,
+            walks=state.moves_by_control,
             reached=self._dry_run
-            or self._motion.reached(self._state, frame.position),
+            or self._motion.reached(state, frame.position),
         )
 
     def _change(self, state: State) -> None:

@@ -9,6 +9,7 @@ from .frames import SensorFrame
 from .joints import JOINT_COUNT, JointMap
 
 CHEST_BUTTON = 0  # in the order of Touch
+FOOT_BUMPERS = (4, 5, 9, 10)  # likewise: left and right of either foot
 NEWTONS_PER_KILOGRAM = 9.81  # foot sensors weigh
 SONARS = ("left", "right")
 HEARD = (0.0, 2.55)  # echoes beyond this mean that all was silent, in [m]

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from ..cameras.source import PerceptSource
-from .safety import SafetySettings
+from .conditions import SafetySettings
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

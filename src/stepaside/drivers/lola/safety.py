@@ -1,10 +1,8 @@
 """What a robot may do now: a state machine without clock or socket."""
 
-from dataclasses import dataclass
 from enum import Enum
-from typing import NamedTuple
 
-from ...errors import ConfigurationError, check_positive, check_within
+from .conditions import Reaction, SafetySettings, Seen, Watch
 
 
 class State(Enum):
@@ -23,67 +21,12 @@ class State(Enum):
         return self in (State.WALKING, State.STOPPING)
 
 
-class Seen(NamedTuple):
-    """What the machine needs to know of one good frame.
-
-    Attributes:
-        time: On the clock of this computer, in [s].
-        chest_pressed: Whether the chest button is down.
-        tilt: Largest tilt of the torso, now or soon, in [rad].
-        status: Worst status of a leg's motor.
-        temperature: Of the hottest motor of the legs, in [degC].
-        reached: Whether targets and joints are where the slow motion ends.
-    """
-
-    time: float
-    chest_pressed: bool = False
-    tilt: float = 0.0
-    status: int = 0
-    temperature: float = 25.0
-    reached: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class SafetySettings:
-    """Limits of what is safe.
-
-    Attributes:
-        silence: Without a good frame for this long the session is lost,
-            in [s].
-        warm_up: Good frames before anything is believed.
-        fall: Tilt of the torso from which it is falling, in [rad].
-        look_ahead: How far ahead the tilt is looked at, in [s].
-        hottest: Temperature at which the robot rests, in [degC]; an
-            assumption, the robot's own status comes on top.
-        longest_reach: Time in which it must reach a posture, in [s].
-        longest_stop: Time in which control must bring it to rest, in [s].
-    """
-
-    silence: float = 0.1
-    warm_up: int = 3
-    fall: float = 0.6
-    look_ahead: float = 0.15
-    hottest: float = 80.0
-    longest_reach: float = 15.0
-    longest_stop: float = 4.0
-
-    def __post_init__(self) -> None:
-        """Refuse limits that limit nothing."""
-        error = ConfigurationError
-        check_within(self.silence, 0.012, 60.0, "silence", "s", error)
-        check_within(self.warm_up, 1, 1000, "warm_up", "frames", error)
-        check_within(self.fall, 0.1, 1.5, "fall", "rad", error)
-        check_within(self.look_ahead, 0.0, 1.0, "look_ahead", "s", error)
-        check_within(self.hottest, 40.0, 100.0, "hottest", "degC", error)
-        for name in ("longest_reach", "longest_stop"):
-            check_positive(getattr(self, name), name, "s", error)
-
-
 class Safety:
     """Decides, frame by frame, what the robot may do, and says why.
 
     The chest button acts when it is let go: it starts a robot that is
-    ready, stops one that walks, and wakes one that lies limp.
+    ready, stops one that walks, and wakes one that lies limp. What ends a
+    walk without it stands in the table of :mod:`.conditions`.
 
     Attributes:
         state: What the robot is doing.
@@ -93,6 +36,8 @@ class Safety:
     def __init__(self, settings: SafetySettings) -> None:
         """Begin limp, before the first frame."""
         self._settings = settings
+        self._watch = Watch(settings)
+        self._afterwards = State.RESTING
         self.state = State.LIMP
         self.reason = "no frame has come yet"
         self._frames = 0
@@ -114,21 +59,27 @@ class Safety:
         warm = self._settings.warm_up
         if self._frames < warm:
             return self.state
-        danger = self._danger(seen)
-        if danger is not None:
-            self._endangered(*danger, seen)
+        due = self._watch.look(seen)
+        if due is not None and due[0] > Reaction.STAND:
+            self._endangered(*due, seen)
         elif self._frames == warm:
             self._enter(State.REACHING, "connected", seen.time)
+        elif due is not None and self.state is State.WALKING:
+            self._stop(State.READY, due[1], seen.time)
         elif released:
-            self._button(seen.time)
+            self._button(seen.time, due[1] if due else "")
         else:
             self._go_on(seen)
         return self.state
 
     def halted(self, time: float) -> None:
         """Note that control has brought the robot to rest."""
-        if self.state is State.STOPPING:
-            self._enter(State.RESTING, "stopped", time)
+        if self.state is not State.STOPPING:
+            return
+        if self._afterwards is State.READY:
+            self._enter(State.READY, self.reason, time)
+        else:
+            self._enter(State.RESTING, f"stopped: {self.reason}", time)
 
     def fail(self, reason: str, time: float) -> None:
         """Go limp for a reason that no frame says: it cannot be trusted."""
@@ -138,46 +89,36 @@ class Safety:
     def rest(self, reason: str, time: float) -> None:
         """Stop and rest, as someone asks for."""
         if self.state is State.WALKING:
-            self._enter(State.STOPPING, reason, time)
+            self._stop(State.RESTING, reason, time)
+        elif self.state is State.STOPPING:
+            self._afterwards = State.RESTING
         elif self.state in (State.READY, State.REACHING):
             self._enter(State.RESTING, reason, time)
 
     def _enter(self, state: State, reason: str, time: float) -> None:
         self.state, self.reason, self._since = state, reason, time
 
-    def _danger(self, seen: Seen) -> tuple[State, str] | None:
-        """What must end whatever the robot does; the worst first."""
-        limits = self._settings
-        if seen.tilt > limits.fall:
-            return State.LIMP, f"torso tilts by {seen.tilt:.2f} rad: it falls"
-        if seen.status >= 3:
-            return State.LIMP, "a motor of the legs reports critical heat"
-        if seen.status == 2:
-            return State.RESTING, "a motor of the legs reports heat"
-        if seen.temperature > limits.hottest:
-            return (
-                State.RESTING,
-                f"a motor of the legs has {seen.temperature:.0f} degC",
-            )
-        return None
+    def _stop(self, afterwards: State, why: str, time: float) -> None:
+        self._afterwards = afterwards
+        self._enter(State.STOPPING, why, time)
 
-    def _endangered(self, wanted: State, why: str, seen: Seen) -> None:
+    def _endangered(self, reaction: Reaction, why: str, seen: Seen) -> None:
         state, time = self.state, seen.time
-        if wanted is State.LIMP:
-            if state is not State.LIMP:
-                self._enter(State.LIMP, why, time)
-            else:
-                self.reason = why
-        elif state is State.WALKING:
-            self._enter(State.STOPPING, why, time)
+        if reaction is Reaction.LIMP and state is not State.LIMP:
+            self._enter(State.LIMP, why, time)
         elif state is State.LIMP:
             self.reason = why
+        elif state is State.WALKING:
+            self._stop(State.RESTING, why, time)
         elif state in (State.REACHING, State.READY):
             self._enter(State.RESTING, why, time)
         else:
+            if self._afterwards is not State.RESTING:
+                self._afterwards, self.reason = State.RESTING, why
             self._go_on(seen)
 
-    def _button(self, time: float) -> None:
+    def _button(self, time: float, hindrance: str) -> None:
+        """Follow the chest button, unless a robot that stands must stay."""
         after = {
             State.LIMP: State.REACHING,
             State.REACHING: State.RESTING,
@@ -185,10 +126,13 @@ class Safety:
             State.WALKING: State.STOPPING,
             State.STOPPING: State.RESTING,
             State.RESTING: State.RESTING,
-        }
-        if after[self.state] is self.state:
-            return
-        self._enter(after[self.state], "chest button", time)
+        }[self.state]
+        if after is State.WALKING and hindrance:
+            self.reason = hindrance
+        elif after is State.STOPPING:
+            self._stop(State.RESTING, "chest button", time)
+        elif after is not self.state:
+            self._enter(after, "chest button", time)
 
     def _go_on(self, seen: Seen) -> None:
         state = self.state

@@ -7,15 +7,14 @@ is the simulator's truth, and its channel is named for what it is.
 """
 
 import struct
-from math import isfinite
 from typing import NamedTuple
 
 from ...errors import StepAsideError
+from ..sightings import fault_of
 
 MESSAGE = struct.Struct("<4sIddd")
 LETTERS = b"SGHT"
 OLDEST = 10.0  # age beyond which a sighting says nothing, in [s]
-FARTHEST = 1e3  # distance beyond which it is none, in [m]
 
 
 class SightError(StepAsideError, ValueError):
@@ -56,10 +55,11 @@ def unpack_sight(data: bytes) -> SightMessage:
     letters, frame, age, bearing, distance = MESSAGE.unpack(data)
     if letters != LETTERS:
         raise SightError(f"a sighting must begin with {LETTERS!r}")
-    if not all(isfinite(value) for value in (age, bearing, distance)):
-        raise SightError("a sighting must be finite")
-    if not (0.0 <= age <= OLDEST and abs(bearing) <= 3.2):
-        raise SightError(f"no sighting has age {age} and bearing {bearing}")
-    if not 0.0 <= distance <= FARTHEST:
-        raise SightError(f"no sighting has distance {distance}")
+    if not 0.0 <= age <= OLDEST:
+        raise SightError(
+            f"the age of the sighting must lie in [0, {OLDEST:g}] s, "
+            f"got {age:g} s"
+        )
+    if fault := fault_of(bearing, distance):
+        raise SightError(fault)
     return SightMessage(frame, age, bearing, distance)

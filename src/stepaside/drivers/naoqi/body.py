@@ -1,6 +1,7 @@
 """A robot on NAOqi, behind the interface that velocities move."""
 
 import logging
+from collections import deque
 from collections.abc import Callable, Sequence
 from math import isfinite
 from time import monotonic, sleep
@@ -14,7 +15,7 @@ from ..session import SessionLost
 from ..velocity.body import Report, Velocity
 from .address import IDEAL_SIGHT
 from .moving import Mover, VelocityMover
-from .session import answer_of, ask, connect
+from .session import Call, answer_of, ask, connect
 
 PERIOD = 0.05  # between two looks at the robot, in [s]
 STANDING_UP = 20.0  # longest time for it, in [s]
@@ -31,8 +32,9 @@ class NaoqiBody:
     """One robot whose ALMotion walks.
 
     It is woken up and stands before it moves. Its chest button, when it is
-    let go, makes it rest, and lets it go on. ALMotion walks on for ever
-    when nobody tells it to stop: who can die needs a guardian.
+    let go, makes it rest, and lets it go on. After a fall the robot stays
+    where it is until then, and stands up again first. ALMotion walks on for
+    ever when nobody tells it to stop: control needs a guardian.
 
     Attributes:
         joints: Angles of the joints that are asked for, in [rad].
@@ -69,9 +71,12 @@ class NaoqiBody:
         try:
             self._motion = self._service("ALMotion")
             self._memory = self._service("ALMemory")
-            self._standing: Any = None
+            self._steps_up: deque[Call] = deque()
+            self._down = ""
             if not dry_run:
                 self._stand_up()
+                if not self._steps_up[0].answered(STANDING_UP):
+                    raise SessionLost("the robot: wakeUp was not answered")
         except BaseException:
             self._session.close()
             raise
@@ -79,12 +84,21 @@ class NaoqiBody:
         self._turning: Any = None
         self.joints: Array = np.zeros(len(self._names))
         self._mover = make_mover(self._motion, clock)
+        position = Call(self._motion, "getRobotPosition", True)
+        memory = Call(self._memory, "getListData", KEYS)
+        self._questions = [position, memory]
+        if self._names:
+            angles = Call(self._motion, "getAngles", self._names, True)
+            self._questions.append(angles)
         self._listened = clock() - PERIOD
-        self._pressed = self._held = False
+        self._pressed = self._held = self._waits = False
         self._told_ideal = False
 
     def listen(self, patience: float) -> Report | None:
         """Where the robot is, and what it knows; None if it is too slow.
+
+        All is asked at once. What is not answered in time is waited for at
+        the next call: a slow robot tells less often, but it tells.
 
         Args:
             patience: Longest time to wait for it, in [s].
@@ -93,18 +107,22 @@ class NaoqiBody:
             SessionLost: If the robot is gone.
         """
         early = self._listened + PERIOD - self._clock()
-        if early > 0.0:
+        if early > 0.0 and not self._waits:
             sleep(min(early, patience))
-        self._listened = self._clock()
-        try:
-            place = ask(
-                self._motion, "getRobotPosition", True, within=patience
-            )
-            told = ask(self._memory, "getListData", KEYS, within=patience)
-            if self._names:
-                self.joints = self._angles(patience)
-        except TimeoutError:
-            return None
+        if not self._waits:
+            self._listened, self._waits = self._clock(), True
+            for question in self._questions:
+                question.begin()
+        end = self._clock() + patience
+        for question in self._questions:
+            if not question.answered(max(end - self._clock(), 0.0)):
+                return None
+        self._waits = False
+        place, told, *angles = [
+            question.take() for question in self._questions
+        ]
+        if angles:
+            self.joints = self._angles(angles[0])
         now = self._clock()
         try:
             x, y, theta = (float(value) for value in place)
@@ -128,7 +146,7 @@ class NaoqiBody:
 
     def look(self, yaw: float, pitch: float) -> None:
         """Turn the head, in [rad], without waiting for the robot."""
-        if self._dry_run or self._standing is not None:
+        if self._dry_run or self._steps_up:
             return
         if self._turning is None or self._turning.isFinished():
             self._turning = self._motion.setAngles(
@@ -146,15 +164,16 @@ class NaoqiBody:
         finally:
             self._session.close()
 
-    def _angles(self, patience: float) -> Array:
+    def _angles(self, told: Any) -> Array:
         """Joints as measured, in [rad]. Shape (joints,)."""
-        names = self._names
-        told = ask(self._motion, "getAngles", names, True, within=patience)
         try:
             angles = np.array([float(value) for value in told])
         except (TypeError, ValueError) as error:
             raise SessionLost(f"the robot says {told!r:.60}") from error
-        if angles.shape != (len(names),) or not np.isfinite(angles).all():
+        if (
+            angles.shape != (len(self._names),)
+            or not np.isfinite(angles).all()
+        ):
             raise SessionLost("the robot's joints are no numbers")
         return angles
 
@@ -168,26 +187,52 @@ class NaoqiBody:
     def _stand_up(self) -> None:
         """Ask for it; it takes its time."""
         posture = self._service("ALRobotPosture")
-        motion = self._motion
-        try:
-            ask(motion, "wakeUp", within=STANDING_UP)
-        except TimeoutError as error:
-            raise SessionLost(f"the robot: {error}") from error
-        self._standing = posture.goToPosture(STAND, SLOWLY, _async=True)
+        self._steps_up = deque(
+            [
+                Call(self._motion, "wakeUp"),
+                Call(posture, "goToPosture", STAND, SLOWLY),
+            ]
+        )
+        self._rising_until = self._clock() + STANDING_UP
+
+    def _rise(self) -> str:
+        """Why the robot does not stand yet; empty if it does."""
+        while self._steps_up:
+            step = self._steps_up[0]
+            if not step.answered(0.0):
+                if self._clock() > self._rising_until:
+                    raise SessionLost(
+                        f"the robot did not stand up in {STANDING_UP:g} s"
+                    )
+                return "stands up"
+            self._steps_up.popleft()
+            if step.take() is False:
+                self._steps_up.clear()
+                self._down = "could not stand up"
+        return ""
 
     def _hindrance(self, fallen: bool, pressed: bool) -> str:
-        """Why the robot must not move, by its own senses."""
-        if self._pressed and not pressed:
-            self._held = not self._held
+        """Why the robot must not move, by its own senses.
+
+        A robot that fell stays where it is until its chest button is let
+        go: somebody has put it upright then, and it stands up again.
+        """
+        released = self._pressed and not pressed
         self._pressed = pressed
         if fallen:
-            return "has fallen"
-        if self._standing is not None:
-            if not self._standing.isFinished():
-                return "stands up"
-            if not answer_of(self._standing, "goToPosture", within=0.0):
-                return "could not stand up"
-            self._standing = None
+            self._down = "has fallen"
+            self._steps_up.clear()
+            return self._down
+        if rises := self._rise():
+            return rises
+        if self._down and released:
+            self._down, self._held = "", False
+            self._stand_up()
+            return self._rise()
+        if self._down:
+            return f"{self._down}: the chest button makes it stand up"
+        if released:
+            self._held = not self._held
         return "chest button" if self._held or pressed else ""
 
     def _sighting(self, told: Any, now: float) -> Sighting | None:
@@ -209,8 +254,32 @@ def stop(url: str) -> None:
     """
     session = connect(url)
     try:
-        future = session.service("ALMotion", _async=True)
-        motion = answer_of(future, "ALMotion", within=PARTING)
+        motion = _motion_of(session)
         ask(motion, "stopMove", within=PARTING)
     finally:
         session.close()
+
+
+def stopper_of(url: str) -> Callable[[], None]:
+    """Connect to a robot in advance, and return what stops it.
+
+    Raises:
+        SessionLost: If there is no such robot.
+    """
+    motion = _motion_of(connect(url))
+
+    def stop_now() -> None:
+        try:
+            ask(motion, "stopMove", within=PARTING)
+        except (SessionLost, TimeoutError):
+            stop(url)  # the session was lost meanwhile
+
+    return stop_now
+
+
+def _motion_of(session: Any) -> Any:
+    future = session.service("ALMotion", _async=True)
+    try:
+        return answer_of(future, "ALMotion", within=PARTING)
+    except TimeoutError as error:
+        raise SessionLost(f"the robot: {error}") from error

@@ -8,7 +8,6 @@ computer does. Simulated ones do.
 import logging
 from collections import deque
 from collections.abc import Callable, Sequence
-from math import isfinite
 from time import monotonic, sleep
 from typing import Any, NamedTuple
 
@@ -23,8 +22,16 @@ from ..lola.guardian import FADING
 from ..lola.joints import JOINT_COUNT, NAMES
 from ..session import SessionLost
 from .address import IDEAL_SIGHT
-from .sensor_keys import FRAME, KEYS, QUICK_KEYS, frame_of
+from .sensor_keys import (
+    ACCELEROMETER,
+    FRAME,
+    KEYS,
+    OLDER,
+    QUICK_KEYS,
+    frame_of,
+)
 from .session import answer_of, ask, connect
+from .simulated import SightReader, read_frame
 
 ASKING = 2.0  # longest time for a service or a single answer, in [s]
 EVERY = 25  # ticks, after which temperatures and the like are read
@@ -93,20 +100,25 @@ class JointLine:
         try:
             self._motion = service_of(self._session, "ALMotion")
             self._memory = service_of(self._session, "ALMemory")
-            told = ask(self._memory, "getListData", [FRAME], within=ASKING)
+            asked = [FRAME, ACCELEROMETER[0], OLDER[ACCELEROMETER[0]]]
+            told = ask(self._memory, "getListData", asked, within=ASKING)
         except TimeoutError as error:
             self._session.close()
             raise SessionLost(f"the robot: {error}") from error
         except BaseException:
             self._session.close()
             raise
-        self.simulated = told[0] is not None
+        frame, newer, older = told
+        self.simulated = frame is not None
+        self._names = OLDER if newer is None and older is not None else {}
+        if self._names:
+            log.warning("the robot's gyro has two axes: it does not see turns")
         self.sight: tuple[float, float, float] | None = None
         self._began, self._number = clock(), -1
         self._heard: Heard | None = None
         self._due = 0.0
         self._told: dict[str, Any] = {}
-        self._reads = 0
+        self._reads, self._sights = 0, SightReader()
         self._calls: deque[tuple[float, Any]] = deque()
         self._stiffness: Array = np.full(JOINT_COUNT, np.nan)
 
@@ -174,7 +186,8 @@ class JointLine:
         if self.simulated and not self._has_spoken(patience):
             return
         keys = QUICK_KEYS if self._reads % EVERY else KEYS
-        asked = [*keys, FRAME, IDEAL_SIGHT]
+        names = [self._names.get(key, key) for key in keys]
+        asked = [*names, FRAME, IDEAL_SIGHT]
         told = ask(self._memory, "getListData", asked, within=patience)
         *known, frame, sight = told
         self._told.update(zip(keys, known, strict=True))
@@ -185,8 +198,8 @@ class JointLine:
             self._number = max(passed, self._number + 1)
             self._heard = Heard(values, self._number % COUNTER_RANGE, False)
             return
-        number, waits = _frame(frame)
-        self._number, self.sight = number, _sight(sight)
+        number, waits = read_frame(frame)
+        self._number, self.sight = number, self._sights.read(sight)
         self._heard = Heard(values, number, waits)
         self._due = 0.0 if waits else self._clock() + TICK - EARLY
 
@@ -197,7 +210,7 @@ class JointLine:
         """
         self._pause(max(0.0, min(self._due - self._clock(), patience)))
         told = ask(self._memory, "getData", FRAME, within=patience)
-        return _frame(told)[0] != self._number
+        return read_frame(told)[0] != self._number
 
     def _call(self, method: str, *values: Any) -> None:
         call = getattr(self._motion, method)(*values, _async=True)
@@ -267,23 +280,3 @@ def fade(url: str, targets: Array, stiffness: Array) -> None:
             sleep(TICK)
     finally:
         session.close()
-
-
-def _frame(told: Any) -> tuple[int, bool]:
-    """Number of a frame, and whether its world waits for the answer."""
-    try:
-        number, waits = (int(value) for value in told)
-    except (TypeError, ValueError) as error:
-        raise SessionLost(f"the robot's frame is {told!r:.60}") from error
-    return number, bool(waits)
-
-
-def _sight(told: Any) -> tuple[float, float, float] | None:
-    if told is None:
-        return None
-    try:
-        age, bearing, distance = (float(value) for value in told)
-    except (TypeError, ValueError) as error:
-        raise SessionLost(f"the robot's sight is {told!r:.60}") from error
-    good = isfinite(age) and isfinite(bearing) and isfinite(distance)
-    return (age, bearing, distance) if good else None

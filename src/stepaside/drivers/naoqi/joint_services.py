@@ -12,8 +12,10 @@ import numpy as np
 from ...poses import Array
 from ..lola.frames import ActuatorFrame
 from ..lola.joints import JOINT_COUNT, NAMES
+from .chains import joints_of, shares_of, values_of
 
 SHARED = "RHipYawPitch"  # the motor of LHipYawPitch turns both
+KNOWN = (*NAMES, SHARED)
 
 
 class JointRobot:
@@ -83,9 +85,8 @@ class JointMotion:
 
     def setStiffnesses(self, names: Any, stiffness: Any) -> None:
         """Set shares of the torque, from 0 to 1."""
-        at, values = _placed(names, stiffness)
-        if not np.all((values >= 0.0) & (values <= 1.0)):
-            raise ValueError(f"stiffness must lie in [0, 1], got {stiffness}")
+        joints, at = _places(names)
+        values = shares_of(joints, stiffness)
         with self._robot.lock:
             self._robot.stiffness[at] = values
             limp = bool(self._robot.stiffness.max() == 0.0)
@@ -93,9 +94,8 @@ class JointMotion:
 
     def setAngles(self, names: Any, angles: Any, fraction: float) -> None:
         """Set joint targets, in [rad], that are taken at once."""
-        at, values = _placed(names, angles)
-        if not np.all(np.isfinite(values)):
-            raise ValueError(f"angles must be finite, got {angles!r:.80}")
+        joints, at = _places(names)
+        values = values_of(joints, angles, "angles")
         if not 0.0 < fraction <= 1.0:
             raise ValueError(f"fraction must lie in (0, 1]: {fraction}")
         with self._robot.lock:
@@ -103,15 +103,15 @@ class JointMotion:
             self._robot.command(answers=True)
 
     def getBodyNames(self, name: str) -> list[str]:
-        """Names of its joints."""
-        return list(NAMES)
+        """Names of the joints of a chain."""
+        return joints_of(name, KNOWN)
 
     def getAngles(self, names: Any, use_sensors: bool) -> list[float]:
         """Angles of joints, in [rad]."""
         with self._robot.lock:
             robot = self._robot
             angles = robot.angles if use_sensors else robot.targets
-            told: list[float] = angles[_numbers(names)].tolist()
+            told: list[float] = angles[_places(names)[1]].tolist()
             return told
 
 
@@ -133,26 +133,10 @@ class JointMemory:
             return [self._robot.values.get(key) for key in keys]
 
 
-def _numbers(names: Any) -> list[int]:
-    """Places of joints, by name; "Body" is all of them."""
-    wanted = [names] if isinstance(names, str) else list(names)
-    if wanted in (["Body"], ["Joints"]):
-        return list(range(JOINT_COUNT))
-    unknown = [name for name in wanted if name not in (*NAMES, SHARED)]
-    if unknown:
-        raise ValueError(f"there is no joint {unknown[0]!r:.40}")
-    return [
+def _places(names: Any) -> tuple[list[str], list[int]]:
+    """Return joints by the names of joints or chains, and their places."""
+    joints = joints_of(names, KNOWN)
+    return joints, [
         NAMES.index("LHipYawPitch" if name == SHARED else name)
-        for name in wanted
+        for name in joints
     ]
-
-
-def _placed(names: Any, values: Any) -> tuple[list[int], Array]:
-    """Places of joints, and a value for each; one serves for all."""
-    at = _numbers(names)
-    given = np.array(values, dtype=np.float64)
-    if given.ndim > 1 or given.size not in (1, len(at)):
-        raise ValueError(
-            f"a value for each of {len(at)} joints is needed, got {given.size}"
-        )
-    return at, np.broadcast_to(given, len(at))

@@ -5,7 +5,7 @@ from typing import Any, Protocol
 
 from ..session import SessionLost
 from ..velocity.body import REST, Velocity
-from .session import answer_of
+from .session import answer_of, reason_of
 
 REPEATED = 0.25  # after which the same velocity is asked for again, in [s]
 STUCK = 1.0  # for which a command may be on its way, in [s]
@@ -52,7 +52,7 @@ class Errand:
         if future is None or not future.isFinished() or not future.hasError():
             return ""
         self._future = None
-        return (str(future.error()).strip().splitlines() or ["no reason"])[-1]
+        return reason_of(future.error())
 
     @property
     def arrived(self) -> bool:

@@ -1,12 +1,13 @@
 """What NAOqi's services know of a simulated robot that walks by itself."""
 
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from threading import Lock
 
 from ..velocity.body import REST, Velocity
 from ..velocity.footsteps import FootMove
 from ..velocity.served import WalkerState
+from .chains import LEGS
 
 
 class Robot:
@@ -17,7 +18,8 @@ class Robot:
         state: What the robot said of itself last.
         asked: Velocity that was asked for last.
         steps: Footsteps that have not begun, each with its velocity.
-        awake: Whether its motors are stiff.
+        awake: Whether its legs are stiff.
+        limp: Joints without stiffness, of a robot that is awake.
         posture: Where it stands, or crouches.
         head: Angles that its head is asked for, in [rad], by joint.
         listeners: Who subscribed to its sonars.
@@ -31,10 +33,27 @@ class Robot:
         self.state, self.names = state, list(names)
         self.asked = REST
         self.awake, self.fallen, self.pressed = False, False, False
+        self.limp: set[str] = set()
         self.posture = "Crouch"
         self.head: dict[str, float] = {}
         self.listeners: set[str] = set()
         self.calls = 0
+
+    def stiffen(self, shares: Mapping[str, float]) -> None:
+        """Set the stiffness of joints; the lock is held.
+
+        A robot whose legs go limp is asleep, and does not walk any more.
+
+        Args:
+            shares: Of the full torque, by joint.
+        """
+        for joint, share in shares.items():
+            (self.limp.discard if share > 0.0 else self.limp.add)(joint)
+        legs = [name for name in self.names if name in LEGS] or self.names
+        if any(leg in shares for leg in legs):
+            self.awake = not any(leg in self.limp for leg in legs)
+            if not self.awake:
+                self.rest()
 
     def rest(self) -> None:
         """Forget what was asked for; the lock is held."""

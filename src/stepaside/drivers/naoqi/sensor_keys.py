@@ -5,20 +5,27 @@ reads z near -9.8 m/s^2, and its feet weigh in [kg].
 """
 
 from collections.abc import Sequence
-from math import isfinite
+from math import isfinite, nan
 from typing import Any
 
 import numpy as np
 
-from ..lola.conventions import CHEST_BUTTON, COUNTER, LOCK_STEP, REAL_TIME
+from ..lola.conventions import (
+    CHEST_BUTTON,
+    COUNTER,
+    FOOT_BUMPERS,
+    LOCK_STEP,
+    REAL_TIME,
+)
 from ..lola.frames import SensorFrame
-from ..lola.joints import JOINT_COUNT, NAMES
+from ..lola.joints import NAMES
 from ..lola.wire import WireError
 
 DEVICES = "Device/SubDeviceList"
 # Of a simulated robot: number of its frame, and 1 if its world waits.
 FRAME = "Stepaside/Frame"
 _AXES = "XYZ"
+TOUCHES = 14  # values of a frame
 _CORNERS = ("FrontLeft", "FrontRight", "RearLeft", "RearRight")
 
 
@@ -47,17 +54,40 @@ GROUPS: dict[str, list[str]] = {
     ],
     "sonar": [f"{DEVICES}/US/{s}/Sensor/Value" for s in ("Left", "Right")],
     "chest": [f"{DEVICES}/ChestBoard/Button/Sensor/Value"],
+    "bumper": [
+        f"{DEVICES}/{side}Foot/Bumper/{half}/Sensor/Value"
+        for side in "LR"
+        for half in ("Left", "Right")
+    ],
+    "current": _each("ElectricCurrent/Sensor"),
     "charge": [f"{DEVICES}/Battery/Charge/Sensor/Value"],
 }
 KEYS = [key for keys in GROUPS.values() for key in keys]
-SLOW = ("stiffness", "temperature", "status", "charge")
+SLOW = ("stiffness", "current", "temperature", "status", "charge")
 # What has to be known at every tick: half of all.
 QUICK_KEYS = [
     key for name, keys in GROUPS.items() if name not in SLOW for key in keys
 ]
 # What a robot may not tell, and what it is taken to be then.
 UNUSED = ("LWristYaw", "RWristYaw", "LHand", "RHand")  # not on every NAO
-UNTOLD = {"status": 0.0, "temperature": 0.0, "sonar": 2.55, "charge": 0.0}
+UNTOLD = {
+    "status": 0.0,
+    "temperature": 0.0,
+    "current": 0.0,
+    "bumper": 0.0,
+    "sonar": 2.55,
+    "charge": 1.0,
+}
+# Names of the inertial unit's values on NAO V3 and V4, whose gyro has no
+# third axis.
+ACCELEROMETER, GYROSCOPE = GROUPS["accelerometer"], GROUPS["gyroscope"]
+OLDER = dict(
+    zip(
+        [*ACCELEROMETER, *GYROSCOPE[:2]],
+        [*_inertial("Acc"), *_inertial("Gyr", "XY")],
+        strict=True,
+    )
+)
 
 
 def values_of(frame: SensorFrame) -> dict[str, float]:
@@ -73,6 +103,8 @@ def values_of(frame: SensorFrame) -> dict[str, float]:
         "fsr": frame.fsr.tolist(),
         "sonar": frame.sonar,
         "chest": [frame.touch[CHEST_BUTTON]],
+        "bumper": [frame.touch[at] for at in FOOT_BUMPERS],
+        "current": frame.current.tolist(),
         "charge": [frame.battery[0]],
     }
     return {
@@ -86,6 +118,8 @@ def frame_of(
     values: Sequence[Any], number: int, *, lock_step: bool
 ) -> SensorFrame:
     """Frame of what ALMemory tells.
+
+    The gyro's third axis is NaN on a robot that has none.
 
     Args:
         values: Of ``KEYS``, in that order; None where there is none.
@@ -107,11 +141,15 @@ def frame_of(
     charge, second, third, fourth = battery
     roll, pitch = told["angles"]
     left, right = told["sonar"]
+    touch = TOUCHES * [0.0]
+    for at, value in zip(FOOT_BUMPERS, told["bumper"], strict=True):
+        touch[at] = value
+    touch[CHEST_BUTTON] = told["chest"][0]
     arrays = {name: np.array(values) for name, values in told.items()}
     return SensorFrame(
         arrays["position"],
         arrays["stiffness"],
-        np.zeros(JOINT_COUNT),
+        arrays["current"],
         arrays["temperature"],
         tuple(round(status) for status in told["status"]),
         arrays["accelerometer"],
@@ -119,7 +157,7 @@ def frame_of(
         (roll, pitch),
         arrays["fsr"],
         (left, right),
-        tuple(told["chest"]) + 13 * (0.0,),
+        tuple(touch),
         (charge, second, third, fourth),
         (body, "6.0.0", body, "6.0.0"),
     )
@@ -128,6 +166,8 @@ def frame_of(
 def _number(group: str, key: str, value: Any) -> float:
     if value is None and group in UNTOLD:
         return UNTOLD[group]
+    if value is None and key == GYROSCOPE[2]:
+        return nan
     if value is None and group in ("position", "stiffness"):
         if key.split("/")[2] in UNUSED:
             return 0.0

@@ -11,6 +11,7 @@ from typing import Any
 
 from ...planning import GaitSettings
 from ..velocity.body import REST, Velocity
+from .chains import joints_of, shares_of, values_of
 from .robot import Robot
 from .steps import read_steps, told, velocity_of
 
@@ -31,7 +32,7 @@ class ALMotion:
         """Make the motors stiff."""
         with self._robot.lock:
             self._robot.calls += 1
-            self._robot.awake = True
+            self._robot.stiffen(dict.fromkeys(self._robot.names, 1.0))
 
     def rest(self) -> None:
         """Stop, crouch, and let the motors go."""
@@ -47,34 +48,34 @@ class ALMotion:
             return self._robot.awake
 
     def setStiffnesses(self, names: Any, stiffness: Any) -> None:
-        """Make all motors stiff, or none."""
-        values = stiffness if isinstance(stiffness, list) else [stiffness]
+        """Set the stiffness of joints or chains, from 0 to 1."""
         with self._robot.lock:
             self._robot.calls += 1
-            self._robot.awake = min(float(v) for v in values) > 0.0
-            if not self._robot.awake:
-                self._robot.rest()
+            joints = joints_of(names, self._robot.names)
+            shares = shares_of(joints, stiffness).tolist()
+            self._robot.stiffen(dict(zip(joints, shares, strict=True)))
 
     def setAngles(self, names: Any, angles: Any, fraction: float) -> None:
         """Turn the head: the other joints walk by themselves."""
-        wanted = [names] if isinstance(names, str) else list(names)
-        values = angles if isinstance(angles, list | tuple) else [angles]
-        asked = dict(zip(wanted, map(float, values), strict=True))
         with self._robot.lock:
             self._robot.calls += 1
-            others = set(asked) - ({*HEAD} & {*self._robot.names})
+            joints = joints_of(names, self._robot.names)
+            values = values_of(joints, angles, "angles").tolist()
+            others = set(joints) - {*HEAD}
             if others:
                 raise ValueError(
                     f"only {' and '.join(HEAD)} may be set while it walks "
                     f"by itself, got {sorted(others)}"
                 )
-            if not all(isfinite(value) for value in asked.values()):
-                raise ValueError(f"angles must be finite, got {values!r}")
             if not 0.0 < fraction <= 1.0:
                 raise ValueError(f"fraction must lie in (0, 1]: {fraction}")
             if not self._robot.awake:
                 raise RuntimeError("the robot is asleep: wakeUp first")
-            self._robot.head |= asked
+            self._robot.head |= {
+                joint: value
+                for joint, value in zip(joints, values, strict=True)
+                if joint not in self._robot.limp
+            }
 
     def moveInit(self) -> None:
         """Make ready to walk: it always is."""
@@ -153,16 +154,14 @@ class ALMotion:
             return [forward, 0.0, turn]
 
     def getBodyNames(self, name: str) -> list[str]:
-        """Names of its joints."""
-        return self._robot.names
+        """Names of the joints of a chain."""
+        return joints_of(name, self._robot.names)
 
     def getAngles(self, names: Any, use_sensors: bool) -> list[float]:
         """Angles of joints, in [rad]."""
-        wanted = [names] if isinstance(names, str) else list(names)
-        if wanted in (["Body"], ["Joints"]):
-            wanted = self._robot.names
         with self._robot.lock:
             self._robot.calls += 1
+            wanted = joints_of(names, self._robot.names)
             where = dict(
                 zip(self._robot.names, self._robot.state.joints, strict=True)
             )

@@ -14,6 +14,7 @@ except ImportError as error:
     ) from error
 
 CONNECTING = 5000  # longest time to connect, in [ms]
+SOURCE = "\n\nAt:\n"  # after it come files and lines of a service in Python
 
 
 @cache
@@ -41,7 +42,8 @@ def connect(url: str) -> Any:
         session.connect(url, _async=True).value(CONNECTING)
     except RuntimeError as error:
         session.close()
-        raise SessionLost(f"no robot answers at {url}: {error}") from error
+        why = reason_of(error)
+        raise SessionLost(f"no robot answers at {url}: {why}") from error
     return session
 
 
@@ -63,8 +65,8 @@ def listen(url: str, services: dict[str, Any]) -> Any:
             session.registerService(name, service)
     except RuntimeError as error:
         session.close()
-        line = " ".join(str(error).split())
-        raise ConfigurationError(f"cannot listen at {url}: {line}") from error
+        why = reason_of(error)
+        raise ConfigurationError(f"cannot listen at {url}: {why}") from error
     return session
 
 
@@ -91,5 +93,50 @@ def answer_of(future: Any, what: str, *, within: float) -> Any:
     except RuntimeError as error:
         if not future.isFinished():
             raise TimeoutError(f"{what} was not answered") from error
-        line = str(error).strip().splitlines() or ["no answer"]
-        raise SessionLost(f"the robot's {what}: {line[-1]}") from error
+        raise SessionLost(f"the robot's {what}: {reason_of(error)}") from error
+
+
+def reason_of(error: object) -> str:
+    """Return the whole reason for which a call was refused, in one line.
+
+    What a service in Python adds of its own source is left out.
+
+    Args:
+        error: What the messaging raised, or the text of it.
+    """
+    reason, _, _ = str(error).partition(SOURCE)
+    return " ".join(reason.split()) or "no reason was given"
+
+
+class Call:
+    """A call that is repeated, each time after its answer has come.
+
+    An answer that is late is not lost: the next look finds it, and no
+    second call is made while it is on its way.
+    """
+
+    def __init__(self, service: Any, method: str, *values: Any) -> None:
+        """Make no call yet."""
+        self._service, self._method, self._values = service, method, values
+        self._future: Any = None
+
+    def begin(self) -> None:
+        """Make the call, unless one is on its way or its answer waits."""
+        if self._future is None:
+            call = getattr(self._service, self._method)
+            self._future = call(*self._values, _async=True)
+
+    def answered(self, patience: float) -> bool:
+        """Wait for the answer for some time, in [s]; whether it is here."""
+        self.begin()
+        self._future.wait(round(1000.0 * max(patience, 0.0)))
+        return bool(self._future.isFinished())
+
+    def take(self) -> Any:
+        """Return the answer that is here; the next look calls anew.
+
+        Raises:
+            SessionLost: If the call was refused, or the robot is gone.
+        """
+        future, self._future = self._future, None
+        return answer_of(future, self._method, within=0.0)

@@ -1,6 +1,8 @@
 """A robot on ROS 2 topics, behind the interface that velocities move."""
 
 import logging
+from collections.abc import Callable
+from functools import partial
 from math import atan2, hypot
 from time import monotonic, sleep
 from typing import Any
@@ -157,6 +159,19 @@ class Ros2Body:
             own = self._poses.at(time)
             x, y, _ = own.inverse().compose(Pose(x, y, 0.0))
         self._sighting = Sighting(time, atan2(y, x), hypot(x, y))
+
+
+def rester_of(dds: Dds, namespace: str) -> Callable[[], None]:
+    """Join a robot's topics in advance, and return what asks it for rest.
+
+    Nothing is written before: a second writer would be another commander.
+
+    Args:
+        dds: Where; closed when the robot has been asked.
+        namespace: Of the robot.
+    """
+    dds.register(dds_topic(namespace, COMMAND), Twist)
+    return partial(rest, dds, namespace)
 
 
 def rest(dds: Dds, namespace: str, duration: float = LETTING_GO) -> None:

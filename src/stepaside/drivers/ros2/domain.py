@@ -86,6 +86,16 @@ class Dds:
                 ) from error
         self._topics: dict[tuple[str, type[Any]], Any] = {}
 
+    def register(self, topic: str, kind: type[Any]) -> None:
+        """Make a topic known, so that its first writer is ready at once.
+
+        Args:
+            topic: Its name on DDS.
+            kind: Of its messages.
+        """
+        with MAKING:
+            self._topic(topic, kind)
+
     def writer(self, topic: str, kind: type[Any], depth: int = 1) -> Any:
         """Something that writes a topic, reliably.
 

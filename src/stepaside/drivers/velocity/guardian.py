@@ -1,21 +1,36 @@
 """Rest for a robot that walks on when nobody tells it to stop."""
 
 from collections.abc import Callable
+from contextlib import suppress
 
+from ...errors import StepAsideError
 from ..guardian import Guardian
 from .body import REST, Report, Velocity, VelocityBody
 
 SILENCE = 0.5  # of control before the guardian acts, in [s]
 
 
-def guardian_of(let_go: Callable[[], None]) -> Guardian:
-    """Fork a guardian.
+def guardian_of(join: Callable[[], Callable[[], None]]) -> Guardian:
+    """Fork a guardian, which joins the robot's line at once.
+
+    Loading a language and finding the robot takes longer than stopping it.
 
     Args:
-        let_go: Makes the robot rest, over a line of its own. It is called
-            in the other process.
+        join: Takes part in a line of its own, and returns what makes the
+            robot rest. It is called in the other process; where it fails,
+            once more when the robot is to rest.
     """
-    return Guardian(lambda _: let_go(), SILENCE)
+    joined: list[Callable[[], None]] = []
+
+    def prepare() -> None:
+        with suppress(StepAsideError):
+            joined.append(join())
+
+    def rest(word: bytes) -> None:
+        let_go = joined[0] if joined else join()
+        let_go()
+
+    return Guardian(rest, SILENCE, prepare=prepare)
 
 
 class GuardedBody:

@@ -5,6 +5,7 @@ from math import isfinite
 
 from ...errors import ConfigurationError, check_within
 from ...sensing.measurement import Sighting
+from ..sightings import fault_of
 from .body import Report
 
 DRIFT = 0.02  # by which two clocks may differ, relatively
@@ -123,8 +124,10 @@ class Watchdog:
         """Why the newest sighting is none to act upon, if it is not."""
         if seen is None:
             return "sees nobody"
-        if not all(isfinite(value) for value in seen):
+        if not isfinite(seen.time):
             return "the sighting holds what is no number"
+        if fault := fault_of(seen.bearing, seen.distance):
+            return fault
         age = now - seen.time
         if age < -self._settings.lead:
             return f"the sighting is from the future, by {-age:.2f} s"
