@@ -117,8 +117,8 @@ def test_a_circle_on_which_two_bodies_do_not_fit_is_contact(
     found = told(settings)
     assert found.expected is Expected.CONTACT
     assert found.words == (
-        f"contact likely: the template comes to {found.closest_m:.2f} m, bodies are "
-        "clear of each other from 0.40 m on"
+        f"contact likely: the template comes to {found.closest_m:.2f} m, "
+        "bodies are clear of each other from 0.40 m on"
     )
 
 

@@ -87,8 +87,8 @@ def forecast(settings: DuelSettings) -> Forecast | None:
     if closest < start.least:
         expected, words = (
             Expected.CONTACT,
-            f"contact likely: the template comes to {closest:.2f} m, bodies are "
-            f"clear of each other from {start.least:.2f} m on",
+            f"contact likely: the template comes to {closest:.2f} m, bodies "
+            f"are clear of each other from {start.least:.2f} m on",
         )
     elif not circle.exists:
         expected, words = Expected.NO_CIRCLE, no_circle_because(settings)
