@@ -1,14 +1,14 @@
 """What the push bound leaves out: more footsteps, and earlier ones.
 
-At times and directions over a step of a straight walk under way, the bound
-for one footstep that lands when planned is compared with the bound for many
-footsteps, and with that for a footstep that may land at any time up to the
-planned one::
+At times and directions over a step of a walk under way, for an impulse, the
+bound for one footstep that lands when planned is compared with the bound for
+many footsteps, and with that for a footstep that may land at any time up to
+the planned one::
 
     python benchmarks/push_steps.py
 """
 
-from math import cos, sin, tau
+from math import cos, pi, sin, tau
 
 import numpy as np
 from asking import ask
@@ -24,82 +24,91 @@ from stepaside.planning import (
 from stepaside.planning.capture import (
     Reach,
     held_regions,
-    push_bound,
     ray_interval,
 )
 from stepaside.planning.steady import steady_plan
+from stepaside.poses import Array
 from stepaside.studies.results import header, write_result
 from stepaside.studies.survival import walking_reach
 from stepaside.studies.version import PLANNER
 
-TIMES, DIRECTIONS, LANDINGS = 16, 48, 12
+TIMES, DIRECTIONS, LANDINGS = 60, 180, 24
 FOOTSTEPS = 4  # one more counts by exp(-eta T), 0.04 or less
-MASS = 5.3  # [kg]; the ratios are free of it
 GAITS = {"paper": GaitSettings(), "fast": PRESETS["fast"]}
-WALKS = {"forward": Direction.FORWARD, "backward": Direction.BACKWARD}
+WALKS = {
+    "forward": (0.0, Direction.FORWARD),
+    "backward": (0.0, Direction.BACKWARD),
+    "turning": (pi / 4, Direction.FORWARD),
+}
+ANGLES = np.linspace(0.0, tau, DIRECTIONS, endpoint=False)
 
 
-def landing_early(
-    plan: ManeuverPlan, time: float, direction: float, reach: Reach
-) -> float:
-    """Bound for one footstep that lands at its time or before, in [N s]."""
-    end = next(p.end for p in plan.support() if p.end > time)
+def largest_shifts(
+    plan: ManeuverPlan, time: float, regions: list[Array]
+) -> Array:
+    """Largest shifts of the DCM that are held, in [m], by direction.
+
+    Every smaller shift is held, too.
+    """
     dcm = plan.sample([time]).dcm[0]
-    heading = np.array([cos(direction), sin(direction)])
-    regions = held_regions(plan, time, reach, 1)
-    for later in np.linspace(time, end, LANDINGS, endpoint=False)[1:]:
-        regions += held_regions(plan, float(later), reach, 1)[1:]
-    # At the end of the phase the foot lands at once.
-    shift = 0.0
-    for enter, leave in sorted(ray_interval(dcm, heading, r) for r in regions):
-        if enter <= shift:
-            shift = max(shift, leave)
-    eta = plan.schedule.settings.eta
-    return float(MASS * eta * shift)
+    found = []
+    for angle in ANGLES.tolist():
+        heading = np.array([cos(angle), sin(angle)])
+        shift = 0.0
+        for enter, leave in sorted(
+            ray_interval(dcm, heading, region) for region in regions
+        ):
+            if enter <= shift:
+                shift = max(shift, leave)
+        found.append(shift)
+    return np.array(found)
+
+
+def ratios(plan: ManeuverPlan, reach: Reach) -> tuple[Array, Array]:
+    """Shifts held with more steps and by earlier ones, over the bound's.
+
+    Returns:
+        Ratios at all times of a step, and at those of its single support.
+        Shapes (n, DIRECTIONS), (m, DIRECTIONS).
+    """
+    many, early = [], []
+    end = plan.schedule.first_step_duration
+    for time in np.linspace(0.0, end, TIMES, endpoint=False).tolist():
+        planned = held_regions(plan, time, reach, 1)
+        one = largest_shifts(plan, time, planned)
+        one[one <= 0.0] = np.nan
+        regions = held_regions(plan, time, reach, FOOTSTEPS)
+        many.append(largest_shifts(plan, time, regions) / one)
+        phase = next(p for p in plan.support() if p.end > time)
+        if phase.single:
+            # A landing in place of the next is one of a plan further on.
+            for later in np.linspace(time, phase.end, LANDINGS)[1:-1]:
+                planned += held_regions(plan, float(later), reach, 1)[1:]
+            early.append(largest_shifts(plan, time, planned) / one)
+    return np.array(many), np.array(early)
 
 
 def main() -> None:
     """Compare bounds at all times and directions."""
     output = ask(__doc__, "push-steps.json").parse_args().output
     reach = walking_reach()
+    along, aside = (np.abs(f(ANGLES)) < 1e-9 for f in (np.sin, np.cos))
     rows = []
     for name, gait in GAITS.items():
-        for walk, way in WALKS.items():
+        for walk, (bearing, way) in WALKS.items():
             plan = steady_plan(
-                ManeuverPlanner(gait), 0.0, way, first_foot=Foot.LEFT
+                ManeuverPlanner(gait), bearing, way, first_foot=Foot.LEFT
             )
-            many, early = {}, {}
-            end = plan.schedule.first_step_duration
-            for time in np.linspace(0.0, end, TIMES, endpoint=False).tolist():
-                single = next(p for p in plan.support() if p.end > time).single
-                for angle in np.linspace(
-                    0.0, tau, DIRECTIONS, endpoint=False
-                ).tolist():
-                    one = push_bound(plan, time, angle, MASS, reach)
-                    if one <= 0.0:
-                        continue
-                    case = time, angle
-                    many[case] = (
-                        push_bound(
-                            *(plan, time, angle, MASS, reach), steps=FOOTSTEPS
-                        )
-                        / one
-                    )
-                    if single:
-                        early[case] = (
-                            landing_early(plan, time, angle, reach) / one
-                        )
-            along = [many[c] for c in many if abs(sin(c[1])) < 1e-9]
-            aside = [many[c] for c in many if abs(cos(c[1])) < 1e-9]
+            many, early = ratios(plan, reach)
             rows.append(
                 {
                     "gait": name,
                     "walk": walk,
-                    "more_steps_most": max(many.values()) - 1.0,
-                    "more_steps_along": max(along) - 1.0,
-                    "more_steps_aside": max(aside) - 1.0,
-                    "earlier_most": max(early.values()),
-                    "earlier_median": float(np.median(list(early.values()))),
+                    "more_steps_most": np.nanmax(many) - 1.0,
+                    "more_steps_along": np.nanmax(many[:, along]) - 1.0,
+                    "more_steps_aside": np.nanmax(many[:, aside]) - 1.0,
+                    "earlier_most": np.nanmax(early),
+                    "earlier_median": np.nanmedian(early),
                 }
             )
     settings = {

@@ -64,6 +64,8 @@ TABLES: dict[str, Callable[..., str]] = {
     "push-methods": pushes.methods,
     "ranges": persons.ranges,
     "remedies": unicycles.remedies,
+    "side-changes": unicycles.side_changes,
+    "steps-beyond": unicycles.steps_beyond,
     "rms": walking.rms,
     "rooms": rooms.outcomes,
     "score": mutation.score,
