@@ -58,8 +58,9 @@ def main() -> None:
     for law in TurningLaw:
         rng = np.random.default_rng(asked.seed)
         for number in range(asked.games):
-            values = np.exp(rng.uniform(-SPREAD, SPREAD, 4)).tolist()
-            game = make_game(*values, float(rng.uniform(*ANGLES)), law)
+            vp, ve, kp, ke = np.exp(rng.uniform(-SPREAD, SPREAD, 4)).tolist()
+            angle = float(rng.uniform(*ANGLES))
+            game = make_game(vp, ve, kp, ke, angle, law)
             faster = game.pursuer.speed > game.evader.speed
             held = any(circle.stable for circle in circles_of(game))
             key = (law.value, "faster" if faster else "slower", held)
@@ -93,7 +94,10 @@ def play(game: Game, starts: np.ndarray) -> list[End]:
     slow = min(game.pursuer.gain, game.evader.gain)
     fast = max(game.pursuer.gain, game.evader.gain)
     unit = game.evader.speed / slow
-    how = {"step": STEP / fast, "capture_distance": POINT * unit}
+    how: dict[str, Any] = {
+        "step": STEP / fast,
+        "capture_distance": POINT * unit,
+    }
     waits = [c.time_constant_s for c in circles_of(game) if c.stable]
     duration = max(PLAYED / slow, SETTLING * max(waits, default=0.0))
     out = play_games(game, starts, duration, **how)

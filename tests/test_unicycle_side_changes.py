@@ -137,8 +137,8 @@ def test_without_a_stable_circle_every_start_keeps_changing_sides() -> None:
     rng = np.random.default_rng(5)
     found = 0
     while found < 5:
-        values = np.exp(rng.uniform(-0.9, 0.9, 4)).tolist()
-        game = make_game(*values, float(rng.uniform(0.05, 3.0)))
+        vp, ve, kp, ke = np.exp(rng.uniform(-0.9, 0.9, 4)).tolist()
+        game = make_game(vp, ve, kp, ke, float(rng.uniform(0.05, 3.0)))
         held = any(circle.stable for circle in circles_of(game))
         if game.pursuer.speed < game.evader.speed or held:
             continue

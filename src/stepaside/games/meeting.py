@@ -119,9 +119,8 @@ def play_template(
             )
         rows.append((*walk.pose, *pose))
     poses = np.array(rows)
-    return TemplateGame(
-        step * np.arange(len(rows)), poses[:, :3], poses[:, 3:]
-    )
+    times: Array = step * np.arange(len(rows), dtype=np.float64)
+    return TemplateGame(times, poses[:, :3], poses[:, 3:])
 
 
 def _apart(one: Pose, other: Pose) -> float:
