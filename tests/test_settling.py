@@ -1,12 +1,14 @@
 """Why a duel is not on its circle yet."""
 
 from dataclasses import replace
-from math import inf, pi
+from math import pi
 
 import numpy as np
 import pytest
 
 from invented_run import changed, run_of
+from stepaside.games.duel_run import DuelRun
+from stepaside.games.outcome import Outcome
 from stepaside.games.settings import DuelSettings
 from stepaside.games.track import Track
 from stepaside.report.settling import settling_time, settling_words
@@ -38,16 +40,56 @@ def test_a_game_without_a_circle_settles_nowhere() -> None:
 @pytest.mark.parametrize(
     ("angle", "since", "words"),
     [
-        (pi / 2, 20.0, "40 s of evasion; theory's slowest mode takes 14 s"),
-        (pi / 2, None, "never triggered"),
-        (0.0, 20.0, "theory has none"),
+        (
+            pi / 2,
+            20.0,
+            "not reached: 40 s of evasion; theory's slowest mode takes 14 s",
+        ),
+        (pi / 2, None, "not reached: the evader was never triggered"),
+        (0.0, 20.0, "not expected: theory has none"),
     ],
 )
 def test_it_is_said_why_the_circle_was_not_reached(
     angle: float, since: float | None, words: str
 ) -> None:
+    told = settling_words(made(angle, since))
+    assert told.startswith(words)
+
+
+@pytest.mark.parametrize("expected", ["contact", "no circle"])
+def test_time_is_not_missing_where_no_circle_was_expected(
+    expected: str,
+) -> None:
+    assert settling_words(made(pi / 2, 20.0, expected)) == "not expected"
+
+
+@pytest.mark.parametrize(
+    ("outcome", "words"),
+    [
+        (Outcome.COMPLETED, "not reached, unlike theory: "),
+        (Outcome.FALL, "not reached by 60 s: "),
+    ],
+)
+def test_it_is_said_when_theory_is_on_the_circle(
+    outcome: Outcome, words: str
+) -> None:
+    run = made(pi / 2, 20.0, "circle", 34.0, outcome)
+    told = settling_words(run)
+    assert told == f"{words}the template is on it from 34 s on"
+
+
+def made(
+    angle: float,
+    since: float | None,
+    expected: str | None = None,
+    circle: float | None = None,
+    outcome: Outcome = Outcome.COMPLETED,
+) -> DuelRun:
+    """Run of 60 s that did not come to its circle."""
     tracks = {"pursuer": STANDING, "evader": STANDING}
-    run = run_of(TIMES, tracks, settings=with_angle(angle))
-    told = settling_words(changed(run, triggered_at_s=since))
-    assert told.startswith("not reached: ") and words in told
-    assert inf not in (settling_time(run.settings), 0.0)
+    settings = with_angle(angle)
+    run = run_of(TIMES, tracks, settings=settings, outcome=outcome)
+    theory = replace(
+        run.summary.theory, expected=expected, circle_since_s=circle
+    )
+    return changed(run, triggered_at_s=since, theory=theory)

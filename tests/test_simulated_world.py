@@ -57,18 +57,29 @@ def test_robots_touch_each_other_and_things_but_not_the_floor() -> None:
         assert world.data.ncon > 0 and world.robots_touch()
 
 
-@pytest.mark.parametrize("names", [("pursuer", "evader"), ("evader", "x")])
-def test_every_pair_of_robots_collides_once(names: tuple[str, ...]) -> None:
+@pytest.mark.parametrize("number", [1, 2, 3, 8, 10, 17])
+def test_every_pair_of_robots_collides_once(number: int) -> None:
     """Floor with each, each with the others, none with itself."""
-    robots = dict.fromkeys((*names, "third"), NAO)
+    robots = dict.fromkeys([f"robot {i}" for i in range(number)], NAO)
     model = build_model(robots, PhysicsSettings())
     types, affinities = model.geom_contype, model.geom_conaffinity
-    roots = model.body_rootid[model.geom_bodyid]
     solid = np.flatnonzero((types > 0) | (affinities > 0))
-    for a in solid:
-        for b in solid:
-            meets = (types[a] & affinities[b]) or (types[b] & affinities[a])
-            assert bool(meets) is bool(roots[a] != roots[b])
+    roots = model.body_rootid[model.geom_bodyid[solid]]
+    meets = (types[solid, None] & affinities[solid]) != 0
+    np.testing.assert_array_equal(meets | meets.T, roots[:, None] != roots)
+
+
+def test_the_last_of_ten_robots_touches_the_one_before() -> None:
+    robots = dict.fromkeys([f"robot {i}" for i in range(10)], NAO)
+    world = World(robots, PhysicsSettings())
+    places = world.data.qpos.reshape(10, -1)[:, :7]
+    places[:] = 0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0
+    for apart, touch in ((3.0, False), (0.12, True)):
+        places[:, 0] = 3.0 * np.arange(10)
+        places[9, 0] = places[8, 0] + apart
+        mujoco.mj_forward(world.model, world.data)
+        assert (world.data.ncon > 0) is touch
+        assert world.robots_touch() is touch
 
 
 def test_feet_have_the_friction_of_the_floor() -> None:

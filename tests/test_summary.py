@@ -9,8 +9,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_record import SETTINGS, THEORY, TIMES, Record, stepped
+from made_up_record import (
+    SETTINGS,
+    THEORY,
+    TIMES,
+    Record,
+    stepped,
+    still,
+)
 from stepaside.games import summary
+from stepaside.games.forecast import forecast
 from stepaside.games.outcome import Outcome
 from stepaside.games.settings import (
     DuelSettings,
@@ -125,13 +133,18 @@ def test_a_summary_says_what_the_duel_was() -> None:
     assert found["max_com_velocity_jump_m_s"] == 1e-12
     assert found["min_zmp_margin_m"] == 0.021
     assert found["real_time_factor"] == pytest.approx(10.0)
+    told = forecast(SETTINGS)
+    assert told is not None
     assert found["theory"] == {
-        "closest_approach_m": None,
+        "closest_approach_m": told.closest_m,
         "exists": True,
         "radius_m": pytest.approx(THEORY.radius_evader_m),
         "distance_m": pytest.approx(THEORY.distance_m),
         "relative_orientation_deg": pytest.approx(90.0),
         "pursuer_radius_m": pytest.approx(THEORY.radius_pursuer_m),
+        "expected": "circle",
+        "circle_since_s": told.circle_since_s,
+        "words": told.words,
     }
 
 
@@ -225,3 +238,15 @@ def test_a_person_is_compared_with_the_template_at_its_pace(
     nowhere = replace(settings, start=StartSettings())
     found = figures(Record(), settings=nowhere)
     assert found["theory"]["closest_approach_m"] is None
+
+
+def test_no_circle_stands_beside_a_game_that_was_to_end_before_it() -> None:
+    """Unless the players came to it all the same."""
+    away = replace(SETTINGS, start=StartSettings(1.0, 0.1, pi))
+    missed = Record(still(1.5), still(2.0))
+    theory = figures(missed, settings=away)["theory"]
+    assert theory["expected"] == "contact" and theory["exists"] is False
+    assert theory["distance_m"] is None and theory["radius_m"] is None
+    theory = figures(Record(), settings=away)["theory"]
+    assert theory["expected"] == "contact" and theory["exists"] is True
+    assert theory["distance_m"] == pytest.approx(THEORY.distance_m)

@@ -66,6 +66,8 @@ TABLES: dict[str, Callable[..., str]] = {
     "ranges": persons.ranges,
     "ros2-peers": peers.peers,
     "remedies": unicycles.remedies,
+    "side-changes": unicycles.side_changes,
+    "steps-beyond": unicycles.steps_beyond,
     "rms": walking.rms,
     "rooms": rooms.outcomes,
     "score": mutation.score,

@@ -15,7 +15,7 @@ def methods(result: Mapping[str, Any]) -> str:
     """Limits over bounds for each method, over directions and phases."""
     head = (
         "method",
-        "of the bound, median",
+        "of the pendulum's bound, median",
         "least",
         "most",
         "above it",

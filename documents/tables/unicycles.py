@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from .markdown import number, table
+from .markdown import NONE, number, table
 
 Result = Mapping[str, Any]
 
@@ -35,6 +35,64 @@ def remedies(result: Result) -> str:
             _percent(row["captured_share"]),
             number(row["mean_closest_distance_m"], 2),
             number(row["end_distance_m"], 2),
+        )
+        for row in result["rows"]
+    ]
+    return table(head, rows)
+
+
+def side_changes(result: Result) -> str:
+    """What games between unequal players end in, and how near they come."""
+    head = (
+        "law",
+        "pursuer",
+        "stable circle",
+        "starts",
+        "settle",
+        "change sides",
+        "part, or captured",
+        "other",
+        "nearer than 0.1 v/k",
+    )
+    rows = [
+        (
+            "(4)" if row["law"] == "proportional" else "(6)",
+            row["pursuer"],
+            "yes" if row["stable_circle"] else "no",
+            str(row["starts"]),
+            str(row["settled"]),
+            str(row["changes_sides"]),
+            str(row["escaped"] + row["captured"]),
+            str(row["other"]),
+            f"{row['near']} of {row['changes_sides']}"
+            if row["changes_sides"]
+            else NONE,
+        )
+        for row in result["rows"]
+    ]
+    return table(head, rows)
+
+
+def steps_beyond(result: Result) -> str:
+    """What the push bound leaves out, as ratios to it."""
+    head = (
+        "gait",
+        "walk",
+        "more steps, aside",
+        "along",
+        "most",
+        "landing earlier, median",
+        "most",
+    )
+    rows = [
+        (
+            row["gait"],
+            row["walk"],
+            f"+{_percent(row['more_steps_aside'])}",
+            f"+{_percent(row['more_steps_along'])}",
+            f"+{_percent(row['more_steps_most'])}",
+            f"x {row['earlier_median']:.2f}",
+            f"x {row['earlier_most']:.2f}",
         )
         for row in result["rows"]
     ]

@@ -12,6 +12,7 @@ from .effort import SIMULATED, tell_effort
 from .keeping import keep
 from .options import print_json, print_table
 from .outputs import attempt, writes_files
+from .terminal import echo
 
 if TYPE_CHECKING:
     from ..games.duel_run import DuelRun
@@ -49,6 +50,7 @@ def duel(
         check_output(output)
     seconds = settings.duration
     tell_effort(f"a duel of {seconds:g} s", seconds / SIMULATED)
+    _say_what_is_expected(settings)
     run, kept = keep(output, _play(settings))
     if figure is not None and run.outcome is not Outcome.INTERRUPTED:
         from ..report.duel_figure import draw_duel
@@ -62,6 +64,16 @@ def duel(
         kept.tell(figure_of(run))
     kept.check()
     kept.leave_if(run.outcome)
+
+
+def _say_what_is_expected(settings: "DuelSettings") -> None:
+    """Say before a duel of two robots if it is not to end on a circle."""
+    from ..games.forecast import Expected, forecast
+    from ..games.start import with_start
+
+    told = forecast(with_start(settings))
+    if told and told.expected in (Expected.CONTACT, Expected.NO_CIRCLE):
+        echo(f"stepaside: expected is {told.words}", err=True)
 
 
 def _play(settings: "DuelSettings") -> "DuelRun":
@@ -105,6 +117,7 @@ def _print(summary: dict[str, Any], unsettled: str = "not reached") -> None:
     rows = [
         ("outcome", f"{summary['outcome']}: {summary['message']}"),
         ("start distance", f"{start['distance_m']:.3f} m"),
+        ("expected", theory["words"] or "-"),
         (
             "pursuer radius",
             beside(

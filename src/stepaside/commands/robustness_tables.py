@@ -44,7 +44,7 @@ def _print_limits(
                 if (r["method"], r["direction"]) == (method, direction)
             )
             echo(f"{method:<12} {direction:<9} {cells}")
-    echo("\nmeasured over the bound: median, least, most; above it")
+    echo("\nmeasured over the pendulum's bound: median, least, most; above it")
     for method, found in by_method.items():
         echo(
             f"{method:<12} {found['median_of_bound']:.2f} "

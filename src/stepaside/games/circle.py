@@ -1,6 +1,6 @@
 """The circle of a duel: theory's, and when the players are on it."""
 
-from math import degrees
+from math import degrees, isfinite
 
 import numpy as np
 
@@ -16,10 +16,54 @@ ORIENTATION_BAND = 5.0  # of theory's angle, in [deg]
 def theory_of(settings: DuelSettings) -> Circle:
     """Circle that the unicycles of a duel end on (level 0).
 
-    Of strategies that are not of the paper nothing is known.
+    There is none where the game is another one; :func:`no_circle_because`
+    says why.
     """
-    if not settings.is_of_the_paper:
+    if _differs(settings) is not None:
         return Circle(exists=False)
+    circle = _circle_of(settings)
+    if not circle.distance_m < settings.strategy.release_distance:
+        return Circle(exists=False)
+    return circle
+
+
+def no_circle_because(settings: DuelSettings) -> str:
+    """Say why the unicycles of a duel end on no circle.
+
+    Args:
+        settings: Of a duel of which :func:`theory_of` knows no circle.
+    """
+    differs = _differs(settings)
+    if differs is not None:
+        return f"no circle: {differs}"
+    circle = _circle_of(settings)
+    if not circle.exists:
+        return "no circle: unicycles of these speeds and gains have none"
+    return (
+        f"no circle: evasion ends at {settings.strategy.release_distance:g} "
+        f"m, and the circle would be {circle.distance_m:.3f} m wide"
+    )
+
+
+def _differs(settings: DuelSettings) -> str | None:
+    """What makes a game another one than the paper's, or None."""
+    person = settings.person
+    if settings.room.plan is not None:
+        return "the paper has no rooms"
+    if not settings.is_of_the_paper:
+        return "the strategies are not the paper's"
+    if settings.strategy.trigger == "time":
+        return "evasion begins and ends by the time to contact"
+    if settings.pursuer == "person":
+        if person.path != "steer" or isfinite(person.halt_after):
+            return "the person does not keep steering at the evader"
+        if person.backward:
+            return "the person walks backward"
+    return None
+
+
+def _circle_of(settings: DuelSettings) -> Circle:
+    """Circle of two unicycles that never cease to play."""
     strategy = settings.strategy
     gait = settings.robot_of(EVADER).gait
     speeds = gait.speed, gait.speed

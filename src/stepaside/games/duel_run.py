@@ -62,8 +62,9 @@ class DuelRun(Run):
     @property
     def theory(self) -> tuple[float, float, float] | None:
         """Radius [m], distance [m] and angle [deg] of theory's circle."""
-        circle = theory_of(self.settings)
-        if not circle.exists:
+        circle, told = theory_of(self.settings), self.summary
+        off = told.theory.expected == "contact" and told.converged_at_s is None
+        if not circle.exists or off:
             return None
         return (
             circle.radius_evader_m,

@@ -21,14 +21,18 @@ class TheoryFigures:
     """What theory says of the same game.
 
     Attributes:
-        closest_approach_m: Of a person to the evader's template, in [m];
-            None if two robots play.
-        exists: Whether there is a circle.
+        closest_approach_m: Of a person, or of the pursuer's template, to
+            the evader's template, in [m]; None where theory knows none.
+        exists: Whether there is a circle that the players can come to.
         radius_m: Radius of the evader's circle, in [m].
         distance_m: Between the players on it, in [m].
         relative_orientation_deg: Between their headings, in [deg].
         pursuer_radius_m: Radius of the pursuer's circle, in [m]; the same
             for equal players.
+        expected: What the template says that two robots come to: "circle",
+            "later" than the duel lasts, "contact" or "no circle".
+        circle_since_s: Since when the template is on its circle, in [s].
+        words: The same in words; of other games, why there is no circle.
     """
 
     closest_approach_m: float | None
@@ -37,6 +41,9 @@ class TheoryFigures:
     distance_m: float | None
     relative_orientation_deg: float | None
     pursuer_radius_m: float | None = None
+    expected: str | None = None
+    circle_since_s: float | None = None
+    words: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,16 +1,40 @@
-"""A person who comes, and the template of an evader that steps aside."""
+"""Somebody who comes, and the template of an evader that steps aside."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from math import atan2, hypot
+
+import numpy as np
 
 from ..planning import GaitSettings
 from ..planning.path import UnicycleTrajectory
-from ..poses import Pose, wrap_angle
+from ..poses import Array, Pose, wrap_angle
 from ..strategies.knowledge import Intent, Knowledge, Limits
 from ..strategies.strategy import Strategy
 from ..world.person_motion import Motion, Place
 
 STEP = 0.01  # of the integration, in [s]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TemplateGame:
+    """A game of templates that was played.
+
+    Attributes:
+        times: Of the samples, in [s]. Shape (n,).
+        pursuer: Its places and headings, in [m] and [rad]. Shape (n, 3).
+        evader: Those of the evader.
+    """
+
+    times: Array
+    pursuer: Array
+    evader: Array
+
+    @property
+    def closest_m(self) -> float:
+        """Closest approach, in [m]."""
+        apart = self.evader[:, :2] - self.pursuer[:, :2]
+        return float(np.hypot(apart[:, 0], apart[:, 1]).min())
 
 
 def template_meeting(
@@ -23,34 +47,55 @@ def template_meeting(
     duration: float,
     ready: float = 0.0,
 ) -> float:
-    """Closest approach of a person to the template of an evader.
+    """Closest approach of a person to the template of an evader, in [m].
+
+    The arguments are those of :func:`play_template`.
+    """
+    played = play_template(
+        *(motion, start, evader, strategy, gait),
+        duration=duration,
+        ready=ready,
+    )
+    return played.closest_m
+
+
+def play_template(
+    motion: Callable[[Pose, Place], Motion],
+    start: Pose,
+    evader: Pose,
+    strategy: Strategy,
+    gait: GaitSettings,
+    *,
+    duration: float,
+    ready: float = 0.0,
+    step: float = STEP,
+) -> TemplateGame:
+    """Play the template of an evader against a motion.
 
     The evader is a unicycle in gait time that plays its strategy and knows
-    where the person is and walks to. It decides step by step; who stands
-    decides at any time, and moves when its first double support is over.
+    where the other is and walks to. It decides step by step; while it stands
+    it decides at any time, and moves when its first double support is over.
 
     Args:
-        motion: Begins a walk of the person.
+        motion: Begins a walk of the other.
         start: Where it begins.
         evader: Where the evader stands and heads.
         strategy: Of the evader.
         gait: How it walks.
         duration: How long to look, in [s].
         ready: Before this time it does not walk, in [s].
-
-    Returns:
-        Least distance, in [m].
+        step: Of the integration, in [s].
     """
     limits = Limits(gait.speed, gait.gain, gait.stride, gait.step_duration)
     memory = strategy.begin()
     pose = begun = evader
     walk = motion(start, (evader.x, evader.y))
-    least = _apart(pose, walk.pose)
+    rows = [(*walk.pose, *pose)]
     intent: Intent | None = None  # None: it stands
     drives_from, decides_at = 0.0, ready
     velocity = (0.0, 0.0)
-    for i in range(round(duration / STEP)):
-        now = i * STEP
+    for i in range(round(duration / step)):
+        now = i * step
         if now >= decides_at - 1e-9:
             moving = intent is not None
             known = _known(now, pose, walk.pose, velocity, limits, moving)
@@ -63,17 +108,19 @@ def template_meeting(
                 drives_from = now + late
                 decides_at = drives_from + gait.step_duration / intent.pace
         before = walk.pose
-        walk.advance(now + STEP, STEP, (pose.x, pose.y))
+        walk.advance(now + step, step, (pose.x, pose.y))
         velocity = (
-            (walk.pose.x - before.x) / STEP,
-            (walk.pose.y - before.y) / STEP,
+            (walk.pose.x - before.x) / step,
+            (walk.pose.y - before.y) / step,
         )
-        if intent is not None and now + STEP > drives_from:
+        if intent is not None and now + step > drives_from:
             pose = _driven(
-                begun, intent, gait, strategy, now + STEP - drives_from
+                begun, intent, gait, strategy, now + step - drives_from
             )
-        least = min(least, _apart(pose, walk.pose))
-    return least
+        rows.append((*walk.pose, *pose))
+    poses = np.array(rows)
+    times: Array = step * np.arange(len(rows), dtype=np.float64)
+    return TemplateGame(times, poses[:, :3], poses[:, 3:])
 
 
 def _apart(one: Pose, other: Pose) -> float:

@@ -6,12 +6,14 @@ from math import degrees, isfinite, pi
 import numpy as np
 
 from ..poses import Array, Pose
+from ..unicycle.circling import Circle
 from ..unicycle.measure import fit_circle
 from ..world.person_motion import Motion, template_approach
 from .circle import (
     angle_between,
     converged_at,
     distance_between,
+    no_circle_because,
     pace_of,
     theory_of,
 )
@@ -22,6 +24,7 @@ from .figures import (
     StartFigures,
     TheoryFigures,
 )
+from .forecast import Expected, forecast
 from .match import Match
 from .meeting import template_meeting
 from .outcome import Outcome
@@ -54,6 +57,7 @@ def summarise(
     """
     pursuer, evader = (tracks[name].unicycle for name in PLAYERS)
     theory = theory_of(settings)
+    converged = converged_at(times, pursuer, evader, settings, theory)
     tail = times >= times[-1] * 2.0 / 3.0
     last = pursuer[tail], evader[tail]
     start, now = settings.start, match.world.time
@@ -71,7 +75,7 @@ def summarise(
         distance_m=float(distance_between(*last).mean()),
         relative_orientation_deg=degrees(float(angle_between(*last).mean())),
         min_distance_m=match.min_distance,
-        converged_at_s=converged_at(times, pursuer, evader, settings, theory),
+        converged_at_s=converged,
         replans=sum(len(p.times) for p in planning.values()),
         max_com_velocity_jump_m_s=max(
             p.velocity_jump for p in planning.values()
@@ -84,14 +88,7 @@ def summarise(
             ),
             default=None,
         ),
-        theory=TheoryFigures(
-            _closest_approach(settings),
-            theory.exists,
-            _number(theory.radius_evader_m),
-            _number(theory.distance_m),
-            _number(degrees(theory.headings_apart_rad)),
-            _number(theory.radius_pursuer_m),
-        ),
+        theory=_theory(settings, converged),
         plan_time_us=_plan_times(planning),
         real_time_factor=now / max(wall_time, 1e-9),
         pursuer=_player("pursuer", tracks, tail, seen),
@@ -99,6 +96,26 @@ def summarise(
         sight=None if seen is None else seen.all,
         touched=list(match.touched),
         notes=list(settings.notes),
+    )
+
+
+def _theory(settings: DuelSettings, converged: float | None) -> TheoryFigures:
+    """What theory says; no circle where contact was to come before it."""
+    circle, told = theory_of(settings), forecast(settings)
+    words = None if circle.exists else no_circle_because(settings)
+    if told is not None and told.expected is Expected.CONTACT:
+        if converged is None:
+            circle = Circle(exists=False)
+    return TheoryFigures(
+        _closest_approach(settings) if told is None else told.closest_m,
+        circle.exists,
+        _number(circle.radius_evader_m),
+        _number(circle.distance_m),
+        _number(degrees(circle.headings_apart_rad)),
+        _number(circle.radius_pursuer_m),
+        None if told is None else told.expected.value,
+        None if told is None else told.circle_since_s,
+        words if told is None else told.words,
     )
 
 

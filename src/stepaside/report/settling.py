@@ -2,6 +2,7 @@
 
 from ..games.circle import theory_of
 from ..games.duel_run import DuelRun
+from ..games.outcome import Outcome
 from ..games.settings import DuelSettings
 
 
@@ -33,14 +34,23 @@ def settling_words(run: DuelRun) -> str:
     Args:
         run: Which was not on the circle when it ended.
     """
+    summary = run.summary
+    theory = summary.theory
+    if theory.expected in ("contact", "no circle"):
+        return "not expected"
     settling = settling_time(run.settings)
     if settling is None:
-        return "not reached: theory has none that holds"
-    since = run.summary.triggered_at_s
+        return "not expected: theory has none that holds"
+    since = summary.triggered_at_s
     if since is None:
         return "not reached: the evader was never triggered"
-    left = float(run.times[-1]) - since
+    end = float(run.times[-1])
+    if theory.circle_since_s is not None:
+        when = f"the template is on it from {theory.circle_since_s:.0f} s on"
+        if run.outcome is not Outcome.COMPLETED:
+            return f"not reached by {end:.0f} s: {when}"
+        return f"not reached, unlike theory: {when}"
     return (
-        f"not reached: {left:.0f} s of evasion; theory's slowest mode takes "
-        f"{settling:.0f} s to shrink by e"
+        f"not reached: {end - since:.0f} s of evasion; theory's slowest mode "
+        f"takes {settling:.0f} s to shrink by e"
     )

@@ -6,6 +6,7 @@ from concurrent.futures import Executor, as_completed
 from dataclasses import asdict, replace
 from functools import cache
 from hashlib import sha256
+from math import isfinite
 from time import perf_counter
 from typing import Any
 
@@ -133,9 +134,10 @@ def _evasion(run: DuelRun) -> Record:
         Pose(*run.pursuer.unicycle[first].tolist()),
         Pose(*run.evader.unicycle[first].tolist()),
     )
-    if not run.settings.is_of_the_paper:
-        return found
     gait, strategy = run.settings.gait, run.settings.strategy
+    ends = strategy.trigger == "time" or isfinite(strategy.release_distance)
+    if ends or not run.settings.is_of_the_paper:
+        return found  # the certificate is of an evader that does not cease
     try:
         game = make_game(
             *(gait.speed, gait.speed, gait.gain, gait.gain),

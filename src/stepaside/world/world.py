@@ -1,6 +1,7 @@
 """A floor with robots on it, in MuJoCo."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import combinations
 from math import cos, sin
 
 import mujoco
@@ -17,6 +18,7 @@ from .sensor_errors import perturb_masses
 from .settings import PhysicsSettings
 
 FLOOR_BIT = 1
+CONTACT_BITS = 0x7FFFFFFF  # of MuJoCo's contact masks, without the sign
 COLOURS = {
     "pursuer": (0.80, 0.16, 0.14, 1.0),
     "evader": (0.10, 0.36, 0.75, 1.0),
@@ -51,14 +53,15 @@ def build_model(
     spec.stat.extent = 1.0
     tilt_gravity(spec, physics)
     add_floor(spec, physics, named_generator(seed, "floor"), FLOOR_BIT)
-    for index, (name, description) in enumerate(robots.items(), start=1):
+    for (name, description), own in zip(
+        robots.items(), _contact_types(), strict=False
+    ):
         part = description.spec()
-        own = FLOOR_BIT << index
         for geom in part.geoms:
             if geom.contype or geom.conaffinity:
                 geom.contype = own
-                # Floor and the robots after this one, not itself.
-                geom.conaffinity = FLOOR_BIT | (~(own | (own - 1)) & 0xFF)
+                # Floor and all other robots, not itself.
+                geom.conaffinity = CONTACT_BITS & ~own
                 geom.friction[0] = physics.friction
         if body is not None and body.mass_error + body.com_error > 0.0:
             generator = named_generator(seed, f"masses/{name}")
@@ -78,6 +81,17 @@ def build_model(
     if furnish is not None:
         furnish(spec)
     return spec.compile()
+
+
+def _contact_types() -> Iterator[int]:
+    """Yield contact types of robots, each with a bit that the others lack.
+
+    They are halves of the bits, so no type holds another: a type meets the
+    complement of every other, but not its own. 30 bits have 1.6e8 halves.
+    """
+    bits = range(1, CONTACT_BITS.bit_length())  # the first is the floor's
+    for half in combinations(bits, len(bits) // 2):
+        yield sum(1 << bit for bit in half)
 
 
 def _dye(

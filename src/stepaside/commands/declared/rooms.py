@@ -80,8 +80,9 @@ def _unseen() -> Collection[str]:
 
 MAP = Declaration(
     "--map",
-    "What they know of it: all, what their depth cameras have seen (with "
-    "--sensing cameras, unless that is given), or nothing.",
+    "What they know of it: all of it and their own true pose in it, with "
+    "cameras as well (given); what their depth cameras have seen, by odometry "
+    "(seen; with --sensing cameras, unless that is given); or nothing.",
     "map.source",
     registry=_maps,
 )

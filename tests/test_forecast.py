@@ -1,0 +1,229 @@
+"""What the template says of a duel, against an integrator of its own."""
+
+import json
+from dataclasses import replace
+from math import atan2, cos, hypot, inf, pi, radians, sin
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner, Result
+
+from stepaside.cli import main
+from stepaside.games.circle import no_circle_because, pace_of, theory_of
+from stepaside.games.forecast import Expected, Forecast, forecast
+from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.start import with_start
+from stepaside.poses import wrap_angle
+from stepaside.rooms import Room
+from stepaside.strategies import Evasion
+from stepaside.world.camera_settings import RoomSettings
+from stepaside.world.person_settings import PersonSettings
+
+START = StartSettings(1.2, 0.4, -0.3)
+BASE = DuelSettings(duration=80.0, start=START)
+
+
+def told(settings: DuelSettings) -> Forecast:
+    """Forecast of a duel of which the template says something."""
+    found = forecast(with_start(settings))
+    assert found is not None
+    return found
+
+
+def playing(**strategy: Any) -> DuelSettings:
+    return replace(BASE, strategy=Evasion(**strategy))
+
+
+def turning(gain: float) -> DuelSettings:
+    return replace(BASE, gait=replace(BASE.gait, gain=gain))
+
+
+def closest(settings: DuelSettings, step: float = 0.005) -> float:
+    """Closest approach of the unicycles, by the laws (1)-(4) themselves."""
+    gait, start = settings.gait, settings.start
+    assert start.distance is not None
+    assert start.pursuer_offset is not None
+    assert start.evader_offset is not None
+    v, k = (pace_of(gait) * one for one in (gait.speed, gait.gain))
+    x, y, p = 0.0, 0.0, start.pursuer_offset
+    u, w, e = start.distance, 0.0, pi + start.evader_offset
+    side, least = 0, start.distance
+    for _ in range(round(settings.duration / step)):
+        sight = atan2(w - y, u - x)
+        away = hypot(u - x, w - y)
+        least = min(least, away)
+        psi = wrap_angle(sight + pi - e)
+        p += step * k * wrap_angle(sight - p)
+        x, y = x + step * v * cos(p), y + step * v * sin(p)
+        if side == 0 and away < settings.strategy.safety_radius:
+            side = -1 if psi > 0.0 else 1
+        if side:
+            error = wrap_angle(psi + side * settings.strategy.angle)
+            e += step * k * error
+            u, w = u - step * v * cos(e), w - step * v * sin(e)
+    return least
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_plain_duel_is_expected_on_the_circle(seed: int) -> None:
+    found = told(DuelSettings(seed=seed, duration=90.0))
+    assert found.expected is Expected.CIRCLE
+    assert found.circle_since_s is not None
+    assert 0.0 < found.circle_since_s < 60.0
+    assert found.closest_m > 0.4
+    soon = told(DuelSettings(seed=seed, duration=8.0))
+    assert soon.expected is Expected.LATER and soon.circle_since_s is None
+    assert soon.words == "the circle, after 8 s"
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        *(turning(gain) for gain in (0.15, 0.2, 0.6, 1.2)),
+        *(playing(angle=radians(angle)) for angle in (60.0, 110.0, 135.0)),
+        *(
+            replace(BASE, start=replace(START, evader_offset=offset))
+            for offset in (1.5, 2.4, 3.0)
+        ),
+    ],
+)
+def test_the_closest_approach_is_that_of_the_unicycles(
+    settings: DuelSettings,
+) -> None:
+    """But for the first double support, and turning held over a step."""
+    assert told(settings).closest_m == pytest.approx(
+        closest(settings), abs=0.08
+    )
+
+
+def test_a_mirrored_duel_is_told_alike() -> None:
+    for offsets in ((0.9, 0.5), (-0.3, 2.8)):
+        one, other = (
+            told(replace(BASE, start=StartSettings(0.9, s * a, s * b)))
+            for s, (a, b) in ((1.0, offsets), (-1.0, offsets))
+        )
+        assert one.closest_m == pytest.approx(other.closest_m, abs=1e-9)
+        assert one.expected is other.expected
+
+
+@pytest.mark.parametrize("gain", [0.6, 0.8, 1.2])
+def test_a_circle_on_which_two_bodies_do_not_fit_is_contact(
+    gain: float,
+) -> None:
+    settings = turning(gain)
+    circle = theory_of(settings)
+    assert circle.distance_m < settings.start.least
+    found = told(settings)
+    assert found.expected is Expected.CONTACT
+    assert found.words == (
+        f"contact likely: the template comes to {found.closest_m:.2f} m, "
+        "bodies are clear of each other from 0.40 m on"
+    )
+
+
+@pytest.mark.parametrize("offset", [pi, -3.0, 2.8])
+def test_an_evader_that_looks_away_is_expected_to_be_touched(
+    offset: float,
+) -> None:
+    settings = replace(BASE, start=replace(START, evader_offset=offset))
+    assert told(settings).expected is Expected.CONTACT
+
+
+@pytest.mark.parametrize("release", [0.81, 0.85, 0.899])
+def test_an_evader_that_ends_inside_the_circle_has_none(
+    release: float,
+) -> None:
+    settings = playing(release_distance=release)
+    assert theory_of(playing(release_distance=1.5)).exists
+    assert not theory_of(settings).exists
+    found = told(settings)
+    assert found.expected is Expected.NO_CIRCLE
+    assert found.words == no_circle_because(settings)
+    assert f"evasion ends at {release:g} m" in found.words
+
+
+def test_an_evader_by_time_has_no_circle() -> None:
+    settings = playing(trigger="time")
+    assert not theory_of(settings).exists
+    assert told(settings).expected is Expected.NO_CIRCLE
+    assert "time to contact" in no_circle_because(settings)
+
+
+@pytest.mark.parametrize(
+    ("person", "exists"),
+    [
+        (PersonSettings(), True),
+        (PersonSettings(halt_after=3.0), False),
+        (PersonSettings("straight"), False),
+        (PersonSettings(backward=True), False),
+        (PersonSettings(halt_after=inf), True),
+    ],
+)
+def test_only_a_person_who_keeps_steering_has_a_circle(
+    person: PersonSettings, exists: bool
+) -> None:
+    settings = replace(BASE, pursuer="person", person=person)
+    assert theory_of(settings).exists is exists
+    assert forecast(settings) is None
+    if not exists:
+        assert "the person" in no_circle_because(settings)
+
+
+def test_nothing_is_told_of_other_games() -> None:
+    room = RoomSettings(plan=Room(3.0, 3.0))
+    for settings in (
+        replace(BASE, start=StartSettings(), room=room),
+        replace(BASE, evader_strategy="walk"),
+    ):
+        assert forecast(settings) is None
+        assert no_circle_because(settings).startswith("no circle: the ")
+
+
+def duel(folder: Path, *options: str) -> Result:
+    words = ["duel", "--seed", "7", "--duration", "1", *options]
+    result = CliRunner().invoke(
+        main, [*words, "--output", str(folder / "run")]
+    )
+    assert result.exit_code == 0, result.output
+    return result
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        (["--release-distance", "0.85"], "no circle"),
+        (["--trigger", "time"], "no circle"),
+        ([], "later"),
+    ],
+)
+def test_a_summary_says_what_was_expected(
+    tmp_path: Path, options: list[str], expected: str
+) -> None:
+    result = duel(tmp_path, *options)
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    theory = summary["theory"]
+    rows = {
+        line[2:20].strip(): line[21:] for line in result.stdout.split("\n")
+    }
+    assert theory["expected"] == expected
+    assert rows["expected"] == theory["words"]
+    assert "closest approach" in rows
+    none = theory["expected"] == "no circle"
+    assert theory["exists"] is not none
+    assert ("theory" in rows["distance"]) is not none
+    assert (rows["on the circle"] == "not expected") is none
+    assert ("expected is" in result.stderr) is none
+
+
+def test_contact_is_said_beforehand(tmp_path: Path) -> None:
+    options = ("--gain", "1.2", "--distance", "0.5", "--json")
+    words = ["duel", "--seed", "7", "--duration", "9", *options]
+    result = CliRunner().invoke(main, words)
+    summary = json.loads(result.stdout)
+    theory = summary["theory"]
+    assert theory["expected"] == "contact" and theory["exists"] is False
+    assert theory["distance_m"] is None
+    assert theory["closest_approach_m"] < 0.4
+    assert summary["min_distance_m"] < 0.6
+    assert result.stderr.strip() == f"stepaside: expected is {theory['words']}"
