@@ -98,6 +98,7 @@ def summarise(
         evader=_player("evader", tracks, tail, seen),
         sight=None if seen is None else seen.all,
         touched=list(match.touched),
+        captured_at_s=match.captured_at,
     )
 
 

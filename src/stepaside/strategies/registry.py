@@ -5,6 +5,7 @@ import sys
 from collections.abc import Callable, Mapping
 from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_file_location
+from math import inf
 from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
@@ -12,6 +13,7 @@ from typing import Any
 from ..errors import ConfigurationError
 from .deflected import Deflected
 from .evasion import Evasion
+from .herding import HerdingPursuit
 from .lead import LeadPursuit
 from .look_ahead import LookAhead
 from .optimal import Optimal
@@ -27,6 +29,8 @@ STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "look-ahead": lambda evasion: LookAhead(),
     "optimal": lambda evasion: Optimal(),
     "pursuit": lambda evasion: Pursuit(),
+    "sharp": lambda evasion: Pursuit(gain_ratio=inf),
+    "herding": lambda evasion: HerdingPursuit(),
     "lead": lambda evasion: LeadPursuit(),
     "optimal-pursuit": lambda evasion: OptimalPursuit(),
     "stand": lambda evasion: Stand(),
@@ -34,6 +38,8 @@ STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
 }
 """Makes a strategy of each name, given how an evader of the paper evades."""
 
+_WITH_GAIN = re.compile(r"pursuit-x(?P<ratio>\d+(?:\.\d*)?)", re.ASCII)
+"""The pursuer of the paper with another gain than its gait's."""
 _IN_FILE = re.compile(r"(?P<file>.+\.py):(?P<name>[^:]*)", re.DOTALL)
 
 
@@ -41,17 +47,25 @@ def check_strategy_name(name: str, what: str = "strategy") -> None:
     """Refuse what names no strategy, without opening a file.
 
     Args:
-        name: One of :data:`STRATEGIES`, or FILE.py:NAME.
+        name: One of :data:`STRATEGIES`, pursuit-xRATIO (the pursuer of the
+            paper with RATIO times the gain of its gait), or FILE.py:NAME.
         what: What it is the name of, for the message.
 
     Raises:
         ConfigurationError: If it is neither.
     """
+    if name in STRATEGIES:
+        return
+    if with_gain := _WITH_GAIN.fullmatch(name):
+        Pursuit.ranges["gain_ratio"].check(
+            float(with_gain["ratio"]), f"RATIO of {what} pursuit-xRATIO"
+        )
+        return
     found = _IN_FILE.fullmatch(name)
-    if name not in STRATEGIES and not (found and found["name"].isidentifier()):
+    if not (found and found["name"].isidentifier()):
         raise ConfigurationError(
-            f"{what} must be one of {', '.join(STRATEGIES)} or FILE.py:NAME, "
-            f"got {name!r}"
+            f"{what} must be one of {', '.join(STRATEGIES)}, pursuit-xRATIO "
+            f"or FILE.py:NAME, got {name!r}"
         )
 
 
@@ -59,9 +73,9 @@ def load_strategy(name: str, evasion: Evasion | None = None) -> Strategy:
     """Find a strategy.
 
     Args:
-        name: One of :data:`STRATEGIES`, or FILE.py:NAME; there NAME is a
-            strategy, or a class or function that makes one when it is
-            called with nothing. The file is run.
+        name: One of :data:`STRATEGIES`, pursuit-xRATIO, or FILE.py:NAME;
+            there NAME is a strategy, or a class or function that makes one
+            when it is called with nothing. The file is run.
         evasion: How an evader of the paper evades; by default as there.
 
     Returns:
@@ -71,6 +85,8 @@ def load_strategy(name: str, evasion: Evasion | None = None) -> Strategy:
         ConfigurationError: If there is none, or it is no strategy.
     """
     check_strategy_name(name)
+    if with_gain := _WITH_GAIN.fullmatch(name):
+        return Pursuit(gain_ratio=float(with_gain["ratio"]))
     found = _IN_FILE.fullmatch(name)
     if found is None:
         return STRATEGIES[name](evasion or Evasion())
