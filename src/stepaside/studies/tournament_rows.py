@@ -59,7 +59,7 @@ def circle_distance(game: StepGame, pursuer: str) -> float | None:
         return None
     speeds, gains = 2 * (game.speed,), (ratio * game.gain, game.gain)
     circle = find_circle(*speeds, *gains, 0.5 * pi, "proportional")
-    return circle.distance_m if circle.exists else None
+    return float(circle.distance_m) if circle.exists else None
 
 
 def _row(records: Sequence[Record]) -> Record:
