@@ -110,7 +110,7 @@ def _share_of_contact(records: Sequence[Record]) -> float | None:
     """Share of games in which bodies touched; None at levels without."""
     if any("contact" not in r for r in records):
         return None
-    return sum(r["contact"] for r in records) / len(records)
+    return [r["contact"] for r in records].count(True) / len(records)
 
 
 def _half(values: Any) -> float:
