@@ -102,6 +102,7 @@ def main() -> None:
     found: dict[str, Any] = {
         "pursuit": {
             "seconds": pursuit.seconds,
+            "horizon": pursuit.horizon,
             "falling_mean": pursuit.falling_mean,
             "falling_worst": pursuit.falling_worst,
             "refinement": refinement(rows),
@@ -127,6 +128,7 @@ def main() -> None:
         )
     found["cars"] = {
         "seconds": cars.seconds,
+        "horizon": cars.horizon,
         "falling_mean": cars.falling_mean,
         "falling_worst": cars.falling_worst,
         "refinement": refinement(rows),

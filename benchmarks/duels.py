@@ -8,10 +8,14 @@ more seeds can be added to those that are there::
     python benchmarks/duels.py cameras --seeds 0:100
 
 ``--verify N`` first takes over what an older version of the code played, if
-N duels that are played again come out the same, to the bit.
+N duels that are played again come out the same, to the bit. ``--summarise``
+plays nothing: it makes the summary again from the records that are there.
 """
 
+from collections.abc import Sequence
 from hashlib import sha256
+from pathlib import Path
+from typing import Any
 
 from asking import ask, seeds_of
 from tqdm import tqdm
@@ -27,7 +31,7 @@ from stepaside.studies.duels import (
     verify_duels,
 )
 from stepaside.studies.records import RecordFile
-from stepaside.studies.results import header, write_result
+from stepaside.studies.results import header, read_result, write_result
 from stepaside.workers import worker_pool
 from stepaside.world.body_settings import BODIES
 
@@ -41,16 +45,44 @@ KINDS = {
 }
 
 
+def digest_of(records: Sequence[dict[str, Any]]) -> str:
+    """Fingerprint of the trajectories of some duels."""
+    digests = " ".join(record["digest"] for record in records)
+    return sha256(digests.encode()).hexdigest()[:12]
+
+
+def summarise(output: Path, settings: DuelSettings) -> None:
+    """Write the summary of a result again, from the records beside it.
+
+    Args:
+        output: The result, which says which records it is made from.
+        settings: Of its duels.
+    """
+    result = read_result(output)
+    file = RecordFile(output.with_suffix(".jsonl"))
+    found, kind = file.read(), result["records"]["settings"]
+    seeds = range(*result["settings"]["seeds"])
+    records = [found[f"{seed}/{kind}"] for seed in seeds]
+    if digest_of(records) != result["records"]["digest"]:
+        raise SystemExit(f"{file.path} holds other duels than {output}")
+    summary = summarise_duels(settings, records)
+    write_result(output, result | {"summary": summary})
+
+
 def main() -> None:
     """Play, and write what came out."""
     parser = ask(__doc__, lambda given: f"duels-{given.kind}.json")
     parser.add_argument("kind", choices=list(KINDS))
     parser.add_argument("--seeds", type=seeds_of, default=range(0, 40))
     parser.add_argument("--verify", type=int)
+    parser.add_argument("--summarise", action="store_true")
     parser.add_argument("--workers", type=int)
     asked = parser.parse_args()
     output = asked.output
     settings, seeds = KINDS[asked.kind], asked.seeds
+    if asked.summarise:
+        summarise(output, settings)
+        return
     file = RecordFile(output.with_suffix(".jsonl"))
     with (
         worker_pool(asked.workers) as executor,
@@ -66,7 +98,6 @@ def main() -> None:
 
         found = run_duels(settings, seeds, file, executor, report)
     records = list(found.values())
-    digests = " ".join(record["digest"] for record in records)
     entries = spelled_settings(settings) | {"seeds": [seeds.start, seeds.stop]}
     write_result(
         output,
@@ -75,7 +106,7 @@ def main() -> None:
         records={
             "file": file.path.name,
             "settings": settings_hash(settings),
-            "digest": sha256(digests.encode()).hexdigest()[:12],
+            "digest": digest_of(records),
         },
         summary=summarise_duels(settings, records),
     )

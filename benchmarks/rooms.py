@@ -3,6 +3,8 @@
 Rows of other strategies and maps that stand in the output already stay::
 
     python benchmarks/rooms.py --strategy evasion --map given --seeds 0:10
+
+``--summarise`` plays nothing: it makes the summary again from the rows.
 """
 
 import json
@@ -12,11 +14,12 @@ from typing import NamedTuple
 from asking import ask, machine, seeds_of
 from gathering import Row, finished, gather, spread
 
+from stepaside.constants import CAPTURE_DISTANCE
 from stepaside.control.clearance.settings import MAPS, MapSettings
 from stepaside.games import DuelSettings, run_duel
 from stepaside.rooms import RoomRecipe, make_room
-from stepaside.studies.physics_game import clearance, outcome_of
-from stepaside.studies.results import header, write_result
+from stepaside.studies.physics_game import clearance
+from stepaside.studies.results import header, read_result, write_result
 from stepaside.world.camera_settings import RoomSettings
 
 RECIPE = RoomRecipe(discs=3)
@@ -51,7 +54,6 @@ def play(played: Played) -> Row:
         "seed": played.seed,
         "outcome": run.outcome.value,
         "touched": summary.get("touched", []),
-        "caught": outcome_of(run) == "caught",
         "survived_s": run.duration,
         "closest_m": summary["min_distance_m"],
         "plan_time_median_us": summary["plan_time_us"]["median"],
@@ -64,14 +66,18 @@ def summary_of(rows: list[Row]) -> Row:
     """What the duels of one strategy with one map came to."""
     outcomes = [row["outcome"] for row in rows]
     contacts = [row for row in rows if row["outcome"] == "contact"]
+    players = sum(set(row["touched"]) == set(PLAYERS) for row in contacts)
     both = [row[f"{name}_clearance_m"] for row in rows for name in PLAYERS]
     return {
         "strategy": rows[0]["strategy"],
         "map": rows[0]["map"],
+        "pursuer": DuelSettings().pursuer_strategy,
         "duels": len(rows),
         "untouched": outcomes.count("completed"),
-        "caught": sum(row["caught"] for row in contacts),
-        "touched_room": sum(not row["caught"] for row in contacts),
+        "captured": sum(row["closest_m"] <= CAPTURE_DISTANCE for row in rows),
+        "capture_distance_m": CAPTURE_DISTANCE,
+        "contact": players,
+        "touched_room": len(contacts) - players,
         "fell": outcomes.count("fall"),
         "other": len(rows)
         - sum(outcomes.count(o) for o in ("completed", "contact", "fall")),
@@ -92,6 +98,14 @@ def others(output: Path, strategy: str, source: str) -> list[Row]:
     ]
 
 
+def summaries(rows: list[Row]) -> list[Row]:
+    """Summary of the duels of each strategy with each map."""
+    kinds: dict[tuple[str, str], list[Row]] = {}
+    for row in rows:
+        kinds.setdefault((row["strategy"], row["map"]), []).append(row)
+    return [summary_of(kind) for kind in kinds.values()]
+
+
 def main() -> None:
     """Play and write."""
     asked = ask(__doc__, "rooms.json")
@@ -100,7 +114,13 @@ def main() -> None:
     asked.add_argument("--seeds", type=seeds_of, default="0:10")
     asked.add_argument("--duration", type=float, default=120.0)
     asked.add_argument("--workers", type=int)
+    asked.add_argument("--summarise", action="store_true")
     arguments = asked.parse_args()
+    output = arguments.output
+    if arguments.summarise:
+        result = read_result(output)
+        write_result(output, result | {"summary": summaries(result["rows"])})
+        return
     settings = {
         "size_m": [RECIPE.width, RECIPE.depth],
         "discs": RECIPE.discs,
@@ -114,17 +134,13 @@ def main() -> None:
         )
         for seed in arguments.seeds
     }
-    output = arguments.output
     rows = others(output, arguments.strategy, arguments.map)
     rows += gather(output, head, jobs, play, arguments.workers).values()
-    kinds: dict[tuple[str, str], list[Row]] = {}
-    for row in rows:
-        kinds.setdefault((row["strategy"], row["map"]), []).append(row)
     write_result(
         output,
         head,
         machine=machine(),
-        summary=[summary_of(kind) for kind in kinds.values()],
+        summary=summaries(rows),
         rows=rows,
     )
     finished(output)

@@ -143,6 +143,14 @@ def test_command_writes_table_figure_and_answer(tmp_path: Path) -> None:
     assert found["analytic"]["value_error_median_m"] < 0.02
     assert len(found["analytic"]["barrier"]) == 12
     assert 0.0 < found["grid_error_m"] < 0.1
+    (row,) = found["refinement"]
+    assert found["grid_error_m"] == row["mean_difference_m"]
+    assert found["grid_error_95_m"] == row["most_difference_m"]
+    assert found["grid_error_worst_m"] == row["worst_difference_m"]
+    assert found["grid_error_m"] < found["grid_error_95_m"]
+    assert found["grid_error_95_m"] < found["grid_error_worst_m"]
+    assert 0.05 < found["grid_error_above_mean_share"] < 0.5
+    assert found["horizon_s"] == pytest.approx(2.0 * pi)
     assert found["refinement"][0]["cells"] == 12
     assert found["played"][0]["over_bound"] == pytest.approx(1.0, abs=0.03)
     assert load_bound(table).game == against_any(1.0, 1.0, 1.0)

@@ -45,7 +45,7 @@ def game(
 
 
 TOUCHED = game(outcome=StepOutcome.TOUCHED, clear=0.19)
-CAUGHT = game(0.34, StepOutcome.CAUGHT)
+CAPTURED = game(0.34, StepOutcome.CAPTURED)
 
 
 def played() -> Played:
@@ -84,7 +84,7 @@ EVADING: dict[str, tuple[Fault, ...]] = {
     ),
     "best": (with_games("open", AHEAD, game(0.9), game(0.95)),),
     "survives": (
-        with_games("room", AHEAD, CAUGHT, CAUGHT, game(), game(), game()),
+        with_games("room", AHEAD, CAPTURED, CAPTURED, game(), game(), game()),
         with_games("room", AHEAD, TOUCHED, TOUCHED, game(), game(), game()),
     ),
     "clear": (with_games("room", AHEAD, *(4 * (game(),)), game(clear=0.199)),),
@@ -94,7 +94,7 @@ EVADING: dict[str, tuple[Fault, ...]] = {
     ),
     "deflected": (
         with_games("room", "deflected", *(5 * (game(),))),
-        with_games("room", AHEAD, *(3 * (CAUGHT,)), game(), game()),
+        with_games("room", AHEAD, *(3 * (CAPTURED,)), game(), game()),
     ),
     "decision": (with_games("room", AHEAD, game(), game(decision=0.03)),),
 }
@@ -112,12 +112,13 @@ def duel(
     outcome: Outcome = Outcome.COMPLETED,
     touched: tuple[str, ...] = (),
     duration: float = DURATION,
+    captured_at: float | None = None,
 ) -> Any:
     """What is read of a duel in a room."""
     return SimpleNamespace(
         outcome=outcome,
         duration=duration,
-        summary=SimpleNamespace(touched=touched),
+        summary=SimpleNamespace(touched=touched, captured_at_s=captured_at),
     )
 
 
@@ -127,6 +128,7 @@ ROOM: dict[str, tuple[tuple[Any, float], ...]] = {
     "touched": (
         (duel(CONTACT, ("disc 1", "evader"), 9.0), 0.02),
         (duel(Outcome.FALL, (), 9.0), 0.02),
+        (duel(CONTACT, ("disc 1", "evader"), 9.0, captured_at=3.0), 0.02),
     ),
     "clear": ((duel(), -0.001),),
     "free": (
@@ -134,6 +136,7 @@ ROOM: dict[str, tuple[tuple[Any, float], ...]] = {
         (duel(CONTACT, BOTH), 0.02),
         (duel(Outcome.FALL, (), 30.0), 0.02),
         (duel(duration=30.0), 0.02),
+        (duel(captured_at=20.0), 0.02),
     ),
 }
 

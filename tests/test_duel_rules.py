@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from made_up_players import clock, raising
+from stepaside.constants import CAPTURE_DISTANCE
 from stepaside.errors import ReachError
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.match import Progress
@@ -153,6 +154,23 @@ def test_a_duel_notes_its_closest_and_when_the_evader_began(
     assert closest == [1.0, 0.9, 0.9, 0.85]
     assert duel.triggered_at == pytest.approx(0.012)
     assert duel.triggered_distance == 0.7
+
+
+def test_capture_is_the_first_time_at_the_capture_distance(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The game goes on, nearer and away again, and the first time stays."""
+    duel = begun()
+    ways = iter((0.4, CAPTURE_DISTANCE, 0.3, 0.4, 0.2))
+    monkeypatch.setattr(Duel, "torsos_apart", property(lambda _: next(ways)))
+    monkeypatch.setattr(Walker, "tick", lambda walker: None)
+    monkeypatch.setattr(Duel, "distance", 0.3)
+    told = []
+    for _ in range(5):
+        assert duel.tick() is None
+        told.append(duel.captured_at)
+    assert told[0] is None
+    assert told[1:] == 4 * [pytest.approx(0.008)]
 
 
 @pytest.mark.parametrize(

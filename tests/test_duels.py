@@ -271,6 +271,20 @@ def test_outcomes_and_convergence_are_counted() -> None:
     assert summary["theory"]["radius_m"] == pytest.approx(0.6366198)
 
 
+@pytest.mark.parametrize("duration", [60.0, 120.0])
+def test_in_time_is_before_the_last_third(duration: float) -> None:
+    """The rule of the claims page; the last 5 s count otherwise."""
+    settings = replace(SETTINGS, duration=duration)
+    limit = duration * 2.0 / 3.0
+    since = (None, 0.0, limit - 0.1, limit, duration - 5.0)
+    records = [made(n, converged_at_s=s) for n, s in enumerate(since)]
+    summary = summarise_duels(settings, records)
+    assert summary["on_the_circle"]["number"] == 4
+    assert summary["on_the_circle_in_time"]["number"] == 2
+    assert summary["on_the_circle_in_time"]["of"] == 5
+    assert summary["on_the_circle_by_s"] == pytest.approx(limit)
+
+
 def test_a_share_has_wilsons_interval() -> None:
     found = share([True] * 1000)
     assert found["number"] == found["of"] == 1000

@@ -116,7 +116,7 @@ def test_with_its_back_in_a_corner_it_turns_before_it_walks() -> None:
     assert room.starts is not None
     game = StepGame(duration=16.0)
     for tight, expected in (
-        (0.0, StepOutcome.CAUGHT),
+        (0.0, StepOutcome.CAPTURED),
         (0.5, StepOutcome.SURVIVED),
     ):
         track = play_steps(

@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from documents.__main__ import old_results
-from documents.blocks import make
+from documents.blocks import BLOCK, make
 from documents.document import complaints, remade
 from documents.numbers import show
 from documents.pictures import PICTURES, draw_picture, drawn_from
-from documents.store import DocumentError, Store
-from documents.tables.markdown import interval, number, table
+from documents.store import ROOT, DocumentError, Store
+from documents.tables import TABLES
+from documents.tables.markdown import counted, interval, number, table
 from stepaside.studies.results import header, write_result
 
 FOUND: dict[str, Any] = {
@@ -217,6 +218,7 @@ def test_many_duels_become_tables(tmp_path: Path) -> None:
             "duels": 3,
             "outcomes": {"completed": share},
             "on_the_circle": share,
+            "on_the_circle_in_time": share | {"number": 1},
             "figures": {"distance_m": figure},
             "certificate": certificate,
         },
@@ -224,7 +226,7 @@ def test_many_duels_become_tables(tmp_path: Path) -> None:
     store = Store(tmp_path)
     two = "2 of 3 (20.0-94.0 %)"
     assert make("all", "outcomes", store).splitlines()[2:] == [
-        f"| hardware-like | 0:3 | 3 | {two} | {two} |"
+        f"| hardware-like | 0:3 | 3 | {two} | {two} | 1 of 3 (20.0-94.0 %) |"
     ]
     assert make("duels-hardware", "spreads", store).splitlines()[2:] == [
         "| distance [m] | 0.900 | 0.910 | 0.900-0.920 | 0.850 | 1.000 |"
@@ -235,6 +237,58 @@ def test_many_duels_become_tables(tmp_path: Path) -> None:
     ]
     assert make("all", "certified", store).splitlines()[2:] == [
         f"| hardware-like | {two} | {two} | 0.100 | -0.020 | 7 |"
+    ]
+
+
+def test_counts_of_people_have_intervals() -> None:
+    """0 of 15 allows 20 %, and no table of people hides it."""
+    assert counted(0, 15) == "0 (0-20 %)"
+    assert counted(15, 15) == "15 (80-100 %)"
+    row = {
+        **{"body": "ideal", "sensing": "ideal", "speed_m_s": 1.0},
+        **{"miss_m": 0.0, "number": 15, "contacts": 0, "falls": 3},
+        **{"begun": 15, "begun_at_m": 2.0, "closest_m": 0.5},
+        **{"mean_closest_m": 0.6, "template_closest_m": 0.6, "from": "ahead"},
+        **{"triggered_at_m": 2.0, "theory_room_m": 0.3, "false_triggers": 0},
+        **{"false_triggers_per_hour": 0.0},
+    }
+    result = {
+        "settings": {"body": "ideal", "speed_m_s": 1.0},
+        **{"people": [row], "passers_by": [row], "rows": [row]},
+        **{"came": [row], "passed": row},
+    }
+    for name in ("people", "passers-by", "people-seen", "comers"):
+        assert counted(0, 15) in TABLES[name](result)
+    assert TABLES["people-passed-by"](result).count(counted(0, 15)) == 2
+    for name in ("people", "people-seen", "comers"):
+        assert counted(3, 15) in TABLES[name](result)
+
+
+@pytest.mark.parametrize("page", ["evading", "obstacles"])
+def test_every_figure_of_survival_names_the_pursuer(page: str) -> None:
+    """A share survived holds against one pursuer, so no table goes without."""
+    store, seen = Store(), 0
+    text = (ROOT / "docs" / f"{page}.md").read_text("utf-8")
+    for match in BLOCK.finditer(text):
+        if match["table"] in ("polygons",):
+            continue
+        head = make(match["names"], match["table"], store).splitlines()[0]
+        assert "pursuer" in head or "against" in head, match["source"]
+        seen += 1
+    assert seen
+
+
+def test_opponents_stand_beside_circle_capture_and_interval() -> None:
+    row = {
+        **{"pursuer": "pure-x2.8", "games": 50, "survived": 0.5},
+        **{"survived_low": 0.366, "survived_high": 0.634},
+        **{"circle_distance_m": 0.34706, "capture_distance_m": 0.35},
+    }
+    met = {"world": "open floor", "evader": "aside", "rows": [row]}
+    assert TABLES["evading-opponents"]({"opponents": [met]}).splitlines() == [
+        "| pursuer | circle [m] | capture [m] | aside, open floor (n = 50) |",
+        "|---|---|---|---|",
+        "| pure-x2.8 | 0.347 | 0.350 | 50 % (37-63) |",
     ]
 
 

@@ -2,6 +2,7 @@
 
 import os
 import sys
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,7 @@ from stepaside.strategies import (
     STRATEGIES,
     Deflected,
     Evasion,
+    HerdingPursuit,
     Pursuit,
     Stand,
     Walk,
@@ -127,9 +129,25 @@ def test_strategies_have_names() -> None:
     assert load_strategy("stand") == Stand()
     assert load_strategy("walk") == Walk()
     assert load_strategy("deflected", evader) == Deflected(evader)
+    assert load_strategy("pursuit-x2.5") == Pursuit(gain_ratio=2.5)
+    assert load_strategy("sharp") == Pursuit(gain_ratio=inf)
+    assert load_strategy("herding") == HerdingPursuit()
     others = {"look-ahead", "optimal", "lead", "optimal-pursuit"}
+    others |= {"sharp", "herding"}
     paper = {"evasion", "deflected", "pursuit", "stand", "walk"}
     assert set(STRATEGIES) == paper | others
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("pursuit-x0", "pursuit-x1001", "pursuit-x", "pursuit-x-2"),
+        *("pursuit-xnan", "pursuit-x2 ", "sharp-x2", "Sharp"),
+    ],
+)
+def test_a_gain_that_no_pursuer_has_is_refused(name: str) -> None:
+    with pytest.raises(ConfigurationError, match="pursuit-xRATIO"):
+        load_strategy(name)
 
 
 def test_only_strategies_of_files_have_a_file(tmp_path: Path) -> None:
@@ -213,7 +231,7 @@ def test_what_names_no_strategy_is_refused_at_once(
     with pytest.raises(ConfigurationError) as caught:
         DuelSettings(**{key: name})  # type: ignore[arg-type]
     assert str(caught.value) == (
-        f"{key} must be one of {', '.join(STRATEGIES)} or "
+        f"{key} must be one of {', '.join(STRATEGIES)}, pursuit-xRATIO or "
         f"FILE.py:NAME, got {name!r}"
     )
 

@@ -1,6 +1,7 @@
 """Test pursuers beside the paper's, and the evader that is deflected."""
 
-from math import hypot, pi
+from math import atan2, cos, hypot, inf, pi, sin
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from stepaside.rooms import Disc, Room, wall_between
 from stepaside.strategies import (
     Deflected,
     Evasion,
+    HerdingPursuit,
     Knowledge,
     LeadPursuit,
     Limits,
@@ -81,8 +83,81 @@ def test_the_optimal_pursuer_catches_who_moves_aside(
         play_steps(pursuer, ASIDE, START, game=game).outcome
         for pursuer in (OptimalPursuit(24), Pursuit())
     )
-    assert best is StepOutcome.CAUGHT
+    assert best is StepOutcome.CAPTURED
     assert paper is StepOutcome.SURVIVED
+
+
+def known(bearing: float, distance: float = 1.0, **more: Any) -> Knowledge:
+    return Knowledge(0.0, bearing, distance, NAO, **more)
+
+
+def heading(strategy: Any, knowledge: Knowledge) -> float:
+    intent = strategy.decide(knowledge, strategy.begin())[0]
+    assert intent.speed_factor == 1.0 and intent.moving
+    return float(intent.heading)
+
+
+@pytest.mark.parametrize("ratio", [0.3, 1.0, 1.5, 4.0])
+@pytest.mark.parametrize("bearing", [-pi, -1.1, -0.2, 0.0, 0.4, 2.0, pi])
+def test_a_gain_multiplies_the_bearing_up_to_the_largest_turn(
+    ratio: float, bearing: float
+) -> None:
+    wanted = min(max(ratio * bearing, -pi), pi)
+    found = heading(Pursuit(gain_ratio=ratio), known(bearing))
+    assert found == (bearing if ratio == 1.0 else pytest.approx(wanted))
+
+
+@pytest.mark.parametrize("bearing", [-2.5, -0.251, -0.1, 0.0, 0.2, 0.5, pi])
+def test_a_sharp_pursuer_turns_by_the_clipped_bearing(bearing: float) -> None:
+    """A step turns by kappa = 0.08 of the heading, by 0.08 pi at most."""
+    turn = 0.08 * heading(Pursuit(gain_ratio=inf), known(bearing))
+    assert turn == pytest.approx(min(max(bearing, -0.08 * pi), 0.08 * pi))
+
+
+def test_greater_gains_end_on_the_closer_circle_of_theory() -> None:
+    """Closed form beside games: 2 v sin(w / kp) / w, w = a / (1/kp + 1/ke)."""
+    game = StepGame(duration=300.0, capture=0.01)
+    for ratio in (1.5, 2.0, 3.0):
+        rate = 0.5 * pi / (1.0 / (0.2 * ratio) + 1.0 / 0.2)
+        theory = 0.2 * sin(rate / (0.2 * ratio)) / rate
+        track = play_steps(Pursuit(gain_ratio=ratio), ASIDE, START, game=game)
+        assert track.distances[-1] == pytest.approx(theory, rel=0.01)
+
+
+@pytest.mark.parametrize("center", [(0.0, 0.0), (-1.3, 0.6)])
+@pytest.mark.parametrize("pose", [(0.7, -0.3, 1.0), (-0.5, 1.1, -2.9)])
+def test_herding_bisects_the_bearings_of_evader_and_center(
+    center: tuple[float, float], pose: tuple[float, float, float]
+) -> None:
+    x, y, theta = pose
+    middle = wrap_angle(atan2(center[1] - y, center[0] - x) - theta)
+    strategy = HerdingPursuit(center)
+    for bearing in (-2.0, -0.6, 0.3, 1.7, 3.0):
+        aside = wrap_angle(middle - bearing)
+        found = heading(strategy, known(bearing, 0.8, pose=Pose(*pose)))
+        wanted = wrap_angle(bearing + 0.5 * aside)
+        assert wrap_angle(found - wanted) == pytest.approx(0.0, abs=1e-9)
+    # In the middle of the room there is nothing to keep it from.
+    there = Pose(*center, theta)
+    assert heading(strategy, known(0.4, pose=there)) == pytest.approx(0.4)
+
+
+def test_herding_turns_with_the_room() -> None:
+    """Rooms that are turned about their centre make the same game, turned."""
+    angle, game = 0.9, StepGame(duration=20.0)
+    c, s = cos(angle), sin(angle)
+    turned = tuple(
+        Pose(c * x - s * y, s * x + c * y, theta + angle)
+        for x, y, theta in START
+    )
+    one, other = (
+        play_steps(HerdingPursuit(), ASIDE, (a, b), game=game).pursuer
+        for a, b in (START, turned)
+    )
+    x, y = one[:, :2].T
+    np.testing.assert_allclose(
+        other[:, :2], np.stack([c * x - s * y, s * x + c * y], -1), atol=1e-9
+    )
 
 
 def test_on_an_open_floor_nothing_deflects() -> None:

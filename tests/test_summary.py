@@ -58,6 +58,7 @@ def figures(
     planning: dict[str, Planning] | None = None,
     sight: Seen | None = None,
     wall_time: float = 3.0,
+    captured_at: float | None = None,
 ) -> dict[str, Any]:
     """Figures of a duel, as they are told."""
     match: Any = SimpleNamespace(
@@ -67,6 +68,7 @@ def figures(
         triggered_at=2.5,
         triggered_distance=0.79,
         touched=(),
+        captured_at=captured_at,
     )
     return summarise(
         settings,
@@ -128,6 +130,7 @@ def test_a_summary_says_what_the_duel_was() -> None:
     assert found["triggered_at_s"] == 2.5
     assert found["triggered_at_distance_m"] == 0.79
     assert found["min_distance_m"] == 0.61
+    assert found["captured_at_s"] is None
     assert found["converged_at_s"] == 0.0
     assert found["replans"] == 3
     assert found["max_com_velocity_jump_m_s"] == 1e-12
@@ -146,6 +149,14 @@ def test_a_summary_says_what_the_duel_was() -> None:
         "circle_since_s": told.circle_since_s,
         "words": told.words,
     }
+
+
+def test_capture_and_contact_are_told_each() -> None:
+    """A duel goes on after capture; contact ends it."""
+    found = figures(Record(), captured_at=17.5)
+    assert found["captured_at_s"] == 17.5 and found["outcome"] == "completed"
+    found = figures(Record(), outcome=Outcome.CONTACT)
+    assert found["captured_at_s"] is None and found["outcome"] == "contact"
 
 
 def test_planning_times_are_told_in_microseconds() -> None:

@@ -20,7 +20,7 @@ from stepaside.rooms import Room, RoomRecipe
 from stepaside.strategies import StepGame, tables
 from stepaside.studies import tournament as studied
 from stepaside.studies.floor_used import floor_used
-from stepaside.studies.physics_game import outcome_of
+from stepaside.studies.physics_game import outcome_of, players_touched
 from stepaside.studies.records import RecordFile
 from stepaside.studies.tournament import (
     play_record,
@@ -166,12 +166,12 @@ def test_rows_count_and_find_the_worst_game() -> None:
     records = [
         record(),
         record(seed=1, closest_m=0.6),
-        record(seed=2, outcome="caught", survived_s=9.0, closest_m=0.34),
+        record(seed=2, outcome="captured", survived_s=9.0, closest_m=0.34),
         record(seed=3, outcome="touched", survived_s=5.0, closest_m=0.9),
         record(evader="look-ahead", seed=9),
     ]
     row, other = tournament_rows(records)
-    assert (row["survived"], row["caught"], row["touched_obstacle"]) == (
+    assert (row["survived"], row["captured"], row["touched_obstacle"]) == (
         *(0.5, 0.25, 0.25),
     )
     assert row["worst_seeds"] == [3, 2, 1, 0]
@@ -180,6 +180,46 @@ def test_rows_count_and_find_the_worst_game() -> None:
     assert row["survived_low"] < 0.5 < row["survived_high"]
     assert row["decision_ms"] == pytest.approx(1.0)
     assert (other["evader"], other["games"]) == ("look-ahead", 1)
+    assert row["contact"] is None  # in steps nothing has a body
+
+
+def test_rows_of_humanoids_count_capture_and_contact_each() -> None:
+    records = [
+        record(contact=False),
+        record(seed=1, outcome="captured", contact=True),
+        record(seed=2, outcome="captured", contact=False),
+        record(seed=3, outcome="contact", contact=True),
+    ]
+    (row,) = tournament_rows(records)
+    found = row["survived"], row["captured"], row["contact"]
+    assert found == (0.25, 0.5, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("pursuer", "distance"),
+    [
+        *(("pure", 0.900), ("pure-x2", 0.478), ("pure-x2.8", 0.347)),
+        *(("pure-x3", 0.325), ("sharp", None), ("herding", None)),
+    ],
+)
+def test_a_row_has_the_circle_of_its_pursuer_beside_the_capture_distance(
+    pursuer: str, distance: float | None
+) -> None:
+    (row,) = tournament_rows([record(pursuer=pursuer)], SHORT)
+    assert row["capture_distance_m"] == SHORT.capture == 0.35
+    found = row["circle_distance_m"]
+    assert found == (distance and pytest.approx(distance, abs=6e-4))
+
+
+@pytest.mark.parametrize("ratio", [0.5, 1.7, 2.9])
+def test_the_circle_of_a_gain_balances_both_players(ratio: float) -> None:
+    """V cos a = v cos u, and both turn at the rate of the line of sight."""
+    game = replace(SHORT, speed=0.3, gain=0.7)
+    (row,) = tournament_rows([record(pursuer=f"pure-x{ratio}")], game)
+    pursuer_gain = ratio * 0.7
+    a = 0.5 * pi / (1.0 + pursuer_gain / 0.7)  # a + b = alpha, kp a = ke b
+    distance = 2.0 * 0.3 * sin(a) / (pursuer_gain * a)
+    assert row["circle_distance_m"] == pytest.approx(distance)
 
 
 def test_unicycles_decide_more_often_than_steps() -> None:
@@ -221,6 +261,35 @@ def test_the_command_plays_draws_and_goes_on(tmp_path: Path) -> None:
     assert summary["rows"][0]["games"] == 3
 
 
+def test_every_built_in_pursuer_plays_and_stands_beside_its_result() -> None:
+    names = ("pure", "pure-x1.5", "sharp", "herding", "lead")
+    words = [word for name in names for word in ("--pursuer", name)]
+    answer = call(
+        *(*words, "--evader", "look-ahead", "--discs", "1"),
+        *("--duration", "8", "--seeds", "0:2", "--workers", "1"),
+    )
+    assert answer.exit_code == 0, answer.output
+    assert "captured: distance <= 0.350 m" in answer.stdout
+    rows = [line.split() for line in answer.stdout.splitlines()[2:]]
+    assert [row[:2] for row in rows] == [["look-ahead", n] for n in names]
+    circles = ["0.900", "0.624", "-", "-", "-"]
+    assert [row[2] for row in rows] == circles
+
+
+def test_sharp_and_herding_capture_who_survives_the_papers_pursuer() -> None:
+    """In rooms of 3 m, look-ahead: each survives pure, few the others."""
+    settings = replace(SETTINGS, room=RoomRecipe(), game=StepGame())
+    survived = {
+        pursuer: [
+            str(play_track(settings, ("look-ahead", pursuer), seed)[1].outcome)
+            for seed in range(1000, 1004)
+        ].count("survived")
+        for pursuer in ("pure", "sharp", "herding")
+    }
+    assert survived["pure"] == 4
+    assert survived["sharp"] == 0 and survived["herding"] <= 1
+
+
 def test_it_says_before_it_solves_a_table(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -256,6 +325,9 @@ def test_a_room_without_starts_draws_them() -> None:
     [
         ("--evader", "nobody"),
         ("--pursuer", "nobody"),
+        ("--pursuer", "pure-x0"),
+        ("--pursuer", "pure-x"),
+        ("--pursuer", "sharp-x2"),
         ("--evader", "none.py:Mind"),
         ("--room", "2"),
         ("--room", "none.toml"),
@@ -312,7 +384,7 @@ def test_humanoids_play_by_the_same_words() -> None:
     [
         (Outcome.COMPLETED, (), "survived"),
         (Outcome.FALL, (), "fell"),
-        (Outcome.CONTACT, ("evader", "pursuer"), "caught"),
+        (Outcome.CONTACT, ("evader", "pursuer"), "contact"),
         (Outcome.CONTACT, ("disc 1", "pursuer"), "touched"),
         (Outcome.INTERRUPTED, (), "interrupted"),
     ],
@@ -320,10 +392,13 @@ def test_humanoids_play_by_the_same_words() -> None:
 def test_a_duel_ends_in_the_words_of_a_tournament(
     outcome: Outcome, touched: tuple[str, ...], told: str
 ) -> None:
-    run: Any = SimpleNamespace(
-        outcome=outcome, summary=SimpleNamespace(touched=touched)
-    )
+    summary = SimpleNamespace(touched=touched, captured_at_s=None)
+    run: Any = SimpleNamespace(outcome=outcome, summary=summary)
     assert outcome_of(run) == told
+    summary.captured_at_s = 3.0  # whatever came after
+    assert outcome_of(run) == "captured"
+    both = set(touched) == {"pursuer", "evader"}
+    assert players_touched(run) == both
 
 
 def test_only_humanoids_see_a_map() -> None:

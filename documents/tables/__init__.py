@@ -42,7 +42,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "driven": served.driven,
     "stepped": served.stepped,
     "each": persons.each,
-    "evading-others": evading.others,
+    "evading-opponents": evading.opponents,
     "evading-sizes": evading.sizes,
     "evading-worlds": evading.worlds,
     "fast-walks": walking.fast_walks,

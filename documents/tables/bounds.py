@@ -39,12 +39,13 @@ def speed(result: Result) -> str:
 
 def refinement(result: Result) -> str:
     """Differences between grids, and the order of convergence."""
-    head = ("game", "cells", "mean", "95 %", "worst", "order")
+    head = ("game", "cells", "mean", "above it", "95 %", "worst", "order")
     rows = [
         (
             words,
             f"{row['cells']} beside {row['finer']}",
             number(row["mean"], 4),
+            f"{100.0 * row['above_mean']:.0f} %",
             number(row["most"], 4),
             number(row["worst"], 2),
             NONE if row["order"] is None else number(row["order"], 1),

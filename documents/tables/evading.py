@@ -1,22 +1,24 @@
-"""Who survives in which room, how near, on how much floor."""
+"""Survival in rooms by opponent, closest approach, floor used."""
 
 from collections.abc import Mapping
 from typing import Any
 
-from .markdown import number, table
+from .markdown import interval, number, table
 
 Result = Mapping[str, Any]
 
 
 def worlds(result: Result) -> str:
-    """Every evader in every world, by the paper's pursuer."""
+    """Every evader in every world, against the pursuer that is named."""
     head = (
         "world",
         "evader",
-        "survives",
+        "pursuer",
+        "games",
+        "survived",
         "95 %",
-        "touches",
-        "is caught",
+        "touched",
+        "captured",
         "closest [m]",
         "of the bound",
         "floor used [m²]",
@@ -31,10 +33,12 @@ def worlds(result: Result) -> str:
                 (
                     world,
                     row["evader"],
+                    row["pursuer"],
+                    str(row["games"]),
                     f"{100 * row['survived']:.1f} %",
                     f"{100 * low:.1f}-{100 * high:.1f}",
                     f"{100 * row['touched_obstacle']:.1f} %",
-                    f"{100 * row['caught']:.1f} %",
+                    f"{100 * row['captured']:.1f} %",
                     number(row["mean_closest_m"], 3),
                     number(row["closest_over_bound"], 3),
                     number(row["floor_used_m2"], 2),
@@ -45,29 +49,47 @@ def worlds(result: Result) -> str:
     return table(head, rows)
 
 
-def others(result: Result) -> str:
-    """Looking ahead in an empty room, by other pursuers."""
-    head = ("pursuer", "games", "survives", "mean survival [s]", "closest [m]")
+def opponents(result: Result) -> str:
+    """Share survived against each pursuer, beside the paper's circle."""
+    met = result["opponents"]
+    head = (
+        "pursuer",
+        "circle [m]",
+        "capture [m]",
+        *(
+            f"{each['evader']}, {each['world']} (n = {row['games']})"
+            for each in met
+            for row in each["rows"][:1]
+        ),
+    )
     rows = [
         (
             row["pursuer"],
-            str(row["games"]),
-            f"{100 * row['survived']:.0f} %",
-            number(row["mean_survival_s"], 1),
-            number(row["mean_closest_m"], 3),
+            number(row["circle_distance_m"], 3),
+            number(row["capture_distance_m"], 3),
+            *(_survived(each["rows"][i]) for each in met),
         )
-        for row in result["others"]
+        for i, row in enumerate(met[0]["rows"])
     ]
     return table(head, rows)
 
 
+def _survived(row: Mapping[str, Any]) -> str:
+    """Share of games survived, with its 95 % interval."""
+    ends = 100 * row["survived_low"], 100 * row["survived_high"]
+    return f"{100 * row['survived']:.0f} % ({interval(*ends, 0)})"
+
+
 def sizes(result: Result) -> str:
     """Share that survives in square rooms without obstacles, by size."""
-    names = [row["evader"] for row in result["sizes"][0]["rows"]]
+    names = [
+        f"{row['evader']} against {row['pursuer']} (n = {row['games']})"
+        for row in result["sizes"][0]["rows"]
+    ]
     rows = [
         (
             f"{entry['size_m']:g} x {entry['size_m']:g} m",
-            *(f"{100 * row['survived']:.0f} %" for row in entry["rows"]),
+            *(_survived(row) for row in entry["rows"]),
         )
         for entry in result["sizes"]
     ]

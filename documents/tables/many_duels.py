@@ -21,7 +21,10 @@ OPTIONS = {
 
 def outcomes(results: Mapping[str, Result]) -> str:
     """Shares of each kind of duel, with their 95 % intervals."""
-    head = ("body", "seeds", "duels", "played to the end", "on the circle")
+    head = (
+        *("body", "seeds", "duels", "played to the end"),
+        *("on the circle for the last 5 s", "before the last third"),
+    )
     rows = []
     for name, words in KINDS.items():
         if name not in results:
@@ -35,6 +38,7 @@ def outcomes(results: Mapping[str, Result]) -> str:
                 str(summary["duels"]),
                 _share(summary["outcomes"]["completed"]),
                 _share(summary["on_the_circle"]),
+                _share(summary["on_the_circle_in_time"]),
             )
         )
     return table(head, rows)

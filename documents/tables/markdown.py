@@ -2,6 +2,8 @@
 
 from collections.abc import Iterable, Sequence
 
+from stepaside.studies.survival import wilson
+
 NONE = "-"  # stands where there is nothing to show
 
 
@@ -32,6 +34,12 @@ def interval(low: float | None, high: float | None, digits: int = 3) -> str:
     """From one number to another, or one where both are written alike."""
     ends = number(low, digits), number(high, digits)
     return ends[0] if ends[0] == ends[1] else f"{ends[0]}-{ends[1]}"
+
+
+def counted(hits: int, of: int) -> str:
+    """How many of a number, with the 95 % interval of the share (Wilson)."""
+    low, high = wilson(hits, of)
+    return f"{hits} ({interval(100.0 * low, 100.0 * high, 0)} %)"
 
 
 def _line(cells: Sequence[str]) -> str:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from .markdown import number, table
+from .markdown import counted, number, table
 
 
 def people(*results: Mapping[str, Any]) -> str:
@@ -14,8 +14,8 @@ def people(*results: Mapping[str, Any]) -> str:
             row["sensing"],
             f"{row['speed_m_s']:g}",
             str(row["number"]),
-            str(row["contacts"]),
-            str(row["falls"]),
+            counted(row["contacts"], row["number"]),
+            counted(row["falls"], row["number"]),
             number(row["closest_m"], 2),
             number(row["mean_closest_m"], 2),
             number(row["template_closest_m"], 2),
@@ -56,7 +56,7 @@ def passers_by(*results: Mapping[str, Any]) -> str:
                 result["settings"]["body"],
                 row["sensing"],
                 str(row["number"]),
-                str(row["false_triggers"]),
+                counted(row["false_triggers"], row["number"]),
                 number(row["false_triggers_per_hour"], 1),
             )
             for result in results
@@ -74,8 +74,9 @@ def seen(*results: Mapping[str, Any]) -> str:
         rows += [
             (
                 *(body, speed, "the front" if ahead else "behind"),
-                *(str(row["number"]), str(row["contacts"])),
-                str(row["falls"]),
+                str(row["number"]),
+                counted(row["contacts"], row["number"]),
+                counted(row["falls"], row["number"]),
                 number(row["closest_m"], 2),
                 number(row["mean_closest_m"], 2),
                 number(row["triggered_at_m"], 1),
@@ -98,11 +99,12 @@ def passed_by(*results: Mapping[str, Any]) -> str:
             (
                 result["settings"]["body"],
                 f"{result['settings']['speed_m_s']:g}",
-                str(result["passed"]["number"]),
-                str(result["passed"]["false_triggers"]),
-                str(result["passed"]["contacts"]),
+                str(passed["number"]),
+                counted(passed["false_triggers"], passed["number"]),
+                counted(passed["contacts"], passed["number"]),
             )
             for result in results
+            for passed in [result["passed"]]
         ],
     )
 
@@ -113,8 +115,10 @@ def comers(*results: Mapping[str, Any]) -> str:
         (
             *(row["body"], row["sensing"], f"{row['speed_m_s']:g}"),
             "past it" if row["miss_m"] else "at it",
-            *(str(row["number"]), str(row["contacts"]), str(row["falls"])),
-            str(row["begun"]),
+            str(row["number"]),
+            counted(row["contacts"], row["number"]),
+            counted(row["falls"], row["number"]),
+            counted(row["begun"], row["number"]),
             number(row["begun_at_m"], 1),
             number(row["closest_m"], 2),
             number(row["mean_closest_m"], 2),

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from .markdown import interval, number, table
+from .markdown import counted, interval, number, table
 
 MAPS = {"given": "given", "seen": "seen by cameras", "none": "none"}
 
@@ -13,25 +13,29 @@ def outcomes(result: Mapping[str, Any]) -> str:
     return table(
         (
             "evader",
+            "pursuer",
             "map",
             "duels",
             "nothing touched",
-            "caught",
+            "captured",
+            "contact",
             "touched the room",
             "fell",
-            "survived [s]",
+            "time played [s]",
             "closest [m]",
             "clearance [m]",
         ),
         [
             (
                 row["strategy"],
+                row["pursuer"],
                 MAPS[row["map"]],
                 str(row["duels"]),
-                str(row["untouched"]),
-                str(row["caught"]),
-                str(row["touched_room"]),
-                str(row["fell"]),
+                counted(row["untouched"], row["duels"]),
+                counted(row["captured"], row["duels"]),
+                counted(row["contact"], row["duels"]),
+                counted(row["touched_room"], row["duels"]),
+                counted(row["fell"], row["duels"]),
                 number(row["survived_s"]["mean"], 0),
                 interval(
                     row["closest_m"]["least"], row["closest_m"]["greatest"], 2

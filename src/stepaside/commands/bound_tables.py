@@ -74,7 +74,13 @@ def _analytic(table: "Bound", capture: float) -> dict[str, Any]:
 
 
 def describe_refinement(rows: "Sequence[Refinement]") -> dict[str, Any]:
-    """What coarser grids differ by; the last says how far off the table is."""
+    """Describe what coarser grids differ by.
+
+    The grid error is the mean difference of the last comparison, over all
+    nodes: an estimate, which bounds no single value. Beside it stand what
+    95 % of the nodes keep below, the worst, and the share above the mean.
+    """
+    last = rows[-1] if rows else None
     return {
         "refinement": [
             {
@@ -83,11 +89,15 @@ def describe_refinement(rows: "Sequence[Refinement]") -> dict[str, Any]:
                 "mean_difference_m": row.mean,
                 "most_difference_m": row.most,
                 "worst_difference_m": row.worst,
+                "above_mean_share": row.above_mean,
                 "order": row.order,
             }
             for row in rows
         ],
-        "grid_error_m": rows[-1].mean if rows else None,
+        "grid_error_m": last and last.mean,
+        "grid_error_95_m": last and last.most,
+        "grid_error_worst_m": last and last.worst,
+        "grid_error_above_mean_share": last and last.above_mean,
     }
 
 

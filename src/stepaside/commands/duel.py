@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..constants import CAPTURE_DISTANCE
 from .declared.common import FIGURE, FOLDER, figure_width, json_option
 from .declared.take import SettingsCommand
 from .duel_options import duel_options
@@ -105,13 +106,18 @@ def _play(settings: "DuelSettings") -> "DuelRun":
 
 
 def _print(summary: dict[str, Any], unsettled: str = "not reached") -> None:
-    theory = summary["theory"]
+    theory, converged = summary["theory"], summary["converged_at_s"]
 
     def beside(value: float | None, wanted: float | None, unit: str) -> str:
         text = "-" if value is None else f"{value:.3f} {unit}"
         return text if wanted is None else f"{text:<12} theory {wanted:.3f}"
 
-    converged = summary["converged_at_s"]
+    def settled(value: float | None, wanted: float | None, unit: str) -> str:
+        """A value of the circle, which the robots may not have reached."""
+        text = beside(value, wanted, unit)
+        reached = wanted is None or converged is not None
+        return text if reached else f"{text}, not converged"
+
     plans = summary["plan_time_us"]
     start = summary["start"]
     rows = [
@@ -120,7 +126,7 @@ def _print(summary: dict[str, Any], unsettled: str = "not reached") -> None:
         ("expected", theory["words"] or "-"),
         (
             "pursuer radius",
-            beside(
+            settled(
                 summary["pursuer"]["radius_m"],
                 theory["pursuer_radius_m"],
                 "m",
@@ -128,12 +134,15 @@ def _print(summary: dict[str, Any], unsettled: str = "not reached") -> None:
         ),
         (
             "evader radius",
-            beside(summary["evader"]["radius_m"], theory["radius_m"], "m"),
+            settled(summary["evader"]["radius_m"], theory["radius_m"], "m"),
         ),
-        ("distance", beside(summary["distance_m"], theory["distance_m"], "m")),
+        (
+            "distance",
+            settled(summary["distance_m"], theory["distance_m"], "m"),
+        ),
         (
             "between headings",
-            beside(
+            settled(
                 summary["relative_orientation_deg"],
                 theory["relative_orientation_deg"],
                 "deg",
@@ -145,6 +154,7 @@ def _print(summary: dict[str, Any], unsettled: str = "not reached") -> None:
                 summary["min_distance_m"], theory["closest_approach_m"], "m"
             ),
         ),
+        ("captured", _captured(summary["captured_at_s"])),
         (
             "on the circle",
             unsettled if converged is None else f"since {converged:.1f} s",
@@ -162,6 +172,12 @@ def _print(summary: dict[str, Any], unsettled: str = "not reached") -> None:
     if "camera" in summary:
         rows += _sight_rows(summary)
     print_table(rows)
+
+
+def _captured(at: float | None) -> str:
+    """When the distance first was at most the capture distance."""
+    when = "no" if at is None else f"at {at:.1f} s"
+    return f"{when:<12} nearer than {CAPTURE_DISTANCE:.2f} m"
 
 
 def _sight_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:

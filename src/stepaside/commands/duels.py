@@ -245,6 +245,8 @@ def _print(summary: dict[str, Any]) -> None:
         if share["number"]:
             echo(_share(name, share))
     echo(_share("on the circle", summary["on_the_circle"]))
+    by = f"before {summary['on_the_circle_by_s']:.0f} s"
+    echo(_share(by, summary["on_the_circle_in_time"]))
     echo(
         f"\n{'':<26}{'theory':>9}{'mean':>9}{'+-95 %':>9}"
         f"{'least':>9}{'greatest':>9}  worst seed"

@@ -68,7 +68,10 @@ def _levels() -> tuple[str, ...]:
     "pursuers",
     multiple=True,
     metavar="NAME",
-    help="pure, lead, optimal or FILE.py:NAME; likewise.  [default: pure]",
+    help="pure (the paper's), pure-xRATIO (RATIO times the evader's gain), "
+    "sharp (turns by the bearing, up to the largest turn), herding (aims half "
+    "way between the evader and the room's centre), lead, optimal or "
+    "FILE.py:NAME; likewise.  [default: pure]",
 )
 @click.option(
     "--room",
@@ -133,9 +136,11 @@ def tournament(
     """Let evaders play pursuers in rooms by seed, and tabulate.
 
     The rules: a step of 4 cm turns by at most 0.25 rad; the pursuer walks
-    through what stands there; the evader is caught at 0.35 m, and touches
-    what its centre comes nearer to than 0.20 m. In physics humanoids with
-    ideal bodies play, and what touches touches. A tournament that was
+    through obstacles; the evader is captured at a distance of 0.35 m, and
+    touches an obstacle that its centre comes nearer to than 0.20 m. In
+    physics humanoids with ideal bodies play: capture is the same distance,
+    contact is bodies that touch, and both are reported. A share of games
+    survived holds against the pursuer of its row only. A tournament that was
     stopped goes on where it was with the same folder.
     """
     from ..rooms import RoomRecipe, load_room
@@ -261,7 +266,7 @@ def _answer(
     return {
         **header(settings.entries(), rooms=rooms, libraries=libraries),
         "seeds": f"{seeds.start}:{seeds.stop}",
-        "rows": tournament_rows(records),
+        "rows": tournament_rows(records, settings.game),
     }
 
 

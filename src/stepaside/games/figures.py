@@ -86,6 +86,9 @@ class DuelSummary:
         distance_m: Mean distance between the places, in [m].
         relative_orientation_deg: Mean angle between the headings, in [deg].
         min_distance_m: Least distance between the torsos, in [m].
+        captured_at_s: When that distance first was at most the capture
+            distance, in [s]; None if it never was. Contact is another
+            event: it ends a duel, with ``outcome`` and ``touched``.
         converged_at_s: Since when they are on theory's circle, in [s].
         replans: Maneuvers planned by both.
         max_com_velocity_jump_m_s: Of a CoM reference at a replan, in [m/s].
@@ -125,6 +128,7 @@ class DuelSummary:
     sight: SeeingFigures | None = None
     touched: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+    captured_at_s: float | None = None
     run_folder: str | None = None
 
     def to_json(self) -> dict[str, Any]:

@@ -6,6 +6,7 @@ from math import ceil, hypot
 from time import perf_counter
 from typing import NamedTuple, Protocol
 
+from ..constants import CAPTURE_DISTANCE
 from ..errors import ReachError, StrategyError
 from ..interrupting import Held
 from ..world.truth import torsos_apart
@@ -54,6 +55,8 @@ class Match:
         message: What ended the game, in words; empty while it goes on.
         touched: Names of who and what met, if that ended it.
         min_distance: Least distance between the first two torsos, in [m].
+        captured_at: When that distance first was at most the capture
+            distance, in [s]; None if it never was. The game goes on.
         triggered_at: When the last player began to move, in [s]; None if it
             never did.
         triggered_distance: Distance between the places then, in [m].
@@ -82,6 +85,7 @@ class Match:
         self.touched: tuple[str, ...] = ()
         self._has_things = has_things
         self.min_distance = self.torsos_apart
+        self.captured_at: float | None = None
         self.triggered_at: float | None = None
         self.triggered_distance: float | None = None
 
@@ -145,6 +149,8 @@ class Match:
         if apart is not None:
             assert self.min_distance is not None
             self.min_distance = min(self.min_distance, apart)
+            if self.captured_at is None and apart <= CAPTURE_DISTANCE:
+                self.captured_at = now
         fallen = [p.name for p in self.players if p.has_fallen]
         if fallen:
             self.message = f"{' and '.join(fallen)} fell at {now:.2f} s"

@@ -96,6 +96,7 @@ def summarise(
         sight=None if seen is None else seen.all,
         touched=list(match.touched),
         notes=list(settings.notes),
+        captured_at_s=match.captured_at,
     )
 
 

@@ -3,6 +3,7 @@
 from .deflected import Deflected
 from .driven import Driven
 from .evasion import Evasion, EvasionMemory
+from .herding import HerdingPursuit
 from .knowledge import STAND, Intent, Knowledge, Limits
 from .lead import LeadPursuit
 from .look_ahead import LookAhead
@@ -22,6 +23,7 @@ __all__ = [
     "Driven",
     "Evasion",
     "EvasionMemory",
+    "HerdingPursuit",
     "Intent",
     "Knowledge",
     "LeadPursuit",

@@ -1,7 +1,7 @@
 """Head for the other (paper, Sec. II-A)."""
 
 from dataclasses import dataclass
-from math import atan2, cos, sin
+from math import atan2, cos, inf, pi, sin
 from typing import ClassVar
 
 import numpy as np
@@ -14,7 +14,7 @@ from ..rooms import BODY_RADIUS
 from ..rooms.paths import first_point
 from ..rooms.standing import standing
 from .approach import swift_heading
-from .knowledge import Intent, Knowledge
+from .knowledge import Intent, Knowledge, Limits
 
 AHEAD = 3.0  # strides that are free where it heads by (2)
 ASIDE = 1e-3  # of the other, from which on it goes around something, [rad]
@@ -31,13 +31,20 @@ class Pursuit:
         saturated: Whether to turn by (6) instead of (8).
         body_radius: Distance that its way keeps from what stands around, in
             [m]; above 0 to 10.
+        gain_ratio: Its steering gain over that of the gait, in [1]; above 0.
+            No turn is larger than eq. (2) gives at the gait's gain, k pi:
+            inf turns by the whole bearing in one step, up to that turn.
     """
 
     saturated: bool = False
     body_radius: float = BODY_RADIUS
+    gain_ratio: float = 1.0
 
     ranges: ClassVar[Ranges] = {
-        "body_radius": Range(0.0, 10.0, "m", "a body has some", above=True)
+        "body_radius": Range(0.0, 10.0, "m", "a body has some", above=True),
+        "gain_ratio": Range(
+            *(0.0, 1e3, "1"), "it turns to the evader", above=True, also=(inf,)
+        ),
     }
 
     def __post_init__(self) -> None:
@@ -66,7 +73,16 @@ class Pursuit:
             if side is not None or self._is_shut(knowledge):
                 # By (2) it would walk on into what it is to go around.
                 return Intent(swift_heading(bearing, knowledge.limits)), side
-        return Intent(laws.pursuit_heading(bearing)), side
+        return Intent(self._heading(bearing, knowledge.limits)), side
+
+    def _heading(self, bearing: float, limits: Limits) -> float:
+        """Desired heading of eq. (2) at the own gain, in [rad].
+
+        A step turns by a share of it, which is that of the gait.
+        """
+        share = limits.gain * limits.stride / limits.speed
+        ratio = min(self.gain_ratio, max(1.0, 1.0 / share))
+        return min(max(ratio * laws.pursuit_heading(bearing), -pi), pi)
 
     def _is_shut(self, knowledge: Knowledge) -> bool:
         """Whether the next steps straight on come too near to something."""

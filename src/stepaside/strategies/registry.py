@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
 from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_file_location
+from math import inf
 from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
@@ -14,6 +15,7 @@ from ..errors import ConfigurationError
 from .asking import FAILURES
 from .deflected import Deflected
 from .evasion import Evasion
+from .herding import HerdingPursuit
 from .lead import LeadPursuit
 from .look_ahead import LookAhead
 from .optimal import Optimal
@@ -29,6 +31,8 @@ STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "look-ahead": lambda evasion: LookAhead(),
     "optimal": lambda evasion: Optimal(),
     "pursuit": lambda evasion: Pursuit(),
+    "sharp": lambda evasion: Pursuit(gain_ratio=inf),
+    "herding": lambda evasion: HerdingPursuit(),
     "lead": lambda evasion: LeadPursuit(),
     "optimal-pursuit": lambda evasion: OptimalPursuit(),
     "stand": lambda evasion: Stand(),
@@ -38,6 +42,8 @@ STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
 
 OF_EVASION = ("evasion", "deflected")  # that play by it
 _OBJECT = re.compile(r"object [\w.<>]+\(.*\)", re.DOTALL)
+_WITH_GAIN = re.compile(r"pursuit-x(?P<ratio>\d+(?:\.\d*)?)", re.ASCII)
+"""The pursuer of the paper with another gain than its gait's."""
 _IN_FILE = re.compile(r"(?P<file>.+\.py):(?P<name>[^:]*)", re.DOTALL)
 
 
@@ -78,7 +84,8 @@ def check_strategy_name(
     """Refuse what names no strategy, without opening a file.
 
     Args:
-        name: One of :data:`STRATEGIES`, or FILE.py:NAME.
+        name: One of :data:`STRATEGIES`, pursuit-xRATIO (the pursuer of the
+            paper with RATIO times the gain of its gait), or FILE.py:NAME.
         what: What it is the name of, for the message.
         recorded: Whether it may be text of :func:`describe_strategy`.
 
@@ -87,11 +94,18 @@ def check_strategy_name(
     """
     if recorded and is_described(name):
         return
+    if name in STRATEGIES:
+        return
+    if with_gain := _WITH_GAIN.fullmatch(name):
+        Pursuit.ranges["gain_ratio"].check(
+            float(with_gain["ratio"]), f"RATIO of {what} pursuit-xRATIO"
+        )
+        return
     found = _IN_FILE.fullmatch(name)
-    if name not in STRATEGIES and not (found and found["name"].isidentifier()):
+    if not (found and found["name"].isidentifier()):
         raise ConfigurationError(
-            f"{what} must be one of {', '.join(STRATEGIES)} or FILE.py:NAME, "
-            f"got {name!r}"
+            f"{what} must be one of {', '.join(STRATEGIES)}, pursuit-xRATIO "
+            f"or FILE.py:NAME, got {name!r}"
         )
 
 
@@ -101,8 +115,8 @@ def load_strategy(
     """Find a strategy.
 
     Args:
-        name: One of :data:`STRATEGIES`, or FILE.py:NAME; there NAME is a
-            strategy, or a class or function that makes one when it is
+        name: One of :data:`STRATEGIES`, pursuit-xRATIO, or FILE.py:NAME;
+            there NAME is a strategy, or a class or function that makes one when it is
             called with nothing. The file is run. A strategy itself is
             returned.
         evasion: How an evader of the paper evades; by default as there.
@@ -123,6 +137,8 @@ def load_strategy(
             "again; give its FILE.py:NAME, or the object from Python"
         )
     check_strategy_name(name)
+    if with_gain := _WITH_GAIN.fullmatch(name):
+        return Pursuit(gain_ratio=float(with_gain["ratio"]))
     found = _IN_FILE.fullmatch(name)
     if found is None:
         return STRATEGIES[name](evasion or Evasion())

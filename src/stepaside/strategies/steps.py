@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..constants import CAPTURE_DISTANCE
 from ..errors import check_positive, check_within
 from ..planning import Direction
 from ..poses import Array, Pose, wrap_angle
@@ -22,7 +23,7 @@ class StepOutcome(StrEnum):
     """How a game in steps ended."""
 
     SURVIVED = "survived"
-    CAUGHT = "caught"
+    CAPTURED = "captured"
     TOUCHED = "touched"
 
 
@@ -36,7 +37,8 @@ class StepGame:
         gain: Steering gain k of both, in [1/s].
         largest_turn: Of a step, in [rad]; by default that of eq. (2), pi
             times gain, stride over speed.
-        capture: Distance at which the evader is caught, in [m].
+        capture: Capture distance, in [m]: at it or below it the evader is
+            captured.
         body_radius: Least distance of the evader's centre to what stands
             there, in [m]; nearer it touches it.
         solid_pursuer: Whether the pursuer stops at what stands there; the
@@ -50,7 +52,7 @@ class StepGame:
     speed: float = 0.1
     gain: float = 0.2
     largest_turn: float | None = None
-    capture: float = 0.35
+    capture: float = CAPTURE_DISTANCE
     body_radius: float = 0.2
     solid_pursuer: bool = False
     duration: float = 180.0
@@ -232,7 +234,7 @@ def play_steps(
             outcome = StepOutcome.TOUCHED
             break
         if hypot(x - hunter.pose.x, y - hunter.pose.y) <= game.capture:
-            outcome = StepOutcome.CAUGHT
+            outcome = StepOutcome.CAPTURED
             break
     poses = np.array(ways)
     return StepTrack(

@@ -19,6 +19,7 @@ FIELDS = (  # of every record
     *("certified_m", "digest"),
 )
 Record = dict[str, Any]
+BEFORE = 2.0 / 3.0  # of a duel: its figures are those of the rest
 OUTCOMES = ("completed", "fall", "contact")  # counted also where there is none
 # Figure of a record, the theory that it stands beside, and which end of its
 # range is bad: farthest from theory (0), largest (1), smallest (-1).
@@ -43,9 +44,11 @@ def summarise_duels(
 ) -> dict[str, Any]:
     """Figures of many duels, ready for JSON.
 
-    Outcomes and convergence are shares with a 95 % interval after Wilson;
-    figures are those of the duels that were played to their end, with the
-    95 % interval of their mean.
+    Outcomes and convergence are shares with a 95 % interval after Wilson.
+    On the circle is a duel that stays on it for at least its last 5 s; in
+    time, by the rule of the claims page, one that is on it before the last
+    third begins. Figures are those of the duels that were played to their
+    end, with the 95 % interval of their mean.
 
     Args:
         settings: Of all of them.
@@ -67,6 +70,12 @@ def summarise_duels(
         },
         "on_the_circle": share(
             r["converged_at_s"] is not None for r in records
+        ),
+        "on_the_circle_by_s": BEFORE * settings.duration,
+        "on_the_circle_in_time": share(
+            r["converged_at_s"] is not None
+            and r["converged_at_s"] < BEFORE * settings.duration
+            for r in records
         ),
         "theory": theory,
         "figures": figures,

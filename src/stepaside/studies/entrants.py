@@ -1,17 +1,15 @@
 """Who plays in a tournament: strategies by name."""
 
-from collections.abc import Callable, Mapping
+import re
+from collections.abc import Callable, Iterable, Mapping
 from math import pi, radians
 
 from ..errors import ConfigurationError
 from ..strategies import (
     Deflected,
     Evasion,
-    LeadPursuit,
     LookAhead,
     Optimal,
-    OptimalPursuit,
-    Pursuit,
     Strategy,
     load_strategy,
 )
@@ -28,12 +26,16 @@ EVADERS: Mapping[str, Callable[[float], Strategy]] = {
     "optimal": lambda angle: Optimal(),
 }
 """Makes an evader of each name, given the angle of "alpha"."""
-PURSUERS: Mapping[str, Callable[[], Strategy]] = {
-    "pure": Pursuit,
-    "lead": LeadPursuit,
-    "optimal": OptimalPursuit,
+PURSUERS: Mapping[str, str] = {
+    "pure": "pursuit",
+    "sharp": "sharp",
+    "herding": "herding",
+    "lead": "lead",
+    "optimal": "optimal-pursuit",
 }
-"""Makes a pursuer of each name."""
+"""Name of the strategy of each pursuer."""
+_WITH_GAIN = re.compile(r"pure-x(?P<ratio>\d+(?:\.\d*)?)", re.ASCII)
+"""The paper's pursuer with RATIO times the evader's gain."""
 
 
 def evader_of(name: str, angle: float = pi / 2) -> Strategy:
@@ -48,13 +50,29 @@ def evader_of(name: str, angle: float = pi / 2) -> Strategy:
 
 
 def pursuer_of(name: str) -> Strategy:
-    """Pursuer of a name, or of FILE.py:NAME; see :func:`evader_of`."""
-    if name in PURSUERS:
-        return PURSUERS[name]()
-    return _own(name, "pursuer", PURSUERS)
+    """Pursuer of a name, of pure-xRATIO, or of FILE.py:NAME.
+
+    Raises:
+        ConfigurationError: If there is none.
+    """
+    if name in PURSUERS or _WITH_GAIN.fullmatch(name):
+        return load_strategy(pursuer_strategy(name))
+    return _own(name, "pursuer", (*PURSUERS, "pure-xRATIO"))
 
 
-def _own(name: str, what: str, names: Mapping[str, object]) -> Strategy:
+def pursuer_strategy(name: str) -> str:
+    """Name by which :func:`~stepaside.strategies.load_strategy` knows it."""
+    found = _WITH_GAIN.fullmatch(name)
+    return f"pursuit-x{found['ratio']}" if found else PURSUERS.get(name, name)
+
+
+def gain_ratio_of(name: str) -> float | None:
+    """Gain of a pursuer over the evader's, in [1]; None if not by eq. (2)."""
+    found = _WITH_GAIN.fullmatch(name)
+    return float(found["ratio"]) if found else {"pure": 1.0}.get(name)
+
+
+def _own(name: str, what: str, names: Iterable[str]) -> Strategy:
     if ".py:" not in name:
         raise ConfigurationError(
             f"{what} must be one of {', '.join(names)} or FILE.py:NAME, "

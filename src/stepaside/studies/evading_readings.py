@@ -8,12 +8,13 @@ import numpy as np
 
 from ..games.duel import run_duel
 from ..games.duel_run import DuelRun
+from ..games.outcome import Outcome
 from ..games.settings import PLAYERS, DuelSettings
 from ..rooms import RoomRecipe, make_room
 from ..strategies.steps import StepGame, StepOutcome, StepTrack
 from ..world.camera_settings import RoomSettings
 from .evading_claims import DURATION
-from .physics_game import clearance, outcome_of
+from .physics_game import clearance, outcome_of, players_touched
 from .readings import Readings
 from .tournament import bound_of, play_track
 from .tournament_settings import TournamentSettings
@@ -105,7 +106,7 @@ Clear = Callable[[DuelRun, str], float | None]
 
 
 def read_room(run: DuelRun, clear: Clear = clearance) -> Readings:
-    """What two humanoids touched in a room, and who was caught.
+    """What two humanoids touched in a room, and whether one was captured.
 
     Args:
         run: The duel.
@@ -113,8 +114,9 @@ def read_room(run: DuelRun, clear: Clear = clearance) -> Readings:
     """
     kept: Sequence[float | None] = [clear(run, name) for name in PLAYERS]
     ended = outcome_of(run)
+    clean = run.outcome is Outcome.COMPLETED or players_touched(run)
     return {
-        "touched": float(ended not in ("survived", "caught")),
+        "touched": float(not clean),
         "clear": min(inf if k is None else k for k in kept),
         "free": run.duration if ended == "survived" else 0.0,
     }

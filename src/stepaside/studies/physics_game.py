@@ -19,7 +19,7 @@ from ..rooms import Room
 from ..strategies import Evasion
 from ..world.camera_settings import RoomSettings
 from ..world.outline import measure_outline
-from .entrants import ALWAYS, SIGHT
+from .entrants import ALWAYS, SIGHT, pursuer_strategy
 from .floor_used import floor_used
 
 SEEN = "seen"
@@ -29,7 +29,6 @@ PAPER: Mapping[str, Callable[[float], Evasion]] = {
     "alpha": lambda angle: Evasion(angle, safety_radius=ALWAYS),
 }
 """Evaders of the paper, as a duel knows them, given the angle of "alpha"."""
-NAMES = {"pure": "pursuit", "optimal": "optimal-pursuit"}  # of pursuers
 OUTCOMES = {Outcome.COMPLETED: "survived", Outcome.FALL: "fell"}
 
 
@@ -62,7 +61,7 @@ def duel_settings(
         duration=duration,
         strategy=Evasion(safety_radius=ALWAYS) if own is None else own(angle),
         evader_strategy=evader if own is None else "evasion",
-        pursuer_strategy=NAMES.get(pursuer, pursuer),
+        pursuer_strategy=pursuer_strategy(pursuer),
         sensing="cameras" if source == SEEN else "ideal",
         room=RoomSettings(plan=replace(room, starts=starts)),
         map=MapSettings(source=source),
@@ -97,7 +96,9 @@ def figures_of(run: DuelRun, radius: float) -> dict[str, Any]:
         radius: Of the body that needs floor, in [m].
 
     Returns:
-        Figures in SI units; ``touched`` names who and what met,
+        Figures in SI units; ``survived_s`` ends with capture or contact,
+        ``contact`` says whether the bodies of the two players touched,
+        ``touched`` names who and what met,
         ``PLAYER_clearance_m`` is the least distance of a trunk from what
         rests, and a decision is all that a replan takes.
     """
@@ -108,8 +109,11 @@ def figures_of(run: DuelRun, radius: float) -> dict[str, Any]:
     seconds = max(run.duration, 1e-9)
     return {
         "outcome": outcome,
+        "contact": players_touched(run),
         "touched": list(summary.touched),
-        "survived_s": run.duration,
+        "survived_s": run.duration
+        if summary.captured_at_s is None
+        else summary.captured_at_s,
         "closest_m": summary.min_distance_m,
         "floor_m2": floor_used(evader[:, :2], radius),
         "walked_m": float(np.hypot(*np.diff(evader[:, :2], axis=0).T).sum()),
@@ -121,15 +125,25 @@ def figures_of(run: DuelRun, radius: float) -> dict[str, Any]:
     }
 
 
+def players_touched(run: DuelRun) -> bool:
+    """Return whether a duel ended with contact between its two players."""
+    contact = run.outcome is Outcome.CONTACT
+    return contact and set(run.summary.touched) == set(PLAYERS)
+
+
 def outcome_of(run: DuelRun) -> str:
     """How a duel ended, in the words of a tournament.
 
     Returns:
-        "survived", "caught", "touched", "fell", or what a duel calls it.
+        "captured" if the distance ever was at most the capture distance,
+        whatever came after; else "survived", "contact" between the players,
+        "touched" for contact with an obstacle, "fell", or what a duel calls
+        it.
     """
+    if run.summary.captured_at_s is not None:
+        return "captured"
     if run.outcome is Outcome.CONTACT:
-        both = set(run.summary.touched) == set(PLAYERS)
-        return "caught" if both else "touched"
+        return "contact" if players_touched(run) else "touched"
     return OUTCOMES.get(run.outcome) or str(run.outcome.value)
 
 

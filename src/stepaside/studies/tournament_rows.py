@@ -1,32 +1,65 @@
 """What came out of a tournament: a row for each pairing."""
 
 from collections.abc import Sequence
-from math import sqrt
+from math import pi, sqrt
 from typing import Any
 
 import numpy as np
 
+from ..strategies.steps import StepGame
+from ..unicycle.circling import find_circle
+from .entrants import gain_ratio_of
 from .survival import wilson
 
 Record = dict[str, Any]
 NORMAL = 1.959964  # standard deviations of a 95 % interval
 
 
-def tournament_rows(records: Sequence[Record]) -> list[Record]:
+def tournament_rows(
+    records: Sequence[Record], game: StepGame | None = None
+) -> list[Record]:
     """Rows of a tournament, ready for JSON.
 
     Args:
         records: Of :func:`~stepaside.studies.tournament.play_record`.
+        game: Rules of the games.
 
     Returns:
         For each pairing: shares with 95 % intervals after Wilson, means with
-        95 % intervals, and the seeds of the games that came worst.
+        95 % intervals, the seeds of the games that came worst, and the
+        capture distance beside the distance on the paper's circle.
     """
+    game = game or StepGame()
     pairings = dict.fromkeys((r["evader"], r["pursuer"]) for r in records)
     return [
         _row([r for r in records if (r["evader"], r["pursuer"]) == pairing])
+        | {
+            "capture_distance_m": game.capture,
+            "circle_distance_m": circle_distance(game, pairing[1]),
+        }
         for pairing in pairings
     ]
+
+
+def circle_distance(game: StepGame, pursuer: str) -> float | None:
+    """Distance on the paper's circle for the gain of a pursuer, in [m].
+
+    The evader moves aside at the gain of the game. Where this distance is
+    at most the capture distance, moving aside leads to capture.
+
+    Args:
+        game: Rules of the games.
+        pursuer: Its name in a tournament.
+
+    Returns:
+        The distance; None for a pursuer that does not turn by eq. (2).
+    """
+    ratio = gain_ratio_of(pursuer)
+    if ratio is None:
+        return None
+    speeds, gains = 2 * (game.speed,), (ratio * game.gain, game.gain)
+    circle = find_circle(*speeds, *gains, 0.5 * pi, "proportional")
+    return float(circle.distance_m) if circle.exists else None
 
 
 def _row(records: Sequence[Record]) -> Record:
@@ -53,7 +86,8 @@ def _row(records: Sequence[Record]) -> Record:
         "survived": survived / len(records),
         "survived_low": low,
         "survived_high": high,
-        "caught": outcomes.count("caught") / len(records),
+        "captured": outcomes.count("captured") / len(records),
+        "contact": _share_of_contact(records),
         "touched_obstacle": outcomes.count("touched") / len(records),
         "fell": outcomes.count("fell") / len(records),
         "mean_survival_s": float(np.mean([r["survived_s"] for r in records])),
@@ -70,6 +104,13 @@ def _row(records: Sequence[Record]) -> Record:
         * float(max(r["longest_decision_s"] for r in records)),
         "worst_seeds": [r["seed"] for r in order[:5]],
     }
+
+
+def _share_of_contact(records: Sequence[Record]) -> float | None:
+    """Share of games in which bodies touched; None at levels without."""
+    if any("contact" not in r for r in records):
+        return None
+    return [r["contact"] for r in records].count(True) / len(records)
 
 
 def _half(values: Any) -> float:

@@ -30,8 +30,9 @@ class StrategyType(click.ParamType[str]):
 
 
 NAMED = (
-    "its name (evasion, deflected, look-ahead, optimal, pursuit, lead, "
-    "optimal-pursuit, stand, walk), or FILE.py:NAME"
+    "its name (evasion, deflected, look-ahead, optimal, pursuit, "
+    "pursuit-xRATIO, sharp, herding, lead, optimal-pursuit, stand, walk), or "
+    "FILE.py:NAME"
 )
 
 

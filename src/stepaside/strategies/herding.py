@@ -1,0 +1,65 @@
+"""Cut the evader off from the middle of a room."""
+
+from dataclasses import dataclass, field, replace
+from math import atan2, cos, hypot, sin
+
+from ..planning import Direction
+from ..poses import wrap_angle
+from .knowledge import Intent, Knowledge
+from .pursuit import Pursuit
+
+NEAR = 1e-6  # distance from the centre at which it has no bearing, in [m]
+
+
+@dataclass(frozen=True, slots=True)
+class HerdingPursuit:
+    """Head half way between the bearings of the evader and of the centre.
+
+    The point it aims at divides the segment from the evader to the centre
+    in the ratio of the pursuer's distances to both. So it stays between the
+    evader and the free floor, and the evader runs out of room at the walls.
+
+    Attributes:
+        center: Centre of the room (x, y) in the frame of
+            ``Knowledge.pose``, in [m]. The origin of a known room is its
+            centre; without a known room the frame is odometry, whose origin
+            is where the pursuer began.
+        pursuit: How it heads for the point.
+    """
+
+    center: tuple[float, float] = (0.0, 0.0)
+    pursuit: Pursuit = field(default_factory=Pursuit)
+
+    @property
+    def direction(self) -> Direction:
+        """Forward, eq. (1)."""
+        return Direction.FORWARD
+
+    @property
+    def saturated(self) -> bool:
+        """Whether it turns by (6) instead of (8)."""
+        return self.pursuit.saturated
+
+    def begin(self) -> int | None:
+        """Return the memory of :class:`Pursuit` before the first decision."""
+        return self.pursuit.begin()
+
+    def decide(
+        self, knowledge: Knowledge, memory: int | None
+    ) -> tuple[Intent, int | None]:
+        """Aim at the point between the evader and the centre."""
+        x, y, theta = knowledge.pose
+        u, v = self.center[0] - x, self.center[1] - y
+        inward = hypot(u, v)
+        if inward < NEAR:
+            return self.pursuit.decide(knowledge, memory)
+        sight = theta + knowledge.bearing
+        # The sum of two unit vectors halves the angle between them.
+        dx, dy = cos(sight) + u / inward, sin(sight) + v / inward
+        away = knowledge.distance
+        aimed = replace(
+            knowledge,
+            bearing=wrap_angle(atan2(dy, dx) - theta),
+            distance=hypot(dx, dy) * away * inward / (away + inward),
+        )
+        return self.pursuit.decide(aimed, memory)
