@@ -4,15 +4,15 @@ from dataclasses import asdict, dataclass
 from functools import cached_property
 from json import dumps, loads
 from math import pi, tau
-from pathlib import Path
 from typing import Any
 from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import PlanError, check_within
+from ..errors import AnyPath, PlanError, as_path, check_within
 from ..outputs import writing
+from ..unicycle.relative import check_bearings
 from .game import BoundGame
 from .grid import Grid, Values
 
@@ -67,7 +67,18 @@ class Bound:
 
         Returns:
             Values of the shape that the arguments have together, in [m].
+
+        Raises:
+            PlanError: If an angle lies outside of one turn either way.
         """
+        check_bearings(error, "error")
+        check_bearings(bearing, "bearing")
+        return self._value(distance, error, bearing)
+
+    def _value(
+        self, distance: ArrayLike, error: ArrayLike, bearing: ArrayLike
+    ) -> Array:
+        """Value at angles that may lie beyond a turn."""
         r = np.asarray(distance, dtype=np.float64)
         found = self._look_up(r, error, bearing)
         beyond = np.maximum(r - self.grid.far, 0.0)
@@ -82,9 +93,11 @@ class Bound:
         It turns as fast as it can to where the value rises, and holds its
         bearing on a ridge. Where turning does not matter it turns away.
         """
+        check_bearings(error, "error")
+        check_bearings(bearing, "bearing")
         r, a, psi = np.broadcast_arrays(distance, error, bearing)
         step = self.grid.spacings[2]
-        before, here, after = self.value(
+        before, here, after = self._value(
             r, a, np.stack([psi - step, psi, psi + step])
         )
         swing = self._swing(r, a, psi)
@@ -101,12 +114,14 @@ class Bound:
         A pursuer that obeys a law turns by that law; any other turns to the
         evader where turning does not matter.
         """
+        check_bearings(error, "error")
+        check_bearings(bearing, "bearing")
         r, a, psi = np.broadcast_arrays(distance, error, bearing)
         law = self.game.pursuer_gain * _wrapped(a)
         if self.game.pursuer_turn == 0.0:
             return law
         step = self.grid.spacings[1]
-        before, here, after = self.value(
+        before, here, after = self._value(
             r, np.stack([a - step, a, a + step]), psi
         )
         swing = self._swing(r, a, psi) - law
@@ -147,7 +162,7 @@ class Bound:
         found: Array = np.maximum(reach, capture)
         return found
 
-    def save(self, path: str | Path) -> None:
+    def save(self, path: AnyPath) -> None:
         """Write the tables and all settings to one ``.npz`` file."""
         from .. import __version__
 
@@ -164,7 +179,7 @@ class Bound:
         }
         a, r, psi = self.grid.axes()
         nodes = r[:, None], a[:, None, None], psi
-        with writing(Path(path)) as draft, draft.open("wb") as file:
+        with writing(as_path(path, "path")) as draft, draft.open("wb") as file:
             np.savez_compressed(
                 file,
                 head=np.array(dumps(head)),
@@ -219,14 +234,15 @@ class Bound:
         return np.asarray(found, dtype=np.float64)
 
 
-def load_bound(path: str | Path) -> Bound:
+def load_bound(path: AnyPath) -> Bound:
     """Read what :meth:`Bound.save` wrote.
 
     Raises:
         PlanError: If the file is no such table.
     """
+    path = as_path(path, "path", PlanError)
     try:
-        with np.load(Path(path), allow_pickle=False) as file:
+        with np.load(path, allow_pickle=False) as file:
             head = loads(str(file["head"]))
             values = file["values"]
         if head["format"] != FORMAT:

@@ -9,7 +9,7 @@ from os.path import normpath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import ModelError
+from ..errors import AnyPath, ModelError, as_path
 from .description_file import read_entries
 from .own import NO_OVERLAY, Overlay, Place, Sensors
 
@@ -239,7 +239,7 @@ def _is_file(path: Path) -> bool:
         return False
 
 
-def load_robot(robot: str | Path) -> RobotDescription:
+def load_robot(robot: AnyPath) -> RobotDescription:
     """Load a robot by name, or from a folder.
 
     Args:
@@ -250,9 +250,10 @@ def load_robot(robot: str | Path) -> RobotDescription:
         ModelError: If there is none, or its file has unknown, missing or
             ill-typed entries.
     """
-    folder = Path(str(files(__package__))) / str(robot)
+    given = as_path(robot, "robot", ModelError)
+    folder = Path(str(files(__package__))) / given
     if not _is_file(folder / FILE):
-        folder = Path(robot)
+        folder = given
     if not _is_file(folder / FILE):
         raise ModelError(
             f"robot must be one of {', '.join(known_robots())} or a folder "

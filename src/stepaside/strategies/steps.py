@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import check_positive, check_within
+from ..errors import check_bearing, check_positive, check_within
 from ..planning import Direction
 from ..poses import Array, Pose, wrap_angle
 from ..rooms import OPEN_FLOOR, Obstacle, Room
@@ -67,6 +67,7 @@ class StepGame:
         check_within(self.decisions, 1, 100, "decisions", "1")
         if self.largest_turn is not None:
             check_positive(self.largest_turn, "largest_turn", "rad")
+            check_bearing(self.largest_turn, "largest_turn")
 
     @property
     def period(self) -> float:

@@ -15,6 +15,7 @@ from .circling import Circle
 from .compiled import load_numba
 from .laws import Game
 from .motion import State
+from .relative import check_bearings
 from .rules import rules_of
 
 MOST_STEPS = 1e8  # of one game: some seconds of a fast machine
@@ -162,6 +163,7 @@ def _wrapped(starts: ArrayLike) -> Array:
     if not (np.isfinite(states).all() and (states[:, 0] > 0.0).all()):
         raise PlanError("starts must be finite with distance > 0 [m]")
     angles = states[:, 1:]
+    check_bearings(angles, "bearings of starts")
     far = np.abs(angles) > np.pi  # wrapping would turn pi into -pi
     angles[far] = wrap_angles(angles[far])
     return states
