@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..errors import AnyPath, PlanError, as_path, check_within
 from ..outputs import writing
 from ..unicycle.relative import check_bearings
+from ..values import brief_repr
 from .game import BoundGame
 from .grid import Grid, Values
 
@@ -49,6 +50,8 @@ class Bound:
     falling_mean: float
     falling_worst: float
     seconds: float
+
+    __repr__ = brief_repr
 
     def __post_init__(self) -> None:
         """Freeze the table."""

@@ -11,6 +11,7 @@ from ..planning import GaitSettings
 from ..ranges import RUNTIME, SEEDS, Range, Ranges, check_count, check_settings
 from ..strategies import Evasion
 from ..strategies.registry import check_strategy_name
+from ..values import brief_repr
 from ..world.body_settings import BodySettings
 from ..world.camera_settings import CameraSettings, RoomSettings
 from ..world.passer import MOST_PASSERS, Passer
@@ -120,6 +121,8 @@ class DuelSettings:
         passers: Who else walks by where a person comes; with ideal sight the
             evader is told of the one who comes alone.
     """
+
+    __repr__ = brief_repr
 
     seed: int = 1
     duration: float = 120.0

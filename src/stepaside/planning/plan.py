@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import PlanError, shown
 from ..poses import Array
+from ..values import brief_repr
 from .footsteps import Foot, Footstep
 from .path import Direction
 from .schedule import Sampler, Schedule
@@ -35,6 +36,8 @@ class PlanSamples(NamedTuple):
         pivot: Point that the CoM falls away from, in [m]; the ZMP, but for
             what the swing leg takes. Shape (m, 2).
     """
+
+    __repr__ = brief_repr
 
     times: Array
     zmp: Array
@@ -66,6 +69,8 @@ class ManeuverPlan:
             [m]; see :class:`~stepaside.planning.schedule.Schedule`.
             Shape (count + 4, 2), one more if the swing leg is felt.
     """
+
+    __repr__ = brief_repr
 
     schedule: Schedule
     bearing: float

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import AnyPath, ModelError, as_path
+from ..values import brief_repr
 from .description_file import read_entries
 from .own import NO_OVERLAY, Overlay, Place, Sensors
 
@@ -50,6 +51,8 @@ class RobotDescription:
         lean: Roll of the torso towards a foot that the CoM is right over,
             in [rad]: it relieves the roll joint of that hip; 0 to 0.3.
     """
+
+    __repr__ = brief_repr
 
     folder: Path
     name: str

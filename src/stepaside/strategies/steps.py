@@ -13,6 +13,7 @@ from ..planning import Direction
 from ..poses import Array, Pose, wrap_angle
 from ..rooms import OPEN_FLOOR, Obstacle, Room
 from ..steps.packed import clearance_at, pack
+from ..values import brief_repr
 from .decider import Decider
 from .knowledge import Intent, Limits
 from .strategy import Strategy
@@ -111,6 +112,8 @@ class StepTrack(NamedTuple):
             first time, when code is loaded, in [s].
         longest_decision: Longest, likewise.
     """
+
+    __repr__ = brief_repr
 
     outcome: StepOutcome
     pursuer: Array

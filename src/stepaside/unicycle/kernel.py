@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import PlanError, check_positive, shown
 from ..poses import wrap_angles
+from ..values import brief_repr
 from .batch import Array, Clock, deviations
 from .circles import circles_of
 from .circling import Circle
@@ -40,6 +41,8 @@ class Outcomes:
         states: Last r [m], a, psi [rad]. Shape (n, 3).
         sides: Last side. Shape (n,).
     """
+
+    __repr__ = brief_repr
 
     closest_distance: Array
     closest_time: Array
