@@ -34,7 +34,10 @@ BASES = {
     "circle": ["--starts=2", "--json"],
     "map": ["--grid=2", "--distances=1", "--duration=1", "--json"],
     "bound": ["--grid=16", "--refine=0", "--games=0", "--horizon=0.05"],
-    "play": ["--role=evader", "--robot=lola:none", "--duration=0.1"],
+    "play": [
+        *("--role=evader", "--robot=lola:none", "--duration=0.1"),
+        "--wait=0.05",
+    ],
     "serve": ["--lola=evader=socket", "--wait=0.05", "--lockstep", *SHORT],
     "reproduce": ["--runs=1", "--json"],
     "tournament": [

@@ -12,6 +12,7 @@ from .effort import SIMULATED, tell_effort
 from .keeping import keep
 from .options import print_json, print_table
 from .outputs import attempt, writes_files
+from .progress import show_progress
 
 if TYPE_CHECKING:
     from ..games.duel_run import DuelRun
@@ -66,18 +67,12 @@ def duel(
 
 def _play(settings: "DuelSettings") -> "DuelRun":
     """Play with a progress bar on standard error."""
-    from tqdm import tqdm
-
     from ..games.duel import run_duel
     from ..games.match import Progress
 
-    with tqdm(
-        total=settings.duration,
-        unit="s",
-        desc="duel",
-        disable=None,
-        bar_format="{desc} {bar} {n:.0f}/{total:.0f} s simulated{postfix}",
-    ) as bar:
+    look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated{postfix}"
+    total = settings.duration
+    with show_progress("duel", total, "s simulated", form=look) as bar:
 
         def report(progress: Progress) -> None:
             bar.n = progress.time
