@@ -130,5 +130,10 @@ def _print(tuned: "Tuned", folder: Path, changed: bool) -> None:
     print_table(rows)
     if changed:
         echo(f"\nwrote {folder}/robot.toml")
+    elif tuned.tried == 1:
+        echo(
+            "\nit walks steadily already, so nothing else was tried (tune "
+            "betters steadiness, not torques): the description stays as it is"
+        )
     else:
         echo("\nnothing tried was better: the description stays as it is")
