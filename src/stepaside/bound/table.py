@@ -74,15 +74,10 @@ class Bound:
         Raises:
             PlanError: If an angle lies outside of one turn either way.
         """
-        check_bearings(error, "error")
-        check_bearings(bearing, "bearing")
-        return self._value(distance, error, bearing)
+        return self._value(*_checked(distance, error, bearing))
 
-    def _value(
-        self, distance: ArrayLike, error: ArrayLike, bearing: ArrayLike
-    ) -> Array:
+    def _value(self, r: Array, error: Array, bearing: Array) -> Array:
         """Value at angles that may lie beyond a turn."""
-        r = np.asarray(distance, dtype=np.float64)
         found = self._look_up(r, error, bearing)
         beyond = np.maximum(r - self.grid.far, 0.0)
         value: Array = np.where(r < self.grid.near, r, found + beyond)
@@ -96,9 +91,7 @@ class Bound:
         It turns as fast as it can to where the value rises, and holds its
         bearing on a ridge. Where turning does not matter it turns away.
         """
-        check_bearings(error, "error")
-        check_bearings(bearing, "bearing")
-        r, a, psi = np.broadcast_arrays(distance, error, bearing)
+        r, a, psi = np.broadcast_arrays(*_checked(distance, error, bearing))
         step = self.grid.spacings[2]
         before, here, after = self._value(
             r, a, np.stack([psi - step, psi, psi + step])
@@ -117,9 +110,7 @@ class Bound:
         A pursuer that obeys a law turns by that law; any other turns to the
         evader where turning does not matter.
         """
-        check_bearings(error, "error")
-        check_bearings(bearing, "bearing")
-        r, a, psi = np.broadcast_arrays(distance, error, bearing)
+        r, a, psi = np.broadcast_arrays(*_checked(distance, error, bearing))
         law = self.game.pursuer_gain * _wrapped(a)
         if self.game.pursuer_turn == 0.0:
             return law
@@ -203,22 +194,17 @@ class Bound:
         swing: Array = (vp * np.sin(a) - ve * np.sin(psi)) / r
         return swing
 
-    def _look_up(
-        self,
-        distance: ArrayLike,
-        error: ArrayLike,
-        bearing: ArrayLike,
-    ) -> Array:
+    def _look_up(self, distance: Array, error: Array, bearing: Array) -> Array:
         grid, (step_r, step_a, step_psi) = self.grid, self.grid.spacings
         table = self._around
         places = (
-            (np.asarray(error) + pi) % tau / step_a + 0.5,
+            (error + pi) % tau / step_a + 0.5,
             np.clip(
-                (np.asarray(distance) - grid.near) / step_r,
+                (distance - grid.near) / step_r,
                 0.0,
                 grid.distances - 1.0,
             ),
-            (np.asarray(bearing) + pi) % tau / step_psi + 0.5,
+            (bearing + pi) % tau / step_psi + 0.5,
         )
         found: Any = 0.0
         cells = [
@@ -267,6 +253,16 @@ def load_bound(path: AnyPath) -> Bound:
         if isinstance(error, PlanError):
             raise
         raise PlanError(f"{path} is no table of a bound: {error}") from error
+
+
+def _checked(
+    distance: ArrayLike, error: ArrayLike, bearing: ArrayLike
+) -> tuple[Array, Array, Array]:
+    """Distances, errors and bearings as arrays, the latter within a turn."""
+    angles = np.asarray(error, np.float64), np.asarray(bearing, np.float64)
+    check_bearings(angles[0], "error")
+    check_bearings(angles[1], "bearing")
+    return np.asarray(distance, np.float64), *angles
 
 
 def _wrapped(angle: Array) -> Array:

@@ -37,8 +37,6 @@ class PlanSamples(NamedTuple):
             what the swing leg takes. Shape (m, 2).
     """
 
-    __repr__ = brief_repr
-
     times: Array
     zmp: Array
     dcm: Array
@@ -49,6 +47,10 @@ class PlanSamples(NamedTuple):
     right_foot: Array
     right_height: Array
     pivot: Array
+
+    def __repr__(self) -> str:
+        """Fields in one short line."""
+        return brief_repr(self)
 
 
 @dataclass(frozen=True, slots=True)

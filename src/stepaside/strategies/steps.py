@@ -113,8 +113,6 @@ class StepTrack(NamedTuple):
         longest_decision: Longest, likewise.
     """
 
-    __repr__ = brief_repr
-
     outcome: StepOutcome
     pursuer: Array
     evader: Array
@@ -122,6 +120,10 @@ class StepTrack(NamedTuple):
     clearances: Array
     decision: float
     longest_decision: float
+
+    def __repr__(self) -> str:
+        """Fields in one short line."""
+        return brief_repr(self)
 
     @property
     def distances(self) -> Array:
