@@ -28,7 +28,7 @@ STATUS = {  # of each command line
     f"duel {SHORT} --method mpc": 2,
     "view --no-open --serve-for 0.1": 2,
     "replay run --video film.mp4": 2,
-    "play --role evader --robot lola:none": 2,
+    "play --role evader --robot lola:none --wait 0": 2,
     "serve --lola evader=socket --wait 0.1": 2,
 }
 

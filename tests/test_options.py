@@ -120,6 +120,7 @@ SENSES = {
     "--smallest": 2,
     "--speed": 3,
     "--strategy": 2,
+    "--wait": 2,  # for clients, and for a robot
 }
 
 

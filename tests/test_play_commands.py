@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 from select import select
 from threading import Thread
+from time import monotonic, sleep
 
 import numpy as np
 import pytest
@@ -28,7 +29,9 @@ def test_a_robot_that_is_not_there_is_said_in_one_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     place = f"lola:{tmp_path}/none"
-    said = refused(capsys, "play", "--role", "evader", "--robot", place)
+    said = refused(
+        capsys, "play", "--role", "evader", "--robot", place, "--wait", "0"
+    )
     assert "no robot listens at" in said and "none" in said
 
 
@@ -55,6 +58,55 @@ def test_a_world_without_clients_gives_up(
     place = f"evader={tmp_path}/e"
     said = refused(capsys, "serve", "--lola", place, "--wait", "0.05")
     assert "no client that was ready within 0.05 s" in said
+
+
+@pytest.mark.parametrize("sight", [True, False])
+def test_play_waits_for_a_robot_that_is_not_there_yet(
+    sight: bool, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    """As three background jobs need it, in whatever order they begin."""
+    caplog.set_level("INFO")
+    place = tmp_path / "late"
+    ended: list[object] = []
+
+    def play() -> None:
+        words = ["play", "--role", "evader", "--robot", f"lola:{place}"]
+        with pytest.raises(SystemExit) as left:
+            main([*words, "--dry-run", "--wait", "60"])
+        ended.append(left.value.code)
+
+    player = Thread(target=play)
+    player.start()
+    until = monotonic() + 60.0
+    while "waits up to 60 s" not in caplog.text and monotonic() < until:
+        sleep(0.05)
+    assert f"no robot listens at {place}" in caplog.text
+    server = LolaServer(
+        *(Address(str(place)), MadeUpRobot(), JOINTS),
+        lock_step=True,
+        ideal_sight=sight,
+    )
+    try:
+        while not server.connected and player.is_alive():
+            server.speak()
+            sleep(0.01)
+        assert server.connected and not ended
+    finally:
+        server.close()
+        player.join(30.0)
+    assert ("by the ideal line of sight" in caplog.text) == sight
+
+
+def test_play_waits_no_longer_than_it_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["play", "--role", "evader", "--robot", f"lola:{tmp_path}/none"]
+    began = monotonic()
+    with pytest.raises(SystemExit) as left:
+        main([*words, "--wait", "0.5"])
+    assert left.value.code == 2
+    assert 0.5 < monotonic() - began < 20.0
+    assert "no robot listens at" in capsys.readouterr().err
 
 
 def test_a_dry_run_looks_on_and_writes_down_what_it_saw(

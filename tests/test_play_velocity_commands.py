@@ -66,7 +66,8 @@ def test_a_robot_on_naoqi_that_is_not_there_is_said(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     pytest.importorskip("qi")
-    words = "play --role evader --robot naoqi:127.0.0.1:1 --dry-run".split()
+    line = "play --role evader --robot naoqi:127.0.0.1:1 --dry-run --wait 0"
+    words = line.split()
     assert "no robot answers" in refused(capsys, *words)
     assert "no robot answers" in refused(capsys, *words, "--by", "joints")
 

@@ -143,8 +143,8 @@ def test_table_says_what_ended_on_no_circle(
     found = {"exists": False, "circles": circles, "starts": starts}
     print_circles(found)
     printed = capsys.readouterr().out.splitlines()
-    assert printed[-2].split() == ["captured", "0.625"]
-    assert printed[-1].split() == ["unsettled", "0.125"]
+    assert printed[-2].split() == ["games", "captured", "62.5", "%"]
+    assert printed[-1].split()[-3:] == ["settled", "12.5", "%"]
     other_way = "that turns the main way round." in printed
     assert other_way is bool(circles)
     print_circles(found | {"starts": None})
@@ -212,7 +212,7 @@ def test_circle_lists_main_and_reversed_with_their_shares() -> None:
     assert other["share"] == pytest.approx(0.25, abs=0.08)
     assert found["starts"]["unsettled_share"] == pytest.approx(0.0)
     table = run(circle, FAST).output
-    assert "share of starts" in table and "0.58758" in table
+    assert "starts that end on it" in table and "0.58758" in table
     kept = loads(circle, "--side-rule latched --starts 0")["circles"]
     assert [c["side_rule"] for c in kept] == ["behind", "latched"]
     assert [c["share"] for c in kept] == [None, None]
@@ -247,10 +247,10 @@ def test_certified_distance_is_shown_only_where_it_holds() -> None:
     held = loads(unicycles, f"{words} -1.05")
     assert held["certified"]["holds"]
     assert 0 < held["certified"]["distance_m"] <= held["closest_distance_m"]
-    assert "certified_m" in run(unicycles, f"{words} -1.05").output
+    assert "certified distance" in run(unicycles, f"{words} -1.05").output
     other = loads(unicycles, f"{words} 2.5")
     assert other["certified"] == {"holds": False, "distance_m": None}
-    assert "certified_m" not in run(unicycles, f"{words} 2.5").output
+    assert "certified distance" not in run(unicycles, f"{words} 2.5").output
     assert loads(unicycles, FAST)["certified"] is None
 
 

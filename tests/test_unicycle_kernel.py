@@ -121,7 +121,7 @@ def test_whole_turns_of_a_start_change_nothing(
 ) -> None:
     """Nor where the game is over at once: its state is wrapped too."""
     starts = np.array([[2.0, 0.5, 2.0], [1.0, -2.0, -3.0], [0.04, 1, -1]])
-    turns = 2.0 * np.pi * np.array([[0, 1, -1], [0, -1, 2], [0, 2, 1]])
+    turns = 2.0 * np.pi * np.array([[0, -1, -1], [0, 1, 1], [0, -1, 1]])
     plain, turned = (
         play_games(game, s, 2.0, capture_distance=0.05, backend=backend)
         for s in (starts, starts + turns)

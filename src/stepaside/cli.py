@@ -28,8 +28,8 @@ COMMANDS = {
     "bound": "Compute the best that any evader can do.",
     "tournament": "Let evaders play pursuers, in rooms by seed.",
     "room": "Make a room by seed: walls, doors, discs, boxes, polygons.",
-    "play": "Let control drive a robot that speaks LoLA.",
-    "serve": "Let others play in our world, over LoLA.",
+    "play": "Drive a robot over LoLA, NAOqi or ROS 2.",
+    "serve": "Offer simulated robots over LoLA, NAOqi or ROS 2.",
     "reproduce": "Measure every claim of the paper and write a page.",
     "robot": "Show a robot, or write its model.",
 }
@@ -125,7 +125,10 @@ def _refuse(message: str) -> NoReturn:
     sys.exit(2)
 
 
-@click.group(cls=LazyGroup)
+@click.group(cls=LazyGroup, invoke_without_command=True)
 @click.version_option(__version__)
-def main() -> None:
+@click.pass_context
+def main(context: click.Context) -> None:
     """Real-time pursuit and evasion for humanoid robots."""
+    if context.invoked_subcommand is None:
+        click.echo(context.get_help())

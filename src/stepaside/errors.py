@@ -1,8 +1,12 @@
 """Errors raised by this package, and the checks that raise them."""
 
+import os
 import sys
-from math import inf
+from math import inf, tau
 from numbers import Integral, Real
+from pathlib import Path
+
+AnyPath = str | os.PathLike[str]
 
 # Of what is greater or smaller, cubes and ratios leave the numbers that a
 # computer has; no length, time or rate of a robot is.
@@ -158,3 +162,43 @@ def check_within(
             f"{name} must lie in [{low:g}, {high:g}] [{unit}], "
             f"got {shown(value)}"
         )
+
+
+def check_bearing(
+    value: float,
+    name: str,
+    error: type[StepAsideError] = PlanError,
+) -> None:
+    """Raise ``error`` unless ``value`` is an angle within one turn, [rad]."""
+    check_finite(value, name, "rad", error)
+    check_within(value, -tau, tau, name, "rad", error)
+
+
+def as_path(
+    path: AnyPath,
+    name: str,
+    error: type[StepAsideError] = ConfigurationError,
+) -> Path:
+    """Return a path as a :class:`~pathlib.Path`.
+
+    Args:
+        path: Text or any ``os.PathLike`` of text.
+        name: Of the argument, for the message.
+        error: What is raised.
+
+    Raises:
+        StepAsideError: Of the kind asked for, if it is neither, or holds a
+            null character.
+    """
+    try:
+        found = Path(path)
+    except TypeError as wrong:
+        raise error(
+            f"{name} must be a path, str or os.PathLike, got {shown(path)}"
+        ) from wrong
+    if "\0" in str(found):
+        raise error(
+            f"{name} must be a path without a null character, "
+            f"got {shown(path)}"
+        )
+    return found

@@ -170,5 +170,4 @@ SEEDS = Range(
     "generators of random numbers take seeds of 128 bits",
     whole=True,
 )
-HEADINGS = Range(-1e3, 1e3, "rad", "of greater ones the digits are no angle")
 RUNTIME = Range(1e-3, 86400.0, "s", "from a step of the physics to a day")

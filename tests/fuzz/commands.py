@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from functools import cache
+from math import tau
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -12,7 +13,7 @@ from documents.tables.settings import all_settings
 from stepaside.cli import all_commands
 from stepaside.commands.declared.kinds import NameType, WordedType
 from stepaside.commands.declared.option import DeclaredOption
-from stepaside.commands.options import TURNS, UNITS, AngleType, NumberType
+from stepaside.commands.options import UNITS, AngleType, NumberType
 from stepaside.ranges import Range, ranges_of
 
 from .case import Case
@@ -33,7 +34,10 @@ BASES = {
     "circle": ["--starts=2", "--json"],
     "map": ["--grid=2", "--distances=1", "--duration=1", "--json"],
     "bound": ["--grid=16", "--refine=0", "--games=0", "--horizon=0.05"],
-    "play": ["--role=evader", "--robot=lola:none", "--duration=0.1"],
+    "play": [
+        *("--role=evader", "--robot=lola:none", "--duration=0.1"),
+        "--wait=0.05",
+    ],
     "serve": ["--lola=evader=socket", "--wait=0.05", "--lockstep", *SHORT],
     "reproduce": ["--runs=1", "--json"],
     "tournament": [
@@ -143,7 +147,7 @@ def range_of(option: click.Option) -> Range | None:
     if isinstance(kind, NumberType):
         return kind.range
     if isinstance(kind, AngleType):
-        return TURNS
+        return Range(-tau, tau, "rad", "one turn")
     if isinstance(kind, click.IntRange):
         assert kind.min is not None and kind.max is not None, option.opts
         return Range(kind.min, kind.max, "1", "", whole=True)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..poses import wrap_angles
 from .barrier import barrier_states
 from .rollout import draw_starts, other_evaders, play_bound
 from .table import Bound
@@ -55,7 +56,7 @@ def check_barrier(
 
     def value(x: Array, y: Array) -> Array:
         sight = np.arctan2(y, x)
-        return bound.value(np.hypot(x, y), sight, sight - theta)
+        return bound.value(np.hypot(x, y), sight, wrap_angles(sight - theta))
 
     slope = np.hypot(
         value(x + step, y) - value(x - step, y),

@@ -4,15 +4,16 @@ from dataclasses import asdict, dataclass
 from functools import cached_property
 from json import dumps, loads
 from math import pi, tau
-from pathlib import Path
 from typing import Any
 from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import PlanError, check_within
+from ..errors import AnyPath, PlanError, as_path, check_within
 from ..outputs import writing
+from ..unicycle.relative import check_bearings
+from ..values import brief_repr
 from .game import BoundGame
 from .grid import Grid, Values
 
@@ -50,6 +51,8 @@ class Bound:
     falling_worst: float
     seconds: float
 
+    __repr__ = brief_repr
+
     def __post_init__(self) -> None:
         """Freeze the table."""
         self.values.flags.writeable = False
@@ -67,8 +70,14 @@ class Bound:
 
         Returns:
             Values of the shape that the arguments have together, in [m].
+
+        Raises:
+            PlanError: If an angle lies outside of one turn either way.
         """
-        r = np.asarray(distance, dtype=np.float64)
+        return self._value(*_checked(distance, error, bearing))
+
+    def _value(self, r: Array, error: Array, bearing: Array) -> Array:
+        """Value at angles that may lie beyond a turn."""
         found = self._look_up(r, error, bearing)
         beyond = np.maximum(r - self.grid.far, 0.0)
         value: Array = np.where(r < self.grid.near, r, found + beyond)
@@ -82,9 +91,9 @@ class Bound:
         It turns as fast as it can to where the value rises, and holds its
         bearing on a ridge. Where turning does not matter it turns away.
         """
-        r, a, psi = np.broadcast_arrays(distance, error, bearing)
+        r, a, psi = np.broadcast_arrays(*_checked(distance, error, bearing))
         step = self.grid.spacings[2]
-        before, here, after = self.value(
+        before, here, after = self._value(
             r, a, np.stack([psi - step, psi, psi + step])
         )
         swing = self._swing(r, a, psi)
@@ -101,12 +110,12 @@ class Bound:
         A pursuer that obeys a law turns by that law; any other turns to the
         evader where turning does not matter.
         """
-        r, a, psi = np.broadcast_arrays(distance, error, bearing)
+        r, a, psi = np.broadcast_arrays(*_checked(distance, error, bearing))
         law = self.game.pursuer_gain * _wrapped(a)
         if self.game.pursuer_turn == 0.0:
             return law
         step = self.grid.spacings[1]
-        before, here, after = self.value(
+        before, here, after = self._value(
             r, np.stack([a - step, a, a + step]), psi
         )
         swing = self._swing(r, a, psi) - law
@@ -147,7 +156,7 @@ class Bound:
         found: Array = np.maximum(reach, capture)
         return found
 
-    def save(self, path: str | Path) -> None:
+    def save(self, path: AnyPath) -> None:
         """Write the tables and all settings to one ``.npz`` file."""
         from .. import __version__
 
@@ -164,7 +173,7 @@ class Bound:
         }
         a, r, psi = self.grid.axes()
         nodes = r[:, None], a[:, None, None], psi
-        with writing(Path(path)) as draft, draft.open("wb") as file:
+        with writing(as_path(path, "path")) as draft, draft.open("wb") as file:
             np.savez_compressed(
                 file,
                 head=np.array(dumps(head)),
@@ -185,22 +194,17 @@ class Bound:
         swing: Array = (vp * np.sin(a) - ve * np.sin(psi)) / r
         return swing
 
-    def _look_up(
-        self,
-        distance: ArrayLike,
-        error: ArrayLike,
-        bearing: ArrayLike,
-    ) -> Array:
+    def _look_up(self, distance: Array, error: Array, bearing: Array) -> Array:
         grid, (step_r, step_a, step_psi) = self.grid, self.grid.spacings
         table = self._around
         places = (
-            (np.asarray(error) + pi) % tau / step_a + 0.5,
+            (error + pi) % tau / step_a + 0.5,
             np.clip(
-                (np.asarray(distance) - grid.near) / step_r,
+                (distance - grid.near) / step_r,
                 0.0,
                 grid.distances - 1.0,
             ),
-            (np.asarray(bearing) + pi) % tau / step_psi + 0.5,
+            (bearing + pi) % tau / step_psi + 0.5,
         )
         found: Any = 0.0
         cells = [
@@ -219,14 +223,15 @@ class Bound:
         return np.asarray(found, dtype=np.float64)
 
 
-def load_bound(path: str | Path) -> Bound:
+def load_bound(path: AnyPath) -> Bound:
     """Read what :meth:`Bound.save` wrote.
 
     Raises:
         PlanError: If the file is no such table.
     """
+    path = as_path(path, "path", PlanError)
     try:
-        with np.load(Path(path), allow_pickle=False) as file:
+        with np.load(path, allow_pickle=False) as file:
             head = loads(str(file["head"]))
             values = file["values"]
         if head["format"] != FORMAT:
@@ -248,6 +253,16 @@ def load_bound(path: str | Path) -> Bound:
         if isinstance(error, PlanError):
             raise
         raise PlanError(f"{path} is no table of a bound: {error}") from error
+
+
+def _checked(
+    distance: ArrayLike, error: ArrayLike, bearing: ArrayLike
+) -> tuple[Array, Array, Array]:
+    """Distances, errors and bearings as arrays, the latter within a turn."""
+    angles = np.asarray(error, np.float64), np.asarray(bearing, np.float64)
+    check_bearings(angles[0], "error")
+    check_bearings(angles[1], "bearing")
+    return np.asarray(distance, np.float64), *angles
 
 
 def _wrapped(angle: Array) -> Array:

@@ -17,6 +17,7 @@ from .declared.option import Declaration
 from .effort import CELLS, tell_effort
 from .options import METERS, SECONDS, NumberType, print_json
 from .outputs import attempt, writes_files
+from .progress import show_progress
 
 if TYPE_CHECKING:
     from ..bound import Bound, BoundGame, Grid, Scheme
@@ -226,8 +227,6 @@ class _Asked(NamedTuple):
         self, grid: "Grid", refine: int, *, quiet: bool
     ) -> "tuple[Bound, tuple[Refinement, ...]]":
         """The table, and what coarser ones differ by."""
-        from tqdm import tqdm
-
         from ..bound import count_steps
         from ..bound.refine import refine_bound
 
@@ -238,9 +237,7 @@ class _Asked(NamedTuple):
             total * steps / CELLS,
         )
         look = "{l_bar}{bar}| {elapsed}<{remaining}"
-        with tqdm(
-            total=1.0, bar_format=look, disable=quiet or None, leave=False
-        ) as bar:
+        with show_progress("bound", 1.0, form=look, quiet=quiet) as bar:
             return refine_bound(
                 self.game,
                 grid,

@@ -3,6 +3,7 @@
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
+from .labels import rows_of
 from .options import print_table
 
 if TYPE_CHECKING:
@@ -113,17 +114,17 @@ def played_games(table: "Bound", games: int) -> list[dict[str, Any]]:
 
 def print_bound(result: dict[str, Any]) -> None:
     """Print the result in two columns."""
-    rows = [
-        (name, f"{value:.4g}" if isinstance(value, float) else str(value))
-        for name, value in result.items()
-        if not isinstance(value, dict | list)
-    ]
-    for name, value in result.get("analytic", {}).items():
-        if isinstance(value, int | float):
-            rows.append((f"analytic {name}", f"{value:.4g}"))
+    names = (n for n, v in result.items() if not isinstance(v, dict | list))
+    renamed = {"seconds": "seconds_s"}
+    shown = {renamed.get(name, name): result[name] for name in names}
+    rows = rows_of(shown, shown, 4)
+    analytic = result.get("analytic", {})
+    numbers = (n for n, v in analytic.items() if isinstance(v, int | float))
+    found = rows_of(analytic, numbers, 4)
+    rows += [(f"closed form: {name}", text) for name, text in found]
     for row in result["refinement"]:
-        off = f"{row['mean_difference_m']:.4g}"
-        rows.append((f"{row['cells']} cells, off by [m]", off))
+        off = f"{row['mean_difference_m']:.4g} m"
+        rows.append((f"{row['cells']} cells, off by", off))
     for played in result.get("played", []):
         text = f"{played['over_bound']:.3f} of the bound"
         text += f", above it by {played['above_m']:.3g} m at most"

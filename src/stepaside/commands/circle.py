@@ -24,6 +24,7 @@ from .game_options import (
 )
 from .options import print_json
 from .outputs import OutputFile, attempt, writes_files
+from .progress import show_progress
 
 
 @click.command("circle")
@@ -68,11 +69,14 @@ def circle(
     """Find the circles that a game ends on, and how firmly they hold."""
     if remedies and starts == 0:
         raise click.UsageError("--remedies needs --starts > 0")
-    _tell(game, starts, remedies=remedies)
+    games = _tell(game, starts, remedies=remedies)
     result = describe_circle(game, sample_time, delay)
-    result |= describe_circles(game, starts, seed, body)
-    if remedies:
-        result["remedies"] = describe_remedies(game, starts, seed, body)
+    drawn = (starts, seed, body)
+    with show_progress("circle", games, "games", quiet=as_json) as bar:
+        result |= describe_circles(game, *drawn, bar.update)
+        if remedies:
+            found = describe_remedies(game, *drawn, bar.update)
+            result["remedies"] = found
     if figure is not None:
         from ..report.unicycle_ratios import draw_ratios
 
@@ -89,8 +93,11 @@ def circle(
     print_circles(result)
 
 
-def _tell(game: Game, starts: int, *, remedies: bool) -> None:
-    """Say how long playing takes; the game as it is is one remedy more."""
+def _tell(game: Game, starts: int, *, remedies: bool) -> int:
+    """Say how long playing takes; how many games it is.
+
+    The game as it is is one remedy more.
+    """
     from ..unicycle.basins import lengths_of
     from ..unicycle.remedies import alternatives
 
@@ -99,7 +106,9 @@ def _tell(game: Game, starts: int, *, remedies: bool) -> None:
     for each in played if starts else ():
         duration, step = lengths_of(each)
         steps += starts * duration / step
-    tell_effort(f"{starts * len(played)} games", steps / STEPS)
+    games = starts * len(played)
+    tell_effort(f"{games} games", steps / STEPS)
+    return games
 
 
 def describe_circle(

@@ -1,16 +1,24 @@
 """All circles of a game as plain values and as tables."""
 
+from collections.abc import Callable
 from typing import Any
 
 from ..unicycle.circling import Circle
 from ..unicycle.laws import Game
 from .game_options import finite
+from .labels import rows_of, text_of
 from .options import print_table
 from .terminal import echo
 
+Progress = Callable[[int], None]
+
 
 def describe_circles(
-    game: Game, starts: int, seed: int, body: float
+    game: Game,
+    starts: int,
+    seed: int,
+    body: float,
+    progress: Progress | None = None,
 ) -> dict[str, Any]:
     """List every circle of a game and the share of starts that end on it.
 
@@ -19,6 +27,7 @@ def describe_circles(
         starts: Number of random starts that are played; 0 for none.
         seed: Of the random starts.
         body: Distance that counts as capture, in [m].
+        progress: Called with numbers of games done.
 
     Returns:
         Values for JSON; shares are None where nothing is played.
@@ -30,7 +39,7 @@ def describe_circles(
         found = [describe_one(c, None) for c in circles_of(game)]
         return {"circles": found, "starts": None}
     drawn = random_starts(game, starts, seed=seed)
-    basins = find_basins(game, drawn, capture_distance=body)
+    basins = find_basins(game, drawn, capture_distance=body, progress=progress)
     pairs = zip(basins.circles, basins.shares, strict=True)
     return {
         "circles": [describe_one(circle, share) for circle, share in pairs],
@@ -72,7 +81,11 @@ def describe_one(circle: Circle, share: float | None) -> dict[str, Any]:
 
 
 def describe_remedies(
-    game: Game, starts: int, seed: int, body: float
+    game: Game,
+    starts: int,
+    seed: int,
+    body: float,
+    progress: Progress | None = None,
 ) -> list[dict[str, Any]]:
     """Say what else an evader could do, and what comes of it."""
     from ..unicycle.basins import random_starts
@@ -88,41 +101,51 @@ def describe_remedies(
             "mean_closest_distance_m": remedy.basins.closest_distance,
             "end_distance_m": finite(remedy.end_distance_m),
         }
-        for remedy in try_remedies(game, drawn, capture_distance=body)
+        for remedy in try_remedies(
+            game, drawn, capture_distance=body, progress=progress
+        )
     ]
 
 
 _COLUMNS = {
-    "direction": "direction",
+    "direction": "way round",
     "side_rule": "side rule",
-    "distance_m": "distance [m]",
-    "radius_evader_m": "evader's radius [m]",
+    "distance_m": "distance",
+    "radius_evader_m": "evader's radius",
     "stable": "stable",
-    "time_constant_s": "time constant [s]",
-    "share": "share of starts",
+    "time_constant_s": "time constant",
+    "starts_share": "starts that end on it",
 }
 _REMEDIES = {
     "name": "remedy",
     "reversed_share": "reversed",
     "captured_share": "captured",
-    "mean_closest_distance_m": "mean closest [m]",
-    "end_distance_m": "least at the end [m]",
+    "mean_closest_distance_m": "mean closest approach",
+    "end_distance_m": "least distance at the end",
 }
+_WAYS = {1: "main", -1: "reversed"}
 
 
 def print_circles(result: dict[str, Any]) -> None:
     """Print what ``stepaside circle`` found as tables."""
     lists = ("circles", "remedies", "game", "starts")
     if result["exists"]:
-        rows = [(k, _text(v)) for k, v in result.items() if k not in lists]
-        print_table(rows)
+        print_table(rows_of(result, (k for k in result if k not in lists)))
     else:
         others = bool(result["circles"])
         end = "" if others else "."
         echo(f"There is no circle for these speeds, gains and angle{end}")
         if others:
             echo("that turns the main way round.")
-    _print_rows(result["circles"], _COLUMNS)
+    found = [
+        circle
+        | {
+            "direction": _WAYS.get(circle["direction"]),
+            "starts_share": circle["share"],
+        }
+        for circle in result["circles"]
+    ]
+    _print_rows(found, _COLUMNS)
     if result["starts"] is not None:
         _print_ends(result["starts"])
     _print_rows(result.get("remedies", []), _REMEDIES)
@@ -130,32 +153,18 @@ def print_circles(result: dict[str, Any]) -> None:
 
 def _print_ends(starts: dict[str, Any]) -> None:
     """Print the shares of starts that ended on none of the circles."""
-    echo("\n  share of starts that ended on none")
-    print_table(
-        [
-            ("captured", _text(starts["captured_share"])),
-            ("unsettled", _text(starts["unsettled_share"])),
-        ]
-    )
+    echo("\n  starts that ended on no circle")
+    print_table(rows_of(starts, ("captured_share", "unsettled_share")))
 
 
 def _print_rows(rows: list[dict[str, Any]], columns: dict[str, str]) -> None:
     """Print rows under their headings."""
     if not rows:
         return
-    cells = [[_text(row[name]) for name in columns] for row in rows]
+    cells = [[text_of(name, row[name]) for name in columns] for row in rows]
     table = [list(columns.values()), *cells]
     widths = [max(len(line[i]) for line in table) for i in range(len(columns))]
     echo()
     for line in table:
         pairs = zip(line, widths, strict=True)
         echo("  " + "  ".join(f"{c:<{w}}" for c, w in pairs).rstrip())
-
-
-def _text(value: Any) -> str:
-    """A value as a cell of a table."""
-    if isinstance(value, list):
-        return ", ".join(f"{re:.6g}{im:+.6g}i" for re, im in value)
-    if isinstance(value, float):
-        return f"{value:.6g}"
-    return "-" if value is None else str(value)

@@ -13,6 +13,7 @@ from .effort import SIMULATED, tell_effort
 from .keeping import keep
 from .options import print_json, print_table
 from .outputs import attempt, writes_files
+from .progress import show_progress
 from .terminal import echo
 
 if TYPE_CHECKING:
@@ -79,18 +80,12 @@ def _say_what_is_expected(settings: "DuelSettings") -> None:
 
 def _play(settings: "DuelSettings") -> "DuelRun":
     """Play with a progress bar on standard error."""
-    from tqdm import tqdm
-
     from ..games.duel import run_duel
     from ..games.match import Progress
 
-    with tqdm(
-        total=settings.duration,
-        unit="s",
-        desc="duel",
-        disable=None,
-        bar_format="{desc} {bar} {n:.0f}/{total:.0f} s simulated{postfix}",
-    ) as bar:
+    look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated{postfix}"
+    total = settings.duration
+    with show_progress("duel", total, "s simulated", form=look) as bar:
 
         def report(progress: Progress) -> None:
             bar.n = progress.time

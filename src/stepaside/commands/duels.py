@@ -21,8 +21,10 @@ from .declared.option import Declaration
 from .declared.take import SettingsCommand
 from .duel_options import duel_options
 from .effort import SIMULATED, tell_effort
+from .labels import label_of
 from .options import print_json
 from .outputs import attempt, writes_files
+from .progress import show_progress
 from .stopping import kept_in, leave_stopped
 from .terminal import echo
 
@@ -196,15 +198,13 @@ def _play(
     workers: int | None,
 ) -> tuple[list[dict[str, Any]], Ended]:
     """Play with a progress bar, and say how it ended."""
-    from tqdm import tqdm
-
     from ..studies.duels import run_duels
     from ..workers import worker_pool
 
     file = _file(output)
     done: dict[str, dict[str, Any]] = {}
     with (
-        tqdm(total=len(seeds), desc="duels", unit="duel", disable=None) as bar,
+        show_progress("duels", len(seeds), "duels") as bar,
         worker_pool(workers) as executor,
     ):
 
@@ -248,14 +248,15 @@ def _print(summary: dict[str, Any]) -> None:
     by = f"before {summary['on_the_circle_by_s']:.0f} s"
     echo(_share(by, summary["on_the_circle_in_time"]))
     echo(
-        f"\n{'':<26}{'theory':>9}{'mean':>9}{'+-95 %':>9}"
+        f"\n{'':<34}{'theory':>9}{'mean':>9}{'+-95 %':>9}"
         f"{'least':>9}{'greatest':>9}  worst seed"
     )
     for name, row in summary["figures"].items():
         theory = "" if row["theory"] is None else f"{row['theory']:.3f}"
         half = row["mean_high"] - row["mean"]
         echo(
-            f"{name:<26}{theory:>9}{row['mean']:>9.3f}{half:>9.3f}"
+            f"{label_of(name, unit=True):<34}{theory:>9}"
+            f"{row['mean']:>9.3f}{half:>9.3f}"
             f"{row['least']:>9.3f}{row['greatest']:>9.3f}"
             f"  {row['worst_seed']}"
         )

@@ -19,6 +19,7 @@ from .game_options import (
     finite,
     game_options,
 )
+from .labels import rows_of
 from .options import (
     ANGLE,
     METERS,
@@ -27,6 +28,7 @@ from .options import (
     print_table,
 )
 from .outputs import attempt, writes_files
+from .progress import show_progress
 
 if TYPE_CHECKING:
     from ..unicycle.maps import StartBox, StartMap, WorstStart
@@ -155,16 +157,12 @@ def _play(
     game: Game, box: "StartBox", rules: _Rules, *, quiet: bool
 ) -> "StartMap":
     """Play from everywhere, and say how long that takes."""
-    from tqdm import tqdm
-
     from ..unicycle.maps import map_starts
 
     total = prod(rules.shape)
     steps = rules.duration / rules.step
     tell_effort(f"{total} games of {steps:.0f} steps", total * steps / STEPS)
-    with tqdm(
-        total=total, unit="game", disable=quiet or None, leave=False
-    ) as bar:
+    with show_progress("map", total, "games", quiet=quiet) as bar:
         return map_starts(
             game,
             box,
@@ -220,17 +218,16 @@ def _result(
 
 def _print(result: dict[str, Any]) -> None:
     """One row for each number, circle and part of the worst start."""
-    rows = [
-        (name, f"{value:.6g}" if isinstance(value, float) else str(value))
-        for name, value in result.items()
-        if not isinstance(value, dict | list)
-    ]
+    names = (n for n, v in result.items() if not isinstance(v, dict | list))
+    rows = rows_of(result, names)
     for circle in result["circles"]:
         way = "main" if circle["direction"] > 0 else "reversed"
-        apart, share = circle["distance_m"], circle["share"]
-        rows.append((f"on the {way} circle", f"{share:.6g} at {apart:.6g} m"))
+        apart, share = circle["distance_m"], 100.0 * circle["share"]
+        text = f"{share:.6g} % at {apart:.6g} m"
+        rows.append((f"on the {way} circle", text))
     start = result["worst_start"]
-    print_table([*rows, *((f"worst {k}", str(v)) for k, v in start.items())])
+    worst = rows_of(start, start)
+    print_table([*rows, *((f"worst start: {k}", v) for k, v in worst)])
 
 
 def _circles(game: Game, outcomes: Any) -> list[dict[str, Any]]:

@@ -10,7 +10,7 @@ from contextlib import (
     nullcontext,
     redirect_stdout,
 )
-from math import pi, radians
+from math import radians, tau
 from typing import Any, TextIO
 
 import click
@@ -22,7 +22,6 @@ from .terminal import echo
 STDOUT, STDERR = 1, 2  # descriptors
 UNITS = {"rad": 1.0, "deg": radians(1.0)}
 USUAL = "of what is smaller or greater, squares and ratios are no numbers"
-TURNS = Range(-4 * pi, 4 * pi, "rad", "who means more turns means seconds")
 
 
 class AngleType(click.ParamType[float]):
@@ -46,10 +45,10 @@ class AngleType(click.ParamType[float]):
             angle = float(text) * scale
         except (ValueError, OverflowError):
             angle = float("nan")
-        if not TURNS.low <= angle <= TURNS.high:
+        if not -tau <= angle <= tau:
             self.fail(
                 "must be a finite angle like 1.2, 1.2rad or 70deg, at most "
-                f"two turns, got {shown(value)}",
+                f"one turn, got {shown(value)}",
                 param,
                 ctx,
             )

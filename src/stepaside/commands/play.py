@@ -23,7 +23,7 @@ from .declared.wires import (
     SIM_TIME,
 )
 from .duel_options import duel_kind
-from .options import SECONDS
+from .options import SECONDS, NumberType
 
 if TYPE_CHECKING:
     from ..drivers.playing import Playing
@@ -79,6 +79,13 @@ LONG_ENOUGH, INTERRUPTED = "played long enough", "interrupted"
     "--duration", type=SECONDS, help="Stop and rest after this walk [s]."
 )
 @click.option(
+    "--wait",
+    type=NumberType("s", allow_zero=True),
+    default=10.0,
+    show_default=True,
+    help="For the robot to be there, at the beginning [s].",
+)
+@click.option(
     "--reconnect",
     type=SECONDS,
     help="By joints: try for so long to get a session that was lost [s].",
@@ -100,7 +107,12 @@ def play(
     reconnect: float | None,
     **options: Any,
 ) -> None:
-    """Let control drive a robot: the player is this process.
+    r"""Drive a robot over LoLA, NAOqi or ROS 2: the player is this process.
+
+    \b
+    --robot lola:ADDRESS          joints, every 12 ms, of a NAO V6
+    --robot naoqi:tcp://...       walks by itself, or joints --by joints
+    --robot ros2:/NAMESPACE       walks by itself, at velocities on topics
 
     A robot whose joints are moved takes its stance slowly, shows green, and
     walks from when its chest button is pressed until it is pressed again.
@@ -134,12 +146,14 @@ def play(
             onlookers.append(told)
 
         def session() -> str:
+            asked = options | {}
+            options["wait"] = 0.0  # a session that is lost is --reconnect's
             with ExitStack() as within:
                 if joints:
-                    playing = open_joints(settings, options)
+                    playing = open_joints(settings, asked)
                     within.callback(playing.body.close)
                     return _play(playing, onlookers, duration)
-                driving = open_velocity(settings, options)
+                driving = open_velocity(settings, asked)
                 within.callback(driving.body.close)
                 return _drive(driving, onlookers, duration)
 

@@ -72,7 +72,12 @@ def _joints_of(
     from ..drivers.lola.handling import Handling
     from .seeing import open_cameras
 
-    robot, dry_run = options["robot"], options["dry_run"]
+    robot = options["robot"]
+    asked: dict[str, Any] = {
+        "dry_run": options["dry_run"],
+        "guarded": True,
+        "patience": options["wait"],
+    }
     if robot.startswith(NAOQI):
         from ..drivers.naoqi.address import parse_url
         from ..drivers.naoqi.joints import open_joints as open_naoqi
@@ -80,14 +85,14 @@ def _joints_of(
         url = parse_url(robot)
         own = options | {"images": options["images"] or f"{NAOQI}{url}"}
         eyes = partial(open_cameras, settings, None, own) if sees else None
-        how = Handling(dry_run=dry_run, guarded=True, open_eyes=eyes)
+        how = Handling(**asked, open_eyes=eyes)
         return partial(open_naoqi, url, how=how)
     from ..drivers.lola.address import parse_address
     from ..drivers.lola.opening import open_lola
 
     address = parse_address(robot)
     eyes = partial(open_cameras, settings, address, options) if sees else None
-    how = Handling(dry_run=dry_run, guarded=True, open_eyes=eyes)
+    how = Handling(**asked, open_eyes=eyes)
     return partial(open_lola, address, how=how)
 
 
@@ -119,9 +124,14 @@ def _guarded(
     settings: "DuelSettings", options: dict[str, Any]
 ) -> "VelocityBody":
     """A robot, with a guardian where one can be needed."""
+    from ..drivers.session import open_within
     from ..drivers.velocity.guardian import GuardedBody, guardian_of
 
-    open_body, join = _line_to(settings, options)
+    open_once, join = _line_to(settings, options)
+
+    def open_body() -> "VelocityBody":
+        return open_within(open_once, options["wait"])
+
     if options["dry_run"] or options["sim_time"]:
         return open_body()
     # Forked here: what speaks to the robot starts threads.

@@ -21,6 +21,7 @@ from .declared.kinds import NameType
 from .effort import PICTURES, tell_effort
 from .options import POSITIVE, SECONDS, NumberType, print_json
 from .outputs import OutputFile, attempt, writes_files
+from .progress import show_progress
 from .terminal import echo
 
 if TYPE_CHECKING:
@@ -209,9 +210,7 @@ def _film(
     written: dict[str, Any],
 ) -> None:
     """Write a film with a bar, and note it."""
-    from tqdm import tqdm
-
-    with tqdm(desc=name, unit="picture", disable=None) as bar:
+    with show_progress(name, unit="pictures") as bar:
 
         def report(done: int, number: int) -> None:
             bar.total, bar.n = number, done

@@ -17,6 +17,7 @@ from .declared.common import (
 )
 from .effort import tell_effort
 from .options import print_json
+from .progress import show_progress
 from .stopping import kept_in, leave_stopped
 from .terminal import echo
 
@@ -118,13 +119,11 @@ def _measure(
     One worker is a process, too: a duel that Ctrl-C cuts short in this one
     would be kept as though it were whole.
     """
-    from tqdm import tqdm
-
     from ..studies.reproduce import reproduce as measure
     from ..workers import worker_pool
 
     with (
-        tqdm(desc="claims", unit="run", disable=None) as bar,
+        show_progress("claims", unit="runs") as bar,
         worker_pool(workers) as executor,
     ):
 

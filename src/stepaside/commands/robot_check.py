@@ -8,6 +8,7 @@ import click
 from .declared.common import FIGURE, WORKERS, json_option
 from .options import print_json, print_table
 from .outputs import attempt, writes_files
+from .progress import show_progress
 from .terminal import echo
 
 if TYPE_CHECKING:
@@ -48,14 +49,12 @@ def check(
 
 def _check(description: "RobotDescription", workers: int | None) -> "Checked":
     """Check with a progress bar on standard error."""
-    from tqdm import tqdm
-
     from ..fitting.checking import check_robot
     from ..workers import worker_pool
 
     with (
         worker_pool(workers) as executor,
-        tqdm(desc="check", unit="walk", disable=None) as bar,
+        show_progress("check", unit="walks") as bar,
     ):
 
         def report(done: int, of: int) -> None:

@@ -6,6 +6,7 @@ import click
 
 from ..outputs import writing
 from .declared.common import FILE, json_option
+from .labels import rows_of
 from .options import print_json, print_table
 from .outputs import writes_files
 from .terminal import echo
@@ -66,4 +67,4 @@ def show(
     if as_json:
         print_json(facts)
     else:
-        print_table([(key, str(value)) for key, value in facts.items()])
+        print_table(rows_of(facts, facts))

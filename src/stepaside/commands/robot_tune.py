@@ -8,6 +8,7 @@ import click
 from ..outputs import writing
 from .declared.common import WORKERS, json_option
 from .options import print_json, print_table
+from .progress import show_progress
 from .stopping import kept_in, leave_stopped
 from .terminal import echo
 
@@ -67,14 +68,12 @@ def _search(
     description: "RobotDescription", kept: Path, workers: int | None
 ) -> "Tuned":
     """Search with a progress bar on standard error."""
-    from tqdm import tqdm
-
     from ..fitting.tuning import Search
     from ..workers import worker_pool
 
     with (
         worker_pool(workers) as executor,
-        tqdm(desc="tune", unit="gait", disable=None) as bar,
+        show_progress("tune", unit="gaits") as bar,
     ):
 
         def report(tried: int, of: int, least: float) -> None:
@@ -131,5 +130,10 @@ def _print(tuned: "Tuned", folder: Path, changed: bool) -> None:
     print_table(rows)
     if changed:
         echo(f"\nwrote {folder}/robot.toml")
+    elif tuned.tried == 1:
+        echo(
+            "\nit walks steadily already, so nothing else was tried (tune "
+            "betters steadiness, not torques): the description stays as it is"
+        )
     else:
         echo("\nnothing tried was better: the description stays as it is")

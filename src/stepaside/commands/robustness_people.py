@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .campaigns import Ended, gather
+from .progress import show_progress
 from .terminal import echo
 
 if TYPE_CHECKING:
@@ -29,8 +30,6 @@ def meet_people(
     Returns:
         What was found so far, and how it ended.
     """
-    from tqdm import tqdm
-
     from ..studies.encounters import encounters, run_encounters
     from ..studies.people import origin_rows, passing_rows, people_rows
     from ..studies.trial_results import stamp
@@ -39,7 +38,7 @@ def meet_people(
     grid = list(encounters(settings, sensings, seeds=seeds))
     done: dict[str, Any] = {}
     with (
-        tqdm(total=len(grid), desc="people", disable=None) as bar,
+        show_progress("people", len(grid), "games") as bar,
         worker_pool(workers) as executor,
     ):
 

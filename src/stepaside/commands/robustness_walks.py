@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .campaigns import Ended, check_records, gather, tell_campaign
+from .progress import show_progress
 
 if TYPE_CHECKING:
     from ..games.walk_settings import WalkSettings
@@ -117,8 +118,6 @@ def run_walks(
     grid: list[Any], cases: list[Any], file: Path | None, workers: int | None
 ) -> tuple[dict[str, bool], Ended]:
     """Run with a progress bar, and say how it ended."""
-    from tqdm import tqdm
-
     from ..studies.limits import search_limits
     from ..studies.robustness import run_campaign
     from ..studies.trial_results import record_of
@@ -128,12 +127,7 @@ def run_walks(
     tell_campaign(len(grid), len(cases), workers)
     done: dict[str, bool] = {}
     with (
-        tqdm(
-            total=len(grid) + len(cases),
-            desc="robustness",
-            unit="job",
-            disable=None,
-        ) as bar,
+        show_progress("robustness", len(grid) + len(cases), "jobs") as bar,
         worker_pool(workers) as executor,
     ):
 

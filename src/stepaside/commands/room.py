@@ -9,6 +9,7 @@ from .declared.arena import BOXES, DISCS, POLYGONS, SIZE
 from .declared.common import FIGURE, FILE, FIRST_SEED, json_option
 from .declared.kinds import OutputFile
 from .declared.rooms import DOOR_WIDTH, DOORS, LARGEST, SMALLEST
+from .labels import rows_of
 from .options import print_json, print_table
 from .outputs import attempt, writes_files
 
@@ -66,13 +67,8 @@ def room(
     if as_json:
         print_json(result)
         return
-    print_table(
-        [
-            (name, f"{value:.4g}" if isinstance(value, float) else str(value))
-            for name, value in result.items()
-            if not isinstance(value, dict | list)
-        ]
-    )
+    names = (n for n, v in result.items() if not isinstance(v, dict | list))
+    print_table(rows_of(result, names, 4))
 
 
 def _refuse_both() -> None:

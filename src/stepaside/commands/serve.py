@@ -1,4 +1,4 @@
-"""``stepaside serve``: our world, for control that is elsewhere."""
+"""``stepaside serve``: the simulated world, for control elsewhere."""
 
 from contextlib import ExitStack
 from dataclasses import replace
@@ -13,6 +13,7 @@ from .declared.take import SettingsCommand
 from .declared.wires import DOMAIN, NETWORK
 from .duel_options import duel_options
 from .keeping import check_kept, keep
+from .labels import rows_of, text_of
 from .options import SECONDS, print_json, print_table
 
 if TYPE_CHECKING:
@@ -28,14 +29,14 @@ SIGHTS = ("ideal", "none")
     "lola",
     multiple=True,
     metavar="PLAYER=ADDRESS",
-    help="Where a player's robot speaks LoLA: a path, or HOST:PORT.",
+    help="Joints of a player's robot over LoLA: a path, or HOST:PORT.",
 )
 @click.option(
     "--naoqi",
     "naoqi",
     multiple=True,
     metavar="PLAYER=URL",
-    help="Where a player's robot walks by itself, on NAOqi's services: "
+    help="A player's robot that walks by itself, over NAOqi's services: "
     "tcp://127.0.0.1:PORT.",
 )
 @click.option(
@@ -43,14 +44,14 @@ SIGHTS = ("ideal", "none")
     "naoqi_joints",
     multiple=True,
     metavar="PLAYER=URL",
-    help="Where a player's joints are moved over NAOqi: tcp://127.0.0.1:PORT.",
+    help="Joints of a player's robot over NAOqi: tcp://127.0.0.1:PORT.",
 )
 @click.option(
     "--ros2",
     "ros2",
     multiple=True,
     metavar="PLAYER=/NAMESPACE",
-    help="Where a player's robot walks by itself, on ROS 2 topics.",
+    help="A player's robot that walks by itself, over ROS 2 topics.",
 )
 @DOMAIN.option()
 @NETWORK.option(default=False)
@@ -84,16 +85,17 @@ def serve(
     as_json: bool,
     **languages: Any,
 ) -> None:
-    """Let others play a duel in our world.
+    r"""Offer simulated robots over LoLA, NAOqi or ROS 2, and play a duel.
 
-    A robot on LoLA, or at --naoqi-joints, is moved by its joints; one on
-    NAOqi or on ROS 2 topics walks by itself, by our own control, as it is
-    told: at velocities, or by footsteps over NAOqi.
-    The world stands still until every robot that is offered has somebody to
-    move it: a client that holds it stiff, or a commander. Then the chest
-    buttons are pressed, and time passes. A robot that is not offered is
-    played here. LoLA has a cycle of 12 ms: an ideal body is served as the
-    delayed one.
+    \b
+    --lola          joints, every 12 ms, as a NAO V6 has them
+    --naoqi-joints  joints, over NAOqi's services
+    --naoqi         a robot that walks by itself: velocities or footsteps
+    --ros2          a robot that walks by itself: velocities, on topics
+
+    A robot that is not offered is played here. Time begins to pass when
+    every offered robot has a client that holds it stiff, or a commander.
+    LoLA has a cycle of 12 ms: an ideal body is served as the delayed one.
     """
     import gc
 
@@ -121,9 +123,9 @@ def serve(
         print_table(
             [
                 ("outcome", f"{plain['outcome']}: {plain['message']}"),
-                ("pursuer radius", str(plain["pursuer"]["radius_m"])),
-                ("evader radius", str(plain["evader"]["radius_m"])),
-                ("distance", f"{plain['distance_m']:.3f} m"),
+                ("pursuer radius", _radius(plain["pursuer"])),
+                ("evader radius", _radius(plain["evader"])),
+                *rows_of(plain, ("distance_m",), 3),
                 ("late ticks", str(served.late_ticks)),
                 ("lateness", late),
             ]
@@ -131,6 +133,11 @@ def serve(
         kept.tell(f"{run.game}.png")
     kept.check()
     kept.leave_if(run.outcome)
+
+
+def _radius(player: dict[str, Any]) -> str:
+    """Radius of the way of a player, with its unit."""
+    return text_of("radius_m", player["radius_m"], 3)
 
 
 def _with_cycle(settings: "DuelSettings") -> "DuelSettings":

@@ -24,6 +24,7 @@ from .duels import SEEDS
 from .effort import DECISIONS, SIMULATED, tell_effort
 from .options import ANGLE, print_json
 from .outputs import attempt, writes_files
+from .progress import show_progress
 from .stopping import kept_in, leave_stopped
 from .terminal import echo
 from .tournament_table import print_rows
@@ -219,8 +220,6 @@ def _play(
     """Play with a progress bar, and say how it ended."""
     from contextlib import nullcontext
 
-    from tqdm import tqdm
-
     from ..strategies.tables import has_pursuit_bound
     from ..studies.records import RecordFile
     from ..studies.tournament import CELLS, play_tournament
@@ -234,7 +233,7 @@ def _play(
     alone = workers == 1 or total <= 2 * settings.block
     done: dict[str, dict[str, Any]] = {}
     with (
-        tqdm(total=total, unit="game", disable=None, leave=False) as bar,
+        show_progress("tournament", total, "games") as bar,
         nullcontext() if alone else worker_pool(workers) as executor,
     ):
 

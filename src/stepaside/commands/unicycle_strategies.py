@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
+from .labels import rows_of
 from .options import print_table
 from .terminal import echo
 
@@ -99,8 +100,6 @@ def play_named(
 def print_named(result: dict[str, Any]) -> None:
     """Print what was measured."""
     names = ("closest_distance_m", "distance_m", "floor_used_evader_m")
-    rows = [(name, f"{result[name]:.6g}") for name in names]
-    rows.append(("captured", "yes" if result["captured"] else "no"))
-    rows.append(("end_time_s", f"{result['end_time_s']:.6g}"))
+    rows = rows_of(result, (*names, "captured", "end_time_s"))
     echo(f"{result['evader_strategy']} against {result['pursuer_strategy']}")
     print_table(rows)

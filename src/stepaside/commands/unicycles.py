@@ -22,6 +22,7 @@ from .game_options import (
     finite,
     game_options,
 )
+from .labels import label_of, rows_of, text_of
 from .options import (
     ANGLE,
     METERS,
@@ -260,22 +261,21 @@ def _play_sampled(
 def _print(result: dict[str, Any]) -> None:
     """Print measured values beside the closed form."""
     theory = result["theory"]
-    rows = [("", "simulated    closed form")]
+    rows = [("", "simulated        closed form")]
     for name in _NAMES[1:]:
         cells = [result.get(name), theory[name]]
-        texts = ["-" if c is None else f"{c:.6g}" for c in cells]
-        rows.append((name, f"{texts[0]:<12} {texts[1]}"))
+        texts = [text_of(name, cell) for cell in cells]
+        rows.append((label_of(name), f"{texts[0]:<16} {texts[1]}"))
     circle = result.get("circle")
     if circle is not None:
         way = "main" if circle["direction"] > 0 else "reversed"
         rows.append(("ended on", f"the {way} circle"))
     certified = result["certified"]
     if certified is not None and certified["holds"]:
-        rows.append(("certified_m", f"{certified['distance_m']:.6g}"))
-    rows.append(("captured", "yes" if result["captured"] else "no"))
-    rows.append(("end_time_s", f"{result['end_time_s']:.6g}"))
-    closest = result["closest_distance_m"]
-    rows.append(("closest_distance_m", f"{closest:.6g}"))
+        text = f"{certified['distance_m']:.6g} m at least"
+        rows.append(("certified distance", text))
+    ends = ("captured", "end_time_s", "closest_distance_m")
+    rows += rows_of(result, ends)
     if "figure" in result:
         rows.append(("figure", result["figure"]))
     print_table(rows)

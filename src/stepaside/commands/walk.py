@@ -14,6 +14,7 @@ from .effort import SIMULATED, tell_effort
 from .keeping import check_kept, keep
 from .options import print_json, print_table
 from .outputs import attempt, writes_files
+from .progress import show_progress
 
 if TYPE_CHECKING:
     from ..games.walk_run import WalkRun
@@ -66,16 +67,11 @@ def walk(
 
 def _walk(settings: "WalkSettings") -> "WalkRun":
     """Walk with a progress bar on standard error."""
-    from tqdm import tqdm
-
     from ..games.walk import run_walk
 
-    with tqdm(
-        total=settings.duration,
-        desc="walk",
-        disable=None,
-        bar_format="{desc} {bar} {n:.0f}/{total:.0f} s simulated",
-    ) as bar:
+    look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated"
+    total = settings.duration
+    with show_progress("walk", total, "s simulated", form=look) as bar:
 
         def report(time: float) -> None:
             bar.n = time

@@ -106,7 +106,7 @@ def _torque(name: str, share: float, joint: str) -> Finding:
         name,
         "warn" if much else "pass",
         f"{100.0 * share:.0f} % of the limit of {joint}",
-        f"see the torque of {joint}, or let `robot tune` take smaller steps"
+        f"see the torque of {joint}, or shorten gait.stride and gait.speed"
         if much
         else "",
     )

@@ -69,21 +69,33 @@ def find_legs(
         if any(side * e.y > 0.0 for e in ends)
     ]
     if len(feet) < 2:
-        raise NoLegsError(
-            f"{path} has no two legs: of {len(ends)} chains of joints none "
-            "ends to the left of the torso's origin and one to the right; "
-            "the torso's z axis must point up, and its x or y axis forward"
-        )
+        raise NoLegsError(f"{path} has no two legs: {_sides(ends)}")
     chains = [_chain(model, end.body) for end in feet]
     own = [
         [j for j in chain if j not in chains[1 - side]]
         for side, chain in enumerate(chains)
     ]
     left, right = (
-        _leg(model, data, end.body, chain)
-        for end, chain in zip(feet, own, strict=True)
+        _leg(model, data, end.body, chain, side)
+        for end, chain, side in zip(feet, own, ("left", "right"), strict=True)
     )
     return left, right
+
+
+def _sides(ends: "list[_End]") -> str:
+    """Where chains of joints end, in words."""
+    if not ends:
+        return (
+            "no body below its torso has a hinge or a slide; the torso must "
+            "be the body of the world that most bodies hang on"
+        )
+    left = sum(end.y > 0.0 for end in ends)
+    right = sum(end.y < 0.0 for end in ends)
+    return (
+        f"each side must have a chain of joints that ends there, got {left} "
+        f"to the left and {right} to the right of the torso's origin; the "
+        "torso's z axis must point up, and its x or y axis forward"
+    )
 
 
 class _End(NamedTuple):
@@ -173,7 +185,11 @@ def _ankle(
 
 
 def _leg(
-    model: mujoco.MjModel, data: mujoco.MjData, body: int, chain: list[int]
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    body: int,
+    chain: list[int],
+    side: str,
 ) -> Leg:
     """Joints that a leg has to itself, and its sole."""
     pitches = [j for j in chain if abs(data.xaxis[j, 1]) > LEVEL]
@@ -185,15 +201,17 @@ def _leg(
     names = ", ".join(model.joint(j).name for j in chain)
     if len(pitches) != 3:
         raise ModelError(
-            f"the leg that ends in {name!r} must have a pitch joint at hip, "
-            f"knee and ankle, got {len(chain)} joints of which {len(pitches)} "
-            f"turn about the axis to the left: {names}"
+            f"the lowest chain of joints on the {side} ends in {name!r} and "
+            "is no leg: a leg must have a pitch joint at hip, knee and ankle, "
+            f"got {len(chain)} joints of which {len(pitches)} turn about the "
+            f"axis to the left: {names}"
         )
     lacking = _lacking(data, chain, pitches[1])
     if len(chain) < 6:
         raise ModelError(
-            f"the leg that ends in {name!r} must have at least 6 joints to "
-            f"place its foot, got {len(chain)} and no "
+            f"the lowest chain of joints on the {side} ends in {name!r} and "
+            "must have at least 6 joints to place a foot, got "
+            f"{len(chain)} and no "
             f"{' and no '.join(lacking) or 'other'}: {names}"
         )
     hip = data.xanchor[chain[:3]].mean(axis=0)

@@ -11,7 +11,13 @@ from typing import Any, Literal, TypeVar, get_args, get_origin
 import dacite
 import tomli_w
 
-from ..errors import ConfigurationError, StepAsideError, shown
+from ..errors import (
+    AnyPath,
+    ConfigurationError,
+    StepAsideError,
+    as_path,
+    shown,
+)
 from ..rooms import Room, room_entries, room_of_entries
 from .entries import over, renamed, with_tuples, without
 from .settings import DuelSettings
@@ -190,9 +196,9 @@ def parse_settings(
         ) from error
 
 
-def load_configuration(path: Path) -> DuelSettings:
+def load_configuration(path: AnyPath) -> DuelSettings:
     """Read the configuration of a duel; see :func:`load_settings`."""
-    return load_settings(DuelSettings, path)
+    return load_settings(DuelSettings, as_path(path, "path"))
 
 
 def parse_configuration(entries: dict[str, Any], source: str) -> DuelSettings:

@@ -16,7 +16,7 @@ from .settings import EVADER, PURSUER, DuelSettings
 from .track import Track
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class DuelRun(Run):
     """A duel that was played; see :class:`Run`.
 

@@ -8,7 +8,7 @@ from zlib import error as DeflateError
 
 import numpy as np
 
-from ..errors import ConfigurationError
+from ..errors import AnyPath, ConfigurationError, as_path
 from ..poses import Array
 from .checking import check_times, check_tracks
 from .configuration import dump_configuration, read_settings
@@ -60,10 +60,10 @@ def write_record(folder: Path, run: Run) -> None:
 
 
 @overload
-def load_run(folder: Path) -> Run: ...
+def load_run(folder: AnyPath) -> Run: ...
 @overload
-def load_run(folder: Path, kind: type[R]) -> R: ...
-def load_run(folder: Path, kind: type[Run] = Run) -> Run:
+def load_run(folder: AnyPath, kind: type[R]) -> R: ...
+def load_run(folder: AnyPath, kind: type[Run] = Run) -> Run:
     """Read a run folder.
 
     Args:
@@ -74,6 +74,7 @@ def load_run(folder: Path, kind: type[Run] = Run) -> Run:
         ConfigurationError: If it is none, of another game, or of a later
             format.
     """
+    folder = as_path(folder, "folder")
     if not (folder / SUMMARY).exists() and is_play(folder):
         return _of_kind(_cut_off(folder), folder, kind)
     for name in (CONFIGURATION, SUMMARY, TRAJECTORIES):

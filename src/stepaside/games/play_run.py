@@ -12,7 +12,7 @@ from .settings import EVADER
 from .track import Track
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class PlayRun(Run):
     """What one player knew of a game; see :class:`Run`.
 

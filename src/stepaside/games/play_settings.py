@@ -9,6 +9,7 @@ from ..planning import GaitSettings
 from ..ranges import Ranges, check_settings
 from ..strategies import Evasion
 from ..strategies.registry import check_strategy_name
+from ..values import brief_repr
 from ..world.body_settings import BodySettings
 from ..world.settings import PhysicsSettings
 from .settings import EVADER, PLAYERS, PURSUER, RobotSettings
@@ -31,6 +32,8 @@ class PlaySettings:
         control: How it controls its walk, where it moves joints.
         dry_run: Whether nothing was commanded.
     """
+
+    __repr__ = brief_repr
 
     role: str = EVADER
     language: str = LOLA

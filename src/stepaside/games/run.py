@@ -83,7 +83,7 @@ class Area(NamedTuple):
     radius: float
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Run:
     """A game that was played: what decided it, how it went, its figures.
 
@@ -114,6 +114,13 @@ class Run:
     stills: "Mapping[str, Mapping[str, list[Still]]]" = field(
         default_factory=dict
     )
+
+    def __repr__(self) -> str:
+        """What was played, in one line."""
+        return (
+            f"{type(self).__name__}({self.name!r}, {self.message!r}, "
+            f"{len(self.times)} samples of {' and '.join(self.players)})"
+        )
 
     @property
     def plan(self) -> Room | None:

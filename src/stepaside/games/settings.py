@@ -16,6 +16,7 @@ from ..strategies.registry import (
     describe_strategy,
     is_described,
 )
+from ..values import brief_repr
 from ..world.body_settings import BodySettings
 from ..world.camera_settings import CameraSettings, RoomSettings
 from ..world.passer import MOST_PASSERS, Passer
@@ -126,6 +127,8 @@ class DuelSettings:
         passers: Who else walks by where a person comes; with ideal sight the
             evader is told of the one who comes alone.
     """
+
+    __repr__ = brief_repr
 
     seed: int = 1
     duration: float = 120.0

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..planning import ManeuverPlan
 from ..poses import Array
+from ..values import brief_repr
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,6 +45,8 @@ class Track:
             template wanted and what was asked for, forward [m/s] and turn
             [rad/s] each. Shape (n, 4).
     """
+
+    __repr__ = brief_repr
 
     com: Array
     torso: Array

@@ -9,7 +9,7 @@ from .walk_figures import WalkSummary
 from .walk_settings import WalkSettings
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class WalkRun(Run):
     """A walk that was walked; see :class:`Run`.
 

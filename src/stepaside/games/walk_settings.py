@@ -14,6 +14,7 @@ from ..ranges import (
     check_count,
     check_settings,
 )
+from ..values import brief_repr
 from ..world.body_settings import BodySettings
 from ..world.push import MOST_PUSHES, Push, check_pushes
 from ..world.settings import PhysicsSettings
@@ -39,6 +40,8 @@ class WalkSettings:
         control: How it controls its walk.
         pushes: Who bumps into it.
     """
+
+    __repr__ = brief_repr
 
     seed: int = 1
     duration: float = 20.0

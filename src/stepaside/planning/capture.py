@@ -27,7 +27,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import (
-    check_finite,
+    check_bearing,
     check_not_negative,
     check_positive,
     check_within,
@@ -94,7 +94,7 @@ def push_bound(
         PlanError: If a value is not finite or out of its range.
     """
     check_positive(mass, "mass", "kg")
-    check_finite(direction, "direction", "rad")
+    check_bearing(direction, "direction")
     check_within(time, 0.0, plan.schedule.first_step_duration, "time", "s")
     check_not_negative(lasts, "lasts", "s")
     check_within(steps, 0, MOST_STEPS, "steps", "1")

@@ -8,12 +8,12 @@ import numpy as np
 from .. import laws
 from ..errors import (
     PlanError,
+    check_bearing,
     check_finite,
     check_positive,
     check_within,
 )
 from ..poses import Array, Pose
-from ..ranges import HEADINGS
 from .footsteps import Foot, place_footsteps
 from .path import Direction, UnicycleTrajectory
 from .plan import ManeuverPlan
@@ -112,11 +112,10 @@ class ManeuverPlanner:
             ones.
 
         Raises:
-            PlanError: If the bearing or the state is not finite, the state is
-                missing, or the speed factor is none.
+            PlanError: If the bearing lies outside of one turn either way, the
+                state is not finite or missing, or the speed factor is none.
         """
-        check_finite(bearing, "bearing", "rad")
-        HEADINGS.check(bearing, "bearing", PlanError)
+        check_bearing(bearing, "bearing")
         check_positive(speed_factor, "speed_factor", "1")
         check_within(speed_factor, 0.0, 1.0, "speed_factor", "1")
         gait = self.settings

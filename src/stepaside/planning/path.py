@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import laws
-from ..errors import check_finite, check_positive
+from ..errors import check_bearing, check_positive
 from ..poses import Array
 
 
@@ -44,7 +44,7 @@ class UnicycleTrajectory:
 
     def __post_init__(self) -> None:
         """Check the parameters."""
-        check_finite(self.bearing, "bearing", "rad")
+        check_bearing(self.bearing, "bearing")
         check_positive(self.speed, "speed", "m/s")
         check_positive(self.gain, "gain", "1/s")
 

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import PlanError, shown
 from ..poses import Array
+from ..values import brief_repr
 from .footsteps import Foot, Footstep
 from .path import Direction
 from .schedule import Sampler, Schedule
@@ -47,6 +48,10 @@ class PlanSamples(NamedTuple):
     right_height: Array
     pivot: Array
 
+    def __repr__(self) -> str:
+        """Fields in one short line."""
+        return brief_repr(self)
+
 
 @dataclass(frozen=True, slots=True)
 class ManeuverPlan:
@@ -66,6 +71,8 @@ class ManeuverPlan:
             [m]; see :class:`~stepaside.planning.schedule.Schedule`.
             Shape (count + 4, 2), one more if the swing leg is felt.
     """
+
+    __repr__ = brief_repr
 
     schedule: Schedule
     bearing: float

@@ -1,9 +1,9 @@
 """Several runs on one figure."""
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
+from ..errors import AnyPath
 from ..games.run import Run
 from .averages import whole_cycles
 from .inert import for_figure
@@ -14,7 +14,7 @@ LINES = ("-", "--", ":", "-.")
 RUNS = ("#222222", "#0f7b6c", "#b5651d", "#6a3d9a")
 
 
-def draw_comparison(runs: Sequence[Run], file: Path) -> None:
+def draw_comparison(runs: Sequence[Run], file: AnyPath) -> None:
     """Draw paths, and distance and orientation over gait cycles.
 
     Args:

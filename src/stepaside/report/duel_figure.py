@@ -1,10 +1,10 @@
 """Figure of a duel in the manner of the paper's Fig. 5."""
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ..errors import AnyPath
 from ..games.duel_run import DuelRun
 from ..games.run import Run
 from ..poses import Array
@@ -30,7 +30,7 @@ STEPS = 6.0  # of the balance that is shown
 
 def draw_duel(
     run: Run,
-    path: Path,
+    path: AnyPath,
 ) -> None:
     """Write the figure of a duel, or of another game of two or more.
 

@@ -1,16 +1,15 @@
 """Figure of one maneuver: footsteps from above, ZMP and CoM over time."""
 
-from pathlib import Path
-
 import numpy as np
 
+from ..errors import AnyPath
 from ..planning import ManeuverPlan
 from .sizes import sheet
 from .soles import draw_soles
 from .style import COLOURS, MEAN, THEORY, new_figure, save
 
 
-def draw_plan(plan: ManeuverPlan, role: str, path: Path) -> None:
+def draw_plan(plan: ManeuverPlan, role: str, path: AnyPath) -> None:
     """Write the figure of a maneuver.
 
     Args:

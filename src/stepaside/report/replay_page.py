@@ -2,11 +2,11 @@
 
 from base64 import b64encode
 from importlib.resources import files
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ..errors import AnyPath, as_path
 from ..games.run import Run
 from ..outputs import writing
 from ..poses import Array
@@ -35,7 +35,7 @@ def template() -> str:
     return text.replace("@@SCRIPT@@", '"use strict";\n' + "".join(scripts))
 
 
-def write_page(run: Run, file: Path) -> None:
+def write_page(run: Run, file: AnyPath) -> None:
     """Write the page of a run.
 
     Args:
@@ -46,6 +46,7 @@ def write_page(run: Run, file: Path) -> None:
         ConfigurationError: If the library that draws is not there.
         OutputError: If it cannot be written.
     """
+    file = as_path(file, "file")
     text = fill_page(template(), {"NAME": run.name}, _content(run))
     with writing(file) as draft:
         draft.write_text(text, encoding="utf-8", newline="\n")

@@ -6,7 +6,7 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from ..errors import OutputError
+from ..errors import AnyPath, OutputError, as_path
 from ..games.folder import write_record
 from ..games.outcome import Outcome
 from ..games.play_run import PlayRun
@@ -64,7 +64,7 @@ def draw_run(run: Run, file: Path) -> None:
         draw_duel(run, file)
 
 
-def write_run(folder: Path, run: Run, *, drawn: bool = True) -> Path:
+def write_run(folder: AnyPath, run: Run, *, drawn: bool = True) -> Path:
     """Write a game: configuration, summary, trajectories and figures.
 
     The folder appears when it is complete. If somebody else was first, it
@@ -82,6 +82,7 @@ def write_run(folder: Path, run: Run, *, drawn: bool = True) -> Path:
         OutputError: If it cannot be written; nothing of it is left then.
     """
     draft = None
+    folder = as_path(folder, "folder")
     if folder.name in ("", ".."):
         folder = folder.resolve()  # ``.`` has neither name nor parent
     try:

@@ -3,7 +3,6 @@
 from collections.abc import Iterable
 from io import BytesIO
 from itertools import cycle
-from pathlib import Path
 from typing import Any
 
 import matplotlib
@@ -13,6 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from cycler import cycler  # noqa: E402
 
+from ..errors import AnyPath, as_path  # noqa: E402
 from ..outputs import writing  # noqa: E402
 from .sizes import sheet  # noqa: E402
 
@@ -139,7 +139,7 @@ def colours_of(players: Iterable[str]) -> dict[str, str]:
     return found
 
 
-def save(figure: Any, file: Path | str) -> None:
+def save(figure: Any, file: AnyPath) -> None:
     """Write a figure whole, or not at all, and let it go.
 
     Args:
@@ -149,14 +149,15 @@ def save(figure: Any, file: Path | str) -> None:
     Raises:
         OutputError: If it cannot be written.
     """
-    file, drawn = Path(file), BytesIO()
-    kind = file.suffix[1:].lower() or "png"
+    drawn = BytesIO()
     try:
+        path = as_path(file, "file")
+        kind = path.suffix[1:].lower() or "png"
         # In memory: what draws does not end well on a disk that is full.
         figure.savefig(drawn, format=kind, metadata=UNDATED.get(kind))
     finally:
         plt.close(figure)
-    with writing(file) as draft:
+    with writing(path) as draft:
         draft.write_bytes(drawn.getvalue())
 
 

@@ -9,7 +9,8 @@ from os.path import normpath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import ModelError
+from ..errors import AnyPath, ModelError, as_path
+from ..values import brief_repr
 from .description_file import read_entries
 from .own import NO_OVERLAY, Overlay, Place, Sensors
 
@@ -50,6 +51,8 @@ class RobotDescription:
         lean: Roll of the torso towards a foot that the CoM is right over,
             in [rad]: it relieves the roll joint of that hip; 0 to 0.3.
     """
+
+    __repr__ = brief_repr
 
     folder: Path
     name: str
@@ -239,7 +242,7 @@ def _is_file(path: Path) -> bool:
         return False
 
 
-def load_robot(robot: str | Path) -> RobotDescription:
+def load_robot(robot: AnyPath) -> RobotDescription:
     """Load a robot by name, or from a folder.
 
     Args:
@@ -250,9 +253,10 @@ def load_robot(robot: str | Path) -> RobotDescription:
         ModelError: If there is none, or its file has unknown, missing or
             ill-typed entries.
     """
-    folder = Path(str(files(__package__))) / str(robot)
+    given = as_path(robot, "robot", ModelError)
+    folder = Path(str(files(__package__))) / given
     if not _is_file(folder / FILE):
-        folder = Path(robot)
+        folder = given
     if not _is_file(folder / FILE):
         raise ModelError(
             f"robot must be one of {', '.join(known_robots())} or a folder "

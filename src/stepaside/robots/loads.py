@@ -183,7 +183,9 @@ def _trace_loads(legs: Legs) -> Function:
     forces: list[Vector] = []
     moments: list[Vector] = []
     for i, (first, mass) in enumerate(zip(firsts, masses, strict=True)):
-        point = add(place, seen(scale(1.0 / mass, first)))
+        # Of several hinges in one body all but the last carry nothing.
+        share_of_mass = 1.0 / mass if mass > 0.0 else 0.0
+        point = add(place, seen(scale(share_of_mass, first)))
         old, older = last[3 * i : 3 * i + 3], before[3 * i : 3 * i + 3]
         bent = add(subtract(point, scale(2.0, old)), older)
         force = scale(mass, add(scale(rate, bent), (0.0, 0.0, GRAVITY)))

@@ -10,6 +10,7 @@ from dataclasses import dataclass, fields
 from typing import Any, NamedTuple
 
 from ..errors import ModelError
+from ..values import brief_repr
 
 HINGE, SLIDE = "hinge", "slide"
 Triple = tuple[float, float, float]
@@ -82,6 +83,8 @@ class RobotTree:
         servos: How stiff each is.
         followers: Joints that share a motor, as follower to leader.
     """
+
+    __repr__ = brief_repr
 
     links: tuple[Link, ...]
     bodies: dict[str, Frame]

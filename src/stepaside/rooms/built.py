@@ -1,11 +1,11 @@
 """Boxes, walls and hulls: polygons by other words."""
 
-from math import cos, hypot, sin, tau
+from math import cos, hypot, sin
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import check_within
+from ..errors import check_bearing, check_within
 from .outline import ERROR, FARTHEST, SMALLEST, check_coordinate
 from .shapes import Polygon
 
@@ -31,7 +31,7 @@ def box(
     check_coordinate(y, "box y")
     check_within(width, SMALLEST, FARTHEST, "box width", "m", ERROR)
     check_within(depth, SMALLEST, FARTHEST, "box depth", "m", ERROR)
-    check_within(heading, -tau, tau, "box heading", "rad", ERROR)
+    check_bearing(heading, "box heading", ERROR)
     c, s = cos(heading), sin(heading)
     corners = []
     for along, across in ((1, 1), (-1, 1), (-1, -1), (1, -1)):

@@ -4,12 +4,11 @@ import json
 import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
-from pathlib import Path
 from typing import Any
 
 import tomli_w
 
-from ..errors import ConfigurationError
+from ..errors import AnyPath, ConfigurationError, as_path
 from ..poses import Pose
 from .built import WALL, box, wall_between
 from .moving import MovingBox
@@ -23,7 +22,7 @@ LISTS = (*SOLIDS, "doors", "moving")
 KNOWN = ("width", "depth", *LISTS, "pursuer", "evader")
 
 
-def load_room(file: Path) -> Room:
+def load_room(file: AnyPath) -> Room:
     """Read a room.
 
     Args:
@@ -32,6 +31,7 @@ def load_room(file: Path) -> Room:
     Raises:
         ConfigurationError: If it is neither, or no room.
     """
+    file = as_path(file, "file")
     try:
         with file.open("rb") as stream:
             text = stream.read(LONGEST + 1).decode("utf-8")

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import ConfigurationError, check_within
+from ..errors import ConfigurationError, check_bearing, check_within
 from ..poses import Array, Pose
 from .built import WALL, box
 from .distance import clearance_between, crosses
@@ -99,8 +99,9 @@ class Room:
                     f"got one at ({x:g}, {y:g})"
                 )
         for pose in self.starts or ():
-            for name, value in zip(pose._fields, pose, strict=True):
-                check_coordinate(value, f"start {name}")
+            check_coordinate(pose.x, "start x")
+            check_coordinate(pose.y, "start y")
+            check_bearing(pose.theta, "start theta", ERROR)
 
     def _check_doors(self) -> None:
         if self.doors and not self.has_walls:

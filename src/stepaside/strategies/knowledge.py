@@ -6,13 +6,12 @@ import numpy as np
 
 from ..errors import (
     PlanError,
-    check_finite,
+    check_bearing,
     check_positive,
     check_within,
     shown,
 )
 from ..poses import Pose
-from ..ranges import HEADINGS
 from ..rooms import Obstacle
 
 
@@ -85,6 +84,14 @@ class Knowledge:
     spread: float = 0.0
     blur: float = 0.0
 
+    def __post_init__(self) -> None:
+        """Refuse a bearing that is none.
+
+        Raises:
+            PlanError: If the bearing lies outside of one turn either way.
+        """
+        check_bearing(self.bearing, "bearing")
+
 
 @dataclass(frozen=True, slots=True)
 class Intent:
@@ -108,11 +115,10 @@ class Intent:
         """Refuse what no body can do.
 
         Raises:
-            PlanError: If the heading is no angle of some turns, the factor
-                is not one, or moving is neither true nor false.
+            PlanError: If the heading lies outside of one turn either way, the
+                factor is not in [0, 1], or moving is neither true nor false.
         """
-        check_finite(self.heading, "heading", "rad")
-        HEADINGS.check(self.heading, "heading", PlanError)
+        check_bearing(self.heading, "heading")
         if type(self.moving) is not bool and not isinstance(
             self.moving, np.bool_
         ):

@@ -116,9 +116,9 @@ def load_strategy(
 
     Args:
         name: One of :data:`STRATEGIES`, pursuit-xRATIO, or FILE.py:NAME;
-            there NAME is a strategy, or a class or function that makes one when it is
-            called with nothing. The file is run. A strategy itself is
-            returned.
+            there NAME is a strategy, or a class or function that makes one
+            when it is called with nothing. The file is run. A strategy
+            itself is returned.
         evasion: How an evader of the paper evades; by default as there.
 
     Returns:

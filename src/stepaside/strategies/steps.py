@@ -9,11 +9,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ..constants import CAPTURE_DISTANCE
-from ..errors import check_positive, check_within
+from ..errors import check_bearing, check_positive, check_within
 from ..planning import Direction
 from ..poses import Array, Pose, wrap_angle
 from ..rooms import OPEN_FLOOR, Obstacle, Room
 from ..steps.packed import clearance_at, pack
+from ..values import brief_repr
 from .decider import Decider
 from .knowledge import Intent, Limits
 from .strategy import Strategy
@@ -69,6 +70,7 @@ class StepGame:
         check_within(self.decisions, 1, 100, "decisions", "1")
         if self.largest_turn is not None:
             check_positive(self.largest_turn, "largest_turn", "rad")
+            check_bearing(self.largest_turn, "largest_turn")
 
     @property
     def period(self) -> float:
@@ -120,6 +122,10 @@ class StepTrack(NamedTuple):
     clearances: Array
     decision: float
     longest_decision: float
+
+    def __repr__(self) -> str:
+        """Fields in one short line."""
+        return brief_repr(self)
 
     @property
     def distances(self) -> Array:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from ..games.configuration import dump_configuration
 from ..games.settings import DuelSettings
 from . import balance_claims as balance
 from . import evading_claims as evading
@@ -52,7 +53,7 @@ def _duel(
     """Job on two NAOs in physics, from the random starts of its seeds."""
 
     def in_words(seed: int) -> str:
-        return "; ".join(repr(each(seed)) for each in settings)
+        return "; ".join(dump_configuration(each(seed)) for each in settings)
 
     return Job(claims, measure, DUELS, LIBRARIES, in_words, seeded=True)
 
@@ -94,7 +95,7 @@ JOBS: dict[str, Job] = {
         measure_room,
         EVADING,
         ("mujoco", "numba", "numpy"),
-        lambda seed: repr(room_settings(seed)),
+        lambda seed: dump_configuration(room_settings(seed)),
         seeded=True,
     ),
 }

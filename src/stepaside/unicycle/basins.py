@@ -1,5 +1,6 @@
 """Which circle games end on, by playing them from random starts."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -74,6 +75,7 @@ def find_basins(
     *,
     capture_distance: float = 1e-6,
     duration: float | None = None,
+    progress: Callable[[int], None] | None = None,
 ) -> Basins:
     """Play a game from many starts and count what they end on.
 
@@ -83,6 +85,7 @@ def find_basins(
         capture_distance: Distance at which a game ends, in [m].
         duration: Length of each game, in [s]; if None, long enough for all
             stable circles of the game to be reached.
+        progress: Called with numbers of games done.
 
     Returns:
         The shares.
@@ -96,6 +99,7 @@ def find_basins(
         duration,
         step=step,
         capture_distance=capture_distance,
+        progress=progress,
     )
     captured = float(out.captured.mean())
     return Basins(

@@ -9,12 +9,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import PlanError, check_positive, shown
 from ..poses import wrap_angles
+from ..values import brief_repr
 from .batch import Array, Clock, deviations
 from .circles import circles_of
 from .circling import Circle
 from .compiled import load_numba
 from .laws import Game
 from .motion import State
+from .relative import check_bearings
 from .rules import rules_of
 
 MOST_STEPS = 1e8  # of one game: some seconds of a fast machine
@@ -39,6 +41,8 @@ class Outcomes:
         states: Last r [m], a, psi [rad]. Shape (n, 3).
         sides: Last side. Shape (n,).
     """
+
+    __repr__ = brief_repr
 
     closest_distance: Array
     closest_time: Array
@@ -162,6 +166,7 @@ def _wrapped(starts: ArrayLike) -> Array:
     if not (np.isfinite(states).all() and (states[:, 0] > 0.0).all()):
         raise PlanError("starts must be finite with distance > 0 [m]")
     angles = states[:, 1:]
+    check_bearings(angles, "bearings of starts")
     far = np.abs(angles) > np.pi  # wrapping would turn pi into -pi
     angles[far] = wrap_angles(angles[far])
     return states

@@ -12,7 +12,7 @@ from math import atan2, cos, hypot, pi, sin
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import check_finite, check_positive
+from ..errors import check_bearing, check_positive
 from ..poses import Pose, wrap_angle
 
 Array = NDArray[np.float64]
@@ -37,8 +37,8 @@ class Start:
     def __post_init__(self) -> None:
         """Check the values."""
         check_positive(self.distance, "distance", "m")
-        check_finite(self.pursuer_error, "pursuer_error", "rad")
-        check_finite(self.bearing, "bearing", "rad")
+        check_bearing(self.pursuer_error, "pursuer_error")
+        check_bearing(self.bearing, "bearing")
 
     @classmethod
     def from_world(cls, pursuer: Pose, evader: Pose) -> "Start":
@@ -64,6 +64,18 @@ class Start:
             pursuer.y + self.distance * sin(sight),
             sight + pi - self.bearing,
         )
+
+
+def check_bearings(angles: ArrayLike, name: str) -> None:
+    """Raise :class:`PlanError` unless all angles lie within one turn.
+
+    Args:
+        angles: In [rad]. Of any shape.
+        name: What they are, for the message.
+    """
+    flat = np.asarray(angles, dtype=np.float64).ravel()
+    if flat.size:
+        check_bearing(float(flat[np.abs(flat).argmax()]), name)
 
 
 def world_poses(states: ArrayLike) -> tuple[Array, Array]:

@@ -6,6 +6,7 @@ angle, mirror each other in the evader's axis, so that the one on the
 pursuer's own half is always the nearer.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import inf, pi, radians
 
@@ -64,7 +65,11 @@ def alternatives(game: Game) -> dict[str, Game]:
 
 
 def try_remedies(
-    game: Game, starts: Array, *, capture_distance: float = 1e-6
+    game: Game,
+    starts: Array,
+    *,
+    capture_distance: float = 1e-6,
+    progress: Callable[[int], None] | None = None,
 ) -> tuple[Remedy, ...]:
     """Play every alternative from the same starts.
 
@@ -72,6 +77,7 @@ def try_remedies(
         game: Parameters of the game as it is.
         starts: Rows of r [m], a, psi [rad]. Shape (n, 3).
         capture_distance: Distance at which a game ends, in [m].
+        progress: Called with numbers of games done.
 
     Returns:
         What came of each, the game as it is first.
@@ -80,7 +86,12 @@ def try_remedies(
         Remedy(
             name,
             changed,
-            find_basins(changed, starts, capture_distance=capture_distance),
+            find_basins(
+                changed,
+                starts,
+                capture_distance=capture_distance,
+                progress=progress,
+            ),
         )
         for name, changed in alternatives(game).items()
     )

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from .. import laws
 from ..errors import check_not_negative, check_positive
 from ..poses import Pose
+from ..values import brief_repr
 from .laws import Game
 from .relative import Start
 
@@ -38,6 +39,8 @@ class SampledRun:
             of every arc.
         captured: Whether the distance fell to the capture distance.
     """
+
+    __repr__ = brief_repr
 
     times: Array
     states: Array

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import StepAsideError, check_positive
 from ..poses import Pose
+from ..values import brief_repr
 from .event_located import EDGES, Event, Moment, cross, margin
 from .laws import Game
 from .modes import Branch, Mode, Piece, enter, piece_of
@@ -45,6 +46,8 @@ class PlayedGame:
         switches: Times at which a law changed its piece, in [s].
         sides: Side at the start and after each switch.
     """
+
+    __repr__ = brief_repr
 
     game: Game
     times: Array

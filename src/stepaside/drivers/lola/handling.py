@@ -19,12 +19,14 @@ class Handling:
         open_eyes: Opens its cameras, if it is played with those instead of
             with an ideal line of sight. They may start threads. Raises
             SessionLost if there is no camera.
+        patience: How long to wait for the robot to be there, in [s].
     """
 
     safety: SafetySettings = field(default_factory=SafetySettings)
     dry_run: bool = False
     guarded: bool = False
     open_eyes: Callable[[], PerceptSource] | None = None
+    patience: float = 0.0
 
     @property
     def guards(self) -> bool:

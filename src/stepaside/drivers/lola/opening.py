@@ -6,12 +6,12 @@ from contextlib import ExitStack
 from functools import partial
 
 from ...poses import Array
-from ..session import SessionLost
+from ..session import SessionLost, open_within
 from .address import Address
 from .body import LolaBody
 from .guardian import StiffnessGuardian, let_go
 from .handling import PLAIN, Handling
-from .link import connect
+from .link import SocketLink, connect
 from .sight import MESSAGE
 from .sight_channel import SightChannel
 from .wire import SENSOR_BYTES
@@ -37,13 +37,13 @@ def open_lola(
         SessionLost: If no robot listens there, or no camera.
     """
     sees = how.open_eyes is not None
-    sight = None if sees else _ideal_sight(address)
     with ExitStack() as stack:
+        sight, link = open_within(
+            lambda: _sight_and_link(address, sees=sees), how.patience
+        )
+        stack.callback(link.close)
         if sight is not None:
             stack.callback(sight.close)
-        link = connect(address, SENSOR_BYTES)
-        stack.callback(link.close)
-        # Not before: who finds no robot is told that, and nothing else.
         if sight is not None:
             log.warning("sees by the ideal line of sight of %s", address.sight)
         elif address.sight is not None and not sees:
@@ -64,6 +64,22 @@ def open_lola(
         )
         stack.pop_all()  # they are the body's now
         return body
+
+
+def _sight_and_link(
+    address: Address, *, sees: bool
+) -> tuple[SightChannel | None, SocketLink]:
+    """Connect to what is beside the robot first, which it offers first."""
+    sight = None if sees else _ideal_sight(address)
+    try:
+        link = connect(address, SENSOR_BYTES)
+    except BaseException:
+        if sight is not None:
+            sight.close()
+        raise
+    if sight is None and not sees:
+        sight = _ideal_sight(address)  # it was offered since the first try
+    return sight, link
 
 
 def _ideal_sight(address: Address) -> SightChannel | None:

@@ -10,6 +10,7 @@ from ...poses import Array
 from ..lola.body import LolaBody
 from ..lola.guardian import StiffnessGuardian
 from ..lola.handling import PLAIN, Handling
+from ..session import open_within
 
 if TYPE_CHECKING:
     from .joint_line import JointLine
@@ -40,7 +41,7 @@ def open_joints(
             # Forked here: what speaks to the robot starts threads.
             guardian = StiffnessGuardian(partial(_fade, url))
             stack.callback(guardian.dismiss)
-        line = _line_to(url)
+        line = open_within(lambda: _line_to(url), how.patience)
         stack.callback(line.close)
         from .joint_line import CODEC, MemorySight
 

@@ -12,7 +12,7 @@ from ...poses import Pose
 from ...sensing.measurement import Sighting
 from ..session import SessionLost
 from ..velocity.body import REST, Report, Velocity
-from .commands import CommandWriter
+from .commands import KINDS, CommandWriter
 from .discovery import Endpoints
 from .domain import Dds, taken
 from .messages import Header, Odometry, PointStamped, PoseStamped, Time
@@ -170,7 +170,8 @@ def rester_of(dds: Dds, namespace: str) -> Callable[[], None]:
         dds: Where; closed when the robot has been asked.
         namespace: Of the robot.
     """
-    dds.register(dds_topic(namespace, COMMAND), Twist)
+    for kind in KINDS:
+        dds.register(dds_topic(namespace, COMMAND), kind)
     return partial(rest, dds, namespace)
 
 

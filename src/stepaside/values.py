@@ -1,0 +1,64 @@
+"""Short text of values, for interactive sessions."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import MISSING, fields, is_dataclass
+from typing import Any
+
+MOST = 4  # entries of a list or a mapping that are written out
+LONGEST = 80  # text of one entry, in [characters]
+
+
+def brief_repr(value: Any) -> str:
+    """Write a dataclass or a named tuple as one short line.
+
+    Fields that have their default are left out, arrays are given by their
+    shape, long lists by the number of their entries.
+
+    Args:
+        value: Instance of a dataclass or of a named tuple.
+    """
+    told = [
+        f"{name}={_brief(getattr(value, name))}"
+        for name, default in _defaults(value)
+        if not _equals(getattr(value, name), default)
+    ]
+    return f"{type(value).__name__}({', '.join(told)})"
+
+
+def _defaults(value: Any) -> Iterator[tuple[str, Any]]:
+    """Names of all fields with their defaults; ``MISSING`` for none."""
+    if not is_dataclass(value):
+        for name in value._fields:
+            yield name, value._field_defaults.get(name, MISSING)
+        return
+    for field in fields(value):
+        default = field.default
+        if field.default_factory is not MISSING:
+            default = field.default_factory()
+        if field.repr:
+            yield field.name, default
+
+
+def _equals(value: Any, default: Any) -> bool:
+    """Whether a value is its default; no array is a default."""
+    if value is default:
+        return True
+    same = type(value) is type(default) and not hasattr(value, "shape")
+    return same and bool(value == default)
+
+
+def _brief(value: Any) -> str:
+    if getattr(value, "shape", ()):
+        return f"array{tuple(value.shape)}"
+    if is_dataclass(value) and not isinstance(value, type):
+        return brief_repr(value)
+    if isinstance(value, Mapping | list | tuple | set | frozenset):
+        if len(value) > MOST:
+            return f"<{len(value)} entries>"
+        if isinstance(value, Mapping):
+            pairs = (f"{key!r}: {_brief(one)}" for key, one in value.items())
+            return "{" + ", ".join(pairs) + "}"
+        if type(value) in (list, tuple):
+            return f"[{', '.join(map(_brief, value))}]"
+    text = " ".join(repr(value).split())
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 3]}..."
