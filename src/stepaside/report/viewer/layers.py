@@ -24,6 +24,19 @@ LAYERS = (
     "support polygon",
     "pushes",
 )
+MEANINGS = {
+    "planned path": "where each robot plans to walk",
+    "footsteps": "outlines of the soles, made and planned",
+    "CoM trace": "path of the center of mass over the floor",
+    "ZMP trace": "path of the zero-moment point, paler",
+    "line of sight": "grey line from one player to the other",
+    "safety area": "blue ring; inside it the pursuer is too near",
+    "circle of theory": "grey ring, on which the paper's game ends",
+    "support polygon": "green outline of the feet that bear",
+    "pushes": "magenta arrow, for a second after each push",
+}
+# Rings are named where they lie: the direction of the name from the middle.
+RINGS = {"safety area": 65, "circle of theory": 29}  # number of the segment
 HEIGHTS = {name: 0.002 + 0.001 * i for i, name in enumerate(LAYERS)}
 PRINTS = 60  # footsteps kept
 COMING = 0.5  # how long before it lands a footstep is shown, in [s]
@@ -36,6 +49,16 @@ def rgb(colour: str) -> tuple[int, int, int]:
     """Colour from ``#rrggbb``, 0 to 255."""
     red, green, blue = bytes.fromhex(colour[1:])
     return red, green, blue
+
+
+def legend(layers: Iterable[str]) -> str:
+    """Say in Markdown what each layer shows.
+
+    Args:
+        layers: Those of ``LAYERS`` that a page has.
+    """
+    lines = [f"- **{layer}**: {MEANINGS[layer]}" for layer in layers]
+    return "\n".join(["Pursuer red, evader blue.", "", *lines])
 
 
 def chain(points: Array, height: float, *, closed: bool = False) -> Array:
@@ -69,6 +92,7 @@ class Layers:
         self._scene = scene
         self.shown = dict.fromkeys(LAYERS, True)
         self._drawn: dict[str, bytes] = {}
+        self._named: dict[str, tuple[str, viser.LabelHandle]] = {}
 
     def draw(
         self, layer: str, owner: str, segments: Array, colour: str
@@ -82,6 +106,8 @@ class Layers:
             colour: As ``#rrggbb``.
         """
         name = f"/layers/{layer}/{owner}"
+        if layer in RINGS:
+            self._name_ring(layer, segments if self.shown[layer] else ())
         if not self.shown[layer] or len(segments) == 0:
             if self._drawn.pop(name, None) is not None:
                 self._scene.remove_by_name(name)
@@ -96,8 +122,30 @@ class Layers:
             name, points, colors=seen, thickness=0.008
         )
 
+    def _name_ring(self, layer: str, segments: Array | tuple[()]) -> None:
+        """Write its name and radius beside a ring; no ring, no name."""
+        text, (was, label) = "", self._named.get(layer, ("", None))
+        if len(segments):
+            points = np.asarray(segments)[:, 0]
+            radius = 0.5 * float(np.ptp(points[:, 0]))
+            text = f"{layer}, radius {radius:.2f} m"
+        if text != was and label is not None:
+            label.remove()
+            del self._named[layer]
+        if not text:
+            return
+        if text != was:
+            label = self._scene.add_label(
+                f"/rings/{layer}", text, anchor="center-center"
+            )
+            self._named[layer] = text, label
+        x, y, z = points[RINGS[layer] % len(points)].tolist()
+        label.position = (x, y, z + 0.02)
+
     def clear(self) -> None:
         """Take every line off the page."""
+        for layer in RINGS:
+            self._name_ring(layer, ())
         for name in list(self._drawn):
             self._scene.remove_by_name(name)
         self._drawn.clear()
@@ -208,9 +256,11 @@ __all__ = [
     "EVADER",
     "HEIGHTS",
     "LAYERS",
+    "MEANINGS",
     "THEORY",
     "Layers",
     "chain",
+    "legend",
     "path_of",
     "prints_at",
     "prints_of",
