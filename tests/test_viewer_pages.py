@@ -456,7 +456,7 @@ def test_the_page_shows_the_duel_as_it_is(live: tuple[Page, Any]) -> None:
         np.testing.assert_array_equal(frame.wxyz, data.xquat[body])
     assert "/layers/line of sight/both" in server.scene.items
     ring = server.scene.items["/rings/safety area"]
-    assert ring.text == "safety area, radius 0.80 m"
+    assert ring.text == "safety radius 0.80 m"
     status = gui.texts[0].content
     assert "the pursuer walks" in status and "x real time" not in status
     assert "1.0 s simulated" in status

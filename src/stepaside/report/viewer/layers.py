@@ -36,7 +36,11 @@ MEANINGS = {
     "pushes": "magenta arrow, for a second after each push",
 }
 # Rings are named where they lie: the direction of the name from the middle.
-RINGS = {"safety area": 65, "circle of theory": 29}  # number of the segment
+RINGS = {  # its name there, and the number of the segment
+    "safety area": ("safety radius", 52),
+    "circle of theory": ("circle of theory", 44),
+}
+SMALL = 0.85  # size of these names, of that of the players' names
 HEIGHTS = {name: 0.002 + 0.001 * i for i, name in enumerate(LAYERS)}
 PRINTS = 60  # footsteps kept
 COMING = 0.5  # how long before it lands a footstep is shown, in [s]
@@ -128,7 +132,7 @@ class Layers:
         if len(segments):
             points = np.asarray(segments)[:, 0]
             radius = 0.5 * float(np.ptp(points[:, 0]))
-            text = f"{layer}, radius {radius:.2f} m"
+            text = f"{RINGS[layer][0]} {radius:.2f} m"
         if text != was and label is not None:
             label.remove()
             del self._named[layer]
@@ -136,10 +140,13 @@ class Layers:
             return
         if text != was:
             label = self._scene.add_label(
-                f"/rings/{layer}", text, anchor="center-center"
+                f"/rings/{layer}",
+                text,
+                anchor="center-center",
+                font_screen_scale=SMALL,
             )
             self._named[layer] = text, label
-        x, y, z = points[RINGS[layer] % len(points)].tolist()
+        x, y, z = points[RINGS[layer][1] % len(points)].tolist()
         label.position = (x, y, z + 0.02)
 
     def clear(self) -> None:

@@ -248,13 +248,15 @@ class Page:
             session.theory,
             approach=moment.approach,
         )
+        pace = ""
+        if session.running and session.factor > 0.0:  # it is known
+            pace = f", {session.factor:.1f} x real time"
         text = (
             f"{words}\n\n{self._outlook(moment)}\n\n"
-            f"{moment.time:.1f} s simulated, distance "
-            f"{moment.distance:.2f} m, closest {moment.closest:.2f} m"
+            f"{moment.time:.1f} s simulated{pace}\n\n"
+            f"distance {moment.distance:.2f} m, "
+            f"closest {moment.closest:.2f} m"
         )
-        if session.running and session.factor > 0.0:  # it is known
-            text += f", {session.factor:.1f} x real time"
         if session.outcome is not None:
             text += f"\n\n**over: {session.outcome.value}**; reset to go on"
             text += f"\n\n{moment.message}"
