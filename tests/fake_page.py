@@ -232,7 +232,9 @@ class Client:
         self.client_id = number
         self.gui, self.scene = Gui(), Scene()
         self.camera = SimpleNamespace(
-            position=np.zeros(3), look_at=np.zeros(3), aspect=aspect,
+            position=np.zeros(3),
+            look_at=np.zeros(3),
+            aspect=aspect,
             fov=1.309,
         )
         self.notices: list[Any] = []

@@ -91,7 +91,8 @@ def test_the_footprint_of_a_wall_is_seen_from_above() -> None:
         triangles = triangles_of(part, model)
         flat = np.ptp(triangles[:, :, 2], axis=1) < 1e-9
         normals = np.cross(
-            triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+            triangles[:, 1] - triangles[:, 0],
+            triangles[:, 2] - triangles[:, 0],
         )
         assert flat.sum() == 2 and (normals[flat, 2] > 0.0).all()
         area = 0.5 * normals[flat, 2].sum()
@@ -100,7 +101,11 @@ def test_the_footprint_of_a_wall_is_seen_from_above() -> None:
 
 
 def test_obstacles_stay_whole() -> None:
-    model = room_model(Room(width=3.0, depth=3.0, obstacles=(Disc(0.5, 0, 0.2),)))
+    model = room_model(
+        Room(width=3.0, depth=3.0, obstacles=(Disc(0.5, 0, 0.2),))
+    )
+    shades = {part.kind: part.shades for part in parts_of(model)}
+    assert shades == {"cylinder": True, "mesh": False}
     kinds = sorted(part.kind for part in parts_of(model))
     assert kinds == ["cylinder", "mesh", "mesh", "mesh", "mesh"]
 

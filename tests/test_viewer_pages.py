@@ -410,7 +410,10 @@ def test_plots_show_the_history_beside_theory() -> None:
     session.theory = None
     plots.show(session)
     for old, new, values in zip(
-        (distance, angle), gui.plots[4:], ([1.0, 0.9], [170.0, 160.0]), strict=True
+        (distance, angle),
+        gui.plots[4:],
+        ([1.0, 0.9], [170.0, 160.0]),
+        strict=True,
     ):
         assert old.removed and not new.removed
         assert new.label == old.label
@@ -802,9 +805,11 @@ def test_a_replay_has_its_slider_plots_and_layers(
 def test_a_replay_without_theory_has_its_plots(
     monkeypatch: pytest.MonkeyPatch, run: DuelRun
 ) -> None:
-    """uPlot draws nothing of a plot in which one series is NaN."""
+    """UPlot draws nothing of a plot in which one series is NaN."""
     monkeypatch.setattr(replaying, "open_server", open_fake)
-    other = replace(run, settings=replace(run.settings, evader_strategy="stand"))
+    other = replace(
+        run, settings=replace(run.settings, evader_strategy="stand")
+    )
     assert other.theory is None
     page: Any = ReplayPage(other, port=99)
     for plot in page.server.gui.plots:

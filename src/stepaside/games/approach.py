@@ -96,7 +96,5 @@ def approach_between(
     rate = (away - hypot(was_x, was_y)) / elapsed
     across = (x * (y - was_y) - y * (x - was_x)) / (away * elapsed)
     ahead, aside = (x / away, y / away), (-y / away, x / away)
-    vx, vy = (
-        rate * a + across * b for a, b in zip(ahead, aside, strict=True)
-    )
+    vx, vy = (rate * a + across * b for a, b in zip(ahead, aside, strict=True))
     return Approach((x, y), (vx, vy))

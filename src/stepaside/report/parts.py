@@ -36,6 +36,8 @@ class Part(NamedTuple):
         turn: Quaternion (w, x, y, z) in the body. Shape (4,).
         colour: Red, green, blue, 0 to 255.
         shell: Surface of a mesh, around its place; None of others.
+        shades: Whether it casts a shadow; a wall of which only the inside
+            is drawn does not.
     """
 
     body: int
@@ -45,6 +47,7 @@ class Part(NamedTuple):
     turn: Array
     colour: tuple[int, int, int]
     shell: Shell | None = None
+    shades: bool = True
 
     @property
     def corners(self) -> Array:
@@ -78,6 +81,7 @@ class Part(NamedTuple):
             "turn": np.round(self.turn, 5).tolist(),
             "colour": f"#{red:02x}{green:02x}{blue:02x}",
             "wall": self.is_wall,
+            "shades": self.shades,
         }
         if self.shell is not None:
             told["corners"] = np.round(self.shell.corners, 4).tolist()
@@ -115,6 +119,7 @@ def parts_of(model: mujoco.MjModel) -> list[Part]:
                 np.array(turn, dtype=np.float64),
                 colour_of(model, geom),
                 shell,
+                not is_room_wall(model, geom),
             )
         )
     return parts

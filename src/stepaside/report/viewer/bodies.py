@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Iterable
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -62,12 +63,13 @@ class Bodies:
     def __init__(self, scene: viser.SceneApi, model: mujoco.MjModel) -> None:
         """Put every part that is seen on the page, once."""
         looks = defaultdict[
-            int, defaultdict[tuple[int, int, int], list[trimesh.Trimesh]]
+            int, defaultdict[tuple[Any, ...], list[trimesh.Trimesh]]
         ](lambda: defaultdict(list))
         parts = parts_of(model)
         for part in parts:
             if not part.is_wall:  # it would hide all from who is outside
-                looks[part.body][part.colour].append(shape_of(part))
+                look = part.colour, part.shades
+                looks[part.body][look].append(shape_of(part))
         self._frames: dict[int, viser.FrameHandle] = {}
         self._meshes = defaultdict[int, list[viser.MeshHandle]](list)
         self._tops = Tops(parts)
@@ -75,14 +77,16 @@ class Bodies:
         for body, colours in looks.items():
             name = f"/bodies/{body}"
             self._frames[body] = scene.add_frame(name, show_axes=False)
-            for number, (colour, meshes) in enumerate(colours.items()):
+            for number, ((colour, shades), meshes) in enumerate(
+                colours.items()
+            ):
                 corners, faces = joined(meshes)
                 mesh = scene.add_mesh_simple(
                     f"{name}/{number}",
                     corners,
                     faces,
                     color=colour,
-                    cast_shadow=True,
+                    cast_shadow=shades,
                     receive_shadow=False,
                 )
                 self._meshes[body].append(mesh)

@@ -21,7 +21,8 @@ NARROW = 1.5  # there: how much farther away a camera that follows is
 FREE = 0.52  # there: share of the picture over the sheet, with a margin
 BESIDE = 0.15  # margin around a room that is seen from above, in [m]
 AROUND = 1.0  # margin around players on an open floor: a safety area, in [m]
-LOOKED_AT, TALL = 0.2, 0.7  # height of what is looked at, of what is seen, in [m]
+LOOKED_AT = 0.2  # height of what is looked at, in [m]
+TALL = 0.7  # height of what is to be seen from above, in [m]
 SMALL = 3e-3  # moves of a camera that are not worth a message, in [m]
 
 
@@ -131,7 +132,7 @@ class Viewers:
             away += TALL - LOOKED_AT
         else:
             way = ASIDE / np.linalg.norm(ASIDE)
-            wide = 1.3 + float(hypot(*(every[0] - every[min(1, len(every) - 1)])))
+            wide = 1.3 + float(hypot(*(high - low)))
             away = wide * float(np.linalg.norm(ASIDE))
             away *= NARROW if share < 1.0 else 1.0
         # The picture's own upward direction in the world.

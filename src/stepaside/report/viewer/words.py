@@ -9,7 +9,7 @@ from ...games.player import Player
 
 NEAR_DISTANCE = 0.05  # of theory's distance, on the circle
 NEAR_ANGLE = 5.0  # of theory's angle, on the circle, in [deg]
-LONGEST = 600.0  # time beyond which a straight course foretells nothing, in [s]
+LONGEST = 600.0  # for which a straight course is believed, in [s]
 
 
 def words_of(
@@ -88,7 +88,7 @@ def outlook(
         if left is None:
             away = approach.closest
             return f"{told}; on this course it passes {away:.2f} m from it."
-        return f"{told}: in about {left:.0f} s." if left < LONGEST else f"{told}."
+        return told + (f": in about {left:.0f} s." if left < LONGEST else ".")
     if theory is None or settling is None:
         return "Theory predicts no circle for this game."
     away, angle = theory
