@@ -32,7 +32,13 @@ def draw_people(
     for axis, sensing in zip(axes.flat, ways, strict=True):
         axis.set_theta_zero_location("N")
         ring = [radians(3.0 * i) for i in range(121)]
-        axis.plot(ring, [clearance] * 121, color=THEORY, linewidth=0.8)
+        axis.plot(
+            ring,
+            [clearance] * 121,
+            color=THEORY,
+            linewidth=1.0,
+            label=f"to be kept: {clearance:g} m",
+        )
         for i, speed in enumerate(speeds):
             here = sorted(
                 (
@@ -50,7 +56,7 @@ def draw_people(
                 marker="o",
                 markersize=4,
                 linestyle="none",
-                label=f"{speed:g} m/s",
+                label=f"person at {speed:g} m/s",
             )
             touched = [row for row in here if row["contacts"]]
             axis.plot(
@@ -60,12 +66,18 @@ def draw_people(
                 marker="x",
                 markersize=11,
                 linestyle="none",
+                label="touched the robot" if touched else None,
             )
         axis.set_ylim(0.0)
-        axis.set_title(f"{sensing}: closest approach [m]")
+        axis.set_title(
+            f"closest approach [m] by where the person comes from\n"
+            f"(0°: ahead of the robot, 90°: its left); sensing: {sensing}"
+        )
+    named: dict[str, Any] = {}
+    for axis in axes.flat:
+        handles, labels = axis.get_legend_handles_labels()
+        named |= dict(zip(labels, handles, strict=True))
     figure.legend(
-        *axes.flat[0].get_legend_handles_labels(),
-        loc="outside lower center",
-        ncols=4,
+        named.values(), named.keys(), loc="outside lower center", ncols=3
     )
     save(figure, file)
