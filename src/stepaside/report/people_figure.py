@@ -37,7 +37,7 @@ def draw_people(
             [clearance] * 121,
             color=THEORY,
             linewidth=1.0,
-            label=f"to be kept: {clearance:g} m",
+            label=f"{clearance:g} m: to be kept",
         )
         for i, speed in enumerate(speeds):
             here = sorted(
@@ -56,7 +56,7 @@ def draw_people(
                 marker="o",
                 markersize=4,
                 linestyle="none",
-                label=f"person at {speed:g} m/s",
+                label=f"{speed:g} m/s",
             )
             touched = [row for row in here if row["contacts"]]
             axis.plot(
@@ -78,6 +78,10 @@ def draw_people(
         handles, labels = axis.get_legend_handles_labels()
         named |= dict(zip(labels, handles, strict=True))
     figure.legend(
-        named.values(), named.keys(), loc="outside lower center", ncols=3
+        named.values(),
+        named.keys(),
+        title="ring, and speeds of the person",
+        loc="outside lower center",
+        ncols=3,
     )
     save(figure, file)
