@@ -111,7 +111,7 @@ class Layers:
         """
         name = f"/layers/{layer}/{owner}"
         if layer in RINGS:
-            self._name_ring(layer, segments if self.shown[layer] else ())
+            self._name_ring(layer, segments if self.shown[layer] else None)
         if not self.shown[layer] or len(segments) == 0:
             if self._drawn.pop(name, None) is not None:
                 self._scene.remove_by_name(name)
@@ -126,33 +126,33 @@ class Layers:
             name, points, colors=seen, thickness=0.008
         )
 
-    def _name_ring(self, layer: str, segments: Array | tuple[()]) -> None:
+    def _name_ring(self, layer: str, segments: Array | None) -> None:
         """Write its name and radius beside a ring; no ring, no name."""
-        text, (was, label) = "", self._named.get(layer, ("", None))
-        if len(segments):
-            points = np.asarray(segments)[:, 0]
-            radius = 0.5 * float(np.ptp(points[:, 0]))
-            text = f"{RINGS[layer][0]} {radius:.2f} m"
-        if text != was and label is not None:
-            label.remove()
-            del self._named[layer]
-        if not text:
+        known = self._named.get(layer)
+        if segments is None or len(segments) == 0:
+            if known is not None:
+                self._named.pop(layer)[1].remove()
             return
-        if text != was:
-            label = self._scene.add_label(
+        points = np.asarray(segments)[:, 0]
+        name, number = RINGS[layer]
+        text = f"{name} {0.5 * float(np.ptp(points[:, 0])):.2f} m"
+        if known is None or known[0] != text:
+            if known is not None:
+                known[1].remove()
+            made = self._scene.add_label(
                 f"/rings/{layer}",
                 text,
                 anchor="center-center",
                 font_screen_scale=SMALL,
             )
-            self._named[layer] = text, label
-        x, y, z = points[RINGS[layer][1] % len(points)].tolist()
-        label.position = (x, y, z + 0.02)
+            known = self._named[layer] = text, made
+        x, y, z = points[number % len(points)].tolist()
+        known[1].position = (x, y, z + 0.02)
 
     def clear(self) -> None:
         """Take every line off the page."""
         for layer in RINGS:
-            self._name_ring(layer, ())
+            self._name_ring(layer, None)
         for name in list(self._drawn):
             self._scene.remove_by_name(name)
         self._drawn.clear()
