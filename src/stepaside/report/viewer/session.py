@@ -5,7 +5,6 @@ import threading
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import degrees
 from pathlib import Path
 from time import perf_counter, sleep
 from typing import TYPE_CHECKING
@@ -13,14 +12,13 @@ from typing import TYPE_CHECKING
 from ...control import Phase
 from ...errors import StepAsideError
 from ...games.approach import Approach
-from ...games.circle import theory_of
 from ...games.duel import Duel
 from ...games.outcome import Outcome
 from ...games.player import Snapshot
 from ...games.settings import DuelSettings
 from ...poses import Array
 from ...world.push import Push
-from ..settling import settling_time
+from .expected import expected_of
 from .saving import Keeping, Saving
 from .trail import Trail
 from .words import phases_of
@@ -144,24 +142,18 @@ class Session:
 
     def expect(self) -> None:
         """Find the circle of theory for the settings of this moment."""
-        self._circle = theory_of(self.settings)
-        self.settling = settling_time(self.settings)
+        self._expected = expected_of(self.settings)
+        self.settling = self._expected.settling
 
     @property
     def theory(self) -> tuple[float, float] | None:
         """Distance [m] and angle [deg] of the circle, if there is one."""
-        circle = self._circle
-        if self.driven or not circle.exists:
-            return None
-        return circle.distance_m, degrees(circle.headings_apart_rad)
+        return None if self.driven else self._expected.theory
 
     @property
     def theory_radius(self) -> float | None:
         """Radius of the evader's circle, in [m], if there is one."""
-        circle = self._circle
-        if self.driven or not circle.exists:
-            return None
-        return circle.radius_evader_m
+        return None if self.driven else self._expected.radius
 
     def close(self) -> None:
         """Stop the loop and wait for it."""
