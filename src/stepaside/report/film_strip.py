@@ -59,7 +59,7 @@ def write_strip(
             report(len(drawn), len(times))
     lines = 2 if sheet().narrow else 1
     columns = -(-len(drawn) // lines)
-    figure = new_figure(2.75 * columns, 4.6 * lines)
+    figure = new_figure(2.75 * columns, 0.5 + 4.6 * lines)
     grid = figure.subplots(2 * lines, columns, squeeze=False)
     for number, (picture, time) in enumerate(zip(drawn, times, strict=True)):
         line, column = divmod(number, columns)

@@ -5,7 +5,7 @@ from math import radians
 from pathlib import Path
 from typing import Any
 
-from .style import THEORY, plt, save
+from .style import THEORY, new_figure, plt, save
 
 
 def draw_people(
@@ -22,12 +22,9 @@ def draw_people(
     """
     ways = list(dict.fromkeys(row["sensing"] for row in rows))
     speeds = sorted({row["speed_m_s"] for row in rows})
-    figure, axes = plt.subplots(
-        1,
-        len(ways),
-        figsize=(4.2 * len(ways), 4.2),
-        squeeze=False,
-        subplot_kw={"projection": "polar"},
+    figure = new_figure(5.4 * len(ways), 5.2)
+    axes = figure.subplots(
+        1, len(ways), squeeze=False, subplot_kw={"projection": "polar"}
     )
     for axis, sensing in zip(axes.flat, ways, strict=True):
         axis.set_theta_zero_location("N")
