@@ -32,7 +32,7 @@ def draw_bound(bound: Bound, capture: float, path: str) -> None:
     r, sight = np.hypot(x, y), np.arctan2(y, x)
     lines = 2 if sheet().narrow else 1
     columns = len(HEADINGS) // lines
-    figure = new_figure(3.1 * columns + 0.9, 0.3 + 3.2 * lines)
+    figure = new_figure(3.1 * columns + 0.9, 0.9 + 3.2 * lines)
     grid = figure.subplots(
         lines, columns, sharex=True, sharey=True, squeeze=False
     )
