@@ -232,8 +232,20 @@ class Client:
         self.client_id = number
         self.gui, self.scene = Gui(), Scene()
         self.camera = SimpleNamespace(
-            position=np.zeros(3), look_at=np.zeros(3), aspect=aspect
+            position=np.zeros(3),
+            look_at=np.zeros(3),
+            aspect=aspect,
+            fov=1.309,
         )
+        self.notices: list[Any] = []
+
+    def add_notification(
+        self, title: str, body: str, *, auto_close_seconds: float
+    ) -> Handle:
+        """Show a message that goes away by itself."""
+        made = Handle(title, body=body, seconds=auto_close_seconds)
+        self.notices.append(made)
+        return made
 
     @contextmanager
     def atomic(self) -> Iterator[None]:

@@ -33,6 +33,8 @@ from stepaside.report import compare_figure, duel_figure, plan_figure
 from stepaside.report.averages import whole_cycles
 from stepaside.report.soles import draw_heading, draw_soles
 from stepaside.report.style import COLOURS, EVADER, PURSUER, THEORY, plt
+from stepaside.rooms import BODY_RADIUS, Disc, MovingBox, Room
+from stepaside.world.camera_settings import RoomSettings
 
 TIMES = np.linspace(0.0, 18.0, 901)
 SETTINGS = DuelSettings(seed=7)
@@ -217,7 +219,7 @@ def test_distance_and_angle_are_drawn_beside_theory(
         assert isinstance(text, Annotation)
         assert text.xy[0] == 1.0 and text.get_position()[0] > 0.0
     assert distance.get_ylabel() == "distance [m]"
-    assert angle.get_ylabel() == "headings [deg]"
+    assert angle.get_ylabel() == "angle [deg]"
     assert (distance.get_xlabel(), angle.get_xlabel()) == ("", "time [s]")
     none = duel(kept, distance_m=None, relative_orientation_deg=None)
     assert levels(none.axes[5]) == {0.8: EVADER}
@@ -234,7 +236,9 @@ def test_balance_is_leftward_of_each_robot_over_six_steps(
     for axes, name, heading in zip(
         figure.axes[7:], COLOURS, (0.4, 1.4), strict=True
     ):
-        assert axes.get_title() == f"{name}: last steps"
+        assert (
+            axes.get_title() == f"{name}: sideways balance in its last steps"
+        )
         # Along the way it drifts by what its heading is off the x axis.
         drift = -0.1 * sin(heading) * (shown - shown.mean())
         sway = 0.02 * np.sin(2.0 * pi * shown / CYCLE)
@@ -248,6 +252,41 @@ def test_balance_is_leftward_of_each_robot_over_six_steps(
             )
 
 
+MOVING = MovingBox(0.5, -3.0, 0.3, 0.3, to=(0.5, 3.0), speed=0.2)
+
+
+@pytest.mark.parametrize("moving", [(), (MOVING,)])
+def test_a_room_has_its_clearance_where_balance_was(
+    kept: list[Figure], moving: tuple[MovingBox, ...]
+) -> None:
+    room = Room(20.0, 16.0, (Disc(2.0, 5.0, 0.5),), moving=moving)
+    settings = replace(SETTINGS, room=RoomSettings(plan=room))
+    made = run_of(TIMES, record(), settings=settings, theory=THEORY_OF_IT)
+    duel_figure.draw_duel(made, Path("figure.png"))
+    figure = kept[-1]
+    assert len(figure.axes) == 8
+    axes = figure.axes[-1]
+    assert "nearest wall or obstacle" in axes.get_title()
+    assert axes.get_ylabel() == "clearance [m]"
+    for name in COLOURS:
+        found = line(axes, name)
+        places = record()[name].unicycle[:, :2]
+        for time, value in found[:: len(found) // 9].tolist():
+            place = places[int(np.argmin(np.abs(TIMES - time)))]
+            near = [room.clearance([place])[0]]
+            near += [b.at(time).clearance([place])[0] for b in moving]
+            assert value == pytest.approx(float(min(near)))
+    assert levels(axes) == {BODY_RADIUS: THEORY}
+
+
+def test_every_line_over_time_has_a_name(kept: list[Figure]) -> None:
+    figure = duel(kept)
+    legend = figure.axes[5].get_legend()
+    assert legend is not None
+    names = [text.get_text() for text in legend.get_texts()]
+    assert names == ["every sample", "mean over a gait cycle"]
+
+
 def test_a_person_has_a_way_but_neither_footsteps_nor_balance(
     kept: list[Figure],
 ) -> None:
@@ -259,7 +298,7 @@ def test_a_person_has_a_way_but_neither_footsteps_nor_balance(
     both, figure = duel(kept), kept[0]
     assert (len(figure.axes), len(both.axes)) == (8, 9)
     balance = figure.axes[-1]
-    assert balance.get_title() == "evader: last steps"
+    assert balance.get_title().startswith("evader: ")
     assert len(balance.lines) == 4
     spans = [axes.get_subplotspec() for axes in (balance, both.axes[-1])]
     columns = [spec.get_gridspec().ncols for spec in spans if spec is not None]

@@ -68,18 +68,40 @@ def test_survival_is_drawn_in_percent_over_strength(
     backlash, push = drawn[0].axes
     assert (backlash.get_title(), push.get_title()) == (
         "backlash",
-        "push left",
+        "push to the left",
     )
     assert backlash.get_xlabel() == "backlash [deg]"
     lines = lines_of(backlash)
-    assert set(lines) == {"mpc", "measured"}
+    assert set(lines) == {
+        "mpc, 4 trials per point",
+        "measured, 4 trials per point",
+    }
     np.testing.assert_allclose(
-        lines["mpc"].get_xydata(), [[1.0, 75.0], [2.0, 25.0]]
+        lines["mpc, 4 trials per point"].get_xydata(),
+        [[1.0, 75.0], [2.0, 25.0]],
     )
     band = backlash.collections[0].get_paths()[0].vertices
     assert {(1.0, 30.0), (1.0, 60.0), (2.0, 10.0), (2.0, 20.0)} <= {
         (round(x, 9), round(y, 9)) for x, y in band.tolist()
     }
+
+
+def test_one_trial_per_point_is_an_outcome_and_no_share(
+    drawn: list[Any], tmp_path: Path
+) -> None:
+    rows = [
+        survival("friction", "measured", x, int(x < 2.0)) | {"trials": 1}
+        for x in (1.0, 1.5, 2.0)
+    ]
+    draw_survival(rows, {"friction": "1"}, tmp_path / "survival.png")
+    (axis,) = drawn[0].axes
+    (line,) = axis.get_lines()
+    assert line.get_label() == "measured, 1 trial per point"
+    assert line.get_linestyle() == "None" and not axis.collections
+    ticks = [text.get_text() for text in axis.get_yticklabels()]
+    assert ticks == ["fell", "survived"]
+    np.testing.assert_allclose(line.get_ydata(), [100.0, 100.0, 0.0])
+    assert "[%]" not in axis.get_ylabel()
 
 
 def test_limits_are_drawn_over_the_phase_beside_the_bound(
@@ -95,7 +117,10 @@ def test_limits_are_drawn_over_the_phase_beside_the_bound(
     ]
     draw_limits(rows, tmp_path / "limits.png")
     left, right = drawn[0].axes
-    assert (left.get_title(), right.get_title()) == ("left", "right")
+    assert (left.get_title(), right.get_title()) == (
+        "push to the left",
+        "push to the right",
+    )
     lines = lines_of(left)
     np.testing.assert_allclose(
         lines["mpc"].get_xydata(), [[0.0, 0.9], [0.5, 1.1]]
@@ -105,7 +130,7 @@ def test_limits_are_drawn_over_the_phase_beside_the_bound(
         lines["pendulum's bound"].get_xydata(), [[0.0, 2.0], [0.5, 2.5]]
     )
     np.testing.assert_allclose(
-        lines["for an impulse in the middle"].get_xydata(),
+        lines["the same for an impulse at mid-push"].get_xydata(),
         [[0.0, 1.0], [0.5, 1.5]],
     )
     assert left.get_ylim()[0] == 0.0 and left.get_ylim()[1] > 3.0

@@ -269,7 +269,7 @@ def test_the_circle_lies_round_the_way_after_they_converged() -> None:
     assert invented().circle is None
 
 
-COMING = "the pursuer comes; the evader stands"
+COMING = "the pursuer walks; the evader stands"
 TRIGGERED = "the evader is triggered"
 EVADING = "the evader is evading"
 ROUND = "both robots are on the circle"

@@ -13,6 +13,7 @@ import pytest
 from onlooker import look_away, look_on
 from stepaside.control import Phase
 from stepaside.errors import ConfigurationError, StepAsideError
+from stepaside.games.approach import Approach
 from stepaside.games.duel import Duel
 from stepaside.games.folder import load_run
 from stepaside.games.settings import DuelSettings, StartSettings
@@ -342,8 +343,8 @@ def test_a_page_saves_a_few_runs_at_most(
     ("phase", "distance", "theory", "settling", "told"),
     [
         (Phase.STANDING, 1.53, (0.9, 90.0), 14.0, "in about 10 s"),
-        (Phase.WALKING, 0.60, (0.9, 90.0), 10.0, "about 19 s more"),
-        (Phase.WALKING, 0.91, (0.9, 90.0), 10.0, "so it is"),
+        (Phase.WALKING, 0.60, (0.9, 90.0), 10.0, "in about 19 s"),
+        (Phase.WALKING, 0.91, (0.9, 90.0), 10.0, "within 5 % of it"),
         (Phase.WALKING, 0.91, None, None, "no circle"),
     ],
 )
@@ -359,7 +360,7 @@ def test_the_outlook_says_what_comes_next_and_when(
         distance,
         phase,
         safety=0.8,
-        speed=0.073,
+        approach=Approach((distance, 0.0), (-0.073, 0.0)),
         theory=theory,
         settling=settling,
     )

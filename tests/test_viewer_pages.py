@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fake_page import Gui, open_fake
+from fake_page import Client, Gui, open_fake
 from invented_run import changed, drifted
 from onlooker import look_on
 from stepaside.control.balance.settings import OPEN_LOOP, STABILISED
@@ -268,6 +268,7 @@ class FakeSession:
         self.asked: list[dict[str, Any]] = []
         self.trail: Any = SimpleNamespace(history=[])
         self.theory: tuple[float, float] | None = (0.9, 90.0)
+        self.driven = False
         self.settings = DuelSettings()
         self.outcome: Outcome | None = None
         self.slow = 1.0
@@ -398,6 +399,8 @@ def test_plots_show_the_history_beside_theory() -> None:
     assert distance.data is before
     session.trail.history += [(0.2, 0.9, 160.0)]
     plots.show(session)
+    assert distance.removed and angle.removed
+    distance, angle = gui.plots[2:]
     np.testing.assert_allclose(
         distance.data, [[0.1, 0.2], [1.0, 0.9], [0.9, 0.9]]
     )
@@ -406,7 +409,25 @@ def test_plots_show_the_history_beside_theory() -> None:
     )
     session.theory = None
     plots.show(session)
-    assert np.isnan(distance.data[2]).all()
+    for old, new, values in zip(
+        (distance, angle),
+        gui.plots[4:],
+        ([1.0, 0.9], [170.0, 160.0]),
+        strict=True,
+    ):
+        assert old.removed and not new.removed
+        assert new.label == old.label
+        assert new.options["order"] == old.options["order"]
+        np.testing.assert_allclose(new.data, [[0.1, 0.2], values])
+        assert len(new.series) == 2
+    session.trail.history += [(0.3, np.nan, 150.0)]
+    plots.show(session)
+    assert len(gui.plots) == 6
+    np.testing.assert_allclose(gui.plots[4].data, [[0.1, 0.2], [1.0, 0.9]])
+    assert np.isfinite(gui.plots[5].data).all()
+    session.theory = (0.9, 90.0)
+    plots.show(session)
+    assert [len(plot.data) for plot in gui.plots[6:]] == [3, 3]
 
 
 @pytest.fixture
@@ -437,8 +458,10 @@ def test_the_page_shows_the_duel_as_it_is(live: tuple[Page, Any]) -> None:
         np.testing.assert_array_equal(frame.position, data.xpos[body])
         np.testing.assert_array_equal(frame.wxyz, data.xquat[body])
     assert "/layers/line of sight/both" in server.scene.items
+    ring = server.scene.items["/rings/safety area"]
+    assert ring.text == "safety radius 0.80 m"
     status = gui.texts[0].content
-    assert "the pursuer comes" in status
+    assert "the pursuer walks" in status and "x real time" not in status
     assert "1.0 s simulated" in status
     assert f"distance {session.duel.distance:.2f} m" in status
     assert f"closest {session.duel.min_distance:.2f} m" in status
@@ -555,12 +578,85 @@ def test_a_strategy_reaches_the_evader_while_it_evades(
     assert strategy.saturated
     assert decisions.memory == EvasionMemory(True, -1)
     assert session.settings.strategy.angle == pytest.approx(radians(60.0))
+    viewer = Client(1)
+    server.welcome(viewer)
+    before = len(gui.texts)
     gui["Angle [deg]"].press(1e6)
-    message = gui.texts[1]
-    assert message.visible and "angle" in message.content
+    (message,) = viewer.notices
+    assert "angle" in message.body and not message.removed
     assert decisions.strategy is strategy
     gui["Angle [deg]"].press(80.0)
-    assert not message.visible and message.content == ""
+    assert message.removed and len(viewer.notices) == 1
+    assert len(gui.texts) == before
+    assert session.theory is not None
+    assert session.theory[1] != pytest.approx(90.0, abs=5.0)
+
+
+def test_a_message_goes_by_itself_and_moves_nothing(
+    live: tuple[Page, Any],
+) -> None:
+    """One at a time, to all who look; the panels keep what they have."""
+    page, server = live
+    viewers = [Client(1), Client(2)]
+    for viewer in viewers:
+        server.welcome(viewer)
+    parts = len(server.gui.texts), list(server.gui.items)
+    server.gui["Push"].press()
+    server.gui["Push"].press()
+    for viewer in viewers:
+        first, last = viewer.notices
+        assert first.removed and not last.removed
+        assert last.body == "pushed the pursuer left by 0.5 N s"
+        assert 0.0 < last.seconds <= 30.0
+    assert (len(server.gui.texts), list(server.gui.items)) == parts
+
+
+def test_the_page_says_that_a_hand_drives_and_no_theory_then(
+    live: tuple[Page, Any],
+) -> None:
+    page, server = live
+    session, gui = page.session, server.gui
+    played(session, 30)
+    release = gui["Let it pursue by itself"]
+
+    def said() -> str:
+        page._refresh()
+        return "\n".join(text.content for text in gui.texts)
+
+    assert release.disabled and "Not driven" in said()
+    assert session.theory is not None
+    gui["Turn"].press("left")
+    assert not release.disabled
+    assert "**Driven by hand**: the pursuer walks to the left" in said()
+    status = gui.texts[0].content
+    assert "A hand drives the pursuer" in status
+    assert "Theory:" not in status and "m apart" not in status
+    assert session.theory is None and session.theory_radius is None
+    gui["Walk"].press("stop")
+    assert "the pursuer halts" in said()
+    release.press()
+    assert release.disabled and "Driven by hand" not in said()
+    assert session.theory is not None
+    gui["Drive left"].press()
+    gui["Duel"].press("reset")
+    assert release.disabled and session.theory is not None
+
+
+def test_the_pace_is_told_only_while_time_passes(
+    live: tuple[Page, Any],
+) -> None:
+    page, server = live
+    page.session.factor = 0.0
+    page._refresh()
+    assert "real time" not in server.gui.texts[0].content
+    page.session.factor = 1.04
+    page._refresh()
+    assert "real time" not in server.gui.texts[0].content
+    page.session._advance = lambda ticks: None  # type: ignore[method-assign]
+    page.session.running = True
+    page._refresh()
+    page.session.running = False
+    assert "1.0 x real time" in server.gui.texts[0].content
 
 
 def test_a_reset_takes_what_the_controls_say(live: tuple[Page, Any]) -> None:
@@ -593,10 +689,11 @@ def test_a_reset_takes_what_the_controls_say(live: tuple[Page, Any]) -> None:
     gui["Body"].value = "ideal"
     gui["Duel"].press("reset")
     assert session.settings.control == OPEN_LOOP
+    viewer = Client(1)
+    server.welcome(viewer)
     gui["Distance [m]"].value = 0.1
     gui["Duel"].press("reset")
-    message = gui.texts[1]
-    assert message.visible and "distance must lie in" in message.content
+    assert "distance must lie in" in viewer.notices[-1].body
     assert session.settings.start.distance == 1.4
 
 
@@ -703,6 +800,21 @@ def test_a_replay_has_its_slider_plots_and_layers(
     server.gui["Play"].press()
     page._show(1.0)
     assert server.gui["Play"].label == "Play"
+
+
+def test_a_replay_without_theory_has_its_plots(
+    monkeypatch: pytest.MonkeyPatch, run: DuelRun
+) -> None:
+    """UPlot draws nothing of a plot in which one series is NaN."""
+    monkeypatch.setattr(replaying, "open_server", open_fake)
+    other = replace(
+        run, settings=replace(run.settings, evader_strategy="stand")
+    )
+    assert other.theory is None
+    page: Any = ReplayPage(other, port=99)
+    for plot in page.server.gui.plots:
+        assert len(plot.data) == len(plot.series) == 2
+        assert np.isfinite(plot.data).all() and len(plot.data[0]) > 90
 
 
 def test_playing_moves_the_slider_by_time_and_speed_to_the_end(

@@ -454,8 +454,8 @@ STAND, WALK, HALT, FELL = (
     [
         ((STAND, STAND), 0.5, 90.0, "both robots are **standing**"),
         ((WALK, STAND), 0.79, 90.0, "the evader is **triggered**"),
-        ((WALK, STAND), 0.81, 90.0, "the pursuer comes"),
-        ((HALT, STAND), 0.81, 90.0, "the pursuer comes"),
+        ((WALK, STAND), 0.81, 90.0, "the pursuer walks"),
+        ((HALT, STAND), 0.81, 90.0, "the pursuer walks"),
         ((STAND, HALT), 0.9, 90.0, "the evader comes to rest"),
         ((WALK, WALK), 0.944, 90.0, "**on the circle**"),
         ((WALK, WALK), 0.856, 90.0, "**on the circle**"),
@@ -481,7 +481,7 @@ def test_words_follow_phases_and_bands(
 
 
 def test_without_a_safety_area_nobody_is_triggered() -> None:
-    assert "comes" in words_of((WALK, STAND), 0.1, 0.0, inf, None)
+    assert "walks" in words_of((WALK, STAND), 0.1, 0.0, inf, None)
 
 
 def test_a_true_fall_counts_as_a_phase() -> None:

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 from fake_page import Client, Gui, Server
+from stepaside.poses import Array
 from stepaside.report.palette import FLOORS, FOR_BOTH, contrast
 from stepaside.report.viewer.layers import rgb
 from stepaside.report.viewer.layout import arrange
 from stepaside.report.viewer.viewers import CAMERAS, Viewers
+from stepaside.rooms import Room
 
 PLACES = [np.array([0.0, 0.0]), np.array([1.0, 2.0])]
 HEIGHTS = [0.27, 0.28]
@@ -59,26 +61,65 @@ def test_cameras_go_along_until_somebody_takes_them(
     viewers.aim(PLACES, HEIGHTS)
     eye = np.array(one.camera.position)
     np.testing.assert_allclose(eye[:2], [0.5, 1.0], atol=2e-3)
-    assert eye[2] > 4.0
+    for place in PLACES:  # with what is 0.8 m around each
+        for x, y in ((0.8, 0.0), (-0.8, 0.0), (0.0, 0.8), (0.0, -0.8)):
+            spot = seen(one.camera, np.array([*(place + [x, y]), 0.0]))
+            assert max(map(abs, spot)) < 1.0
 
 
-def test_on_a_phone_the_robots_are_in_the_upper_half() -> None:
+def seen(camera: Any, point: Array) -> tuple[float, float]:
+    """Place of a point in a picture, from -1 to 1, rightward and upward."""
+    eye, target = np.array(camera.position), np.array(camera.look_at)
+    ahead = (target - eye) / np.linalg.norm(target - eye)
+    right = np.cross(ahead, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    up = np.cross(right, ahead)
+    off = point - eye
+    scale = float(off @ ahead) * np.tan(0.5 * camera.fov)
+    return float(off @ right) / scale / camera.aspect, float(off @ up) / scale
+
+
+@pytest.mark.parametrize("apart", [0.3, 1.0, 3.0, 12.0])
+@pytest.mark.parametrize("bearing", [0.0, 1.0, 2.5, -1.2])
+@pytest.mark.parametrize("aspect", [0.46, 0.6, 1.3, 1.8])
+def test_both_robots_are_in_the_picture_over_the_sheet_of_a_phone(
+    apart: float, bearing: float, aspect: float
+) -> None:
+    """A sheet covers the lower 45 % where the page is held upright."""
     server: Any = Server()
     viewers = Viewers(server)
-    desk, phone = Client(1), Client(2, aspect=0.46)
-    server.welcome(desk)
-    server.welcome(phone)
+    server.welcome(Client(1, aspect=aspect))
+    way = apart * np.array([np.cos(bearing), np.sin(bearing)])
+    places = [np.array([1.0, 2.0]), np.array([1.0, 2.0]) + way]
     for camera in ("follow", "top"):
-        viewers.choose(desk, camera)
-        viewers.choose(phone, camera)
-        viewers.aim(PLACES, HEIGHTS)
-        away = [
-            np.linalg.norm(np.array(c.camera.position) - [0.5, 1.0, 0.2])
-            for c in (desk, phone)
-        ]
-        assert away[1] > 1.3 * away[0]
-        lower = np.array(phone.camera.look_at) - desk.camera.look_at
-        assert lower.min() < -0.3
+        viewers.choose(server.clients[1], camera)
+        viewers.aim(places, HEIGHTS)
+        for place in places:
+            for height in (0.0, 0.6):
+                point = np.array([*place, height])
+                x, y = seen(server.clients[1].camera, point)
+                assert abs(x) < 1.0
+                assert (-0.1 if aspect < 0.8 else -1.0) < y < 1.0
+
+
+@pytest.mark.parametrize("shape", [(3.0, 3.0), (2.0, 9.0), (9.0, 2.0)])
+@pytest.mark.parametrize("aspect", [0.46, 0.9, 1.8])
+def test_all_of_a_room_is_seen_from_above(
+    shape: tuple[float, float], aspect: float
+) -> None:
+    server: Any = Server()
+    room = Room(width=shape[0], depth=shape[1])
+    viewers = Viewers(server, room)
+    server.welcome(Client(1, aspect=aspect))
+    viewers.choose(server.clients[1], "top")
+    viewers.aim([np.array([0.4, 0.3]), np.array([-0.2, 0.1])], HEIGHTS)
+    for wall in room.walls:
+        for corner in wall.points:
+            for height in (0.0, 0.6):
+                point = np.array([*corner, height])
+                x, y = seen(server.clients[1].camera, point)
+                assert abs(x) < 1.0
+                assert (-0.1 if aspect < 0.8 else -1.0) < y < 1.0
 
 
 def test_who_goes_is_forgotten(looked: tuple[Viewers, Any]) -> None:

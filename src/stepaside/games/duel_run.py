@@ -9,6 +9,7 @@ import numpy as np
 from ..poses import Array
 from ..rooms import Room
 from ..world.camera_settings import Thing
+from .approach import Approach, approach_between, motion_words
 from .circle import angle_between, distance_between, theory_of
 from .figures import DuelSummary
 from .run import Area, Run
@@ -118,9 +119,25 @@ class DuelRun(Run):
         if pushed:
             return f"the {' and the '.join(pushed)} is pushed"
         if triggered is None or time < triggered:
-            return "the pursuer comes; the evader stands"
+            moves = motion_words(self._approach_at(index))
+            return f"the pursuer {moves}; the evader stands"
         if time < triggered + 1.0:
             return "the evader is triggered"
         if converged is not None and time >= converged:
             return f"{self.settings.both} are on the circle"
         return "the evader is evading"
+
+    def _approach_at(self, index: int) -> Approach | None:
+        """Approach at a sample, over the gait cycle before it."""
+        if len(self.times) < 2:
+            return None
+        # The first samples have no cycle before them: the first one counts.
+        last = max(index, self.index_at(self.times[0] + self.settings.cycle))
+        first = self.index_at(self.times[last] - self.settings.cycle)
+        offsets = [
+            self.pursuer.unicycle[i, :2] - self.evader.unicycle[i, :2]
+            for i in (first, last)
+        ]
+        (x, y), (now_x, now_y) = (offset.tolist() for offset in offsets)
+        elapsed = float(self.times[last] - self.times[first])
+        return approach_between((x, y), (now_x, now_y), elapsed)

@@ -4,6 +4,7 @@ from math import pi, tau
 from typing import Any
 
 import numpy as np
+from matplotlib.lines import Line2D
 
 from ..bound import Bound
 from ..bound.barrier import barrier_slice
@@ -31,7 +32,7 @@ def draw_bound(bound: Bound, capture: float, path: str) -> None:
     r, sight = np.hypot(x, y), np.arctan2(y, x)
     lines = 2 if sheet().narrow else 1
     columns = len(HEADINGS) // lines
-    figure = new_figure(3.1 * columns + 0.9, 0.3 + 3.2 * lines)
+    figure = new_figure(3.1 * columns + 0.9, 0.9 + 3.2 * lines)
     grid = figure.subplots(
         lines, columns, sharex=True, sharey=True, squeeze=False
     )
@@ -48,13 +49,15 @@ def draw_bound(bound: Bound, capture: float, path: str) -> None:
         if bound.game.identical:
             unit = bound.game.unit
             points, _ = barrier_slice(capture / unit, theta)
-            ax.plot(*(unit * points.T), ":", color=THEORY, lw=1.5)
+            label = "the same edge, computed directly"
+            ax.plot(*(unit * points.T), ":", color=THEORY, lw=1.5, label=label)
         circle = np.linspace(0.0, tau, 100)
         ring = capture * np.cos(circle), capture * np.sin(circle)
-        ax.plot(*ring, color=PURSUER, lw=0.8)
+        label = f"capture distance {capture:.3g} m"
+        ax.plot(*ring, color=PURSUER, lw=0.8, label=label)
         _arrow(ax, 0.0, 0.0, 0.0, 0.2 * far, PURSUER)
         _arrow(ax, 0.0, 0.75 * far, theta, 0.2 * far, EVADER)
-        ax.set_title(f"motions {np.rad2deg(theta):.0f}° apart")
+        ax.set_title(f"directions {np.rad2deg(theta):.0f}° apart")
         ax.set_aspect("equal")
         ax.grid(visible=False)
     for ax in grid[-1]:
@@ -62,7 +65,26 @@ def draw_bound(bound: Bound, capture: float, path: str) -> None:
     for ax in grid[:, 0]:
         ax.set_ylabel("to its left [m]")
     figure.colorbar(
-        image, ax=list(axes), label="best closest approach [m]", shrink=0.8
+        image,
+        ax=list(axes),
+        label="closest approach, both at their best [m]",
+        shrink=0.8,
+    )
+    handles, labels = axes[0].get_legend_handles_labels()
+    for colour, name in (
+        ("w", "edge of the starts from which capture is certain"),
+        (PURSUER, "pursuer's direction"),
+        (EVADER, "evader's direction, wherever it starts"),
+    ):
+        handles.append(Line2D([], [], color=colour, lw=2.5))
+        labels.append(name)
+    figure.legend(
+        handles,
+        labels,
+        loc="outside lower center",
+        ncols=1 if sheet().narrow else 5,
+        frameon=True,
+        facecolor="0.82",  # on which the white line is seen, too
     )
     save(figure, path)
 

@@ -11,7 +11,7 @@ from ..poses import Array
 from .averages import whole_cycles
 from .inert import for_figure
 from .pushed import draw_pushes, mark_pushes
-from .room_figure import room_patches
+from .room_figure import draw_clearance, has_obstacles, room_patches
 from .sizes import sheet
 from .soles import draw_heading, draw_soles
 from .style import (
@@ -40,6 +40,8 @@ def draw_duel(
     """
     # Of robots that are played elsewhere nobody here knows the plans.
     walkers = [n for n, t in run.tracks.items() if t.zmp_reference is not None]
+    if has_obstacles(run):
+        walkers = [""]  # one panel for all players: how near to the room
     if sheet().narrow:
         figure = new_figure(4.2, 8.6 + 1.5 * len(walkers))
         rows = [2.3, 2.5, 2.0] + [1.2] * len(walkers)
@@ -58,7 +60,11 @@ def draw_duel(
     draw_paths(paths.add_subplot(), run)
     _draw_over_time(over_time, run)
     for name, (part, place) in zip(walkers, places, strict=True):
-        _draw_balance(part.add_subplot(*place), run, name)
+        axes = part.add_subplot(*place)
+        if has_obstacles(run):
+            draw_clearance(axes, run)
+        else:
+            _draw_balance(axes, run, name)
     figure.suptitle(f"{run.title}: {for_figure(run.message)}")
     save(figure, path)
 
@@ -140,7 +146,7 @@ def draw_paths(axes: Any, run: Run) -> None:
         draw_pushes(axes, track.pushes)
     axes.set(xlabel="x [m]", ylabel="y [m]")
     axes.set_aspect("equal", adjustable="datalim")
-    axes.set_title("paths and footsteps; dot: start, arrow: end", pad=18)
+    axes.set_title("seen from above; dot: start, arrow: end", pad=18)
     axes.legend(
         loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=len(colours)
     )
@@ -156,15 +162,16 @@ def _draw_over_time(figure: Any, run: Run) -> None:
     period = run.settings.cycle
     panels = (
         (run.distance, apart, "distance [m]", "{:.3g} m"),
-        (run.orientation, turned, "headings [deg]", "{:.3g}°"),
+        (run.orientation, turned, "angle [deg]", "{:.3g}°"),
     )
     shown = figure.subplots(2, 1, sharex=True)
     who, radius = run.safety or ("", np.inf)
     for axes, (values, value, label, word) in zip(shown, panels, strict=True):
         assert values is not None
-        axes.plot(times, values, color=SWAY, lw=0.6)
+        axes.plot(times, values, color=SWAY, lw=0.8, label="every sample")
         mean = whole_cycles(values, times, period)
-        axes.plot(times, mean, color=MEAN, lw=1.6)
+        over = "mean over a gait cycle"
+        axes.plot(times, mean, color=MEAN, lw=1.6, label=over)
         if value is not None:
             # Two names never lie on each other: one is over its line.
             stands = "center"
@@ -181,10 +188,12 @@ def _draw_over_time(figure: Any, run: Run) -> None:
         stands = "top" if apart is None or apart > radius else "bottom"
         mark_level(shown[0], radius, name, guard, ":", stands=stands)
     shown[0].set_title(
-        "distance and angle between the headings: each step, mean of a cycle"
+        "distance between the players, angle between their headings"
         if not sheet().narrow
-        else "each step, and the mean of a gait cycle"
+        else "distance, angle between the headings",
+        pad=18,
     )
+    shown[0].legend(loc="lower center", bbox_to_anchor=(0.5, 0.965), ncols=3)
     shown[1].set_xlabel("time [s]")
 
 
@@ -221,7 +230,7 @@ def _draw_balance(axes: Any, run: Run, name: str) -> None:
     )
     axes.set(xlabel="time [s]", ylabel="leftward [mm]")
     axes.margins(x=0.0)
-    axes.set_title(f"{name}: last steps", pad=18)
+    axes.set_title(f"{name}: sideways balance in its last steps", pad=18)
     axes.legend(
         ncols=4,
         loc="lower center",

@@ -10,10 +10,10 @@ from .style import COLOURS, LEFT, RIGHT, THEORY, new_figure, save
 
 # Record, label, unit, colour and where theory stands, panel by panel.
 PANELS = (
-    (("pursuer_radius_m", "evader_radius_m"), "radius [m]"),
-    (("distance_m",), "distance [m]"),
-    (("relative_orientation_deg",), "between headings [deg]"),
-    (("converged_at_s",), "on the circle since [s]"),
+    (("pursuer_radius_m", "evader_radius_m"), "radius of the path [m]"),
+    (("distance_m",), "distance on the circle [m]"),
+    (("relative_orientation_deg",), "angle between headings [deg]"),
+    (("converged_at_s",), "time to reach the circle [s]"),
     (("min_distance_m",), "closest approach [m]"),
 )
 BINS = 40

@@ -20,6 +20,7 @@ from .film_camera import CameraMan
 from .film_layers import decorate, light_up
 from .film_shot import Shot
 from .film_split import Insets, room_beside
+from .film_walls import see_through
 from .film_words import caption, title_of
 from .stage import Stage
 
@@ -72,7 +73,8 @@ class Cinema:
             if shot.layers:
                 decorate(scene, run=run, index=index, trail=TRAIL)
 
-        drawn = self._screen.draw(self._stage.data, view.camera(), add)
+        with see_through(self._stage.model, view.eye):
+            drawn = self._screen.draw(self._stage.data, view.camera(), add)
         if shot.words:
             drawn = caption(
                 drawn,

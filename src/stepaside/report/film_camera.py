@@ -13,6 +13,8 @@ import numpy as np
 from ..errors import ConfigurationError
 from ..games.run import Run
 from ..poses import Array
+from ..world.solids import HEIGHT as WALLS
+from .extent import wall_corners
 
 VIEWS = ("fixed", "follow", "top", "eyes", "split")
 AZIMUTH, ELEVATION = 60.0, -32.0  # of a camera that stands, in [deg]
@@ -47,6 +49,12 @@ class View(NamedTuple):
         ahead = np.array([cos(e) * cos(a), cos(e) * sin(a), sin(e)])
         right = np.array([sin(a), -cos(a), 0.0])
         return np.array([right, np.cross(right, ahead), ahead])
+
+    @property
+    def eye(self) -> Array:
+        """Place of the camera, in the world, in [m]. Shape (3,)."""
+        place: Array = self.target - self.distance * self.axes[2]
+        return place
 
     def project(self, point: Array, fovy: float) -> tuple[float, float] | None:
         """Place of a point in the picture, in half heights from its middle.
@@ -173,6 +181,10 @@ class CameraMan:
                 [points, np.column_stack([*ring, np.zeros(37)])]
             )
         top = self._name == "top"
+        if top and with_circle:
+            corners = wall_corners(self._run.plan)
+            high = np.full(len(corners), WALLS)
+            points = np.concatenate([points, np.column_stack([corners, high])])
         azimuth, elevation = (90.0, -89.9) if top else (AZIMUTH, ELEVATION)
         return framing(points, azimuth, elevation, self._fovy, self._aspect)
 

@@ -3,11 +3,14 @@
 from collections.abc import Callable
 from pathlib import Path
 
+from matplotlib.lines import Line2D
+
 from ..games.folder import load_run
+from ..games.run import Run
 from .duel_figure import draw_top
 from .film import Shot, instants_of, pictures
 from .sizes import sheet
-from .style import new_figure, save
+from .style import THEORY, colours_of, new_figure, save
 
 FRAMES = 4
 
@@ -56,7 +59,7 @@ def write_strip(
             report(len(drawn), len(times))
     lines = 2 if sheet().narrow else 1
     columns = -(-len(drawn) // lines)
-    figure = new_figure(2.75 * columns, 4.6 * lines)
+    figure = new_figure(2.75 * columns, 0.5 + 4.6 * lines)
     grid = figure.subplots(2 * lines, columns, squeeze=False)
     for number, (picture, time) in enumerate(zip(drawn, times, strict=True)):
         line, column = divmod(number, columns)
@@ -68,5 +71,32 @@ def write_strip(
         below.set_xlabel("x [m]")
         if column == 0:
             below.set_ylabel("y [m]")
+    figure.legend(
+        *line_names(run, shot),
+        loc="outside lower center",
+        ncols=2 if sheet().narrow else 5,
+    )
     save(figure, file)
     return len(drawn)
+
+
+def line_names(run: Run, shot: Shot) -> tuple[list[Line2D], list[str]]:
+    """Return a sample and the name of every line of the pictures.
+
+    Args:
+        run: The run.
+        shot: How its film would be taken.
+    """
+    colours = colours_of(run.players)
+    found = [(f"path of the {n}", c, 1.5) for n, c in colours.items()]
+    if shot.layers and run.safety is not None:
+        who, radius = run.safety
+        name = f"ring: safety radius of the {who}, {radius:.3g} m"
+        found.append((name, colours[who], 3.0))
+    if shot.layers and run.circle is not None:
+        name = f"ring: circle of theory, radius {run.circle[2]:.2f} m"
+        found.append((name, THEORY, 3.0))
+    if shot.layers and run.pair is not None:
+        found.append(("line of sight", THEORY, 0.8))
+    lines = [Line2D([], [], color=colour, lw=w) for _, colour, w in found]
+    return lines, [name for name, _, _ in found]

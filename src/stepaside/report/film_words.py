@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..games.run import Run
+from ..poses import Array
 from ..sensing.images import Pixels
 from .film_camera import HEIGHT, View
 from .inert import visible
@@ -15,6 +16,8 @@ from .palette import PALETTES, colours_in
 SMALLEST = 240  # height of a picture from which on words can be read
 SHARE = 1.0 / 30.0  # of letters in the height of a picture
 DAY = PALETTES["light"]
+# Direction of a ring's name from its middle: to the right of the picture.
+BESIDE = 0.87, -0.5
 
 
 @cache
@@ -64,11 +67,17 @@ def caption(
             at = 0.5 * width + 0.5 * height * seen[0]
             over = 0.5 * height * (1.0 - seen[1])
             chip(pen, name, (at, over), colour, size)
+    for text, point, colour in rings_of(run, index):
+        seen = view.project(point, fovy)
+        if seen is not None:
+            at = 0.5 * width + 0.5 * height * seen[0]
+            over = 0.5 * height * (1.0 - seen[1]) + 0.6 * size
+            chip(pen, text, (at, over), colour, round(0.9 * size))
     said = visible(run.words(index))
     told = f"{run.times[index]:.1f} s"
     if run.distance is not None:
         told += f"   {run.distance[index]:.2f} m apart"
-    told += f"   {pace:.3g} x" if abs(pace - 1.0) > 1e-3 else ""
+    told += f"   {pace:.3g} x real time" if abs(pace - 1.0) > 1e-3 else ""
     band = round(1.9 * size)
     pen.rectangle((0, height - band, width, height), (251, 251, 249, 215))
     middle = height - band / 2
@@ -79,6 +88,27 @@ def caption(
         said = said[:-2].rstrip(" .") + "\u2026" if len(said) > 3 else ""
     pen.text((width - size, middle), said, DAY.ink, _font(size), "rm")
     return np.asarray(image)
+
+
+def rings_of(run: Run, index: int) -> list[tuple[str, Array, str]]:
+    """Return the name, the place of the name and the colour of each ring.
+
+    Args:
+        run: The run.
+        index: Sample that is shown.
+    """
+    found = []
+    if run.safety is not None:
+        who, radius = run.safety
+        x, y = run.tracks[who].torso[index, :2].tolist()
+        colour = colours_in("light", run.players)[who]
+        place = np.array([x + radius * BESIDE[0], y + radius * BESIDE[1], 0.0])
+        found.append((f"safety area {radius:.2g} m", place, colour))
+    if run.circle is not None:
+        x, y, radius = run.circle
+        place = np.array([x - radius * BESIDE[0], y - radius * BESIDE[1], 0.0])
+        found.append((f"circle of theory {radius:.2g} m", place, DAY.theory))
+    return found
 
 
 def title_of(picture: Pixels, text: str) -> Pixels:

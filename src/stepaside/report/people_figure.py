@@ -5,7 +5,7 @@ from math import radians
 from pathlib import Path
 from typing import Any
 
-from .style import THEORY, plt, save
+from .style import THEORY, new_figure, plt, save
 
 
 def draw_people(
@@ -22,17 +22,20 @@ def draw_people(
     """
     ways = list(dict.fromkeys(row["sensing"] for row in rows))
     speeds = sorted({row["speed_m_s"] for row in rows})
-    figure, axes = plt.subplots(
-        1,
-        len(ways),
-        figsize=(4.2 * len(ways), 4.2),
-        squeeze=False,
-        subplot_kw={"projection": "polar"},
+    figure = new_figure(5.4 * len(ways), 5.2)
+    axes = figure.subplots(
+        1, len(ways), squeeze=False, subplot_kw={"projection": "polar"}
     )
     for axis, sensing in zip(axes.flat, ways, strict=True):
         axis.set_theta_zero_location("N")
         ring = [radians(3.0 * i) for i in range(121)]
-        axis.plot(ring, [clearance] * 121, color=THEORY, linewidth=0.8)
+        axis.plot(
+            ring,
+            [clearance] * 121,
+            color=THEORY,
+            linewidth=1.0,
+            label=f"{clearance:g} m: to be kept",
+        )
         for i, speed in enumerate(speeds):
             here = sorted(
                 (
@@ -60,12 +63,22 @@ def draw_people(
                 marker="x",
                 markersize=11,
                 linestyle="none",
+                label="touched the robot" if touched else None,
             )
         axis.set_ylim(0.0)
-        axis.set_title(f"{sensing}: closest approach [m]")
+        axis.set_title(
+            f"closest approach [m] by where the person comes from\n"
+            f"(0°: ahead of the robot, 90°: its left); sensing: {sensing}"
+        )
+    named: dict[str, Any] = {}
+    for axis in axes.flat:
+        handles, labels = axis.get_legend_handles_labels()
+        named |= dict(zip(labels, handles, strict=True))
     figure.legend(
-        *axes.flat[0].get_legend_handles_labels(),
+        named.values(),
+        named.keys(),
+        title="ring, and speeds of the person",
         loc="outside lower center",
-        ncols=4,
+        ncols=3,
     )
     save(figure, file)

@@ -33,7 +33,12 @@ def draw_pushes(axes: Any, pushes: Array | None) -> None:
 
 def mark_pushes(axes: Any, run: Run) -> None:
     """Mark the times of all pushes in a plot over time."""
-    for track in run.tracks.values():
-        if track.pushes is not None:
-            for time in track.pushes[:, 0].tolist():
-                axes.axvline(time, color=PUSHED, ls=":", lw=1.0)
+    times = [
+        time
+        for track in run.tracks.values()
+        if track.pushes is not None
+        for time in track.pushes[:, 0].tolist()
+    ]
+    for number, time in enumerate(times):
+        label = None if number else "push"
+        axes.axvline(time, color=PUSHED, ls=":", lw=1.0, label=label)

@@ -12,15 +12,18 @@ from ..outputs import writing
 from ..poses import Array
 from ..robots.description import load_robot
 from .averages import whole_cycles
+from .extent import wall_corners
 from .inert import fill_page, visible
 from .library import three
 from .palette import PALETTES, colours_in
 from .parts import parts_of
 from .stage import Stage
+from .tops import Tops
 
 RATE = 20.0  # frames a second
 SCRIPTS = ("scene.js", "plots.js", "page.js")
-HEAD = 0.12  # of a robot's label over its highest part, in [m]
+HEAD = 0.04  # of a name over the highest point of its player, in [m]
+BESIDE = 0.4  # margin of what is seen from above, in [m]
 
 
 def template() -> str:
@@ -68,6 +71,7 @@ def _content(run: Run) -> dict[str, Any]:
     words = [visible(run.words(int(index))) for index in chosen]
     known = list(dict.fromkeys(words))
     low, high = _extent(run)
+    tops = Tops(parts)
     sole = run.settings.gait.sole
     return {
         "times": np.round(run.times[chosen], 3).tolist(),
@@ -77,7 +81,9 @@ def _content(run: Run) -> dict[str, Any]:
         "parts": [part.to_json() for part in parts],
         "palettes": {n: p._asdict() for n, p in PALETTES.items()},
         "sole": [sole.back, sole.front, -sole.inner, sole.outer],
-        "robots": [_robot(run, stage, name, chosen) for name in run.players],
+        "robots": [
+            _robot(run, stage, name, chosen, tops) for name in run.players
+        ],
         "distance": _series(run.distance, chosen, 3),
         "angle": _series(run.orientation, chosen, 1),
         "means": {
@@ -91,6 +97,7 @@ def _content(run: Run) -> dict[str, Any]:
         "words": known,
         "says": [known.index(text) for text in words],
         "middle": np.round(0.5 * (low + high), 3).tolist(),
+        "half": np.round(0.5 * (high - low) + BESIDE, 3).tolist(),
         "away": 1.4 + 1.05 * float(np.hypot(*(high - low))),
     }
 
@@ -102,12 +109,11 @@ def _means(
     if values is None:
         return None
     period = 2.0 * run.settings.gait.step_duration
-    means = whole_cycles(values, run.times, period)[chosen].tolist()
-    return [round(v, digits) if np.isfinite(v) else None for v in means]
+    return _series(whole_cycles(values, run.times, period), chosen, digits)
 
 
 def _robot(
-    run: Run, stage: Stage, name: str, chosen: np.ndarray
+    run: Run, stage: Stage, name: str, chosen: np.ndarray, tops: Tops
 ) -> dict[str, Any]:
     """What the page shows of one player."""
     torso = "trunk"
@@ -117,12 +123,10 @@ def _robot(
     stage.put(0)
     own = [
         i
-        for i in range(stage.model.ngeom)
-        if stage.model.body(stage.model.geom_bodyid[i]).name.startswith(
-            f"{name}/"
-        )
+        for i in range(stage.model.nbody)
+        if stage.model.body(i).name.startswith(f"{name}/")
     ]
-    over = stage.data.xpos[stage.model.geom_bodyid[own], 2].max()
+    over = tops.of(own, stage.data.xpos, stage.data.xquat)
     return {
         "name": name,
         "torso": body,
@@ -137,8 +141,9 @@ def _robot(
 
 
 def _extent(run: Run) -> tuple[Array, Array]:
-    """Corners of where the players went, in [m]. Shape (2,) each."""
-    both = np.concatenate([t.torso[:, :2] for t in run.tracks.values()])
+    """Corners of the players' ways and of the room. Shape (2,) each."""
+    ways = [track.torso[:, :2] for track in run.tracks.values()]
+    both = np.concatenate([*ways, wall_corners(run.plan)])
     return both.min(axis=0), both.max(axis=0)
 
 
@@ -152,12 +157,12 @@ def _rows(table: Array | None) -> list[list[float]]:
 
 def _series(
     values: Array | None, chosen: np.ndarray, digits: int
-) -> list[float] | None:
-    """Values at the samples that are shown; None where there are none."""
+) -> list[float | None] | None:
+    """Values at the samples that are shown; None where one is not known."""
     if values is None:
         return None
-    shown: list[float] = np.round(values[chosen], digits).tolist()
-    return shown
+    shown = values[chosen].tolist()
+    return [round(v, digits) if np.isfinite(v) else None for v in shown]
 
 
 def _chosen(times: Array) -> np.ndarray:

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.patches import Patch
 
 from .sizes import sheet
 from .style import THEORY, new_figure, save
@@ -15,9 +16,10 @@ METHOD_STYLES = {
     "measured": ("#0f7b6c", "D", "-"),
     "mpc": ("#6a3d9a", "^", "-."),
 }
+SIDES = ("left", "right")
 BOUNDS = (  # column, label, width of the line
     ("bound_n_s", "pendulum's bound", 1.6),
-    ("impulse_bound_n_s", "for an impulse in the middle", 0.6),
+    ("impulse_bound_n_s", "the same for an impulse at mid-push", 0.6),
 )
 
 
@@ -50,15 +52,20 @@ def draw_survival(
             )
             x = [r["strength"] for r in own]
             share = np.array([r["survived"] / r["trials"] for r in own])
+            trials = sorted({r["trials"] for r in own})
+            single = trials == [1]
             axis.plot(
                 x,
                 100.0 * share,
                 color=colour,
                 marker=marker,
-                linestyle=line,
+                # One trial has an outcome, which is no share.
+                linestyle="none" if single else line,
                 markersize=4,
-                label=method,
+                label=f"{method}, {_count(trials)}",
             )
+            if single:
+                continue
             axis.fill_between(
                 x,
                 [100.0 * r["low"] for r in own],
@@ -67,17 +74,42 @@ def draw_survival(
                 alpha=0.12,
                 linewidth=0,
             )
-        axis.set_title(f"{kind} {direction}".strip())
+        axis.set_title(_title(kind, direction))
         axis.set_xlabel(f"{kind} [{units[kind]}]")
         axis.set_ylim(-4, 104)
+    single = all(r["trials"] == 1 for r in rows)
     for row in axes:
-        row[0].set_ylabel("survived [%]")
+        row[0].set_ylabel("" if single else "survived [%]")
+        if single:
+            row[0].set_yticks([0.0, 100.0], ["fell", "survived"])
+    named: dict[str, Any] = {}
+    for axis in axes.flat:
+        handles, labels = axis.get_legend_handles_labels()
+        named |= dict(zip(labels, handles, strict=True))
+    if not single:
+        named["95 % interval"] = Patch(color=THEORY, alpha=0.12, linewidth=0)
     figure.legend(
-        *axes.flat[0].get_legend_handles_labels(),
+        named.values(),
+        named.keys(),
         loc="outside lower center",
         ncols=2 if sheet().narrow else 4,
     )
     save(figure, file)
+
+
+def _title(kind: str, direction: str) -> str:
+    """Say what disturbs a walk, and from which side."""
+    if direction in SIDES:
+        return f"{kind} to the {direction}"
+    return f"{kind} {direction}".strip()
+
+
+def _count(trials: Sequence[int]) -> str:
+    """Say how many trials each point is of."""
+    low, high = trials[0], trials[-1]
+    if low == high:
+        return f"{low} trial{'s' if low > 1 else ''} per point"
+    return f"{low} to {high} trials per point"
 
 
 def draw_limits(rows: Sequence[dict[str, Any]], file: Path) -> None:
@@ -120,7 +152,7 @@ def draw_limits(rows: Sequence[dict[str, Any]], file: Path) -> None:
                 linewidth=width,
                 label=label,
             )
-        axis.set_title(direction)
+        axis.set_title(_title("push", direction))
         axis.set_xlabel("phase of the gait cycle [1]")
     # Once all is drawn: a limit that is set ends the scaling of all axes.
     axes.flat[0].set_ylim(bottom=0.0)

@@ -3,12 +3,25 @@
 from collections.abc import Iterable
 from typing import Any
 
+import numpy as np
 from matplotlib.patches import Circle, Patch
 from matplotlib.patches import Polygon as Outline
 
+from ..games.run import Run
+from ..poses import Array
 from ..rooms import BODY_RADIUS, Disc, Obstacle, Room
-from .style import EVADER, PURSUER, plt, save
+from .sizes import sheet
+from .style import (
+    EVADER,
+    PURSUER,
+    THEORY,
+    colours_of,
+    mark_level,
+    plt,
+    save,
+)
 
+MOST = 1500  # samples of a curve, about
 SOLID, MOVING = "#8a8f98", "#99704a"
 
 
@@ -47,6 +60,60 @@ def room_patches(room: Room, time: float = 0.0) -> list[Patch]:
             linestyle="--",
         ),
     ]
+
+
+def has_obstacles(run: Run) -> bool:
+    """Whether a run took place among walls or obstacles."""
+    plan = run.plan
+    return plan is not None and bool(plan.solids or plan.moving)
+
+
+def clearance_of(room: Room, places: Array, times: Array) -> Array:
+    """Return the distance to the nearest wall or obstacle, in [m].
+
+    Args:
+        room: The room.
+        places: Places (x, y) in it, in [m]. Shape (n, 2).
+        times: When each of them is taken, in [s]. Shape (n,).
+
+    Returns:
+        Signed distances, negative inside. Shape (n,).
+    """
+    found = room.clearance(places)
+    for mover in room.moving:
+        moved = [
+            float(mover.at(time).clearance([place])[0])
+            for place, time in zip(places, times.tolist(), strict=True)
+        ]
+        found = np.minimum(found, moved)
+    return found
+
+
+def draw_clearance(axes: Any, run: Run) -> None:
+    """Draw how far each player is from the nearest wall or obstacle.
+
+    Args:
+        axes: Matplotlib axes.
+        run: The run, in a room.
+    """
+    assert run.plan is not None
+    every = slice(None, None, max(1, len(run.times) // MOST))
+    times = run.times[every]
+    for name, colour in colours_of(run.players).items():
+        places = run.tracks[name].unicycle[every, :2]
+        clearance = clearance_of(run.plan, places, times)
+        axes.plot(times, clearance, color=colour, lw=1.4, label=name)
+    mark_level(
+        axes, BODY_RADIUS, f"body {BODY_RADIUS:.3g} m", THEORY, stands="top"
+    )
+    axes.set(xlabel="time [s]", ylabel="clearance [m]")
+    axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
+    axes.margins(x=0.0)
+    title = "distance to the nearest wall or obstacle"
+    if not sheet().narrow:
+        title += ", from the middle of each player"
+    axes.set_title(title, pad=18)
+    axes.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 0.965))
 
 
 def draw_room(room: Room, path: str) -> None:

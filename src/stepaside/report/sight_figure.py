@@ -188,6 +188,8 @@ def _draw_errors(figure: Any, grid: Any, run: Run) -> None:
         axes.set(ylabel=label, ylim=(-limit, limit))
     since = run.summary.triggered_at_s if isinstance(run, DuelRun) else None
     if since is not None:
-        upper.axvline(since, color=THEORY, ls=":", lw=0.8)
-    upper.legend(loc="lower right", bbox_to_anchor=(1.0, 0.97), ncols=2)
+        upper.axvline(
+            since, color=THEORY, ls=":", lw=1.0, label="evasion begins"
+        )
+    upper.legend(loc="lower right", bbox_to_anchor=(1.0, 0.97), ncols=3)
     lower.set_xlabel("time [s]")

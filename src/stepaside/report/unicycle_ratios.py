@@ -56,7 +56,7 @@ def draw_ratios(game: Game, path: str, *, count: int = _COUNT) -> RatioMap:
     figure.colorbar(
         image,
         ax=list(axes),
-        label="distance on the stable reversed circle\n"
+        label="distance of the players on that circle\n"
         "[evader's speed / pursuer's gain]",
     )
     named: dict[str, Any] = {}
@@ -71,8 +71,8 @@ def draw_ratios(game: Game, path: str, *, count: int = _COUNT) -> RatioMap:
     )
     degrees = np.rad2deg(game.angle)
     figure.suptitle(
-        "Coloured: a reversed circle that agrees with the side behind the "
-        f"evader, angle {degrees:.0f} deg"
+        "Coloured: a second stable circle, walked the other way round; "
+        f"evasion angle {degrees:.0f} deg"
     )
     save(figure, path)
     return maps[game.law]
@@ -97,7 +97,7 @@ def _draw(ax: Any, found: RatioMap, high: float) -> Any:
     only_unstable = np.isfinite(found.reversed_unstable)
     only_unstable &= ~np.isfinite(found.reversed_stable)
     masks = (
-        (only_unstable, "..", "reversed, unstable"),
+        (only_unstable, "..", "second circle, unstable"),
         (~np.isfinite(found.main), "////", "no main circle"),
     )
     for mask, hatch, name in masks:
@@ -116,7 +116,7 @@ def _draw(ax: Any, found: RatioMap, high: float) -> Any:
         lines = ax.contour(
             speeds, gains, share.T, [0.25, 0.5], colors="w", linewidths=1.3
         )
-        ax.clabel(lines, fmt=lambda v: f"{v:g} of the main one", fontsize=8)
+        ax.clabel(lines, fmt=lambda v: f"{v:g} of the main", fontsize=8)
     ticks = {"x": (1, 1.5, 2, 3, 4), "y": (0.25, 0.5, 1, 2, 4, 8, 16)}
     ax.set_xticks(ticks["x"], [f"{t:g}" for t in ticks["x"]])
     ax.set_yticks(ticks["y"], [f"{t:g}" for t in ticks["y"]])

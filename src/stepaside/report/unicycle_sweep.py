@@ -12,11 +12,11 @@ from ..unicycle.measure import Measured, measure, settling_time
 from ..unicycle.relative import Start
 from ..unicycle.simulate import simulate
 from .sizes import sheet
-from .style import EVADER, PURSUER, THEORY, new_figure, save
+from .style import LEFT, RIGHT, THEORY, new_figure, save
 
 _STYLES = {
-    TurningLaw.PROPORTIONAL: ("-", "o", EVADER),
-    TurningLaw.SATURATED: ("--", "s", PURSUER),
+    TurningLaw.PROPORTIONAL: ("-", "o", LEFT),
+    TurningLaw.SATURATED: ("--", "s", RIGHT),
 }
 
 
@@ -50,8 +50,8 @@ def _with_speed(game: Game, ratio: float) -> Game:
 
 _SWEEPS = (
     Sweep("evasion angle [rad]", 0.15, 3.0, lambda g, x: replace(g, angle=x)),
-    Sweep("evader's gain / pursuer's gain", 0.4, 2.5, _with_gain),
-    Sweep("pursuer's speed / evader's speed", 0.4, 1.6, _with_speed),
+    Sweep("evader's gain / pursuer's gain [1]", 0.4, 2.5, _with_gain),
+    Sweep("pursuer's speed / evader's speed [1]", 0.4, 1.6, _with_speed),
 )
 
 
@@ -70,8 +70,8 @@ def draw_sweep(game: Game, path: str, *, marks: int = 7) -> None:
             _draw_lines(column, game, sweep, law)
             _draw_marks(column, game, sweep, law, marks)
         column[1].set_xlabel(sweep.label)
-    axes[0, 0].set_ylabel("radius of the pursuer [m]")
-    axes[1, 0].set_ylabel("distance [m]")
+    axes[0, 0].set_ylabel("radius of the pursuer's circle [m]")
+    axes[1, 0].set_ylabel("distance of the players [m]")
     unit = game.evader.speed / game.evader.gain
     for ax in axes[:, 0]:
         ax.set_ylim(0.0, 6.0 * unit)
@@ -80,7 +80,9 @@ def draw_sweep(game: Game, path: str, *, marks: int = 7) -> None:
         loc="outside lower center",
         ncols=2 if sheet().narrow else 4,
     )
-    figure.suptitle("Circle: equations (lines) and simulation (marks)")
+    figure.suptitle(
+        "Circle on which the game ends: equations (lines), simulation (marks)"
+    )
     save(figure, path)
 
 

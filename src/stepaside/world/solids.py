@@ -59,6 +59,12 @@ def _name(number: int) -> str:
     return f"moving box {number}"
 
 
+def is_room_wall(model: mujoco.MjModel, geom: int) -> bool:
+    """Whether a geom is a wall of a room that :func:`add_solids` put there."""
+    name: str = model.body(int(model.geom_bodyid[geom])).name
+    return name.startswith("wall ")
+
+
 def named_solids(room: Room) -> tuple[tuple[str, Obstacle], ...]:
     """Solids of a room with the names of their bodies."""
     counts: dict[str, int] = {}

@@ -39,7 +39,17 @@ function dress() {
   run.robots.forEach((robot, i) => {
     for (const word of [names[i], labels[i]]) word.style.color = robot.colours[light];
   });
+  paintMarks();
   stale = true;
+}
+/* The marks of the legend; what each player has is in the colour of each. */
+function paintMarks() {
+  const shown = run.robots.map((robot) => robot.colours[light]);
+  for (const [mark, name] of marks) {
+    const colour = name === "players" ? shown[0] : typeof name === "number" ? shown[name] : run.palettes[light][name];
+    mark.style.borderTopColor = colour;
+    mark.style.borderBottomColor = name === "players" ? shown[shown.length - 1] : colour;
+  }
 }
 night.onchange = () => { light = night.matches ? "dark" : "light"; dress(); };
 byId("light").onclick = () => { light = light === "dark" ? "light" : "dark"; dress(); };
@@ -86,10 +96,14 @@ function aim(seats) {
     about.getCenter(target).setZ(0.2);
     away = 1.5 + 1.1 * about.min.distanceTo(about.max);
   }
+  /* From above all of the room is seen, whatever the page's shape. */
+  const steep = Math.tan(20 * Math.PI / 180);
+  if (chosen === "top")
+    away = 0.6 + Math.max(run.half[1], run.half[0] / camera.aspect) / steep;
   target.x += view.aside[0];
   target.y += view.aside[1];
   /* A phone held upright sees less from side to side. */
-  away *= view.away * Math.max(1, 1.35 / camera.aspect);
+  away *= view.away * (chosen === "top" ? 1 : Math.max(1, 1.35 / camera.aspect));
   const flat = Math.cos(view.tilt);
   camera.fov = 40;
   camera.position.set(target.x + away * flat * Math.cos(view.turn),
@@ -132,12 +146,26 @@ function move(dx, dy) {
 function near(factor) { view.away = Math.min(6, Math.max(0.08, view.away * factor)); stale = true; }
 canvas.onwheel = (event) => { event.preventDefault(); near(Math.exp(event.deltaY / 800)); };
 
-/* Layers, labels, plots. */
+/* Layers, labels, plots: of each line what it is, how it is drawn, its colour. */
+const metres = (value) => value === null || value === undefined ? "" : `, radius ${value.toFixed(2)} m`;
+const guard = run.safety === null ? "" : run.robots[run.guarded].name;
+const LINES = {
+  traces: ["path of the center of mass", "solid", "players"],
+  footsteps: ["footsteps", "broad", "players"],
+  pushes: ["pushes", "solid", "pushed"],
+  "safety area": [`safety area of the ${guard}${metres(run.safety)}`, "dashed", run.guarded],
+  "circle of theory": [`circle of theory${metres(run.circle && run.circle[2])}`, "solid", "theory"],
+  "line of sight": ["line of sight", "solid", "theory"],
+};
+const marks = [];
 for (const name of Object.keys(scene ? scene.layers : {})) {
   const label = document.createElement("label"), box = document.createElement("input");
   box.type = "checkbox"; box.checked = true;
   box.onchange = () => { for (const mesh of scene.layers[name]) mesh.visible = box.checked; stale = true; };
-  label.append(box, " " + name);
+  const mark = document.createElement("i");
+  mark.className = LINES[name][1];
+  marks.push([mark, LINES[name][2]]);
+  label.append(box, mark, " " + LINES[name][0]);
   byId("layers").append(label);
 }
 const level = (value, colour, dash) => value === null || value === undefined ? [] : [{ value, colour, dash }];
@@ -152,6 +180,7 @@ byId("plots").hidden = !run.distance;
 byId("legend").textContent = !run.distance ? "" : ["thin: each step", "thick: mean of a gait cycle", run.theory ? "dashed: theory" : "",
   run.safety ? "dotted: safety radius" : ""].filter(Boolean).join("; ");
 
+const told = (value, digits, unit) => value === null ? "not known" : value.toFixed(digits) + unit;
 function put() {
   stale = false;
   index = sampleAt(run.times, clock + 1e-9);
@@ -179,7 +208,7 @@ function put() {
   plots.forEach((plot) => plot.draw(index, run.palettes[light]));
   byId("clock").textContent = `${run.times[index].toFixed(1)} s`;
   byId("figures").textContent = !run.distance ? "" :
-    `distance ${run.distance[index].toFixed(2)} m, angle ${run.angle[index].toFixed(0)}\u00b0`;
+    `distance ${told(run.distance[index], 2, " m")}, between the headings ${told(run.angle[index], 0, "\u00b0")}`;
   byId("time").value = index;
 }
 

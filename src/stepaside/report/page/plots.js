@@ -10,7 +10,8 @@ function sampleAt(times, time) {
 function makePlot(canvas, run, values, means, options, seek) {
   const end = run.times[run.times.length - 1] || 1;
   const known = values.filter((v) => v !== null).concat(options.levels.map((l) => l.value));
-  let low = Math.min(...known), high = Math.max(...known);
+  let [low, high] = known.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [Infinity, -Infinity]);
+  if (!known.length) [low, high] = [0, 1];
   const room = 0.08 * (high - low) || 0.5;
   low -= room; high += room;
   let box = null, over = null;
@@ -61,8 +62,9 @@ function makePlot(canvas, run, values, means, options, seek) {
     const x = px(run.times[shown]);
     stroke(palette.ink, 1, over === null ? [] : [3, 3], [[x, box.top], [x, box.bottom]]);
     pen.fillStyle = palette.ink;
-    pen.beginPath(); pen.arc(x, py(values[shown]), 3.5, 0, 2 * Math.PI); pen.fill();
-    const text = `${run.times[shown].toFixed(1)} s: ${values[shown].toFixed(options.digits)} ${options.unit}`;
+    const value = values[shown], known = value !== null;
+    if (known) { pen.beginPath(); pen.arc(x, py(value), 3.5, 0, 2 * Math.PI); pen.fill(); }
+    const text = `${run.times[shown].toFixed(1)} s: ${known ? `${value.toFixed(options.digits)} ${options.unit}` : "not known"}`;
     pen.textBaseline = "top";
     pen.textAlign = x > (box.left + box.right) / 2 ? "right" : "left";
     const aside = pen.textAlign === "right" ? -7 : 7;

@@ -67,7 +67,8 @@ function makeScene(run, canvas, context) {
       color: paint(part.colour), roughness: 0.55, ...see }));
     mesh.position.set(...part.place);
     mesh.quaternion.copy(quaternion(part.turn));
-    mesh.castShadow = mesh.receiveShadow = !part.wall;
+    mesh.receiveShadow = !part.wall;
+    mesh.castShadow = !part.wall && part.shades;
     const body = run.bodies.indexOf(part.body);
     (body < 0 ? world : bodies[body]).add(mesh);
   }

@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Iterable
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -11,9 +12,10 @@ from numpy.typing import NDArray
 
 from ...poses import Array
 from ..parts import Part, parts_of
+from ..tops import Tops
 
 RING = 20  # corners of a round shape
-LABEL = 0.14  # of a name over the highest body, in [m]
+LABEL = 0.04  # of a name over the highest point of its player, in [m]
 
 
 def shape_of(part: Part) -> trimesh.Trimesh:
@@ -61,47 +63,47 @@ class Bodies:
     def __init__(self, scene: viser.SceneApi, model: mujoco.MjModel) -> None:
         """Put every part that is seen on the page, once."""
         looks = defaultdict[
-            int, defaultdict[tuple[int, int, int], list[trimesh.Trimesh]]
+            int, defaultdict[tuple[Any, ...], list[trimesh.Trimesh]]
         ](lambda: defaultdict(list))
-        for part in parts_of(model):
+        parts = parts_of(model)
+        for part in parts:
             if not part.is_wall:  # it would hide all from who is outside
-                looks[part.body][part.colour].append(shape_of(part))
+                look = part.colour, part.shades
+                looks[part.body][look].append(shape_of(part))
         self._frames: dict[int, viser.FrameHandle] = {}
         self._meshes = defaultdict[int, list[viser.MeshHandle]](list)
-        data = mujoco.MjData(model)
-        mujoco.mj_kinematics(model, data)
-        self._tops = {body: float(data.xpos[body, 2]) for body in looks}
+        self._tops = Tops(parts)
+        self._names: dict[tuple[int, ...], viser.LabelHandle] = {}
         for body, colours in looks.items():
             name = f"/bodies/{body}"
             self._frames[body] = scene.add_frame(name, show_axes=False)
-            for number, (colour, meshes) in enumerate(colours.items()):
+            for number, ((colour, shades), meshes) in enumerate(
+                colours.items()
+            ):
                 corners, faces = joined(meshes)
                 mesh = scene.add_mesh_simple(
                     f"{name}/{number}",
                     corners,
                     faces,
                     color=colour,
-                    cast_shadow=True,
+                    cast_shadow=shades,
                     receive_shadow=False,
                 )
                 self._meshes[body].append(mesh)
         self._scene = scene
 
     def name(self, model: mujoco.MjModel, players: Iterable[str]) -> None:
-        """Write the name of each player over it.
+        """Write the name of each player over it, wherever it moves.
 
         Args:
             model: Of the bodies, which begin with the names of their players.
             players: Their names.
         """
         for player in players:
-            own = self._own(model, player)
-            high = {body: self._tops[body] for body in own}
-            top = max(high, key=lambda body: high[body])
-            self._scene.add_label(
-                f"/bodies/{top}/name",
+            own = tuple(self._own(model, player))
+            self._names[own] = self._scene.add_label(
+                f"/names/{player}",
                 player,
-                position=(0.0, 0.0, LABEL),
                 anchor="bottom-center",
                 depth_test=False,
             )
@@ -136,3 +138,7 @@ class Bodies:
         for body, frame in self._frames.items():
             frame.position = positions[body]
             frame.wxyz = quaternions[body]
+        for own, label in self._names.items():
+            x, y = positions[list(own), :2].mean(axis=0).tolist()
+            top = self._tops.of(own, positions, quaternions)
+            label.position = (x, y, top + LABEL)

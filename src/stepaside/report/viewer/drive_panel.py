@@ -30,7 +30,10 @@ class DrivePanel:
             )
             wheel = gui.add_button_group("Turn", tuple(TURNS))
             walk = gui.add_button_group("Walk", ("go", "stop"))
-            release = gui.add_button("Let it pursue by itself")
+            self._state = gui.add_markdown(self._words())
+            self._release_button = gui.add_button(
+                "Let it pursue by itself", disabled=True
+            )
             self._slows = gui.add_checkbox("Slow at the closest", True)
             self._told = gui.add_markdown("")
 
@@ -42,7 +45,7 @@ class DrivePanel:
         def _(_: object) -> None:
             self._drive(going=walk.value == "go")
 
-        @release.on_click
+        @self._release_button.on_click
         def _(_: object) -> None:
             self._release()
 
@@ -59,7 +62,7 @@ class DrivePanel:
 
     def forget(self) -> None:
         """Note that another duel began, which nobody drives."""
-        self._hand = None
+        self._take(None)
         self._score.end("begun anew")
 
     def show(self, time: float, distance: float) -> None:
@@ -71,8 +74,8 @@ class DrivePanel:
         """
         session = self._session
         self._score.watch(time, distance)
-        if session.outcome is not None:
-            self._hand = None
+        if session.outcome is not None and self._hand is not None:
+            self._take(None)
             self._score.end(session.outcome.value)
         radius = session.settings.strategy.area
         close = self._slows.value and self._score.is_close(radius)
@@ -104,16 +107,36 @@ class DrivePanel:
             hand = replace(hand, turn=turn)
         if going is not None:
             hand = replace(hand, going=going)
-        self._hand = hand
+        self._take(hand)
         self._session.note(turn=hand.turn, going=hand.going)
         self._give(hand)
 
     def _release(self) -> None:
         """Give the pursuer back to itself."""
-        self._hand = None
+        self._take(None)
         self._score.end("let go")
         self._session.note(released=True)
         self._give(Pursuit())
+
+    def _take(self, hand: Driven | None) -> None:
+        """Note how the pursuer is driven, and show it; None if by itself."""
+        self._hand = hand
+        self._session.driven = hand is not None
+        self._state.content = self._words()
+        self._release_button.disabled = hand is None
+
+    def _words(self) -> str:
+        """Say who steers the pursuer, and where to."""
+        hand = self._hand
+        if not isinstance(self._session.duel.players[0], Walker):
+            return "A person cannot be driven."
+        if hand is None:
+            return "Not driven: the pursuer follows its own strategy."
+        way = "straight ahead"
+        if hand.turn:
+            way = f"to the {'left' if hand.turn > 0.0 else 'right'}"
+        does = f"walks {way}" if hand.going else "halts"
+        return f"**Driven by hand**: the pursuer {does}."
 
     def _give(self, strategy: Strategy) -> None:
         """Let a pursuer that is a robot follow a strategy from now on."""

@@ -106,6 +106,7 @@ class DuelPanel:
         session.settings = replace(
             session.settings, strategy=strategy, evader_strategy=EVASION
         )
+        session.expect()
 
         def change(duel: Duel) -> None:
             evader = duel.players[1]

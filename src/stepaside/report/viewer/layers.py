@@ -24,6 +24,23 @@ LAYERS = (
     "support polygon",
     "pushes",
 )
+MEANINGS = {
+    "planned path": "where each robot plans to walk",
+    "footsteps": "outlines of the soles, made and planned",
+    "CoM trace": "path of the center of mass over the floor",
+    "ZMP trace": "path of the zero-moment point, paler",
+    "line of sight": "grey line from one player to the other",
+    "safety area": "blue ring; inside it the pursuer is too near",
+    "circle of theory": "grey ring, on which the paper's game ends",
+    "support polygon": "green outline of the feet that bear",
+    "pushes": "magenta arrow, for a second after each push",
+}
+# Rings are named where they lie: the direction of the name from the middle.
+RINGS = {  # its name there, and the number of the segment
+    "safety area": ("safety radius", 52),
+    "circle of theory": ("circle of theory", 44),
+}
+SMALL = 0.85  # size of these names, of that of the players' names
 HEIGHTS = {name: 0.002 + 0.001 * i for i, name in enumerate(LAYERS)}
 PRINTS = 60  # footsteps kept
 COMING = 0.5  # how long before it lands a footstep is shown, in [s]
@@ -36,6 +53,16 @@ def rgb(colour: str) -> tuple[int, int, int]:
     """Colour from ``#rrggbb``, 0 to 255."""
     red, green, blue = bytes.fromhex(colour[1:])
     return red, green, blue
+
+
+def legend(layers: Iterable[str]) -> str:
+    """Say in Markdown what each layer shows.
+
+    Args:
+        layers: Those of ``LAYERS`` that a page has.
+    """
+    lines = [f"- **{layer}**: {MEANINGS[layer]}" for layer in layers]
+    return "\n".join(["Pursuer red, evader blue.", "", *lines])
 
 
 def chain(points: Array, height: float, *, closed: bool = False) -> Array:
@@ -69,6 +96,7 @@ class Layers:
         self._scene = scene
         self.shown = dict.fromkeys(LAYERS, True)
         self._drawn: dict[str, bytes] = {}
+        self._named: dict[str, tuple[str, viser.LabelHandle]] = {}
 
     def draw(
         self, layer: str, owner: str, segments: Array, colour: str
@@ -82,6 +110,8 @@ class Layers:
             colour: As ``#rrggbb``.
         """
         name = f"/layers/{layer}/{owner}"
+        if layer in RINGS:
+            self._name_ring(layer, segments if self.shown[layer] else None)
         if not self.shown[layer] or len(segments) == 0:
             if self._drawn.pop(name, None) is not None:
                 self._scene.remove_by_name(name)
@@ -96,8 +126,33 @@ class Layers:
             name, points, colors=seen, thickness=0.008
         )
 
+    def _name_ring(self, layer: str, segments: Array | None) -> None:
+        """Write its name and radius beside a ring; no ring, no name."""
+        known = self._named.get(layer)
+        if segments is None or len(segments) == 0:
+            if known is not None:
+                self._named.pop(layer)[1].remove()
+            return
+        points = np.asarray(segments)[:, 0]
+        name, number = RINGS[layer]
+        text = f"{name} {0.5 * float(np.ptp(points[:, 0])):.2f} m"
+        if known is None or known[0] != text:
+            if known is not None:
+                known[1].remove()
+            made = self._scene.add_label(
+                f"/rings/{layer}",
+                text,
+                anchor="center-center",
+                font_screen_scale=SMALL,
+            )
+            known = self._named[layer] = text, made
+        x, y, z = points[number % len(points)].tolist()
+        known[1].position = (x, y, z + 0.02)
+
     def clear(self) -> None:
         """Take every line off the page."""
+        for layer in RINGS:
+            self._name_ring(layer, None)
         for name in list(self._drawn):
             self._scene.remove_by_name(name)
         self._drawn.clear()
@@ -208,9 +263,11 @@ __all__ = [
     "EVADER",
     "HEIGHTS",
     "LAYERS",
+    "MEANINGS",
     "THEORY",
     "Layers",
     "chain",
+    "legend",
     "path_of",
     "prints_at",
     "prints_of",

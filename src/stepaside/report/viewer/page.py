@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import StepAsideError
-from ...games.settings import PLAYERS, DuelSettings
+from ...games.settings import EVASION, PLAYERS, DuelSettings
 from ..inert import for_markdown
 from ..palette import LIGHTS
 from .bodies import Bodies
@@ -19,8 +19,9 @@ from .dragging import Dragging
 from .drawing import draw_session
 from .drive_panel import DrivePanel
 from .duel_panel import DuelPanel
-from .layers import LAYERS, Layers
+from .layers import LAYERS, Layers, legend
 from .layout import arrange
+from .notices import Notices
 from .plots import Plots
 from .push_panel import add_push
 from .saving import Saving
@@ -65,6 +66,7 @@ class Page:
         except BaseException:
             self.server.stop()
             raise
+        self._say = Notices(self.server).say
         served.listener.say = self._say
         self._closing = threading.Event()
         self._layers, self._viewers = self._set_scene()
@@ -72,7 +74,6 @@ class Page:
         gui = self.server.gui
         layout = arrange(gui)
         self._status = gui.add_markdown("starting")
-        self._message = gui.add_markdown("", visible=False)
         self._add_time()
         self._add_keys()
         self._plots = Plots(gui)
@@ -98,10 +99,12 @@ class Page:
         self.server.initial_camera.look_at = (0.5, 0.0, 0.2)
         self._bodies = Bodies(scene, model)
         self._bodies.name(model, PLAYERS)
-        dragging = Dragging(scene, self.session, lambda text: self._say(text))
+        dragging = Dragging(scene, self.session, self._say)
         for number, player in enumerate(PLAYERS):
             dragging.attend(number, self._bodies.meshes_of(model, player))
-        return Layers(scene), Viewers(self.server)
+        return Layers(scene), Viewers(
+            self.server, self.session.settings.room.plan
+        )
 
     def start(self) -> None:
         """Start to publish."""
@@ -192,6 +195,7 @@ class Page:
     def _add_layers(self) -> None:
         for layer in LAYERS:
             self._add_layer(layer)
+        self.server.gui.add_markdown(legend(LAYERS))
 
     def _add_layer(self, layer: str) -> None:
         box = self.server.gui.add_checkbox(layer[0].upper() + layer[1:], True)
@@ -204,10 +208,6 @@ class Page:
         """Show the cameras of the duel that runs, if it has any."""
         with_cameras = self.session.settings.sensing == "cameras"
         self._cameras.forget(visible=with_cameras)
-
-    def _say(self, text: str) -> None:
-        self._message.content = f"**{for_markdown(text)}**" if text else ""
-        self._message.visible = bool(text)
 
     def _publish(self) -> None:
         plotted = 0.0
@@ -244,14 +244,18 @@ class Page:
             moment.phases,
             moment.distance,
             moment.angle,
-            session.settings.strategy.begins_at(self._coming),
+            self._begins,
             session.theory,
+            approach=moment.approach,
         )
+        pace = ""
+        if session.running and session.factor > 0.0:  # it is known
+            pace = f", {session.factor:.1f} x real time"
         text = (
             f"{words}\n\n{self._outlook(moment)}\n\n"
-            f"{moment.time:.1f} s simulated, distance "
-            f"{moment.distance:.2f} m, closest {moment.closest:.2f} m, "
-            f"{session.factor:.1f} x real time"
+            f"{moment.time:.1f} s simulated{pace}\n\n"
+            f"distance {moment.distance:.2f} m, "
+            f"closest {moment.closest:.2f} m"
         )
         if session.outcome is not None:
             text += f"\n\n**over: {session.outcome.value}**; reset to go on"
@@ -263,21 +267,29 @@ class Page:
         self._drive.show(moment.time, moment.distance)
 
     @property
-    def _coming(self) -> float:
-        """Speed of who comes, in [m/s]."""
+    def _begins(self) -> float:
+        """Distance at which the evader begins to move, in [m].
+
+        Infinite for strategies that do not wait for a distance.
+        """
         settings = self.session.settings
+        if settings.evader_strategy != EVASION:
+            return inf
         if settings.pursuer == "person":
-            return settings.person.speed
-        return settings.gait.stride / settings.gait.step_duration
+            return settings.strategy.begins_at(settings.person.speed)
+        walked = settings.gait.stride / settings.gait.step_duration
+        return settings.strategy.begins_at(walked)
 
     def _outlook(self, moment: Moment) -> str:
         """What is expected next."""
-        session, speed = self.session, self._coming
+        session = self.session
+        if session.driven:
+            return "**A hand drives the pursuer**: theory says nothing of it."
         return outlook(
             moment.distance,
             moment.phases[1],
-            safety=session.settings.strategy.begins_at(speed),
-            speed=speed,
+            safety=self._begins,
+            approach=moment.approach,
             theory=session.theory,
             settling=session.settling,
         )

@@ -12,7 +12,11 @@
     :root[data-mantine-color-scheme="light"] {
       --mantine-color-dimmed: #5c6166 !important; }
     :root[data-mantine-color-scheme="dark"] {
-      --mantine-color-dimmed: #a3a8ae !important; }`;
+      --mantine-color-dimmed: #a3a8ae !important; }
+    /* The sheet of a phone leaves the robots more than half of the page. */
+    @media (max-width: 48em) {
+      .mantine-Paper-root[style*="position: fixed"][style*="max-height: 60%"] {
+        max-height: 45% !important; } }`;
 
   function sign(button) {
     for (const name of button.querySelector("svg")?.classList ?? [])

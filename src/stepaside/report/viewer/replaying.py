@@ -19,13 +19,14 @@ from .layers import (
     HEIGHTS,
     Layers,
     chain,
+    legend,
     prints_at,
     pushes_at,
     ring,
     safety_of,
 )
 from .layout import WATCH
-from .plots import add_plot
+from .plots import TITLES, add_plot, plot_data
 from .serving import open_server
 from .viewers import CAMERAS, Viewers
 
@@ -54,7 +55,7 @@ class ReplayPage:
         self._playing = False
         self._set_scene()
         self._layers = Layers(self.server.scene)
-        self._viewers = Viewers(self.server)
+        self._viewers = Viewers(self.server, self._run.plan)
         self._arrange()
         self._thread = threading.Thread(target=self._loop, daemon=True)
 
@@ -93,6 +94,7 @@ class ReplayPage:
         with gui.add_folder("Shown", expand_by_default=False):
             for layer in REPLAYED:
                 self._add_layer(layer)
+            gui.add_markdown(legend(REPLAYED))
 
         @self._play.on_click
         def _(_: object) -> None:
@@ -103,13 +105,8 @@ class ReplayPage:
         run = self._run
         _, distance, angle = run.theory or (None, None, None)
         shown = (
-            ("Distance [m]", run.distance, distance, PURSUER),
-            (
-                "Angle between the headings [deg]",
-                run.orientation,
-                angle,
-                EVADER,
-            ),
+            (TITLES[0], run.distance, distance, PURSUER),
+            (TITLES[1], run.orientation, angle, EVADER),
         )
         for title, values, level, colour in shown:
             if values is not None:
@@ -121,8 +118,7 @@ class ReplayPage:
         """Show one figure over time, and where theory ends."""
         times = self._run.times
         thin = slice(None, None, max(1, len(times) // MOST_PLOTTED))
-        ends = np.full(len(times[thin]), level or np.nan)
-        data = (times[thin], values[thin], ends)
+        data = plot_data(times[thin], values[thin], level)
         add_plot(self.server.gui, title, "run", colour, data)
 
     def _add_views(self) -> None:

@@ -5,21 +5,20 @@ import threading
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import degrees
 from pathlib import Path
 from time import perf_counter, sleep
 from typing import TYPE_CHECKING
 
 from ...control import Phase
 from ...errors import StepAsideError
-from ...games.circle import theory_of
+from ...games.approach import Approach
 from ...games.duel import Duel
 from ...games.outcome import Outcome
 from ...games.player import Snapshot
 from ...games.settings import DuelSettings
 from ...poses import Array
 from ...world.push import Push
-from ..settling import settling_time
+from .expected import expected_of
 from .saving import Keeping, Saving
 from .trail import Trail
 from .words import phases_of
@@ -45,6 +44,7 @@ class Moment:
         distance: Between the two, in [m].
         closest: Least distance so far, in [m].
         angle: Between their headings when it was last noted, in [deg].
+        approach: Of the pursuer to the evader; None before it is known.
         message: What the duel says of itself.
     """
 
@@ -56,6 +56,7 @@ class Moment:
     distance: float
     closest: float
     angle: float
+    approach: Approach | None
     message: str
 
 
@@ -77,7 +78,9 @@ class Session:
         trail: What the page draws of the time that has passed.
         lock: Held while the duel changes.
         asked: What a hand has asked of the robots.
-        factor: Simulated time over time passed, lately.
+        driven: Whether a hand drives the pursuer; no theory holds then.
+        factor: Simulated time over time passed, lately; 0 while it is not
+            known.
     """
 
     def __init__(self, settings: DuelSettings) -> None:
@@ -132,16 +135,25 @@ class Session:
         self.duel = duel
         self.outcome: Outcome | None = None
         self.trail = trail
-        circle = theory_of(settings)
-        self.theory = (
-            (circle.distance_m, degrees(circle.headings_apart_rad))
-            if circle.exists
-            else None
-        )
-        self.settling = settling_time(settings)
-        self.theory_radius = circle.radius_evader_m if circle.exists else None
+        self.driven = False
+        self.expect()
         self.asked: list[dict[str, float | str | bool]] = []
         self.generation += 1
+
+    def expect(self) -> None:
+        """Find the circle of theory for the settings of this moment."""
+        self._expected = expected_of(self.settings)
+        self.settling = self._expected.settling
+
+    @property
+    def theory(self) -> tuple[float, float] | None:
+        """Distance [m] and angle [deg] of the circle, if there is one."""
+        return None if self.driven else self._expected.theory
+
+    @property
+    def theory_radius(self) -> float | None:
+        """Radius of the evader's circle, in [m], if there is one."""
+        return None if self.driven else self._expected.radius
 
     def close(self) -> None:
         """Stop the loop and wait for it."""
@@ -224,6 +236,7 @@ class Session:
                 duel.distance or 0.0,
                 duel.min_distance or 0.0,
                 history[-1][2] if history else 0.0,
+                self.trail.approach(self.settings.cycle),
                 duel.message,
             )
 

@@ -1,13 +1,15 @@
 """What each viewer of a page has alone: its light, and its camera."""
 
 from collections.abc import Sequence
-from math import hypot
+from math import hypot, tan
 from typing import Any
 
 import numpy as np
 import viser
 
 from ...poses import Array
+from ...rooms import Room
+from ..extent import wall_corners
 from ..palette import FLOORS
 from .layers import rgb
 from .layout import dress
@@ -15,7 +17,12 @@ from .layout import dress
 CAMERAS = ("free", "follow", "top", "evader's eyes")
 ASIDE = np.array([-0.55, -0.85, 0.62])  # of a camera that follows, per [m]
 UPRIGHT = 0.8  # width over height of a page that is held upright
-NARROW, LOWER = 1.5, 0.15  # there: how much farther away, how much lower
+NARROW = 1.5  # there: how much farther away a camera that follows is
+FREE = 0.52  # there: share of the picture over the sheet, with a margin
+BESIDE = 0.15  # margin around a room that is seen from above, in [m]
+AROUND = 1.0  # margin around players on an open floor: a safety area, in [m]
+LOOKED_AT = 0.2  # height of what is looked at, in [m]
+TALL = 0.7  # height of what is to be seen from above, in [m]
 SMALL = 3e-3  # moves of a camera that are not worth a message, in [m]
 
 
@@ -26,9 +33,17 @@ class Viewers:
         cameras: Which camera each has; "free" if it is not here.
     """
 
-    def __init__(self, server: viser.ViserServer) -> None:
-        """Give everybody who comes a floor in its own light."""
+    def __init__(
+        self, server: viser.ViserServer, plan: Room | None = None
+    ) -> None:
+        """Give everybody who comes a floor in its own light.
+
+        Args:
+            server: Of the page.
+            plan: Room that is seen from above; None for an open floor.
+        """
         self._server = server
+        self._walls = wall_corners(plan)
         self._lights: dict[int, str] = {}
         self.cameras: dict[int, str] = {}
         server.on_client_connect(self._welcome)
@@ -84,31 +99,55 @@ class Viewers:
             if camera == "free":
                 continue
             now = client.camera
-            eye, target = _view(camera, places, heights)
-            if now.aspect < UPRIGHT and camera != CAMERAS[3]:
-                # A phone: sheets cover its lower half, and it is narrow.
-                eye = target + NARROW * (eye - target)
-                # Whoever looks lower sees the robots higher up.
-                down = LOWER * float(np.linalg.norm(eye - target))
-                aside = (0.0, -down, 0.0) if camera == "top" else (0, 0, -down)
-                target = target + np.array(aside)
+            if camera == CAMERAS[3]:
+                eye, target = _eyes(places, heights)
+            else:
+                eye, target = self._over(now, camera == "top", places)
             if np.abs(np.array(now.position) - eye).max() > SMALL:
                 with client.atomic():
                     now.position, now.look_at = eye, target
 
+    def _over(
+        self, camera: Any, top: bool, places: Sequence[Array]
+    ) -> tuple[Array, Array]:
+        """Where a camera is that sees all players, and what it looks at.
 
-def _view(
-    camera: str, places: Sequence[Array], heights: Sequence[float]
+        On a phone a sheet covers the lower part of the picture: there all of
+        them, and from above all of the room, lie in the part over it.
+        """
+        every = np.array(places)
+        low, high = every.min(axis=0), every.max(axis=0)
+        if top and len(self._walls):
+            low = np.minimum(low, self._walls.min(axis=0)) - BESIDE
+            high = np.maximum(high, self._walls.max(axis=0)) + BESIDE
+        elif top:
+            low, high = low - AROUND, high + AROUND
+        target = np.array([*(0.5 * (low + high)), LOOKED_AT])
+        share = FREE if camera.aspect < UPRIGHT else 1.0
+        steep = tan(0.5 * camera.fov)
+        half = 0.5 * (high - low)
+        if top:
+            way = np.array([0.0, -5e-4, 1.0])
+            away = max(half[1] / share, half[0] / camera.aspect) / steep
+            away += TALL - LOOKED_AT
+        else:
+            way = ASIDE / np.linalg.norm(ASIDE)
+            wide = 1.3 + float(hypot(*(high - low)))
+            away = wide * float(np.linalg.norm(ASIDE))
+            away *= NARROW if share < 1.0 else 1.0
+        # The picture's own upward direction in the world.
+        ahead = -way / np.linalg.norm(way)
+        right = np.cross(ahead, [0.0, 1.0, 0.0] if top else [0.0, 0.0, 1.0])
+        up = np.cross(right / np.linalg.norm(right), ahead)
+        target = target - (1.0 - share) * steep * away * up
+        return target - away * ahead, target
+
+
+def _eyes(
+    places: Sequence[Array], heights: Sequence[float]
 ) -> tuple[Array, Array]:
-    """Where a camera is and what it looks at. Shape (3,) each."""
+    """From the evader's head to the pursuer. Shape (3,) each."""
     first, second = places[0], places[min(1, len(places) - 1)]
-    middle = 0.5 * (np.min(places, axis=0) + np.max(places, axis=0))
-    target = np.array([*middle, 0.2])
-    wide = 1.3 + float(hypot(*(first - second)))
-    if camera == "top":
-        return target + [0.0, -1e-3, 1.5 * wide], target
-    if camera == "follow":
-        return target + wide * ASIDE, target
     toward = (first - second) / max(float(hypot(*(first - second))), 1e-6)
     eye = np.array([*(second + 0.09 * toward), heights[-1] + 0.2])
     return eye, np.array([*first, heights[0]])

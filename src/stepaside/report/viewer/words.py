@@ -3,11 +3,13 @@
 from math import inf, isfinite, log
 
 from ...control import Phase
+from ...games.approach import Approach, motion_words
 from ...games.duel import Duel
 from ...games.player import Player
 
 NEAR_DISTANCE = 0.05  # of theory's distance, on the circle
 NEAR_ANGLE = 5.0  # of theory's angle, on the circle, in [deg]
+LONGEST = 600.0  # for which a straight course is believed, in [s]
 
 
 def words_of(
@@ -16,6 +18,8 @@ def words_of(
     orientation: float,
     safety_radius: float,
     theory: tuple[float, float] | None,
+    *,
+    approach: Approach | None = None,
 ) -> str:
     """Say what two robots are doing.
 
@@ -25,6 +29,7 @@ def words_of(
         orientation: Angle between the headings, in [deg].
         safety_radius: Of the evader, in [m].
         theory: Distance [m] and angle [deg] of the circle, if there is one.
+        approach: Of the pursuer to the evader, where it is known.
     """
     pursuer, evader = phases
     if Phase.FALLEN in phases:
@@ -39,7 +44,8 @@ def words_of(
             return "both robots are **standing**"
         if safety_radius < inf and distance < safety_radius:
             return "the evader is **triggered**: the pursuer came too near"
-        return "the pursuer comes; the evader is **standing**"
+        moves = motion_words(approach)
+        return f"the pursuer {moves}; the evader is **standing**"
     if evader is Phase.HALTING:
         return "the evader comes to rest"
     if theory is not None:
@@ -57,7 +63,7 @@ def outlook(
     phase: Phase,
     *,
     safety: float,
-    speed: float,
+    approach: Approach | None,
     theory: tuple[float, float] | None,
     settling: float | None,
 ) -> str:
@@ -66,28 +72,34 @@ def outlook(
     Args:
         distance: Between the torsos, in [m].
         phase: Of the evader.
-        safety: Radius of its safety area, in [m].
-        speed: With which the pursuer comes, in [m/s].
+        safety: Distance at which the evader begins to move, in [m].
+        approach: Of the pursuer to the evader, where it is known.
         theory: Distance [m] and angle [deg] of the circle, if there is one.
         settling: Time in which what is off it shrinks by e, in [s], if it
             does.
     """
     if phase is Phase.STANDING:
-        if not isfinite(safety) or speed <= 0.0:
+        if not isfinite(safety):
             return ""
-        left = max(0.0, (distance - safety) / speed)
-        return (
-            f"The evader moves when the pursuer is within {safety:.2f} m: "
-            f"in about {left:.0f} s."
-        )
+        told = f"The evader moves when the pursuer is within {safety:.2f} m"
+        if approach is None or not approach.is_approaching:
+            return f"{told}."
+        left = approach.time_to(safety)
+        if left is None:
+            away = approach.closest
+            return f"{told}; on this course it passes {away:.2f} m from it."
+        return told + (f": in about {left:.0f} s." if left < LONGEST else ".")
     if theory is None or settling is None:
-        return "Theory has no circle on which this ends."
+        return "Theory predicts no circle for this game."
     away, angle = theory
-    told = f"Theory ends {away:.2f} m apart, headings {angle:.0f}\u00b0 apart"
+    told = (
+        f"Theory: on a circle, {away:.2f} m and {angle:.0f}\u00b0 between the "
+        "headings"
+    )
     off = abs(distance - away) / away
     if off <= NEAR_DISTANCE:
-        return f"{told}: so it is, within 5 %."
-    return f"{told}: about {settling * log(off / NEAR_DISTANCE):.0f} s more."
+        return f"{told}; the distance is within 5 % of it."
+    return f"{told}, in about {settling * log(off / NEAR_DISTANCE):.0f} s."
 
 
 def phases_of(duel: Duel) -> tuple[Phase, Phase]:

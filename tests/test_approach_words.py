@@ -1,0 +1,150 @@
+"""What is said of a pursuer that comes, passes by or leaves."""
+
+from dataclasses import replace
+from math import cos, hypot, inf, nan, sin
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from invented_run import run_of
+from stepaside.control import Phase
+from stepaside.games.approach import Approach, approach_between
+from stepaside.games.duel_run import DuelRun
+from stepaside.games.track import Track
+from stepaside.report.viewer.words import outlook, words_of
+
+SPEED = st.floats(-2.0, 2.0)
+PLACE = st.floats(-20.0, 20.0)
+
+
+def seen(offset: tuple[float, float], velocity: tuple[float, float]) -> str:
+    """What is said of a pursuer while the evader stands."""
+    return outlook(
+        hypot(*offset),
+        Phase.STANDING,
+        safety=0.8,
+        approach=Approach(offset, velocity),
+        theory=(0.9, 90.0),
+        settling=10.0,
+    )
+
+
+@given(PLACE, PLACE, SPEED, SPEED)
+def test_an_approach_agrees_with_where_it_leads(
+    x: float, y: float, vx: float, vy: float
+) -> None:
+    """Closest approach and time against a fine walk along the course."""
+    approach = Approach((x, y), (vx, vy))
+    times = np.linspace(0.0, 60.0, 6001)
+    away = np.hypot(x + vx * times, y + vy * times)
+    assert approach.closest <= away.min() + 1e-9
+    reached = approach.time_to(0.8)
+    if reached is None:
+        assert away.min() > 0.8 - 1e-6
+    elif reached < 60.0:
+        at = hypot(x + vx * reached, y + vy * reached)
+        assert at == pytest.approx(min(0.8, hypot(x, y)), abs=1e-6)
+        assert (away[times < reached - 1e-9] > 0.8 - 1e-6).all()
+    if hypot(x, y) > 0.1:
+        step = 1e-6
+        ahead = hypot(x + vx * step, y + vy * step)
+        falls = (hypot(x, y) - ahead) / step
+        assert approach.speed == pytest.approx(falls, abs=1e-4)
+
+
+@given(PLACE, PLACE, SPEED, SPEED, st.floats(0.1, 2.0))
+def test_an_approach_is_found_again_from_two_offsets(
+    x: float, y: float, vx: float, vy: float, elapsed: float
+) -> None:
+    """Its speed is that of the distance, on any course, also round about."""
+    before = x - vx * elapsed, y - vy * elapsed
+    if hypot(x, y) < 0.1:
+        return
+    found = approach_between(before, (x, y), elapsed)
+    assert found is not None
+    falls = (hypot(*before) - hypot(x, y)) / elapsed
+    assert found.speed == pytest.approx(falls, abs=1e-9)
+    turned = approach_between((x, y), (-y, x), elapsed)
+    assert turned is not None and abs(turned.speed) < 1e-9
+    assert not turned.is_approaching and not turned.is_leaving
+
+
+def test_a_time_is_said_of_who_comes_within_the_radius_alone() -> None:
+    assert "in about 10 s" in seen((1.53, 0.0), (-0.073, 0.0))
+    for offset, velocity in (
+        ((12.0, 0.0), (0.8, 0.0)),  # leaves
+        ((5.0, 1.5), (-0.8, 0.0)),  # passes 1.5 m beside
+        ((3.0, 0.0), (0.0, 0.0)),  # stands
+        ((3.0, 0.0), (-1e-3, 0.0)),  # an hour away
+    ):
+        said = seen(offset, velocity)
+        assert "in about" not in said
+        assert "0.80 m" in said
+    assert "passes 1.50 m" in seen((5.0, 1.5), (-0.8, 0.0))
+
+
+def test_nothing_is_said_of_a_time_that_cannot_be_told() -> None:
+    for approach in (None, approach_between((nan, 0.0), (1.0, 0.0), 1.0)):
+        said = outlook(
+            2.0,
+            Phase.STANDING,
+            safety=0.8,
+            approach=approach,
+            theory=None,
+            settling=None,
+        )
+        assert "about" not in said and "0.80 m" in said
+    assert approach_between((1.0, 0.0), (1.0, 0.0), 0.0) is None
+
+
+@pytest.mark.parametrize(
+    ("velocity", "said"),
+    [
+        ((-0.1, 0.0), "the pursuer comes"),
+        ((0.1, 0.0), "the pursuer moves away"),
+        ((0.0, 0.1), "the pursuer walks"),
+        (None, "the pursuer walks"),
+    ],
+)
+def test_a_pursuer_comes_only_while_the_distance_falls(
+    velocity: tuple[float, float] | None, said: str
+) -> None:
+    approach = None if velocity is None else Approach((3.0, 0.0), velocity)
+    phases = (Phase.WALKING, Phase.STANDING)
+    words = words_of(phases, 3.0, 90.0, 0.8, None, approach=approach)
+    assert said in words and "standing" in words
+    assert words.count("pursuer") == 1
+    near = words_of(phases, 0.3, 90.0, inf, None, approach=approach)
+    assert "triggered" not in near
+
+
+def walked(velocity: float, bearing: float) -> DuelRun:
+    """A pursuer that walks straight from 3 m while the evader stands."""
+    times = np.linspace(0.0, 6.0, 301)
+    way = 3.0 - velocity * times
+    pursuer = np.column_stack(
+        [way * cos(bearing), way * sin(bearing), np.zeros(301)]
+    )
+    evader = np.zeros((301, 3))
+    tracks = {
+        "pursuer": Track(com=pursuer.copy(), torso=pursuer),
+        "evader": Track(com=evader.copy(), torso=evader),
+    }
+    return run_of(times, tracks)
+
+
+@pytest.mark.parametrize("bearing", [0.0, 2.0, -1.0])
+def test_a_replay_says_so_too(bearing: float) -> None:
+    for velocity, said in (
+        (0.2, "comes"),
+        (-0.2, "moves away"),
+        (0.0, "walks"),
+    ):
+        run = walked(velocity, bearing)
+        for index in (0, 1, 200, 300):
+            words = run.words(index)
+            assert words == f"the pursuer {said}; the evader stands"
+    triggered = replace(run.summary, triggered_at_s=1.0)
+    assert "evading" in replace(run, summary=triggered).words(290)

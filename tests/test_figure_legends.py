@@ -1,0 +1,92 @@
+"""Every line and ring of a figure has a name that a legend shows."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from invented_run import run_of
+from stepaside.bound import Bound, Grid, against_any, solve_bound
+from stepaside.games.track import Track
+from stepaside.report import bound_figure, people_figure, style
+from stepaside.report.film_shot import Shot
+from stepaside.report.film_strip import line_names
+
+
+@pytest.fixture
+def kept(monkeypatch: pytest.MonkeyPatch) -> list[Figure]:
+    """Figures that are written are kept."""
+    figures: list[Figure] = []
+    for module in (bound_figure, people_figure):
+        monkeypatch.setattr(module, "save", lambda f, _: figures.append(f))
+    return figures
+
+
+def names_of(figure: Any) -> str:
+    """All that legends of a figure and its axes say."""
+    legends = [*figure.legends, *(axes.get_legend() for axes in figure.axes)]
+    return "; ".join(
+        text.get_text()
+        for legend in legends
+        if legend is not None
+        for text in legend.get_texts()
+    )
+
+
+@pytest.mark.parametrize("touched", [0, 2])
+def test_people_have_their_ring_speeds_and_touches_named(
+    kept: list[Figure], touched: int
+) -> None:
+    rows = [
+        {
+            "sensing": "cameras",
+            "speed_m_s": speed,
+            "bearing_deg": bearing,
+            "closest_m": 0.8,
+            "contacts": touched,
+        }
+        for speed in (0.3, 1.4)
+        for bearing in (0.0, 90.0)
+    ]
+    people_figure.draw_people(rows, 0.7, Path("people.png"))
+    told = names_of(kept[0])
+    for name in ("0.7 m: to be kept", "0.3 m/s", "1.4 m/s"):
+        assert name in told
+    assert ("touched" in told) == bool(touched)
+    title = kept[0].axes[0].get_title()
+    assert "[m]" in title and "cameras" in title and "ahead" in title
+    style.plt.close("all")
+
+
+def test_pictures_of_a_strip_have_every_line_named() -> None:
+    times = np.linspace(0.0, 3.0, 31)
+    tracks = {}
+    for name, x in (("pursuer", 0.0), ("evader", 1.0)):
+        torso = np.tile([x, 0.0, 0.0], (31, 1))
+        tracks[name] = Track(com=torso.copy(), torso=torso)
+    run = run_of(times, tracks)
+    _, names = line_names(run, Shot())
+    assert names == [
+        "path of the pursuer",
+        "path of the evader",
+        "ring: safety radius of the evader, 0.8 m",
+        "line of sight",
+    ]
+    assert len(line_names(run, Shot(layers=False))[1]) == 2
+
+
+def test_the_bound_s_lines_are_named(kept: list[Figure], bound: Bound) -> None:
+    bound_figure.draw_bound(bound, 0.4, "bound.png")
+    told = names_of(kept[0])
+    for name in ("capture distance 0.4 m", "certain", "pursuer's", "evader's"):
+        assert name in told
+    style.plt.close("all")
+
+
+@pytest.fixture(scope="module")
+def bound() -> Bound:
+    """A coarse table of two identical cars."""
+    game = against_any(1.0, 1.0, 1.0)
+    return solve_bound(game, Grid(0.3, 6.0, 17, 16, 16))

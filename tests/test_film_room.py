@@ -1,0 +1,89 @@
+"""Films of rooms: near walls hide nobody, and rings have names."""
+
+from math import cos, sin
+
+import mujoco
+import numpy as np
+import pytest
+
+from invented_run import run_of
+from stepaside.games.duel_run import DuelRun
+from stepaside.games.settings import DuelSettings
+from stepaside.games.track import Track
+from stepaside.report.film_camera import CameraMan
+from stepaside.report.film_walls import see_through, walls_before
+from stepaside.report.film_words import rings_of
+from stepaside.rooms import Door, Room
+from stepaside.world.camera_settings import RoomSettings
+from stepaside.world.solids import add_solids
+
+SHAPES = [(3.0, 3.0), (2.0, 8.0), (9.0, 1.6)]
+
+
+def model_of(room: Room) -> mujoco.MjModel:
+    """A world with a room alone."""
+    spec = mujoco.MjSpec()
+    add_solids(spec, room)
+    return spec.compile()
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_walls_between_a_camera_and_the_room_are_hidden_for_a_picture(
+    shape: tuple[float, float],
+) -> None:
+    width, depth = shape
+    room = Room(width=width, depth=depth, doors=(Door("east", 0.0, 0.5),))
+    model = model_of(room)
+    places = model.body_pos[model.geom_bodyid]
+    sides = ((0, 1), (0, -1), (1, 1), (1, -1))  # axis and sign
+    half = 0.5 * np.array(shape)
+    for angle in np.linspace(0.0, 6.0, 13):
+        eye = np.array([9.0 * cos(angle), 9.0 * sin(angle), 3.0])
+        wanted = {
+            geom
+            for geom in range(model.ngeom)
+            for axis, sign in sides
+            if sign * places[geom][axis] > half[axis]
+            and sign * eye[axis] > half[axis] + 0.05
+        }
+        assert set(walls_before(model, eye)) == wanted
+        before = model.geom_rgba.copy()
+        with see_through(model, eye):
+            hidden = np.flatnonzero(model.geom_rgba[:, 3] == 0.0)
+            assert set(hidden.tolist()) == wanted
+        np.testing.assert_array_equal(model.geom_rgba, before)
+    assert walls_before(model, np.array([0.1, 0.2, 0.5])) == []
+    assert model.ngeom == 5  # two of them beside the door
+
+
+def still(plan: Room | None) -> DuelRun:
+    """Two players that stand near the middle."""
+    times = np.linspace(0.0, 2.0, 21)
+    tracks = {}
+    for name, x in (("pursuer", -0.3), ("evader", 0.4)):
+        torso = np.tile([x, 0.1, 0.0], (21, 1))
+        tracks[name] = Track(com=torso.copy(), torso=torso)
+    settings = DuelSettings(room=RoomSettings(plan=plan))
+    return run_of(times, tracks, settings=settings)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("aspect", [0.6, 1.8])
+def test_all_of_a_room_is_in_a_film_from_above(
+    shape: tuple[float, float], aspect: float
+) -> None:
+    room = Room(width=shape[0], depth=shape[1])
+    view = CameraMan(still(room), "top", 45.0, aspect).view(0)
+    for wall in room.walls:
+        for x, y in wall.points.tolist():
+            seen = view.project(np.array([x, y, 0.6]), 45.0)
+            assert seen is not None
+            assert abs(seen[0]) < aspect and abs(seen[1]) < 1.0
+
+
+def test_every_ring_of_a_film_has_its_name_on_it() -> None:
+    run = still(None)
+    ((text, place, _),) = rings_of(run, 3)
+    assert text == "safety area 0.8 m"
+    away = place[:2] - run.evader.torso[3, :2]
+    assert np.hypot(*away) == pytest.approx(0.8, rel=1e-2)

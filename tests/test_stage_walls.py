@@ -1,0 +1,178 @@
+"""Walls hide no robot from outside, and names stand over their players."""
+
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from fake_page import Scene
+from stepaside.poses import Array, Pose
+from stepaside.report.parts import Part, parts_of
+from stepaside.report.tops import Tops
+from stepaside.report.viewer.bodies import Bodies
+from stepaside.robots.description import load_robot
+from stepaside.rooms import Disc, Door, Room
+from stepaside.world.figures import FIGURES
+from stepaside.world.person import add_person, pose_figure
+from stepaside.world.person import parts_of as person_parts
+from stepaside.world.settings import PhysicsSettings
+from stepaside.world.solids import add_solids
+from stepaside.world.world import build_model
+
+SHAPES = [(3.0, 3.0), (2.0, 8.0), (9.0, 1.5)]
+DOORS = (Door("east", 0.2, 0.6), Door("south", -0.3, 0.7))
+
+
+def room_model(room: Room) -> mujoco.MjModel:
+    """A world with the solids of a room alone."""
+    spec = mujoco.MjSpec()
+    add_solids(spec, room)
+    return spec.compile()
+
+
+def triangles_of(part: Part, model: mujoco.MjModel) -> Array:
+    """Triangles of a part in the world. Shape (n, 3, 3)."""
+    assert part.shell is not None
+    frame = np.zeros(9)
+    mujoco.mju_quat2Mat(frame, part.turn)
+    corners = part.shell.corners @ frame.reshape(3, 3).T
+    placed: Array = corners + part.place + model.body_pos[part.body]
+    return placed[part.shell.faces]
+
+
+def hides(triangles: Array, eye: Array, point: Array) -> bool:
+    """Whether the front of a triangle lies between an eye and a point."""
+    for a, b, c in triangles:
+        normal = np.cross(b - a, c - a)
+        if normal @ (eye - a) <= 0.0:
+            continue  # seen from behind: it is not drawn
+        matrix = np.column_stack([b - a, c - a, eye - point])
+        if abs(np.linalg.det(matrix)) < 1e-12:
+            continue
+        u, v, t = np.linalg.solve(matrix, eye - a)
+        if u >= 0.0 and v >= 0.0 and u + v <= 1.0 and 0.0 < t < 1.0 - 1e-6:
+            return True
+    return False
+
+
+@pytest.mark.parametrize("doors", [(), DOORS])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_no_wall_hides_what_is_in_the_room_from_outside(
+    shape: tuple[float, float], doors: tuple[Door, ...]
+) -> None:
+    width, depth = shape
+    room = Room(width=width, depth=depth, doors=doors)
+    model = room_model(room)
+    walls = [p for p in parts_of(model) if p.kind == "mesh"]
+    assert len(walls) == len(room.walls) == 4 + len(doors)
+    all_faces = np.concatenate([triangles_of(p, model) for p in walls])
+    random = np.random.default_rng(3)
+    half = 0.5 * np.array([width, depth])
+    for _ in range(60):
+        angle = random.uniform(0.0, 2.0 * np.pi)
+        away = float(np.hypot(*half)) + random.uniform(0.3, 4.0)
+        high = random.uniform(0.1, 3.0)
+        eye = np.array([away * np.cos(angle), away * np.sin(angle), high])
+        spot = random.uniform(-0.95, 0.95, 2) * half
+        point = np.array([*spot, random.uniform(0.05, 0.6)])
+        assert not hides(all_faces, eye, point)
+    # From inside, all walls are seen: what lies beyond them is hidden.
+    eye = np.array([0.0, 0.0, 0.3])
+    for wall in room.walls:
+        beyond = np.array([*(1.5 * wall.points.mean(axis=0)), 0.3])
+        assert hides(all_faces, eye, beyond)
+
+
+def test_the_footprint_of_a_wall_is_seen_from_above() -> None:
+    room = Room(width=3.0, depth=2.0)
+    model = room_model(room)
+    for part in parts_of(model):
+        triangles = triangles_of(part, model)
+        flat = np.ptp(triangles[:, :, 2], axis=1) < 1e-9
+        normals = np.cross(
+            triangles[:, 1] - triangles[:, 0],
+            triangles[:, 2] - triangles[:, 0],
+        )
+        assert flat.sum() == 2 and (normals[flat, 2] > 0.0).all()
+        area = 0.5 * normals[flat, 2].sum()
+        xy = np.abs(triangles[flat]).reshape(-1, 3)[:, :2].max(axis=0)
+        assert area > 0.0 and (xy >= [1.0, 1.0]).any()
+
+
+def test_obstacles_stay_whole() -> None:
+    model = room_model(
+        Room(width=3.0, depth=3.0, obstacles=(Disc(0.5, 0, 0.2),))
+    )
+    shades = {part.kind: part.shades for part in parts_of(model)}
+    assert shades == {"cylinder": True, "mesh": False}
+    kinds = sorted(part.kind for part in parts_of(model))
+    assert kinds == ["cylinder", "mesh", "mesh", "mesh", "mesh"]
+
+
+BODY = """
+<mujoco><worldbody><body name="a">
+<geom type="{kind}" size="{size}" quat="0.9 0.3 -0.2 0.1" pos="0.1 0.2 0.3"/>
+</body></worldbody></mujoco>
+"""
+
+
+@pytest.mark.parametrize(
+    ("kind", "size"),
+    [
+        ("box", "0.1 0.2 0.3"),
+        ("sphere", "0.2"),
+        ("capsule", "0.05 0.4"),
+        ("cylinder", "0.1 0.3"),
+        ("ellipsoid", "0.1 0.2 0.3"),
+    ],
+)
+def test_a_top_is_over_every_point_of_a_body_and_not_far(
+    kind: str, size: str
+) -> None:
+    from stepaside.report.viewer.bodies import shape_of
+
+    model = mujoco.MjModel.from_xml_string(BODY.format(kind=kind, size=size))
+    (part,) = parts_of(model)
+    tops = Tops([part])
+    random = np.random.default_rng(1)
+    for _ in range(20):
+        quaternion = random.normal(size=4)
+        quaternion /= np.linalg.norm(quaternion)
+        frame = np.zeros(9)
+        mujoco.mju_quat2Mat(frame, quaternion)
+        position = random.normal(size=3)
+        points = shape_of(part).vertices @ frame.reshape(3, 3).T + position
+        places = np.array([np.zeros(3), position])
+        turns = np.array([[1.0, 0, 0, 0], quaternion])
+        top = tops.of([1], places, turns)
+        high = float(points[:, 2].max())
+        assert high - 1e-6 <= top <= high + 0.25
+
+
+@pytest.mark.parametrize("figure", FIGURES)
+@pytest.mark.parametrize("place", [(0.0, 0.0), (12.0, -5.0)])
+def test_a_name_stands_over_the_head_of_a_person_wherever_it_is(
+    figure: str, place: tuple[float, float]
+) -> None:
+    shape = FIGURES[figure]
+    model = build_model(
+        {"evader": load_robot("nao")},
+        PhysicsSettings(),
+        seed=1,
+        furnish=lambda spec: add_person(spec, "pursuer", shape),
+    )
+    data = mujoco.MjData(model)
+    pose_figure(
+        data, person_parts(model, "pursuer"), Pose(*place, 0.4), 1.3, shape
+    )
+    mujoco.mj_kinematics(model, data)
+    scene: Any = Scene()
+    bodies = Bodies(scene, model)
+    bodies.name(model, ("pursuer", "evader"))
+    bodies.move(data.xpos, data.xquat)
+    x, y, z = scene.items["/names/pursuer"].position
+    assert np.hypot(x - place[0], y - place[1]) < 0.3
+    assert 1.74 * shape.size <= z <= 1.74 * shape.size + 0.2
+    high = scene.items["/names/evader"].position[2]
+    assert 0.5 < high < 0.75
