@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from ...errors import StepAsideError
-from ...games.settings import EVASION, PLAYERS, DuelSettings
+from ...games.settings import PLAYERS, DuelSettings
+from ...games.strategy_objects import EVASION
 from ..inert import for_markdown
 from ..palette import LIGHTS
 from .bodies import Bodies
