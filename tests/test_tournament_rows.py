@@ -98,9 +98,7 @@ def test_lost_games_are_worse_than_any_that_was_survived(
     records: list[dict[str, Any]],
 ) -> None:
     for row in tournament_rows(records):
-        own = {
-            r["seed"]: r for r in records if r["evader"] == row["evader"]
-        }
+        own = {r["seed"]: r for r in records if r["evader"] == row["evader"]}
         worst = [own[seed] for seed in row["worst_seeds"]]
         assert len(worst) == min(5, len(own))
         survived = [r["outcome"] == "survived" for r in worst]
