@@ -110,7 +110,7 @@ def test_areas_of_a_room_are_those_of_its_shapes(
 
 
 @settings(max_examples=40)
-@given(st.floats(0.0, 200.0), st.floats(0.01, 5.0), st.floats(-pi, pi))
+@given(st.floats(0.0, 200.0), st.floats(0.5, 5.0), st.floats(-pi, pi))
 def test_a_box_is_pushed_at_its_speed_and_does_not_turn(
     time: float, later: float, heading: float
 ) -> None:
