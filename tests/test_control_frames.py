@@ -105,9 +105,12 @@ class Around:
 
     blur = 0.01
 
-    def __init__(self, frame: Pose) -> None:
+    def __init__(self, frame: Pose, room: Pose = Pose(0.0, 0.0, 0.0)) -> None:
         self.frame = frame
-        self.solids = Solids((Disc(1.0, 1.0, 0.2), Disc(-0.4, 0.3, 0.1)))
+        discs = (1.0, 1.0, 0.2), (-0.4, 0.3, 0.1)
+        self.solids = Solids(
+            [Disc(*put(room, (x, y)), radius) for x, y, radius in discs]
+        )
 
     def note(self, measurement: Measurement, body: BodyReference) -> None:
         """Learn nothing."""
@@ -188,6 +191,25 @@ def test_how_clear_a_maneuver_is_depends_on_no_odometry(
     assert one.passage(plan, support) == pytest.approx(
         two.passage(plan, moved), abs=1e-9
     )
+
+
+@FEW
+@given(METRES, METRES, st.integers(0, 63), MOVED)
+def test_how_clear_a_maneuver_is_turns_with_all_that_stands_around(
+    x: float, y: float, turns: int, support: Pose
+) -> None:
+    """Step and halt alike; by as much as distances are told along."""
+    planner = ManeuverPlanner(GAIT)
+    plan = planner.plan(
+        -0.7, Direction.FORWARD, first_foot=Foot.RIGHT, standing=True
+    )
+    room, here = Pose(x, y, pi * turns / 32.0), Pose(0.2, 0.1, 0.3)
+    found = []
+    for moved in (Pose(0.0, 0.0, 0.0), room):
+        around: Any = Around(moved.compose(here), moved)
+        guard = Guard(around, OUTLINE, planner, margin=0.02)
+        found.append(guard.passage(plan, support))
+    assert found[0] == pytest.approx(found[1], abs=1e-9)
 
 
 @FEW
