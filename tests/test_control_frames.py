@@ -52,6 +52,7 @@ METRES = st.floats(-3.0, 3.0)
 MOVED = st.builds(Pose, METRES, METRES, ANGLE)
 CORNERS = np.array([[0.09, 0.1], [-0.07, 0.1], [-0.07, -0.1], [0.09, -0.1]])
 OUTLINE = BodyOutline(CORNERS, 0.4 * CORNERS, 0.4 * CORNERS)
+HERE = Pose(0.0, 0.0, 0.0)
 FEW = settings(max_examples=25)
 Vector = tuple[float, float]
 
@@ -105,7 +106,7 @@ class Around:
 
     blur = 0.01
 
-    def __init__(self, frame: Pose, room: Pose = Pose(0.0, 0.0, 0.0)) -> None:
+    def __init__(self, frame: Pose, room: Pose = HERE) -> None:
         self.frame = frame
         discs = (1.0, 1.0, 0.2), (-0.4, 0.3, 0.1)
         self.solids = Solids(
