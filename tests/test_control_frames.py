@@ -24,6 +24,7 @@ from stepaside.control.balance.loop import OpenLoop
 from stepaside.control.clearance.guard import Guard
 from stepaside.control.clearance.outline import BodyOutline
 from stepaside.control.clearance.solids import Solids
+from stepaside.control.clearance.surroundings import GivenRoom
 from stepaside.control.deciding import Decisions
 from stepaside.control.phase import Phase
 from stepaside.control.reference import (
@@ -43,7 +44,7 @@ from stepaside.poses import Pose, wrap_angle
 from stepaside.robots.description import load_robot
 from stepaside.robots.forward import ForwardKinematics
 from stepaside.robots.kinematics import BodyReference
-from stepaside.rooms import Disc
+from stepaside.rooms import Disc, Room
 from stepaside.sensing.measurement import Measurement, Sighting
 from stepaside.strategies import Intent, Knowledge
 
@@ -192,6 +193,24 @@ def test_how_clear_a_maneuver_is_depends_on_no_odometry(
     assert one.passage(plan, support) == pytest.approx(
         two.passage(plan, moved), abs=1e-9
     )
+
+
+@FEW
+@given(MOVED, MOVED, MOVED)
+def test_a_measured_place_puts_odometry_where_the_body_is(
+    start: Pose, planned: Pose, place: Pose
+) -> None:
+    """What was planned for the body, seen from the room, is its place."""
+    around = GivenRoom(Room(None, None, (Disc(9.0, 9.0, 0.2),)), start)
+    x, y, yaw = planned
+    foot = (x, y, 0.0, yaw)
+    body = BodyReference((x, y, 0.27), foot, foot)
+    around.note(MEASUREMENT, body)
+    assert around.frame == start
+    around.note(MEASUREMENT._replace(place=place), body)
+    found = around.frame.compose(planned)
+    assert found[:2] == pytest.approx(place[:2], abs=1e-9)
+    assert wrap_angle(found.theta - place.theta) == pytest.approx(0, abs=1e-9)
 
 
 @FEW

@@ -12,6 +12,8 @@ from stepaside.drivers.playing import Tick
 from stepaside.drivers.rows import read_rows
 from stepaside.drivers.velocity.body import Velocity
 from stepaside.drivers.velocity.playing import Driving, VelocityTick
+from stepaside.games.play_settings import PlaySettings
+from stepaside.games.played import run_of_play
 from stepaside.games.played_other import (
     sight_table,
     sightings_in,
@@ -138,3 +140,37 @@ def test_who_stands_still_is_seen_where_it_stands(
     table = sight_table(found)
     assert table[:, 5].sum() == 1.0 and table.shape[1] == 6
     np.testing.assert_array_equal(table[:, 1:3], found[:, 2:])
+
+
+def test_what_is_said_of_a_walk_is_of_its_walking_alone(
+    tmp_path: Path,
+) -> None:
+    """Way and circle in metres, shares of the time that it walked."""
+    log, radius, period = PlayLog(tmp_path / "play", {}), 0.5, 0.05
+    for i in range(1200):
+        now = period * i
+        walking = 200 <= i < 1000
+        angle = 0.2 * period * min(max(i - 200, 0), 800)
+        seen = i < 200 or i % 4 == 0 or i >= 1000
+        log.note(
+            VelocityTick(
+                Driving.WALKING if walking else Driving.STANDING,
+                "sees the other",
+                now,
+                Pose(radius * np.sin(angle), -radius * np.cos(angle), angle),
+                Sighting(now, 0.3, 1.5 if walking else 0.9) if seen else None,
+                Velocity(0.1, 0.2),
+                Velocity(0.1, 0.2),
+            )
+        )
+    log.close()
+    found = run_of_play(tmp_path / "play", PlaySettings()).summary
+    assert found.walking_s == pytest.approx(800 * period)
+    assert found.duration_s == pytest.approx(1199 * period)
+    assert found.seen_share == pytest.approx(0.25, abs=0.01)
+    assert found.radius_m == pytest.approx(radius, abs=1e-3)
+    assert found.way_m == pytest.approx(8.0 * radius, rel=0.02)
+    assert found.closest_m == pytest.approx(0.9)
+    assert found.distance_m == pytest.approx(1.5, abs=0.05)
+    assert found.steps is None and found.plan_time_us is None
+    assert [c.time_s for c in found.changes] == pytest.approx([0, 10, 50])
