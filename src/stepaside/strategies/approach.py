@@ -63,7 +63,7 @@ class Approach(NamedTuple):
         """Least distance from now on if this robot stays, in [m]."""
         square = self.u * self.u + self.v * self.v
         nearing = -(self.x * self.u + self.y * self.v)
-        if nearing <= 0.0:
+        if nearing <= 0.0 or square == 0.0:
             return self.distance
         return abs(self.x * self.v - self.y * self.u) / sqrt(square)
 
