@@ -468,7 +468,7 @@ def test_a_robot_halts_at_the_pace_at_which_it_walks(
     assert walked.first_step_duration == pytest.approx(STEP / pace)
     strategy.walks = lost
     if lost:
-        run.scheme.senses = SimpleNamespace(  # type: ignore[assignment]
+        run.scheme.senses = SimpleNamespace(
             see=lambda *seen: None, turning=0.0, aim=lambda targets: None
         )
     run.until(FIRST + 8.0 * STEP / pace + 3.0)

@@ -25,7 +25,7 @@ MAYBE = st.none() | ANY
 @st.composite
 def records(draw: st.DrawFn) -> list[dict[str, Any]]:
     """Records of duels that ended somehow, with or without figures."""
-    rows = []
+    rows: list[dict[str, Any]] = []
     for seed in range(draw(st.integers(1, 12))):
         rows.append(
             {name: draw(MAYBE) for name in FIGURES}

@@ -15,8 +15,12 @@ from stepaside.fitting.survey import survey
 from stepaside.games.duel import Duel
 from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.games.walker import Walker
-from stepaside.planning import Direction, Foot, ManeuverPlanner
-from stepaside.planning.maneuver import GaitSettings
+from stepaside.planning import (
+    Direction,
+    Foot,
+    GaitSettings,
+    ManeuverPlanner,
+)
 from stepaside.world.body_settings import BODIES
 
 

@@ -114,7 +114,7 @@ def test_who_stands_still_is_seen_where_it_stands(
     late: float, began: float
 ) -> None:
     """However late, by a robot that walks and turns, on its own clock."""
-    times: Array = 0.02 * np.arange(300)
+    times: Array = 0.02 * np.arange(300, dtype=np.float64)
     own = np.column_stack(
         [0.1 * times, np.sin(0.3 * times), 0.6 * times + 2.0]
     )

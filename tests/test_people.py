@@ -17,7 +17,11 @@ from stepaside.studies.people import (
     theory_room,
 )
 
-WAY = {"bearings": (0, 90), "offsets": (0.0, 1.2), "speeds": (0.5, 1.0)}
+WAY: dict[str, Any] = {
+    "bearings": (0, 90),
+    "offsets": (0.0, 1.2),
+    "speeds": (0.5, 1.0),
+}
 GRID = tuple(encounters(WalkSettings(), ("ideal", "cameras"), seeds=1, **WAY))
 OUTCOMES = ("completed", "contact", "fall")
 

@@ -149,5 +149,6 @@ def test_each_mind_has_its_odometry_midway_between_the_feet(
     wanted = np.array([places] * 2)
     np.testing.assert_allclose(track.com_reference, wanted[:, 0], atol=1e-6)
     np.testing.assert_allclose(track.zmp_reference, wanted[:, 1], atol=1e-6)
-    landed = [0.7, 1.0, *landing]
-    np.testing.assert_allclose(track.landings, [landed, landed], atol=1e-6)
+    landed = np.array([[0.7, 1.0, *landing]] * 2)
+    assert track.landings is not None
+    np.testing.assert_allclose(track.landings, landed, atol=1e-6)
