@@ -1,9 +1,13 @@
 """What each claim is held to, reckoned from the paper's own numbers."""
 
 from math import degrees, pi, sqrt
+from statistics import fmean, stdev
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from stepaside.studies.claims import Claim, Row
 from stepaside.studies.jobs import JOBS
 
 SPEED, GAIN, STRIDE = 0.1, 0.2, 0.04  # of Sec. IV, in [m/s], [1/s], [m]
@@ -106,3 +110,20 @@ def test_a_claim_is_held_to_what_the_paper_says(name: str) -> None:
 def test_what_a_claim_names_is_what_it_is_held_to(name: str) -> None:
     claim = CLAIMS[name]
     assert f"{claim.expected:.3g} {claim.unit}" in claim.text
+
+
+@settings(max_examples=40)
+@given(st.lists(st.floats(-5.0, 5.0), min_size=1, max_size=9))
+def test_what_is_measured_is_the_mean_of_all_runs(
+    values: list[float],
+) -> None:
+    """Also of those that a claim would fail by; with their spread."""
+    claim = Claim("x", "is one", "I", "steps", 1.0, "m", 0.1)
+    row = Row("job.x", claim, tuple(values), "1")
+    assert row.measured == pytest.approx(fmean(values))
+    spread = stdev(values) if len(values) > 1 else 0.0
+    assert row.spread == pytest.approx(spread, abs=1e-9)
+    plain = row.to_json()
+    assert (plain["least"], plain["greatest"]) == (min(values), max(values))
+    assert plain["runs"] == len(values)
+    assert (plain["verdict"] == "holds") == row.holds

@@ -141,3 +141,35 @@ def test_a_hardware_like_robot_turns_by_as_much_as_it_is_told() -> None:
         duel.world.step()
     rates = turned / (14 * STEP)
     np.testing.assert_allclose(rates, 0.12, rtol=0.03)
+
+
+def test_what_is_offered_of_the_other_is_from_the_heading_of_then() -> None:
+    """Seen from its own frame at the time of the sighting, while it turns."""
+    duel = Duel(SETTINGS, recorded=False)
+    players = []
+    for player in duel.players:
+        assert isinstance(player, Walker)
+        robot = DrivenWalker(player)
+        robot.commander = Told(Velocity(0.05, 0.12))
+        players.append((robot, player.frame))
+    poses: list[dict[int, tuple[Pose, float]]] = [{}, {}]
+    checked = 0
+    for _ in range(420):
+        for i, (robot, frame) in enumerate(players):
+            other = players[1 - i][0].truth.place
+            state = robot.state()
+            pose = frame.compose(state.pose)
+            own = robot.truth.place
+            sight = atan2(other[1] - own[1], other[0] - own[0])
+            poses[i][round(1000 * state.time)] = pose, sight
+            seen = state.sighting
+            key = None if seen is None else round(1000 * seen.time)
+            if seen is not None and key in poses[i]:
+                pose, sight = poses[i][key]
+                off = wrap_angle(pose.theta + seen.bearing - sight)
+                assert abs(off) < 0.03
+                checked += state.time > 2.5
+        for robot, _ in players:
+            robot.tick()
+        duel.world.step()
+    assert checked > 50

@@ -73,6 +73,9 @@ def test_people_come_from_where_they_are_said_to(bearing: int) -> None:
     away = start.distance - strategy.clearance
     assert away / 0.8 > strategy.contact_time + 1.0
     assert strategy.trigger == "time"
+    # Time enough to walk past the robot, and as far again as is asked.
+    way = settings.duration * 0.8
+    assert way == pytest.approx(start.distance + study.PAST)
 
 
 def test_keys_tell_everything_apart() -> None:

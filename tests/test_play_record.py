@@ -14,6 +14,7 @@ from stepaside.cli import main
 from stepaside.drivers.log import PlayLog
 from stepaside.drivers.lola.safety import State
 from stepaside.drivers.playing import Tick
+from stepaside.drivers.rows import read_rows
 from stepaside.drivers.velocity.body import Velocity
 from stepaside.drivers.velocity.playing import Driving, VelocityTick
 from stepaside.errors import ConfigurationError
@@ -254,3 +255,12 @@ def test_one_clock_goes_on_where_a_robots_clock_begins_anew() -> None:
     times = np.array([-0.024, -0.012, 0.0, 0.012, 900.0, 900.012, 0.0, 0.0])
     wanted = 0.012 * np.array([0, 1, 2, 3, 4, 5, 6, 6])
     np.testing.assert_allclose(one_clock(times), wanted, atol=1e-9)
+
+
+def test_planning_is_told_in_microseconds(walked: Walked) -> None:
+    """The median of all plans, of which a step that rests has none."""
+    spent = read_rows(walked.folder)["begun"][:, 5]
+    spent = spent[~np.isnan(spent)]
+    assert len(spent) > 2
+    median = 1e6 * float(np.median(spent))
+    assert walked.run.summary.plan_time_us == pytest.approx(median)

@@ -105,3 +105,50 @@ def test_feet_that_hardly_press_have_no_zmp() -> None:
     for total, known in ((0.9 * PRESSED, False), (1.1 * PRESSED, True)):
         zmp = believed(np.full(8, total / 8.0)).zmp
         assert zmp is not None and bool(np.isfinite(zmp).all()) is known
+
+
+@pytest.mark.parametrize("foot", Foot)
+def test_each_mind_has_its_odometry_midway_between_the_feet(
+    foot: Foot,
+) -> None:
+    """A robot that stands still is where it was, whichever mind tells it."""
+    data = shown(believed(np.zeros(8), foot))
+    feet = [data.site(name).xpos for name in (NAO.left_foot, NAO.right_foot)]
+    x, y, _ = np.mean(feet, axis=0).tolist()
+    heading = float(believed(np.zeros(8), foot).torso[0, 2])
+    minds = [Pose(0.0, 0.0, 0.0), Pose(x, y, heading)]
+    landing, places = Pose(0.5, -0.6, 1.9), np.array([[0.1, 0.2], [0.3, 0.4]])
+    supports, references, begun = [], [], []
+    for frame in minds:
+        back = frame.inverse()
+        supports.append([*back.compose(SUPPORT), float(foot.value)])
+        references.append(back.transform_points(places))
+        begun.append([0.7, 1.0, *back.compose(landing), 0.001])
+    asked = np.array(references)
+    columns = {
+        "times_s": np.array([0.0, 0.02]),
+        "joint_positions": np.array([BENT, BENT]),
+        "gyro": np.zeros((2, 3)),
+        "accelerometer": np.tile([0.0, 0.0, 9.81], (2, 1)),
+        "foot_forces": np.full((2, 8), 6.0),
+        "mind": np.array([0.0, 1.0]),
+        "support": np.array(supports),
+        "com_reference": asked[:, 0],
+        "zmp_reference": asked[:, 1],
+        "begun": np.array(begun),
+        "state": np.zeros(2),
+    }
+    rows = PlayedRows(columns, np.array([0.0, 0.02]), ())
+    body = Believed(rows, NAO)
+    body._tilts = np.array([TILT, TILT])
+    track = body.track(GaitSettings(), np.full((2, 3), np.nan))
+    for name in ("com", "place", "torso", "zmp", "qpos"):
+        values = getattr(track, name)
+        np.testing.assert_allclose(values[0], values[1], atol=1e-6)
+    assert track.com_reference is not None and track.zmp_reference is not None
+    wanted = np.array([places] * 2)
+    np.testing.assert_allclose(track.com_reference, wanted[:, 0], atol=1e-6)
+    np.testing.assert_allclose(track.zmp_reference, wanted[:, 1], atol=1e-6)
+    landed = np.array([[0.7, 1.0, *landing]] * 2)
+    assert track.landings is not None
+    np.testing.assert_allclose(track.landings, landed, atol=1e-6)

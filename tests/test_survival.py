@@ -2,10 +2,14 @@
 
 from dataclasses import replace
 from math import exp
+from statistics import median
 from typing import Any
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from counting import coverage, is_wilson
 from stepaside.planning import GaitSettings
 from stepaside.studies.limits import push_cases
 from stepaside.studies.pushes import pushes_result
@@ -160,3 +164,56 @@ def test_result_says_what_made_it() -> None:
     assert set(made) == {*HEADER, "summary", "rows"}
     assert made["settings"]["reach_m"]["forward"] == 0.08
     assert made["rows"] == [row(1.0)]
+
+
+@settings(max_examples=40)
+@given(st.integers(1, 400), st.data())
+def test_wilsons_ends_are_as_unlikely_as_95_percent_says(
+    number: int, data: st.DataObject
+) -> None:
+    hits = data.draw(st.integers(0, number))
+    low, high = wilson(hits, number)
+    assert is_wilson(low, high, hits, number)
+    # A miss is the hit of the opposite share.
+    other = wilson(number - hits, number)
+    assert (1.0 - other[1], 1.0 - other[0]) == pytest.approx((low, high))
+
+
+@pytest.mark.parametrize("number", [50, 200])
+def test_wilsons_interval_holds_the_share_19_times_in_20(number: int) -> None:
+    bounds = [wilson(hits, number) for hits in range(number + 1)]
+    shares = [0.01 * i for i in range(10, 91)]
+    held = [coverage(bounds, share) for share in shares]
+    assert sum(held) / len(held) == pytest.approx(0.95, abs=0.01)
+    assert min(held) > 0.9
+
+
+@settings(max_examples=40)
+@given(st.lists(st.floats(0.0, 4.0), min_size=1, max_size=20))
+def test_a_push_is_survived_where_the_limit_reaches_it(
+    limits: list[float],
+) -> None:
+    """Phases at which nothing is survived count as well."""
+    for found in push_survival_rows([row(limit) for limit in limits]):
+        reached = [x >= found["strength"] - 1e-9 for x in limits]
+        assert found["trials"] == len(limits)
+        assert found["survived"] == sum(reached)
+        low, high = found["low"], found["high"]
+        assert is_wilson(low, high, sum(reached), len(limits))
+
+
+@settings(max_examples=40)
+@given(st.lists(st.floats(0.1, 4.0), min_size=1, max_size=20))
+def test_the_summary_of_limits_is_over_all_cases(limits: list[float]) -> None:
+    rows = [row(limit) for limit in limits] + [row(9.0, "open-loop")]
+    found = summarise_limits(rows)["mpc"]
+    ratios = [0.5 * limit for limit in limits]
+    assert found["cases"] == len(limits)
+    assert found["median_of_bound"] == pytest.approx(median(ratios))
+    assert found["least_of_bound"] == min(ratios)
+    assert found["most_of_bound"] == max(ratios)
+    assert found["above_bound"] == sum(ratio > 1.0 for ratio in ratios)
+    assert found["median_of_impulse_bound"] == pytest.approx(median(limits))
+    assert found["least_of_impulse_bound"] == min(limits)
+    assert found["above_impulse_bound"] == sum(x > 1.0 for x in limits)
+    assert found["least_n_s"] == min(limits)

@@ -10,6 +10,7 @@ import pytest
 from stepaside.unicycle.basins import (
     Basins,
     find_basins,
+    lengths_of,
     random_starts,
     shares_of,
 )
@@ -138,3 +139,25 @@ def test_end_distance_counts_only_circles_that_are_reached() -> None:
         remedy = Remedy("as it is", FAST, basins)
         assert remedy.reversed_share == turned
         assert remedy.end_distance_m == distance
+
+
+def test_shares_are_of_all_starts_and_so_is_the_closest_approach() -> None:
+    """Captured games, and those that settle nowhere, count as well."""
+    game, capture = FAST, 0.5
+    starts = random_starts(game, 60, seed=2)
+    found = find_basins(game, starts, capture_distance=capture)
+    _, step = lengths_of(game)
+    out = play_games(
+        game, starts, found.duration, step=step, capture_distance=capture
+    )
+    caught = int(out.captured.sum())
+    assert 0 < caught < 60
+    assert found.captured == pytest.approx(caught / 60)
+    assert sum(found.shares) + found.captured + found.unsettled == (
+        pytest.approx(1.0)
+    )
+    for number, share in enumerate(found.shares):
+        settled = int((out.circle == number).sum())
+        assert share == pytest.approx(settled / 60)
+    closest = out.closest_distance.tolist()
+    assert found.closest_distance == pytest.approx(sum(closest) / 60)

@@ -3,6 +3,8 @@
 from math import inf, nan
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from stepaside.drivers.velocity.body import REST, Velocity
 from stepaside.drivers.velocity.limits import Ramp, VelocityLimits
@@ -57,3 +59,27 @@ def test_a_limit_that_lets_nothing_through_is_refused(
 ) -> None:
     with pytest.raises(ConfigurationError, match=f"{name} must be finite"):
         VelocityLimits(**{name: value})
+
+
+SPEED = st.floats(-2.0, 2.0)
+WANTED = st.builds(Velocity, SPEED, SPEED)
+
+
+@settings(max_examples=60)
+@given(st.lists(st.tuples(WANTED, st.floats(0.0, 0.3)), max_size=12), WANTED)
+def test_whatever_is_wanted_no_change_is_faster_than_the_ramp(
+    wishes: list[tuple[Velocity, float]], last: Velocity
+) -> None:
+    """And what is asked for in the end is the path that was wanted."""
+    ramp = Ramp(TIGHT)
+    for wanted, passed in [*wishes, *[(last, 0.3)] * 8]:
+        before, now = ramp.velocity, ramp.toward(wanted, passed)
+        assert abs(now.forward - before.forward) <= 0.4 * passed + 1e-12
+        assert abs(now.turn - before.turn) <= 2.0 * passed + 1e-12
+        assert -0.1 - 1e-12 <= now.forward <= 0.2 + 1e-12
+        assert abs(now.turn) <= 0.5 + 1e-12
+        goal = TIGHT.within(wanted)
+        # It goes towards its goal with each part, and never beyond.
+        for own, old, aim in zip(now, before, goal, strict=True):
+            assert min(old, aim) - 1e-12 <= own <= max(old, aim) + 1e-12
+    assert ramp.velocity == pytest.approx(TIGHT.within(last))

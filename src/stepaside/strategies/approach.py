@@ -61,11 +61,10 @@ class Approach(NamedTuple):
     @property
     def miss(self) -> float:
         """Least distance from now on if this robot stays, in [m]."""
-        square = self.u * self.u + self.v * self.v
         nearing = -(self.x * self.u + self.y * self.v)
         if nearing <= 0.0:
             return self.distance
-        return abs(self.x * self.v - self.y * self.u) / sqrt(square)
+        return abs(self.x * self.v - self.y * self.u) / self.speed
 
     def contact_time(self, clearance: float) -> float:
         """Time until the other is nearer than a clearance, in [s].

@@ -1,0 +1,176 @@
+"""Test that a record holds what was measured, each under its own name."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from made_up_robot import FIRST, STEP, Run
+from stepaside.drivers.log import PlayLog
+from stepaside.drivers.lola.safety import State
+from stepaside.drivers.playing import Tick
+from stepaside.drivers.rows import read_rows
+from stepaside.drivers.velocity.body import Velocity
+from stepaside.drivers.velocity.playing import Driving, VelocityTick
+from stepaside.games.play_settings import PlaySettings
+from stepaside.games.played import run_of_play
+from stepaside.games.played_other import (
+    sight_table,
+    sightings_in,
+    track_of_other,
+)
+from stepaside.games.played_rows import PlayedRows
+from stepaside.planning import Foot
+from stepaside.poses import Array, Pose
+from stepaside.sensing.measurement import Measurement, Sighting
+
+
+def measured(time: float, seed: int) -> Measurement:
+    """Readings of which no two are the same."""
+    random = np.random.default_rng(seed)
+    return Measurement(
+        time,
+        random.normal(size=4),
+        random.normal(size=3),
+        random.normal(size=3),
+        random.normal(size=8),
+        None,
+    )
+
+
+def test_every_column_is_what_its_name_says(tmp_path: Path) -> None:
+    """Gyro and accelerometer, what was measured and what was asked for."""
+    run, log = Run(), PlayLog(tmp_path / "play", {})
+    ticks = []
+    for i, time in enumerate((FIRST - 0.2, FIRST + 0.1, FIRST + STEP + 0.1)):
+        scheme = run.until(time)
+        told = measured(time, i)
+        tick = Tick(
+            State.WALKING,
+            "chest button",
+            scheme.phase,
+            told,
+            np.arange(4.0) + 10.0 * i,
+            Sighting(time - 0.05, 0.3 + i, 1.2 + i),
+            0,
+            1 + i,
+            scheme.state,
+            run.steps[-1],
+        )
+        log.note(tick)
+        ticks.append(tick)
+    log.close()
+    rows = read_rows(tmp_path / "play")
+    for i, tick in enumerate(ticks):
+        told, walk = tick.measurement, tick.walk
+        for name in (
+            *("joint_positions", "gyro", "accelerometer", "foot_forces"),
+        ):
+            np.testing.assert_array_equal(rows[name][i], getattr(told, name))
+        np.testing.assert_array_equal(rows["targets"][i], tick.targets)
+        assert rows["times_s"][i] == told.time
+        assert tick.sighting is not None
+        assert rows["sighting"][i].tolist() == list(tick.sighting[:3])
+        assert rows["mind"][i] == 1 + i
+        assert rows["com_reference"][i].tolist() == [*walk.reference.com[:2]]
+        assert rows["zmp_reference"][i].tolist() == [*walk.zmp_reference]
+        made = walk.step(told.time)
+        side = 1.0 if made.swing is Foot.RIGHT else -1.0
+        assert rows["support"][i].tolist() == [*made.support, side]
+        assert tick.begun is not None
+        begun = tick.begun
+        side = 1.0 if begun.foot is Foot.LEFT else -1.0
+        assert rows["begun"][i].tolist() == [
+            *(begun.landing_time, side, *begun.landing, begun.planning_time),
+        ]
+
+
+def test_what_was_wanted_is_not_what_was_asked_for(tmp_path: Path) -> None:
+    log = PlayLog(tmp_path / "play", {})
+    for i in range(3):
+        log.note(
+            VelocityTick(
+                Driving.WALKING,
+                "sees the other",
+                0.1 * i,
+                Pose(1.0 + i, 2.0, 0.3),
+                None,
+                Velocity(0.2, -0.4 - i),
+                Velocity(0.1 + i, -0.3),
+            )
+        )
+    log.close()
+    rows = read_rows(tmp_path / "play")
+    np.testing.assert_allclose(rows["times_s"], [0.0, 0.1, 0.2])
+    np.testing.assert_allclose(rows["pose"][:, 0], [1.0, 2.0, 3.0])
+    np.testing.assert_allclose(rows["wanted"][:, 1], [-0.4, -1.4, -2.4])
+    np.testing.assert_allclose(rows["velocity"][:, 0], [0.1, 1.1, 2.1])
+    assert np.isnan(rows["sighting"]).all()
+
+
+@pytest.mark.parametrize("late", [0.0, 0.2, 0.5])
+@pytest.mark.parametrize("began", [0.0, 40.0])
+def test_who_stands_still_is_seen_where_it_stands(
+    late: float, began: float
+) -> None:
+    """However late, by a robot that walks and turns, on its own clock."""
+    times: Array = 0.02 * np.arange(300, dtype=np.float64)
+    own = np.column_stack(
+        [0.1 * times, np.sin(0.3 * times), 0.6 * times + 2.0]
+    )
+    other = 2.0, -1.0
+    taken = np.floor(times / 0.1) * 0.1 - late
+    there = np.array([np.interp(taken, times, c) for c in own.T]).T
+    x, y = other[0] - there[:, 0], other[1] - there[:, 1]
+    seen = np.column_stack(
+        [taken + began, np.arctan2(y, x) - there[:, 2], np.hypot(x, y)]
+    )
+    seen[taken < 0.0] = np.nan
+    seen[200:220] = np.nan
+    columns = {"times_s": times + began, "sighting": seen}
+    found = sightings_in(PlayedRows(columns, times, ()))
+    track = track_of_other(found, times, own)
+    assert track is not None
+    np.testing.assert_allclose(
+        track.torso[:, :2], np.broadcast_to(other, (300, 2)), atol=2e-3
+    )
+    known = found[~np.isnan(found[:, 1])]
+    delays = known[:, 0] - known[:, 1]
+    assert delays.max() == pytest.approx(late, abs=0.021)
+    table = sight_table(found)
+    assert table[:, 5].sum() == 1.0 and table.shape[1] == 6
+    np.testing.assert_array_equal(table[:, 1:3], found[:, 2:])
+
+
+def test_what_is_said_of_a_walk_is_of_its_walking_alone(
+    tmp_path: Path,
+) -> None:
+    """Way and circle in metres, shares of the time that it walked."""
+    log, radius, period = PlayLog(tmp_path / "play", {}), 0.5, 0.05
+    for i in range(1200):
+        now = period * i
+        walking = 200 <= i < 1000
+        angle = 0.2 * period * min(max(i - 200, 0), 800)
+        seen = i < 200 or i % 4 == 0 or i >= 1000
+        log.note(
+            VelocityTick(
+                Driving.WALKING if walking else Driving.STANDING,
+                "sees the other",
+                now,
+                Pose(radius * np.sin(angle), -radius * np.cos(angle), angle),
+                Sighting(now, 0.3, 1.5 if walking else 0.9) if seen else None,
+                Velocity(0.1, 0.2),
+                Velocity(0.1, 0.2),
+            )
+        )
+    log.close()
+    found = run_of_play(tmp_path / "play", PlaySettings()).summary
+    assert found.walking_s == pytest.approx(800 * period)
+    assert found.duration_s == pytest.approx(1199 * period)
+    assert found.seen_share == pytest.approx(0.25, abs=0.01)
+    assert found.radius_m == pytest.approx(radius, abs=1e-3)
+    assert found.way_m == pytest.approx(8.0 * radius, rel=0.02)
+    assert found.closest_m == pytest.approx(0.9)
+    assert found.distance_m == pytest.approx(1.5, abs=0.05)
+    assert found.steps is None and found.plan_time_us is None
+    assert [c.time_s for c in found.changes] == pytest.approx([0, 10, 50])

@@ -1,0 +1,159 @@
+"""Test rooms by seed by laws: where things and players stand in them."""
+
+from math import atan2, hypot, pi, radians
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stepaside.poses import Pose, wrap_angle
+from stepaside.rooms import (
+    Disc,
+    Polygon,
+    Room,
+    RoomRecipe,
+    draw_starts,
+    make_room,
+)
+from stepaside.rooms.making import FARTHEST, NEAREST
+from stepaside.rooms.measures import CELL, measure_room
+from stepaside.rooms.moving import MovingBox
+from stepaside.rooms.paths import first_point
+from stepaside.rooms.ways import has_way
+
+RECIPE = RoomRecipe(4.0, 3.0, discs=2, boxes=1, polygons=1, doors=1)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_players_start_as_in_a_duel(seed: int) -> None:
+    """The pursuer sees the evader ahead of it, which nearly faces it."""
+    for recipe in (RECIPE, RoomRecipe(None, None)):
+        room = make_room(recipe, seed)
+        assert room.starts is not None
+        pursuer, evader = room.starts
+        x, y = evader.x - pursuer.x, evader.y - pursuer.y
+        assert NEAREST - 1e-9 <= hypot(x, y) <= FARTHEST + 1e-9
+        sight = atan2(y, x)
+        assert abs(wrap_angle(sight - pursuer.theta)) <= pi / 2 + 1e-9
+        back = wrap_angle(sight + pi - evader.theta)
+        assert abs(back) <= radians(30.0) + 1e-9
+
+
+def test_starts_are_spread_over_all_that_is_drawn() -> None:
+    """Within a draw's bounds as likely here as there, to either side."""
+    room, turns, faces, sights = Room(None, None), [], [], []
+    for seed in range(300):
+        pursuer, evader = draw_starts(room, seed)
+        sight = atan2(evader.y - pursuer.y, evader.x - pursuer.x)
+        turns.append(wrap_angle(pursuer.theta - sight) / (pi / 2))
+        faces.append(wrap_angle(evader.theta - sight - pi) / radians(30.0))
+        sights.append(sight / pi)
+    for drawn in (turns, faces, sights):
+        assert max(drawn) > 0.95 and min(drawn) < -0.95
+        assert abs(float(np.mean(drawn))) < 0.12
+        assert float(np.std(drawn)) == pytest.approx(3**-0.5, abs=0.05)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_obstacles_are_of_the_size_asked_for_and_apart(seed: int) -> None:
+    room = make_room(RECIPE, seed)
+    assert len(room.obstacles) == 4 and len(room.doors) == 1
+    for one in room.obstacles:
+        if isinstance(one, Disc):
+            radius = one.radius
+            middle = np.array(one.centre)
+        else:
+            middle, radius = _circle_around(one)
+        assert 0.1 - 1e-9 <= radius <= 0.25 + 1e-9
+        assert abs(middle[0]) + radius <= 2.0 + 1e-9
+        assert abs(middle[1]) + radius <= 1.5 + 1e-9
+    for i, one in enumerate(room.obstacles):
+        for other in room.obstacles[i + 1 :]:
+            points = (
+                np.array([other.centre])
+                if isinstance(other, Disc)
+                else other.points
+            )
+            room_left = other.radius if isinstance(other, Disc) else 0.0
+            assert float(one.clearance(points).min()) >= room_left - 1e-9
+
+
+def _circle_around(polygon: Polygon) -> tuple[np.ndarray, float]:
+    """Circle on which all corners lie."""
+    a, b, c = polygon.points[:3]
+    matrix = 2.0 * np.array([b - a, c - a])
+    middle = np.linalg.solve(matrix, [b @ b - a @ a, c @ c - a @ a])
+    away = np.hypot(*(polygon.points - middle).T)
+    np.testing.assert_allclose(away, away[0])
+    return middle, float(away[0])
+
+
+@settings(max_examples=8)
+@given(st.floats(0.05, 0.4), st.floats(-0.5, 0.5), st.floats(0.05, 0.3))
+def test_areas_of_a_room_are_those_of_its_shapes(
+    radius: float, x: float, body: float
+) -> None:
+    room = Room(3.0, 2.0, (Disc(x, 0.1, radius),))
+    found = measure_room(room, body)
+    assert found["floor_m2"] == pytest.approx(6.0)
+    free = 6.0 - pi * radius**2
+    assert found["free_m2"] == pytest.approx(free, abs=0.02)
+    grown = (3.0 - 2 * body) * (2.0 - 2 * body) - pi * (radius + body) ** 2
+    # The grid tells areas to half a cell on either side of every edge.
+    edge = 2.0 * (3.0 + 2.0 - 4.0 * body) + 2.0 * pi * (radius + body)
+    off = 0.5 * CELL * edge
+    assert found["free_for_body_m2"] == pytest.approx(grown, abs=off)
+    assert found["body_radius_m"] == body
+    gap = min(1.0 - 0.1 - radius, 1.5 - abs(x) - radius)
+    assert found["narrowest_gap_m"] == pytest.approx(gap)
+
+
+@settings(max_examples=40)
+@given(st.floats(0.0, 200.0), st.floats(0.5, 5.0), st.floats(-pi, pi))
+def test_a_box_is_pushed_at_its_speed_and_does_not_turn(
+    time: float, later: float, heading: float
+) -> None:
+    box = MovingBox(0.2, -0.3, 0.4, 0.2, (1.2, 0.5), 0.08, heading)
+    before, after = box.place_at(time), box.place_at(time + later)
+    way = hypot(after[0] - before[0], after[1] - before[1])
+    assert way <= 0.08 * later + 1e-9
+    share = (before[0] - 0.2) / 1.0
+    assert -1e-9 <= share <= 1.0 + 1e-9
+    assert before[1] == pytest.approx(-0.3 + 0.8 * share, abs=1e-9)
+    there_and_back = 2.0 * box.length / 0.08
+    again = box.place_at(time + there_and_back)
+    assert again == pytest.approx(before, abs=1e-6)
+    swept = box.swept(time, time + later)
+    for part in np.linspace(0.0, 1.0, 5):
+        corners = box.at(time + part * later).points
+        assert float(swept.clearance(corners).max()) <= 1e-9
+    sides = np.diff(box.at(time).points, axis=0)
+    turned = np.arctan2(sides[:, 1], sides[:, 0]) - heading
+    np.testing.assert_allclose(np.sin(2.0 * turned), 0.0, atol=1e-9)
+
+
+@settings(max_examples=25)
+@given(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), st.floats(-pi, pi))
+def test_the_way_around_things_turns_with_them(
+    x: float, y: float, turn: float
+) -> None:
+    frame = Pose(x, y, turn)
+
+    def put(point: tuple[float, float]) -> tuple[float, float]:
+        moved = frame.compose(Pose(*point, 0.0))
+        return moved.x, moved.y
+
+    solids = (Disc(0.0, 0.1, 0.3), Disc(0.4, -0.9, 0.2))
+    moved = tuple(Disc(*put(s.centre), s.radius) for s in solids)
+    start, end = (-1.0, 0.0), (1.0, 0.05)
+    first = first_point(solids, start, end, 0.2)
+    other = first_point(moved, put(start), put(end), 0.2)
+    # On the same side, though corners of a disc lie at certain angles.
+    back = frame.inverse().compose(Pose(*other, 0.0))
+    assert first != end and first[1] * back.y > 0.0
+    off = np.array(other) - np.array([put(s.centre) for s in solids])
+    clear = np.hypot(*off.T) - [0.3, 0.2]
+    assert clear.min() >= 0.2 - 1e-9
+    room = Room(None, None, solids)
+    assert has_way(room, start, end, 0.2) and has_way(room, end, start, 0.2)

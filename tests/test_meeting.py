@@ -1,0 +1,101 @@
+"""Test people who meet the template of an evader by laws."""
+
+from dataclasses import replace
+from math import atan2, cos, pi, sin
+
+import pytest
+
+from stepaside.games.meeting import template_meeting
+from stepaside.planning import PRESETS, Direction
+from stepaside.poses import Pose
+from stepaside.strategies import Evasion, Intent, Knowledge
+from stepaside.world.person_motion import Motion, Place
+from stepaside.world.person_settings import PersonSettings
+
+GAIT = PRESETS["fast"]
+EVADER = Evasion(trigger="time", contact_time=4.0)
+
+
+def met(frame: Pose, speed: float = 0.5, strategy: object = EVADER) -> float:
+    """Closest approach of who comes straight on, in some frame."""
+    person = PersonSettings("straight", speed)
+
+    def motion(start: Pose, evader: Place) -> Motion:
+        return Motion(person, start, evader)
+
+    start, evader = Pose(-3.0, 0.0, 0.0), Pose(0.0, 0.1, pi - 0.2)
+    return template_meeting(
+        motion,
+        frame.compose(start),
+        frame.compose(evader),
+        strategy,  # type: ignore[arg-type]
+        GAIT,
+        duration=12.0,
+    )
+
+
+@pytest.mark.parametrize("strategy", [EVADER, Evasion(safety_radius=2.0)])
+def test_no_place_and_no_direction_of_a_meeting_is_special(
+    strategy: Evasion,
+) -> None:
+    here = met(Pose(0.0, 0.0, 0.0), strategy=strategy)
+    for frame in (Pose(4.0, -1.0, 2.0), Pose(0.0, 0.0, -0.9)):
+        assert met(frame, strategy=strategy) == pytest.approx(here, abs=1e-6)
+    assert 0.05 < here < 2.0
+
+
+class Leaving:
+    """Walks straight backward at a pace, away from who comes."""
+
+    direction, saturated = Direction.BACKWARD, False
+
+    def __init__(self, pace: float) -> None:
+        self.pace = pace
+        self.told: list[Knowledge] = []
+
+    def begin(self) -> None:
+        """Nothing to remember."""
+
+    def decide(self, known: Knowledge, memory: None) -> tuple[Intent, None]:
+        """Walk on."""
+        self.told.append(known)
+        return Intent(0.0, pace=self.pace), None
+
+
+@pytest.mark.parametrize("pace", [1.0, 0.5])
+def test_a_template_walks_in_the_time_of_its_gait(pace: float) -> None:
+    """After its first support, a stride in a step, slower at its pace."""
+    walker = Leaving(pace)
+    met(Pose(0.0, 0.0, 0.0), 0.3, walker)
+    first, second, *rest = walker.told
+    assert not first.moving and all(known.moving for known in rest)
+    begun = second.time - first.time
+    period = GAIT.step_duration / pace
+    wanted = GAIT.start_support / pace + period
+    assert begun == pytest.approx(wanted, abs=0.011)
+    times = [known.time for known in rest]
+    assert times[1] - times[0] == pytest.approx(period, abs=0.011)
+    way = rest[0].pose.x - rest[8].pose.x
+    back = rest[8].pose.inverse().compose(rest[0].pose)
+    assert abs(way) == pytest.approx(8 * GAIT.stride, rel=0.05)
+    assert back.x == pytest.approx(8 * GAIT.stride, rel=0.05)
+
+
+def test_a_template_is_told_velocities_in_its_own_frame() -> None:
+    walker = Leaving(1.0)
+    for frame in (Pose(0.0, 0.0, 0.0), Pose(1.0, 2.0, 1.3)):
+        walker.told.clear()
+        met(frame, 0.3, walker)
+        known = walker.told[5]
+        # The person walks straight at where the evader stood.
+        way = atan2(0.1, 3.0)
+        walks = Pose(0.3 * cos(way), 0.3 * sin(way), 0.0)
+        back = Pose(0.0, 0.0, pi - 0.2).inverse().compose(walks)
+        assert known.velocity == pytest.approx(back[:2], abs=1e-6)
+
+
+def test_a_person_who_is_slower_is_met_no_nearer() -> None:
+    near = [met(Pose(0.0, 0.0, 0.0), speed) for speed in (0.3, 0.6, 1.2)]
+    assert near == sorted(near, reverse=True)
+    calm = replace(EVADER, calmest=0.5)
+    assert met(Pose(0, 0, 0), 0.5, calm) <= met(Pose(0, 0, 0)) + 1e-6

@@ -1,0 +1,153 @@
+"""Test what a template mind makes of a robot's reports, by their times."""
+
+from math import atan2, hypot, pi
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from made_up_robot import FakeStrategy
+from stepaside.drivers.velocity.body import Report, Velocity
+from stepaside.drivers.velocity.mind import TemplateMind
+from stepaside.planning import Direction, GaitSettings
+from stepaside.poses import Pose, wrap_angle
+from stepaside.sensing.measurement import Sighting
+
+GAIT = GaitSettings()
+ANGLE = st.floats(-pi, pi)
+PERIOD = 0.05
+
+
+def way(time: float, start: Pose, rate: float) -> Pose:
+    """Where a robot is that walks on an arc."""
+    return start.compose(Pose(0.3 * time, -0.1 * time, rate * time))
+
+
+@settings(max_examples=40)
+@given(ANGLE, st.floats(-1.5, 1.5), st.integers(0, 12), st.booleans())
+def test_an_old_sighting_is_of_where_the_robot_was_then(
+    heading: float, rate: float, late: int, saturated: bool
+) -> None:
+    """Whoever stands still is where it stands, however late it is seen."""
+    strategy = FakeStrategy(
+        heading=0.4, direction=Direction.BACKWARD, saturated=saturated
+    )
+    start, other = Pose(0.5, -0.2, heading), Pose(1.4, 0.3, 0.0)
+    mind = TemplateMind(strategy, GAIT)
+    for i in range(40):
+        now, taken = PERIOD * i, PERIOD * max(0, i - late)
+        then = way(taken, start, rate)
+        x, y, _ = then.inverse().compose(other)
+        seen = Sighting(taken, wrap_angle(atan2(y, x)), hypot(x, y))
+        told = mind.decide(Report(now, way(now, start, rate), seen))
+    assert told.forward == pytest.approx(-GAIT.speed)
+    turn = GAIT.gain * (1.0 if saturated else 0.4)
+    assert told.turn == pytest.approx(turn)
+
+
+class Noting(FakeStrategy):
+    """Tells whoever looks on what it was told."""
+
+    def decide(self, knowledge: Any, memory: Any) -> Any:
+        """Note it."""
+        self.known = knowledge
+        return super().decide(knowledge, memory)
+
+
+@settings(max_examples=40)
+@given(ANGLE, st.floats(-1.5, 1.5), st.integers(0, 12))
+def test_it_knows_since_when_and_from_where(
+    heading: float, rate: float, late: int
+) -> None:
+    strategy = Noting()
+    start, other = Pose(0.5, -0.2, heading), Pose(1.4, 0.3, 0.0)
+    mind = TemplateMind(strategy, GAIT)
+    for i in range(40):
+        now, taken = PERIOD * i, PERIOD * max(0, i - late)
+        then = way(taken, start, rate)
+        x, y, _ = then.inverse().compose(other)
+        seen = Sighting(taken, wrap_angle(atan2(y, x)), hypot(x, y))
+        mind.decide(Report(now, way(now, start, rate), seen))
+    known = strategy.known
+    assert known.age == pytest.approx(PERIOD * late)
+    assert known.pose == then
+    assert wrap_angle(known.bearing - seen.bearing) == pytest.approx(0.0)
+    assert known.velocity == pytest.approx((0.0, 0.0), abs=1e-6)
+
+
+class Remembering:
+    """Perception that is told where the robot was, and sees nobody."""
+
+    gaze = (0.0, 0.0)
+
+    def __init__(self) -> None:
+        self.recalled: list[tuple[float, Any, Pose]] = []
+        self.frames: list[Pose] = []
+
+    def recall_level(self, time: float, joints: Any, frame: Pose) -> None:
+        """Note it."""
+        self.recalled.append((time, joints, frame))
+
+    def see_level(self, measurement: Any, frame: Pose) -> None:
+        """Note it."""
+        self.frames.append(frame)
+
+
+class Image:
+    """Something taken at a time."""
+
+    def __init__(self, time: float) -> None:
+        self.time = time
+
+
+@pytest.mark.parametrize("heading", [0.0, 3.0, -3.1])
+@pytest.mark.parametrize("late", [0.01, 0.07, 0.31])
+def test_an_image_is_of_where_the_robot_was_when_it_was_taken(
+    heading: float, late: float
+) -> None:
+    """Place, heading and joints alike, also where the heading wraps."""
+    pytest.importorskip("cv2")
+    from stepaside.drivers.velocity.looking import LookingBody
+
+    start, rate = Pose(0.2, 0.1, heading), 1.7
+    made: Any = Remembering()
+
+    def where(time: float) -> Pose:
+        x, y, theta = start
+        return Pose(x + 0.3 * time, y - 0.2 * time, theta + rate * time)
+
+    class Body:
+        """Reports on time; its eyes are late."""
+
+        def __init__(self) -> None:
+            self.count, self.joints = -1, np.zeros(2)
+
+        def listen(self, patience: float) -> Report:
+            self.count += 1
+            now = PERIOD * self.count
+            self.joints = np.array([0.5 * now, -now])
+            x, y, theta = where(now)
+            return Report(now, Pose(x, y, wrap_angle(theta)))
+
+        def percepts(self, frame: int, now: float, tick: float) -> list[Any]:
+            return [Image(now - late)] if now > late else []
+
+        def command(self, velocity: Velocity) -> None:
+            """Stand."""
+
+        def look(self, yaw: float, pitch: float) -> None:
+            """Look ahead."""
+
+    body: Any = Body()
+    looking = LookingBody(body, body, made)
+    for _ in range(30):
+        looking.listen(0.1)
+    assert len(made.recalled) > 20
+    for time, joints, frame in made.recalled:
+        true = where(time)
+        assert frame[:2] == pytest.approx(true[:2])
+        off = wrap_angle(frame.theta - true.theta)
+        assert off == pytest.approx(0.0, abs=1e-9)
+        np.testing.assert_allclose(joints, [0.5 * time, -time], atol=1e-9)

@@ -1,0 +1,248 @@
+"""Test the keys of records: whatever decides a result changes its key."""
+
+from concurrent.futures import Executor, Future
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from every_field import changed
+from stepaside.control.balance.settings import ControlSettings
+from stepaside.fitting import tuning
+from stepaside.fitting.trials import Walked
+from stepaside.fitting.tuning import Search
+from stepaside.games.settings import DuelSettings, RobotSettings
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.planning import PRESETS
+from stepaside.poses import Pose
+from stepaside.robots.description import load_robot
+from stepaside.rooms import Disc, Door, Room, RoomRecipe
+from stepaside.studies.changes import changed_walk, changes_of
+from stepaside.studies.duels import key_of, settings_hash
+from stepaside.studies.encounters import encounters
+from stepaside.studies.pushes import pushes_result
+from stepaside.studies.records import RecordFile
+from stepaside.studies.robustness import Trial
+from stepaside.studies.tournament import key_of as game_key
+from stepaside.studies.tournament_settings import TournamentSettings
+from stepaside.world.body_settings import BODIES
+from stepaside.world.camera_settings import Thing
+from stepaside.world.passer import Passer
+from stepaside.world.push import Push
+
+FEEDBACK = ControlSettings(feedback=True)  # with which methods differ
+PERSON = DuelSettings(pursuer="person", control=FEEDBACK)
+ROOM = Room(3.0, 3.0, (Disc(0.5, 0.0, 0.2),))
+OTHERS: dict[str, Any] = {
+    "robot": ["other"],
+    "evader_strategy": ["look-ahead"],
+    "pursuer_strategy": ["lead"],
+    "sensing": ["cameras"],
+    "cameras.colour.optics": ["v6", "v4"],
+    "cameras.colour.renderer": ["rays"],
+    "pursuer": ["person"],
+    "pursuer_robot": [RobotSettings(gait=PRESETS["fast"])],
+    "evader_robot": [RobotSettings(gait=PRESETS["fast"])],
+    "pushes": [(Push(1.0, 2.0, 0.0),)],
+    "passers": [(Passer(1.0, 4.0),)],
+    "room.things": [[Thing("red box", 1.0, 1.0)]],
+    "room.plan": [ROOM],
+    "map.source": ["none", "seen"],
+    "map.unseen": ["free"],
+    "person.path": ["circle", "straight", "visits"],
+    "person.figure": ["child"],
+}
+WALK = WalkSettings(control=FEEDBACK)
+# What every trial of a campaign sets itself.
+OF_TRIALS = {"seed", "duration", "pushes", "control.method"}
+OF_TRIALS |= {"control.feedback"}
+FALLEN = Walked("", False, "", False, 0.1, None, None, None, None, None)
+
+
+class Here(Executor):
+    """Does work at once, in this process."""
+
+    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Do it."""
+        future: Future[Any] = Future()
+        future.set_result(fn(*args, **kwargs))
+        return future
+
+
+@pytest.mark.parametrize(
+    ("settings", "others"),
+    [
+        (DuelSettings(control=FEEDBACK), {"passers": []}),
+        (
+            replace(PERSON, passers=(Passer(1.0, 4.0), Passer(0.5, 2.0))),
+            {
+                "pursuer": [],
+                "pursuer_strategy": [],
+                "room.plan": [],
+                "passers": [(Passer(1.0, 4.0),), (Passer(0.5, 2.0),) * 2],
+            },
+        ),
+    ],
+    ids=["robots", "people"],
+)
+def test_every_setting_of_a_duel_changes_its_key(
+    settings: DuelSettings, others: dict[str, Any]
+) -> None:
+    keys = {key_of(settings)}
+    for name, made in changed(settings, OTHERS | others):
+        assert key_of(made) not in keys, name
+        keys.add(key_of(made))
+        same = settings_hash(made) == settings_hash(settings)
+        assert same == (name == "seed"), name
+
+
+@pytest.mark.parametrize(
+    "one",
+    [Push(1.0, 2.0, 0.1), Passer(1.0, 4.0), Disc(0.5, 0.0, 0.2)],
+    ids=["push", "passer", "disc"],
+)
+def test_all_of_what_meets_a_duel_counts_in_its_key(one: Any) -> None:
+    def key(each: Any) -> str:
+        match each:
+            case Push():
+                return key_of(DuelSettings(pushes=(each,)))
+            case Passer():
+                return key_of(replace(PERSON, passers=(each,)))
+        room = replace(DuelSettings().room, plan=Room(3.0, 3.0, (each,)))
+        return key_of(DuelSettings(room=room))
+
+    known = {"player": ["pursuer"], "figure": ["child"]}
+    keys = [key(one), *(key(each) for _, each in changed(one, known))]
+    assert len(set(keys)) == len(keys) > 3
+
+
+def test_every_setting_of_an_encounter_changes_its_key() -> None:
+    base = next(encounters(WALK, ("ideal",), seeds=1))
+    others = {f"base.{name}": values for name, values in OTHERS.items()}
+    others |= {
+        "sensing": ["cameras"],
+        "base.pursuer": [],
+        "base.pursuer_strategy": [],
+        "base.room.plan": [],
+    }
+    keys = {base.key}
+    for name, made in changed(base, others):
+        assert made.key not in keys, name
+        keys.add(made.key)
+
+
+def test_every_part_of_a_trial_changes_its_key() -> None:
+    trial = Trial("push", 1.2, "left", 0.25, 5, "mpc", "ideal", "{}")
+    others = {
+        "kind": ["noise"],
+        "direction": ["right"],
+        "method": ["measured"],
+        "body": ["hardware"],
+        "changes": ['{"gait": {}}', ""],
+    }
+    keys = [trial.key, *(made.key for _, made in changed(trial, others))]
+    assert len(set(keys)) == len(keys) == 9
+
+
+def test_what_a_walk_has_otherwise_names_it_and_comes_back() -> None:
+    """All but what each trial of a campaign sets itself."""
+    seen = {changes_of(WALK)}
+    for name, walk in changed(WALK, OTHERS):
+        body, changes = changes_of(walk)
+        back = changed_walk(changes)
+        if name in OF_TRIALS:
+            assert (body, changes) == changes_of(WALK), name
+            continue
+        assert (body, changes) not in seen, name
+        seen.add((body, changes))
+        if name.startswith("body.") and body in BODIES:
+            back = replace(back, body=BODIES[body])
+        plain = replace(walk.control, method="closed-form", feedback=False)
+        assert back == replace(walk, control=plain), name
+
+
+@pytest.mark.parametrize("level", ["steps", "physics"])
+def test_every_setting_of_a_tournament_changes_its_key(level: str) -> None:
+    pairing = ("aside", "pure")
+    for room in (RoomRecipe(doors=1, discs=1), ROOM):
+        settings = TournamentSettings(level=level, room=room)
+        others: dict[str, Any] = {
+            "level": ["unicycles"],
+            "map": ["none"] if level == "physics" else [],
+            "room.obstacles": [(Disc(0.4, 0.0, 0.2),)],
+            "room.doors": [(Door("east", 0.0, 0.6),)],
+            "room.starts": [(Pose(-0.6, 0.0, 0.0), Pose(-0.6, 1.0, 0.0))],
+            "room.moving": [],
+            "game.largest_turn": [0.2],
+        }
+        if isinstance(room, RoomRecipe):
+            others |= {"room.doors": [2]}
+        keys = {game_key(settings, pairing, 1)}
+        for name, made in changed(settings, others):
+            key = game_key(made, pairing, 1)
+            assert key not in keys, name
+            keys.add(key)
+    own = game_key(settings, pairing, 1)
+    for other in (("aside", "lead"), ("saturated", "pure")):
+        assert game_key(settings, other, 1) != own
+    assert game_key(settings, pairing, 2) != own
+
+
+def test_every_part_of_a_description_names_the_walks_of_a_search(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """But where it lies, its name, and what only games ask for."""
+    own = load_robot("nao")
+    monkeypatch.setattr(tuning, "walk_trial", lambda trial: FALLEN)
+    monkeypatch.setattr(tuning, "ROUNDS", 0)
+
+    def keys_of(description: Any, name: str) -> set[str]:
+        file = tmp_path / f"{name}.jsonl"
+        Search(description, Here(), file).run()
+        return set(RecordFile(file).read())
+
+    changes: dict[str, Any] = {
+        "standing": own.standing | {"LKneePitch": 0.9},
+        "speed_limits": own.speed_limits | {"LKneePitch": 3.0},
+        "working_limits": {"LKneePitch": (0.1, 2.0)},
+        "gait": own.gait | {"stride": 0.03},
+        "sole": own.sole | {"front": 0.08},
+        "control": own.control | {"learn_turns": True},
+        "lean": 0.1,
+        "place": replace(own.place, forward=0.01),
+        "legs": own.legs[::-1],
+        "left_foot": own.right_foot,
+        "right_foot": own.left_foot,
+        "sensors": replace(own.sensors, gyro="other"),
+    }
+    known = keys_of(own, "own")
+    assert known
+    for name, value in changes.items():
+        found = keys_of(replace(own, **{name: value}), name)
+        assert found and not found & known, name
+    assert keys_of(replace(own, name="Another"), "name") == known
+
+
+def test_a_result_names_all_that_its_walks_depend_on() -> None:
+    """Of two walks that differ the files of results differ, too."""
+    base: dict[str, Any] = dict(phases=4, seed=1, walk=WALK)
+
+    def settings(**other: Any) -> dict[str, Any]:
+        given = {"methods": ["mpc"], "body": "ideal", **base, **other}
+        methods, body = given.pop("methods"), given.pop("body")
+        found = pushes_result([], methods, body, **given)
+        return {"command": found["command"], **found["settings"]}
+
+    reach = replace(WALK.control.stabiliser, reach_forward=0.05)
+    control = replace(WALK.control, stabiliser=reach)
+    other = [
+        settings(methods=["measured"]),
+        settings(body="hardware"),
+        settings(phases=8),
+        settings(seed=2),
+        settings(walk=replace(WALK, gait=PRESETS["fast"])),
+        settings(walk=replace(WALK, control=control)),
+    ]
+    assert settings() not in other
+    assert all(other.count(each) == 1 for each in other)

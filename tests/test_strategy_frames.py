@@ -1,0 +1,295 @@
+"""Test strategies by laws: no frame is special, and times are of instants."""
+
+from dataclasses import replace
+from math import atan2, cos, hypot, inf, pi, sin
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stepaside.poses import Pose, wrap_angle
+from stepaside.rooms import Disc, Polygon, Room, box
+from stepaside.steps import Both
+from stepaside.strategies import (
+    Deflected,
+    Evasion,
+    Intent,
+    Knowledge,
+    LeadPursuit,
+    Limits,
+    LookAhead,
+    Optimal,
+    OptimalPursuit,
+    Pursuit,
+)
+from stepaside.strategies.approach import Approach
+from stepaside.strategies.decider import Decider
+from stepaside.strategies.other import Trace, heading_of_way, note
+from stepaside.strategies.places import moved_on
+from stepaside.strategies.steps import StepGame, play_steps
+
+LIMITS = Limits(0.1, 0.2, 0.04, 0.7)
+STEP = LIMITS.step_duration
+ANGLE = st.floats(-pi, pi)
+METRES = st.floats(-3.0, 3.0)
+MOVED = st.builds(Pose, METRES, METRES, ANGLE)
+SOLIDS = (Disc(0.9, 0.5, 0.2), box(-0.4, 0.7, 0.5, 0.3, 0.4))
+STRATEGIES: dict[str, Any] = {
+    "pursuit": Pursuit(),
+    "lead": LeadPursuit(),
+    "optimal pursuit": OptimalPursuit(cells=16),
+    "evasion": Evasion(angle=1.0, safety_radius=1e6),
+    "evasion in time": Evasion(trigger="time", contact_time=20.0),
+    "deflected": Deflected(),
+    "look-ahead": LookAhead(cells=16),
+    "optimal": Optimal(cells=16),
+}
+
+
+def moved(solid: Disc | Polygon, frame: Pose) -> Disc | Polygon:
+    """A solid as seen from the parent of a frame."""
+    if isinstance(solid, Disc):
+        x, y, _ = frame.compose(Pose(solid.x, solid.y, 0.0))
+        return Disc(x, y, solid.radius)
+    points = frame.transform_points(solid.points)
+    return Polygon(tuple((x, y) for x, y in points.tolist()))
+
+
+def known(
+    own: Pose, other: Pose, time: float, age: float = 0.0, **more: Any
+) -> Knowledge:
+    """What one knows who stands somewhere and saw the other somewhere."""
+    x, y = other.x - own.x, other.y - own.y
+    return Knowledge(
+        time,
+        wrap_angle(atan2(y, x) - own.theta),
+        hypot(x, y),
+        LIMITS,
+        age=age,
+        pose=own,
+        moving=True,
+        **more,
+    )
+
+
+def asked(strategy: Any, frame: Pose, solids: Any = ()) -> list[Intent]:
+    """Intents in a game whose odometry lies somewhere else."""
+    memory, intents = strategy.begin(), []
+    own, other = Pose(0.2, -0.1, 0.4), Pose(1.3, 0.3, 2.2)
+    stands = tuple(moved(solid, frame) for solid in solids)
+    for i in range(5):
+        velocity = Pose(0.0, 0.0, -own.theta).compose(
+            Pose(0.06 * cos(other.theta), 0.06 * sin(other.theta), 0.0)
+        )
+        knows = known(
+            frame.compose(own),
+            frame.compose(other),
+            STEP * i + 0.1,
+            0.1,
+            obstacles=stands,
+            velocity=velocity[:2],
+            begins=frame.compose(own.compose(Pose(-0.02, 0.0, 0.1))),
+            bearing_rate=0.1,
+            closing_speed=0.02,
+        )
+        intent, memory = strategy.decide(knows, memory)
+        intents.append(intent)
+        own = own.compose(Pose(-0.03, 0.0, 0.2))
+        other = other.compose(Pose(0.04, 0.01, 0.15))
+    return intents
+
+
+@pytest.mark.parametrize("solids", [(), SOLIDS], ids=["open", "room"])
+@pytest.mark.parametrize("name", STRATEGIES)
+def test_wherever_odometry_lies_it_decides_the_same(
+    name: str, solids: Any
+) -> None:
+    strategy = STRATEGIES[name]
+    first = asked(strategy, Pose(0.0, 0.0, 0.0), solids)
+    for frame in (Pose(2.0, -1.0, 2.1), Pose(-0.7, 3.0, -1.2)):
+        for one, two in zip(
+            first, asked(strategy, frame, solids), strict=True
+        ):
+            assert one.walks == two.walks
+            off = wrap_angle(one.heading - two.heading)
+            assert off == pytest.approx(0.0, abs=1e-4)
+            assert (one.speed_factor, one.pace) == pytest.approx(
+                (two.speed_factor, two.pace)
+            )
+
+
+@pytest.mark.parametrize("name", STRATEGIES)
+def test_a_game_in_steps_has_no_preferred_direction(name: str) -> None:
+    strategy = STRATEGIES[name]
+    chases = strategy.direction.value > 0
+    both = (strategy, STRATEGIES["evasion"])
+    players = both if chases else (STRATEGIES["pursuit"], strategy)
+    game = StepGame(duration=4.0)
+    starts = Pose(0.1, 0.2, 0.5), Pose(0.9, 0.4, 2.4)
+    obstacles = (Disc(0.8, -0.7, 0.2), box(-0.5, 0.9, 0.4, 0.3, 0.4))
+    tracks = []
+    for frame in (Pose(0.0, 0.0, 0.0), Pose(0.3, -0.2, 1.9)):
+        solids = tuple(moved(solid, frame) for solid in obstacles)
+        begin = frame.compose(starts[0]), frame.compose(starts[1])
+        tracks.append(
+            play_steps(
+                *players, begin, room=Room(None, None, solids), game=game
+            )
+        )
+    one, two = tracks
+    assert one.outcome == two.outcome
+    np.testing.assert_allclose(one.distances, two.distances, atol=1e-6)
+    np.testing.assert_allclose(one.clearances, two.clearances, atol=1e-6)
+    np.testing.assert_allclose(
+        np.cos(one.bearings), np.cos(two.bearings), atol=1e-6
+    )
+
+
+@settings(max_examples=50)
+@given(MOVED, MOVED, st.floats(0.05, 1.5), st.floats(0.0, 0.6))
+def test_what_was_seen_a_while_ago_is_of_that_time(
+    own: Pose, other: Pose, apart: float, age: float
+) -> None:
+    """It counts as it would have counted then."""
+    then: Trace = ()
+    late: Trace = ()
+    for i in range(4):
+        there = other.compose(Pose(0.05 * i, 0.0, 0.0))
+        here = own.compose(Pose(0.0, 0.01 * i, 0.1 * i))
+        now = apart * i
+        spread = 0.05 * (i % 2)
+        then = note(then, known(here, there, now, spread=spread))
+        seen = known(here, there, now + age * (i % 2), age * (i % 2))
+        late = note(late, replace(seen, spread=spread))
+    assert len(then) == len(late)
+    for one, two in zip(then, late, strict=True):
+        assert one == pytest.approx(two, abs=1e-9)
+    assert (then[-1].own_x, then[-1].own_y) == pytest.approx(here[:2])
+
+
+@settings(max_examples=50)
+@given(MOVED, ANGLE, st.floats(0.5, 2.0), st.floats(0.0, 1.5))
+def test_who_leads_points_ahead_of_who_walks_straight_on(
+    own: Pose, way: float, distance: float, lead: float
+) -> None:
+    """At a point of its way, as far ahead as a share of the distance."""
+    strategy = LeadPursuit(lead)
+    memory = strategy.begin()
+    away = Pose(own.x, own.y, own.theta + 0.7)
+    last = away.compose(Pose(distance, 0.0, 0.0))
+    for i in (2, 1, 0):
+        back = 0.04 * i
+        there = Pose(last.x - back * cos(way), last.y - back * sin(way), way)
+        knows = known(own, there, STEP * (2 - i))
+        intent, memory = strategy.decide(knows, memory)
+    reach = lead * distance
+    aim = Pose(last.x + reach * cos(way), last.y + reach * sin(way), 0.0)
+    x, y, _ = own.inverse().compose(aim)
+    if hypot(x, y) > 0.05:
+        off = wrap_angle(intent.heading - atan2(y, x))
+        assert off == pytest.approx(0.0, abs=1e-6)
+
+
+@settings(max_examples=50)
+@given(MOVED, st.floats(-0.8, 0.8), st.floats(0.02, 0.2))
+def test_the_heading_of_who_turns_is_the_tangent_where_it_is(
+    start: Pose, turn: float, step: float
+) -> None:
+    """On a circle it is half a turn ahead of the chord to there."""
+    trace: Trace = ()
+    pose, half = start, 0.5 * turn
+    chord = Pose(step * cos(half), step * sin(half), turn)
+    for i in range(3):
+        trace = note(trace, known(Pose(5.0, 5.0, 0.0), pose, STEP * i))
+        last, pose = pose, pose.compose(chord)
+    found = heading_of_way(trace)
+    assert found is not None
+    assert wrap_angle(found - last.theta) == pytest.approx(0.0, abs=1e-6)
+
+
+@settings(max_examples=50)
+@given(MOVED, MOVED, ANGLE, st.floats(0.0, 3.0))
+def test_the_pursuer_went_on_since_it_was_seen(
+    begins: Pose, other: Pose, heading: float, age: float
+) -> None:
+    """Half a step, until the body passes its foot, and the age."""
+    both = Both(
+        *(9.0, 9.0, 1.0, 0.0, other.x, other.y, cos(heading), sin(heading))
+    )
+    knows = known(Pose(9.0, 9.0, 0.0), other, 5.0, age)
+    found = moved_on(both, knows, begins)
+    way = LIMITS.stride * (0.5 + age / STEP)
+    ahead = Pose(other.x, other.y, heading).compose(Pose(way, 0.0, 0.0))
+    assert (found.px, found.py) == pytest.approx(ahead[:2])
+    assert (found.pc, found.ps) == pytest.approx((cos(heading), sin(heading)))
+    assert found[:4] == pytest.approx(
+        (begins.x, begins.y, cos(begins.theta), sin(begins.theta))
+    )
+
+
+@settings(max_examples=50)
+@given(METRES, METRES, METRES, METRES, st.floats(0.0, 2.0))
+def test_who_was_seen_a_while_ago_has_walked_on_since(
+    x: float, y: float, u: float, v: float, age: float
+) -> None:
+    """As who is seen now where the way has led meanwhile."""
+    own = Pose(0.0, 0.0, 0.0)
+    velocity = (u, v)
+    old = known(own, Pose(x, y, 0.0), 4.0, age, velocity=velocity)
+    there = Pose(x + age * u, y + age * v, 0.0)
+    new = known(own, there, 4.0, velocity=velocity)
+    one, two = Approach.of(old), Approach.of(new)
+    assert one == pytest.approx(two, abs=1e-9)
+    assert one.miss <= one.distance + 1e-9
+    soon = one.contact_time(0.5)
+    if 0.0 < soon < inf:
+        after = hypot(one.x + soon * u, one.y + soon * v)
+        assert after == pytest.approx(0.5, abs=1e-6)
+
+
+def test_how_fast_somebody_passes_is_not_how_far() -> None:
+    """Also where the square of the speed is no number but 0."""
+    for speed in (1e-203, 1e-160, 1e-3, 1.0):
+        assert Approach(0.6, 0.8, -speed, 0.0).miss == pytest.approx(0.8)
+    for speed in (0.0, 1e-203, 1e-160):
+        approach = Approach(0.6, 0.8, -speed, 0.0)
+        assert approach.contact_time(0.5) == inf
+
+
+class Noting:
+    """Remembers what it is told."""
+
+    direction, saturated = STRATEGIES["evasion"].direction, False
+
+    def begin(self) -> tuple[Knowledge, ...]:
+        """Nothing yet."""
+        return ()
+
+    def decide(self, knowledge: Knowledge, memory: Any) -> Any:
+        """Walk straight on."""
+        self.told = (*memory, knowledge)
+        return Intent(0.0), self.told
+
+
+@settings(max_examples=30)
+@given(MOVED, st.floats(-0.3, 0.3), st.floats(-0.3, 0.3))
+def test_a_player_is_told_the_velocity_in_its_own_frame(
+    own: Pose, u: float, v: float
+) -> None:
+    """Of the other on the floor, however the own body moves and turns."""
+    strategy: Any = Noting()
+    decider = Decider(strategy, LIMITS, STEP, SOLIDS, sees_velocity=True)
+    for i in range(6):
+        time = STEP * i
+        here = own.compose(Pose(-0.03 * i, 0.0, 0.3 * i))
+        there = Pose(own.x + 2.0 + u * time, own.y + v * time, 0.0)
+        x, y, _ = here.inverse().compose(there)
+        decider.decide(time, here, atan2(y, x), hypot(x, y))
+    first, last = strategy.told[0], strategy.told[-1]
+    assert first.velocity is None and last.pose == here
+    assert last.obstacles == SOLIDS and last.age == 0.0
+    turned = Pose(0.0, 0.0, -here.theta).compose(Pose(u, v, 0.0))
+    assert last.velocity == pytest.approx(turned[:2], abs=1e-6)
+    assert last.moving and not first.moving

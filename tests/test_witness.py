@@ -1,0 +1,50 @@
+"""Test what is said of several robots that see: sums and shares of all."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+pytest.importorskip("cv2")
+
+from stepaside.games.judge import Tally  # noqa: E402
+from stepaside.games.seeing import Witness  # noqa: E402
+
+COUNT = st.integers(0, 50)
+
+
+@st.composite
+def tallies(draw: st.DrawFn) -> Tally:
+    """Frames of a camera, of which some found what they showed."""
+    shown = draw(COUNT)
+    return Tally(shown, draw(st.integers(0, shown)), draw(COUNT))
+
+
+@settings(max_examples=40)
+@given(st.lists(st.tuples(tallies(), tallies(), st.floats(0, 9)), max_size=3))
+def test_rates_are_of_all_frames_and_times_are_added(
+    robots: list[tuple[Tally, Tally, float]],
+) -> None:
+    judges: Any = {
+        f"robot {i}": SimpleNamespace(
+            colour=colour,
+            depth=depth,
+            figures=lambda lost=lost: SimpleNamespace(lost_s=lost),
+        )
+        for i, (colour, depth, lost) in enumerate(robots)
+    }
+    found = Witness(judges, "rays", every=1).figures().all
+    each = [tally for robot in robots for tally in robot[:2]]
+    shown = sum(tally.shown for tally in each)
+    assert (found.detection_rate is None) == (shown == 0)
+    if found.detection_rate is not None:
+        hits = sum(tally.found for tally in each)
+        assert found.detection_rate == pytest.approx(hits / shown)
+        assert 0.0 <= found.detection_rate <= 1.0
+    assert found.false_detections == sum(tally.false for tally in each)
+    assert found.lost_s == pytest.approx(sum(lost for *_, lost in robots))
+    for tally in each:
+        if tally.rate is not None:
+            assert tally.rate == pytest.approx(tally.found / tally.shown)
