@@ -19,6 +19,7 @@ FLOORS = {
     "workers": 1,
     "laws": 0,
     "poses": 0,
+    "convex": 0,
     "randomness": 0,
     "rooms": 1,
     "doors": 1,

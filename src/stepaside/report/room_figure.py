@@ -6,7 +6,7 @@ from typing import Any
 from matplotlib.patches import Circle, Patch
 from matplotlib.patches import Polygon as Outline
 
-from ..rooms import BODY_RADIUS, Disc, Obstacle, Room
+from ..rooms import BODY_RADIUS, Obstacle, Room
 from .style import EVADER, PURSUER, plt, save
 
 SOLID, MOVING = "#8a8f98", "#99704a"
@@ -20,12 +20,7 @@ def solid_patches(solids: Iterable[Obstacle], **look: Any) -> list[Patch]:
         look: How to draw them.
     """
     look = {"facecolor": SOLID, "edgecolor": "none", "zorder": 1} | look
-    return [
-        Circle(solid.centre, solid.radius, **look)
-        if isinstance(solid, Disc)
-        else Outline(solid.points, closed=True, **look)
-        for solid in solids
-    ]
+    return [Outline(solid.outline, closed=True, **look) for solid in solids]
 
 
 def room_patches(room: Room, time: float = 0.0) -> list[Patch]:
