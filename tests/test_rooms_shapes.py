@@ -207,7 +207,7 @@ def test_a_polygon_is_nowhere_thinner_than_an_edge_may_be_short(
 @pytest.mark.parametrize("name", ["points", "normals", "offsets"])
 def test_nobody_changes_a_polygon(name: str) -> None:
     with pytest.raises(ValueError, match="read-only"):
-        getattr(SQUARE, name)[0] = 0.0
+        getattr(SQUARE.hull, name)[0] = 0.0
 
 
 @pytest.mark.parametrize("name", ["x", "y", "width", "depth", "heading"])

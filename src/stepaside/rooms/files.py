@@ -114,7 +114,7 @@ def room_entries(room: Room) -> dict[str, Any]:
             entries[name] = pose._asdict()
     for obstacle in room.obstacles:
         listed = entries.setdefault(LISTED[obstacle.kind], [])
-        listed.append(obstacle.entry)
+        listed.append(asdict(obstacle))
     if room.doors:
         entries["doors"] = [asdict(door) for door in room.doors]
     if room.moving:

@@ -22,13 +22,13 @@ Touches = NDArray[np.bool_]
 
 
 class RoundedHull(NamedTuple):
-    """Convex hull of points, grown by a radius.
+    """Convex hull of points, grown by a radius; more than one by 0.
 
     Attributes:
         points: Corners, counter-clockwise, in [m]. Shape (m, 2).
-        normals: Outward unit normals of the edges; a single point has no
-            edges. Shape (m, 2) or (0, 2).
-        offsets: Inside is ``normals @ p <= offsets``, in [m].
+        normals: Outward unit normals of the edges; a single point has an
+            edge without length, outside of which is everything. Shape (m, 2).
+        offsets: Inside is ``normals @ p <= offsets``, in [m]. Shape (m,).
         radius: In [m].
     """
 
@@ -44,10 +44,10 @@ def rounded_hull(points: ArrayLike, radius: float = 0.0) -> RoundedHull:
     Args:
         points: Corners of a convex polygon, counter-clockwise, in [m]; or
             one point. Shape (m, 2).
-        radius: In [m].
+        radius: In [m]; 0 unless there is one point.
     """
     corners = np.array(points, dtype=np.float64)
-    normals, offsets = np.zeros((0, 2)), np.zeros(0)
+    normals, offsets = np.zeros((1, 2)), np.array([-inf])
     if len(corners) > 1:
         normals, offsets = half_planes(corners)
     for each in (corners, normals, offsets):
@@ -66,27 +66,24 @@ class HullSet:
         """Lay them out.
 
         Args:
-            hulls: In one frame; those of more than one point have radius 0.
+            hulls: In one frame.
         """
         self.hulls = tuple(hulls)
-        counts = np.array([len(h.normals) for h in self.hulls], dtype=int)
-        self._discs = np.flatnonzero(counts == 0)
-        self._polygons = np.flatnonzero(counts)
-        discs = [self.hulls[n] for n in self._discs]
-        polygons = [self.hulls[n] for n in self._polygons]
-        pairs, none = np.zeros((0, 2)), np.zeros(0)
-        self._centres = _joined(pairs, [h.points for h in discs])
-        self._radii = np.array([h.radius for h in discs])
-        self._begins = _joined(pairs, [h.points for h in polygons])
-        self._edges = _joined(
-            pairs,
-            [np.roll(h.points, -1, axis=0) - h.points for h in polygons],
+        counts = [len(h.points) for h in self.hulls]
+        pairs = np.zeros((0, 2))
+        points = [h.points for h in self.hulls]
+        ends = [np.roll(each, -1, axis=0) for each in points]
+        self._begins: Array = np.concatenate([pairs, *points])
+        self._edges: Array = np.concatenate([pairs, *ends]) - self._begins
+        self._normals: Array = np.concatenate(
+            [pairs, *(h.normals for h in self.hulls)]
         )
-        self._normals = _joined(pairs, [h.normals for h in polygons])
-        self._offsets = _joined(none, [h.offsets for h in polygons])
-        self._owners = np.repeat(self._polygons, counts[self._polygons])
-        ends = np.cumsum(counts[self._polygons])
-        self._firsts = np.concatenate([[0], ends]).astype(np.int64)
+        self._offsets: Array = np.concatenate(
+            [np.zeros(0), *(h.offsets for h in self.hulls)]
+        )
+        self._radii = np.array([h.radius for h in self.hulls])
+        self._owners = np.repeat(np.arange(len(counts)), counts)
+        self._firsts = np.cumsum([0, *counts])[:-1].astype(np.int64)
 
     def clearances(self, points: ArrayLike) -> Array:
         """Return signed distances from each hull, negative inside.
@@ -98,19 +95,13 @@ class HullSet:
             Distances, in [m]. Shape (n, hulls).
         """
         asked = np.asarray(points, dtype=np.float64)
-        found = np.zeros((len(asked), len(self.hulls)))
-        away = asked[:, None] - self._centres
-        found[:, self._discs] = np.hypot(away[..., 0], away[..., 1])
-        found[:, self._discs] -= self._radii
-        if not len(self._polygons):
-            return found
-        firsts = self._firsts[:-1]
+        if not self.hulls:
+            return np.zeros((len(asked), 0))
         heights = asked @ self._normals.T - self._offsets
-        beyond = np.maximum.reduceat(heights, firsts, axis=1)
-        away = self._from_edges(asked)
-        apart = np.hypot(away[..., 0], away[..., 1])
-        nearest = np.minimum.reduceat(apart, firsts, axis=1)
-        found[:, self._polygons] = np.where(beyond <= 0.0, beyond, nearest)
+        beyond = np.maximum.reduceat(heights, self._firsts, axis=1)
+        apart = np.hypot(*self._from_edges(asked))
+        nearest = np.minimum.reduceat(apart, self._firsts, axis=1)
+        found: Array = np.where(beyond <= 0.0, beyond, nearest) - self._radii
         return found
 
     def clearance(self, points: ArrayLike) -> Array:
@@ -140,20 +131,17 @@ class HullSet:
             Vectors; zero at the centre of a disc. Shape (n, hulls, 2).
         """
         asked = np.asarray(points, dtype=np.float64)
+        heights = asked @ self._normals.T - self._offsets
+        away = np.stack(self._from_edges(asked), axis=-1)
+        apart = np.hypot(away[..., 0], away[..., 1])
         rows = np.arange(len(asked))
         ways = np.zeros((len(asked), len(self.hulls), 2))
-        ways[:, self._discs] = asked[:, None] - self._centres
-        away = self._from_edges(asked)
-        apart = np.hypot(away[..., 0], away[..., 1])
-        heights = asked @ self._normals.T - self._offsets
-        for number, first, end in zip(
-            self._polygons, self._firsts[:-1], self._firsts[1:], strict=True
-        ):
-            height = heights[:, first:end]
-            outside = away[rows, first + apart[:, first:end].argmin(axis=1)]
-            inside = self._normals[first + height.argmax(axis=1)]
-            beyond = height.max(axis=1, keepdims=True) > 0.0
-            ways[:, number] = np.where(beyond, outside, inside)
+        for n, first in enumerate(self._firsts.tolist()):
+            own = slice(first, first + len(self.hulls[n].points))
+            outside = away[rows, first + apart[:, own].argmin(axis=1)]
+            inside = self._normals[first + heights[:, own].argmax(axis=1)]
+            beyond = heights[:, own].max(axis=1, keepdims=True) > 0.0
+            ways[:, n] = np.where(beyond, outside, inside)
         lengths = np.hypot(ways[..., 0], ways[..., 1])[..., None]
         found: Array = ways / np.maximum(lengths, 1e-12)
         return found
@@ -171,32 +159,31 @@ class HullSet:
         """
         start = np.asarray(starts, dtype=np.float64)
         end = np.asarray(ends, dtype=np.float64)
-        found = np.zeros((len(end), len(self.hulls)), dtype=np.bool_)
-        apart = _apart(self._centres, start, end)
-        found[:, self._discs] = apart <= self._radii
-        found[:, self._polygons] = self._clipped(start, end)
+        if not self.hulls:
+            return np.zeros((len(end), 0), dtype=np.bool_)
+        apart = np.minimum.reduceat(
+            _apart(self._begins, start, end), self._firsts, axis=1
+        )
+        found: Touches = self._clipped(start, end) | (apart <= self._radii)
         return found
 
     def keep_clear(self, allowed: Array, start: Array, ends: Array) -> Touches:
         """Return whether lines keep as far from everything as they must.
 
         Args:
-            allowed: Distance from each hull, in [m], which start and
-                ends keep. Shape (hulls,).
+            allowed: Distance from each hull, in [m], which start and ends
+                keep. Shape (hulls,).
             start: Where all lines begin, in [m]. Shape (2,).
             ends: Where they end. Shape (n, 2).
 
         Returns:
             Shape (n,).
         """
-        corners = np.concatenate([self._centres, self._begins])
-        least = np.concatenate(
-            [self._radii + allowed[self._discs], allowed[self._owners]]
-        )
-        starts = start[None]
-        apart = _apart(corners, starts, ends)
+        starts, least = start[None], (self._radii + allowed)[self._owners]
+        apart = _apart(self._begins, starts, ends)
         free: Touches = np.all(apart >= least, axis=1)
-        free[free] &= ~np.any(self._clipped(starts, ends[free]), axis=1)
+        if self.hulls:
+            free[free] &= ~np.any(self._clipped(starts, ends[free]), axis=1)
         return free
 
     def swept_clearances(self, corners: Array) -> Array:
@@ -236,7 +223,8 @@ class HullSet:
         angles = np.arange(EVEN) * (tau / EVEN)
         even = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
         # A long wall is only told exactly along its own normals.
-        around = np.concatenate([even, -self._normals])
+        sides = self._normals[np.isfinite(self._offsets)]
+        around = np.concatenate([even, -sides])
         directions: Array = np.unique(np.round(around, 12), axis=0).T
         directions /= np.hypot(*directions)
         nearest = np.array(
@@ -247,23 +235,20 @@ class HullSet:
         )
         return directions, nearest
 
-    def _from_edges(self, points: Array) -> Array:
-        """Vectors from the nearest points of all edges. Shape (n, m, 2)."""
+    def _from_edges(self, points: Array) -> tuple[Array, Array]:
+        """Return x and y from the nearest points of all edges. (n, m)."""
         away = points[:, None] - self._begins
         share = (away * self._edges).sum(axis=2)
-        share /= (self._edges**2).sum(axis=1)
+        share /= np.maximum((self._edges**2).sum(axis=1), 1e-300)
         away -= np.clip(share, 0.0, 1.0)[..., None] * self._edges
-        found: Array = away
-        return found
+        return away[..., 0], away[..., 1]
 
     def _clipped(self, starts: Array, ends: Array) -> Touches:
         """Return whether anything of a line is left inside all edges.
 
-        Shape (n, polygons).
+        Shape (n, hulls).
         """
-        if not len(self._polygons):
-            return np.zeros((len(ends), 0), dtype=np.bool_)
-        firsts = self._firsts[:-1]
+        firsts = self._firsts
         height = starts @ self._normals.T - self._offsets  # (n, m), [m]
         slope = (ends - starts) @ self._normals.T
         still = np.abs(slope) < 1e-12  # runs along the edge
@@ -291,9 +276,3 @@ def _apart(points: Array, starts: Array, ends: Array) -> Array:
         away_x - share * along[:, :1], away_y - share * along[:, 1:]
     )
     return found
-
-
-def _joined(none: Array, parts: list[Array]) -> Array:
-    """Return the rows of all parts; a part may be missing."""
-    joined: Array = np.concatenate([none, *parts])
-    return joined

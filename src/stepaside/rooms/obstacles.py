@@ -2,17 +2,20 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from math import tau
+from math import pi
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..convex import signed_area
 from ..poses import Array, Pose
 from .hull_set import HullSet, RoundedHull
 
 
+@dataclass(frozen=True)
 class Obstacle(ABC):
     """Convex shape on the floor.
 
@@ -26,11 +29,6 @@ class Obstacle(ABC):
     @abstractmethod
     def hull(self) -> RoundedHull:
         """Points, half planes and radius."""
-
-    @property
-    @abstractmethod
-    def entry(self) -> dict[str, Any]:
-        """Entry of a file that gives the shape again."""
 
     @abstractmethod
     def moved(self, pose: Pose) -> "Obstacle":
@@ -53,26 +51,9 @@ class Obstacle(ABC):
         return self.hull.points
 
     @property
-    def normals(self) -> Array:
-        """Outward unit normals of the edges, read-only. Shape (m, 2)."""
-        return self.hull.normals
-
-    @property
-    def offsets(self) -> Array:
-        """Points p inside have ``normals @ p <= offsets``, in [m]."""
-        return self.hull.offsets
-
-    @property
-    def corner_turns(self) -> tuple[Array, Array]:
-        """Direction of the normal before each corner, and its turn there.
-
-        In [rad]; around a single point it turns once. Shapes (m,), (m,).
-        """
-        if not len(self.normals):
-            return np.zeros(1), np.full(1, tau)
-        after = np.arctan2(self.normals[:, 1], self.normals[:, 0])
-        before = np.roll(after, 1)
-        return before, (after - before) % tau
+    def area(self) -> float:
+        """Floor that it covers, in [m^2]."""
+        return signed_area(self.points) + pi * self.hull.radius**2
 
     @cached_property
     def _alone(self) -> HullSet:
@@ -94,24 +75,19 @@ def clearance_between(one: Obstacle, other: Obstacle) -> float:
     """Return the distance between two shapes in one frame, in [m].
 
     Where they overlap it is minus the least way by which one of them would
-    have to move for them not to. For two discs this is the distance of the
-    centres less both radii.
+    have to move for them not to.
     """
     # Convex sets that lie apart do so along the normal of an edge; that
     # of two corners is found from the points of each to the other.
-    gaps = [
-        float((b.points @ a.normals.T - a.offsets).min(axis=0).max())
-        for a, b in ((one, other), (other, one))
-        if len(a.normals)
-    ]
-    if gaps and max(gaps) <= 0.0:
-        return max(gaps) - one.hull.radius - other.hull.radius
-    return float(
-        min(
-            one.clearance(other.points).min() - other.hull.radius,
-            other.clearance(one.points).min() - one.hull.radius,
-        )
+    (a, b), radii = (one.hull, other.hull), one.hull.radius + other.hull.radius
+    overlap = max(
+        float((p.points @ q.normals.T - q.offsets).min(axis=0).max())
+        for p, q in ((a, b), (b, a))
     )
+    if overlap <= 0.0:
+        return overlap - radii
+    apart = one.clearance(b.points).min() - b.radius
+    return float(min(apart, other.clearance(a.points).min() - a.radius))
 
 
 class PackedObstacles(NamedTuple):
@@ -153,17 +129,20 @@ class ObstacleSet(HullSet):
     @cached_property
     def packed(self) -> PackedObstacles:
         """The same obstacles for compiled loops."""
+        polygons = [s for s in self.shapes if len(s.points) > 1]
         rounds = [
             (*s.centre, np.hypot(*(s.points - s.centre).T).max())
-            for s in (self.shapes[n] for n in self._polygons)
+            for s in polygons
         ]
         lengths = np.hypot(self._edges[:, 0], self._edges[:, 1])
+        edges = np.column_stack(
+            [self._normals, self._offsets, self._begins, lengths]
+        )
+        sides = np.isfinite(self._offsets)
         return PackedObstacles(
-            np.column_stack([self._centres, self._radii]),
-            np.column_stack(
-                [self._normals, self._offsets, self._begins, lengths]
-            ),
-            self._firsts,
+            np.column_stack([self._begins, self._radii[self._owners]])[~sides],
+            edges[sides],
+            np.cumsum([0, *(len(s.points) for s in polygons)]),
             np.array(rounds, dtype=np.float64).reshape(-1, 3),
         )
 

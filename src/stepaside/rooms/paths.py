@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from functools import lru_cache
-from math import ceil, cos, pi
+from math import ceil, cos, pi, tau
 
 import numpy as np
 
@@ -113,11 +113,13 @@ def _corners(solids: tuple[Obstacle, ...], radius: float) -> Array:
     found = [np.zeros((0, 2))]
     for solid in solids:
         away = solid.hull.radius + radius + GAP
-        begins, turns = solid.corner_turns
+        after = np.arctan2(*solid.hull.normals.T[::-1])
+        begins = np.roll(after, 1)
+        turns = (after - begins) % tau if len(after) > 1 else [tau]
         for corner, begin, turn in zip(
-            solid.points, begins.tolist(), turns.tolist(), strict=True
+            solid.points, begins, turns, strict=True
         ):
-            found.append(corner + _arc(begin, turn, away))
+            found.append(corner + _arc(float(begin), float(turn), away))
     return np.concatenate(found)
 
 

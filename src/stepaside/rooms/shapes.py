@@ -1,9 +1,9 @@
 """Shapes on the floor: discs, boxes and convex polygons."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import cached_property
 from math import cos, hypot, sin, tau
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -64,11 +64,6 @@ class Disc(Obstacle):
         outline: Array = self.points + self.radius * ring
         return outline
 
-    @property
-    def entry(self) -> dict[str, Any]:
-        """Centre and radius."""
-        return asdict(self)
-
     def moved(self, pose: Pose) -> "Disc":
         """Return the disc in the frame in which its own has a pose."""
         moved = pose.compose(Pose(self.x, self.y, 0.0))
@@ -124,16 +119,6 @@ class Polygon(Obstacle):
         """Its corners."""
         return rounded_hull(self.corners)
 
-    @property
-    def area(self) -> float:
-        """Floor that it covers, in [m^2]."""
-        return signed_area(self.points)
-
-    @property
-    def entry(self) -> dict[str, Any]:
-        """Its corners."""
-        return {"corners": [list(corner) for corner in self.corners]}
-
     def moved(self, pose: Pose) -> "Polygon":
         """Return the polygon in the frame in which its own has a pose."""
         moved = pose.transform_points(self.points).tolist()
@@ -185,16 +170,6 @@ class Box(Obstacle):
     def centre(self) -> tuple[float, float]:
         """Its centre (x, y), in [m]."""
         return self.x, self.y
-
-    @property
-    def area(self) -> float:
-        """Floor that it covers, in [m^2]."""
-        return self.width * self.depth
-
-    @property
-    def entry(self) -> dict[str, Any]:
-        """Centre, sides and heading."""
-        return asdict(self)
 
     def moved(self, pose: Pose) -> "Box":
         """Return the box in the frame in which its own has a pose."""
