@@ -92,9 +92,11 @@ def test_overlap_is_the_least_way_out() -> None:
     assert clearance_between(
         SQUARE, Box(1.4 + 0.1001, 0.2, 1.0, 1.0)
     ) == pytest.approx(1e-4)
-    assert clearance_between(SQUARE, Disc(1.2, 0.0, 0.3)) == pytest.approx(
-        -0.1
-    )
+    for x, out in ((1.2, -0.1), (0.8, -0.5)):
+        disc = Disc(x, 0.0, 0.3)
+        assert clearance_between(SQUARE, disc) == pytest.approx(out)
+        assert clearance_between(disc, SQUARE) == pytest.approx(out)
+    assert clearance_between(disc, Disc(0.8, 0.4, 0.2)) == pytest.approx(-0.1)
 
 
 @pytest.mark.parametrize("shape", [Disc(0.0, 0.0, 1.0), SQUARE])

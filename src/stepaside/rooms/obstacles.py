@@ -78,7 +78,8 @@ def clearance_between(one: Obstacle, other: Obstacle) -> float:
     have to move for them not to.
     """
     # Convex sets that lie apart do so along the normal of an edge; that
-    # of two corners is found from the points of each to the other.
+    # of two corners is found from the points of each to the other, and so
+    # is that of a disc, which has no edges.
     (a, b), radii = (one.hull, other.hull), one.hull.radius + other.hull.radius
     overlap = max(
         float((p.points @ q.normals.T - q.offsets).min(axis=0).max())
