@@ -115,6 +115,11 @@ def test_a_way_leads_around_corners_and_out_of_doors() -> None:
     assert has_way(OPEN_FLOOR, (-1.0, 0.0), (1.0, 0.0), 0.2)
 
 
+def test_a_way_leads_around_the_whole_of_a_disc() -> None:
+    floor = Room(obstacles=(Disc(0.0, 0.0, 1.0),))
+    assert has_way(floor, (-1.5, 0.0), (1.5, 0.0), 0.2)
+
+
 @pytest.mark.parametrize(
     ("room", "starts", "rule"),
     [

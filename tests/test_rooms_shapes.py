@@ -189,6 +189,7 @@ def test_a_disc_is_what_is_near_its_centre() -> None:
     ring = np.stack([1.0 + np.cos(RING), -2.0 + np.sin(RING)], axis=-1)
     np.testing.assert_allclose(disc.clearance(ring), 0.5, atol=1e-14)
     assert disc.clearance([[1.0, -2.0]])[0] == -0.5
+    assert disc.area == pytest.approx(0.25 * pi)
     assert hypot(*disc.centre) == pytest.approx(sqrt(5.0))
 
 

@@ -80,13 +80,13 @@ def clearance_between(one: Obstacle, other: Obstacle) -> float:
     # Convex sets that lie apart do so along the normal of an edge; that
     # of two corners is found from the points of each to the other, and so
     # is that of a disc, which has no edges.
-    (a, b), radii = (one.hull, other.hull), one.hull.radius + other.hull.radius
+    a, b = one.hull, other.hull
     overlap = max(
         float((p.points @ q.normals.T - q.offsets).min(axis=0).max())
         for p, q in ((a, b), (b, a))
     )
     if overlap <= 0.0:
-        return overlap - radii
+        return overlap
     apart = one.clearance(b.points).min() - b.radius
     return float(min(apart, other.clearance(a.points).min() - a.radius))
 
