@@ -23,7 +23,6 @@ from asking import ask, machine
 
 from stepaside.control.clearance.guard import Choice, Guard
 from stepaside.control.clearance.outline import sway_of
-from stepaside.control.clearance.solids import Solids
 from stepaside.control.clearance.surroundings import HERE
 from stepaside.planning import (
     CenterState,
@@ -35,7 +34,13 @@ from stepaside.planning import (
 )
 from stepaside.poses import Pose, wrap_angle
 from stepaside.robots.description import load_robot
-from stepaside.rooms import Room, RoomRecipe, draw_starts, make_room
+from stepaside.rooms import (
+    ObstacleSet,
+    Room,
+    RoomRecipe,
+    draw_starts,
+    make_room,
+)
 from stepaside.rooms.covering import cover
 from stepaside.strategies import (
     Intent,
@@ -70,7 +75,7 @@ class Taken:
     frame = HERE
     blur = CELL
 
-    def __init__(self, solids: Solids) -> None:
+    def __init__(self, solids: ObstacleSet) -> None:
         """Know it."""
         self.solids = solids
 
@@ -78,16 +83,18 @@ class Taken:
         """Learn nothing more."""
 
 
-def seen(room: Room, fine: float) -> Solids:
+def seen(room: Room, fine: float) -> ObstacleSet:
     """Polygons that cover the cells of a map within 10 cm of a surface."""
     ticks = np.arange(-WIDE, WIDE, CELL) + 0.5 * CELL
     cells = np.stack(np.meshgrid(ticks, ticks), axis=-1).reshape(-1, 2)
     clear = room.clearance(cells)
-    return Solids(cover(cells[(clear < 0.0) & (clear > -0.1)], CELL, fine))
+    return ObstacleSet(
+        cover(cells[(clear < 0.0) & (clear > -0.1)], CELL, fine)
+    )
 
 
 def knowledge(
-    starts: tuple[Pose, Pose], own: int, solids: Solids
+    starts: tuple[Pose, Pose], own: int, solids: ObstacleSet
 ) -> Knowledge:
     """What one of two players knows at its start."""
     here, other = starts[own], starts[1 - own]
@@ -95,11 +102,11 @@ def knowledge(
     limits = Limits(GAIT.speed, GAIT.gain, GAIT.stride, GAIT.step_duration)
     bearing = wrap_angle(atan2(y, x) - here.theta)
     return Knowledge(
-        0.0, bearing, hypot(x, y), limits, pose=here, obstacles=solids.known
+        0.0, bearing, hypot(x, y), limits, pose=here, obstacles=solids.shapes
     )
 
 
-def guarded(pose: Pose, solids: Solids) -> Callable[[], object]:
+def guarded(pose: Pose, solids: ObstacleSet) -> Callable[[], object]:
     """A choice of the guard in a place."""
     guard = Guard(Taken(solids), NAO, PLANNER, margin=MARGIN)
     half = 0.5 * GAIT.foot_spacing
@@ -139,7 +146,7 @@ def measure(recipe: RoomRecipe, fine: float, games: int) -> dict[str, Any]:
         room = make_room(recipe, seed)
         starts = draw_starts(room, seed, NEEDS)
         solids = seen(room, fine)
-        counts.append(len(solids.known))
+        counts.append(len(solids.shapes))
         for own, name, mind in (
             (1, "look-ahead", evader),
             (0, "pursuit", pursuer),

@@ -8,6 +8,7 @@ import pytest
 
 from brute_push import corners_of
 from by_hand import plan_of
+from stepaside.convex import half_planes
 from stepaside.errors import PlanError
 from stepaside.planning import (
     CenterState,
@@ -19,7 +20,6 @@ from stepaside.planning import (
 )
 from stepaside.planning.capture import Reach, held_regions, push_bound
 from stepaside.planning.steady import steady_plan
-from stepaside.planning.support import half_planes
 
 MASS = 5.305  # [kg], of the NAO
 GAIT = GaitSettings()

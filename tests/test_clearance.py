@@ -10,7 +10,6 @@ from made_up_robot import GAIT, FakeLegs
 from stepaside.control.clearance.guard import Choice, Guard
 from stepaside.control.clearance.outline import BodyOutline
 from stepaside.control.clearance.settings import MapSettings
-from stepaside.control.clearance.solids import Solids
 from stepaside.control.clearance.surroundings import GivenRoom
 from stepaside.control.phase import Phase
 from stepaside.control.scheme import ControlScheme
@@ -26,12 +25,13 @@ from stepaside.poses import Array, Pose
 from stepaside.robots.description import load_robot
 from stepaside.robots.reference import BodyReference
 from stepaside.rooms import (
+    Box,
     Disc,
     Obstacle,
+    ObstacleSet,
     Polygon,
     Room,
     RoomRecipe,
-    box,
     clearance_between,
     hull,
     make_room,
@@ -106,9 +106,11 @@ def corners_of(body: BodyReference, frame: Pose) -> Array:
 
 def clearance(room: Room, corners: Array) -> float:
     """Least distance of trunk and soles from everything."""
+    parts = np.split(corners, [len(TRUNK), len(TRUNK) + len(SOLE)])
     return min(
-        room.footprint_clearance(Polygon(tuple(map(tuple, part.tolist()))))
-        for part in np.split(corners, [len(TRUNK), len(TRUNK) + len(SOLE)])
+        clearance_between(Polygon(tuple(map(tuple, part.tolist()))), solid)
+        for part in parts
+        for solid in room.solids
     )
 
 
@@ -178,7 +180,7 @@ def test_between_an_accepted_step_and_rest_nothing_is_touched() -> None:
 
 
 def test_who_stands_too_near_may_only_leave() -> None:
-    room = Room(obstacles=(box(0.4, 0.0, 0.5, 2.0),))
+    room = Room(obstacles=(Box(0.4, 0.0, 0.5, 2.0),))
     planner = ManeuverPlanner(GAIT)
     support = Pose(0.045, -0.05, 0.0)  # its toes are 1 cm from the box
     guard = Guard(
@@ -220,10 +222,10 @@ def test_what_cannot_be_walked_is_slowed_then_turned_then_dropped() -> None:
             standing=True,
         )
 
-    wall = box(0.642, 0.0, 1.0, 3.0)
+    wall = Box(0.642, 0.0, 1.0, 3.0)
     assert chosen() == Choice(Intent(0.5))
     assert chosen(wall) == Choice(Intent(0.5, 0.05))
-    assert chosen(wall, *(box(0.0, s * 0.3, 3.0, 0.2) for s in (1, -1))) is (
+    assert chosen(wall, *(Box(0.0, s * 0.3, 3.0, 0.2) for s in (1, -1))) is (
         None
     )
 
@@ -258,15 +260,15 @@ def test_distances_are_never_overrated_and_hardly_underrated() -> None:
     random = np.random.default_rng(1)
     solids = (
         Disc(0.5, 0.1, 0.2),
-        box(-0.6, 0.3, 0.4, 0.2, 0.7),
+        Box(-0.6, 0.3, 0.4, 0.2, 0.7),
         Polygon(((0.1, -0.9), (0.5, -0.8), (0.2, -0.4))),
-        box(0.0, 1.5, 4.0, 0.1, 0.013),
+        Box(0.0, 1.5, 4.0, 0.1, 0.013),
     )
     for _ in range(200):
         pose = Pose(*random.uniform((-1, -1, -pi), (1, 1, pi)).tolist())
         body = pose.transform_points(TRUNK)
         exact = min(clearance_between(hull(body), s) for s in solids)
-        told = float(Solids(solids).clearances(body[None])[0])
+        told = float(ObstacleSet(solids).swept_clearances(body[None])[0])
         assert told <= exact + 1e-12
         if exact > 0.0:
             assert told >= exact - 0.01
@@ -274,11 +276,11 @@ def test_distances_are_never_overrated_and_hardly_underrated() -> None:
 
 def test_a_body_between_two_instants_counts() -> None:
     """One that is here and there has been where the pillar stands."""
-    pillar = Solids((Disc(0.0, 0.0, 0.05),))
+    pillar = ObstacleSet((Disc(0.0, 0.0, 0.05),))
     away = np.array([[TRUNK + (-1.0, 0.0)], [TRUNK + (1.0, 0.0)]])[:, 0]
-    assert pillar.clearances(away[:1])[0] > 0.5
-    assert pillar.clearances(away[1:])[0] > 0.5
-    assert pillar.clearances(away)[0] < 0.0
+    assert pillar.swept_clearances(away[:1])[0] > 0.5
+    assert pillar.swept_clearances(away[1:])[0] > 0.5
+    assert pillar.swept_clearances(away)[0] < 0.0
 
 
 def test_a_place_that_is_measured_corrects_odometry() -> None:

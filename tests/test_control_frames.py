@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from stepaside.control.clearance.solids import Solids
 
 from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run
 from made_up_state import (
@@ -23,7 +24,6 @@ from stepaside.control.balance.estimation import StateEstimator
 from stepaside.control.balance.loop import OpenLoop
 from stepaside.control.clearance.guard import Guard
 from stepaside.control.clearance.outline import BodyOutline
-from stepaside.control.clearance.solids import Solids
 from stepaside.control.clearance.surroundings import GivenRoom
 from stepaside.control.deciding import Decisions
 from stepaside.control.phase import Phase

@@ -61,6 +61,6 @@ def test_a_pursuer_reaches_who_stands_and_touches_nothing(file: Path) -> None:
             placed = start.compose(Pose(*body.com[:2], body.heading))
             trunk = placed.transform_points(NAO.trunk)
             solids = guard.surroundings.solids
-            least = min(least, float(solids.clearances(trunk[None])[0]))
+            least = min(least, float(solids.swept_clearances(trunk[None])[0]))
     assert distance < 0.3
     assert least >= MARGIN - 1e-4

@@ -14,7 +14,7 @@ from stepaside.perception.floor_map import (
     _centres,
 )
 from stepaside.poses import Array
-from stepaside.rooms import Disc, Obstacle, box
+from stepaside.rooms import Box, Disc, Obstacle
 from stepaside.rooms.covering import cover
 from stepaside.sensing.camera_model import CameraModel
 from stepaside.sensing.images import DepthImage
@@ -59,7 +59,7 @@ def looked(
 
 
 def test_what_is_seen_is_where_it_stands() -> None:
-    pillar, wall = Disc(1.2, 0.3, 0.15), box(-1.4, 0.0, 0.1, 2.0)
+    pillar, wall = Disc(1.2, 0.3, 0.15), Box(-1.4, 0.0, 0.1, 2.0)
     found = looked(FloorMap(), (pillar, wall)).taken()
     near = np.array([[1.06, 0.25], [-1.34, 0.5], [-1.34, -0.5]])
     clearance = np.min([p.clearance(near) for p in found], axis=0)
@@ -146,7 +146,7 @@ def test_what_was_struck_of_the_other_is_forgotten_when_it_is_known() -> None:
 
 def test_what_the_other_stands_beside_stays() -> None:
     """Who walks along a wall does not wipe it off the map."""
-    wall = box(1.4, 0.0, 0.1, 2.0)
+    wall = Box(1.4, 0.0, 0.1, 2.0)
     seen = looked(FloorMap(), (wall,), times=4)
     cells = _centres(seen._evidence > TAKEN)
     assert len(cells) == 40

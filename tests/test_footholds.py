@@ -24,7 +24,7 @@ from stepaside.planning import (
 )
 from stepaside.poses import Array, Pose
 from stepaside.robots.description import load_robot
-from stepaside.rooms import Disc, Obstacle, Room, box
+from stepaside.rooms import Box, Disc, Obstacle, ObstacleSet, Room
 from stepaside.world.outline import measure_outline
 
 GAIT = GaitSettings()
@@ -61,7 +61,7 @@ def beside(p: ManeuverPlan, away: float, angle: float) -> tuple[Obstacle, ...]:
     x, y = middles(p)[-1]
     out = FRAME.theta + angle
     reach = away + 0.5
-    return (box(x + reach * cos(out), y + reach * sin(out), 1, 3, out),)
+    return (Box(x + reach * cos(out), y + reach * sin(out), 1, 3, out),)
 
 
 def strides(p: ManeuverPlan) -> list[tuple[float, float]]:
@@ -86,7 +86,7 @@ def test_with_nothing_near_it_is_the_plan_itself(
     solids: tuple[Obstacle, ...],
 ) -> None:
     wanted = plan(0.4)
-    assert HOLDS.kept(wanted, FRAME, solids) is wanted
+    assert HOLDS.kept(wanted, FRAME, ObstacleSet(solids)) is wanted
 
 
 @pytest.mark.parametrize("foot", Foot)
@@ -99,7 +99,7 @@ def test_every_footstep_stays_on_its_side_of_a_wall(
     wanted = plan(bearing, foot)
     wall = beside(wanted, NEEDS - 0.04, angle)
     assert clear(wanted, wall).min() < NEEDS - 0.03
-    kept = HOLDS.kept(wanted, FRAME, wall)
+    kept = HOLDS.kept(wanted, FRAME, ObstacleSet(wall))
     assert kept is not wanted
     assert clear(kept, wall).min() >= NEEDS - 1e-6
     feet = kept.placements
@@ -121,7 +121,9 @@ def test_feet_land_where_legs_reach_and_soles_do_not_touch(
     wall = beside(wanted, NEEDS - 0.04, angle)
     for gap, outward in ((0.028, 1.0), (0.0, 0.003), (0.028, 0.004)):
         tight = replace(REACH, gap=gap, reach_outward=outward)
-        kept = Footholds(PLANNER, tight, NEEDS).kept(wanted, FRAME, wall)
+        kept = Footholds(PLANNER, tight, NEEDS).kept(
+            wanted, FRAME, ObstacleSet(wall)
+        )
         aside = [y for _, y in strides(kept)]
         near = GAIT.sole.inner * 2.0 + gap
         far = GAIT.foot_spacing + outward
@@ -135,7 +137,9 @@ def test_feet_land_where_legs_reach_and_soles_do_not_touch(
 
 def test_the_walk_goes_on_from_the_same_state() -> None:
     wanted = plan(0.3)
-    kept = HOLDS.kept(wanted, FRAME, beside(wanted, NEEDS - 0.03, pi))
+    kept = HOLDS.kept(
+        wanted, FRAME, ObstacleSet(beside(wanted, NEEDS - 0.03, pi))
+    )
     for p in (wanted, kept):
         samples = p.sample([0.0])
         np.testing.assert_allclose(samples.com[0], (0.01, 0.025), atol=1e-12)
@@ -156,10 +160,10 @@ def test_no_other_footsteps_change_the_plan_less(seed: int) -> None:
     out = FRAME.theta + pi + float(random.uniform(-0.6, 0.6))
     reach = 0.15 + NEEDS - 0.02
     disc = Disc(x + reach * cos(out), y + reach * sin(out), 0.15)
-    kept = HOLDS.kept(wanted, FRAME, (disc,))
+    kept = HOLDS.kept(wanted, FRAME, ObstacleSet((disc,)))
     assert kept is not wanted
     assert clear(kept, (disc,)).min() >= NEEDS - 1e-6
-    rows, least = HOLDS._planes(wanted, FRAME, (disc,))
+    rows, least = HOLDS._planes(wanted, FRAME, ObstacleSet((disc,)))
     reached, low, high = HOLDS._within_reach(wanted)
     target = wanted.placements[2:, :2].ravel()
 
@@ -186,12 +190,15 @@ def test_who_is_too_near_already_comes_no_nearer() -> None:
     out = FRAME.theta + pi
     reach = 0.15 + 0.5
     wall = (
-        box(start.x + reach * cos(out), start.y + reach * sin(out), 1, 3, out),
+        Box(start.x + reach * cos(out), start.y + reach * sin(out), 1, 3, out),
     )
     now = float(wall[0].clearance([start[:2]])[0])
     assert now == pytest.approx(0.15)
     assert clear(wanted, wall).min() < 0.0
-    assert clear(HOLDS.kept(wanted, FRAME, wall), wall).min() >= now - 1e-6
+    assert (
+        clear(HOLDS.kept(wanted, FRAME, ObstacleSet(wall)), wall).min()
+        >= now - 1e-6
+    )
 
 
 def test_where_no_footsteps_keep_clear_the_plan_is_left_to_the_guard(
@@ -200,10 +207,10 @@ def test_where_no_footsteps_keep_clear_the_plan_is_left_to_the_guard(
     """Half planes that contradict each other: nobody stands on both sides."""
     wanted = plan(0.0)
     wall = beside(wanted, NEEDS - 0.03, pi)
-    rows, least = HOLDS._planes(wanted, FRAME, wall)
+    rows, least = HOLDS._planes(wanted, FRAME, ObstacleSet(wall))
     both = np.concatenate([rows, -rows]), np.concatenate([least, 0.1 - least])
     monkeypatch.setattr(Footholds, "_planes", lambda *_: both)
-    assert HOLDS.kept(wanted, FRAME, wall) is wanted
+    assert HOLDS.kept(wanted, FRAME, ObstacleSet(wall)) is wanted
 
 
 @pytest.mark.parametrize("method", ["measured", "mpc"])

@@ -12,13 +12,12 @@ from stepaside.control.clearance.guard import (
     Guard,
     Passage,
 )
-from stepaside.control.clearance.solids import Solids
 from stepaside.control.clearance.surroundings import GivenRoom, SeenRoom
 from stepaside.perception.floor_map import CELL, FloorMap
 from stepaside.planning import Direction, Foot, ManeuverPlan, ManeuverPlanner
 from stepaside.poses import Pose
 from stepaside.robots.description import load_robot
-from stepaside.rooms import Disc, Room, box
+from stepaside.rooms import Box, Disc, ObstacleSet, Room
 from stepaside.strategies import Intent
 from stepaside.world.outline import measure_outline
 
@@ -42,7 +41,7 @@ def beside(gap: float, around: Any, *, out: bool) -> Choice | None:
     """What is chosen beside a wall on the left, at a distance in [m]."""
     guard = Guard(around, NAO, PLANNER, margin=MARGIN)
     half = float(NAO.trunk[:, 1].max())
-    around.solids = Solids((box(0.0, half + gap + 0.5, 9.0, 1.0),))
+    around.solids = ObstacleSet((Box(0.0, half + gap + 0.5, 9.0, 1.0),))
     passage = guard.passage(plan_for(Choice(Intent(0.0))), SUPPORT)
     assert passage.now == pytest.approx(gap, abs=1e-9)
     if out:
@@ -109,7 +108,7 @@ def test_of_two_ways_out_the_one_that_comes_least_near_is_taken(
 
     monkeypatch.setattr(Guard, "passage", passage)
     around: Any = seen()
-    around.solids = Solids((box(0.0, 1.0, 1.0, 1.0),))
+    around.solids = ObstacleSet((Box(0.0, 1.0, 1.0, 1.0),))
     guard = Guard(around, NAO, PLANNER, margin=MARGIN)
     same: Any = lambda choice: choice  # noqa: E731
     chosen = guard.way_out(Intent(0.6), same, SUPPORT)
@@ -141,7 +140,7 @@ def test_neither_foot_is_left_out_for_a_loose_way() -> None:
         guard, away = Guard(around, NAO, PLANNER, margin=MARGIN), 0.1
         while True:
             centre = away * np.cos(-1.83), away * np.sin(-1.83)
-            around.solids = Solids((Disc(*centre, 0.1),))
+            around.solids = ObstacleSet((Disc(*centre, 0.1),))
             if guard.passage(ahead, SUPPORT).now > 0.012:
                 break
             away += 0.001

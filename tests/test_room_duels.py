@@ -18,14 +18,21 @@ from stepaside.games.duel import Duel, run_duel
 from stepaside.games.outcome import Outcome
 from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.poses import Pose
-from stepaside.rooms import Disc, Polygon, Room, box, make_room
+from stepaside.rooms import (
+    Box,
+    Disc,
+    Polygon,
+    Room,
+    make_room,
+    room_of_entries,
+)
 from stepaside.rooms.making import RoomRecipe
 from stepaside.world.camera_settings import RoomSettings
 from stepaside.world.solids import HEIGHT, add_solids, named_solids
 
 TRIANGLE = Polygon(((0.5, 0.5), (0.9, 0.5), (0.7, 0.9)))
 FULL = Room(
-    3.0, 3.0, (Disc(-0.6, 0.2, 0.15), box(0.4, -0.7, 0.3, 0.2, 0.5), TRIANGLE)
+    3.0, 3.0, (Disc(-0.6, 0.2, 0.15), Box(0.4, -0.7, 0.3, 0.2, 0.5), TRIANGLE)
 )
 STARTS = (Pose(-1.1, -1.1, 0.8), Pose(-1.1, 0.9, -1.5))
 
@@ -60,6 +67,34 @@ def test_solids_are_named_by_what_they_are() -> None:
     assert len(set(names)) == len(FULL.solids) == 7
 
 
+def test_a_box_is_as_its_file_says_in_the_world() -> None:
+    """Width, depth and heading, to the bit; a wall is one, too."""
+    spec = mujoco.MjSpec()
+    file = {
+        "boxes": [{"x": 0.4, "y": -0.7, "width": 0.3, "depth": 0.2}],
+        "walls": [{"start": [0.0, 0.0], "end": [0.0, 1.0]}],
+        "polygons": [{"corners": [[1, 1], [1.2, 1], [1.2, 1.3], [1, 1.3]]}],
+    }
+    file["boxes"][0]["heading"] = 0.5  # type: ignore[index]
+    room = room_of_entries(file)
+    add_solids(spec, room)
+    model = spec.compile()
+    for name, place, sides, heading in (
+        ("box 1", (0.4, -0.7), (0.3, 0.2), 0.5),
+        ("box 2", (0.0, 0.5), (1.0, 0.1), pi / 2),
+    ):
+        body = model.body(name)
+        (geom,) = body.geomadr
+        assert model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_BOX
+        assert tuple(body.pos[:2]) == place
+        assert tuple(2.0 * model.geom_size[geom, :2]) == sides
+        turn = model.geom_quat[geom]
+        assert 2.0 * np.arctan2(turn[3], turn[0]) == pytest.approx(heading)
+    # What is given by its corners is a prism, whatever their angles.
+    (geom,) = model.body("polygon 1").geomadr
+    assert model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH
+
+
 def test_players_start_where_the_room_says() -> None:
     room = replace(FULL, starts=STARTS)
     duel = Duel(placed(room))
@@ -88,7 +123,7 @@ def test_starts_that_a_room_lacks_are_drawn_by_the_seed() -> None:
             Room(
                 3.0,
                 3.0,
-                (box(0.0, 0.0, 3.0, 0.2),),
+                (Box(0.0, 0.0, 3.0, 0.2),),
                 starts=(Pose(0.0, -1.0, 0.0), Pose(0.0, 1.0, 0.0)),
             ),
             "a way",

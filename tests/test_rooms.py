@@ -2,7 +2,7 @@
 
 import json
 from dataclasses import replace
-from math import hypot, inf, nan
+from math import hypot, inf, nan, pi
 from pathlib import Path
 from typing import Any
 
@@ -15,17 +15,19 @@ from stepaside.errors import ConfigurationError
 from stepaside.poses import Pose, wrap_angle
 from stepaside.rooms import (
     OPEN_FLOOR,
+    Box,
     Disc,
     Door,
+    Polygon,
     Room,
     RoomRecipe,
-    box,
     check_starts,
     clearance_between,
     draw_starts,
     has_way,
     load_room,
     make_room,
+    room_entries,
     room_of_entries,
     room_text,
     wall_between,
@@ -55,7 +57,6 @@ def test_clearance_is_that_of_the_nearest_thing() -> None:
 
 def test_nobody_is_near_anything_on_an_open_floor() -> None:
     assert OPEN_FLOOR.clearance([[0.0, 0.0]])[0] == inf
-    assert OPEN_FLOOR.footprint_clearance(box(0, 0, 1, 1)) == inf
 
 
 def test_walls_stand_around_the_floor_and_doors_are_gaps() -> None:
@@ -77,29 +78,10 @@ def test_walls_stand_around_the_floor_and_doors_are_gaps() -> None:
     assert area == pytest.approx(2 * 0.6 * 0.1)
 
 
-def test_a_footprint_is_as_clear_as_its_nearest_solid() -> None:
-    foot = box(0.0, 0.6, 0.2, 0.1)
-    assert PILLAR.footprint_clearance(foot) == pytest.approx(0.25)
-    assert PILLAR.footprint_clearance(
-        box(0.0, 0.9, 0.2, 0.1)
-    ) == pytest.approx(0.05)
-
-
 def test_a_pillar_hides_what_stands_behind_it() -> None:
     starts, ends = [[-1.0, 0.0], [-1.0, 0.0]], [[1.0, 0.0], [0.0, 0.9]]
     seen = PILLAR.sees(starts, ends)
     assert seen.tolist() == [False, True]
-
-
-def test_solids_in_a_frame_are_where_the_room_has_them() -> None:
-    frame = Pose(0.4, 0.2, 0.9)
-    seen = PILLAR.solids_in(frame)
-    assert len(seen) == 1 + 4
-    point = np.array([[0.3, -0.1]])
-    np.testing.assert_allclose(
-        [s.clearance(point)[0] for s in seen],
-        [s.clearance(frame.transform_points(point))[0] for s in PILLAR.solids],
-    )
 
 
 @pytest.mark.parametrize(
@@ -131,6 +113,11 @@ def test_a_way_leads_around_corners_and_out_of_doors() -> None:
     assert not has_way(shut, (-1.0, 0.0), (1.0, 0.0), 0.2)
     assert has_way(replace(shut, doors=doors), (-1.0, 0.0), (1.0, 0.0), 0.2)
     assert has_way(OPEN_FLOOR, (-1.0, 0.0), (1.0, 0.0), 0.2)
+
+
+def test_a_way_leads_around_the_whole_of_a_disc() -> None:
+    floor = Room(obstacles=(Disc(0.0, 0.0, 1.0),))
+    assert has_way(floor, (-1.5, 0.0), (1.5, 0.0), 0.2)
 
 
 @pytest.mark.parametrize(
@@ -178,6 +165,20 @@ def test_starts_of_one_seed_do_not_depend_on_what_else_it_draws() -> None:
     assert draw_starts(Room(9.0, 9.0), 5) == draw_starts(
         Room(9.0, 9.0, (Disc(4.4, 4.4, 0.05),)), 5
     )
+
+
+def test_a_file_keeps_boxes_and_walls_as_they_are() -> None:
+    """As boxes, in whatever order a room is given them."""
+    triangle = Polygon(((0.5, 0.5), (0.9, 0.5), (0.7, 0.9)))
+    box, wall = Box(0.4, -0.7, 0.3, 0.2, 0.5), wall_between((0, 0), (0, 1))
+    room = Room(3.0, 3.0, (triangle, wall, Disc(-0.6, 0.2, 0.15), box))
+    entries = room_entries(room)
+    assert entries["boxes"] == [
+        {"x": 0.0, "y": 0.5, "width": 1.0, "depth": 0.1, "heading": pi / 2},
+        {"x": 0.4, "y": -0.7, "width": 0.3, "depth": 0.2, "heading": 0.5},
+    ]
+    assert len(entries["polygons"]) == len(entries["discs"]) == 1
+    assert room_of_entries(entries) == room
 
 
 def test_what_has_no_place_is_refused() -> None:

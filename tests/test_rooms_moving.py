@@ -146,7 +146,7 @@ def test_a_given_map_tells_where_it_is_and_soon_will_be() -> None:
     for now in (0.0, 1.0, 5.0):
         told = Measurement(now, nothing, nothing, nothing, np.zeros(8), None)
         around.note(told, body)
-        known = around.solids.known[-1]
+        known = around.solids.shapes[-1]
         for ahead in (0.0, 0.5 * AHEAD, AHEAD):
             corners = BOX.at(now + ahead).points
             assert known.clearance(corners).max() < 1e-9

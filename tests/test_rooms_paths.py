@@ -6,9 +6,16 @@ import numpy as np
 import pytest
 
 from stepaside.poses import Pose
-from stepaside.rooms import Disc, Obstacle, RoomRecipe, box, make_room
+from stepaside.rooms import (
+    NO_OBSTACLES,
+    Box,
+    Disc,
+    Obstacle,
+    ObstacleSet,
+    RoomRecipe,
+    make_room,
+)
 from stepaside.rooms.paths import first_point
-from stepaside.rooms.standing import standing
 from stepaside.strategies import Knowledge, Limits, Pursuit
 
 RADIUS = 0.2
@@ -50,10 +57,10 @@ def test_the_way_around_a_disc_is_tangents_and_an_arc() -> None:
 
 
 def test_the_way_around_a_wall_goes_by_its_nearer_end() -> None:
-    wall = box(0.0, 0.3, 0.1, 1.0)  # from y = -0.2 to 0.8
+    wall = Box(0.0, 0.3, 0.1, 1.0)  # from y = -0.2 to 0.8
     points = way((wall,), (-0.5, 0.0), (0.5, 0.0))
     assert min(y for _, y in points) < -0.2 - 0.9 * RADIUS
-    mirrored = way((box(0.0, -0.3, 0.1, 1.0),), (-0.5, 0.0), (0.5, 0.0))
+    mirrored = way((Box(0.0, -0.3, 0.1, 1.0),), (-0.5, 0.0), (0.5, 0.0))
     np.testing.assert_allclose(
         np.array(mirrored), np.array(points) * [1, -1], atol=1e-12
     )
@@ -76,7 +83,7 @@ def test_ways_keep_their_distance_in_any_room() -> None:
 
 def test_where_there_is_no_way_it_heads_straight() -> None:
     cage = tuple(
-        box(x, y, w, d)
+        Box(x, y, w, d)
         for x, y, w, d in (
             (0.6, 0.0, 0.1, 1.3),
             (-0.6, 0.0, 0.1, 1.3),
@@ -129,9 +136,9 @@ def test_all_that_stands_is_as_far_as_each_of_it() -> None:
     room = make_room(RoomRecipe(discs=2, boxes=1, polygons=2, doors=1), 3)
     points = np.random.default_rng(4).uniform(-1.6, 1.6, (300, 2))
     expected = np.stack([s.clearance(points) for s in room.solids], axis=1)
-    found = standing(tuple(room.solids)).clearances(points)
+    found = ObstacleSet(room.solids).clearances(points)
     np.testing.assert_allclose(found, expected, atol=1e-12)
-    assert standing(()).clearances(points).shape == (300, 0)
+    assert NO_OBSTACLES.clearances(points).shape == (300, 0)
 
 
 @pytest.mark.parametrize("side", [-1, 0, 1])
@@ -142,7 +149,7 @@ def test_a_way_is_the_same_wherever_its_floor_lies(
     """And mirrored, the way on the other side."""
     random = np.random.default_rng(seed)
     turn, beside = random.uniform(-0.2, 0.2, 2).tolist()
-    walls = (box(0.0, beside, 0.1, 1.0, turn), box(0.8, -0.4, 0.3, 0.4))
+    walls = (Box(0.0, beside, 0.1, 1.0, turn), Box(0.8, -0.4, 0.3, 0.4))
     start, end = (-1.0, 0.1), (1.6, -0.05)
     found = first_point(walls, start, end, RADIUS, side)
     frame = Pose(*random.uniform(-3.0, 3.0, 3).tolist())
@@ -154,7 +161,7 @@ def test_a_way_is_the_same_wherever_its_floor_lies(
     moved = tuple(wall.moved(frame) for wall in walls)
     again = first_point(moved, there(start), there(end), RADIUS, side)
     assert again == pytest.approx(there(found), abs=1e-9)
-    mirrored = (box(0.0, -beside, 0.1, 1.0, -turn), box(0.8, 0.4, 0.3, 0.4))
+    mirrored = (Box(0.0, -beside, 0.1, 1.0, -turn), Box(0.8, 0.4, 0.3, 0.4))
     ends = (start[0], -start[1]), (end[0], -end[1])
     x, y = first_point(mirrored, *ends, RADIUS, -side)
     assert (x, -y) == pytest.approx(found, abs=1e-9)
@@ -169,7 +176,7 @@ def test_it_goes_around_on_the_side_that_it_prefers(
     here = Pose(1.3, -0.7, turn)
     goal = here.compose(Pose(1.0, 0.0, 0.0))
     for beside, preferred in ((0.05, True), (0.3, False)):
-        wall = box(0.5, side * beside, 0.1, 1.0).moved(here)
+        wall = Box(0.5, side * beside, 0.1, 1.0).moved(here)
         start, end = (here.x, here.y), (goal.x, goal.y)
         corner = first_point((wall,), start, end, RADIUS, side)
         ahead = here.inverse().transform_points([corner])[0]

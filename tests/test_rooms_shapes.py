@@ -8,25 +8,33 @@ import pytest
 from stepaside.errors import ConfigurationError
 from stepaside.poses import Pose
 from stepaside.rooms import (
+    NO_OBSTACLES,
+    Box,
     Disc,
+    Obstacle,
+    ObstacleSet,
     Polygon,
-    box,
     clearance_between,
-    crosses,
     hull,
     wall_between,
 )
 from stepaside.rooms.outline import SMALLEST
 
-SQUARE = box(0.0, 0.0, 2.0, 2.0)
+SQUARE = Box(0.0, 0.0, 2.0, 2.0)
+SHAPES = (
+    Disc(0.3, -0.2, 0.4),
+    Box(-0.8, 0.6, 0.8, 0.3, 0.7),
+    Polygon(((0.5, 0.4), (1.3, 0.6), (0.8, 1.3))),
+    Disc(-0.7, -0.9, 0.2),
+)
 RING = np.linspace(0.0, 2.0 * pi, 721)
 
 
-def outline(polygon: Polygon, count: int = 400) -> np.ndarray:
+def outline(shape: Obstacle, count: int = 400) -> np.ndarray:
     """Points along the edge, shape (m * count, 2)."""
     share = np.linspace(0.0, 1.0, count, endpoint=False)[:, None]
-    ends = np.roll(polygon.points, -1, axis=0)
-    pairs = zip(polygon.points, ends, strict=True)
+    ends = np.roll(shape.outline, -1, axis=0)
+    pairs = zip(shape.outline, ends, strict=True)
     return np.concatenate([a + share * (b - a) for a, b in pairs])
 
 
@@ -41,11 +49,11 @@ def test_clearance_of_a_square_has_three_closed_forms() -> None:
     "shape",
     [
         Disc(0.3, -0.2, 0.4),
-        box(0.2, 0.1, 0.8, 0.3, 0.7),
+        Box(0.2, 0.1, 0.8, 0.3, 0.7),
         Polygon(((0.0, 0.0), (1.0, 0.2), (0.3, 0.9))),
     ],
 )
-def test_clearance_changes_as_far_as_one_walks(shape: Disc | Polygon) -> None:
+def test_clearance_changes_as_far_as_one_walks(shape: Obstacle) -> None:
     """A signed distance has slope one, but where the nearest point jumps."""
     points = np.random.default_rng(1).uniform(-2.0, 2.0, (500, 2))
     small = 1e-6
@@ -68,7 +76,7 @@ def test_polygon_clearance_between_is_that_of_their_outlines() -> None:
     random = np.random.default_rng(2)
     for _ in range(30):
         x, y, turn = random.uniform(-2.0, 2.0, 3)
-        other = box(x, y, 0.7, 0.3, turn)
+        other = Box(x, y, 0.7, 0.3, turn)
         found = clearance_between(SQUARE, other)
         nearest = SQUARE.clearance(outline(other)).min()
         if found > 0.0:
@@ -79,19 +87,21 @@ def test_polygon_clearance_between_is_that_of_their_outlines() -> None:
 
 
 def test_overlap_is_the_least_way_out() -> None:
-    other = box(1.4, 0.2, 1.0, 1.0)
+    other = Box(1.4, 0.2, 1.0, 1.0)
     assert clearance_between(SQUARE, other) == pytest.approx(-0.1)
     assert clearance_between(
-        SQUARE, box(1.4 + 0.1001, 0.2, 1.0, 1.0)
+        SQUARE, Box(1.4 + 0.1001, 0.2, 1.0, 1.0)
     ) == pytest.approx(1e-4)
-    assert clearance_between(SQUARE, Disc(1.2, 0.0, 0.3)) == pytest.approx(
-        -0.1
-    )
+    for x, out in ((1.2, -0.1), (0.8, -0.5)):
+        disc = Disc(x, 0.0, 0.3)
+        assert clearance_between(SQUARE, disc) == pytest.approx(out)
+        assert clearance_between(disc, SQUARE) == pytest.approx(out)
+    assert clearance_between(disc, Disc(0.8, 0.4, 0.2)) == pytest.approx(-0.1)
 
 
 @pytest.mark.parametrize("shape", [Disc(0.0, 0.0, 1.0), SQUARE])
 def test_a_line_crosses_what_one_of_its_points_lies_in(
-    shape: Disc | Polygon,
+    shape: Obstacle,
 ) -> None:
     random = np.random.default_rng(3)
     starts = random.uniform(-3.0, 3.0, (300, 2))
@@ -104,7 +114,7 @@ def test_a_line_crosses_what_one_of_its_points_lies_in(
         ]
     )
     clear = np.abs(nearest) > 0.01  # what samples decide
-    found = crosses(shape, starts, ends)
+    found = ObstacleSet((shape,)).crossed(starts, ends)[:, 0]
     assert 50 < found[clear].sum() < 250
     np.testing.assert_array_equal(found[clear], nearest[clear] < 0.0)
 
@@ -112,7 +122,7 @@ def test_a_line_crosses_what_one_of_its_points_lies_in(
 def test_a_line_along_an_edge_and_one_of_no_length() -> None:
     starts = [[-2.0, 1.0 + 1e-9], [-2.0, 0.99], [0.5, 0.5], [1.5, 0.5]]
     ends = [[2.0, 1.0 + 1e-9], [2.0, 0.99], [0.5, 0.5], [1.5, 0.5]]
-    assert crosses(SQUARE, starts, ends).tolist() == [
+    assert ObstacleSet((SQUARE,)).crossed(starts, ends)[:, 0].tolist() == [
         *(False, True, True, False)
     ]
 
@@ -120,7 +130,7 @@ def test_a_line_along_an_edge_and_one_of_no_length() -> None:
 def test_moved_shapes_keep_their_distances() -> None:
     pose = Pose(0.7, -0.4, 1.1)
     points = np.random.default_rng(4).uniform(-2.0, 2.0, (50, 2))
-    for shape in (Disc(0.2, 0.1, 0.3), box(0.1, 0.5, 0.6, 0.2, 0.3)):
+    for shape in (Disc(0.2, 0.1, 0.3), Box(0.1, 0.5, 0.6, 0.2, 0.3)):
         np.testing.assert_allclose(
             shape.moved(pose).clearance(pose.transform_points(points)),
             shape.clearance(points),
@@ -179,6 +189,7 @@ def test_a_disc_is_what_is_near_its_centre() -> None:
     ring = np.stack([1.0 + np.cos(RING), -2.0 + np.sin(RING)], axis=-1)
     np.testing.assert_allclose(disc.clearance(ring), 0.5, atol=1e-14)
     assert disc.clearance([[1.0, -2.0]])[0] == -0.5
+    assert disc.area == pytest.approx(0.25 * pi)
     assert hypot(*disc.centre) == pytest.approx(sqrt(5.0))
 
 
@@ -199,7 +210,7 @@ def test_a_polygon_is_nowhere_thinner_than_an_edge_may_be_short(
 @pytest.mark.parametrize("name", ["points", "normals", "offsets"])
 def test_nobody_changes_a_polygon(name: str) -> None:
     with pytest.raises(ValueError, match="read-only"):
-        getattr(SQUARE, name)[0] = 0.0
+        getattr(SQUARE.hull, name)[0] = 0.0
 
 
 @pytest.mark.parametrize("name", ["x", "y", "width", "depth", "heading"])
@@ -207,11 +218,87 @@ def test_nobody_changes_a_polygon(name: str) -> None:
 def test_what_is_wrong_with_a_box_is_named(name: str, value: float) -> None:
     given = {"x": 0.1, "y": 0.2, "width": 0.3, "depth": 0.4} | {name: value}
     with pytest.raises(ConfigurationError, match=f"box {name} must"):
-        box(**given)
+        Box(**given)
 
 
 @pytest.mark.parametrize("name", ["width", "depth"])
 def test_a_side_of_a_box_is_an_edge(name: str) -> None:
     given = {"width": 0.3, "depth": 0.4, name: 0.9 * SMALLEST}
     with pytest.raises(ConfigurationError, match=f"box {name} must"):
-        box(0.0, 0.0, **given)
+        Box(0.0, 0.0, **given)
+
+
+def test_a_box_that_is_moved_stays_a_box() -> None:
+    box, pose = Box(0.4, -0.2, 0.6, 0.3, 2.0), Pose(0.7, 1.1, 2.5)
+    moved = box.moved(pose)
+    assert (moved.width, moved.depth) == (0.6, 0.3)
+    assert moved.heading == pytest.approx(4.5 - 2.0 * pi)
+    np.testing.assert_allclose(
+        moved.points, pose.transform_points(box.points), atol=1e-14
+    )
+
+
+def test_a_corner_of_a_box_lies_no_farther_than_anything_may() -> None:
+    with pytest.raises(ConfigurationError, match="box corner x must"):
+        Box(999.0, 0.0, 3.0, 1.0)
+
+
+@pytest.mark.parametrize("one", range(len(SHAPES)))
+@pytest.mark.parametrize("other", range(len(SHAPES)))
+def test_clearance_between_is_the_same_both_ways(one: int, other: int) -> None:
+    """And that of outlines, whatever both are."""
+    first, second = SHAPES[one], SHAPES[other].moved(Pose(1.6, 0.9, 0.4))
+    found = clearance_between(first, second)
+    assert found == pytest.approx(clearance_between(second, first), abs=1e-14)
+    nearest = min(
+        float(first.clearance(outline(second)).min()),
+        float(second.clearance(outline(first)).min()),
+    )
+    assert found == pytest.approx(nearest, abs=3e-3)
+
+
+def test_the_way_out_is_the_slope_of_the_clearance() -> None:
+    """By finite differences; at the edge of a solid it is its normal."""
+    points = np.random.default_rng(6).uniform(-1.5, 1.5, (200, 2))
+    known, small = ObstacleSet(SHAPES), 1e-6
+    slopes = [
+        (known.clearances(points + d) - known.clearances(points - d))
+        / (2.0 * small)
+        for d in (np.array([small, 0.0]), np.array([0.0, small]))
+    ]
+    np.testing.assert_allclose(
+        known.directions_out(points), np.stack(slopes, axis=-1), atol=1e-5
+    )
+
+
+def test_a_set_measures_as_each_of_its_shapes() -> None:
+    points = np.random.default_rng(7).uniform(-2.0, 2.0, (300, 2))
+    starts, ends = points[:150], points[150:]
+    known = ObstacleSet(SHAPES)
+    alone = [ObstacleSet((shape,)) for shape in SHAPES]
+    each = np.stack([shape.clearance(points) for shape in SHAPES], axis=1)
+    np.testing.assert_allclose(known.clearances(points), each, atol=1e-12)
+    np.testing.assert_allclose(known.clearance(points), each.min(axis=1))
+    np.testing.assert_array_equal(
+        known.crossed(starts, ends),
+        np.concatenate([s.crossed(starts, ends) for s in alone], axis=1),
+    )
+    assert NO_OBSTACLES.clearance(points).min() == np.inf
+    assert not NO_OBSTACLES.crossed(starts, ends).any()
+
+
+@pytest.mark.parametrize("radius", [0.0, 0.2])
+def test_a_line_keeps_clear_if_all_its_points_do(radius: float) -> None:
+    random = np.random.default_rng(8)
+    known = ObstacleSet(SHAPES)
+    points = random.uniform(-2.0, 2.0, (400, 2))
+    points = points[known.clearance(points) > radius + 1e-3]
+    start, ends = points[0], points[1:]
+    share = np.linspace(0.0, 1.0, 2001)[:, None]
+    least = np.array(
+        [known.clearance(start + share * (e - start)).min() for e in ends]
+    )
+    decided = np.abs(least - radius) > 0.01
+    found = known.keep_clear(np.full(len(SHAPES), radius), start, ends)
+    assert 20 < found[decided].sum() < decided.sum() - 20
+    np.testing.assert_array_equal(found[decided], least[decided] > radius)

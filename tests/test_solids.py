@@ -5,9 +5,15 @@ from math import cos, pi, radians
 import numpy as np
 import pytest
 
-from stepaside.control.clearance.solids import Solids
 from stepaside.poses import Array, Pose
-from stepaside.rooms import Disc, Obstacle, Polygon, box, clearance_between
+from stepaside.rooms import (
+    Box,
+    Disc,
+    Obstacle,
+    ObstacleSet,
+    Polygon,
+    clearance_between,
+)
 
 FOOT = np.array([[0.09, 0.04], [-0.05, 0.04], [-0.05, -0.03], [0.09, -0.04]])
 COARSE = radians(3.0)  # to the nearest direction, at most
@@ -19,11 +25,11 @@ def scene(seed: int) -> tuple[Obstacle, Array]:
     x, y, turn = random.uniform(-1.0, 1.0, 3).tolist()
     away = Pose(x, y, pi * turn).compose(Pose(1.0, 0.0, 2.0 * turn))
     corners = away.transform_points(FOOT)
-    return (box(x, y, 0.6, 0.3, turn), Disc(x, y, 0.4))[seed % 2], corners
+    return (Box(x, y, 0.6, 0.3, turn), Disc(x, y, 0.4))[seed % 2], corners
 
 
 def found(solids: tuple[Obstacle, ...], corners: Array) -> float:
-    (least,) = Solids(solids).clearances(corners[None]).tolist()
+    (least,) = ObstacleSet(solids).swept_clearances(corners[None]).tolist()
     return float(least)
 
 

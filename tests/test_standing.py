@@ -60,7 +60,7 @@ def test_a_given_room_is_known_as_it_is(outline: BodyOutline) -> None:
     assert clearance is not None
     assert clearance.outline is outline and clearance.margin == 0.07
     assert clearance.surroundings.frame == FRAME
-    assert PILLAR in clearance.surroundings.solids.known
+    assert PILLAR in clearance.surroundings.solids.shapes
 
 
 @pytest.mark.parametrize("unseen", ["free", "taken"])
@@ -70,12 +70,12 @@ def test_a_seen_room_is_known_by_the_own_map(
     clearance = known(source="seen", unseen=unseen)
     assert clearance is not None and clearance.outline is outline
     assert clearance.surroundings.frame == Pose(0.0, 0.0, 0.0)
-    assert clearance.surroundings.solids.known == ()
+    assert clearance.surroundings.solids.shapes == ()
     now: Any = SimpleNamespace(time=0.0)
     body: Any = SimpleNamespace(com=(0.1, 0.2, 0.26))
     clearance.surroundings.note(now, body)
     others = (UNSEEN,) if unseen == "taken" else ()
-    assert clearance.surroundings.solids.known == (PILLAR, *others)
+    assert clearance.surroundings.solids.shapes == (PILLAR, *others)
 
 
 def test_who_reckons_with_a_body_reckons_with_the_own_one() -> None:

@@ -11,15 +11,13 @@ from stepaside.bound import Bound, Grid, against_pursuit
 from stepaside.planning import Direction
 from stepaside.planning.path import UnicycleTrajectory
 from stepaside.poses import Pose
-from stepaside.rooms import RoomRecipe, make_room
+from stepaside.rooms import NO_OBSTACLES, RoomRecipe, make_room, obstacle_set
 from stepaside.steps import (
     NO_VALUE,
-    NOTHING,
     Aims,
     Both,
     Maneuvers,
     StepRules,
-    pack,
 )
 from stepaside.steps.motion import half_turn, step_both
 from stepaside.steps.packed import clearance_at
@@ -31,6 +29,7 @@ from stepaside.strategies.tables import value_table
 FACED = Pose(1.0, 1.0, 3.9)
 RULES = StepRules(0.04, 0.08, 0.04, 0.08)
 ROOM = make_room(RoomRecipe(discs=3, boxes=2, polygons=2, doors=1), 4)
+PACKED, NOTHING = obstacle_set(ROOM.solids).packed, NO_OBSTACLES.packed
 
 
 def place(evader: Pose, pursuer: Pose) -> Both:
@@ -76,10 +75,9 @@ def test_moving_aside_in_steps_ends_on_the_circle_of_the_theory() -> None:
 
 def test_packed_clearance_is_that_of_the_room() -> None:
     points = np.random.default_rng(1).uniform(-1.7, 1.7, (400, 2))
-    packed = pack(ROOM.solids)
-    found = [clearance_at(packed, x, y, inf) for x, y in points.tolist()]
+    found = [clearance_at(PACKED, x, y, inf) for x, y in points.tolist()]
     np.testing.assert_allclose(found, ROOM.clearance(points), atol=1e-12)
-    near = [clearance_at(packed, x, y, 0.3) for x, y in points.tolist()]
+    near = [clearance_at(PACKED, x, y, 0.3) for x, y in points.tolist()]
     np.testing.assert_allclose(near, np.minimum(found, 0.3), atol=1e-12)
     assert clearance_at(NOTHING, 0.0, 0.0, 0.3) == 0.3
 
@@ -158,7 +156,7 @@ def test_the_search_leaves_nothing_out(
         np.array([2, 3, 6]), np.array([0.0, -0.1, 0.1, -0.25, 0.25]), 20
     )
     aims = Aims(0.7, 0.25, 5.0, 2.0, gain=0.0)
-    packed = NOTHING if valued else pack(ROOM.solids)
+    packed = NOTHING if valued else PACKED
     table = value_table(bound, 0.5) if valued else NO_VALUE
     found = look_ahead(both, (), maneuvers, RULES, aims, packed, table)
     expected = brute(both, maneuvers, aims, packed, table)
@@ -202,7 +200,7 @@ def test_on_equal_terms_the_plan_is_kept() -> None:
 
 def test_what_is_too_near_and_out_of_sight_costs() -> None:
     both = place(Pose(0.0, 0.0, 0.0), Pose(1.0, 1.0, 0.0))
-    packed = pack((make_room(RoomRecipe(discs=1), 1).obstacles[0],))
+    packed = obstacle_set(make_room(RoomRecipe(discs=1), 1).obstacles).packed
     x, y, radius = packed.discs[0]
     near = both._replace(
         ex=x + radius + 0.15, ey=y, px=x + radius + 1.15, py=y
@@ -221,7 +219,7 @@ def test_it_turns_on_the_spot_first_only_if_that_is_better(seed: int) -> None:
     random = np.random.default_rng(seed)
     evader = Pose(1.2, 1.2, float(random.uniform(-pi, pi)))
     pursuer = Pose(*random.uniform([0.3, 0.3, -pi], [0.7, 0.7, pi]).tolist())
-    both, packed = place(evader, pursuer), pack(ROOM.solids)
+    both, packed = place(evader, pursuer), PACKED
     maneuvers = Maneuvers(
         np.array([2, 3]), np.array([0.0, -0.25, 0.25]), 9, spots=4
     )
@@ -256,7 +254,10 @@ def test_it_turns_on_the_spot_first_only_if_that_is_better(seed: int) -> None:
 
 def test_a_search_ends_when_it_has_rolled_out_enough() -> None:
     """What it has by then counts; one maneuver is always whole."""
-    both, packed = place(FACED, Pose(0.3, 0.4, 0.0)), pack(ROOM.solids)
+    both, packed = (
+        place(FACED, Pose(0.3, 0.4, 0.0)),
+        PACKED,
+    )
     turns = np.linspace(-0.25, 0.25, 7)
     maneuvers = Maneuvers(np.array([2, 4, 8]), turns, 20, spots=12)
     aims = Aims(9.0, tight=inf)

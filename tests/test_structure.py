@@ -20,6 +20,7 @@ FLOORS = {
     "laws": 0,
     "poses": 0,
     "values": 0,
+    "convex": 0,
     "randomness": 0,
     "rooms": 1,
     "doors": 1,

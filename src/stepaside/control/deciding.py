@@ -194,7 +194,7 @@ class Decisions:
             max(0.0, now - seen.time),
             self._around.frame.compose(template),
             moving,
-            self._around.solids.known,
+            self._around.solids.shapes,
             drift,
             spread=seen.spread,
             blur=self._around.blur,

@@ -26,6 +26,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..convex import convex_hull
 from ..errors import (
     check_bearing,
     check_not_negative,
@@ -36,7 +37,7 @@ from ..poses import Array
 from .footsteps import Foot
 from .plan import ManeuverPlan
 from .settings import GaitSettings
-from .support import convex_hull, sole_corners
+from .support import sole_corners
 
 MOST_STEPS = 20  # more change nothing: each counts by exp(-eta T)
 

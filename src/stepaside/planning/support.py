@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..convex import convex_hull, half_planes
 from ..poses import Array
 from .footsteps import Foot
 from .schedule import Schedule
@@ -118,41 +119,3 @@ def sole_corners(pose: Array, foot: Foot, sole: Sole) -> Array:
     c, s = np.cos(theta), np.sin(theta)
     corners: Array = left @ np.array([[c, s], [-s, c]]) + (x, y)
     return corners
-
-
-def convex_hull(points: Array) -> Array:
-    """Corners of the convex hull, counter-clockwise. Shapes (n, 2), (m, 2).
-
-    Andrew's monotone chain.
-    """
-    ordered = sorted(map(tuple, points.tolist()))
-    hull: list[tuple[float, ...]] = []
-    for chain in (ordered, ordered[::-1]):
-        begun = len(hull)
-        for p in chain:
-            while len(hull) >= begun + 2:
-                (ax, ay), (bx, by) = hull[-2], hull[-1]
-                if (bx - ax) * (p[1] - ay) > (by - ay) * (p[0] - ax):
-                    break
-                hull.pop()
-            hull.append(p)
-        hull.pop()
-    return np.array(hull)
-
-
-def half_planes(polygon: Array) -> tuple[Array, Array]:
-    """Half planes whose intersection is a convex polygon.
-
-    Args:
-        polygon: Corners, counter-clockwise, in [m]. Shape (n, 2).
-
-    Returns:
-        Unit normals a that point outwards, and offsets b in [m]: a point p
-        is inside if a p <= b for all, and b - a p is its distance from an
-        edge. Shapes (n, 2), (n,).
-    """
-    edges = np.roll(polygon, -1, axis=0) - polygon
-    normals = np.column_stack([edges[:, 1], -edges[:, 0]])
-    normals /= np.hypot(edges[:, 0], edges[:, 1])[:, None]
-    offsets: Array = (normals * polygon).sum(axis=1)
-    return normals, offsets

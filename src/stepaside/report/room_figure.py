@@ -9,7 +9,7 @@ from matplotlib.patches import Polygon as Outline
 
 from ..games.run import Run
 from ..poses import Array
-from ..rooms import BODY_RADIUS, Disc, Obstacle, Room
+from ..rooms import BODY_RADIUS, Obstacle, Room
 from .sizes import sheet
 from .style import (
     EVADER,
@@ -33,12 +33,7 @@ def solid_patches(solids: Iterable[Obstacle], **look: Any) -> list[Patch]:
         look: How to draw them.
     """
     look = {"facecolor": SOLID, "edgecolor": "none", "zorder": 1} | look
-    return [
-        Circle(solid.centre, solid.radius, **look)
-        if isinstance(solid, Disc)
-        else Outline(solid.points, closed=True, **look)
-        for solid in solids
-    ]
+    return [Outline(solid.outline, closed=True, **look) for solid in solids]
 
 
 def room_patches(room: Room, time: float = 0.0) -> list[Patch]:

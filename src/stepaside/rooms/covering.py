@@ -3,8 +3,7 @@
 import numpy as np
 
 from ..poses import Array
-from .built import hull
-from .shapes import Polygon
+from .shapes import Polygon, hull
 
 LOOSE = 2.2  # area of a hull over that of its cells; 2 along a diagonal
 

@@ -4,20 +4,22 @@ import json
 import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
+from inspect import signature
 from typing import Any
 
 import tomli_w
 
 from ..errors import AnyPath, ConfigurationError, as_path
 from ..poses import Pose
-from .built import WALL, box, wall_between
 from .moving import MovingBox
-from .room import Door, Obstacle, Room
-from .shapes import Disc, Polygon
+from .obstacles import Obstacle
+from .room import Door, Room
+from .shapes import Box, Disc, Polygon, wall_between
 
 ERROR = ConfigurationError
 LONGEST = 2**20  # text of a room, in [characters]
-SOLIDS = ("discs", "boxes", "polygons", "walls")
+LISTED = {"disc": "discs", "box": "boxes", "polygon": "polygons"}
+SOLIDS = (*LISTED.values(), "walls")
 LISTS = (*SOLIDS, "doors", "moving")
 KNOWN = ("width", "depth", *LISTS, "pursuer", "evader")
 
@@ -107,24 +109,14 @@ def room_entries(room: Room) -> dict[str, Any]:
     entries: dict[str, Any] = {}
     if room.has_walls:
         entries |= {"width": room.width, "depth": room.depth}
-    discs = [o for o in room.obstacles if isinstance(o, Disc)]
-    polygons = [o for o in room.obstacles if isinstance(o, Polygon)]
     if room.starts is not None:
         for name, pose in zip(KNOWN[-2:], room.starts, strict=True):
             entries[name] = pose._asdict()
-    if discs:
-        entries["discs"] = [
-            {"x": d.x, "y": d.y, "radius": d.radius} for d in discs
-        ]
-    if polygons:
-        entries["polygons"] = [
-            {"corners": [list(corner) for corner in p.corners]}
-            for p in polygons
-        ]
+    for obstacle in room.obstacles:
+        listed = entries.setdefault(LISTED[obstacle.kind], [])
+        listed.append(asdict(obstacle))
     if room.doors:
-        entries["doors"] = [
-            {"side": d.side, "at": d.at, "width": d.width} for d in room.doors
-        ]
+        entries["doors"] = [asdict(door) for door in room.doors]
     if room.moving:
         entries["moving"] = [
             asdict(box) | {"to": list(box.to)} for box in room.moving
@@ -137,66 +129,57 @@ def room_text(room: Room) -> str:
     return tomli_w.dumps(room_entries(room))
 
 
-def _wall(start: Any, end: Any, thickness: float = WALL) -> Polygon:
-    return wall_between(_pair(start, "start"), _pair(end, "end"), thickness)
-
-
-def _moving(to: Any, **values: float) -> MovingBox:
-    return MovingBox(to=_pair(to, "to"), **values)
-
-
 def _pair(given: Any, name: str) -> tuple[float, float]:
     if not isinstance(given, list) or len(given) != 2:
         raise ERROR(f"{name} must be a pair x, y [m], got {given!r:.40}")
     return _real(given[0], f"{name} x"), _real(given[1], f"{name} y")
 
 
-def _polygon(corners: Any) -> Polygon:
-    return Polygon(corners)
+def _start(x: float, y: float, theta: float = 0.0) -> Pose:
+    return Pose(x, y, theta)
 
 
-# What makes each, which of its entries must be there, and which may.
-_MAKERS: dict[str, tuple[Callable[..., Any], set[str], set[str]]] = {
-    "discs": (Disc, {"x", "y", "radius"}, set()),
-    "boxes": (box, {"x", "y", "width", "depth"}, {"heading"}),
-    "polygons": (_polygon, {"corners"}, set()),
-    "walls": (_wall, {"start", "end"}, {"thickness"}),
-    "doors": (Door, {"side"}, {"at", "width"}),
-    "moving": (
-        _moving,
-        {"x", "y", "width", "depth", "to"},
-        {"speed", "heading"},
-    ),
-    "pursuer": (Pose, {"x", "y"}, {"theta"}),
-    "evader": (Pose, {"x", "y"}, {"theta"}),
+# What makes each; its parameters are the entries, those without a default
+# must be there.
+_MAKERS: dict[str, Callable[..., Any]] = {
+    "discs": Disc,
+    "boxes": Box,
+    "polygons": Polygon,
+    "walls": wall_between,
+    "doors": Door,
+    "moving": MovingBox,
+    "pursuer": _start,
+    "evader": _start,
 }
-_NO_NUMBERS = ("corners", "start", "end", "side", "to")
 
 
 def _made(name: str, number: int, given: Any) -> Any:
     """Make one thing of a list; messages say which."""
-    maker, needed, allowed = _MAKERS[name]
+    maker = _MAKERS[name]
+    parameters = signature(maker).parameters.values()
+    needed = {p.name for p in parameters if p.default is p.empty}
+    known = {p.name for p in parameters}
     place = f"{name} {number}" if number else name
     if not isinstance(given, dict):
         raise ERROR(f"{place} must be a table, got {given!r:.40}")
     missing = sorted(needed - set(given))
-    strange = sorted(set(given) - needed - allowed)
+    strange = sorted(set(given) - known)
     if missing or strange:
         wrong = f"no {missing[0]}" if missing else f"{strange[0]!r:.40}"
         raise ERROR(
-            f"{place} must have {', '.join(sorted(needed | allowed))}, "
-            f"got {wrong}"
+            f"{place} must have {', '.join(sorted(known))}, got {wrong}"
         )
     try:
-        values = {
-            key: value if key in _NO_NUMBERS else _real(value, key)
-            for key, value in given.items()
-        }
-        if maker is Pose:
-            values = {"theta": 0.0} | values
-        return maker(**values)
+        return maker(**{key: _read(key, given[key]) for key in given})
     except ConfigurationError as error:
         raise ERROR(f"{place}: {error}") from error
+
+
+def _read(key: str, value: Any) -> Any:
+    """Return the value of an entry: a pair, a number, or as it is."""
+    if key in ("start", "end", "to"):
+        return _pair(value, key)
+    return value if key in ("corners", "side") else _real(value, key)
 
 
 def _numbered(listed: list[Any]) -> list[tuple[int, Any]]:

@@ -8,11 +8,10 @@ import numpy as np
 from ..errors import ConfigurationError, check_within
 from ..poses import Array, Pose
 from ..randomness import named_generator
-from .built import box
-from .distance import clearance_between
+from .obstacles import Obstacle, clearance_between
 from .outline import check_coordinate
-from .room import LARGEST, MOST, SIDES, SMALLEST, Door, Obstacle, Room
-from .shapes import Disc, Polygon
+from .room import LARGEST, MOST, SIDES, SMALLEST, Door, Room
+from .shapes import Box, Disc, Polygon
 from .starts import BODY_RADIUS
 from .ways import has_way
 
@@ -109,7 +108,9 @@ def make_room(recipe: RoomRecipe, seed: int) -> Room:
                 abs(at) + radius <= 0.5 * side
                 for at, side in zip((x, y), recipe.floor, strict=True)
             )
-            if inside and not any(_overlap(around, o) for o in obstacles):
+            if inside and not any(
+                clearance_between(o, around) < 0.0 for o in obstacles
+            ):
                 obstacles.append(made)
                 break
         else:
@@ -170,10 +171,11 @@ def _disc(x: float, y: float, r: float, random: np.random.Generator) -> Disc:
     return Disc(x, y, r)
 
 
-def _box(x: float, y: float, r: float, random: np.random.Generator) -> Polygon:
+def _box(x: float, y: float, r: float, random: np.random.Generator) -> Box:
     half = random.uniform(radians(25.0), radians(65.0))  # of its diagonal
     heading = random.uniform(-pi, pi)
-    return box(x, y, 2 * r * np.cos(half), 2 * r * np.sin(half), heading)
+    width, depth = 2 * r * np.cos(half), 2 * r * np.sin(half)
+    return Box(x, y, float(width), float(depth), heading)
 
 
 def _polygon(
@@ -185,12 +187,6 @@ def _polygon(
     angles = 2 * pi * angles / count + random.uniform(-pi, pi)
     ring = np.stack([x + r * np.cos(angles), y + r * np.sin(angles)], axis=-1)
     return Polygon(tuple((a, b) for a, b in ring.tolist()))
-
-
-def _overlap(disc: Disc, other: Obstacle) -> bool:
-    if isinstance(other, Polygon):
-        return clearance_between(other, disc) < 0.0
-    return float(other.clearance([disc.centre])[0]) < disc.radius
 
 
 def _draw_door(

@@ -5,10 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from .distance import clearance_between
 from .files import room_entries
+from .obstacles import clearance_between
 from .room import Room
-from .shapes import Disc
 from .starts import BODY_RADIUS
 
 CELL = 0.02  # of the grid that measures areas, in [m]
@@ -49,15 +48,5 @@ def measure_room(room: Room, radius: float = BODY_RADIUS) -> dict[str, Any]:
 
 def _narrowest_gap(room: Room) -> float | None:
     """Least distance between two solids that do not touch, in [m]."""
-    gaps = []
-    for one, other in combinations(room.solids, 2):
-        if isinstance(one, Disc) and isinstance(other, Disc):
-            apart = float(one.clearance([other.centre])[0]) - other.radius
-        elif isinstance(one, Disc):
-            assert not isinstance(other, Disc)
-            apart = clearance_between(other, one)
-        else:
-            apart = clearance_between(one, other)
-        if apart > 1e-6:
-            gaps.append(apart)
-    return min(gaps) if gaps else None
+    apart = (clearance_between(*pair) for pair in combinations(room.solids, 2))
+    return min((gap for gap in apart if gap > 1e-6), default=None)

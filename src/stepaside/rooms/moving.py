@@ -6,9 +6,8 @@ from math import hypot
 import numpy as np
 
 from ..errors import check_within
-from .built import box, hull
 from .outline import ERROR, check_coordinate
-from .shapes import Polygon
+from .shapes import Box, Polygon, hull
 
 FASTEST = 0.2  # of a box that robots can keep clear of, in [m/s]
 
@@ -48,7 +47,7 @@ class MovingBox:
         check_within(
             self.speed, 1e-3, FASTEST, "moving box speed", "m/s", ERROR
         )
-        box(self.x, self.y, self.width, self.depth, self.heading)
+        Box(self.x, self.y, self.width, self.depth, self.heading)
         if not self.length > 1e-3:
             raise ERROR(
                 "moving box to must be at least 0.001 [m] from where it "
@@ -61,7 +60,7 @@ class MovingBox:
         return hypot(self.to[0] - self.x, self.to[1] - self.y)
 
     @property
-    def ends(self) -> tuple[Polygon, Polygon]:
+    def ends(self) -> tuple[Box, Box]:
         """Floor that it covers at both ends of its way."""
         return self.at(0.0), self.at(self.length / self.speed)
 
@@ -74,9 +73,9 @@ class MovingBox:
             self.y + share * (self.to[1] - self.y),
         )
 
-    def at(self, time: float) -> Polygon:
+    def at(self, time: float) -> Box:
         """Floor that it covers at a time, in [s]."""
-        return box(*self.place_at(time), self.width, self.depth, self.heading)
+        return Box(*self.place_at(time), self.width, self.depth, self.heading)
 
     def swept(self, begin: float, end: float) -> Polygon:
         """Floor that it covers from one time to another, in [s]."""

@@ -42,13 +42,6 @@ def checked_corners(corners: object) -> tuple[tuple[float, float], ...]:
     return tuple((float(x), float(y)) for x, y in corners)
 
 
-def area_of(points: Array) -> float:
-    """Area inside of corners, negative if they are clockwise, in [m^2]."""
-    after = np.roll(points, -1, axis=0)
-    doubled = points[:, 0] * after[:, 1] - points[:, 1] * after[:, 0]
-    return 0.5 * float(doubled.sum())
-
-
 def crosses_itself(points: Array) -> bool:
     """Whether two edges that are no neighbours meet."""
     count = len(points)

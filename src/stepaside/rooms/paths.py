@@ -2,14 +2,12 @@
 
 from collections.abc import Sequence
 from functools import lru_cache
-from math import ceil, cos, pi
+from math import ceil, cos, pi, tau
 
 import numpy as np
 
 from ..poses import Array
-from .room import Obstacle
-from .shapes import Disc
-from .standing import standing
+from .obstacles import Obstacle, obstacle_set
 
 ARC = pi / 8  # of a corner that one edge of a way goes around, in [rad]
 KEPT = 0.4  # by which a way must be shorter to change sides, in [m]
@@ -43,10 +41,10 @@ def first_point(
         first corner of the shortest way.
     """
     known = tuple(solids)
-    near, around = np.array([start, end]), standing(known)
+    near, around = np.array([start, end]), obstacle_set(known)
     clear = around.clearances(near).min(axis=0)
     allowed = np.minimum(radius, clear - 1e-9)
-    if around.free(allowed, near[0], near[1:])[0]:
+    if around.keep_clear(allowed, near[0], near[1:])[0]:
         return end
     floor = _floor(known, radius)
     corners = floor.corners
@@ -83,9 +81,9 @@ class _Floor:
 
     def __init__(self, solids: tuple[Obstacle, ...], radius: float) -> None:
         """Find the corners for a disc of a radius, in [m]."""
-        self._standing = standing(solids)
+        self._known = obstacle_set(solids)
         corners = _corners(solids, radius)
-        clear = self._standing.clearances(corners) >= radius
+        clear = self._known.clearances(corners) >= radius
         self.corners: Array = corners[clear.all(axis=1)]
         self._allowed = np.full(len(solids), radius)
         self._between: dict[int, Array] = {}
@@ -100,7 +98,7 @@ class _Floor:
     def ways(self, allowed: Array, place: Array) -> Array:
         """Lengths of straight ways to all corners; infinite if not free."""
         found: Array = np.where(
-            self._standing.free(allowed, place, self.corners),
+            self._known.keep_clear(allowed, place, self.corners),
             np.hypot(*(self.corners - place).T),
             np.inf,
         )
@@ -114,17 +112,14 @@ def _corners(solids: tuple[Obstacle, ...], radius: float) -> Array:
     """Corners of the ways around each solid alone, in [m]. Shape (n, 2)."""
     found = [np.zeros((0, 2))]
     for solid in solids:
-        if isinstance(solid, Disc):
-            away = solid.radius + radius + GAP
-            found.append(np.array(solid.centre) + _arc(0.0, 2 * pi, away))
-            continue
-        facing = np.arctan2(solid.normals[:, 1], solid.normals[:, 0])
-        for corner, before, after in zip(
-            solid.points, np.roll(facing, 1), facing, strict=True
+        away = solid.hull.radius + radius + GAP
+        after = np.arctan2(*solid.hull.normals.T[::-1])
+        begins = np.roll(after, 1)
+        turns = (after - begins) % tau if len(after) > 1 else [tau]
+        for corner, begin, turn in zip(
+            solid.points, begins, turns, strict=True
         ):
-            turn = float((after - before) % (2.0 * pi))
-            arc = _arc(float(before), turn, radius + GAP)
-            found.append(corner + arc)
+            found.append(corner + _arc(float(begin), float(turn), away))
     return np.concatenate(found)
 
 

@@ -8,16 +8,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ConfigurationError, check_bearing, check_within
 from ..poses import Array, Pose
-from .built import WALL, box
-from .distance import clearance_between, crosses
 from .moving import MovingBox
+from .obstacles import Obstacle, ObstacleSet
 from .outline import check_coordinate
-from .shapes import Disc, Polygon
+from .shapes import WALL, Box
 
 ERROR = ConfigurationError
-Obstacle = Disc | Polygon
 Solids = tuple[Obstacle, ...]
 SIDES = ("east", "north", "west", "south")
+KINDS = ("disc", "box", "polygon")  # of obstacles, in the order of files
 SMALLEST, LARGEST = 0.5, 100.0  # of a room, in [m]
 MOST = 500  # obstacles, doors
 
@@ -59,7 +58,8 @@ class Room:
     Attributes:
         width: Of the floor, along x, in [m]; None for no walls.
         depth: Of the floor, along y, in [m]; None for no walls.
-        obstacles: What stands in it; obstacles may touch each other.
+        obstacles: What stands in it; obstacles may touch each other. Kept as
+            files have them: discs, then boxes, then polygons.
         doors: Gaps in the walls, beyond which the floor goes on.
         starts: Where pursuer and evader stand at first, if it says so.
         moving: Boxes that are pushed to and fro in it.
@@ -89,6 +89,8 @@ class Room:
                     f"a room must have at most {MOST} {what} [1], got {count}"
                 )
         self._check_doors()
+        ordered = sorted(self.obstacles, key=lambda o: KINDS.index(o.kind))
+        object.__setattr__(self, "obstacles", tuple(ordered))
         ends = [place for box in self.moving for place in box.ends]
         for obstacle in (*self.obstacles, *ends):
             if self.has_walls and not self.is_inside([obstacle.centre])[0]:
@@ -134,7 +136,7 @@ class Room:
         return self.has_walls and not self.doors
 
     @cached_property
-    def walls(self) -> tuple[Polygon, ...]:
+    def walls(self) -> tuple[Box, ...]:
         """Pieces of the walls, from door to door."""
         if self.width is None or self.depth is None:
             return ()
@@ -157,9 +159,9 @@ class Room:
                 if length < 1e-3:
                     continue
                 if upright:
-                    pieces.append(box(away, middle, WALL, length))
+                    pieces.append(Box(away, middle, WALL, length))
                 else:
-                    pieces.append(box(middle, away, length, WALL))
+                    pieces.append(Box(middle, away, length, WALL))
         return tuple(pieces)
 
     @property
@@ -176,15 +178,6 @@ class Room:
         """
         end = time + ahead
         return (*self.solids, *(b.swept(time, end) for b in self.moving))
-
-    def solids_in(self, frame: Pose) -> tuple[Obstacle, ...]:
-        """Solids as seen in a frame.
-
-        Args:
-            frame: Pose of the frame in the room.
-        """
-        inverse = frame.inverse()
-        return tuple(solid.moved(inverse) for solid in self.solids)
 
     def is_inside(self, points: ArrayLike) -> NDArray[np.bool_]:
         """Whether points lie between the walls; all do without. (n,)."""
@@ -207,23 +200,12 @@ class Room:
             (n,).
         """
         asked = np.asarray(points, dtype=np.float64)
-        found: Array = np.full(len(asked), np.inf)
-        for solid in self.obstacles if self.is_closed else self.solids:
-            np.minimum(found, solid.clearance(asked), out=found)
+        known = self._obstacle_set if self.is_closed else self._solid_set
+        found = known.clearance(asked)
         if self.is_closed:
             half = 0.5 * np.array([self.width, self.depth])
             np.minimum(found, (half - np.abs(asked)).min(axis=1), out=found)
         return found
-
-    def footprint_clearance(self, footprint: Polygon) -> float:
-        """Distance of a convex footprint to the nearest solid, in [m].
-
-        See :func:`~stepaside.rooms.clearance_between`.
-        """
-        return min(
-            (clearance_between(footprint, solid) for solid in self.solids),
-            default=float("inf"),
-        )
 
     def sees(self, starts: ArrayLike, ends: ArrayLike) -> NDArray[np.bool_]:
         """Whether nothing stands between points.
@@ -235,11 +217,17 @@ class Room:
         Returns:
             Whether the line between each two touches no solid. Shape (n,).
         """
-        free: NDArray[np.bool_]
-        free = np.ones(len(np.asarray(starts)), dtype=np.bool_)
-        for solid in self.solids:
-            free &= ~crosses(solid, starts, ends)
-        return free
+        hidden: NDArray[np.bool_]
+        hidden = np.any(self._solid_set.crossed(starts, ends), axis=1)
+        return ~hidden
+
+    @cached_property
+    def _obstacle_set(self) -> ObstacleSet:
+        return ObstacleSet(self.obstacles)
+
+    @cached_property
+    def _solid_set(self) -> ObstacleSet:
+        return ObstacleSet(self.solids)
 
 
 OPEN_FLOOR = Room()

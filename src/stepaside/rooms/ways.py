@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from ..poses import Array
 from .room import Room
-from .shapes import Disc
 
 CELL = 0.02  # of the grid on which ways are sought, in [m]
 MOST = 4_000_000  # cells
@@ -90,11 +89,7 @@ def _extent(room: Room, points: Array, radius: float) -> tuple[Array, Array]:
         half = 0.5 * np.array([room.width, room.depth], dtype=np.float64)
         return -half, half
     for solid in room.solids:
-        corners = (
-            np.array(solid.centre) + [[-solid.radius], [solid.radius]]
-            if isinstance(solid, Disc)
-            else solid.points
-        )
-        points = np.concatenate([points, corners])
+        corners, reach = solid.points, solid.hull.radius
+        points = np.concatenate([points, corners - reach, corners + reach])
     beyond = 2.0 * radius + CELL  # all the way around everything
     return points.min(axis=0) - beyond, points.max(axis=0) + beyond

@@ -4,10 +4,11 @@ from math import atan2, pi
 from pathlib import Path
 from typing import Any
 
+from ..rooms.obstacles import PackedObstacles
 from ..unicycle.compiled import compiled, forget_stale, inlined, load_numba
 from .maneuvers import Aims
 from .motion import Both, StepRules, half_turn, step_both
-from .packed import Packed, clearance_at
+from .packed import clearance_at
 from .value import ValueTable, value_at
 
 if load_numba() is not None:
@@ -18,7 +19,9 @@ if load_numba() is not None:
 
 
 @inlined
-def judge(both: Both, score: float, aims: Aims, packed: Packed) -> float:
+def judge(
+    both: Both, score: float, aims: Aims, packed: PackedObstacles
+) -> float:
     """Score after one more step, given that before it."""
     dx, dy = both.px - both.ex, both.py - both.ey
     worth = min((dx * dx + dy * dy) ** 0.5, aims.enough)
@@ -55,7 +58,7 @@ def law_turn(both: Both, side: float, angle: float, share: float) -> float:
 def follow(
     both: Both, score: float, turns: Any, count: int, spot: int,
     still: StepRules, horizon: int, best: float, angle: float,
-    rules: StepRules, aims: Aims, packed: Packed, table: ValueTable,
+    rules: StepRules, aims: Aims, packed: PackedObstacles, table: ValueTable,
 ) -> tuple[float, int]:  # fmt: skip
     """Roll a maneuver out that is given as turns, then the law.
 

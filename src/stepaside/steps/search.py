@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
+from ..rooms.obstacles import PackedObstacles
 from ..unicycle.compiled import compiled
 from .maneuvers import DEEPEST, Aims, Found, Maneuvers
 from .motion import Both, StepRules, half_turn, step_both
-from .packed import Packed
 from .rollout import follow, judge
 from .value import ValueTable
 
@@ -25,8 +25,8 @@ from .value import ValueTable
 @compiled
 def descend(
     both: Both, start: float, first: int, made: int, best: float,
-    maneuvers: Maneuvers, rules: StepRules, aims: Aims, packed: Packed,
-    table: ValueTable, chosen: Any, work: Any,
+    maneuvers: Maneuvers, rules: StepRules, aims: Aims,
+    packed: PackedObstacles, table: ValueTable, chosen: Any, work: Any,
 ) -> tuple[float, int]:  # fmt: skip
     """Go down the tree of pieces.
 
@@ -100,7 +100,7 @@ def descend(
 @compiled
 def search(
     both: Both, plan: Any, planned: int, maneuvers: Maneuvers,
-    rules: StepRules, aims: Aims, packed: Packed, table: ValueTable,
+    rules: StepRules, aims: Aims, packed: PackedObstacles, table: ValueTable,
     chosen: Any, work: Any,
 ) -> tuple[float, int, int]:  # fmt: skip
     """Find the best maneuver; see :func:`look_ahead`.
@@ -182,7 +182,7 @@ def look_ahead(
     maneuvers: Maneuvers,
     rules: StepRules,
     aims: Aims,
-    packed: Packed,
+    packed: PackedObstacles,
     table: ValueTable,
     *,
     planned: int = 0,

@@ -1,12 +1,12 @@
 """Move aside, deflected by what stands around."""
 
 from dataclasses import dataclass, field
-from math import atan2, cos, inf, sin
+from math import atan2, cos, sin
 
 from ..errors import ConfigurationError, check_positive
 from ..planning import Direction
 from ..poses import wrap_angle
-from ..steps.packed import clearance_at, pack
+from ..rooms import obstacle_set
 from .evasion import Evasion, EvasionMemory
 from .knowledge import Intent, Knowledge
 
@@ -65,15 +65,14 @@ class Deflected:
         pose = knowledge.pose
         back = pose.theta + intent.heading
         x, y = -cos(back), -sin(back)  # it walks backward
-        for solid in knowledge.obstacles:
-            packed = pack((solid,))
-            here = clearance_at(packed, pose.x, pose.y, inf)
+        places = [(pose.x, pose.y), (pose.x + SMALL, pose.y)]
+        places.append((pose.x, pose.y + SMALL))
+        clearances = obstacle_set(knowledge.obstacles).clearances(places)
+        for here, east, north in clearances.T.tolist():
             gap = max(here - self.body_radius, NEAREST)
             if gap >= self.reach:
                 continue
             push = self.strength * (1.0 / gap - 1.0 / self.reach)
-            east = clearance_at(packed, pose.x + SMALL, pose.y, inf)
-            north = clearance_at(packed, pose.x, pose.y + SMALL, inf)
             x += push * (east - here) / SMALL
             y += push * (north - here) / SMALL
         heading = wrap_angle(atan2(-y, -x) - pose.theta)

@@ -14,15 +14,8 @@ from ..errors import (
     check_within,
 )
 from ..planning import Direction
-from ..steps import (
-    NO_VALUE,
-    NOTHING,
-    Aims,
-    Both,
-    Maneuvers,
-    StepRules,
-    pack,
-)
+from ..rooms import NO_OBSTACLES, obstacle_set
+from ..steps import NO_VALUE, Aims, Both, Maneuvers, StepRules
 from ..steps.maneuvers import DEEPEST
 from ..steps.motion import half_turn, step_both
 from ..steps.packed import clearance_at
@@ -171,7 +164,8 @@ class LookAhead:
         if knowledge.begins is not None:
             both = moved_on(both, knowledge, knowledge.begins)
         bounded = bool(knowledge.obstacles)
-        packed = pack(knowledge.obstacles) if bounded else NOTHING
+        known = obstacle_set(knowledge.obstacles) if bounded else NO_OBSTACLES
+        packed = known.packed
         table = NO_VALUE
         if not bounded and self.cells and self.pieces:
             table = pursuit_table(self.cells, limits.speed / limits.gain)
@@ -230,7 +224,7 @@ class LookAhead:
     ) -> bool:
         """Whether the step would touch something, and standing would not."""
         after = step_both(both, *half_turn(0.5 * turn), rules)
-        packed = pack(knowledge.obstacles)
+        packed = obstacle_set(knowledge.obstacles).packed
         radius = self.body_radius
         here = clearance_at(packed, both.ex, both.ey, radius)
         there = clearance_at(packed, after.ex, after.ey, radius)

@@ -10,9 +10,8 @@ from .. import laws
 from ..planning import Direction
 from ..poses import wrap_angle
 from ..ranges import Range, Ranges, check_settings
-from ..rooms import BODY_RADIUS
+from ..rooms import BODY_RADIUS, obstacle_set
 from ..rooms.paths import first_point
-from ..rooms.standing import standing
 from .approach import swift_heading
 from .knowledge import Intent, Knowledge, Limits
 
@@ -89,7 +88,9 @@ class Pursuit:
         x, y, theta = knowledge.pose
         ahead = AHEAD * knowledge.limits.stride
         way = [(x, y), (x + ahead * cos(theta), y + ahead * sin(theta))]
-        here, after = standing(knowledge.obstacles).clearances(np.array(way))
+        here, after = obstacle_set(knowledge.obstacles).clearances(
+            np.array(way)
+        )
         nearer = after < np.minimum(self.body_radius, here - 1e-9)
         return bool(nearer.any())
 

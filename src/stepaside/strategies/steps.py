@@ -12,8 +12,8 @@ from ..constants import CAPTURE_DISTANCE
 from ..errors import check_bearing, check_positive, check_within
 from ..planning import Direction
 from ..poses import Array, Pose, wrap_angle
-from ..rooms import OPEN_FLOOR, Obstacle, Room
-from ..steps.packed import clearance_at, pack
+from ..rooms import OPEN_FLOOR, Obstacle, Room, obstacle_set
+from ..steps.packed import clearance_at
 from ..values import brief_repr
 from .decider import Decider
 from .knowledge import Intent, Limits
@@ -213,7 +213,7 @@ def play_steps(
     stops = room.solids if game.solid_pursuer else ()
     hunter = _Player(pursuer, starts[0], game, stops)
     prey = _Player(evader, starts[1], game, room.solids)
-    packed = pack(room.solids)
+    packed = obstacle_set(room.solids).packed
     ways: list[tuple[Pose, Pose]] = [(hunter.pose, prey.pose)]
     bearings = [prey.bearing_of(hunter.pose)]
     clearances = [clearance_at(packed, prey.pose.x, prey.pose.y, inf)]

@@ -8,14 +8,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..control.clearance.settings import MapSettings
-from ..control.clearance.solids import Solids
 from ..games.duel_run import DuelRun
 from ..games.outcome import Outcome
 from ..games.settings import PLAYERS, DuelSettings
 from ..games.track import Track
 from ..poses import Array, Pose, wrap_angles
 from ..robots.description import load_robot
-from ..rooms import Room
+from ..rooms import ObstacleSet, Room
 from ..strategies import Evasion
 from ..world.camera_settings import RoomSettings
 from ..world.outline import measure_outline
@@ -160,9 +159,11 @@ def clearance(run: DuelRun, name: str) -> float | None:
     settings, track = run.settings, run.tracks[name]
     if settings.room.plan is None:
         return None
-    solids = Solids(settings.room.plan.solids)
+    solids = ObstacleSet(settings.room.plan.solids)
     outline = measure_outline(load_robot(settings.robot), settings.gait)
-    found = float(solids.clearances(_corners(outline.trunk, track)).min())
+    found = float(
+        solids.swept_clearances(_corners(outline.trunk, track)).min()
+    )
     return found if isfinite(found) else None
 
 

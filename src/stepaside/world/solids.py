@@ -1,19 +1,19 @@
 """The solids of a room, in MuJoCo: pillars, boxes and walls."""
 
 from collections.abc import Callable
+from math import cos, sin
+from typing import Any
 
 import mujoco
 import numpy as np
 
-from ..poses import Array
-from ..rooms import Disc, Obstacle, Polygon, Room
+from ..rooms import Box, Disc, Obstacle, Polygon, Room
 
 FLOOR_BIT = 1  # as of the floor: robots run into it
 HEIGHT = 0.6  # of all of them, a little above a NAO's head, in [m]
 GREY = (0.54, 0.56, 0.60, 1.0)
 BROWN = (0.60, 0.44, 0.28, 1.0)  # of what moves
 PALE = (0.78, 0.79, 0.81, 1.0)  # of walls
-SQUARE = 1e-9  # sum of cosines up to which corners are right angles
 
 
 def add_solids(spec: mujoco.MjSpec, room: Room) -> None:
@@ -70,24 +70,10 @@ def named_solids(room: Room) -> tuple[tuple[str, Obstacle], ...]:
     counts: dict[str, int] = {}
     named = []
     for number, solid in enumerate(room.solids):
-        kind = "wall" if number >= len(room.obstacles) else _kind(solid)
+        kind = "wall" if number >= len(room.obstacles) else solid.kind
         counts[kind] = counts.get(kind, 0) + 1
         named.append((f"{kind} {counts[kind]}", solid))
     return tuple(named)
-
-
-def _kind(solid: Obstacle) -> str:
-    if isinstance(solid, Disc):
-        return "disc"
-    return "polygon" if _sides(solid) is None else "box"
-
-
-def _sides(polygon: Polygon) -> Array | None:
-    """Edges of a box, in [m]; None for other polygons. Shape (4, 2)."""
-    edges: Array = np.roll(polygon.points, -1, axis=0) - polygon.points
-    after = np.roll(edges, -1, axis=0)
-    right = bool((np.abs((edges * after).sum(axis=1)) < SQUARE).all())
-    return edges if len(edges) == 4 and right else None
 
 
 def _add_solid(
@@ -100,35 +86,47 @@ def _add_solid(
 ) -> None:
     x, y = solid.centre
     body = spec.worldbody.add_body(name=name, pos=[x, y, 0.0], mocap=moves)
-    half = 0.5 * HEIGHT
-    look = {"rgba": list(colour), "contype": FLOOR_BIT, "conaffinity": 0}
-    if isinstance(solid, Disc):
-        body.add_geom(
-            type=mujoco.mjtGeom.mjGEOM_CYLINDER,
-            pos=[0.0, 0.0, half],
-            size=[solid.radius, half, 0.0],
-            **look,
-        )
-        return
-    edges = _sides(solid)
-    if edges is not None:
-        turn = 0.5 * float(np.arctan2(edges[0, 1], edges[0, 0]))
-        length, depth = np.hypot(*edges[:2].T).tolist()
-        body.add_geom(
-            type=mujoco.mjtGeom.mjGEOM_BOX,
-            pos=[0.0, 0.0, half],
-            size=[0.5 * length, 0.5 * depth, half],
-            quat=[float(np.cos(turn)), 0.0, 0.0, float(np.sin(turn))],
-            **look,
-        )
-        return
-    around = solid.points - solid.centre
+    body.add_geom(
+        **_GEOMS[solid.kind](spec, name, solid),
+        rgba=list(colour),
+        contype=FLOOR_BIT,
+        conaffinity=0,
+    )
+
+
+def _cylinder(spec: mujoco.MjSpec, name: str, disc: Disc) -> dict[str, Any]:
+    return {
+        "type": mujoco.mjtGeom.mjGEOM_CYLINDER,
+        "pos": [0.0, 0.0, 0.5 * HEIGHT],
+        "size": [disc.radius, 0.5 * HEIGHT, 0.0],
+    }
+
+
+def _cuboid(spec: mujoco.MjSpec, name: str, box: Box) -> dict[str, Any]:
+    turn = 0.5 * box.heading
+    return {
+        "type": mujoco.mjtGeom.mjGEOM_BOX,
+        "pos": [0.0, 0.0, 0.5 * HEIGHT],
+        "size": [0.5 * box.width, 0.5 * box.depth, 0.5 * HEIGHT],
+        "quat": [cos(turn), 0.0, 0.0, sin(turn)],
+    }
+
+
+def _prism(spec: mujoco.MjSpec, name: str, polygon: Polygon) -> dict[str, Any]:
+    around = polygon.points - polygon.centre
     corners = [(*p, z) for p in around.tolist() for z in (0.0, HEIGHT)]
     mesh = spec.add_mesh(name=name)
     mesh.uservert = np.array(corners).ravel().tolist()
-    body.add_geom(
-        type=mujoco.mjtGeom.mjGEOM_MESH,
-        meshname=name,
-        pos=[0.0, 0.0, 0.0],
-        **look,
-    )
+    return {
+        "type": mujoco.mjtGeom.mjGEOM_MESH,
+        "meshname": name,
+        "pos": [0.0, 0.0, 0.0],
+    }
+
+
+# What a model is made of, for each kind of obstacle.
+_GEOMS: dict[str, Callable[..., dict[str, Any]]] = {
+    Disc.kind: _cylinder,
+    Box.kind: _cuboid,
+    Polygon.kind: _prism,
+}

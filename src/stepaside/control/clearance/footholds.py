@@ -15,13 +15,11 @@ half a foot spacing beside :math:`p_i`, midway between the feet;
 if that is less, and K is what a leg can reach.
 """
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from ...planning import GaitSettings, ManeuverPlan, ManeuverPlanner
 from ...poses import Array, Pose
-from ...rooms import Disc, Obstacle
+from ...rooms import ObstacleSet
 from ..balance.quadratic import load_solver
 from ..balance.settings import StabiliserSettings
 
@@ -55,7 +53,7 @@ class Footholds:
         self.radius = radius
 
     def kept(
-        self, plan: ManeuverPlan, frame: Pose, solids: Sequence[Obstacle]
+        self, plan: ManeuverPlan, frame: Pose, solids: ObstacleSet
     ) -> ManeuverPlan:
         """The plan with footsteps that keep clear, as far as there are any.
 
@@ -94,7 +92,7 @@ class Footholds:
         return self._planner.placed(plan, placements)
 
     def _planes(
-        self, plan: ManeuverPlan, frame: Pose, solids: Sequence[Obstacle]
+        self, plan: ManeuverPlan, frame: Pose, solids: ObstacleSet
     ) -> tuple[Array, Array]:
         """Half planes, as rows on all footsteps and what they are at least.
 
@@ -109,13 +107,13 @@ class Footholds:
         span = float(np.hypot(*(middles - here).T).max())
         rows: list[Array] = []
         least: list[float] = []
-        for solid in solids:
-            now = float(solid.clearance(places[:1])[0])
+        clear = solids.clearances(places)
+        out = solids.directions_out(places[1:])
+        for n, now in enumerate(clear[0].tolist()):
             if now > self.radius + 2.0 * span:
                 continue
-            normals, away = _away(solid, places[1:])
+            away, normals = clear[1:, n], back.transform_points(out[:, n])
             keeps = min(self.radius, now)
-            normals = back.transform_points(normals)
             for i in range(count):
                 row = np.zeros((count, 2))
                 row[i] = normals[i]
@@ -171,33 +169,3 @@ def _beside(plan: ManeuverPlan) -> Array:
     found: Array = np.stack([np.sin(theta), -np.cos(theta)], axis=-1)
     found *= half[:, None]
     return found
-
-
-def _away(solid: Obstacle, places: Array) -> tuple[Array, Array]:
-    """Which way leads straight away from a solid, and its distance.
-
-    Args:
-        solid: The solid.
-        places: In its frame, in [m]. Shape (n, 2).
-
-    Returns:
-        Unit vectors, and signed distances, in [m]. Shapes (n, 2), (n,).
-    """
-    away = solid.clearance(places)
-    if isinstance(solid, Disc):
-        ways = places - np.array(solid.centre)
-    else:
-        ends = np.roll(solid.points, -1, axis=0)
-        edges = ends - solid.points
-        share = ((places[:, None] - solid.points) * edges).sum(axis=2)
-        share = np.clip(share / (edges**2).sum(axis=1), 0.0, 1.0)
-        nearest = solid.points + share[:, :, None] * edges
-        gaps = places[:, None] - nearest
-        which = np.hypot(gaps[..., 0], gaps[..., 1]).argmin(axis=1)
-        ways = gaps[np.arange(len(places)), which]
-        inside = away <= 0.0
-        height = places @ solid.normals.T - solid.offsets
-        ways[inside] = solid.normals[height.argmax(axis=1)][inside]
-    lengths = np.hypot(ways[:, 0], ways[:, 1])[:, None]
-    normals: Array = ways / np.maximum(lengths, 1e-12)
-    return normals, away

@@ -172,8 +172,7 @@ class Guard:
         if self._footholds is None:
             return plan
         frame = self.surroundings.frame.compose(support)
-        known = self.surroundings.solids.known
-        return self._footholds.kept(plan, frame, known)
+        return self._footholds.kept(plan, frame, self.surroundings.solids)
 
     def accepts(
         self, plan: ManeuverPlan, support: Pose, *, standing: bool
@@ -186,7 +185,7 @@ class Guard:
             standing: Whether the robot stands; if it is nearer to something
                 than the margin, it may then move away.
         """
-        if not self.surroundings.solids.known:
+        if not self.surroundings.solids.shapes:
             return True
         passage = self.passage(plan, support)
         if passage.least >= self.margin:
@@ -202,9 +201,9 @@ class Guard:
         step = self._outline.along(plan, frame, "step")
         rest = self._outline.along(halt, frame.compose(landed), "all")
         corners = np.concatenate([step, rest])
-        clear = solids.clearances(corners)
+        clear = solids.swept_clearances(corners)
         now, last = (
-            float(solids.clearances(end)[0])
+            float(solids.swept_clearances(end)[0])
             for end in (corners[:1], corners[-1:])
         )
         return Passage(now, float(clear.min()), last)

@@ -5,9 +5,8 @@ from typing import Protocol
 from ...perception.floor_map import CELL, FloorMap
 from ...poses import Pose
 from ...robots.reference import BodyReference
-from ...rooms import Room
+from ...rooms import NO_OBSTACLES, ObstacleSet, Room, obstacle_set
 from ...sensing.measurement import Measurement
-from .solids import NOTHING, Solids
 
 HERE = Pose(0.0, 0.0, 0.0)
 AHEAD = 2.0  # for which a map tells where things move: two steps, in [s]
@@ -26,7 +25,7 @@ class Surroundings(Protocol):
     blur: float
 
     @property
-    def solids(self) -> Solids:
+    def solids(self) -> ObstacleSet:
         """All that it knows of."""
 
     @property
@@ -45,7 +44,7 @@ class Surroundings(Protocol):
 class OpenFloor:
     """Nothing stands around, as far as anybody knows."""
 
-    solids = NOTHING
+    solids = NO_OBSTACLES
     frame = HERE
     blur = 0.0
 
@@ -77,7 +76,7 @@ class GivenRoom:
             start: Pose of the own odometry in it at first.
         """
         self._room, self._next = room, 0.0
-        self.solids = Solids(room.solids_at(0.0, AHEAD))
+        self.solids = obstacle_set(room.solids_at(0.0, AHEAD))
         self.frame = start
 
     def note(self, measurement: Measurement, body: BodyReference) -> None:
@@ -89,7 +88,7 @@ class GivenRoom:
         now = measurement.time
         if self._room.moving and now >= self._next - 1e-9:
             self._next = now + REFRESHED
-            self.solids = Solids(self._room.solids_at(now, AHEAD))
+            self.solids = obstacle_set(self._room.solids_at(now, AHEAD))
 
 
 class SeenRoom:
@@ -113,7 +112,7 @@ class SeenRoom:
             unseen_is_free: Whether unseen floor counts as free.
         """
         self._floor, self._unseen_is_free = floor, unseen_is_free
-        self.solids = NOTHING
+        self.solids = NO_OBSTACLES
         self._read, self._next = 0, 0.0
 
     def note(self, measurement: Measurement, body: BodyReference) -> None:
@@ -125,4 +124,4 @@ class SeenRoom:
         known = self._floor.taken()
         if not self._unseen_is_free:
             known += self._floor.unseen(body.com[:2])
-        self.solids = Solids(known)
+        self.solids = obstacle_set(known)

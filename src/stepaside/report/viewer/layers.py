@@ -7,8 +7,9 @@ import numpy as np
 import viser
 
 from ...control.walking import StepBegun, WalkState
+from ...convex import convex_hull
 from ...planning import Foot, Sole
-from ...planning.support import convex_hull, sole_corners
+from ...planning.support import sole_corners
 from ...poses import Array, Pose
 from ..palette import seen_by_all
 from ..style import COLOURS, EVADER, THEORY

@@ -1,0 +1,65 @@
+"""Convex polygons in the plane: hull, half planes and area."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def convex_hull(points: Array, tolerance: float = 0.0) -> Array:
+    """Return the corners of the convex hull of points.
+
+    Andrew's monotone chain.
+
+    Args:
+        points: Points (x, y), in [m]. Shape (n, 2).
+        tolerance: Twice the area of the triangle with its neighbours, in
+            [m^2], up to which a corner is left out.
+
+    Returns:
+        Corners, counter-clockwise from the least x; of points on a line both
+        ends. Shape (m, 2).
+    """
+    ordered = sorted(map(tuple, points.tolist()))
+    hull: list[tuple[float, ...]] = []
+    for chain in (ordered, ordered[::-1]):
+        begun = len(hull)
+        for p in chain:
+            while len(hull) >= begun + 2:
+                (ax, ay), (bx, by) = hull[-2], hull[-1]
+                turn = (by - ay) * (p[0] - ax) + tolerance
+                if (bx - ax) * (p[1] - ay) > turn:
+                    break
+                hull.pop()
+            hull.append(p)
+        hull.pop()
+    return np.array(hull or ordered)
+
+
+def half_planes(polygon: Array) -> tuple[Array, Array]:
+    """Return the half planes whose intersection is a convex polygon.
+
+    Args:
+        polygon: Corners, counter-clockwise, in [m]. Shape (n, 2).
+
+    Returns:
+        Unit normals a that point outwards, and offsets b in [m]: a point p
+        is inside if a p <= b for all, and b - a p is its distance from an
+        edge. Shapes (n, 2), (n,).
+    """
+    edges = np.roll(polygon, -1, axis=0) - polygon
+    normals = np.column_stack([edges[:, 1], -edges[:, 0]])
+    normals /= np.hypot(edges[:, 0], edges[:, 1])[:, None]
+    offsets: Array = (normals * polygon).sum(axis=1)
+    return normals, offsets
+
+
+def signed_area(polygon: Array) -> float:
+    """Return the area of a polygon, negative if clockwise, in [m^2].
+
+    Args:
+        polygon: Corners, in [m]. Shape (n, 2).
+    """
+    after = np.roll(polygon, -1, axis=0)
+    doubled = polygon[:, 0] * after[:, 1] - polygon[:, 1] * after[:, 0]
+    return 0.5 * float(doubled.sum())
