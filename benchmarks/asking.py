@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-from stepaside.errors import ConfigurationError
-from stepaside.outputs import check_file
+from stepaside.core.atomic_output import check_file
+from stepaside.core.errors import ConfigurationError
 
 RESULTS = Path(__file__).parents[1] / "docs" / "results"
 

@@ -23,9 +23,9 @@ import numpy as np
 from asking import ask, machine
 from numpy.typing import NDArray
 
-from stepaside.bound import Grid, Scheme, against_pursuit, solve_bound
-from stepaside.bound.game import BoundGame
-from stepaside.studies.results import header, write_result
+from stepaside.studies.result_files import header, write_result
+from stepaside.theory.bound import Grid, Scheme, against_pursuit, solve_bound
+from stepaside.theory.bound.relative_game import BoundGame
 
 ROOMS = ("bound", "unicycle")
 Array = NDArray[np.float64]

@@ -14,11 +14,15 @@ import numpy as np
 from asking import ask, machine
 from numpy.typing import NDArray
 
-from stepaside.bound import Bound, Grid, against_any, against_pursuit
-from stepaside.bound.checks import check_barrier
-from stepaside.bound.refine import refine_bound
-from stepaside.bound.rollout import Steering, moving, play_bound
-from stepaside.studies.results import header, write_result
+from stepaside.studies.result_files import header, write_result
+from stepaside.theory.bound import Bound, Grid, against_any, against_pursuit
+from stepaside.theory.bound.bound_checks import (
+    Steering,
+    check_barrier,
+    moving,
+    play_bound,
+)
+from stepaside.theory.bound.grid_refinement import refine_bound
 
 Array = NDArray[np.float64]
 ROOMS = ("bound", "unicycle")

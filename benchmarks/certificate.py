@@ -10,11 +10,11 @@ from math import pi, radians
 import numpy as np
 from asking import ask
 
-from stepaside.studies.results import header, write_result
-from stepaside.studies.version import UNICYCLES
-from stepaside.unicycle.certificate import certify
-from stepaside.unicycle.laws import make_game
-from stepaside.unicycle.relative import Start
+from stepaside.studies.code_version import UNICYCLES
+from stepaside.studies.result_files import header, write_result
+from stepaside.theory.unicycle.certificate import certify
+from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.unicycle_game import make_game
 
 BOXES = {
     "any headings, 0.15-2 m": (0.15, 2.0, pi, pi),

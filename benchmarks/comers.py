@@ -17,16 +17,21 @@ from pathlib import Path
 from asking import ask, seeds_of
 from tqdm import tqdm
 
-from stepaside.control.balance.settings import ControlSettings
-from stepaside.games.settings import DuelSettings
+from stepaside.core.worker_pool import worker_pool
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
-from stepaside.studies.duels import ROOMS, Record, run_duels, verify_duels
-from stepaside.studies.records import RecordFile
-from stepaside.studies.results import header, write_result
-from stepaside.workers import worker_pool
-from stepaside.world.body_settings import BODIES
-from stepaside.world.person_settings import PersonSettings
+from stepaside.studies.duel_campaign import (
+    ROOMS,
+    Record,
+    run_duels,
+    verify_duels,
+)
+from stepaside.studies.record_store import RecordFile
+from stepaside.studies.result_files import header, write_result
 
 FAST = DuelSettings(
     duration=16.0,

@@ -14,19 +14,19 @@ from time import perf_counter
 from asking import ask, machine
 from people import CAMERAS
 
-from stepaside.control.balance.settings import STABILISED
 from stepaside.games.duel import Duel
+from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.match import Match, play
 from stepaside.games.outcome import Outcome
-from stepaside.games.pedestrian import Pedestrian
-from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.person_player import Pedestrian
+from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.planning import PRESETS
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.camera_settings import RoomSettings
+from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
-from stepaside.studies.encounters import PASSING
-from stepaside.studies.results import header, write_result
-from stepaside.world.body_settings import BODIES
-from stepaside.world.camera_settings import RoomSettings
-from stepaside.world.person_settings import PersonSettings
+from stepaside.studies.people_campaign import PASSING
+from stepaside.studies.result_files import header, write_result
 
 MINUTE = 60.0  # between two looks at the memory, in [s]
 

@@ -10,8 +10,8 @@ import mujoco
 import numpy as np
 
 from stepaside.games.duel import Duel
-from stepaside.games.settings import DuelSettings
-from stepaside.robots.machine import Machine, prefer
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.robots.jit import Machine, prefer
 
 OURS = ("real_time_factor", "duel_over_bare_physics", "control_tick_us")
 

@@ -20,20 +20,20 @@ from typing import Any
 from asking import ask, seeds_of
 from tqdm import tqdm
 
-from stepaside.control.balance.settings import ControlSettings
-from stepaside.games.configuration import spelled_settings
-from stepaside.games.settings import DuelSettings
-from stepaside.studies.duel_statistics import summarise_duels
-from stepaside.studies.duels import (
+from stepaside.core.worker_pool import worker_pool
+from stepaside.games.configuration_file import spelled_settings
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.locomotion.zmp.control_settings import ControlSettings
+from stepaside.sim.body_settings import BODIES
+from stepaside.studies.duel_campaign import (
     run_duels,
     settings_hash,
     stamps_of,
     verify_duels,
 )
-from stepaside.studies.records import RecordFile
-from stepaside.studies.results import header, read_result, write_result
-from stepaside.workers import worker_pool
-from stepaside.world.body_settings import BODIES
+from stepaside.studies.duel_statistics import summarise_duels
+from stepaside.studies.record_store import RecordFile
+from stepaside.studies.result_files import header, read_result, write_result
 
 KINDS = {
     "ideal": DuelSettings(),

@@ -13,14 +13,14 @@ from typing import Any
 
 from asking import ask, machine, seeds_of
 
-from stepaside.rooms import RoomRecipe
+from stepaside.arena import RoomRecipe
+from stepaside.core.worker_pool import worker_pool
 from stepaside.studies.entrants import EVADERS
-from stepaside.studies.records import RecordFile
-from stepaside.studies.results import header, write_result
-from stepaside.studies.tournament import play_tournament
+from stepaside.studies.record_store import RecordFile
+from stepaside.studies.result_files import header, write_result
+from stepaside.studies.tournament_campaign import play_tournament
 from stepaside.studies.tournament_rows import tournament_rows
 from stepaside.studies.tournament_settings import ROOMS, TournamentSettings
-from stepaside.workers import worker_pool
 
 WORLDS = {
     "open floor": RoomRecipe(None, None),

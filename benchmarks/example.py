@@ -19,9 +19,9 @@ import numpy as np
 from asking import ask, machine
 from click.testing import CliRunner
 
-from stepaside.cli import main as stepaside
-from stepaside.poses import Array
-from stepaside.studies.results import header, write_result
+from stepaside.cli.main import main as stepaside
+from stepaside.core.poses import Array
+from stepaside.studies.result_files import header, write_result
 
 EVERY = 2  # samples of 20 ms
 DECIMALS = 4

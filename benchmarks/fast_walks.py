@@ -11,10 +11,10 @@ from math import radians
 from asking import ask
 from walks import walk_all
 
-from stepaside.control.balance.settings import ControlSettings
 from stepaside.games.walk_settings import WalkSettings
+from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS
-from stepaside.world.body_settings import BODIES
+from stepaside.sim.body_settings import BODIES
 
 KEPT = (
     "outcome",

@@ -10,11 +10,11 @@ from typing import NamedTuple
 from asking import ask, seeds_of
 from gathering import Row, finished, gather, spread
 
-from stepaside.control.balance.settings import STABILISED
 from stepaside.games import DuelSettings, run_duel
-from stepaside.studies.results import header, write_result
-from stepaside.world.body_settings import BODIES
-from stepaside.world.settings import PhysicsSettings
+from stepaside.locomotion.zmp.control_settings import STABILISED
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.physics_settings import PhysicsSettings
+from stepaside.studies.result_files import header, write_result
 
 FLOORS = {
     "as it is": PhysicsSettings(),

@@ -11,8 +11,8 @@ from typing import Any, TypeVar
 import numpy as np
 from tqdm import tqdm
 
-from stepaside.studies.records import RecordFile
-from stepaside.workers import give_up, worker_pool
+from stepaside.core.worker_pool import give_up, worker_pool
+from stepaside.studies.record_store import RecordFile
 
 Row = dict[str, Any]
 Job = TypeVar("Job")

@@ -19,13 +19,13 @@ from asking import ask, seeds_of
 from gathering import finished, gather
 
 from stepaside.control import ControlScheme
+from stepaside.core.poses import wrap_angle
 from stepaside.games import DuelRun, run_duel
-from stepaside.games.circle import theory_of
-from stepaside.games.configuration import plain_settings
-from stepaside.games.settings import DuelSettings
-from stepaside.poses import wrap_angle
-from stepaside.studies.results import header, write_result
-from stepaside.world.sight import IdealLineOfSight
+from stepaside.games.configuration_file import plain_settings
+from stepaside.games.duel_circle import theory_of
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.sim.ideal_sensors import IdealLineOfSight
+from stepaside.studies.result_files import header, write_result
 
 DURATION = 120.0  # of a duel, in [s]
 CHOICES = (  # heading that is subtracted, point that is sighted

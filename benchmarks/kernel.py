@@ -15,10 +15,10 @@ import time
 import numpy as np
 from asking import ask, machine
 
-from stepaside.studies.results import header, write_result
-from stepaside.studies.version import UNICYCLES
-from stepaside.unicycle.kernel import play_games
-from stepaside.unicycle.laws import make_game
+from stepaside.studies.code_version import UNICYCLES
+from stepaside.studies.result_files import header, write_result
+from stepaside.theory.unicycle.kernel import play_games
+from stepaside.theory.unicycle.unicycle_game import make_game
 
 
 def measure_kernel(games: int, steps: int) -> dict[str, float]:

@@ -20,17 +20,17 @@ import numpy as np
 from asking import ask, machine
 from mujoco_legs import MujocoLegs
 
+from stepaside.core.poses import Array
 from stepaside.games.duel import Duel
-from stepaside.games.settings import DuelSettings
+from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.walker import Walker
-from stepaside.poses import Array
-from stepaside.robots.kinematics import LegKinematics
-from stepaside.studies.results import header, write_result
+from stepaside.robots.leg_kinematics import LegKinematics
+from stepaside.studies.result_files import header, write_result
 
 CHUNK = 50  # ticks in a turn
-LEGS = "stepaside.control.assembly.LegKinematics"
+LEGS = "stepaside.control.scheme_builder.LegKinematics"
 # What is added for the load is the same on both sides, and left out.
-LOAD = "stepaside.control.assembly.LoadFeedforward"
+LOAD = "stepaside.control.scheme_builder.LoadFeedforward"
 KINDS: dict[str, Callable[..., Any]] = {
     "mujoco": MujocoLegs,
     "numbers": LegKinematics,

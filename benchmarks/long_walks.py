@@ -11,9 +11,9 @@ from math import radians
 from asking import ask
 from walks import walk_all
 
-from stepaside.control.balance.settings import STABILISED
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.world.body_settings import BODIES
+from stepaside.locomotion.zmp.control_settings import STABILISED
+from stepaside.sim.body_settings import BODIES
 
 KEPT = ("outcome", "duration_s", "steps", "speed_ratio", "yaw_ratio")
 

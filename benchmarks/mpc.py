@@ -3,8 +3,8 @@
 import numpy as np
 from timing import time_call
 
-from stepaside.control.balance.mpc import IntrinsicallyStableMpc
-from stepaside.control.balance.settings import MpcSettings
+from stepaside.locomotion.zmp.control_settings import MpcSettings
+from stepaside.locomotion.zmp.mpc import IntrinsicallyStableMpc
 from stepaside.planning import (
     CenterState,
     Direction,

@@ -10,10 +10,10 @@ import mujoco
 import numpy as np
 from scipy.linalg.lapack import dposv
 
-from stepaside.errors import ReachError
-from stepaside.poses import Array
+from stepaside.core.errors import ReachError
+from stepaside.core.poses import Array
 from stepaside.robots.description import RobotDescription
-from stepaside.robots.kinematics import BodyReference
+from stepaside.robots.leg_kinematics import BodyReference
 
 DAMPING = 1e-4  # squared, of the pseudo-inverse; rows in [m] and [rad]
 LEAP = 0.3  # of a joint in one step while a stance is searched, in [rad]

@@ -20,8 +20,8 @@ from asking import ask, machine
 from websockets.exceptions import WebSocketException
 from websockets.sync.client import ClientConnection, connect
 
-from stepaside.studies.results import header, write_result
-from stepaside.studies.version import PHYSICS
+from stepaside.studies.code_version import PHYSICS
+from stepaside.studies.result_files import header, write_result
 
 PORT = 8751
 AT_ONCE = 4

@@ -13,14 +13,14 @@ from dataclasses import replace
 from asking import ask, seeds_of
 from gathering import Row, finished, gather
 
-from stepaside.control.balance.settings import STABILISED
 from stepaside.games.walk_settings import WalkSettings
+from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.planning import PRESETS
-from stepaside.studies.encounters import Encounter, encounters, meet
-from stepaside.studies.people import passing_rows, people_rows
-from stepaside.studies.results import header, write_result
-from stepaside.world.body_settings import BODIES
-from stepaside.world.camera_settings import CameraSettings, ColourSettings
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.camera_settings import CameraSettings, ColourSettings
+from stepaside.studies.people_campaign import Encounter, encounters, meet
+from stepaside.studies.people_statistics import passing_rows, people_rows
+from stepaside.studies.result_files import header, write_result
 
 AHEAD = (0, 45, -45, 90, -90)  # where they come from, in [deg]
 BEHIND = (135, -135, 180)

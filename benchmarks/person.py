@@ -16,9 +16,9 @@ from asking import ask, seeds_of
 from gathering import Row, finished, gather, spread
 
 from stepaside.games import DuelSettings, run_duel
-from stepaside.studies.results import header, write_result
-from stepaside.world.camera_settings import CameraSettings, ColourSettings
-from stepaside.world.person_settings import PersonSettings
+from stepaside.sim.camera_settings import CameraSettings, ColourSettings
+from stepaside.sim.person_settings import PersonSettings
+from stepaside.studies.result_files import header, write_result
 
 DURATION = 90.0  # of each, in [s]
 WALKS = {

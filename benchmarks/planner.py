@@ -3,6 +3,7 @@
 import numpy as np
 from timing import time_call
 
+from stepaside.core.poses import Pose
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -11,7 +12,6 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.poses import Pose
 
 BEARING = 0.7  # [rad]
 

@@ -21,9 +21,18 @@ from typing import Any
 import numpy as np
 from asking import ask, machine
 
+from stepaside.arena import (
+    ObstacleSet,
+    Room,
+    RoomRecipe,
+    draw_starts,
+    make_room,
+)
+from stepaside.arena.polygon_cover import cover
 from stepaside.control.clearance.guard import Choice, Guard
-from stepaside.control.clearance.outline import sway_of
 from stepaside.control.clearance.surroundings import HERE
+from stepaside.control.clearance.swept_outline import sway_of
+from stepaside.core.poses import Pose, wrap_angle
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -32,16 +41,8 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.poses import Pose, wrap_angle
 from stepaside.robots.description import load_robot
-from stepaside.rooms import (
-    ObstacleSet,
-    Room,
-    RoomRecipe,
-    draw_starts,
-    make_room,
-)
-from stepaside.rooms.covering import cover
+from stepaside.sim.outline_measurement import measure_outline
 from stepaside.strategies import (
     Intent,
     Knowledge,
@@ -50,8 +51,7 @@ from stepaside.strategies import (
     Pursuit,
     Strategy,
 )
-from stepaside.studies.results import header, write_result
-from stepaside.world.outline import measure_outline
+from stepaside.studies.result_files import header, write_result
 
 GAIT = GaitSettings()
 NAO = measure_outline(load_robot("nao"), GAIT)

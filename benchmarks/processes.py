@@ -16,11 +16,11 @@ from typing import Any
 
 from asking import machine
 
-from stepaside.studies.results import header, write_result
-from stepaside.studies.version import PHYSICS
+from stepaside.studies.code_version import PHYSICS
+from stepaside.studies.result_files import header, write_result
 
 PRIORITY = 10  # of the real-time scheduler; the least is 1
-RUN = "from stepaside.cli import main; main()"
+RUN = "from stepaside.cli.main import main; main()"
 URGENT = os.geteuid() == 0
 Ready = Callable[[Any, Path], None]
 """Waits until a world, a process in a folder, can be met."""

@@ -20,8 +20,8 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.planning.capture import Reach, push_bound
-from stepaside.planning.steady import steady_plan
+from stepaside.planning.capturability import Reach, push_bound
+from stepaside.planning.steady_gait import steady_plan
 
 MASS = 5.3  # [kg]
 CASES = 60

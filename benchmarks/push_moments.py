@@ -16,7 +16,8 @@ import mujoco
 import numpy as np
 from asking import RESULTS, ask
 
-from stepaside.games.walk import Walking
+from stepaside.core.poses import Array
+from stepaside.games.walk_game import Walking
 from stepaside.games.walk_settings import WALKER
 from stepaside.planning import (
     CenterState,
@@ -25,12 +26,15 @@ from stepaside.planning import (
     GaitSettings,
     ManeuverPlanner,
 )
-from stepaside.planning.capture import push_bound
-from stepaside.planning.steady import steady_plan
-from stepaside.poses import Array
-from stepaside.studies.pushes import ROOMS
-from stepaside.studies.results import header, read_result, write_result
-from stepaside.studies.robustness import DIRECTIONS, Trial, settings_of
+from stepaside.planning.capturability import push_bound
+from stepaside.planning.steady_gait import steady_plan
+from stepaside.studies.push_results import ROOMS
+from stepaside.studies.result_files import header, read_result, write_result
+from stepaside.studies.robustness_campaign import (
+    DIRECTIONS,
+    Trial,
+    settings_of,
+)
 from stepaside.studies.survival import PUSH, bound_at, walking_reach
 
 GAIT = GaitSettings()

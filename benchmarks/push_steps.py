@@ -13,6 +13,7 @@ from math import cos, pi, sin, tau
 import numpy as np
 from asking import ask
 
+from stepaside.core.poses import Array
 from stepaside.planning import (
     PRESETS,
     Direction,
@@ -21,16 +22,11 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.planning.capture import (
-    Reach,
-    held_regions,
-    ray_interval,
-)
-from stepaside.planning.steady import steady_plan
-from stepaside.poses import Array
-from stepaside.studies.results import header, write_result
+from stepaside.planning.capturability import Reach, held_regions, ray_interval
+from stepaside.planning.steady_gait import steady_plan
+from stepaside.studies.code_version import PLANNER
+from stepaside.studies.result_files import header, write_result
 from stepaside.studies.survival import walking_reach
-from stepaside.studies.version import PLANNER
 
 TIMES, DIRECTIONS, LANDINGS = 60, 180, 24
 FOOTSTEPS = 4  # one more counts by exp(-eta T), 0.04 or less

@@ -7,10 +7,10 @@ As ``stepaside circle --remedies``, into a file of results::
 
 from asking import ask
 
-from stepaside.commands.circles import describe_circles, describe_remedies
-from stepaside.commands.game_options import describe_game
-from stepaside.studies.results import header, write_result
-from stepaside.unicycle.laws import make_game
+from stepaside.cli.circle_tables import describe_circles, describe_remedies
+from stepaside.cli.unicycle_options import describe_game
+from stepaside.studies.result_files import header, write_result
+from stepaside.theory.unicycle.unicycle_game import make_game
 
 GAME = make_game(2.0, 1.0, 1.0, 4.0)  # twice as fast, turning a quarter
 

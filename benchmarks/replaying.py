@@ -16,9 +16,9 @@ from time import perf_counter
 from asking import ask, machine
 from click.testing import CliRunner
 
-from stepaside.cli import main as stepaside
-from stepaside.studies.results import header, write_result
-from stepaside.studies.version import PHYSICS
+from stepaside.cli.main import main as stepaside
+from stepaside.studies.code_version import PHYSICS
+from stepaside.studies.result_files import header, write_result
 
 GIF = (
     "--begin 4 --duration 16 --speed 2 --camera follow --rate 8 "

@@ -16,15 +16,15 @@ from typing import Any, NamedTuple
 
 from asking import ask
 
-from stepaside.fitting.deriving import derive
-from stepaside.fitting.facts import facts_of
-from stepaside.fitting.writing import write_description
+from stepaside.fitting.derivation import derive
+from stepaside.fitting.description_writer import write_description
+from stepaside.fitting.model_report import facts_of
 from stepaside.games.duel import run_duel
+from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.robot_settings import with_robot
-from stepaside.games.settings import DuelSettings
 from stepaside.robots.description import FILE
-from stepaside.studies.results import header, write_result
-from stepaside.studies.version import PHYSICS
+from stepaside.studies.code_version import PHYSICS
+from stepaside.studies.result_files import header, write_result
 
 SEED, DURATION = 7, 120.0
 

@@ -14,13 +14,13 @@ from typing import NamedTuple
 from asking import ask, machine, seeds_of
 from gathering import Row, finished, gather, spread
 
-from stepaside.constants import CAPTURE_DISTANCE
-from stepaside.control.clearance.settings import MAPS, MapSettings
+from stepaside.arena import RoomRecipe, make_room
+from stepaside.control.clearance.map_settings import MAPS, MapSettings
+from stepaside.core.constants import CAPTURE_DISTANCE
 from stepaside.games import DuelSettings, run_duel
-from stepaside.rooms import RoomRecipe, make_room
+from stepaside.sim.camera_settings import RoomSettings
 from stepaside.studies.physics_game import clearance
-from stepaside.studies.results import header, read_result, write_result
-from stepaside.world.camera_settings import RoomSettings
+from stepaside.studies.result_files import header, read_result, write_result
 
 RECIPE = RoomRecipe(discs=3)
 PLAYERS = ("pursuer", "evader")

@@ -15,7 +15,7 @@ from duel import measure_duel
 from mpc import measure_mpc
 from planner import measure_planner
 
-from stepaside.studies.results import header, write_result
+from stepaside.studies.result_files import header, write_result
 
 LIBRARIES = ("mujoco", "numpy", "drake", "daqp")
 

@@ -13,12 +13,8 @@ from asking import ask, machine, seeds_of
 from gathering import Row, finished, gather, spread
 
 from stepaside.games import DuelSettings, run_duel
-from stepaside.studies.results import header, write_result
-from stepaside.world.camera_settings import (
-    CLUTTER,
-    CameraSettings,
-    RoomSettings,
-)
+from stepaside.sim.camera_settings import CLUTTER, CameraSettings, RoomSettings
+from stepaside.studies.result_files import header, write_result
 
 BEYOND = 0.85  # start distance beyond which the trigger tells something, [m]
 LIBRARIES = ("mujoco", "numpy", "opencv-python-headless")

@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 from asking import ask
 
-from stepaside.studies.results import header, write_result
-from stepaside.studies.version import UNICYCLES
-from stepaside.unicycle.basins import random_starts
-from stepaside.unicycle.circles import circles_of
-from stepaside.unicycle.kernel import play_games
-from stepaside.unicycle.laws import Game, TurningLaw, make_game
+from stepaside.studies.code_version import UNICYCLES
+from stepaside.studies.result_files import header, write_result
+from stepaside.theory.unicycle.all_circles import circles_of
+from stepaside.theory.unicycle.basins import random_starts
+from stepaside.theory.unicycle.kernel import play_games
+from stepaside.theory.unicycle.unicycle_game import Game, TurningLaw, make_game
 
 SPREAD = 0.9  # logarithm of the largest speed and gain
 ANGLES = 0.05, 3.0  # [rad]

@@ -8,10 +8,11 @@ As ``stepaside robustness --body hardware``, into a file of results::
 from asking import ask
 from gathering import Row, finished, part_of
 
-from stepaside.studies.limits import push_cases, search_limits
-from stepaside.studies.pushes import ROOMS
-from stepaside.studies.results import header, write_result
-from stepaside.studies.robustness import (
+from stepaside.core.worker_pool import worker_pool
+from stepaside.studies.push_limits import push_cases, search_limits
+from stepaside.studies.push_results import ROOMS
+from stepaside.studies.result_files import header, write_result
+from stepaside.studies.robustness_campaign import (
     METHODS,
     STRENGTHS,
     run_campaign,
@@ -22,7 +23,6 @@ from stepaside.studies.survival import (
     push_survival_rows,
     survival_rows,
 )
-from stepaside.workers import worker_pool
 
 BODY = "hardware"
 

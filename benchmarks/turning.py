@@ -10,9 +10,9 @@ from math import degrees, radians
 from asking import ask
 from gathering import Row, finished, gather, spread
 
-from stepaside.games.walk import run_walk
+from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.studies.results import header, write_result
+from stepaside.studies.result_files import header, write_result
 
 DURATION = 40.0  # [s]
 BEARINGS = [

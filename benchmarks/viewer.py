@@ -20,9 +20,9 @@ from asking import ask, machine
 from playwright.sync_api import sync_playwright
 
 from stepaside.games import DuelSettings
-from stepaside.report.viewer.page import Page
-from stepaside.studies.results import header, write_result
-from stepaside.studies.version import PHYSICS
+from stepaside.report.viewer.live_page import Page
+from stepaside.studies.code_version import PHYSICS
+from stepaside.studies.result_files import header, write_result
 
 PORT = 8741
 CYCLES = 10

@@ -13,11 +13,14 @@ from typing import Any
 from asking import ask, seeds_of
 from gathering import Row, finished, gather, spread
 
-from stepaside.control.balance.settings import STABILISED, StabiliserSettings
-from stepaside.games.walk import run_walk
+from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.studies.results import header, write_result
-from stepaside.world.body_settings import BODIES, BodySettings
+from stepaside.locomotion.zmp.control_settings import (
+    STABILISED,
+    StabiliserSettings,
+)
+from stepaside.sim.body_settings import BODIES, BodySettings
+from stepaside.studies.result_files import header, write_result
 
 BEARING = 0.3  # desired heading at every step, in [rad]
 ESTIMATED = 30.0  # duration of the walks whose estimates are judged, in [s]

@@ -6,9 +6,9 @@ from typing import Any
 
 from gathering import Row, finished, gather
 
-from stepaside.games.walk import run_walk
+from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.studies.results import header, write_result
+from stepaside.studies.result_files import header, write_result
 
 
 def walk(settings: WalkSettings) -> Row:

@@ -19,12 +19,12 @@ from typing import Any
 from click.testing import CliRunner
 from playwright.sync_api import sync_playwright
 
-from stepaside.cli import main as stepaside
-from stepaside.games.folder import load_run
-from stepaside.games.settings import DuelSettings
+from stepaside.cli.main import main as stepaside
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.run_archive import load_run
 from stepaside.report.replay_page import write_page
-from stepaside.report.viewer.page import Page
-from stepaside.report.viewer.replaying import ReplayPage
+from stepaside.report.viewer.live_page import Page
+from stepaside.report.viewer.replay_viewer import ReplayPage
 
 WAIT = 200_000  # in [ms]
 DESK, PHONE = {"width": 1280, "height": 720}, {"width": 390, "height": 844}

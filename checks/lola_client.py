@@ -106,7 +106,7 @@ def serve(folder: Path) -> "subprocess.Popen[str]":
 
 def tried(checkout: Path, program: str) -> dict[str, Any]:
     """What came of one program."""
-    from stepaside.games.folder import load_run
+    from stepaside.games.run_archive import load_run
 
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)

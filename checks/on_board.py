@@ -37,11 +37,11 @@ AMONG_TICKS = 0.99  # share of the ticks that are no slower than is told
 
 def record(file: Path) -> None:
     """Write what two robots measured, and what they were asked for."""
-    from stepaside.control.balance.settings import STABILISED
     from stepaside.games.duel import Duel
-    from stepaside.games.settings import DuelSettings
+    from stepaside.games.duel_settings import DuelSettings
     from stepaside.games.walker import Walker
-    from stepaside.world.body_settings import BODIES
+    from stepaside.locomotion.zmp.control_settings import STABILISED
+    from stepaside.sim.body_settings import BODIES
 
     settings = DuelSettings(
         seed=SEED,
@@ -70,11 +70,11 @@ def play(file: Path) -> dict[str, Any]:
     """Let control decide on what was measured."""
     for name in ABSENT:
         sys.modules[name] = None  # type: ignore[assignment]
-    from stepaside.control.balance.settings import STABILISED
-    from stepaside.drivers.minds import mind_maker
+    from stepaside.drivers.scheme_factory import mind_maker
+    from stepaside.locomotion.zmp.control_settings import STABILISED
+    from stepaside.perception.measurement import Measurement, Sighting
     from stepaside.planning import GaitSettings
     from stepaside.robots.description import load_robot
-    from stepaside.sensing.measurement import Measurement, Sighting
     from stepaside.strategies import Evasion, Pursuit
 
     make = mind_maker(load_robot("nao"), GaitSettings(), STABILISED, tick=TICK)

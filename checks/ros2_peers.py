@@ -33,24 +33,24 @@ from typing import Any
 import numpy as np
 import ros2_peer as peer
 
-from stepaside.drivers.ros2.body import Ros2Body
-from stepaside.drivers.ros2.domain import Dds, taken
-from stepaside.drivers.ros2.images import pixels_of
+from stepaside.core.poses import Pose
+from stepaside.drivers.ros2.dds_domain import Dds, taken
+from stepaside.drivers.ros2.image_messages import pixels_of
 from stepaside.drivers.ros2.messages import (
     CompressedImage,
     Image,
     JointState,
     Odometry,
 )
-from stepaside.drivers.ros2.server import Ros2Server, WorldClock
+from stepaside.drivers.ros2.ros2_body import Ros2Body
+from stepaside.drivers.ros2.ros2_server import Ros2Server, WorldClock
 from stepaside.drivers.ros2.topics import dds_topic
-from stepaside.drivers.velocity.body import REST, Velocity
-from stepaside.drivers.velocity.served import WalkerState
-from stepaside.poses import Pose
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.sensing.images import ColourImage
-from stepaside.sensing.measurement import Sighting
-from stepaside.studies.results import header, write_result
+from stepaside.drivers.velocity.velocity_body import REST, Velocity
+from stepaside.drivers.velocity.walking_robot import WalkerState
+from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.images import ColourImage
+from stepaside.perception.measurement import Sighting
+from stepaside.studies.result_files import header, write_result
 
 RESULT = Path("docs/results/ros2-peers.json")
 ROOMS = ("errors", "poses", "sensing", "control", "drivers")
@@ -308,7 +308,7 @@ def our_robot(python: str, kind: str) -> Iterator[dict[str, Any]]:
 
 def command(name: str, *words: str, **streams: Any) -> "subprocess.Popen[str]":
     """Start a command of this package."""
-    code = "from stepaside.cli import main; main()"
+    code = "from stepaside.cli.main import main; main()"
     domain = ("--domain", str(DOMAIN))
     return subprocess.Popen(
         [sys.executable, "-c", code, name, *words, *domain],

@@ -7,7 +7,7 @@ of date; ``--versions`` says which results were made with other code.
 import sys
 from argparse import ArgumentParser
 
-from stepaside.studies.results import is_current
+from stepaside.studies.result_files import is_current
 
 from .document import complaints, documents, remade
 from .pictures import IMAGES, PICTURES, draw_picture, drawn_from

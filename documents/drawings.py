@@ -9,8 +9,8 @@ from .store import Store
 
 def duel(store: Store, file: Path) -> None:
     """The duel of the README, from its committed trajectories."""
-    from stepaside.games.folder import read_record
-    from stepaside.games.settings import DuelSettings
+    from stepaside.games.duel_settings import DuelSettings
+    from stepaside.games.run_archive import read_record
     from stepaside.report.duel_figure import draw_duel
 
     result = store.result("duel-seed7")
@@ -38,9 +38,9 @@ def people(store: Store, file: Path) -> None:
 
 def survival_on_hardware(store: Store, file: Path) -> None:
     """Survival over the strength of each disturbance."""
-    from stepaside.commands.robustness import OLD_KINDS
+    from stepaside.cli.robustness import OLD_KINDS
     from stepaside.report.robustness_figure import draw_survival
-    from stepaside.studies.robustness import UNITS
+    from stepaside.studies.robustness_campaign import UNITS
 
     rows = [
         # Results that were made before a kind had its name of today.
@@ -53,7 +53,7 @@ def survival_on_hardware(store: Store, file: Path) -> None:
 def many_duels(store: Store, file: Path) -> None:
     """How the figures of many duels are distributed, kind by kind."""
     from stepaside.report.duels_figure import draw_duels
-    from stepaside.studies.records import RecordFile
+    from stepaside.studies.record_store import RecordFile
 
     groups = {}
     for kind in ("ideal", "hardware", "cameras"):

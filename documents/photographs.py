@@ -25,9 +25,9 @@ from playwright.sync_api import sync_playwright
 from tqdm import tqdm
 
 from stepaside.games.duel import run_duel
-from stepaside.games.settings import DuelSettings
+from stepaside.games.duel_settings import DuelSettings
 from stepaside.report.replay_page import write_page
-from stepaside.report.viewer.page import Page
+from stepaside.report.viewer.live_page import Page
 
 from .pictures import IMAGES
 

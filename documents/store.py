@@ -3,8 +3,8 @@
 from pathlib import Path
 from typing import Any
 
-from stepaside.errors import ConfigurationError
-from stepaside.studies.results import read_result
+from stepaside.core.errors import ConfigurationError
+from stepaside.studies.result_files import read_result
 
 ROOT = Path(__file__).parents[1]
 RESULTS = ROOT / "docs" / "results"

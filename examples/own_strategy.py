@@ -11,7 +11,7 @@ import numpy as np
 
 from stepaside import Direction, DuelSettings, Start, StartSettings, run_duel
 from stepaside import strategies as st
-from stepaside.unicycle.laws import Unicycle
+from stepaside.theory.unicycle.unicycle_game import Unicycle
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,9 @@ import numpy as np
 from scipy.optimize import linprog
 
 from by_hand import sole_by_hand
+from stepaside.core.poses import Array
 from stepaside.planning import Foot, ManeuverPlan
-from stepaside.planning.capture import Reach
-from stepaside.poses import Array
+from stepaside.planning.capturability import Reach
 
 SAMPLES = 8  # in each phase
 STANDS = 1.5  # how long the ZMP is sampled after the last landing, in [s]

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from stepaside.core.poses import Array, Pose
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -13,7 +14,6 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.poses import Array, Pose
 
 KINDS = ("start", "walk", "halt")
 

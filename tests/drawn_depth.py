@@ -4,9 +4,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from stepaside.poses import Array
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.sensing.images import DepthImage, Pixels
+from stepaside.core.poses import Array
+from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.images import DepthImage, Pixels
 
 NEAR, FAR = 0.8, 3.5
 Post = tuple[float, float, float, float]  # x, y, radius, height

@@ -5,7 +5,7 @@ from dataclasses import fields, is_dataclass, replace
 from math import isfinite
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
-from stepaside.errors import StepAsideError
+from stepaside.core.errors import StepAsideError
 
 Others = Mapping[str, Sequence[Any]]
 

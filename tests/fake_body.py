@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from stepaside.poses import Array
-from stepaside.sensing.measurement import Measurement, Sighting
+from stepaside.core.poses import Array
+from stepaside.perception.measurement import Measurement, Sighting
 
 GRAVITY = np.array([0.0, 0.0, 9.81])
 

@@ -6,8 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from stepaside.core.poses import Array
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.figures import (
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.duel_summary import (
     DuelSummary,
     PlanTimes,
     PlayerFigures,
@@ -16,9 +18,7 @@ from stepaside.games.figures import (
 )
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import Run
-from stepaside.games.settings import DuelSettings
-from stepaside.games.track import Track
-from stepaside.poses import Array
+from stepaside.games.trajectory import Track
 
 NO_THEORY = TheoryFigures(None, False, None, None, None)
 

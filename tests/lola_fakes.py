@@ -5,18 +5,18 @@ from typing import Any
 
 import numpy as np
 
-from stepaside.drivers.lola.conventions import LOCK_STEP, REAL_TIME
-from stepaside.drivers.lola.frame_clock import TICK
-from stepaside.drivers.lola.frames import (
+from stepaside.core.poses import Array
+from stepaside.drivers.guardian_process import SessionLost
+from stepaside.drivers.joint.frame_clock import TICK
+from stepaside.drivers.joint.frames import (
     ActuatorFrame,
     SensorFrame,
     pack_sensors,
     unpack_actuators,
 )
-from stepaside.drivers.lola.joints import NAMES
-from stepaside.drivers.session import SessionLost
-from stepaside.poses import Array
-from stepaside.sensing.measurement import Measurement, Sighting
+from stepaside.drivers.joint.joint_map import NAMES
+from stepaside.drivers.lola.conventions import LOCK_STEP, REAL_TIME
+from stepaside.perception.measurement import Measurement, Sighting
 
 JOINTS = NAMES[:23]  # a description without hands, in LoLA's order
 STANCE = np.linspace(-0.1, 0.1, 23)

@@ -6,18 +6,18 @@ from typing import Any
 import numpy as np
 import pytest
 
+from stepaside.core.poses import Pose, wrap_angle
 from stepaside.perception import perception as module
+from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.colour_detector import RED, ColourDetection
+from stepaside.perception.depth_detector import DepthScene, Obstacle, Shadow
 from stepaside.perception.frame_report import FrameReport
+from stepaside.perception.images import ColourImage, DepthImage
+from stepaside.perception.measurement import Measurement
 from stepaside.perception.perception import Perception
-from stepaside.poses import Pose, wrap_angle
+from stepaside.perception.track import Observation, Track
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.sensing.colour_detector import RED, ColourDetection
-from stepaside.sensing.depth_detector import DepthScene, Obstacle, Shadow
-from stepaside.sensing.images import ColourImage, DepthImage
-from stepaside.sensing.measurement import Measurement
-from stepaside.sensing.track import Observation, Track
 
 TICK = 0.02
 

@@ -6,14 +6,14 @@ from typing import Any
 
 import pytest
 
-from stepaside.control.walking import StepBegun
+from stepaside.control.walk_snapshots import StepBegun
+from stepaside.core.poses import Pose
 from stepaside.games import match as loop
 from stepaside.games.match import Match
 from stepaside.games.outcome import Outcome
 from stepaside.games.player import Snapshot
 from stepaside.planning import Foot
-from stepaside.poses import Pose
-from stepaside.world.push import Push
+from stepaside.sim.push import Push
 
 TICK = 0.004
 

@@ -4,10 +4,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from stepaside.games.circle import theory_of
-from stepaside.games.settings import DuelSettings, StartSettings
-from stepaside.games.track import Track
-from stepaside.poses import Array
+from stepaside.core.poses import Array
+from stepaside.games.duel_circle import theory_of
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.trajectory import Track
 
 SETTINGS = DuelSettings(start=StartSettings(1.0, 0.1, -0.2))
 THEORY = theory_of(SETTINGS)

@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from stepaside.control.balance.loop import ClosedLoop
 from stepaside.control.phase import Phase
 from stepaside.control.scheme import ControlScheme
-from stepaside.control.walking import StepBegun
+from stepaside.control.walk_snapshots import StepBegun
+from stepaside.core.poses import Array, Pose
+from stepaside.locomotion.zmp.feedback_loop import ClosedLoop
+from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.planning import Direction, Foot, GaitSettings
-from stepaside.poses import Array, Pose
-from stepaside.robots.kinematics import BodyReference
-from stepaside.sensing.measurement import Measurement, Sighting
+from stepaside.robots.leg_kinematics import BodyReference
 from stepaside.strategies import Intent, Knowledge
 
 GAIT = GaitSettings()

@@ -4,19 +4,19 @@ from typing import Any
 
 import numpy as np
 
-from stepaside.control.balance.estimation import BodyState
-from stepaside.control.balance.settings import (
+from stepaside.core.poses import Pose
+from stepaside.locomotion.zmp.control_settings import (
     ControlSettings,
     StabiliserSettings,
 )
-from stepaside.control.balance.stabiliser import Stabiliser
-from stepaside.control.balance.step import Step
-from stepaside.control.reference import ReferenceSample
+from stepaside.locomotion.zmp.current_step import Step
+from stepaside.locomotion.zmp.reference_table import ReferenceSample
+from stepaside.locomotion.zmp.stabiliser import Stabiliser
+from stepaside.locomotion.zmp.state_estimator import BodyState
+from stepaside.perception.measurement import Measurement
 from stepaside.planning import Foot, GaitSettings
-from stepaside.poses import Pose
-from stepaside.robots.forward import MeasuredPosture
-from stepaside.robots.kinematics import BodyReference
-from stepaside.sensing.measurement import Measurement
+from stepaside.robots.forward_kinematics import MeasuredPosture
+from stepaside.robots.leg_kinematics import BodyReference
 
 GAIT = GaitSettings()
 

@@ -15,15 +15,15 @@ import numpy as np
 
 from fake_body import FakeBody
 from stepaside.control import Phase
-from stepaside.control.assembly import build_scheme
-from stepaside.control.balance.settings import ControlSettings
+from stepaside.control.scheme_builder import build_scheme
+from stepaside.locomotion.zmp.control_settings import ControlSettings
+from stepaside.perception.colour_detector import RED
+from stepaside.perception.images import SonarEcho
 from stepaside.perception.perception import Perception
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
-from stepaside.robots.forward import ForwardKinematics
+from stepaside.robots.forward_kinematics import ForwardKinematics
 from stepaside.robots.head import load_head
-from stepaside.sensing.colour_detector import RED
-from stepaside.sensing.images import SonarEcho
 from stepaside.strategies import Evasion
 
 TICK = 0.012

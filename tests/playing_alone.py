@@ -9,11 +9,11 @@ from importlib import import_module
 
 from fake_body import FakeBody
 from made_up_robot import FakeStrategy
-from stepaside.control.assembly import build_scheme
-from stepaside.control.balance.settings import ControlSettings
+from stepaside.control.scheme_builder import build_scheme
+from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
-from stepaside.robots.forward import ForwardKinematics
+from stepaside.robots.forward_kinematics import ForwardKinematics
 
 ROOMS = ("robots", "sensing", "perception", "strategies", "control")
 TICK = 0.004

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from stepaside.poses import Array
-from stepaside.robots import algebra
-from stepaside.robots.algebra import Factors, rotation_about
-from stepaside.robots.tracing import Number, Trace
+from stepaside.core.poses import Array
+from stepaside.robots import scalar_algebra as algebra
+from stepaside.robots.expression_tracing import Number, Trace
+from stepaside.robots.scalar_algebra import Factors, rotation_about
 
 RANDOM = np.random.default_rng(5)
 

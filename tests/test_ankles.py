@@ -4,9 +4,9 @@ from typing import Any
 
 import pytest
 
-from stepaside.control.balance.ankles import Ankles, Tilt
-from stepaside.control.balance.estimation import BodyState
-from stepaside.control.balance.settings import StabiliserSettings
+from stepaside.locomotion.zmp.control_settings import StabiliserSettings
+from stepaside.locomotion.zmp.joint_correction import Ankles, Tilt
+from stepaside.locomotion.zmp.state_estimator import BodyState
 
 GAINS = StabiliserSettings(ankle=0.5, ankle_rate=0.04, ankle_bandwidth=50.0)
 TICK = 0.004

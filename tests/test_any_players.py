@@ -15,19 +15,19 @@ import pytest
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
+from stepaside.core.poses import Array
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import Run
-from stepaside.games.track import Track
-from stepaside.games.walk import run_walk
+from stepaside.games.trajectory import Track
+from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.poses import Array
 from stepaside.report import film_layers, run_folder
 from stepaside.report.compare_figure import draw_comparison
+from stepaside.report.figure_style import COLOURS, PUSHED, THEORY, colours_of
 from stepaside.report.replay_page import write_page
-from stepaside.report.stage import Stage
-from stepaside.report.style import COLOURS, PUSHED, THEORY, colours_of
-from stepaside.report.viewer.layers import pushes_at
-from stepaside.report.viewer.replaying import ReplayPage
+from stepaside.report.scene import Stage
+from stepaside.report.viewer.replay_viewer import ReplayPage
+from stepaside.report.viewer.scene_layers import pushes_at
 
 NAMES = ("walker", "hare", "tortoise")
 PUSH = np.array([[0.1, 0.1, 0.3, -0.2, 0.0, 0.8]])
@@ -103,7 +103,9 @@ def test_everybody_is_in_the_figure(
     monkeypatch.setattr(
         Figure, "savefig", lambda f, *_, **__: figures.append(f)
     )
-    monkeypatch.setattr("stepaside.report.style.plt.close", lambda _: None)
+    monkeypatch.setattr(
+        "stepaside.report.figure_style.plt.close", lambda _: None
+    )
     run = game(count)
     run_folder.draw_run(run, tmp_path / "figure.png")
     every: Any = figures[0].axes

@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from invented_run import run_of
 from stepaside.control import Phase
-from stepaside.games.approach import Approach, approach_between
+from stepaside.games.approach_forecast import Approach, approach_between
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.track import Track
-from stepaside.report.viewer.words import outlook, words_of
+from stepaside.games.trajectory import Track
+from stepaside.report.viewer.status_text import outlook, words_of
 
 SPEED = st.floats(-2.0, 2.0)
 PLACE = st.floats(-20.0, 20.0)

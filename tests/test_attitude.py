@@ -5,10 +5,10 @@ from math import cos, hypot, nan, sin
 import numpy as np
 import pytest
 
-from stepaside.constants import GRAVITY
-from stepaside.poses import Array
+from stepaside.core.constants import GRAVITY
+from stepaside.core.poses import Array
+from stepaside.perception.attitude import CALIBRATION, AttitudeFilter
 from stepaside.robots.head import rotation
-from stepaside.sensing.attitude import CALIBRATION, AttitudeFilter
 
 TICK = 0.004
 GAIN, BIAS_GAIN = 0.5, 0.06  # [1/s], [1/s^2]

@@ -8,18 +8,21 @@ import numpy as np
 import pytest
 
 from made_up_robot import measure
-from stepaside.control.assembly import build_balance, build_scheme
-from stepaside.control.balance.loop import ClosedLoop, OpenLoop
-from stepaside.control.balance.settings import OPEN_LOOP, STABILISED
-from stepaside.control.reference import resting_sample, standing_reference
-from stepaside.control.senses import CameraSight, GivenSight
-from stepaside.control.turning import TurnShare
+from stepaside.control.scheme_builder import build_balance, build_scheme
+from stepaside.control.sight_sources import CameraSight, GivenSight
+from stepaside.control.turn_calibration import TurnShare
+from stepaside.core.poses import Pose
+from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
+from stepaside.locomotion.zmp.feedback_loop import ClosedLoop, OpenLoop
+from stepaside.locomotion.zmp.reference_table import (
+    resting_sample,
+    standing_reference,
+)
+from stepaside.perception.measurement import Sighting
 from stepaside.planning import CenterState, GaitSettings
-from stepaside.poses import Pose
 from stepaside.robots.description import load_robot
-from stepaside.robots.forward import ForwardKinematics
-from stepaside.robots.kinematics import LegKinematics
-from stepaside.sensing.measurement import Sighting
+from stepaside.robots.forward_kinematics import ForwardKinematics
+from stepaside.robots.leg_kinematics import LegKinematics
 from stepaside.strategies import Pursuit
 
 NAO = load_robot("nao")

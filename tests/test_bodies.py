@@ -8,21 +8,21 @@ import numpy as np
 import pytest
 
 from stepaside.control import ControlScheme
-from stepaside.errors import ConfigurationError
-from stepaside.games.walk import Walking
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Array, Pose
+from stepaside.core.random_streams import named_generator
+from stepaside.games.walk_game import Walking
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.planning import GaitSettings
-from stepaside.poses import Array, Pose
-from stepaside.randomness import named_generator
 from stepaside.robots.description import load_robot
-from stepaside.robots.kinematics import LegKinematics
+from stepaside.robots.leg_kinematics import LegKinematics
+from stepaside.sim.body_settings import BODIES, BodySettings
+from stepaside.sim.physics_settings import PhysicsSettings
+from stepaside.sim.push import Push
+from stepaside.sim.sensor_errors import SensorErrors
+from stepaside.sim.simulated_robot import SimulatedRobot
+from stepaside.sim.world import World, build_model
 from stepaside.strategies import Walk
-from stepaside.world.body_settings import BODIES, BodySettings
-from stepaside.world.push import Push
-from stepaside.world.robot import SimulatedRobot
-from stepaside.world.sensor_errors import SensorErrors
-from stepaside.world.settings import PhysicsSettings
-from stepaside.world.world import World, build_model
 
 
 def standing(

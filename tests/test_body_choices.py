@@ -6,17 +6,17 @@ from typing import Any
 import pytest
 
 from fake_page import open_fake
-from stepaside.control.balance.settings import (
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.locomotion.zmp.control_settings import (
     OPEN_LOOP,
     STABILISED,
     ControlSettings,
 )
-from stepaside.games.settings import DuelSettings
-from stepaside.report.viewer import page as pages
+from stepaside.report.viewer import live_page as pages
 from stepaside.report.viewer.body_choices import OWN, body_choices
-from stepaside.report.viewer.page import Page
+from stepaside.report.viewer.live_page import Page
+from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import Evasion
-from stepaside.world.body_settings import BODIES
 
 
 def test_presets_are_offered_with_their_control() -> None:

@@ -6,12 +6,12 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.poses import Array, Pose
+from stepaside.core.poses import Array, Pose
 from stepaside.robots.body_pose import BodyKinematics
 from stepaside.robots.description import load_robot
-from stepaside.robots.forward import ForwardKinematics
+from stepaside.robots.description_types import FOOT_FORCES
+from stepaside.robots.forward_kinematics import ForwardKinematics
 from stepaside.robots.head import load_head, rotation
-from stepaside.robots.own import FOOT_FORCES
 
 NAO = load_robot("nao")
 TILT, HEADING = (0.06, -0.11), 2.7  # roll and pitch; yaw, in [rad]

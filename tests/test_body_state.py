@@ -2,7 +2,7 @@
 
 import pytest
 
-from stepaside.control.balance.estimation import BodyState
+from stepaside.locomotion.zmp.state_estimator import BodyState
 
 ZERO = (0.0, 0.0)
 

@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from stepaside.bound import Bound, Grid, against_any, solve_bound
-from stepaside.bound.barrier import (
+from stepaside.core.errors import PlanError
+from stepaside.theory.bound import Bound, Grid, against_any, solve_bound
+from stepaside.theory.bound.barrier import (
     barrier_slice,
     barrier_states,
     left_half,
     turn_back,
 )
-from stepaside.bound.checks import check_barrier
-from stepaside.errors import PlanError
+from stepaside.theory.bound.bound_checks import check_barrier
 
 Array = NDArray[np.float64]
 CARS = against_any(1.0, 1.0, 1.0)

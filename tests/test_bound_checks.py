@@ -6,13 +6,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.bound import checks, refine
-from stepaside.bound.checks import check_by_playing
-from stepaside.bound.game import against_any, against_pursuit
-from stepaside.bound.grid import Grid
-from stepaside.bound.refine import differences, refine_bound
-from stepaside.bound.solve import Scheme, march, solve_bound
-from stepaside.bound.table import Bound
+from stepaside.theory.bound import (
+    bound_checks as checks,
+)
+from stepaside.theory.bound import (
+    grid_refinement as refine,
+)
+from stepaside.theory.bound.bound_checks import check_by_playing
+from stepaside.theory.bound.grid_refinement import differences, refine_bound
+from stepaside.theory.bound.relative_game import against_any, against_pursuit
+from stepaside.theory.bound.state_grid import Grid
+from stepaside.theory.bound.value_solver import Scheme, march, solve_bound
+from stepaside.theory.bound.value_table import Bound
 
 GAME = against_pursuit(0.12, 0.1, 0.2)
 SMALL = Grid.cube(0.1, 2.0, 10)

@@ -5,11 +5,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.bound import Grid, Scheme, against_any
-from stepaside.bound.arrays import stage_arrays
-from stepaside.bound.blocks import stage_blocks, wake_neighbours
-from stepaside.bound.grid import fill_ghosts
-from stepaside.bound.numerics import (
+from stepaside.theory.bound import Grid, Scheme, against_any
+from stepaside.theory.bound.compiled_stage import stage_blocks, wake_neighbours
+from stepaside.theory.bound.numpy_stage import stage_arrays
+from stepaside.theory.bound.state_grid import fill_ghosts
+from stepaside.theory.bound.upwind_scheme import (
     blow,
     larger,
     lax_friedrichs,
@@ -17,8 +17,8 @@ from stepaside.bound.numerics import (
     upwind,
     weno5,
 )
-from stepaside.bound.solve import make_setting
-from stepaside.unicycle.compiled import load_numba
+from stepaside.theory.bound.value_solver import make_setting
+from stepaside.theory.unicycle.compilation import load_numba
 
 EPS = 12e-6
 
@@ -113,7 +113,12 @@ def test_godunov_is_monotone_and_fills_valleys_less_than_lax() -> None:
 def test_plain_numpy_does_the_same_step(
     scheme: Scheme, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from stepaside.bound import arrays, numerics
+    from stepaside.theory.bound import (
+        numpy_stage as arrays,
+    )
+    from stepaside.theory.bound import (
+        upwind_scheme as numerics,
+    )
 
     for name in ("blow", "larger", "smaller"):
         monkeypatch.setattr(numerics, name, plain(getattr(numerics, name)))

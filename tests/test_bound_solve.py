@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from stepaside.bound import (
+from stepaside.core.errors import PlanError
+from stepaside.theory.bound import (
     Bound,
     BoundGame,
     Grid,
@@ -17,9 +18,8 @@ from stepaside.bound import (
     against_pursuit,
     solve_bound,
 )
-from stepaside.bound.grid import fill_ghosts
-from stepaside.bound.refine import refine_bound
-from stepaside.errors import PlanError
+from stepaside.theory.bound.grid_refinement import refine_bound
+from stepaside.theory.bound.state_grid import fill_ghosts
 
 Array = NDArray[np.float64]
 PURSUIT = against_pursuit(1.0, 1.0, 1.0)
@@ -167,7 +167,7 @@ def test_value_falls_with_the_horizon_and_settles() -> None:
 def test_rows_left_alone_would_not_have_changed(
     cars: Bound, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("stepaside.bound.solve.STILL", -1.0)
+    monkeypatch.setattr("stepaside.theory.bound.value_solver.STILL", -1.0)
     every = solve_bound(CARS, SMALL, horizon=5.0)
     np.testing.assert_allclose(cars.values, every.values, atol=3e-3)
     assert np.abs(cars.values - every.values).mean() < 5e-5
@@ -178,7 +178,7 @@ def test_smaller_time_steps_change_little(
 ) -> None:
     """While the value still falls: the steps are of third order."""
     large = solve_bound(CARS, SMALL, horizon=0.8).values
-    monkeypatch.setattr("stepaside.bound.solve.COURANT", 0.2)
+    monkeypatch.setattr("stepaside.theory.bound.value_solver.COURANT", 0.2)
     small = solve_bound(CARS, SMALL, horizon=0.8).values
     assert np.abs(large - small).mean() < 3e-4
 

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from stepaside.bound import (
+from stepaside.cli.bound import bound as bound_command
+from stepaside.core.errors import PlanError
+from stepaside.theory.bound import (
     Bound,
     Grid,
     against_any,
@@ -17,11 +19,13 @@ from stepaside.bound import (
     load_bound,
     solve_bound,
 )
-from stepaside.bound.checks import check_by_playing
-from stepaside.bound.rollout import draw_starts, moving, play_bound
-from stepaside.commands.bound import bound as bound_command
-from stepaside.errors import PlanError
-from stepaside.unicycle import make_game, play_games
+from stepaside.theory.bound.bound_checks import (
+    check_by_playing,
+    draw_starts,
+    moving,
+    play_bound,
+)
+from stepaside.theory.unicycle import make_game, play_games
 
 GRID = Grid(0.3, 4.0, 33, 32, 32)
 

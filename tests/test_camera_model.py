@@ -5,8 +5,8 @@ from math import degrees, radians, tan
 import numpy as np
 import pytest
 
-from stepaside.errors import ConfigurationError
-from stepaside.sensing.camera_model import CameraModel
+from stepaside.core.errors import ConfigurationError
+from stepaside.perception.camera_model import CameraModel
 
 XTION = CameraModel.of_field_of_view(80, 60, radians(58.0), radians(45.0))
 

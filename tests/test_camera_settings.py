@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.errors import ConfigurationError
-from stepaside.world.camera_settings import (
+from stepaside.core.errors import ConfigurationError
+from stepaside.sim.camera_settings import (
     CLUTTER,
     KINDS,
     CameraSettings,
@@ -17,7 +17,7 @@ from stepaside.world.camera_settings import (
     SonarSettings,
     Thing,
 )
-from stepaside.world.person_settings import PersonSettings, check_pursuer
+from stepaside.sim.person_settings import PersonSettings, check_pursuer
 
 ENDS = [  # settings, name, least, greatest, step beyond them
     (ColourSettings, "rate", 1.0, 60.0, 0.1),

@@ -11,12 +11,12 @@ import pytest
 
 cv2 = pytest.importorskip("cv2")
 
-from stepaside.drivers.cameras.source import LiveCamera, scaled  # noqa: E402
+from stepaside.core.poses import Pose  # noqa: E402
+from stepaside.drivers.cameras.image_source import LiveCamera, scaled  # noqa: E402
 from stepaside.drivers.cameras.v4l2 import open_v4l2  # noqa: E402
-from stepaside.drivers.session import SessionLost  # noqa: E402
-from stepaside.poses import Pose  # noqa: E402
-from stepaside.sensing.camera_model import CameraModel  # noqa: E402
-from stepaside.sensing.images import ColourImage  # noqa: E402
+from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
+from stepaside.perception.camera_model import CameraModel  # noqa: E402
+from stepaside.perception.images import ColourImage  # noqa: E402
 
 from velocity_fakes import MadeUpWalker  # isort: skip  # noqa: E402
 
@@ -99,9 +99,9 @@ def test_scaled_optics_see_as_far() -> None:
 
 def test_a_robot_on_naoqi_shows_what_its_camera_sees() -> None:
     pytest.importorskip("qi")
-    from stepaside.drivers.naoqi.server import NaoqiServer
-    from stepaside.drivers.naoqi.video import open_video
-    from stepaside.drivers.velocity.body import Velocity
+    from stepaside.drivers.naoqi.naoqi_server import NaoqiServer
+    from stepaside.drivers.naoqi.video_client import open_video
+    from stepaside.drivers.velocity.velocity_body import Velocity
 
     walker = Seer()
     url = "tcp://127.0.0.1:0"
@@ -126,9 +126,9 @@ def test_a_robot_on_naoqi_shows_what_its_camera_sees() -> None:
 @pytest.mark.parametrize("squeezed", [False, True])
 def test_a_robot_on_topics_shows_what_its_camera_sees(squeezed: bool) -> None:
     pytest.importorskip("cyclonedds")
-    from stepaside.drivers.ros2.domain import Dds
-    from stepaside.drivers.ros2.images import TopicCamera
-    from stepaside.drivers.ros2.server import Ros2Server, WorldClock
+    from stepaside.drivers.ros2.dds_domain import Dds
+    from stepaside.drivers.ros2.image_messages import TopicCamera
+    from stepaside.drivers.ros2.ros2_server import Ros2Server, WorldClock
     from stepaside.drivers.ros2.topics import COMPRESSED, IMAGE
 
     dds, walker = Dds(0, tag=TAG), Seer()
@@ -155,7 +155,7 @@ def test_a_robot_on_topics_shows_what_its_camera_sees(squeezed: bool) -> None:
 
 def test_images_of_topics_are_checked() -> None:
     pytest.importorskip("cyclonedds")
-    from stepaside.drivers.ros2.images import pixels_of, unpacked
+    from stepaside.drivers.ros2.image_messages import pixels_of, unpacked
     from stepaside.drivers.ros2.messages import (
         CompressedImage,
         Header,

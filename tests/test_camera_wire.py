@@ -7,21 +7,21 @@ import numpy as np
 import pytest
 
 from lola_fakes import JOINTS, MadeUpRobot
-from stepaside.drivers.cameras.wire import (
+from stepaside.drivers.cameras.image_wire import (
     HEAD,
     ImageError,
     ImageMessage,
     ImageReader,
     pack_image,
 )
-from stepaside.drivers.lola.address import Address
+from stepaside.drivers.guardian_process import SessionLost
 from stepaside.drivers.lola.camera_channel import CameraChannel
 from stepaside.drivers.lola.camera_offer import CameraOffer
-from stepaside.drivers.lola.server import LolaServer
-from stepaside.drivers.session import SessionLost
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.sensing.images import ColourImage, DepthImage
-from stepaside.sensing.measurement import Measurement
+from stepaside.drivers.lola.lola_address import Address
+from stepaside.drivers.lola.lola_server import LolaServer
+from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.images import ColourImage, DepthImage
+from stepaside.perception.measurement import Measurement
 
 MODEL = CameraModel(12, 8, 10.0, 11.0)
 PIXELS = np.arange(288, dtype=np.uint8).reshape(8, 12, 3)

@@ -8,8 +8,8 @@ import pytest
 
 from brute_push import corners_of
 from by_hand import plan_of
-from stepaside.convex import half_planes
-from stepaside.errors import PlanError
+from stepaside.core.convex import half_planes
+from stepaside.core.errors import PlanError
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -18,8 +18,8 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.planning.capture import Reach, held_regions, push_bound
-from stepaside.planning.steady import steady_plan
+from stepaside.planning.capturability import Reach, held_regions, push_bound
+from stepaside.planning.steady_gait import steady_plan
 
 MASS = 5.305  # [kg], of the NAO
 GAIT = GaitSettings()

@@ -10,6 +10,7 @@ from scipy.spatial import ConvexHull
 
 from brute_push import brute_force, corners_of, interval, landing, two_steps
 from by_hand import plan_of
+from stepaside.core.poses import Array
 from stepaside.planning import (
     Direction,
     Foot,
@@ -17,9 +18,8 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.planning.capture import Reach, push_bound, ray_interval
-from stepaside.planning.steady import steady_plan
-from stepaside.poses import Array
+from stepaside.planning.capturability import Reach, push_bound, ray_interval
+from stepaside.planning.steady_gait import steady_plan
 
 MASS = 5.305  # [kg], of the NAO
 GAIT = GaitSettings()

@@ -6,14 +6,19 @@ from typing import Any
 
 import pytest
 
-from stepaside.control.balance.settings import STABILISED, StabiliserSettings
 from stepaside.games.robot_settings import GameOfRobot
 from stepaside.games.walk_settings import WalkSettings
+from stepaside.locomotion.zmp.control_settings import (
+    STABILISED,
+    StabiliserSettings,
+)
 from stepaside.planning import GaitSettings
-from stepaside.studies import robustness, survival
-from stepaside.studies.changes import OWN, changed_walk, changes_of
-from stepaside.studies.limits import outcomes_of, push_cases
-from stepaside.studies.robustness import (
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.push import Push
+from stepaside.studies import robustness_campaign as robustness
+from stepaside.studies import survival
+from stepaside.studies.push_limits import outcomes_of, push_cases
+from stepaside.studies.robustness_campaign import (
     Trial,
     control_of,
     push_scale,
@@ -21,14 +26,13 @@ from stepaside.studies.robustness import (
     settings_of,
     trials,
 )
+from stepaside.studies.settings_diff import OWN, changed_walk, changes_of
 from stepaside.studies.survival import (
     bound_at,
     limit_rows,
     push_survival_rows,
     walking_reach,
 )
-from stepaside.world.body_settings import BODIES
-from stepaside.world.push import Push
 
 GAIT = GaitSettings(stride=0.03, single_support=0.3)
 GAINS = replace(StabiliserSettings(), ankle=0.2, reach_forward=0.05)

@@ -7,12 +7,17 @@ from typing import Any
 
 import pytest
 
-from stepaside.fitting import checking, trials
-from stepaside.fitting.checking import check_robot
-from stepaside.fitting.findings import findings_of
-from stepaside.fitting.rehearsal import torques_borne
-from stepaside.fitting.strain import Strain
-from stepaside.fitting.trials import (
+from stepaside.fitting import (
+    robot_verification as checking,
+)
+from stepaside.fitting import (
+    walk_trials as trials,
+)
+from stepaside.fitting.gait_feasibility import torques_borne
+from stepaside.fitting.joint_strain import Strain
+from stepaside.fitting.requirements import findings_of
+from stepaside.fitting.robot_verification import check_robot
+from stepaside.fitting.walk_trials import (
     STRAYS,
     WAYS,
     Trial,

@@ -12,15 +12,15 @@ import pytest
 
 from made_up_robot import FakeLegs
 from stepaside.control.scheme import ControlScheme
+from stepaside.core.poses import Array, Pose, wrap_angle
+from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.planning import Foot, GaitSettings
-from stepaside.poses import Array, Pose, wrap_angle
-from stepaside.sensing.measurement import Measurement, Sighting
 from stepaside.strategies import Evasion, Pursuit
-from stepaside.unicycle.circling import Circle, find_circle
-from stepaside.unicycle.laws import Unicycle, make_game
-from stepaside.unicycle.measure import fit_circle
-from stepaside.unicycle.relative import Start
-from stepaside.unicycle.sampled import simulate_sampled
+from stepaside.theory.unicycle.circle_equations import Circle, find_circle
+from stepaside.theory.unicycle.circle_fit import fit_circle
+from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.sampled_game import simulate_sampled
+from stepaside.theory.unicycle.unicycle_game import Unicycle, make_game
 
 TICK = 0.02
 GAIT = GaitSettings()

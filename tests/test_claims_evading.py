@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from stepaside.games.outcome import Outcome
-from stepaside.strategies.steps import StepOutcome, StepTrack
+from stepaside.strategies.step_game import StepOutcome, StepTrack
 from stepaside.studies import evading_readings as read
+from stepaside.studies.claim_jobs import JOBS
 from stepaside.studies.claims import Claim
 from stepaside.studies.evading_claims import DURATION
 from stepaside.studies.evading_readings import GAME, Played
-from stepaside.studies.jobs import JOBS
 
 BEST = 1.0  # bound of all starts, in [m]
 Fault = Callable[[Played], Played]

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from stepaside.studies.claim_jobs import JOBS
 from stepaside.studies.claims import Claim, Row
-from stepaside.studies.jobs import JOBS
 
 SPEED, GAIN, STRIDE = 0.1, 0.2, 0.04  # of Sec. IV, in [m/s], [1/s], [m]
 SINGLE, DOUBLE = 0.425, 0.122  # of the supports, in [s]

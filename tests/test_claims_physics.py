@@ -7,17 +7,16 @@ from math import isnan, radians
 import numpy as np
 import pytest
 
+from stepaside.core.poses import Array
 from stepaside.games import DuelSettings, run_duel
+from stepaside.games.duel_settings import PLAYERS
 from stepaside.games.outcome import Outcome
-from stepaside.games.settings import PLAYERS
-from stepaside.poses import Array
 from stepaside.studies import physics_readings as read
 from stepaside.studies import walk_measures
-from stepaside.studies.claims import Claim
-from stepaside.studies.jobs import JOBS
-from stepaside.studies.readings import Readings
+from stepaside.studies.claim_jobs import JOBS
+from stepaside.studies.claims import Claim, Readings
 from stepaside.studies.walk_measures import swings
-from stepaside.studies.watching import WalkedPlan, Watched, watch
+from stepaside.studies.watched_duel import WalkedPlan, Watched, watch
 from watched import RADIUS, changed, standing_duel, walked_duel
 
 Fault = Callable[[Watched], Watched]

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from stepaside.core.poses import Array
 from stepaside.planning import (
     Direction,
     ManeuverPlan,
@@ -19,13 +20,12 @@ from stepaside.planning import (
 )
 from stepaside.planning.footsteps import place_footsteps
 from stepaside.planning.plan import PlanSamples
-from stepaside.poses import Array
 from stepaside.studies import balance_claims, unicycle_claims
+from stepaside.studies.claim_jobs import JOBS
 from stepaside.studies.claims import Claim
-from stepaside.studies.jobs import JOBS
-from stepaside.unicycle.laws import Game
-from stepaside.unicycle.sampled import simulate_sampled
-from stepaside.unicycle.simulate import PlayedGame
+from stepaside.theory.unicycle.adaptive_simulation import PlayedGame
+from stepaside.theory.unicycle.sampled_game import simulate_sampled
+from stepaside.theory.unicycle.unicycle_game import Game
 
 Patch = Callable[[pytest.MonkeyPatch], None]
 Pair = tuple[Array, Array]

@@ -7,24 +7,7 @@ import numpy as np
 import pytest
 
 from made_up_robot import GAIT, FakeLegs
-from stepaside.control.clearance.guard import Choice, Guard
-from stepaside.control.clearance.outline import BodyOutline
-from stepaside.control.clearance.settings import MapSettings
-from stepaside.control.clearance.surroundings import GivenRoom
-from stepaside.control.phase import Phase
-from stepaside.control.scheme import ControlScheme
-from stepaside.errors import ConfigurationError
-from stepaside.planning import (
-    CenterState,
-    Direction,
-    Foot,
-    ManeuverPlan,
-    ManeuverPlanner,
-)
-from stepaside.poses import Array, Pose
-from stepaside.robots.description import load_robot
-from stepaside.robots.reference import BodyReference
-from stepaside.rooms import (
+from stepaside.arena import (
     Box,
     Disc,
     Obstacle,
@@ -36,9 +19,26 @@ from stepaside.rooms import (
     hull,
     make_room,
 )
-from stepaside.sensing.measurement import Measurement, Sighting
+from stepaside.control.clearance.guard import Choice, Guard
+from stepaside.control.clearance.map_settings import MapSettings
+from stepaside.control.clearance.surroundings import GivenRoom
+from stepaside.control.clearance.swept_outline import BodyOutline
+from stepaside.control.phase import Phase
+from stepaside.control.scheme import ControlScheme
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Array, Pose
+from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.planning import (
+    CenterState,
+    Direction,
+    Foot,
+    ManeuverPlan,
+    ManeuverPlanner,
+)
+from stepaside.robots.body_reference import BodyReference
+from stepaside.robots.description import load_robot
+from stepaside.sim.outline_measurement import measure_outline
 from stepaside.strategies import Intent, Knowledge
-from stepaside.world.outline import measure_outline
 
 NAO = load_robot("nao")
 MARGIN = 0.02

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
-from stepaside.cli import COMMANDS, main
+from stepaside.cli.main import COMMANDS, main
 
 
 def run(*arguments: str) -> Result:

@@ -4,14 +4,14 @@ import cv2
 import numpy as np
 import pytest
 
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.sensing.colour_detector import (
+from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.colour_detector import (
     BLUE,
     RED,
     Appearance,
     ColourDetector,
 )
-from stepaside.sensing.images import ColourImage, Pixels
+from stepaside.perception.images import ColourImage, Pixels
 
 CAMERA = CameraModel.of_field_of_view(320, 240, 1.063, 0.831)
 PAINT = {"red": (200, 40, 35), "blue": (26, 92, 190)}

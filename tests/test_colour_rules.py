@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.sensing.colour_detector import (
+from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.colour_detector import (
     BLUE,
     RED,
     Appearance,
@@ -15,7 +15,7 @@ from stepaside.sensing.colour_detector import (
     _groups,
     _judge,
 )
-from stepaside.sensing.images import ColourImage, Pixels
+from stepaside.perception.images import ColourImage, Pixels
 
 CAMERA = CameraModel.of_field_of_view(320, 240, 1.063, 0.831)
 Patch = tuple[int, int, int, int, int]  # left, top, right, bottom, area

@@ -8,23 +8,20 @@ from typing import Any
 
 import pytest
 
-from stepaside.control.balance.settings import ControlSettings
-from stepaside.errors import ConfigurationError
-from stepaside.games.configuration import (
+from stepaside.core.errors import ConfigurationError
+from stepaside.games.configuration_file import (
     dump_configuration,
     load_configuration,
     parse_configuration,
 )
-from stepaside.games.settings import (
-    DuelSettings,
-    StartSettings,
-)
-from stepaside.games.start import draw_start
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.initial_poses import draw_start
 from stepaside.games.walk_settings import WalkSettings
+from stepaside.locomotion.zmp.control_settings import ControlSettings
+from stepaside.sim.body_settings import BODIES, BodySettings, with_cycle
+from stepaside.sim.physics_settings import PhysicsSettings, SightSettings
+from stepaside.sim.push import Push
 from stepaside.strategies import Evasion
-from stepaside.world.body_settings import BODIES, BodySettings, with_cycle
-from stepaside.world.push import Push
-from stepaside.world.settings import PhysicsSettings, SightSettings
 
 # The edges of every range: both are allowed, what lies beyond is not.
 RANGES: list[tuple[Callable[..., Any], str, float, float]] = [

@@ -20,18 +20,21 @@ from made_up_state import (
     stabiliser,
     step,
 )
-from stepaside.control.balance.estimation import StateEstimator
-from stepaside.control.balance.loop import OpenLoop
+from stepaside.arena import Disc, Room
 from stepaside.control.clearance.guard import Guard
-from stepaside.control.clearance.outline import BodyOutline
 from stepaside.control.clearance.surroundings import GivenRoom
-from stepaside.control.deciding import Decisions
+from stepaside.control.clearance.swept_outline import BodyOutline
 from stepaside.control.phase import Phase
-from stepaside.control.reference import (
+from stepaside.control.strategy_runner import Decisions
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.locomotion.zmp.feedback_loop import OpenLoop
+from stepaside.locomotion.zmp.reference_table import (
     ReferenceSample,
     ReferenceTable,
     resting_sample,
 )
+from stepaside.locomotion.zmp.state_estimator import StateEstimator
+from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.planning import (
     PRESETS,
     CenterState,
@@ -40,12 +43,9 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.poses import Pose, wrap_angle
 from stepaside.robots.description import load_robot
-from stepaside.robots.forward import ForwardKinematics
-from stepaside.robots.kinematics import BodyReference
-from stepaside.rooms import Disc, Room
-from stepaside.sensing.measurement import Measurement, Sighting
+from stepaside.robots.forward_kinematics import ForwardKinematics
+from stepaside.robots.leg_kinematics import BodyReference
 from stepaside.strategies import Intent, Knowledge
 
 ANGLE = st.floats(-pi, pi)

@@ -4,14 +4,14 @@ from dataclasses import asdict, fields
 
 import pytest
 
-from stepaside.control.balance.settings import (
+from stepaside.core.errors import ConfigurationError
+from stepaside.locomotion.zmp.control_settings import (
     OPEN_LOOP,
     STABILISED,
     ControlSettings,
     MpcSettings,
     StabiliserSettings,
 )
-from stepaside.errors import ConfigurationError
 
 GAINS = [f.name for f in fields(StabiliserSettings)]
 

@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 import stepaside
+from stepaside.perception.attitude import AttitudeFilter
+from stepaside.perception.camera_model import CameraModel
 from stepaside.planning import Direction, Foot
 from stepaside.planning.path import UnicycleTrajectory
 from stepaside.robots.head import rotation
-from stepaside.sensing.attitude import AttitudeFilter
-from stepaside.sensing.camera_model import CameraModel
 
 ROOT = Path(stepaside.__file__).parent
 PAGE = (ROOT.parents[1] / "docs" / "conventions.md").read_text("utf-8")
@@ -74,7 +74,7 @@ def test_every_name_on_the_page_exists(name: str) -> None:
     "name",
     [
         "stepaside.nowhere",
-        "stepaside.laws.nothing",
+        "stepaside.theory.laws.nothing",
         "stepaside.planning.GaitSettings.nothing",
         "stepaside.control.scheme.ControlScheme.nothing",
     ],

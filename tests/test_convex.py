@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stepaside.convex import convex_hull, half_planes, signed_area
+from stepaside.core.convex import convex_hull, half_planes, signed_area
 
 SQUARE = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
 

@@ -14,22 +14,22 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli import main
-from stepaside.errors import ConfigurationError
-from stepaside.games import reading
-from stepaside.games.checking import KINDS
+from stepaside.cli.main import main
+from stepaside.core.errors import ConfigurationError
+from stepaside.games import archive_reader as reading
+from stepaside.games.array_checks import KINDS
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.folder import (
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.run_archive import (
     CONFIGURATION,
     SUMMARY,
     TRAJECTORIES,
     load_run,
     write_record,
 )
-from stepaside.games.settings import DuelSettings
-from stepaside.games.track import Track
-from stepaside.report.stage import Stage
+from stepaside.games.trajectory import Track
+from stepaside.report.scene import Stage
 
 Damage = Callable[[Path], None]
 

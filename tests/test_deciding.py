@@ -7,12 +7,12 @@ from typing import Any
 import pytest
 
 from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run
-from stepaside.control.deciding import Decisions
 from stepaside.control.phase import Phase
-from stepaside.errors import StrategyError
+from stepaside.control.strategy_runner import Decisions
+from stepaside.core.errors import StrategyError
+from stepaside.core.poses import Pose
+from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction, Foot
-from stepaside.poses import Pose
-from stepaside.sensing.measurement import Sighting
 from stepaside.strategies import (
     Evasion,
     EvasionMemory,

@@ -5,10 +5,10 @@ from math import radians
 import numpy as np
 import pytest
 
+from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.depth_detector import DepthScene, detect_obstacles
+from stepaside.perception.images import DepthImage
 from stepaside.robots.head import rotation
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.sensing.depth_detector import DepthScene, detect_obstacles
-from stepaside.sensing.images import DepthImage
 
 NEAR, FAR = 0.8, 3.5
 ACROSS = 40.0 / np.tan(radians(29.0))  # focal lengths, in pixels

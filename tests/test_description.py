@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from stepaside.errors import ModelError
+from stepaside.core.errors import ModelError
 from stepaside.robots.description import known_robots, load_robot
 
 NAO = load_robot("nao")
@@ -23,7 +23,7 @@ def copy_of_nao(folder: Path, **changes: str) -> Path:
 
 def test_another_robot_is_a_folder(tmp_path: Path) -> None:
     """Longer legs and another name, and it stands."""
-    from stepaside.robots.kinematics import BodyReference, LegKinematics
+    from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
 
     folder = copy_of_nao(tmp_path, NAO="Tall NAO")
     model = (folder / "model.xml").read_text()

@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 import tomli_w
 
-from stepaside.errors import ModelError
+from stepaside.core.errors import ModelError
 from stepaside.robots.description_file import REQUIRED, read_entries
-from stepaside.robots.own import (
+from stepaside.robots.description_types import (
     Overlay,
     Place,
     Sensors,

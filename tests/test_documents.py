@@ -130,7 +130,7 @@ def test_a_result_names_the_command_that_makes_it_again(name: str) -> None:
         rules = (ROOT / "Makefile").read_text(encoding="utf-8")
         assert f"\n{words[0]}:" in rules, result["command"]
     else:
-        from stepaside.cli import COMMANDS
+        from stepaside.cli.main import COMMANDS
 
         assert program == "stepaside" and words[0] in COMMANDS
     assert re.fullmatch(r"[0-9a-f]{12}", result["version"])

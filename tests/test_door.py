@@ -22,11 +22,16 @@ from stepaside import (
     GaitSettings,
     Start,
 )
-from stepaside.bound import Grid, against_pursuit, load_bound, solve_bound
-from stepaside.errors import StepAsideError
-from stepaside.poses import Pose
-from stepaside.rooms import MovingBox, Room, box, load_room
+from stepaside.arena import MovingBox, Room, box, load_room
+from stepaside.core.errors import StepAsideError
+from stepaside.core.poses import Pose
 from stepaside.strategies import StepGame
+from stepaside.theory.bound import (
+    Grid,
+    against_pursuit,
+    load_bound,
+    solve_bound,
+)
 
 DOORS = [
     "stepaside",

@@ -11,14 +11,14 @@ import pytest
 pytest.importorskip("viser")
 
 from fake_page import Handle, Scene  # noqa: E402
-from stepaside.errors import ConfigurationError  # noqa: E402
-from stepaside.poses import Array  # noqa: E402
+from stepaside.core.errors import ConfigurationError  # noqa: E402
+from stepaside.core.poses import Array  # noqa: E402
 from stepaside.report.viewer.dragging import (  # noqa: E402
     MOST,
     Dragging,
     pulled,
 )
-from stepaside.report.viewer.layers import PUSH_LENGTH  # noqa: E402
+from stepaside.report.viewer.scene_layers import PUSH_LENGTH  # noqa: E402
 
 EYE = np.array([-1.0, -2.0, 1.5])
 GRABBED = np.array([0.2, 0.1, 0.3])

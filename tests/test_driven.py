@@ -6,14 +6,14 @@ from math import atan2, hypot
 import numpy as np
 import pytest
 
-from stepaside.control.balance.settings import STABILISED
-from stepaside.drivers.velocity.body import REST, Velocity
-from stepaside.games.driven import DrivenWalker
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.drivers.velocity.velocity_body import REST, Velocity
 from stepaside.games.duel import Duel
-from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.velocity_walker import DrivenWalker
 from stepaside.games.walker import Walker
-from stepaside.poses import Pose, wrap_angle
-from stepaside.world.body_settings import BODIES
+from stepaside.locomotion.zmp.control_settings import STABILISED
+from stepaside.sim.body_settings import BODIES
 
 SETTINGS = DuelSettings(
     seed=7,

@@ -45,27 +45,27 @@ def test_velocities_are_given_without_a_simulator(module: str) -> None:
 def test_who_drives_by_one_language_needs_no_other(language: str) -> None:
     others = {"cyclonedds", "qi", "msgpack"} - {language}
     door = {
-        "cyclonedds": "stepaside.drivers.ros2.body",
-        "qi": "stepaside.drivers.naoqi.body",
-        "msgpack": "stepaside.drivers.lola.body",
+        "cyclonedds": "stepaside.drivers.ros2.ros2_body",
+        "qi": "stepaside.drivers.naoqi.naoqi_body",
+        "msgpack": "stepaside.drivers.joint.joint_body",
     }
     pytest.importorskip(language)
     loads(
         f"sys.modules.update(dict.fromkeys({sorted(others)!r}));"
-        f"import stepaside.commands.play, {door[language]}"
+        f"import stepaside.cli.play, {door[language]}"
     )
 
 
 def test_what_was_played_is_kept_without_a_simulator() -> None:
     """A run folder is made on the robot, whatever cannot be drawn there."""
-    loads("import stepaside.commands.play_record, stepaside.games.folder")
+    loads("import stepaside.cli.play_record, stepaside.games.run_archive")
 
 
 def test_help_on_playing_loads_no_simulator() -> None:
     """It shows the defaults of gait and control: numbers, no physics."""
     loads(
-        "from stepaside.cli import main\n"
+        "from stepaside.cli.main import main\n"
         "try: main(['play', '--help'])\n"
         "except SystemExit as e: assert not e.code\n"
-        "assert 'stepaside.world.world' not in sys.modules"
+        "assert 'stepaside.sim.world' not in sys.modules"
     )

@@ -7,15 +7,15 @@ import mujoco
 import numpy as np
 import pytest
 
+from stepaside.core.poses import Array
 from stepaside.games import DuelRun, DuelSettings, Outcome, run_duel
-from stepaside.games.circle import theory_of
-from stepaside.games.settings import StartSettings
+from stepaside.games.duel_circle import theory_of
+from stepaside.games.duel_settings import StartSettings
 from stepaside.planning import GaitSettings
-from stepaside.poses import Array
 from stepaside.robots.description import load_robot
+from stepaside.sim.physics_settings import PhysicsSettings
+from stepaside.sim.world import build_model
 from stepaside.strategies import Evasion
-from stepaside.world.settings import PhysicsSettings
-from stepaside.world.world import build_model
 
 
 @cache

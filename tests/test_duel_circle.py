@@ -15,17 +15,17 @@ from made_up_record import (
     stepped,
     still,
 )
-from stepaside.games.circle import (
+from stepaside.core.poses import Array
+from stepaside.games.duel_circle import (
     angle_between,
     converged_at,
     cycle_mean,
     distance_between,
     theory_of,
 )
-from stepaside.games.settings import DuelSettings
-from stepaside.poses import Array
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
-from stepaside.world.person_settings import PersonSettings
 
 
 def since(record: Record, settings: DuelSettings = SETTINGS) -> float | None:

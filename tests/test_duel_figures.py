@@ -8,14 +8,14 @@ from typing import Any
 import pytest
 
 from invented_run import figures
-from stepaside.errors import ConfigurationError
-from stepaside.games.figures import (
+from stepaside.core.errors import ConfigurationError
+from stepaside.games.duel_summary import (
     DuelSummary,
     PlanTimes,
     PlayerFigures,
     TheoryFigures,
 )
-from stepaside.games.sight_figures import SeeingFigures, SightFigures, Spread
+from stepaside.games.sight_summary import SeeingFigures, SightFigures, Spread
 
 BLIND = figures(
     seed=3,

@@ -7,15 +7,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.control.balance.loop import ClosedLoop
-from stepaside.control.balance.settings import STABILISED
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_run import DuelRun
+from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.games.walker import Walker
-from stepaside.world.body_settings import BODIES
-from stepaside.world.servos import HonestServos
+from stepaside.locomotion.zmp.control_settings import STABILISED
+from stepaside.locomotion.zmp.feedback_loop import ClosedLoop
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.servos import HonestServos
 
 
 def hardware(**changes: Any) -> DuelSettings:

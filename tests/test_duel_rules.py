@@ -8,23 +8,20 @@ import numpy as np
 import pytest
 
 from made_up_players import clock, raising
-from stepaside.constants import CAPTURE_DISTANCE
-from stepaside.errors import ReachError
+from stepaside.core.constants import CAPTURE_DISTANCE
+from stepaside.core.errors import ReachError
 from stepaside.games.duel import Duel, run_duel
+from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.match import Progress
 from stepaside.games.outcome import Outcome
-from stepaside.games.record import Recorder
-from stepaside.games.settings import (
-    DuelSettings,
-    StartSettings,
-)
-from stepaside.games.track import Planning
+from stepaside.games.recorder import Recorder
+from stepaside.games.trajectory import Planning
 from stepaside.games.walker import Walker
+from stepaside.sim.camera_settings import RoomSettings, Thing
+from stepaside.sim.ground_truth import torsos_apart
+from stepaside.sim.physics_settings import SightSettings
+from stepaside.sim.simulated_robot import SimulatedRobot
 from stepaside.strategies import Evasion, Pursuit
-from stepaside.world.camera_settings import RoomSettings, Thing
-from stepaside.world.robot import SimulatedRobot
-from stepaside.world.settings import SightSettings
-from stepaside.world.truth import torsos_apart
 
 START = StartSettings(1.3, 0.4, -0.2)
 

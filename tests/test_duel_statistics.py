@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from counting import NORMAL, is_wilson
-from stepaside.games.settings import DuelSettings
+from stepaside.games.duel_settings import DuelSettings
 from stepaside.studies.duel_statistics import (
     FIGURES,
     figure_row,

@@ -15,22 +15,14 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from stepaside import workers
-from stepaside.cli import main
-from stepaside.commands.duels import duels
-from stepaside.games.settings import (
-    DuelSettings,
-    StartSettings,
-)
+from stepaside.cli.duels import duels
+from stepaside.cli.main import main
+from stepaside.core import worker_pool as workers
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.sim.push import Push
 from stepaside.strategies import Evasion
-from stepaside.studies import duels as study
-from stepaside.studies.duel_statistics import (
-    certificate_row,
-    figure_row,
-    share,
-    summarise_duels,
-)
-from stepaside.studies.duels import (
+from stepaside.studies import duel_campaign as study
+from stepaside.studies.duel_campaign import (
     key_of,
     play_record,
     run_duels,
@@ -38,8 +30,13 @@ from stepaside.studies.duels import (
     stamps_of,
     verify_duels,
 )
-from stepaside.studies.records import RecordFile
-from stepaside.world.push import Push
+from stepaside.studies.duel_statistics import (
+    certificate_row,
+    figure_row,
+    share,
+    summarise_duels,
+)
+from stepaside.studies.record_store import RecordFile
 
 SETTINGS = DuelSettings(duration=120.0)
 NOW = {"version": "new", "libraries": {"mujoco": "1"}}

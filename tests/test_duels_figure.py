@@ -9,7 +9,7 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from stepaside.report.duels_figure import PANELS, draw_duels
-from stepaside.report.style import RIGHT, THEORY, plt
+from stepaside.report.figure_style import RIGHT, THEORY, plt
 
 KEYS = [key for keys, _ in PANELS for key in keys]
 SUMMARY = {

@@ -10,8 +10,8 @@ from click.testing import CliRunner, Result
 from fuzz.case import Reached
 from fuzz.invoking import without_work
 from fuzz.kinds import make_run
-from stepaside.cli import main
-from stepaside.commands.effort import ENDLESS, LONG, in_words, tell_effort
+from stepaside.cli.effort_estimate import ENDLESS, LONG, in_words, tell_effort
+from stepaside.cli.main import main
 
 
 @click.command()
@@ -118,6 +118,6 @@ def test_what_is_long_says_so_before_it_begins(
     def told(*_: object, err: bool = False) -> None:
         raise Reached(_[0])
 
-    monkeypatch.setattr("stepaside.commands.effort.echo", told)
+    monkeypatch.setattr("stepaside.cli.effort_estimate.echo", told)
     with pytest.raises(Reached, match=wanted):
         main(words.replace("RUN", run).split())

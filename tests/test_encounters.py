@@ -10,20 +10,24 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli import main
+from stepaside.cli.main import main
+from stepaside.core.poses import wrap_angle
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.planning import PRESETS
-from stepaside.poses import wrap_angle
 from stepaside.report.people_figure import draw_people
-from stepaside.studies import encounters as study
-from stepaside.studies.encounters import Encounter, encounters, run_encounters
-from stepaside.studies.people import (
+from stepaside.studies import people_campaign as study
+from stepaside.studies.people_campaign import (
+    Encounter,
+    encounters,
+    run_encounters,
+)
+from stepaside.studies.people_statistics import (
     origin_rows,
     passing_rows,
     people_rows,
     theory_room,
 )
-from stepaside.studies.results import read_result
+from stepaside.studies.result_files import read_result
 
 WALK = WalkSettings(seed=3, gait=PRESETS["fast"])
 FEW: dict[str, Any] = {"speeds": (0.5, 1.0), "bearings": (0, -90)}

@@ -14,13 +14,13 @@ import pytest
 
 from fuzz.case import complaint_of
 from fuzz.moments import SIGNALS, moment_case
-from stepaside.commands import reproduce_figures
-from stepaside.errors import OutputError
-from stepaside.interrupting import stoppable
-from stepaside.outputs import DRAFT, draft_prefix, sweep, writing
-from stepaside.studies.kept import Kept
-from stepaside.studies.records import RecordFile
-from stepaside.workers import worker_pool
+from stepaside.cli import reproduce_figures
+from stepaside.core.atomic_output import DRAFT, draft_prefix, sweep, writing
+from stepaside.core.errors import OutputError
+from stepaside.core.interrupts import stoppable
+from stepaside.core.worker_pool import worker_pool
+from stepaside.studies.reading_store import Kept
+from stepaside.studies.record_store import RecordFile
 
 HERE = sha256(platform.node().encode()).hexdigest()[:8]
 

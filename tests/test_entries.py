@@ -2,7 +2,7 @@
 
 import pytest
 
-from stepaside.games.entries import over, renamed, without
+from stepaside.games.configuration_file import over, renamed, without
 
 BELOW = {"a": 1, "b": {"c": 2, "d": {"e": 3, "f": 4}}, "g": 5, "h": {"i": 6}}
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from stepaside.errors import (
+from stepaside.core.errors import (
     ConfigurationError,
     ModelError,
     PlanError,

@@ -6,16 +6,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.control.balance.estimation import (
+from stepaside.core.poses import Array
+from stepaside.locomotion.zmp.state_estimator import (
     BodyState,
     StateEstimator,
     _level,
 )
-from stepaside.poses import Array
-from stepaside.robots.forward import MeasuredPosture
+from stepaside.perception.measurement import Measurement
+from stepaside.robots.forward_kinematics import MeasuredPosture
 from stepaside.robots.head import rotation
-from stepaside.robots.kinematics import BodyReference
-from stepaside.sensing.measurement import Measurement
+from stepaside.robots.leg_kinematics import BodyReference
 
 ETA, TICK = 6.0, 0.004
 GRAVITY = np.array([0.0, 0.0, 9.81])

@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 
 from made_up_robot import GAIT, FakeLegs
+from stepaside.arena import check_starts, load_room
 from stepaside.control.clearance.guard import Guard
-from stepaside.control.clearance.outline import BodyOutline, sway_of
 from stepaside.control.clearance.surroundings import GivenRoom
+from stepaside.control.clearance.swept_outline import BodyOutline, sway_of
 from stepaside.control.scheme import ControlScheme
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.planning import ManeuverPlanner
-from stepaside.poses import Pose, wrap_angle
 from stepaside.robots.description import load_robot
-from stepaside.rooms import check_starts, load_room
-from stepaside.sensing.measurement import Measurement, Sighting
+from stepaside.sim.outline_measurement import measure_outline
 from stepaside.strategies import Pursuit
-from stepaside.world.outline import measure_outline
 
 ROOMS = Path(__file__).parents[1] / "examples" / "rooms"
 NAO: BodyOutline = measure_outline(load_robot("nao"), GAIT)

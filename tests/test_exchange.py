@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.drivers.lola.frame_clock import TICK
-from stepaside.errors import ConfigurationError
-from stepaside.games.exchange import PRESSED, STEADY, Exchange
+from stepaside.core.errors import ConfigurationError
+from stepaside.drivers.joint.frame_clock import TICK
+from stepaside.games.lockstep import PRESSED, STEADY, Exchange
 
 from lola_fakes import Clock  # isort: skip
 
@@ -123,7 +123,7 @@ def test_in_lock_step_a_silent_client_is_dropped_and_the_world_goes_on(
         assert waiting == [silent]
         clock.now += _[-1]
 
-    monkeypatch.setattr("stepaside.games.exchange.select.select", select)
+    monkeypatch.setattr("stepaside.games.lockstep.select.select", select)
     exchange.before(None)  # type: ignore[arg-type]
     assert exchange.unanswered == 1
     assert not silent.connected and "no answer for 5 s" in silent.log[-1]

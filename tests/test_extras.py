@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from documents.store import ROOT
-from stepaside.cli import all_commands
-from stepaside.extras import EXTRAS, remedy
+from stepaside.cli.main import all_commands
+from stepaside.core.extras import EXTRAS, remedy
 
 PACKAGES = {"cv2": "opencv-python-headless"}  # where it is not the module's
 SHORT = "--duration 0.02 --json"

@@ -10,23 +10,23 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.robots.description import load_robot
-from stepaside.robots.head import load_head
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.sensing.images import (
+from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.images import (
     ColourImage,
     DepthImage,
     Percept,
     SonarEcho,
 )
-from stepaside.world import eyes as eyes_module
-from stepaside.world.camera_settings import (
+from stepaside.robots.description import load_robot
+from stepaside.robots.head import load_head
+from stepaside.sim import sensor_suite as eyes_module
+from stepaside.sim.camera_settings import (
     CameraSettings,
     ColourSettings,
     DepthSettings,
     SonarSettings,
 )
-from stepaside.world.eyes import Eyes, Grain, Stream, _size_for
+from stepaside.sim.sensor_suite import Eyes, Grain, Stream, _size_for
 
 TICK = 0.004
 HEAD = load_head(load_robot("nao"))

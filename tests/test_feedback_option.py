@@ -6,13 +6,13 @@ import click
 import pytest
 from click.core import ParameterSource
 
-from stepaside.commands.feedback import with_feedback
-from stepaside.control.balance.settings import (
+from stepaside.cli.feedback_default import with_feedback
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.locomotion.zmp.control_settings import (
     OPEN_LOOP,
     STABILISED,
     ControlSettings,
 )
-from stepaside.games.settings import DuelSettings
 
 LEARNS = replace(OPEN_LOOP, learn_turns=True)
 

@@ -7,17 +7,17 @@ import pytest
 
 from drawn_depth import Post, paint
 from made_up_eyes import HEAD, JOINTS, NAO, UP
-from stepaside.perception.feet import CLOSE, Feet
-from stepaside.perception.observing import camera_of
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.colour_detector import RED
+from stepaside.perception.floor_colours import floor_points
+from stepaside.perception.foot_tracking import CLOSE, Feet
+from stepaside.perception.images import ColourImage
+from stepaside.perception.measurement import Measurement
+from stepaside.perception.observations import camera_of
 from stepaside.perception.perception import Perception
-from stepaside.poses import Pose, wrap_angle
+from stepaside.perception.track import Observation, Track
 from stepaside.robots.head import Mount
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.sensing.colour_detector import RED
-from stepaside.sensing.floor_colours import floor_points
-from stepaside.sensing.images import ColourImage
-from stepaside.sensing.measurement import Measurement
-from stepaside.sensing.track import Observation, Track
 
 CAMERA = CameraModel.of_field_of_view(160, 120, radians(60.9), radians(47.6))
 Legs = list[Post]

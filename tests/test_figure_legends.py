@@ -8,11 +8,12 @@ import pytest
 from matplotlib.figure import Figure
 
 from invented_run import run_of
-from stepaside.bound import Bound, Grid, against_any, solve_bound
-from stepaside.games.track import Track
-from stepaside.report import bound_figure, people_figure, style
+from stepaside.games.trajectory import Track
+from stepaside.report import bound_figure, people_figure
+from stepaside.report import figure_style as style
 from stepaside.report.film_shot import Shot
 from stepaside.report.film_strip import line_names
+from stepaside.theory.bound import Bound, Grid, against_any, solve_bound
 
 
 @pytest.fixture

@@ -15,11 +15,13 @@ from matplotlib.figure import Figure
 from matplotlib.text import Annotation
 
 from invented_run import run_of
-from stepaside.games.circle import theory_of
+from stepaside.arena import BODY_RADIUS, Disc, MovingBox, Room
+from stepaside.core.poses import Array
+from stepaside.games.duel_circle import theory_of
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.figures import TheoryFigures
-from stepaside.games.settings import DuelSettings
-from stepaside.games.track import Track
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.duel_summary import TheoryFigures
+from stepaside.games.trajectory import Track
 from stepaside.planning import (
     Direction,
     Foot,
@@ -27,14 +29,12 @@ from stepaside.planning import (
     ManeuverPlanner,
     Sole,
 )
-from stepaside.planning.support import sole_corners
-from stepaside.poses import Array
+from stepaside.planning.support_polygon import sole_corners
 from stepaside.report import compare_figure, duel_figure, plan_figure
-from stepaside.report.averages import whole_cycles
-from stepaside.report.soles import draw_heading, draw_soles
-from stepaside.report.style import COLOURS, EVADER, PURSUER, THEORY, plt
-from stepaside.rooms import BODY_RADIUS, Disc, MovingBox, Room
-from stepaside.world.camera_settings import RoomSettings
+from stepaside.report.cycle_means import whole_cycles
+from stepaside.report.figure_style import COLOURS, EVADER, PURSUER, THEORY, plt
+from stepaside.report.sole_outlines import draw_heading, draw_soles
+from stepaside.sim.camera_settings import RoomSettings
 
 TIMES = np.linspace(0.0, 18.0, 901)
 SETTINGS = DuelSettings(seed=7)

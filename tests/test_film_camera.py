@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 
 from invented_run import run_of
+from stepaside.core.poses import Array
+from stepaside.games.duel_settings import PLAYERS, DuelSettings
 from stepaside.games.run import Run
-from stepaside.games.settings import PLAYERS, DuelSettings
-from stepaside.games.track import Track
-from stepaside.poses import Array
+from stepaside.games.trajectory import Track
 from stepaside.report import film_layers
 from stepaside.report.film import Shot, closest_time
 from stepaside.report.film_camera import MARGIN, VIEWS, CameraMan, framing
+from stepaside.report.film_captions import caption, title_of
 from stepaside.report.film_shot import AROUND, SLOWEST
-from stepaside.report.film_words import caption, title_of
 from stepaside.report.palette import PALETTES
 
 FOVY, ASPECT = 45.0, 16.0 / 9.0

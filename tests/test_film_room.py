@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 from invented_run import run_of
+from stepaside.arena import Door, Room
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.settings import DuelSettings
-from stepaside.games.track import Track
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.trajectory import Track
 from stepaside.report.film_camera import CameraMan
+from stepaside.report.film_captions import rings_of
 from stepaside.report.film_walls import see_through, walls_before
-from stepaside.report.film_words import rings_of
-from stepaside.rooms import Door, Room
-from stepaside.world.camera_settings import RoomSettings
-from stepaside.world.solids import add_solids
+from stepaside.sim.camera_settings import RoomSettings
+from stepaside.sim.obstacle_geoms import add_solids
 
 SHAPES = [(3.0, 3.0), (2.0, 8.0), (9.0, 1.6)]
 

@@ -7,18 +7,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.errors import ConfigurationError
+from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel import Duel
+from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import Run
-from stepaside.games.settings import DuelSettings, StartSettings
-from stepaside.report import film, film_split
+from stepaside.report import film
+from stepaside.report import film_insets as film_split
 from stepaside.report.film import Cinema, Shot
-from stepaside.report.film_split import WITH_WALLS, room_beside
-from stepaside.report.stage import Stage
-from stepaside.world.camera_settings import RoomSettings, Thing
-from stepaside.world.graphics import PLAIN
-from stepaside.world.room import SIDES
+from stepaside.report.film_insets import WITH_WALLS, room_beside
+from stepaside.report.scene import Stage
+from stepaside.sim.camera_settings import RoomSettings, Thing
+from stepaside.sim.offscreen_rendering import PLAIN
+from stepaside.sim.room_furnishing import SIDES
 
 SEEN = 200  # brightness of all that a robot sees
 

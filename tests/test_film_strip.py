@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from invented_run import run_of
+from stepaside.games.duel_settings import PLAYERS
 from stepaside.games.run import Run
-from stepaside.games.settings import PLAYERS
-from stepaside.games.track import Track
+from stepaside.games.trajectory import Track
 from stepaside.report import film_strip
 from stepaside.report.film import Shot, instants_of
 from stepaside.report.film_strip import FRAMES, spread, write_strip

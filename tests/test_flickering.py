@@ -7,11 +7,7 @@ import numpy as np
 import pytest
 
 from made_up_robot import GAIT
-from stepaside.control.clearance.surroundings import GivenRoom, SeenRoom
-from stepaside.control.deciding import Decisions
-from stepaside.perception.floor_map import CELL, FloorMap
-from stepaside.poses import Pose
-from stepaside.rooms import (
+from stepaside.arena import (
     Disc,
     Obstacle,
     Polygon,
@@ -19,11 +15,15 @@ from stepaside.rooms import (
     RoomRecipe,
     make_room,
 )
-from stepaside.sensing.measurement import Sighting
-from stepaside.steps import search
+from stepaside.control.clearance.surroundings import GivenRoom, SeenRoom
+from stepaside.control.strategy_runner import Decisions
+from stepaside.core.poses import Pose
+from stepaside.perception.floor_map import CELL, FloorMap
+from stepaside.perception.measurement import Sighting
 from stepaside.strategies import Intent, Knowledge, Limits, Pursuit
 from stepaside.strategies.look_ahead import PENALTY, LookAhead
-from stepaside.strategies.steps import StepGame, play_steps
+from stepaside.strategies.search import turn_search as search
+from stepaside.strategies.step_game import StepGame, play_steps
 
 LIMITS = Limits(GAIT.speed, GAIT.gain, GAIT.stride, GAIT.step_duration)
 

@@ -6,9 +6,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.randomness import named_generator
-from stepaside.world.floor import add_floor, tilt_gravity
-from stepaside.world.settings import PhysicsSettings
+from stepaside.core.random_streams import named_generator
+from stepaside.sim.floor import add_floor, tilt_gravity
+from stepaside.sim.physics_settings import PhysicsSettings
 
 
 def floor(seed: int = 1, **changes: float) -> mujoco.MjModel:

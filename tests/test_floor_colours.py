@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 from drawn_depth import Post, paint
-from stepaside.poses import Array
-from stepaside.robots.head import rotation
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.sensing.floor_colours import (
+from stepaside.core.poses import Array
+from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.floor_colours import (
     FloorColours,
     Footing,
     find_footings,
     floor_points,
 )
-from stepaside.sensing.images import ColourImage
+from stepaside.perception.images import ColourImage
+from stepaside.robots.head import rotation
 
 CAMERA = CameraModel.of_field_of_view(160, 120, radians(60.9), radians(47.6))
 EYE = np.array([0.05, 0.0, 0.46])

@@ -5,6 +5,10 @@ from math import atan2, pi
 import numpy as np
 import pytest
 
+from stepaside.arena import Box, Disc, Obstacle
+from stepaside.arena.polygon_cover import cover
+from stepaside.core.poses import Array
+from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.floor_map import (
     CELL,
     START,
@@ -13,11 +17,7 @@ from stepaside.perception.floor_map import (
     _broad,
     _centres,
 )
-from stepaside.poses import Array
-from stepaside.rooms import Box, Disc, Obstacle
-from stepaside.rooms.covering import cover
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.sensing.images import DepthImage
+from stepaside.perception.images import DepthImage
 
 CAMERA = CameraModel.of_field_of_view(80, 60, 1.01, 0.785)
 EYE, HIGH, FAR = 0.5, 0.6, 3.5

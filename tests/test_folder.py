@@ -10,20 +10,20 @@ import numpy as np
 import pytest
 
 from invented_run import run_of
-from stepaside.errors import ConfigurationError
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Array
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.folder import (
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.outcome import Outcome
+from stepaside.games.run import Run
+from stepaside.games.run_archive import (
     SUMMARY,
     TRAJECTORIES,
     load_run,
     write_record,
 )
-from stepaside.games.folder_head import FORMAT
-from stepaside.games.outcome import Outcome
-from stepaside.games.run import Run
-from stepaside.games.settings import DuelSettings, StartSettings
-from stepaside.games.track import Track
-from stepaside.poses import Array
+from stepaside.games.run_header import FORMAT
+from stepaside.games.trajectory import Track
 
 ROWS = 6
 TIMES: Array = 0.02 * np.arange(float(ROWS))

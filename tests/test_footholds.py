@@ -6,14 +6,16 @@ from math import cos, pi, sin
 import numpy as np
 import pytest
 
-from stepaside.control.assembly import Clearance, guard_of
-from stepaside.control.balance.settings import (
+from stepaside.arena import Box, Disc, Obstacle, ObstacleSet, Room
+from stepaside.control.clearance.footholds import Footholds
+from stepaside.control.clearance.surroundings import HERE, GivenRoom
+from stepaside.control.scheme_builder import Clearance, guard_of
+from stepaside.core.poses import Array, Pose
+from stepaside.locomotion.zmp.control_settings import (
     ControlSettings,
     Method,
     StabiliserSettings,
 )
-from stepaside.control.clearance.footholds import Footholds
-from stepaside.control.clearance.surroundings import HERE, GivenRoom
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -22,10 +24,8 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.poses import Array, Pose
 from stepaside.robots.description import load_robot
-from stepaside.rooms import Box, Disc, Obstacle, ObstacleSet, Room
-from stepaside.world.outline import measure_outline
+from stepaside.sim.outline_measurement import measure_outline
 
 GAIT = GaitSettings()
 PLANNER = ManeuverPlanner(GAIT)

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stepaside.errors import PlanError
+from stepaside.core.errors import PlanError
+from stepaside.core.poses import Array
 from stepaside.planning import Direction, Foot, UnicycleTrajectory
 from stepaside.planning.footsteps import place_footsteps
-from stepaside.poses import Array
 
 SPEED, GAIN = 0.1, 0.2
 WALK = {"count": 20, "stride": 0.04, "foot_spacing": 0.1}

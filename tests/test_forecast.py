@@ -9,16 +9,16 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from stepaside.cli import main
-from stepaside.games.circle import no_circle_because, pace_of, theory_of
+from stepaside.arena import Room
+from stepaside.cli.main import main
+from stepaside.core.poses import wrap_angle
+from stepaside.games.duel_circle import no_circle_because, pace_of, theory_of
+from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.forecast import Expected, Forecast, forecast
-from stepaside.games.settings import DuelSettings, StartSettings
-from stepaside.games.start import with_start
-from stepaside.poses import wrap_angle
-from stepaside.rooms import Room
+from stepaside.games.initial_poses import with_start
+from stepaside.sim.camera_settings import RoomSettings
+from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
-from stepaside.world.camera_settings import RoomSettings
-from stepaside.world.person_settings import PersonSettings
 
 START = StartSettings(1.2, 0.4, -0.3)
 BASE = DuelSettings(duration=80.0, start=START)

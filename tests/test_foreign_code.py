@@ -11,10 +11,15 @@ import pytest
 from click.testing import CliRunner
 
 from stepaside import DuelSettings, run_duel
-from stepaside.cli import main
+from stepaside.cli.main import main
 from stepaside.robots.description import load_robot
-from stepaside.studies import duel_statistics, tournament
-from stepaside.studies.records import RecordFile
+from stepaside.studies import (
+    duel_statistics,
+)
+from stepaside.studies import (
+    tournament_campaign as tournament,
+)
+from stepaside.studies.record_store import RecordFile
 
 STRATEGY = """
 import os, sys

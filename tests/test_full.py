@@ -18,8 +18,8 @@ from fuzz.case import complaint_of
 from fuzz.kinds import make_run
 from fuzz.outlets import APART, is_outlet, outlets, words_of, writers
 from fuzz.places import FAULTS, place_case
-from stepaside import outputs
-from stepaside.cli import all_commands, main
+from stepaside.cli.main import all_commands, main
+from stepaside.core import atomic_output as outputs
 
 DUEL = "duel --duration=0.02 --output={}/run"
 PLAN = "plan --role=evader --bearing=0.3 --steps=4 --figure={}/plan.png"

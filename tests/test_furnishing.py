@@ -5,10 +5,10 @@ from dataclasses import replace
 import mujoco
 import pytest
 
+from stepaside.arena import Disc, Room
 from stepaside.games import DuelSettings
 from stepaside.games.duel import furnisher_of
-from stepaside.rooms import Disc, Room
-from stepaside.world.passer import Passer
+from stepaside.sim.passer_settings import Passer
 
 ALONE = DuelSettings()
 INSIDE = replace(

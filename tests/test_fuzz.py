@@ -50,7 +50,7 @@ def test_bad_input_is_refused_in_one_line(kind: str, run: Path) -> None:
 
 
 def test_every_command_and_most_options_are_tried(run: Path) -> None:
-    from stepaside.cli import all_commands
+    from stepaside.cli.main import all_commands
 
     tried = {case.kind for case in command_cases(Random(0), run)}
     assert tried == {f"options of {name}" for name in all_commands()}

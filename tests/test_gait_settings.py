@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stepaside.errors import PlanError
+from stepaside.core.errors import PlanError
 from stepaside.planning import GaitSettings
-from stepaside.planning.settings import Sole
+from stepaside.planning.gait_settings import Sole
 
 
 def test_gait_has_the_values_of_the_paper() -> None:

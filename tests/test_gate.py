@@ -17,13 +17,13 @@ from websockets.exceptions import (  # noqa: E402
 )
 from websockets.sync.client import connect  # noqa: E402
 
-from stepaside.cli import main  # noqa: E402
-from stepaside.errors import ConfigurationError  # noqa: E402
-from stepaside.report.viewer import gate as gates  # noqa: E402
-from stepaside.report.viewer.address import Address, listen  # noqa: E402
-from stepaside.report.viewer.gate import Gate  # noqa: E402
-from stepaside.report.viewer.messages import LARGEST  # noqa: E402
-from stepaside.report.viewer.serving import Served, open_server  # noqa: E402
+from stepaside.cli.main import main  # noqa: E402
+from stepaside.core.errors import ConfigurationError  # noqa: E402
+from stepaside.report.viewer import access_control as gates  # noqa: E402
+from stepaside.report.viewer.access_control import Gate  # noqa: E402
+from stepaside.report.viewer.page_address import Address, listen  # noqa: E402
+from stepaside.report.viewer.page_messages import LARGEST  # noqa: E402
+from stepaside.report.viewer.page_server import Served, open_server  # noqa: E402
 
 PROTOCOL: Any = [f"viser-v{viser.__version__}"]
 

@@ -9,18 +9,21 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from stepaside.cli import main
-from stepaside.commands.declared.build import changed
-from stepaside.commands.plan_settings import PlanSettings
-from stepaside.control.balance.settings import StabiliserSettings
-from stepaside.errors import ConfigurationError
-from stepaside.games.configuration import dump_configuration, parse_settings
-from stepaside.games.settings import DuelSettings
+from stepaside.cli.main import main
+from stepaside.cli.options.settings_builder import changed
+from stepaside.cli.plan_settings import PlanSettings
+from stepaside.core.errors import ConfigurationError
+from stepaside.games.configuration_file import (
+    dump_configuration,
+    parse_settings,
+)
+from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.walk_settings import WalkSettings
+from stepaside.locomotion.zmp.control_settings import StabiliserSettings
 from stepaside.planning import PRESETS
-from stepaside.world.body_settings import BODIES
-from stepaside.world.camera_settings import CLUTTER
-from stepaside.world.push import Push
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.camera_settings import CLUTTER
+from stepaside.sim.push import Push
 
 KINDS: dict[str, Any] = {
     "duel": DuelSettings,

@@ -10,9 +10,14 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.errors import ConfigurationError
-from stepaside.world import graphics
-from stepaside.world.graphics import BACKENDS, Screen, _works, choose_renderer
+from stepaside.core.errors import ConfigurationError
+from stepaside.sim import offscreen_rendering as graphics
+from stepaside.sim.offscreen_rendering import (
+    BACKENDS,
+    Screen,
+    _works,
+    choose_renderer,
+)
 
 
 @pytest.fixture

@@ -7,8 +7,8 @@ import pytest
 
 pytest.importorskip("viser")
 
-from stepaside.report.viewer.hand import held_by  # noqa: E402
-from stepaside.report.viewer.serving import Served, open_server  # noqa: E402
+from stepaside.report.viewer.gamepad import held_by  # noqa: E402
+from stepaside.report.viewer.page_server import Served, open_server  # noqa: E402
 
 Held = list[tuple[float, bool]]
 

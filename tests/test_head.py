@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stepaside.errors import ModelError
-from stepaside.poses import Array
+from stepaside.core.errors import ModelError
+from stepaside.core.poses import Array
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import HeadDescription, load_head, rotation
 

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 import published_humanoid as stranger
-from stepaside.fitting.heads import head_of
-from stepaside.fitting.survey import survey
+from stepaside.fitting.model_analysis import survey
+from stepaside.fitting.model_report import head_of
 
 HEAD = """
 <body name="neck" pos="0.06 0 0.4">

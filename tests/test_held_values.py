@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 import published_humanoid as stranger
-from stepaside.fitting.limbs import find_legs
-from stepaside.fitting.survey import survey
+from stepaside.fitting.leg_detection import find_legs
+from stepaside.fitting.model_analysis import survey
 from stepaside.games.duel import Duel
-from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.walker import Walker
 from stepaside.planning import (
     Direction,
@@ -21,7 +21,7 @@ from stepaside.planning import (
     GaitSettings,
     ManeuverPlanner,
 )
-from stepaside.world.body_settings import BODIES
+from stepaside.sim.body_settings import BODIES
 
 
 def arrays_in(value: Any, depth: int = 0) -> Iterator[np.ndarray]:

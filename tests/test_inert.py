@@ -15,11 +15,11 @@ from hypothesis import strategies as st
 import stepaside
 from hostile import HOSTILE
 from invented_run import run_of
-from stepaside.cli import main
+from stepaside.cli.main import main
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.folder import write_record
-from stepaside.games.track import Track
-from stepaside.report.inert import (
+from stepaside.games.run_archive import write_record
+from stepaside.games.trajectory import Track
+from stepaside.report.text_escaping import (
     UNSEEN,
     fill_page,
     for_figure,
@@ -98,7 +98,7 @@ def test_a_policy_allows_what_stands_in_the_page_alone() -> None:
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_name_is_shown_literally_in_a_figure(name: str) -> None:
-    from stepaside.report.style import plt
+    from stepaside.report.figure_style import plt
 
     figure, axes = plt.subplots()
     axes.plot([0, 1], label=for_figure(name))

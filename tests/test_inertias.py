@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.robots.inertias import mend_inertias
+from stepaside.robots.inertia_repair import mend_inertias
 
 LINK = (
     '<mujoco><worldbody><body name="link"><joint name="turn"/>'

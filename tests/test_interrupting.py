@@ -10,20 +10,20 @@ from typing import Any
 import click
 import pytest
 
-from stepaside.cli import LazyGroup
-from stepaside.commands.outputs import writes_files
-from stepaside.games.outcome import Outcome
-from stepaside.games.player_record import Record
-from stepaside.games.walk import run_walk
-from stepaside.games.walk_settings import WalkSettings
-from stepaside.interrupting import (
+from stepaside.cli.main import LazyGroup
+from stepaside.cli.output_files import writes_files
+from stepaside.core.interrupts import (
     Held,
     interrupt,
     is_loading,
     stoppable,
     was_interrupted,
 )
-from stepaside.studies.version import ROOT
+from stepaside.games.outcome import Outcome
+from stepaside.games.player_record import Record
+from stepaside.games.walk_game import run_walk
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.studies.code_version import ROOT
 
 LOADERS = """
 class {name}:

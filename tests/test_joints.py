@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.control.balance.joints import JointCorrection
-from stepaside.poses import Array
+from stepaside.core.poses import Array
+from stepaside.locomotion.zmp.joint_correction import JointCorrection
 
 TICK = 0.01
 

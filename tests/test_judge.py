@@ -9,13 +9,13 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.games.judge import Judge, Tally
-from stepaside.games.sight_figures import Spread
+from stepaside.games.sight_evaluation import Judge, Tally
+from stepaside.games.sight_summary import Spread
+from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.frame_report import FrameReport
+from stepaside.perception.images import ColourImage, DepthImage, SonarEcho
+from stepaside.perception.measurement import Sighting
 from stepaside.robots.head import Mount, rotation
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.sensing.images import ColourImage, DepthImage, SonarEcho
-from stepaside.sensing.measurement import Sighting
 
 CAMERA = CameraModel.of_field_of_view(80, 60, radians(60.0), radians(45.0))
 PERIOD = 0.1

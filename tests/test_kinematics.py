@@ -4,10 +4,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.errors import ReachError
+from stepaside.core.errors import ReachError
 from stepaside.planning import Direction, Foot, GaitSettings, ManeuverPlanner
 from stepaside.robots.description import load_robot
-from stepaside.robots.kinematics import BodyReference, LegKinematics
+from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
 
 STANCE = BodyReference(
     (0.02, 0.0, 0.268), (0.0, 0.05, 0.0, 0.0), (0.0, -0.05, 0.0, 0.0)
@@ -44,8 +44,8 @@ def test_standing_posture_meets_the_reference() -> None:
 
 def test_walk_is_tracked_within_a_tenth_of_a_millimeter() -> None:
     """One damped step a tick, at the bearing of the circle, 45 degrees."""
-    from stepaside.control.reference import ReferenceTable
-    from stepaside.poses import Pose
+    from stepaside.core.poses import Pose
+    from stepaside.locomotion.zmp.reference_table import ReferenceTable
 
     gait = GaitSettings()
     plan = ManeuverPlanner(gait).plan(
@@ -83,8 +83,8 @@ def test_a_walk_is_that_of_a_damped_solve_on_mujoco_s_jacobians(
     """But for the damping, which the step that nothing limits leaves out."""
     import mujoco_legs
 
-    from stepaside.control.reference import ReferenceTable
-    from stepaside.poses import Pose
+    from stepaside.core.poses import Pose
+    from stepaside.locomotion.zmp.reference_table import ReferenceTable
 
     monkeypatch.setattr(mujoco_legs, "DAMPING", damping)
     plan = ManeuverPlanner(GaitSettings()).plan(

@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli import COMMANDS, main
-from stepaside.commands import progress
-from stepaside.commands.labels import label_of, text_of, unit_of
+from stepaside.cli import progress
+from stepaside.cli.main import COMMANDS, main
+from stepaside.cli.value_labels import label_of, text_of, unit_of
 
 TABLES = [
     "duel --duration 1",

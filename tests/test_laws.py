@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stepaside import laws
-from stepaside.poses import wrap_angle
+from stepaside.core.poses import wrap_angle
+from stepaside.theory import laws
 
 ANGLES = st.floats(-pi, pi)
 

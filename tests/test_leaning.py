@@ -9,27 +9,26 @@ import numpy as np
 import pytest
 
 import published_humanoid as stranger
-from stepaside.control.balance.ankles import Ankles
-from stepaside.control.balance.estimation import BodyState
-from stepaside.control.balance.settings import StabiliserSettings
-from stepaside.errors import ModelError
-from stepaside.fitting import leaning
-from stepaside.fitting.candidates import Candidate
-from stepaside.fitting.deriving import derive
-from stepaside.fitting.leaning import LEANS, least_lean
-from stepaside.fitting.rehearsal import Borne
-from stepaside.fitting.rewriting import rewritten
-from stepaside.fitting.trials import Walked
-from stepaside.fitting.writing import write_description
+from stepaside.core.errors import ModelError
+from stepaside.core.poses import Pose
+from stepaside.fitting import derivation as leaning
+from stepaside.fitting.derivation import LEANS, derive, least_lean
+from stepaside.fitting.description_edit import rewritten
+from stepaside.fitting.description_writer import write_description
+from stepaside.fitting.gait_candidates import Candidate
+from stepaside.fitting.gait_feasibility import Borne
+from stepaside.fitting.walk_trials import Walked
 from stepaside.games.robot_settings import settings_of
-from stepaside.poses import Pose
+from stepaside.locomotion.zmp.control_settings import StabiliserSettings
+from stepaside.locomotion.zmp.joint_correction import Ankles
+from stepaside.locomotion.zmp.state_estimator import BodyState
 from stepaside.robots.description import (
     FILE,
     RobotDescription,
     load_robot,
 )
-from stepaside.robots.kinematics import BodyReference, LegKinematics
-from stepaside.robots.loads import LegLoads
+from stepaside.robots.joint_loads import LegLoads
+from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
 
 NAO = load_robot("nao")
 TICK = 0.004

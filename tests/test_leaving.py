@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from made_up_robot import GAIT, FakeStrategy, Run
+from stepaside.arena import Box, Disc, ObstacleSet, Room
 from stepaside.control.clearance.guard import (
     GAINED,
     Choice,
@@ -13,13 +14,12 @@ from stepaside.control.clearance.guard import (
     Passage,
 )
 from stepaside.control.clearance.surroundings import GivenRoom, SeenRoom
+from stepaside.core.poses import Pose
 from stepaside.perception.floor_map import CELL, FloorMap
 from stepaside.planning import Direction, Foot, ManeuverPlan, ManeuverPlanner
-from stepaside.poses import Pose
 from stepaside.robots.description import load_robot
-from stepaside.rooms import Box, Disc, ObstacleSet, Room
+from stepaside.sim.outline_measurement import measure_outline
 from stepaside.strategies import Intent
-from stepaside.world.outline import measure_outline
 
 MARGIN = 0.02
 PLANNER = ManeuverPlanner(GAIT)

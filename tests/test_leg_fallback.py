@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from stepaside.robots.description import load_robot
-from stepaside.robots.kinematics import FAR, BodyReference, LegKinematics
-from stepaside.robots.legs import Legs
-from stepaside.robots.stored import load_tree
+from stepaside.robots.leg_joints import Legs
+from stepaside.robots.leg_kinematics import FAR, BodyReference, LegKinematics
+from stepaside.robots.tree_cache import load_tree
 
 NAO = load_robot("nao")
 STANCE = BodyReference(

@@ -6,12 +6,12 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.errors import ReachError
-from stepaside.poses import Array
+from stepaside.core.errors import ReachError
+from stepaside.core.poses import Array
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import rotation
-from stepaside.robots.kinematics import ROWS, BodyReference, LegKinematics
-from stepaside.robots.leg_rows import _turn
+from stepaside.robots.ik_residuals import _turn
+from stepaside.robots.leg_kinematics import ROWS, BodyReference, LegKinematics
 
 NAO = load_robot("nao")
 TICK = 0.004

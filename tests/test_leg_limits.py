@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from stepaside.poses import Array
+from stepaside.core.poses import Array
 from stepaside.robots.description import load_robot
-from stepaside.robots.kinematics import BodyReference, LegKinematics
+from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
 
 NAO = load_robot("nao")
 STANCE = BodyReference(

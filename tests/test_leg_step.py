@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from made_up_humanoid import made_up
-from stepaside.errors import ModelError, ReachError
-from stepaside.poses import Array
+from stepaside.core.errors import ModelError, ReachError
+from stepaside.core.poses import Array
 from stepaside.robots.description import RobotDescription, load_robot
-from stepaside.robots.kinematics import ROWS, BodyReference, LegKinematics
-from stepaside.robots.leg_solver import move_within, solver_of
-from stepaside.robots.stored import load_tree
+from stepaside.robots.ik_solver import move_within, solver_of
+from stepaside.robots.leg_kinematics import ROWS, BodyReference, LegKinematics
+from stepaside.robots.tree_cache import load_tree
 
 NAO = load_robot("nao")
 TICK = 0.004

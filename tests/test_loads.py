@@ -7,15 +7,15 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.constants import GRAVITY
-from stepaside.control.balance.feedforward import LoadFeedforward
+from stepaside.core.constants import GRAVITY
+from stepaside.core.poses import Array
+from stepaside.locomotion.zmp.feedforward import LoadFeedforward
 from stepaside.planning import GaitSettings
-from stepaside.poses import Array
-from stepaside.robots.compiling import compile_tree
+from stepaside.robots.body_reference import Stance
 from stepaside.robots.description import load_robot
-from stepaside.robots.kinematics import BodyReference, LegKinematics
-from stepaside.robots.loads import LegLoads
-from stepaside.robots.reference import Stance
+from stepaside.robots.joint_loads import LegLoads
+from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
+from stepaside.robots.tree_compiler import compile_tree
 
 NAO = load_robot("nao")
 GAIT = GaitSettings()

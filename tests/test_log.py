@@ -6,23 +6,23 @@ import numpy as np
 import pytest
 
 from made_up_robot import FIRST, STEP, Run
-from stepaside.drivers.log import PlayLog
-from stepaside.drivers.lola.safety import State
-from stepaside.drivers.playing import Tick
-from stepaside.drivers.rows import read_rows
-from stepaside.drivers.velocity.body import Velocity
-from stepaside.drivers.velocity.playing import Driving, VelocityTick
+from stepaside.core.poses import Array, Pose
+from stepaside.drivers.joint.joint_loop import Tick
+from stepaside.drivers.joint.safety import State
+from stepaside.drivers.play_log import PlayLog
+from stepaside.drivers.row_file import read_rows
+from stepaside.drivers.velocity.velocity_body import Velocity
+from stepaside.drivers.velocity.velocity_loop import Driving, VelocityTick
+from stepaside.games.play_conversion import run_of_play
+from stepaside.games.play_rows import PlayedRows
 from stepaside.games.play_settings import PlaySettings
-from stepaside.games.played import run_of_play
-from stepaside.games.played_other import (
+from stepaside.games.play_sightings import (
     sight_table,
     sightings_in,
     track_of_other,
 )
-from stepaside.games.played_rows import PlayedRows
+from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.planning import Foot
-from stepaside.poses import Array, Pose
-from stepaside.sensing.measurement import Measurement, Sighting
 
 
 def measured(time: float, seed: int) -> Measurement:

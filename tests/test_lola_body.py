@@ -15,16 +15,16 @@ from lola_fakes import (
     pressed,
     sensor_frame,
 )
-from stepaside.drivers.lola.body import LolaBody
-from stepaside.drivers.lola.frame_clock import TICK
-from stepaside.drivers.lola.frames import pack_sensors
-from stepaside.drivers.lola.joints import LEGS, NAMES
+from stepaside.drivers.guardian_process import SessionLost
+from stepaside.drivers.joint.frame_clock import TICK
+from stepaside.drivers.joint.frames import pack_sensors
+from stepaside.drivers.joint.joint_body import LolaBody
+from stepaside.drivers.joint.joint_map import LEGS, NAMES
+from stepaside.drivers.joint.safety import State
 from stepaside.drivers.lola.lights import COLOURS
-from stepaside.drivers.lola.safety import State
-from stepaside.drivers.lola.sight import SightMessage, pack_sight
 from stepaside.drivers.lola.sight_channel import SightChannel
-from stepaside.drivers.session import SessionLost
-from stepaside.sensing.measurement import Sighting
+from stepaside.drivers.lola.sight_message import SightMessage, pack_sight
+from stepaside.perception.measurement import Sighting
 
 FINE = pack_sensors(sensor_frame())
 TO_READY = 100 * [FINE]  # warm up, and a second of growing stiffness

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from lola_fakes import JOINTS, STANCE, counted, sensor_frame
-from stepaside.drivers.lola.conventions import measurement_of, sensor_frame_of
-from stepaside.drivers.lola.frame_clock import (
+from stepaside.core.errors import ModelError
+from stepaside.drivers.joint.frame_clock import (
     LEAD,
     TICK,
     FrameClock,
     FrameOrderError,
 )
-from stepaside.drivers.lola.joints import (
+from stepaside.drivers.joint.joint_map import (
     HIGH,
     LEGS,
     LOLA_JOINTS,
@@ -21,10 +21,10 @@ from stepaside.drivers.lola.joints import (
     NAMES,
     JointMap,
 )
-from stepaside.errors import ModelError
+from stepaside.drivers.lola.conventions import measurement_of, sensor_frame_of
+from stepaside.perception.images import SonarEcho
+from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.robots.description import load_robot
-from stepaside.sensing.images import SonarEcho
-from stepaside.sensing.measurement import Measurement, Sighting
 
 MAP = JointMap(JOINTS)
 

@@ -21,20 +21,20 @@ from lola_fakes import (
     MadeUpRobot,
     sensor_frame,
 )
-from stepaside.drivers.lola.address import Address
-from stepaside.drivers.lola.body import LolaBody
-from stepaside.drivers.lola.frames import (
+from stepaside.drivers.guardian_process import SessionLost
+from stepaside.drivers.joint.frames import (
     ActuatorFrame,
     pack_actuators,
     pack_sensors,
 )
-from stepaside.drivers.lola.link import SocketLink
-from stepaside.drivers.lola.opening import open_lola
-from stepaside.drivers.lola.safety import State
-from stepaside.drivers.lola.served_joints import FADING, SILENT
-from stepaside.drivers.lola.server import LolaServer
+from stepaside.drivers.joint.joint_body import LolaBody
+from stepaside.drivers.joint.link import SocketLink
+from stepaside.drivers.joint.safety import State
+from stepaside.drivers.joint.served_joints import FADING, SILENT
+from stepaside.drivers.lola.lola_address import Address
+from stepaside.drivers.lola.lola_connection import open_lola
+from stepaside.drivers.lola.lola_server import LolaServer
 from stepaside.drivers.lola.wire import SENSOR_BYTES
-from stepaside.drivers.session import SessionLost
 
 FRAME = pack_sensors(sensor_frame())
 ANSWER = pack_actuators(

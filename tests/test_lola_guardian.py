@@ -8,9 +8,12 @@ from functools import partial
 import numpy as np
 import pytest
 
-from stepaside.drivers.lola.answers import AnswerReader
-from stepaside.drivers.lola.frames import ActuatorFrame
-from stepaside.drivers.lola.guardian import StiffnessGuardian, let_go
+from stepaside.drivers.joint.frames import ActuatorFrame
+from stepaside.drivers.joint.stiffness_guardian import (
+    StiffnessGuardian,
+    let_go,
+)
+from stepaside.drivers.lola.lola_server import AnswerReader
 
 TARGETS = np.linspace(-0.2, 0.2, 25)
 STIFF = np.full(25, 0.8)

@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 from lola_fakes import JOINTS, STANCE, sensor_frame
-from stepaside.drivers.lola.frame_clock import TICK
-from stepaside.drivers.lola.frames import ActuatorFrame, pack_actuators
-from stepaside.drivers.lola.joints import HIGH, LOW, NAMES, SPEED, JointMap
-from stepaside.drivers.lola.lights import COLOURS, lights_for
-from stepaside.drivers.lola.limits import (
+from stepaside.drivers.joint.frame_clock import TICK
+from stepaside.drivers.joint.frames import ActuatorFrame, pack_actuators
+from stepaside.drivers.joint.joint_map import HIGH, LOW, NAMES, SPEED, JointMap
+from stepaside.drivers.joint.motion_states import CROUCH, SLOWLY, Motion
+from stepaside.drivers.joint.safety import State
+from stepaside.drivers.joint.target_limits import (
     HOT,
     LEAST,
     WARM,
@@ -16,8 +17,7 @@ from stepaside.drivers.lola.limits import (
     TargetLimiter,
     derated,
 )
-from stepaside.drivers.lola.motion import CROUCH, SLOWLY, Motion
-from stepaside.drivers.lola.safety import State
+from stepaside.drivers.lola.lights import COLOURS, lights_for
 
 ONES = np.ones(25)
 KNEE = NAMES.index("LKneePitch")

@@ -4,9 +4,9 @@ from typing import Any
 
 import pytest
 
-from stepaside.drivers.lola.conditions import SafetySettings, Seen
-from stepaside.drivers.lola.safety import Safety, State
-from stepaside.errors import ConfigurationError
+from stepaside.core.errors import ConfigurationError
+from stepaside.drivers.joint.safety import Safety, State
+from stepaside.drivers.joint.safety_conditions import SafetySettings, Seen
 
 SETTINGS = SafetySettings()
 MOVING = [s for s in State if s is not State.LIMP]

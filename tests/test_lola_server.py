@@ -8,22 +8,22 @@ import numpy as np
 import pytest
 
 from lola_fakes import JOINTS, STANCE, MadeUpRobot
-from stepaside.drivers.lola.address import Address, parse_address
-from stepaside.drivers.lola.conventions import REAL_TIME
-from stepaside.drivers.lola.frame_clock import TICK
-from stepaside.drivers.lola.frames import (
+from stepaside.core.errors import ConfigurationError
+from stepaside.drivers.guardian_process import SessionLost
+from stepaside.drivers.joint.frame_clock import TICK
+from stepaside.drivers.joint.frames import (
     ActuatorFrame,
     pack_actuators,
     unpack_sensors,
 )
-from stepaside.drivers.lola.link import SocketLink, connect
-from stepaside.drivers.lola.served_joints import FADING, SETTLED, SILENT
-from stepaside.drivers.lola.server import LolaServer
-from stepaside.drivers.lola.sight import MESSAGE, unpack_sight
+from stepaside.drivers.joint.link import SocketLink, connect
+from stepaside.drivers.joint.served_joints import FADING, SETTLED, SILENT
+from stepaside.drivers.lola.conventions import REAL_TIME
+from stepaside.drivers.lola.lola_address import Address, parse_address
+from stepaside.drivers.lola.lola_server import LolaServer
+from stepaside.drivers.lola.sight_message import MESSAGE, unpack_sight
 from stepaside.drivers.lola.wire import SENSOR_BYTES
-from stepaside.drivers.session import SessionLost
-from stepaside.errors import ConfigurationError
-from stepaside.sensing.measurement import Sighting
+from stepaside.perception.measurement import Sighting
 
 STIFF = pack_actuators(
     ActuatorFrame(np.concatenate([STANCE, [0, 0]]), np.ones(25))

@@ -10,14 +10,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lola_fakes import sensor_frame
-from stepaside.drivers.lola.answers import AnswerReader
-from stepaside.drivers.lola.frames import (
+from stepaside.drivers.joint.frames import (
     ActuatorFrame,
     pack_actuators,
     pack_sensors,
     unpack_actuators,
     unpack_sensors,
 )
+from stepaside.drivers.lola.lola_server import AnswerReader
 from stepaside.drivers.lola.wire import (
     ACTUATOR_BYTES,
     LONGEST_ANSWER,

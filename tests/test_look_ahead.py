@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stepaside.errors import ConfigurationError
-from stepaside.poses import Pose, wrap_angle
-from stepaside.rooms import Disc, Room, RoomRecipe, make_room
+from stepaside.arena import Disc, Room, RoomRecipe, make_room
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
     Evasion,
     Knowledge,
@@ -21,18 +21,21 @@ from stepaside.strategies import (
     StepOutcome,
     Strategy,
     play_steps,
-    tables,
+)
+from stepaside.strategies import (
+    bound_cache as tables,
 )
 from stepaside.strategies.look_ahead import (
+    moved_on,
+    place_both,
     rules_of,
 )
-from stepaside.strategies.other import (
+from stepaside.strategies.opponent_track import (
     STEPS_OFF,
     Trace,
     note,
     pursuer_heading,
 )
-from stepaside.strategies.places import moved_on, place_both
 
 NAO = Limits(0.1, 0.2, 0.04, 0.4)
 FACING = (Pose(0.0, 0.0, 0.6), Pose(1.0, 0.1, 3.3))

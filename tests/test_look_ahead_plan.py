@@ -5,8 +5,8 @@ from math import pi
 import numpy as np
 import pytest
 
-from stepaside.poses import Pose
-from stepaside.rooms import Disc
+from stepaside.arena import Disc
+from stepaside.core.poses import Pose
 from stepaside.strategies import (
     Knowledge,
     Limits,

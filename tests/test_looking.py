@@ -8,36 +8,26 @@ import pytest
 
 pytest.importorskip("cv2")
 
-from stepaside.control.balance.settings import STABILISED  # noqa: E402
-from stepaside.drivers.minds import level_perception  # noqa: E402
-from stepaside.drivers.velocity.body import (  # noqa: E402
-    REST,
-    Report,
-    Velocity,
-)
-from stepaside.drivers.velocity.limits import VelocityLimits  # noqa: E402
-from stepaside.drivers.velocity.looking import (  # noqa: E402
-    PERIOD,
-    LookingBody,
-)
-from stepaside.drivers.velocity.mind import TemplateMind  # noqa: E402
-from stepaside.drivers.velocity.playing import VelocityPlaying  # noqa: E402
+from stepaside.core.poses import wrap_angle  # noqa: E402
+from stepaside.drivers.scheme_factory import level_perception  # noqa: E402
+from stepaside.drivers.velocity.head_control import PERIOD, LookingBody
+from stepaside.drivers.velocity.template_controller import TemplateMind  # noqa: E402
+from stepaside.drivers.velocity.velocity_body import REST, Report, Velocity
+from stepaside.drivers.velocity.velocity_limits import VelocityLimits  # noqa: E402
+from stepaside.drivers.velocity.velocity_loop import VelocityPlaying  # noqa: E402
 from stepaside.drivers.velocity.watchdog import WatchSettings  # noqa: E402
-from stepaside.games.driven import DrivenWalker  # noqa: E402
 from stepaside.games.duel import Duel  # noqa: E402
+from stepaside.games.duel_settings import DuelSettings, StartSettings  # noqa: E402
 from stepaside.games.match import Match, play  # noqa: E402
-from stepaside.games.settings import DuelSettings, StartSettings  # noqa: E402
+from stepaside.games.velocity_walker import DrivenWalker  # noqa: E402
 from stepaside.games.walker import Walker  # noqa: E402
+from stepaside.locomotion.zmp.control_settings import STABILISED  # noqa: E402
+from stepaside.perception.images import Percept  # noqa: E402
 from stepaside.planning import GaitSettings  # noqa: E402
-from stepaside.poses import wrap_angle  # noqa: E402
 from stepaside.robots.description import load_robot  # noqa: E402
-from stepaside.sensing.images import Percept  # noqa: E402
+from stepaside.sim.body_settings import BODIES  # noqa: E402
+from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.strategies import Evasion, Pursuit, Strategy  # noqa: E402
-from stepaside.world.body_settings import BODIES  # noqa: E402
-from stepaside.world.camera_settings import (  # noqa: E402
-    CameraSettings,
-    ColourSettings,
-)
 
 EVERY = 4  # ticks between reports
 SETTINGS = DuelSettings(
@@ -130,10 +120,10 @@ def test_they_find_each_other_and_walk() -> None:
 
 def test_the_head_of_a_robot_on_naoqi_turns_and_nothing_else() -> None:
     pytest.importorskip("qi")
-    from stepaside.drivers.naoqi.body import NaoqiBody
-    from stepaside.drivers.naoqi.server import NaoqiServer
-    from stepaside.drivers.naoqi.session import ask, connect
-    from stepaside.drivers.session import SessionLost
+    from stepaside.drivers.guardian_process import SessionLost
+    from stepaside.drivers.naoqi.naoqi_body import NaoqiBody
+    from stepaside.drivers.naoqi.naoqi_server import NaoqiServer
+    from stepaside.drivers.naoqi.qi_session import ask, connect
     from test_naoqi import heard
     from velocity_fakes import MadeUpWalker, until
 

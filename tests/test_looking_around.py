@@ -8,20 +8,15 @@ import pytest
 
 from made_up_eyes import HEAD, NAO
 from made_up_robot import GAIT, FakeStrategy
-from stepaside.control.assembly import build_scheme
-from stepaside.control.balance.settings import OPEN_LOOP
+from stepaside.control.scheme_builder import build_scheme
+from stepaside.core.poses import Array
+from stepaside.locomotion.zmp.control_settings import OPEN_LOOP
+from stepaside.perception.colour_detector import RED
 from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.gaze import Gaze
-from stepaside.perception.looking_around import (
-    BEHIND,
-    FACING,
-    LONGEST,
-    LookAround,
-)
 from stepaside.perception.perception import Perception
+from stepaside.perception.room_scan import BEHIND, FACING, LONGEST, LookAround
 from stepaside.planning import Direction
-from stepaside.poses import Array
-from stepaside.sensing.colour_detector import RED
 
 TICK = 0.02
 START = 3.0  # heading at first, near to a turn of pi, in [rad]

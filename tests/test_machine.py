@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stepaside.robots import machine
+from stepaside.robots import jit as machine
 from stepaside.robots.description import load_robot
-from stepaside.robots.leg_solver import solver_of
-from stepaside.robots.machine import Machine
-from stepaside.robots.stored import load_tree
-from stepaside.robots.tracing import Number, Trace, cosine, sine
+from stepaside.robots.expression_tracing import Number, Trace, cosine, sine
+from stepaside.robots.ik_solver import solver_of
+from stepaside.robots.jit import Machine
+from stepaside.robots.tree_cache import load_tree
 
 pytest.importorskip("numba")
 

@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stepaside.poses import Pose, wrap_angle
-from stepaside.rooms import (
+from stepaside.arena import (
     Disc,
     Polygon,
     Room,
@@ -16,11 +15,12 @@ from stepaside.rooms import (
     draw_starts,
     make_room,
 )
-from stepaside.rooms.making import FARTHEST, NEAREST
-from stepaside.rooms.measures import CELL, measure_room
-from stepaside.rooms.moving import MovingBox
-from stepaside.rooms.paths import first_point
-from stepaside.rooms.ways import has_way
+from stepaside.arena.moving_box import MovingBox
+from stepaside.arena.reachability import has_way
+from stepaside.arena.room_generation import FARTHEST, NEAREST
+from stepaside.arena.room_metrics import CELL, measure_room
+from stepaside.arena.shortest_path import first_point
+from stepaside.core.poses import Pose, wrap_angle
 
 RECIPE = RoomRecipe(4.0, 3.0, discs=2, boxes=1, polygons=1, doors=1)
 

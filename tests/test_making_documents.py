@@ -15,7 +15,7 @@ from documents.pictures import PICTURES, draw_picture, drawn_from
 from documents.store import ROOT, DocumentError, Store
 from documents.tables import TABLES
 from documents.tables.markdown import counted, interval, number, table
-from stepaside.studies.results import header, write_result
+from stepaside.studies.result_files import header, write_result
 
 FOUND: dict[str, Any] = {
     "ratio": 0.98765,

@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stepaside.errors import PlanError
+from stepaside.core.errors import PlanError
+from stepaside.core.poses import Pose
 from stepaside.planning import (
     PRESETS,
     CenterState,
@@ -20,7 +21,6 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.poses import Pose
 
 PLANNER = ManeuverPlanner(GaitSettings())
 BEARINGS = st.floats(-3.14, 3.14)

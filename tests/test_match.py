@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from made_up_players import TICK, FakeObserver, clock, game, raising
-from stepaside.errors import ReachError, StrategyError
+from stepaside.core.errors import ReachError, StrategyError
 from stepaside.games.match import Progress, play
 from stepaside.games.outcome import Outcome
-from stepaside.games.record import Recorder
+from stepaside.games.recorder import Recorder
 
 
 def test_three_players_act_in_turn_and_time_passes_for_all() -> None:

@@ -18,38 +18,38 @@ import pytest
 
 from invented_run import check_same
 from onlooker import look_on
-from stepaside.commands.duel import _print
-from stepaside.control.balance.settings import METHODS, ControlSettings
-from stepaside.errors import ConfigurationError
+from stepaside.cli.duel import _print
+from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.folder import load_run, write_record
-from stepaside.games.outcome import Outcome
-from stepaside.games.settings import (
+from stepaside.games.duel_settings import (
     PLAYERS,
     SENSING,
     DuelSettings,
     StartSettings,
 )
-from stepaside.games.track import Track
+from stepaside.games.outcome import Outcome
+from stepaside.games.run_archive import load_run, write_record
+from stepaside.games.trajectory import Track
 from stepaside.games.walker import Walker
+from stepaside.locomotion.zmp.control_settings import METHODS, ControlSettings
 from stepaside.report.compare_figure import draw_comparison
+from stepaside.report.figure_style import plt
 from stepaside.report.film import Cinema, Shot
 from stepaside.report.replay_page import write_page
 from stepaside.report.run_folder import write_run
-from stepaside.report.style import plt
 from stepaside.report.viewer.camera_panel import picture
-from stepaside.report.viewer.drawing import draw_session
-from stepaside.report.viewer.session import Session
-from stepaside.strategies import Evasion
-from stepaside.world.body_settings import BODIES
-from stepaside.world.camera_settings import (
+from stepaside.report.viewer.live_drawing import draw_session
+from stepaside.report.viewer.live_session import Session
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.camera_settings import (
     CameraSettings,
     ColourSettings,
     DepthSettings,
 )
-from stepaside.world.graphics import RAYCAST, choose_renderer
-from stepaside.world.person_settings import PURSUERS
+from stepaside.sim.offscreen_rendering import RAYCAST, choose_renderer
+from stepaside.sim.person_settings import PURSUERS
+from stepaside.strategies import Evasion
 
 PUSHED = 0.24  # [s]; a push is over, and what it does has been felt
 LONG = 60.0  # [s]; no event of a loop that runs comes as late as this

@@ -5,12 +5,12 @@ from math import atan2, cos, pi, sin
 
 import pytest
 
-from stepaside.games.meeting import template_meeting
+from stepaside.core.poses import Pose
+from stepaside.games.template_approach import template_meeting
 from stepaside.planning import PRESETS, Direction
-from stepaside.poses import Pose
+from stepaside.sim.person_motion import Motion, Place
+from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion, Intent, Knowledge
-from stepaside.world.person_motion import Motion, Place
-from stepaside.world.person_settings import PersonSettings
 
 GAIT = PRESETS["fast"]
 EVADER = Evasion(trigger="time", contact_time=4.0)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from stepaside.control.memory import KEPT, Memory
+from stepaside.control.state_history import KEPT, Memory
 
 TICK = 0.02
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from stepaside.report.meshes import MOST, Shell, thinned
+from stepaside.report.mesh_simplification import MOST, Shell, thinned
 
 
 def ball(fine: int) -> Shell:

@@ -9,11 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from made_up_robot import FakeStrategy
-from stepaside.drivers.velocity.body import Report, Velocity
-from stepaside.drivers.velocity.mind import TemplateMind
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.drivers.velocity.template_controller import TemplateMind
+from stepaside.drivers.velocity.velocity_body import Report, Velocity
+from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction, GaitSettings
-from stepaside.poses import Pose, wrap_angle
-from stepaside.sensing.measurement import Sighting
 
 GAIT = GaitSettings()
 ANGLE = st.floats(-pi, pi)
@@ -109,7 +109,7 @@ def test_an_image_is_of_where_the_robot_was_when_it_was_taken(
 ) -> None:
     """Place, heading and joints alike, also where the heading wraps."""
     pytest.importorskip("cv2")
-    from stepaside.drivers.velocity.looking import LookingBody
+    from stepaside.drivers.velocity.head_control import LookingBody
 
     start, rate = Pose(0.2, 0.1, heading), 1.7
     made: Any = Remembering()

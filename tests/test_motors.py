@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stepaside.fitting.motors import likely_torques, published_torques
+from stepaside.fitting.motor_data import likely_torques, published_torques
 
 GEAR = st.floats(0.5, 200.0).flatmap(lambda g: st.sampled_from([g, -g]))
 TORQUE = st.floats(0.5, 90.0)

@@ -10,16 +10,17 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 from by_hand import KINDS, corners_by_hand, plan_of
-from stepaside.control.balance.mpc import IntrinsicallyStableMpc, MpcResult
-from stepaside.control.balance.settings import (
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Array
+from stepaside.games.match import play
+from stepaside.games.walk_game import Walking, run_walk
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.locomotion.zmp.control_settings import (
     STABILISED,
     ControlSettings,
     MpcSettings,
 )
-from stepaside.errors import ConfigurationError
-from stepaside.games.match import play
-from stepaside.games.walk import Walking, run_walk
-from stepaside.games.walk_settings import WalkSettings
+from stepaside.locomotion.zmp.mpc import IntrinsicallyStableMpc, MpcResult
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -28,8 +29,7 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.poses import Array
-from stepaside.world.push import Push
+from stepaside.sim.push import Push
 
 GAIT = GaitSettings()
 EDGE = 0.002

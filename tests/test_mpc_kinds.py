@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from by_hand import KINDS, plan_of
-from stepaside.control.balance.mpc import IntrinsicallyStableMpc
-from stepaside.control.balance.settings import MpcSettings
+from stepaside.core.poses import Array
+from stepaside.locomotion.zmp.control_settings import MpcSettings
+from stepaside.locomotion.zmp.mpc import IntrinsicallyStableMpc
 from stepaside.planning import GaitSettings, ManeuverPlan
-from stepaside.poses import Array
 
 GAIT = GaitSettings()
 TICK = 0.004  # [s]

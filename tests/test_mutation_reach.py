@@ -117,4 +117,4 @@ def test_what_is_compiled_is_compiled_anew_with_each_fault() -> None:
     ]
     assert len(files) > 3
     assert all(map(is_compiled, files))
-    assert not is_compiled("src/stepaside/world/world.py")
+    assert not is_compiled("src/stepaside/sim/world.py")

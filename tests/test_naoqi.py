@@ -12,9 +12,10 @@ import pytest
 
 pytest.importorskip("qi")
 
-from stepaside.drivers.naoqi.address import parse_url  # noqa: E402
-from stepaside.drivers.naoqi.body import NaoqiBody, stop  # noqa: E402
-from stepaside.drivers.naoqi.chains import CHAINS  # noqa: E402
+from stepaside.core.errors import ConfigurationError  # noqa: E402
+from stepaside.core.poses import Pose  # noqa: E402
+from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
+from stepaside.drivers.naoqi.joint_chains import CHAINS  # noqa: E402
 from stepaside.drivers.naoqi.memory_service import (  # noqa: E402
     SILENCE as SILENCE_HEARD,
 )
@@ -23,31 +24,20 @@ from stepaside.drivers.naoqi.memory_service import (  # noqa: E402
     ALMemory,
     ALSonar,
 )
-from stepaside.drivers.naoqi.moving import REPEATED, STUCK  # noqa: E402
-from stepaside.drivers.naoqi.robot import Robot  # noqa: E402
-from stepaside.drivers.naoqi.server import SILENCE, NaoqiServer  # noqa: E402
-from stepaside.drivers.naoqi.services import (  # noqa: E402
-    ALMotion,
-    ALRobotPosture,
-)
-from stepaside.drivers.naoqi.session import connect, listen  # noqa: E402
-from stepaside.drivers.session import SessionLost  # noqa: E402
-from stepaside.drivers.velocity.body import (  # noqa: E402
-    REST,
-    Report,
-    Velocity,
-)
-from stepaside.drivers.velocity.limits import VelocityLimits  # noqa: E402
-from stepaside.drivers.velocity.mind import TemplateMind  # noqa: E402
-from stepaside.drivers.velocity.playing import (  # noqa: E402
-    Driving,
-    VelocityPlaying,
-)
+from stepaside.drivers.naoqi.motion_services import ALMotion, ALRobotPosture
+from stepaside.drivers.naoqi.naoqi_body import NaoqiBody, stop  # noqa: E402
+from stepaside.drivers.naoqi.naoqi_server import SILENCE, NaoqiServer  # noqa: E402
+from stepaside.drivers.naoqi.naoqi_url import parse_url  # noqa: E402
+from stepaside.drivers.naoqi.qi_session import connect, listen  # noqa: E402
+from stepaside.drivers.naoqi.service_state import Robot  # noqa: E402
+from stepaside.drivers.naoqi.velocity_mover import REPEATED, STUCK  # noqa: E402
+from stepaside.drivers.velocity.template_controller import TemplateMind  # noqa: E402
+from stepaside.drivers.velocity.velocity_body import REST, Report, Velocity
+from stepaside.drivers.velocity.velocity_limits import VelocityLimits  # noqa: E402
+from stepaside.drivers.velocity.velocity_loop import Driving, VelocityPlaying
 from stepaside.drivers.velocity.watchdog import WatchSettings  # noqa: E402
-from stepaside.errors import ConfigurationError  # noqa: E402
+from stepaside.perception.measurement import Sighting  # noqa: E402
 from stepaside.planning import GaitSettings  # noqa: E402
-from stepaside.poses import Pose  # noqa: E402
-from stepaside.sensing.measurement import Sighting  # noqa: E402
 from stepaside.strategies import Pursuit  # noqa: E402
 
 from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402

@@ -15,22 +15,19 @@ import pytest
 pytest.importorskip("qi")
 pytest.importorskip("msgpack")
 
-from stepaside.control.balance.settings import ControlSettings  # noqa: E402
-from stepaside.drivers.lola.body import LolaBody  # noqa: E402
+from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
+from stepaside.drivers.joint.frame_clock import TICK  # noqa: E402
+from stepaside.drivers.joint.joint_body import LolaBody  # noqa: E402
+from stepaside.drivers.joint.joint_loop import Playing, Tick  # noqa: E402
+from stepaside.drivers.joint.joint_map import NAMES  # noqa: E402
+from stepaside.drivers.joint.safety import State  # noqa: E402
 from stepaside.drivers.lola.conventions import (  # noqa: E402
     COUNTER,
     LOCK_STEP,
 )
-from stepaside.drivers.lola.frame_clock import TICK  # noqa: E402
-from stepaside.drivers.lola.joints import NAMES  # noqa: E402
-from stepaside.drivers.lola.safety import State  # noqa: E402
 from stepaside.drivers.lola.wire import WireError  # noqa: E402
-from stepaside.drivers.minds import mind_maker  # noqa: E402
-from stepaside.drivers.naoqi.chains import CHAINS  # noqa: E402
-from stepaside.drivers.naoqi.joint_line import (  # noqa: E402
-    JointLine,
-    fade,
-)
+from stepaside.drivers.naoqi.joint_chains import CHAINS  # noqa: E402
+from stepaside.drivers.naoqi.joint_connection import open_joints  # noqa: E402
 from stepaside.drivers.naoqi.joint_server import (  # noqa: E402
     NaoqiJointServer,
 )
@@ -39,25 +36,25 @@ from stepaside.drivers.naoqi.joint_services import (  # noqa: E402
     JointMotion,
     JointRobot,
 )
-from stepaside.drivers.naoqi.joints import open_joints  # noqa: E402
+from stepaside.drivers.naoqi.joint_transport import JointLine, fade
+from stepaside.drivers.naoqi.qi_session import listen  # noqa: E402
 from stepaside.drivers.naoqi.sensor_keys import (  # noqa: E402
     KEYS,
     OLDER,
     frame_of,
     values_of,
 )
-from stepaside.drivers.naoqi.session import listen  # noqa: E402
-from stepaside.drivers.playing import Playing, Tick  # noqa: E402
-from stepaside.drivers.session import SessionLost  # noqa: E402
+from stepaside.drivers.scheme_factory import mind_maker  # noqa: E402
 from stepaside.games.duel import run_duel  # noqa: E402
-from stepaside.games.naoqi_offer import NaoqiJointsOffer  # noqa: E402
-from stepaside.games.serving import serve_duel  # noqa: E402
-from stepaside.games.settings import DuelSettings, StartSettings  # noqa: E402
+from stepaside.games.duel_settings import DuelSettings, StartSettings  # noqa: E402
+from stepaside.games.naoqi_offers import NaoqiJointsOffer  # noqa: E402
+from stepaside.games.served_duel import serve_duel  # noqa: E402
+from stepaside.locomotion.zmp.control_settings import ControlSettings  # noqa: E402
+from stepaside.perception.measurement import Sighting  # noqa: E402
 from stepaside.planning import GaitSettings  # noqa: E402
 from stepaside.robots.description import load_robot  # noqa: E402
-from stepaside.sensing.measurement import Sighting  # noqa: E402
+from stepaside.sim.body_settings import BODIES  # noqa: E402
 from stepaside.strategies import Evasion  # noqa: E402
-from stepaside.world.body_settings import BODIES  # noqa: E402
 
 from lola_fakes import (  # isort: skip  # noqa: E402
     JOINTS,

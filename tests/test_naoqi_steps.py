@@ -9,28 +9,22 @@ import pytest
 
 pytest.importorskip("qi")
 
-from stepaside.control.balance.settings import STABILISED  # noqa: E402
-from stepaside.drivers.naoqi.body import NaoqiBody  # noqa: E402
-from stepaside.drivers.naoqi.robot import Robot  # noqa: E402
-from stepaside.drivers.naoqi.server import (  # noqa: E402
-    SILENCE,
-    NaoqiServer,
-)
-from stepaside.drivers.naoqi.services import ALMotion  # noqa: E402
-from stepaside.drivers.naoqi.stepping import (  # noqa: E402
-    REFUSALS,
-    FootstepMover,
-)
-from stepaside.drivers.session import SessionLost  # noqa: E402
-from stepaside.drivers.velocity.body import REST, Velocity  # noqa: E402
-from stepaside.drivers.velocity.footsteps import FootMove  # noqa: E402
-from stepaside.games.driven import DrivenWalker  # noqa: E402
+from stepaside.core.poses import Pose  # noqa: E402
+from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
+from stepaside.drivers.naoqi.footstep_mover import REFUSALS, FootstepMover
+from stepaside.drivers.naoqi.motion_services import ALMotion  # noqa: E402
+from stepaside.drivers.naoqi.naoqi_body import NaoqiBody  # noqa: E402
+from stepaside.drivers.naoqi.naoqi_server import SILENCE, NaoqiServer
+from stepaside.drivers.naoqi.service_state import Robot  # noqa: E402
+from stepaside.drivers.velocity.footstep_commands import FootMove  # noqa: E402
+from stepaside.drivers.velocity.velocity_body import REST, Velocity  # noqa: E402
 from stepaside.games.duel import Duel  # noqa: E402
-from stepaside.games.settings import DuelSettings, StartSettings  # noqa: E402
+from stepaside.games.duel_settings import DuelSettings, StartSettings  # noqa: E402
+from stepaside.games.velocity_walker import DrivenWalker  # noqa: E402
 from stepaside.games.walker import Walker  # noqa: E402
+from stepaside.locomotion.zmp.control_settings import STABILISED  # noqa: E402
 from stepaside.planning import Foot, GaitSettings  # noqa: E402
-from stepaside.poses import Pose  # noqa: E402
-from stepaside.world.body_settings import BODIES  # noqa: E402
+from stepaside.sim.body_settings import BODIES  # noqa: E402
 
 from naoqi_fakes import Direct  # isort: skip  # noqa: E402
 from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402

@@ -8,13 +8,13 @@ import pytest
 
 from drawn_depth import Post, draw, paint
 from made_up_eyes import HEAD, Eyes
+from stepaside.core.poses import Array
+from stepaside.perception.bottom_camera import LowerCamera
+from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.floor_map import CELL, FloorMap, _centres
-from stepaside.perception.lower import LowerCamera
+from stepaside.perception.images import ColourImage
 from stepaside.perception.near_floor import NearFloor
-from stepaside.poses import Array
 from stepaside.robots.head import rotation
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.sensing.images import ColourImage
 
 CAMERA = CameraModel.of_field_of_view(160, 120, radians(60.9), radians(47.6))
 DEPTH = CameraModel.of_field_of_view(80, 60, radians(58.0), radians(45.0))

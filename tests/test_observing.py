@@ -6,8 +6,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from stepaside.core.poses import wrap_angle
+from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.colour_detector import RED, ColourDetection
+from stepaside.perception.depth_detector import Obstacle, Shadow
 from stepaside.perception.floor_map import FloorMap
-from stepaside.perception.observing import (
+from stepaside.perception.images import ColourImage, DepthImage
+from stepaside.perception.observations import (
     BESIDE,
     BLIND,
     CLOSEST,
@@ -24,14 +29,9 @@ from stepaside.perception.observing import (
     observe_shadow,
     observe_trim,
 )
-from stepaside.poses import wrap_angle
+from stepaside.perception.ranging import BREADTH, FORWARD
+from stepaside.perception.track import Observation, Track
 from stepaside.robots.head import rotation
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.sensing.colour_detector import RED, ColourDetection
-from stepaside.sensing.depth_detector import Obstacle, Shadow
-from stepaside.sensing.images import ColourImage, DepthImage
-from stepaside.sensing.ranging import BREADTH, FORWARD
-from stepaside.sensing.track import Observation, Track
 
 CAMERA = CameraModel(640, 480, 550.0, 560.0)
 PIXELS = np.zeros((8, 8, 3), dtype=np.uint8)

@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 
 import published_humanoid as stranger
-from stepaside.errors import ModelError
-from stepaside.fitting import stature
-from stepaside.fitting.deriving import SPACE, WIDE, derive
-from stepaside.fitting.lengths import Size
-from stepaside.fitting.limbs import Leg
-from stepaside.fitting.motors import published_speeds
-from stepaside.fitting.stature import stature_of
-from stepaside.fitting.survey import _looks_ahead, survey
+from stepaside.core.errors import ModelError
+from stepaside.fitting import com_height as stature
+from stepaside.fitting.com_height import stature_of
+from stepaside.fitting.derivation import SPACE, WIDE, derive
+from stepaside.fitting.gait_scaling import Size
+from stepaside.fitting.leg_detection import Leg
+from stepaside.fitting.model_analysis import _looks_ahead, survey
+from stepaside.fitting.motor_data import published_speeds
 from stepaside.robots.description import load_robot
-from stepaside.robots.reading import read_model
+from stepaside.robots.model_reader import read_model
 
 NAO = load_robot("nao")
 SOLE = (-0.05, 0.095, 0.042, 0.035)

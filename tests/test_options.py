@@ -10,34 +10,34 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 import click
 import pytest
 
-from stepaside.bound import Scheme
-from stepaside.cli import COMMANDS, main
-from stepaside.commands.bound import AGAINST
-from stepaside.commands.declared.kinds import NameType, WordedType
-from stepaside.commands.declared.option import Declaration, DeclaredOption
-from stepaside.commands.declared.print_config import meanings
-from stepaside.commands.declared.rooms import RECIPE
-from stepaside.commands.declared.wires import WAYS
-from stepaside.commands.game_options import STRATEGIES
-from stepaside.commands.options import AngleType, NumberType
-from stepaside.commands.plan_settings import FEET, ROLES, PlanSettings
-from stepaside.commands.serve import SIGHTS
-from stepaside.control.balance.settings import METHODS, TAILS
-from stepaside.control.clearance.settings import MAPS, UNSEEN
-from stepaside.games.settings import SENSING, DuelSettings
+from stepaside.cli.bound import AGAINST
+from stepaside.cli.main import COMMANDS, main
+from stepaside.cli.options.connection_options import WAYS
+from stepaside.cli.options.declaration import Declaration, DeclaredOption
+from stepaside.cli.options.print_config import meanings
+from stepaside.cli.options.room_options import RECIPE
+from stepaside.cli.options.value_kinds import NameType, WordedType
+from stepaside.cli.plan_settings import FEET, ROLES, PlanSettings
+from stepaside.cli.serve import SIGHTS
+from stepaside.cli.unicycle_options import STRATEGIES
+from stepaside.cli.value_types import AngleType, NumberType
+from stepaside.control.clearance.map_settings import MAPS, UNSEEN
+from stepaside.games.duel_settings import SENSING, DuelSettings
 from stepaside.games.walk_settings import WalkSettings
+from stepaside.locomotion.zmp.control_settings import METHODS, TAILS
 from stepaside.planning import PRESETS, GaitSettings
 from stepaside.planning.swing import SwingProfile
+from stepaside.report.figure_sizes import SHEETS
 from stepaside.report.film_camera import VIEWS
-from stepaside.report.sizes import SHEETS
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.camera_settings import OPTICS, RENDERERS
+from stepaside.sim.pedestrian_models import FIGURES
+from stepaside.sim.person_settings import PURSUERS
 from stepaside.strategies.evasion import TRIGGERS
-from stepaside.studies import robustness
+from stepaside.studies import robustness_campaign as robustness
 from stepaside.studies.tournament_settings import LEVELS
-from stepaside.unicycle.laws import SideRule, TurningLaw
-from stepaside.world.body_settings import BODIES
-from stepaside.world.camera_settings import OPTICS, RENDERERS
-from stepaside.world.figures import FIGURES
-from stepaside.world.person_settings import PURSUERS
+from stepaside.theory.bound import Scheme
+from stepaside.theory.unicycle.unicycle_game import SideRule, TurningLaw
 
 SETTINGS = {
     "duel": DuelSettings,
@@ -248,10 +248,10 @@ def test_declarations_agree_with_the_settings() -> None:
 def test_the_list_of_commands_loads_nothing() -> None:
     """Not a command, not numpy: it is there at once."""
     code = (
-        "import sys; from stepaside.cli import main\n"
+        "import sys; from stepaside.cli.main import main\n"
         "try: main(['--help'])\n"
         "except SystemExit: pass\n"
-        "bad = [m for m in sys.modules if m.startswith('stepaside.commands')]"
+        "bad = [m for m in sys.modules if m.startswith('stepaside.cli')]"
         "\nassert not bad and 'numpy' not in sys.modules, bad"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
@@ -267,7 +267,7 @@ def test_commands_are_declared_without_physics() -> None:
         for name in {sorted(COMMANDS, key=lambda name: name in numeric)}:
             if name in {numeric}:
                 heavy.discard("numpy")
-            import_module(f"stepaside.commands.{{name}}")
+            import_module(f"stepaside.cli.{{name}}")
             bad = heavy & set(sys.modules)
             assert not bad, (name, bad)
         """

@@ -4,13 +4,13 @@ import mujoco
 import numpy as np
 
 from made_up_robot import GAIT
+from stepaside.arena import BODY_RADIUS
+from stepaside.core.poses import Array, Pose
 from stepaside.games.duel import Duel
-from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.walker import Walker
-from stepaside.poses import Array, Pose
 from stepaside.robots.description import load_robot
-from stepaside.rooms import BODY_RADIUS
-from stepaside.world.outline import measure_outline
+from stepaside.sim.outline_measurement import measure_outline
 
 NAO = measure_outline(load_robot("nao"), GAIT)
 ANGLES = np.arange(64) * (2.0 * np.pi / 64)

@@ -15,18 +15,18 @@ import click
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli import COMMANDS, main
-from stepaside.commands.outputs import OutputFile
-from stepaside.errors import ConfigurationError, OutputError
-from stepaside.games.duel import run_duel
-from stepaside.games.duel_run import DuelRun
-from stepaside.games.settings import DuelSettings
-from stepaside.outputs import (
+from stepaside.cli.main import COMMANDS, main
+from stepaside.cli.output_files import OutputFile
+from stepaside.core.atomic_output import (
     check_file,
     check_folder,
     free_file,
     writing,
 )
+from stepaside.core.errors import ConfigurationError, OutputError
+from stepaside.games.duel import run_duel
+from stepaside.games.duel_run import DuelRun
+from stepaside.games.duel_settings import DuelSettings
 from stepaside.report import duel_figure, unicycle_sweep
 from stepaside.report.run_folder import keep_run, write_run
 
@@ -96,7 +96,7 @@ def test_a_place_without_room_is_refused(
         raise FULL
 
     check_file(tmp_path / "a")
-    monkeypatch.setattr("stepaside.outputs.ROOM", 2**62)
+    monkeypatch.setattr("stepaside.core.atomic_output.ROOM", 2**62)
     with pytest.raises(ConfigurationError, match="bytes are free"):
         check_file(tmp_path / "a")
     monkeypatch.setattr("tempfile.TemporaryFile", full)
@@ -338,7 +338,7 @@ def test_a_duel_is_told_even_if_it_is_not_written(
 
 @pytest.mark.skipif(sys.platform == "win32", reason="pipes of POSIX")
 def test_whoever_stops_reading_gets_no_traceback() -> None:
-    code = "from stepaside.cli import main; main(['robot', '--mjcf'])"
+    code = "from stepaside.cli.main import main; main(['robot', '--mjcf'])"
     reader, writer = os.pipe()
     os.close(reader)
     done = subprocess.run(

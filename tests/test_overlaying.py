@@ -8,10 +8,20 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.errors import ModelError
-from stepaside.poses import Array
-from stepaside.robots.overlaying import IMU, THICK, odd_couplings, put_overlay
-from stepaside.robots.own import Overlay, Sensors, ServoGains, SolePlace
+from stepaside.core.errors import ModelError
+from stepaside.core.poses import Array
+from stepaside.robots.description_types import (
+    Overlay,
+    Sensors,
+    ServoGains,
+    SolePlace,
+)
+from stepaside.robots.model_overlay import (
+    IMU,
+    THICK,
+    odd_couplings,
+    put_overlay,
+)
 
 MODEL = """<mujoco>
   <option gravity="0 0 -1" timestep="0.1" integrator="RK4"/>

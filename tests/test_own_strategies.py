@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.errors import ConfigurationError
+from stepaside.core.errors import ConfigurationError
 from stepaside.games import DuelSettings, run_duel
-from stepaside.games.circle import theory_of
-from stepaside.games.configuration import (
+from stepaside.games.configuration_file import (
     dump_configuration,
     load_configuration,
 )
 from stepaside.games.duel import Duel
+from stepaside.games.duel_circle import theory_of
+from stepaside.games.duel_settings import StartSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.settings import StartSettings
 from stepaside.planning import Direction
 from stepaside.strategies import (
     STRATEGIES,

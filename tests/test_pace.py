@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from made_up_robot import FIRST, GAIT, STEP, FakeStrategy, Run
-from stepaside.control.balance.settings import ControlSettings
-from stepaside.control.pace import QUICKENING, next_pace
-from stepaside.errors import PlanError
+from stepaside.control.strategy_runner import QUICKENING, next_pace
+from stepaside.core.errors import PlanError
+from stepaside.core.poses import Pose
 from stepaside.games.outcome import Outcome
-from stepaside.games.walk import Walking
+from stepaside.games.walk_game import Walking
 from stepaside.games.walk_settings import WalkSettings
+from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import (
     PRESETS,
     Direction,
@@ -21,8 +22,7 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.planning.steady import landing_state
-from stepaside.poses import Pose
+from stepaside.planning.steady_gait import landing_state
 from stepaside.strategies import Evasion, Intent, Knowledge, Limits, Walk
 
 FAST = PRESETS["fast"]

@@ -12,7 +12,7 @@ from http import HTTPStatus
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
-from stepaside.report.viewer.scripts import Scripts
+from stepaside.report.viewer.page_scripts import Scripts
 
 
 @pytest.mark.parametrize("sent", [{}, {"Accept-Encoding": "gzip"}])

@@ -26,17 +26,17 @@ from browsing import (
 )
 from hostile import HOSTILE
 from onlooker import look_away, look_on
-from stepaside.cli import main
-from stepaside.games.configuration import dump_configuration
+from stepaside.cli.main import main
+from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.duel import Duel
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.folder import load_run
-from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.run_archive import load_run
 from stepaside.games.walker import Walker
-from stepaside.report.inert import visible
 from stepaside.report.replay_page import write_page
-from stepaside.report.stage import Stage
-from stepaside.report.viewer.session import Session
+from stepaside.report.scene import Stage
+from stepaside.report.text_escaping import visible
+from stepaside.report.viewer.live_session import Session
 
 SLOW = 0.02  # speed at which a sight of some seconds lasts for minutes
 
@@ -81,7 +81,7 @@ def flat(browser: Any) -> Iterator[tuple[Any, list[str]]]:
 
 
 def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
-    from stepaside.report.viewer.page import Page
+    from stepaside.report.viewer.live_page import Page
 
     start = StartSettings(distance=1.2, pursuer_offset=0.5, evader_offset=0.0)
     live = Page(DuelSettings(start=start), host="127.0.0.1", port=8731)
@@ -155,7 +155,7 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
 def test_a_robot_is_pulled_with_the_pointer_and_driven_by_hand(
     browser: Any,
 ) -> None:
-    from stepaside.report.viewer.page import Page
+    from stepaside.report.viewer.live_page import Page
 
     live = Page(DuelSettings(), host="127.0.0.1", port=8771)
     live.start()
@@ -249,7 +249,7 @@ HOSTILE_NAME = "<img src=x onerror=ran=1><iframe srcdoc=a>**b** ![a](x)"
 @pytest.fixture(scope="module")
 def replayed(browser: Any, run: Path) -> Iterator[Any]:
     """The page on which a run of a hostile name is replayed."""
-    from stepaside.report.viewer.replaying import ReplayPage
+    from stepaside.report.viewer.replay_viewer import ReplayPage
 
     named = replace(load_run(run), name=HOSTILE_NAME)
     served = ReplayPage(named, port=8741)
@@ -427,7 +427,7 @@ def test_a_page_s_policy_lets_nothing_else_run(
 def test_a_page_of_elsewhere_cannot_reach_the_live_page(browser: Any) -> None:
     import viser
 
-    from stepaside.report.viewer.serving import open_server
+    from stepaside.report.viewer.page_server import open_server
 
     served = open_server("127.0.0.1", 8761)
     port = served.gate.address.port

@@ -4,10 +4,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.errors import ConfigurationError
-from stepaside.report import library
+from stepaside.core.errors import ConfigurationError
+from stepaside.report import replay_page as library
 from stepaside.report.palette import LIGHTS, PALETTES, contrast
-from stepaside.report.parts import parts_of
+from stepaside.report.visual_geoms import parts_of
 
 MODEL = """
 <mujoco>

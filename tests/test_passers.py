@@ -9,18 +9,18 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli import main
-from stepaside.errors import ConfigurationError
-from stepaside.games.configuration import (
+from stepaside.cli.main import main
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.games.configuration_file import (
     dump_configuration,
     load_configuration,
 )
 from stepaside.games.duel import Duel, run_duel
-from stepaside.games.settings import DuelSettings, StartSettings
-from stepaside.poses import Pose, wrap_angle
-from stepaside.report.stage import Stage
-from stepaside.world.passer import Passer
-from stepaside.world.person_settings import PersonSettings
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.report.scene import Stage
+from stepaside.sim.passer_settings import Passer
+from stepaside.sim.person_settings import PersonSettings
 
 EVADER = Pose(3.0, -1.0, 2.5)
 

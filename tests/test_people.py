@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from counting import is_wilson
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.studies.encounters import Encounter, encounters
-from stepaside.studies.people import (
+from stepaside.studies.people_campaign import Encounter, encounters
+from stepaside.studies.people_statistics import (
     origin_rows,
     passing_rows,
     people_rows,

@@ -8,16 +8,16 @@ import pytest
 
 from drawn_depth import Post, Wall, draw
 from made_up_eyes import HEAD, JOINTS, NAO, UP
-from stepaside.perception.observing import camera_of
-from stepaside.perception.people import People, nearest
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.colour_detector import RED
+from stepaside.perception.images import Percept, SonarEcho
+from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.observations import camera_of
+from stepaside.perception.people_selection import People, nearest
 from stepaside.perception.perception import Perception
-from stepaside.poses import Pose, wrap_angle
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.sensing.colour_detector import RED
-from stepaside.sensing.images import Percept, SonarEcho
-from stepaside.sensing.measurement import Measurement, Sighting
-from stepaside.sensing.track import Observation, Track
-from stepaside.sensing.tracker import Tracker
+from stepaside.perception.track import Observation, Track
+from stepaside.perception.tracker import Tracker
 
 CAMERA = CameraModel.of_field_of_view(80, 60, radians(58.0), radians(45.0))
 TICK = 1.0 / 60.0  # an image is taken at every fourth, [s]

@@ -16,11 +16,11 @@ from made_up_eyes import (
     colour,
     trim,
 )
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.perception.colour_detector import RED
+from stepaside.perception.measurement import Measurement
 from stepaside.perception.perception import Perception
-from stepaside.poses import Pose, wrap_angle
 from stepaside.robots.head import rotation
-from stepaside.sensing.colour_detector import RED
-from stepaside.sensing.measurement import Measurement
 
 
 @pytest.fixture

@@ -6,11 +6,11 @@ from typing import Any
 import pytest
 
 from made_up_eyes import HEAD, TICK, Eyes
-from stepaside.perception.attention import STARE, UNSEEN
+from stepaside.core.poses import Pose
 from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.gaze import REACH, SCAN_SPEED, Gaze
-from stepaside.poses import Pose
-from stepaside.sensing.measurement import Sighting
+from stepaside.perception.measurement import Sighting
+from stepaside.perception.target_selection import STARE, UNSEEN
 
 
 @pytest.fixture

@@ -22,14 +22,14 @@ from made_up_eyes import (
     show,
     trim,
 )
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.perception.colour_detector import RED, ColourDetection
+from stepaside.perception.depth_detector import Shadow
 from stepaside.perception.floor_map import FloorMap
-from stepaside.perception.hearing import CHEST, EAR, FRESH
+from stepaside.perception.images import ColourImage, SonarEcho
 from stepaside.perception.perception import BROAD, EDGE, SURE, Perception
-from stepaside.poses import Pose, wrap_angle
-from stepaside.sensing.colour_detector import RED, ColourDetection
-from stepaside.sensing.depth_detector import Shadow
-from stepaside.sensing.images import ColourImage, SonarEcho
-from stepaside.sensing.track import ANYBODY, WALKER
+from stepaside.perception.sonar import CHEST, EAR, FRESH
+from stepaside.perception.track import ANYBODY, WALKER
 
 HEARD = [  # sonar, bearing from the heading in [deg], whether it is heard
     ("left", 49.0, True),

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli import main
-from stepaside.errors import ConfigurationError
+from stepaside.cli.main import main
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose
 from stepaside.games.duel import Duel, run_duel
-from stepaside.games.settings import DuelSettings, StartSettings
-from stepaside.poses import Pose
-from stepaside.world.person_motion import Motion, read_path, template_approach
-from stepaside.world.person_settings import PersonSettings
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.sim.person_motion import Motion, read_path, template_approach
+from stepaside.sim.person_settings import PersonSettings
 
 START = StartSettings(distance=1.5, pursuer_offset=0.0, evader_offset=0.0)
 

@@ -5,19 +5,19 @@ from typing import Any
 
 import pytest
 
-from stepaside.control.balance.settings import ControlSettings
+from stepaside.core.poses import Pose
 from stepaside.games.duel import Duel, run_duel
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.initial_poses import draw_start
 from stepaside.games.match import play
-from stepaside.games.meeting import template_meeting
 from stepaside.games.outcome import Outcome
-from stepaside.games.settings import DuelSettings, StartSettings
-from stepaside.games.start import draw_start
+from stepaside.games.template_approach import template_meeting
+from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS
-from stepaside.poses import Pose
+from stepaside.sim.person_motion import Motion
+from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
-from stepaside.unicycle.side_step import side_step
-from stepaside.world.person_motion import Motion
-from stepaside.world.person_settings import PersonSettings
+from stepaside.theory.unicycle.side_step import side_step
 
 FAST = PRESETS["fast"]
 TIMED = Evasion(trigger="time")

@@ -8,25 +8,25 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.errors import ConfigurationError
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Array, Pose
 from stepaside.games.duel import Duel, furnisher_of
-from stepaside.games.pedestrian import Pedestrian
-from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.person_player import Pedestrian
 from stepaside.games.walker import Walker
-from stepaside.poses import Array, Pose
 from stepaside.robots.head import rotation
-from stepaside.world.figures import FIGURES, HIP
-from stepaside.world.person import (
+from stepaside.sim.ground_truth import torsos_apart
+from stepaside.sim.pedestrian_models import FIGURES, HIP
+from stepaside.sim.person_body import (
     PARTS,
     Person,
     add_person,
     parts_of,
     pose_figure,
 )
-from stepaside.world.person_motion import Motion
-from stepaside.world.person_settings import PersonSettings
-from stepaside.world.push import Push
-from stepaside.world.truth import torsos_apart
+from stepaside.sim.person_motion import Motion
+from stepaside.sim.person_settings import PersonSettings
+from stepaside.sim.push import Push
 
 TICK = 0.05
 STEP = FIGURES["adult"].step

@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from stepaside.errors import ConfigurationError
-from stepaside.poses import Pose, wrap_angle
-from stepaside.world.person_motion import (
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.sim.person_motion import (
     Motion,
     Place,
     read_path,
     template_approach,
 )
-from stepaside.world.person_settings import PersonSettings
+from stepaside.sim.person_settings import PersonSettings
 
 EVADER = (1.0, -2.0)
 

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from stepaside.poses import Pose, wrap_angle
-from stepaside.world.person_motion import Motion
-from stepaside.world.person_settings import PersonSettings
-from stepaside.world.person_visits import AROUND, Visits
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.sim.person_motion import Motion
+from stepaside.sim.person_settings import PersonSettings
+from stepaside.sim.person_visits import AROUND, Visits
 
 GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 

@@ -9,8 +9,8 @@ import pytest
 from invented_run import figures, run_of
 from made_up_record import Record
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.figures import PlanTimes
-from stepaside.games.track import Track
+from stepaside.games.duel_summary import PlanTimes
+from stepaside.games.trajectory import Track
 from stepaside.studies.physics_game import figures_of
 
 

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stepaside.errors import PlanError
+from stepaside.core.errors import PlanError
+from stepaside.core.poses import Pose
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -14,7 +15,6 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.poses import Pose
 
 GAIT = GaitSettings()
 PLANNER = ManeuverPlanner(GAIT)

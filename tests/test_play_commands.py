@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from lola_fakes import JOINTS, STANCE, MadeUpRobot
-from stepaside.cli import main
-from stepaside.drivers.lola.address import Address
-from stepaside.drivers.lola.server import LolaServer
+from stepaside.cli.main import main
+from stepaside.drivers.lola.lola_address import Address
+from stepaside.drivers.lola.lola_server import LolaServer
 
 
 def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:

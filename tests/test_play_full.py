@@ -11,15 +11,15 @@ from typing import Any
 import pytest
 
 from fuzz.places import full, room_in, short_of, taken
-from stepaside.commands.play_record import PlayRecord
-from stepaside.drivers.velocity.body import Velocity
-from stepaside.drivers.velocity.playing import Driving, VelocityTick
-from stepaside.errors import OutputError
-from stepaside.games.folder import load_run
+from stepaside.cli.play_record import PlayRecord
+from stepaside.core.errors import OutputError
+from stepaside.core.poses import Pose
+from stepaside.drivers.velocity.velocity_body import Velocity
+from stepaside.drivers.velocity.velocity_loop import Driving, VelocityTick
+from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.play_run import PlayRun
-from stepaside.games.settings import DuelSettings
-from stepaside.poses import Pose
+from stepaside.games.run_archive import load_run
 
 OPTIONS = {
     "role": "evader",

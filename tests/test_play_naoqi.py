@@ -14,19 +14,19 @@ import pytest
 pytest.importorskip("qi")
 pytest.importorskip("msgpack")
 
-from stepaside.cli import main  # noqa: E402
-from stepaside.drivers.lola.safety import State  # noqa: E402
+from stepaside.cli.main import main  # noqa: E402
+from stepaside.drivers.joint.safety import State  # noqa: E402
 from stepaside.drivers.naoqi.joint_server import (  # noqa: E402
     NaoqiJointServer,
 )
-from stepaside.drivers.naoqi.server import NaoqiServer  # noqa: E402
-from stepaside.drivers.rows import read_rows  # noqa: E402
-from stepaside.drivers.velocity.body import REST, Velocity  # noqa: E402
-from stepaside.drivers.velocity.playing import Driving  # noqa: E402
-from stepaside.games.folder import load_run  # noqa: E402
+from stepaside.drivers.naoqi.naoqi_server import NaoqiServer  # noqa: E402
+from stepaside.drivers.row_file import read_rows  # noqa: E402
+from stepaside.drivers.velocity.velocity_body import REST, Velocity  # noqa: E402
+from stepaside.drivers.velocity.velocity_loop import Driving  # noqa: E402
 from stepaside.games.outcome import Outcome  # noqa: E402
 from stepaside.games.play_run import PlayRun  # noqa: E402
-from stepaside.sensing.measurement import Sighting  # noqa: E402
+from stepaside.games.run_archive import load_run  # noqa: E402
+from stepaside.perception.measurement import Sighting  # noqa: E402
 
 from lola_fakes import JOINTS, STANCE, MadeUpRobot  # isort: skip  # noqa: E402
 from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
@@ -34,7 +34,7 @@ from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
 ANYWHERE = "tcp://127.0.0.1:0"
 TICK = 0.012
 WALKED = 0.6  # [s]
-PLAY = "from stepaside.cli import main; main()"
+PLAY = "from stepaside.cli.main import main; main()"
 
 
 class Joints:

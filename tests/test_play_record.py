@@ -10,31 +10,31 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli import main
-from stepaside.drivers.log import PlayLog
-from stepaside.drivers.lola.safety import State
-from stepaside.drivers.playing import Tick
-from stepaside.drivers.rows import read_rows
-from stepaside.drivers.velocity.body import Velocity
-from stepaside.drivers.velocity.playing import Driving, VelocityTick
-from stepaside.errors import ConfigurationError
-from stepaside.games.configuration import dump_configuration
+from stepaside.cli.main import main
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.drivers.joint.joint_loop import Tick
+from stepaside.drivers.joint.safety import State
+from stepaside.drivers.play_log import PlayLog
+from stepaside.drivers.row_file import read_rows
+from stepaside.drivers.velocity.velocity_body import Velocity
+from stepaside.drivers.velocity.velocity_loop import Driving, VelocityTick
+from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.duel import Duel
-from stepaside.games.folder import load_run
+from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
+from stepaside.games.play_conversion import seal_play
+from stepaside.games.play_rows import one_clock
 from stepaside.games.play_run import PlayRun
 from stepaside.games.play_settings import PlaySettings
-from stepaside.games.played import seal_play
-from stepaside.games.played_rows import one_clock
-from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.run_archive import load_run
 from stepaside.games.walker import Walker
-from stepaside.poses import Pose, wrap_angle
+from stepaside.perception.measurement import Sighting
 from stepaside.report.run_folder import draw_run
-from stepaside.report.stage import Stage
+from stepaside.report.scene import Stage
 from stepaside.robots.description import load_robot
-from stepaside.robots.stored import load_tree
-from stepaside.sensing.measurement import Sighting
-from stepaside.world.body_settings import BODIES
+from stepaside.robots.tree_cache import load_tree
+from stepaside.sim.body_settings import BODIES
 
 EVADER = PlaySettings()
 START = StartSettings(distance=0.7, pursuer_offset=0.1, evader_offset=0.2)

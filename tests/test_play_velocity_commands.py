@@ -8,14 +8,14 @@ from time import monotonic, sleep
 
 import pytest
 
-from stepaside.cli import main
-from stepaside.drivers.rows import RowWriter, read_rows
-from stepaside.errors import ConfigurationError
-from stepaside.sensing.measurement import Sighting
+from stepaside.cli.main import main
+from stepaside.core.errors import ConfigurationError
+from stepaside.drivers.row_file import RowWriter, read_rows
+from stepaside.perception.measurement import Sighting
 
 from velocity_fakes import MadeUpWalker  # isort: skip
 
-PLAY = "from stepaside.cli import main; main()"
+PLAY = "from stepaside.cli.main import main; main()"
 TICK = 0.012
 
 
@@ -105,8 +105,8 @@ def test_play_that_is_killed_is_outlived_by_who_stops_its_robot(
 ) -> None:
     """The guardian calls in a session of its own; the log can be read."""
     pytest.importorskip("qi")
-    from stepaside.drivers.naoqi.server import NaoqiServer
-    from stepaside.drivers.velocity.body import REST, Velocity
+    from stepaside.drivers.naoqi.naoqi_server import NaoqiServer
+    from stepaside.drivers.velocity.velocity_body import REST, Velocity
 
     walker = MadeUpWalker()
     url = "tcp://127.0.0.1:0"

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from stepaside.games.played_joints import PRESSED, Believed, _quaternion
-from stepaside.games.played_rows import PlayedRows
-from stepaside.games.track import Track
+from stepaside.core.poses import Array, Pose, wrap_angle
+from stepaside.games.play_joint_path import PRESSED, Believed, _quaternion
+from stepaside.games.play_rows import PlayedRows
+from stepaside.games.trajectory import Track
 from stepaside.planning import Foot, GaitSettings
-from stepaside.poses import Array, Pose, wrap_angle
 from stepaside.robots.description import load_robot
-from stepaside.robots.forward import ForwardKinematics
+from stepaside.robots.forward_kinematics import ForwardKinematics
 
 NAO = load_robot("nao")
 FORWARD = ForwardKinematics(NAO)

@@ -12,20 +12,20 @@ import pytest
 
 from lola_fakes import JOINTS, STANCE, Clock, FakeLink, pressed, sensor_frame
 from stepaside.control import Phase
-from stepaside.control.deciding import Decisions
-from stepaside.control.walking import WalkState
-from stepaside.drivers.log import PlayLog
-from stepaside.drivers.lola.body import LolaBody
-from stepaside.drivers.lola.frames import pack_sensors
-from stepaside.drivers.lola.safety import State
-from stepaside.drivers.playing import Playing
-from stepaside.drivers.rows import read_rows
+from stepaside.control.strategy_runner import Decisions
+from stepaside.control.walk_snapshots import WalkState
+from stepaside.core.errors import ConfigurationError, ReachError, StrategyError
+from stepaside.core.poses import Pose
+from stepaside.drivers.joint.frames import pack_sensors
+from stepaside.drivers.joint.joint_body import LolaBody
+from stepaside.drivers.joint.joint_loop import Playing
+from stepaside.drivers.joint.safety import State
+from stepaside.drivers.play_log import PlayLog
+from stepaside.drivers.row_file import read_rows
 from stepaside.drivers.status_line import StatusLine
-from stepaside.errors import ConfigurationError, ReachError, StrategyError
+from stepaside.perception.measurement import Sighting
 from stepaside.planning import Foot, GaitSettings
-from stepaside.poses import Pose
-from stepaside.robots.reference import BodyReference
-from stepaside.sensing.measurement import Sighting
+from stepaside.robots.body_reference import BodyReference
 from stepaside.strategies import Evasion, Stand, Strategy
 
 FINE = pack_sensors(sensor_frame())

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stepaside.poses import Pose, wrap_angle, wrap_angles
+from stepaside.core.poses import Pose, wrap_angle, wrap_angles
 
 NUMBERS = st.floats(-10.0, 10.0)
 POSES = st.builds(Pose, NUMBERS, NUMBERS, NUMBERS)

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 
 import published_humanoid as stranger
-from stepaside.errors import ModelError
-from stepaside.fitting.deriving import derive
-from stepaside.fitting.motors import likely_torques, published_speeds
-from stepaside.fitting.survey import survey
-from stepaside.fitting.writing import write_description
+from stepaside.core.errors import ModelError
+from stepaside.fitting.derivation import derive
+from stepaside.fitting.description_writer import write_description
+from stepaside.fitting.model_analysis import survey
+from stepaside.fitting.motor_data import likely_torques, published_speeds
 from stepaside.robots.description import FILE, RobotDescription, load_robot
-from stepaside.robots.facing import face
-from stepaside.robots.reading import read_model
+from stepaside.robots.model_reader import read_model
+from stepaside.robots.torso_frame import face
 
 TURNS = {
     "backward": (0.0, 0.0, 0.0, 1.0),

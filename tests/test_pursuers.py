@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.poses import Pose, wrap_angle
-from stepaside.rooms import Disc, Room, wall_between
+from stepaside.arena import Disc, Room, wall_between
+from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
     Deflected,
     Evasion,
@@ -22,7 +22,7 @@ from stepaside.strategies import (
     Walk,
     play_steps,
 )
-from stepaside.strategies.other import Trace, heading_of_way, note
+from stepaside.strategies.opponent_track import Trace, heading_of_way, note
 
 NAO = Limits(0.1, 0.2, 0.04, 0.4)
 START = (Pose(0.0, 0.0, 0.4), Pose(1.2, 0.3, 2.0))

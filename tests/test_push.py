@@ -7,10 +7,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.errors import ConfigurationError
-from stepaside.poses import Array
-from stepaside.world.push import Push, check_pushes, pushes_of
-from stepaside.world.pusher import Pusher
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Array
+from stepaside.sim.push import Push, check_pushes, pushes_of
+from stepaside.sim.push_forces import Pusher
 
 STEP = 0.002
 MODEL = f"""

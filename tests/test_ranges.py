@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli import main
-from stepaside.errors import (
+from stepaside.cli.main import main
+from stepaside.core.errors import (
     PlanError,
     StepAsideError,
     check_finite,
@@ -17,15 +17,15 @@ from stepaside.errors import (
     check_positive,
     check_within,
 )
-from stepaside.games.configuration import dump_configuration
-from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.configuration_file import dump_configuration
+from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.planning import (
     Direction,
     Foot,
     GaitSettings,
     ManeuverPlanner,
 )
-from stepaside.world.settings import PhysicsSettings, SightSettings
+from stepaside.sim.physics_settings import PhysicsSettings, SightSettings
 
 GAIT = [  # without those that may be zero
     name

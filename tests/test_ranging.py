@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from stepaside.poses import Array
-from stepaside.sensing.colour_detector import RED, Appearance
-from stepaside.sensing.ranging import range_of_breadth, range_of_trim
+from stepaside.core.poses import Array
+from stepaside.perception.colour_detector import RED, Appearance
+from stepaside.perception.ranging import range_of_breadth, range_of_trim
 
 EYE = 0.46
 TOES = 0.05  # that trim at the feet is nearer than the axis, in [m]

@@ -4,7 +4,11 @@ from math import pi, sin
 
 import pytest
 
-from stepaside.strategies.rates import FloorVelocity, Rates, SightRates
+from stepaside.strategies.opponent_rates import (
+    FloorVelocity,
+    Rates,
+    SightRates,
+)
 
 STEP = 0.5
 

@@ -7,11 +7,16 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.poses import Array
+from stepaside.core.poses import Array
+from stepaside.perception.camera_model import CameraModel
 from stepaside.robots.head import Mount, rotation
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.world.camera_settings import DepthSettings
-from stepaside.world.rays import ColourCaster, DepthCaster, RayCaster, _edges
+from stepaside.sim.camera_settings import DepthSettings
+from stepaside.sim.ray_casting import (
+    ColourCaster,
+    DepthCaster,
+    RayCaster,
+    _edges,
+)
 
 CAMERA = CameraModel.of_field_of_view(40, 30, radians(58.0), radians(45.0))
 AHEAD = Mount(np.array([0.1, 0.0, 0.0]), np.eye(3))

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.games.reading import read_arrays
+from stepaside.games.archive_reader import read_arrays
 
 KNOWN = frozenset({"rows"})
 

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from made_up_players import FakePlayer, FakeWorld, begun, game
+from stepaside.core.poses import Array, Pose
 from stepaside.games.match import Match
 from stepaside.games.outcome import Outcome
-from stepaside.games.record import Recorder
-from stepaside.games.track import Track
+from stepaside.games.recorder import Recorder
+from stepaside.games.trajectory import Track
 from stepaside.planning import Foot
-from stepaside.poses import Array, Pose
 
 FRAMES = (Pose(0.0, 0.0, 0.0), Pose(1.0, 2.0, pi / 2))
 NAMES = ("a", "b")

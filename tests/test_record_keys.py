@@ -8,28 +8,28 @@ from typing import Any
 import pytest
 
 from every_field import changed
-from stepaside.control.balance.settings import ControlSettings
-from stepaside.fitting import tuning
-from stepaside.fitting.trials import Walked
-from stepaside.fitting.tuning import Search
-from stepaside.games.settings import DuelSettings, RobotSettings
+from stepaside.arena import Disc, Door, Room, RoomRecipe
+from stepaside.core.poses import Pose
+from stepaside.fitting import gait_search as tuning
+from stepaside.fitting.gait_search import Search
+from stepaside.fitting.walk_trials import Walked
+from stepaside.games.duel_settings import DuelSettings, RobotSettings
 from stepaside.games.walk_settings import WalkSettings
+from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS
-from stepaside.poses import Pose
 from stepaside.robots.description import load_robot
-from stepaside.rooms import Disc, Door, Room, RoomRecipe
-from stepaside.studies.changes import changed_walk, changes_of
-from stepaside.studies.duels import key_of, settings_hash
-from stepaside.studies.encounters import encounters
-from stepaside.studies.pushes import pushes_result
-from stepaside.studies.records import RecordFile
-from stepaside.studies.robustness import Trial
-from stepaside.studies.tournament import key_of as game_key
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.camera_settings import Thing
+from stepaside.sim.passer_settings import Passer
+from stepaside.sim.push import Push
+from stepaside.studies.duel_campaign import key_of, settings_hash
+from stepaside.studies.people_campaign import encounters
+from stepaside.studies.push_results import pushes_result
+from stepaside.studies.record_store import RecordFile
+from stepaside.studies.robustness_campaign import Trial
+from stepaside.studies.settings_diff import changed_walk, changes_of
+from stepaside.studies.tournament_campaign import key_of as game_key
 from stepaside.studies.tournament_settings import TournamentSettings
-from stepaside.world.body_settings import BODIES
-from stepaside.world.camera_settings import Thing
-from stepaside.world.passer import Passer
-from stepaside.world.push import Push
 
 FEEDBACK = ControlSettings(feedback=True)  # with which methods differ
 PERSON = DuelSettings(pursuer="person", control=FEEDBACK)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from stepaside.studies.records import RecordFile
+from stepaside.studies.record_store import RecordFile
 
 
 @pytest.fixture

@@ -5,7 +5,8 @@ from math import pi
 import numpy as np
 import pytest
 
-from stepaside.control.reference import (
+from stepaside.core.poses import Array, Pose
+from stepaside.locomotion.zmp.reference_table import (
     CACHED,
     ReferenceSample,
     ReferenceTable,
@@ -19,8 +20,7 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.planning.steady import landing_state
-from stepaside.poses import Array, Pose
+from stepaside.planning.steady_gait import landing_state
 
 GAIT = GaitSettings()
 TICK = 0.004

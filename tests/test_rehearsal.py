@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from stepaside.fitting.rehearsal import (
+from stepaside.fitting.gait_feasibility import (
     LEAST,
     lengths_share,
     shortened,

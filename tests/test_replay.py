@@ -7,13 +7,12 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli import main
-from stepaside.errors import ConfigurationError
-from stepaside.games.folder import load_run
+from stepaside.cli.main import main
+from stepaside.core.errors import ConfigurationError
+from stepaside.games.run_archive import load_run
 from stepaside.report.film import Shot
-from stepaside.report.library import three
-from stepaside.report.replay_page import write_page
-from stepaside.world.graphics import RAYCAST, choose_renderer
+from stepaside.report.replay_page import three, write_page
+from stepaside.sim.offscreen_rendering import RAYCAST, choose_renderer
 
 needs_graphics = pytest.mark.skipif(
     choose_renderer() == RAYCAST,

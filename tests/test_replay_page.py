@@ -14,20 +14,20 @@ import numpy as np
 import pytest
 
 from invented_run import changed, drifted
-from stepaside.errors import ConfigurationError
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Array
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.settings import DuelSettings, StartSettings
-from stepaside.games.track import Track
-from stepaside.poses import Array
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.trajectory import Track
 from stepaside.report import film, film_layers
-from stepaside.report.averages import whole_cycles
+from stepaside.report.cycle_means import whole_cycles
+from stepaside.report.figure_style import COLOURS, THEORY
 from stepaside.report.film import Cinema, Shot
-from stepaside.report.parts import parts_of
 from stepaside.report.replay_page import write_page
-from stepaside.report.stage import Stage
-from stepaside.report.style import COLOURS, THEORY
-from stepaside.world.graphics import RAYCAST
+from stepaside.report.scene import Stage
+from stepaside.report.visual_geoms import parts_of
+from stepaside.sim.offscreen_rendering import RAYCAST
 
 TIMES: Array = 0.02 * np.arange(102, dtype=float)  # 2.02 s
 

@@ -11,17 +11,16 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from stepaside import workers
-from stepaside.cli import main
-from stepaside.commands import reproduce_figures
+from stepaside.cli import reproduce_figures
+from stepaside.cli.main import main
+from stepaside.core import worker_pool as workers
 from stepaside.report.claims_page import markdown_page
-from stepaside.studies import reproduce
-from stepaside.studies.claims import Claim, Job, Row
-from stepaside.studies.jobs import JOBS
-from stepaside.studies.kept import Kept
+from stepaside.studies import claim_campaign as reproduce
+from stepaside.studies.claim_jobs import JOBS
+from stepaside.studies.claims import Claim, Job, Readings, Row, farthest
+from stepaside.studies.code_version import code_version
 from stepaside.studies.paper_figures import paper_figures
-from stepaside.studies.readings import Readings, farthest
-from stepaside.studies.version import code_version
+from stepaside.studies.reading_store import Kept
 
 NAN, INF = float("nan"), float("inf")
 

@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from stepaside.errors import ConfigurationError
-from stepaside.studies.results import (
+from stepaside.core.errors import ConfigurationError
+from stepaside.studies.code_version import PLANNER, code_version
+from stepaside.studies.result_files import (
     HEADER,
     header,
     is_current,
@@ -14,7 +15,6 @@ from stepaside.studies.results import (
     running_command,
     write_result,
 )
-from stepaside.studies.version import PLANNER, code_version
 
 HEAD = header({"seeds": [1, 3]}, rooms=PLANNER, command="python x.py")
 

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from made_up_humanoid import made_up
-from stepaside.errors import ModelError
-from stepaside.poses import Array
-from stepaside.robots.compiling import compile_tree
-from stepaside.robots.configuration import Configuration
+from stepaside.core.errors import ModelError
+from stepaside.core.poses import Array
 from stepaside.robots.description import RobotDescription, load_robot
-from stepaside.robots.stored import load_tree
+from stepaside.robots.joint_configuration import Configuration
+from stepaside.robots.tree_cache import load_tree
+from stepaside.robots.tree_compiler import compile_tree
 
 ROBOTS = ["nao", "made up", "made up, seven joints a leg"]
 

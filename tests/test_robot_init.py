@@ -10,30 +10,25 @@ import pytest
 from click.testing import CliRunner
 
 import published_humanoid as stranger
-from stepaside.cli import main
-from stepaside.errors import ModelError
-from stepaside.fitting.deriving import Derived, derive
-from stepaside.fitting.lengths import Size, gait_of, game_of_size
-from stepaside.fitting.motors import (
-    GIVES,
-    LEAST,
-    STIFFNESS,
-    gains_of,
-)
-from stepaside.fitting.survey import survey
-from stepaside.fitting.trials import WAYS, Trial, trials_of, walk_trial
-from stepaside.fitting.writing import write_description
+from stepaside.cli.main import main
+from stepaside.core.errors import ModelError
+from stepaside.fitting.derivation import Derived, derive
+from stepaside.fitting.description_writer import write_description
+from stepaside.fitting.gait_scaling import Size, gait_of, game_of_size
+from stepaside.fitting.model_analysis import survey
+from stepaside.fitting.motor_data import GIVES, LEAST, STIFFNESS, gains_of
+from stepaside.fitting.walk_trials import WAYS, Trial, trials_of, walk_trial
 from stepaside.games import DuelSettings, run_duel
 from stepaside.games.robot_settings import settings_of, with_robot
-from stepaside.robots.compiling import compile_tree
 from stepaside.robots.description import (
     FILE,
     RobotDescription,
     load_robot,
 )
-from stepaside.world.settings import PhysicsSettings
-from stepaside.world.truth import TrueState
-from stepaside.world.world import COLOURS, build_model
+from stepaside.robots.tree_compiler import compile_tree
+from stepaside.sim.ground_truth import TrueState
+from stepaside.sim.physics_settings import PhysicsSettings
+from stepaside.sim.world import COLOURS, build_model
 
 PUBLISHED = pytest.mark.parametrize(
     "publish", [stranger.mjcf, stranger.urdf], ids=["mjcf", "urdf"]

@@ -10,21 +10,24 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli import main
-from stepaside.errors import ConfigurationError, ModelError, PlanError
-from stepaside.games.circle import pace_of, theory_of
-from stepaside.games.configuration import dump_configuration, parse_settings
+from stepaside.cli.main import main
+from stepaside.core.errors import ConfigurationError, ModelError, PlanError
+from stepaside.games.configuration_file import (
+    dump_configuration,
+    parse_settings,
+)
+from stepaside.games.duel_circle import pace_of, theory_of
+from stepaside.games.duel_settings import DuelSettings, RobotSettings
+from stepaside.games.initial_poses import draw_start
 from stepaside.games.robot_settings import (
     settings_of_robot,
     with_players,
     with_robot,
 )
-from stepaside.games.settings import DuelSettings, RobotSettings
-from stepaside.games.start import draw_start
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
-from stepaside.unicycle.circling import find_circle
+from stepaside.theory.unicycle.circle_equations import find_circle
 
 NAO = load_robot("nao")
 

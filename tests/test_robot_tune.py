@@ -10,18 +10,18 @@ import pytest
 from click.testing import CliRunner
 
 import published_humanoid as stranger
-import stepaside.fitting.checking as checking
-import stepaside.fitting.tuning as tuning
-from stepaside.cli import main
-from stepaside.fitting.candidates import Candidate
-from stepaside.fitting.checking import check_robot
-from stepaside.fitting.deriving import derive
-from stepaside.fitting.findings import findings_of
-from stepaside.fitting.rewriting import rewritten
-from stepaside.fitting.strain import Strain
-from stepaside.fitting.trials import WAYS, Trial, Walked
-from stepaside.fitting.tuning import Search
-from stepaside.fitting.writing import write_description
+import stepaside.fitting.gait_search as tuning
+import stepaside.fitting.robot_verification as checking
+from stepaside.cli.main import main
+from stepaside.fitting.derivation import derive
+from stepaside.fitting.description_edit import rewritten
+from stepaside.fitting.description_writer import write_description
+from stepaside.fitting.gait_candidates import Candidate
+from stepaside.fitting.gait_search import Search
+from stepaside.fitting.joint_strain import Strain
+from stepaside.fitting.requirements import findings_of
+from stepaside.fitting.robot_verification import check_robot
+from stepaside.fitting.walk_trials import WAYS, Trial, Walked
 from stepaside.games.robot_settings import settings_of
 from stepaside.robots.description import (
     FILE,
@@ -275,7 +275,7 @@ def test_the_command_writes_nothing_where_nothing_is_better(
     described(tmp_path)
     before = (tmp_path / FILE).read_bytes()
     monkeypatch.setattr(
-        "stepaside.workers.worker_pool", lambda workers: Here()
+        "stepaside.core.worker_pool.worker_pool", lambda workers: Here()
     )
     monkeypatch.setattr(tuning, "walk_trial", lambda t: walked(t, 0.1))
     result = CliRunner().invoke(main, ["robot", "tune", str(tmp_path)])

@@ -9,17 +9,28 @@ from typing import Any
 
 import pytest
 
-from stepaside.control.balance.settings import ControlSettings
-from stepaside.errors import ConfigurationError
+from stepaside.core.errors import ConfigurationError
+from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import GaitSettings
-from stepaside.studies import limits, robustness, trial_results
-from stepaside.studies.limits import (
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.physics_settings import PhysicsSettings
+from stepaside.studies import (
+    push_limits as limits,
+)
+from stepaside.studies import (
+    robustness_campaign as robustness,
+)
+from stepaside.studies import (
+    robustness_campaign as trial_results,
+)
+from stepaside.studies.code_version import code_version
+from stepaside.studies.push_limits import (
     limit_of,
     next_strength,
     push_cases,
     search_limits,
 )
-from stepaside.studies.robustness import (
+from stepaside.studies.robustness_campaign import (
     DIRECTIONS,
     STRENGTHS,
     Trial,
@@ -30,9 +41,6 @@ from stepaside.studies.robustness import (
     settings_of,
     trials,
 )
-from stepaside.studies.version import code_version
-from stepaside.world.body_settings import BODIES
-from stepaside.world.settings import PhysicsSettings
 
 TRIAL = Trial("friction", 0.3, "", 0.0, 5, "measured", "hardware")
 PUSH = Trial("push", 1.2, "left", 0.25, 5, "closed-form", "ideal")

@@ -8,13 +8,13 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli import main
-from stepaside.commands import robustness as command
-from stepaside.commands.campaigns import Ended
-from stepaside.studies.limits import next_strength, outcomes_of
-from stepaside.studies.results import read_result
+from stepaside.cli import robustness as command
+from stepaside.cli.campaign_reports import Ended
+from stepaside.cli.main import main
+from stepaside.studies.push_limits import next_strength, outcomes_of
+from stepaside.studies.result_files import read_result
+from stepaside.studies.robustness_campaign import ROOMS
 from stepaside.studies.survival import bound_at
-from stepaside.studies.trial_results import ROOMS
 
 ASKED = "--kind backlash --kind push --method mpc --seeds 3 --phases 1".split()
 

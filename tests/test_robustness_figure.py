@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.report import robustness_figure, style
+from stepaside.report import figure_style as style
+from stepaside.report import robustness_figure
 from stepaside.report.robustness_figure import draw_limits, draw_survival
 
 

@@ -6,8 +6,8 @@ import pytest
 
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
-from stepaside.world.camera_settings import RoomSettings, Thing
-from stepaside.world.room import LOWER, furnisher
+from stepaside.sim.camera_settings import RoomSettings, Thing
+from stepaside.sim.room_furnishing import LOWER, furnisher
 
 HEAD = load_head(load_robot("nao"))
 

@@ -10,15 +10,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli import main
-from stepaside.commands.declared.print_config import commented
-from stepaside.errors import ConfigurationError
-from stepaside.games.configuration import dump_configuration, read_settings
-from stepaside.games.duel import Duel, run_duel
-from stepaside.games.outcome import Outcome
-from stepaside.games.settings import DuelSettings, StartSettings
-from stepaside.poses import Pose
-from stepaside.rooms import (
+from stepaside.arena import (
     Box,
     Disc,
     Polygon,
@@ -26,9 +18,20 @@ from stepaside.rooms import (
     make_room,
     room_of_entries,
 )
-from stepaside.rooms.making import RoomRecipe
-from stepaside.world.camera_settings import RoomSettings
-from stepaside.world.solids import HEIGHT, add_solids, named_solids
+from stepaside.arena.room_generation import RoomRecipe
+from stepaside.cli.main import main
+from stepaside.cli.options.print_config import commented
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose
+from stepaside.games.configuration_file import (
+    dump_configuration,
+    read_settings,
+)
+from stepaside.games.duel import Duel, run_duel
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.outcome import Outcome
+from stepaside.sim.camera_settings import RoomSettings
+from stepaside.sim.obstacle_geoms import HEIGHT, add_solids, named_solids
 
 TRIANGLE = Polygon(((0.5, 0.5), (0.9, 0.5), (0.7, 0.9)))
 FULL = Room(

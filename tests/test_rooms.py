@@ -10,10 +10,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli import main
-from stepaside.errors import ConfigurationError
-from stepaside.poses import Pose, wrap_angle
-from stepaside.rooms import (
+from stepaside.arena import (
     OPEN_FLOOR,
     Box,
     Disc,
@@ -32,7 +29,10 @@ from stepaside.rooms import (
     room_text,
     wall_between,
 )
-from stepaside.rooms.measures import measure_room
+from stepaside.arena.room_metrics import measure_room
+from stepaside.cli.main import main
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose, wrap_angle
 
 PILLAR = Room(4.0, 2.0, (Disc(0.0, 0.0, 0.3),))
 APART = (Pose(-1.0, 0.0, 0.0), Pose(1.0, 0.0, 3.0))

@@ -8,16 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.control.clearance.surroundings import AHEAD, GivenRoom
-from stepaside.errors import ConfigurationError
-from stepaside.games.duel import Duel
-from stepaside.games.match import play
-from stepaside.games.settings import DuelSettings
-from stepaside.poses import Pose
-from stepaside.report.room_figure import room_patches
-from stepaside.report.stage import Stage
-from stepaside.robots.kinematics import BodyReference
-from stepaside.rooms import (
+from stepaside.arena import (
     MovingBox,
     Room,
     check_starts,
@@ -25,10 +16,19 @@ from stepaside.rooms import (
     room_entries,
     room_of_entries,
 )
-from stepaside.sensing.measurement import Measurement
+from stepaside.control.clearance.surroundings import AHEAD, GivenRoom
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose
+from stepaside.games.duel import Duel
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.match import play
+from stepaside.perception.measurement import Measurement
+from stepaside.report.room_figure import room_patches
+from stepaside.report.scene import Stage
+from stepaside.robots.leg_kinematics import BodyReference
+from stepaside.sim.camera_settings import RoomSettings
+from stepaside.sim.obstacle_geoms import add_solids, mover_of
 from stepaside.studies.tournament_settings import TournamentSettings
-from stepaside.world.camera_settings import RoomSettings
-from stepaside.world.solids import add_solids, mover_of
 
 BOX = MovingBox(0.2, -0.9, 0.3, 0.2, (0.5, 0.6), 0.1, 0.4)
 ROOM = Room(

@@ -5,8 +5,7 @@ from math import acos, atan2, hypot, pi, sqrt
 import numpy as np
 import pytest
 
-from stepaside.poses import Pose
-from stepaside.rooms import (
+from stepaside.arena import (
     NO_OBSTACLES,
     Box,
     Disc,
@@ -15,7 +14,8 @@ from stepaside.rooms import (
     RoomRecipe,
     make_room,
 )
-from stepaside.rooms.paths import first_point
+from stepaside.arena.shortest_path import first_point
+from stepaside.core.poses import Pose
 from stepaside.strategies import Knowledge, Limits, Pursuit
 
 RADIUS = 0.2

@@ -5,9 +5,7 @@ from math import cos, hypot, nan, pi, sin, sqrt
 import numpy as np
 import pytest
 
-from stepaside.errors import ConfigurationError
-from stepaside.poses import Pose
-from stepaside.rooms import (
+from stepaside.arena import (
     NO_OBSTACLES,
     Box,
     Disc,
@@ -18,7 +16,9 @@ from stepaside.rooms import (
     hull,
     wall_between,
 )
-from stepaside.rooms.outline import SMALLEST
+from stepaside.arena.polygon_checks import SMALLEST
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose
 
 SQUARE = Box(0.0, 0.0, 2.0, 2.0)
 SHAPES = (

@@ -8,8 +8,8 @@ import pytest
 
 pytest.importorskip("cyclonedds")
 
-from stepaside.drivers.ros2.body import Ros2Body, rest  # noqa: E402
-from stepaside.drivers.ros2.domain import Dds, taken  # noqa: E402
+from stepaside.core.poses import Pose  # noqa: E402
+from stepaside.drivers.ros2.dds_domain import Dds, taken  # noqa: E402
 from stepaside.drivers.ros2.messages import (  # noqa: E402
     Header,
     Odometry,
@@ -21,22 +21,19 @@ from stepaside.drivers.ros2.messages import (  # noqa: E402
     TwistWithCovariance,
     Vector3,
 )
-from stepaside.drivers.ros2.server import Ros2Server, WorldClock  # noqa: E402
+from stepaside.drivers.ros2.ros2_body import Ros2Body, rest  # noqa: E402
+from stepaside.drivers.ros2.ros2_server import Ros2Server, WorldClock  # noqa: E402
 from stepaside.drivers.ros2.topics import (  # noqa: E402
     dds_topic,
     pose_message,
     vector,
 )
-from stepaside.drivers.velocity.body import REST, Report, Velocity  # noqa: E402
-from stepaside.drivers.velocity.limits import VelocityLimits  # noqa: E402
-from stepaside.drivers.velocity.mind import TemplateMind  # noqa: E402
-from stepaside.drivers.velocity.playing import (  # noqa: E402
-    Driving,
-    VelocityPlaying,
-)
+from stepaside.drivers.velocity.template_controller import TemplateMind  # noqa: E402
+from stepaside.drivers.velocity.velocity_body import REST, Report, Velocity  # noqa: E402
+from stepaside.drivers.velocity.velocity_limits import VelocityLimits  # noqa: E402
+from stepaside.drivers.velocity.velocity_loop import Driving, VelocityPlaying
 from stepaside.drivers.velocity.watchdog import WatchSettings  # noqa: E402
 from stepaside.planning import GaitSettings  # noqa: E402
-from stepaside.poses import Pose  # noqa: E402
 from stepaside.strategies import Pursuit  # noqa: E402
 
 from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402

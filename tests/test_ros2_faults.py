@@ -12,13 +12,13 @@ import pytest
 
 pytest.importorskip("cyclonedds")
 
-from stepaside.drivers.ros2.body import Ros2Body  # noqa: E402
-from stepaside.drivers.ros2.domain import Dds  # noqa: E402
-from stepaside.drivers.session import SessionLost  # noqa: E402
-from stepaside.drivers.velocity.body import REST  # noqa: E402
-from stepaside.drivers.velocity.limits import VelocityLimits  # noqa: E402
-from stepaside.drivers.velocity.mind import TemplateMind  # noqa: E402
-from stepaside.drivers.velocity.playing import (  # noqa: E402
+from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
+from stepaside.drivers.ros2.dds_domain import Dds  # noqa: E402
+from stepaside.drivers.ros2.ros2_body import Ros2Body  # noqa: E402
+from stepaside.drivers.velocity.template_controller import TemplateMind  # noqa: E402
+from stepaside.drivers.velocity.velocity_body import REST  # noqa: E402
+from stepaside.drivers.velocity.velocity_limits import VelocityLimits  # noqa: E402
+from stepaside.drivers.velocity.velocity_loop import (
     Driving,
     VelocityPlaying,
     VelocityTick,
@@ -153,7 +153,7 @@ class Scene:
     """A served unicycle in this process."""
 
     def __init__(self) -> None:
-        from stepaside.drivers.ros2.server import Ros2Server, WorldClock
+        from stepaside.drivers.ros2.ros2_server import Ros2Server, WorldClock
         from velocity_fakes import MadeUpWalker
 
         self.dds, walker = Dds(0, tag=TAG), MadeUpWalker()

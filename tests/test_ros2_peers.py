@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from documents.tables.peers import peers
-from stepaside.studies.results import read_result
+from stepaside.studies.result_files import read_result
 
 ROOT = Path(__file__).parents[1]
 

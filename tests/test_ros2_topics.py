@@ -13,14 +13,10 @@ import pytest
 
 pytest.importorskip("cyclonedds")
 
-from stepaside.drivers.ros2 import domain  # noqa: E402
-from stepaside.drivers.ros2.address import parse_namespace  # noqa: E402
-from stepaside.drivers.ros2.body import (  # noqa: E402
-    Ros2Body,
-    rest,
-    rester_of,
-)
-from stepaside.drivers.ros2.domain import Dds, taken  # noqa: E402
+from stepaside.core.errors import ConfigurationError  # noqa: E402
+from stepaside.core.poses import Pose  # noqa: E402
+from stepaside.drivers.ros2 import dds_domain as domain  # noqa: E402
+from stepaside.drivers.ros2.dds_domain import Dds, taken  # noqa: E402
 from stepaside.drivers.ros2.messages import (  # noqa: E402
     Clock,
     Header,
@@ -34,21 +30,17 @@ from stepaside.drivers.ros2.messages import (  # noqa: E402
     Twist,
     Vector3,
 )
-from stepaside.drivers.ros2.server import (  # noqa: E402
-    EVERY,
-    Ros2Server,
-    WorldClock,
-)
+from stepaside.drivers.ros2.namespaces import parse_namespace  # noqa: E402
+from stepaside.drivers.ros2.ros2_body import Ros2Body, rest, rester_of
+from stepaside.drivers.ros2.ros2_server import EVERY, Ros2Server, WorldClock
 from stepaside.drivers.ros2.topics import (  # noqa: E402
     about_the_vertical,
     dds_topic,
     pose_message,
     pose_of,
 )
-from stepaside.drivers.velocity.body import REST, Velocity  # noqa: E402
-from stepaside.errors import ConfigurationError  # noqa: E402
-from stepaside.poses import Pose  # noqa: E402
-from stepaside.sensing.measurement import Sighting  # noqa: E402
+from stepaside.drivers.velocity.velocity_body import REST, Velocity  # noqa: E402
+from stepaside.perception.measurement import Sighting  # noqa: E402
 
 from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
 

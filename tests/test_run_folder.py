@@ -11,25 +11,22 @@ import numpy as np
 import pytest
 
 from invented_run import check_same, run_of
-from stepaside.errors import ConfigurationError, OutputError
-from stepaside.games.circle import theory_of
+from stepaside.core.errors import ConfigurationError, OutputError
+from stepaside.core.poses import Array
 from stepaside.games.duel import run_duel
+from stepaside.games.duel_circle import theory_of
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.folder import load_run
-from stepaside.games.folder_head import FORMAT
+from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import Run
-from stepaside.games.settings import (
-    DuelSettings,
-    StartSettings,
-)
-from stepaside.games.track import Track
-from stepaside.poses import Array
+from stepaside.games.run_archive import load_run
+from stepaside.games.run_header import FORMAT
+from stepaside.games.trajectory import Track
 from stepaside.report import duel_figure, sight_figure
 from stepaside.report.run_folder import check_output, free_folder, write_run
-from stepaside.report.stage import Stage
+from stepaside.report.scene import Stage
+from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import Evasion
-from stepaside.world.body_settings import BODIES
 
 SETTINGS = DuelSettings(
     seed=3, duration=0.4, start=StartSettings(1.3, 0.4, -0.2)

@@ -6,11 +6,11 @@ from typing import Literal
 import numpy as np
 import pytest
 
+from stepaside.core.poses import Array
 from stepaside.planning import GaitSettings
 from stepaside.planning.schedule import Schedule
 from stepaside.planning.swing import swing_height, swing_progress
 from stepaside.planning.zmp import evaluate
-from stepaside.poses import Array
 
 GAIT = GaitSettings()
 SINGLE, DOUBLE = GAIT.single_support, GAIT.double_support

@@ -10,10 +10,10 @@ import pytest
 from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run, measure
 from stepaside.control.phase import Phase
 from stepaside.control.scheme import PATIENCE, SETTLING
-from stepaside.control.senses import GivenSight
+from stepaside.control.sight_sources import GivenSight
+from stepaside.core.poses import Pose
+from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction, Foot
-from stepaside.poses import Pose
-from stepaside.sensing.measurement import Sighting
 
 
 def test_it_stands_midway_until_the_other_is_a_reason() -> None:

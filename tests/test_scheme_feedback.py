@@ -18,9 +18,9 @@ from made_up_robot import (
     measure,
 )
 from stepaside.control.phase import Phase
-from stepaside.control.senses import CameraSight
+from stepaside.control.sight_sources import CameraSight
+from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction, Foot
-from stepaside.sensing.measurement import Sighting
 
 
 def test_it_waits_until_feedback_is_ready() -> None:

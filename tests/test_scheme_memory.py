@@ -8,13 +8,16 @@ import pytest
 
 from made_up_robot import GAIT, STEP, TICK, FakeStrategy, Run, measure
 from made_up_state import FakeEstimator
-from stepaside.control.balance.loop import ClosedLoop
-from stepaside.control.balance.settings import ControlSettings, MpcSettings
-from stepaside.control.balance.stabiliser import Stabiliser
-from stepaside.control.memory import KEPT
 from stepaside.control.phase import Phase
-from stepaside.control.senses import CameraSight
-from stepaside.robots.kinematics import BodyReference
+from stepaside.control.sight_sources import CameraSight
+from stepaside.control.state_history import KEPT
+from stepaside.locomotion.zmp.control_settings import (
+    ControlSettings,
+    MpcSettings,
+)
+from stepaside.locomotion.zmp.feedback_loop import ClosedLoop
+from stepaside.locomotion.zmp.stabiliser import Stabiliser
+from stepaside.robots.leg_kinematics import BodyReference
 from weighing import weight
 
 # Four steps are a whole number of ticks: then the gait repeats on its clock.

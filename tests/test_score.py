@@ -6,7 +6,7 @@ import pytest
 
 pytest.importorskip("viser")
 
-from stepaside.report.viewer.score import KEPT, Score  # noqa: E402
+from stepaside.report.viewer.scoreboard import KEPT, Score  # noqa: E402
 
 
 def played(score: Score, *distances: float, began: float = 0.0) -> None:

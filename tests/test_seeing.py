@@ -8,21 +8,21 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.control.senses import CameraSight
-from stepaside.errors import ConfigurationError
+from stepaside.control.sight_sources import CameraSight
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import wrap_angle
 from stepaside.games import DuelSettings, Outcome, Run, run_duel
-from stepaside.games.configuration import (
+from stepaside.games.configuration_file import (
     dump_configuration,
     parse_configuration,
 )
 from stepaside.games.duel import Duel
-from stepaside.games.settings import StartSettings
+from stepaside.games.duel_settings import StartSettings
 from stepaside.games.walker import Walker
 from stepaside.perception.gaze import REACH, SCAN_SPEED
+from stepaside.perception.images import ColourImage, SonarEcho
 from stepaside.perception.perception import Perception
-from stepaside.poses import wrap_angle
-from stepaside.sensing.images import ColourImage, SonarEcho
-from stepaside.world.camera_settings import (
+from stepaside.sim.camera_settings import (
     CLUTTER,
     CameraSettings,
     ColourSettings,
@@ -30,8 +30,8 @@ from stepaside.world.camera_settings import (
     RoomSettings,
     Thing,
 )
-from stepaside.world.graphics import BACKENDS, choose_renderer
-from stepaside.world.person_settings import PersonSettings
+from stepaside.sim.offscreen_rendering import BACKENDS, choose_renderer
+from stepaside.sim.person_settings import PersonSettings
 
 RAYS = CameraSettings(colour=ColourSettings(renderer="raycast"))
 SEEING = DuelSettings(

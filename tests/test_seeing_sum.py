@@ -9,29 +9,29 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.control.clearance.settings import MapSettings
-from stepaside.control.senses import CameraSight
-from stepaside.games import seeing
+from stepaside.arena import Room, RoomRecipe, make_room
+from stepaside.control.clearance.map_settings import MapSettings
+from stepaside.control.sight_sources import CameraSight
+from stepaside.core.poses import Pose
+from stepaside.games import camera_duel as seeing
+from stepaside.games.camera_duel import Seeing, Witness
 from stepaside.games.duel import Duel
-from stepaside.games.judge import Tally
+from stepaside.games.duel_settings import PLAYERS, DuelSettings, StartSettings
+from stepaside.games.initial_poses import frames_of, walls_of, with_start
 from stepaside.games.outcome import Outcome
-from stepaside.games.pedestrian import Pedestrian
-from stepaside.games.seeing import Seeing, Witness
-from stepaside.games.settings import PLAYERS, DuelSettings, StartSettings
-from stepaside.games.sight_figures import SightFigures, Spread
-from stepaside.games.start import frames_of, walls_of, with_start
+from stepaside.games.person_player import Pedestrian
+from stepaside.games.sight_evaluation import Tally
+from stepaside.games.sight_summary import SightFigures, Spread
 from stepaside.games.walker import Walker
-from stepaside.poses import Pose
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
-from stepaside.rooms import Room, RoomRecipe, make_room
-from stepaside.world.camera_settings import (
+from stepaside.sim.camera_settings import (
     CameraSettings,
     ColourSettings,
     RoomSettings,
     Thing,
 )
-from stepaside.world.person_settings import PersonSettings
+from stepaside.sim.person_settings import PersonSettings
 
 RAYS = CameraSettings(colour=ColourSettings(renderer="raycast"))
 SETTINGS = DuelSettings(

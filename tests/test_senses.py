@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from made_up_robot import FakePerception, measure
-from stepaside.constants import GRAVITY
-from stepaside.control.balance.step import Step, resting_step
-from stepaside.control.senses import BELIEF, CameraSight, GivenSight
+from stepaside.control.sight_sources import BELIEF, CameraSight, GivenSight
+from stepaside.core.constants import GRAVITY
+from stepaside.core.poses import Array, Pose
+from stepaside.locomotion.zmp.current_step import Step, resting_step
+from stepaside.perception.measurement import Sighting
 from stepaside.planning import Foot
-from stepaside.poses import Array, Pose
 from stepaside.robots.head import rotation
-from stepaside.sensing.measurement import Sighting
 
 TICK = 0.004
 FRAME = Pose(1.0, -2.0, 0.7)

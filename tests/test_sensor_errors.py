@@ -7,9 +7,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.randomness import named_generator
-from stepaside.world.body_settings import BodySettings
-from stepaside.world.sensor_errors import (
+from stepaside.core.random_streams import named_generator
+from stepaside.sim.body_settings import BodySettings
+from stepaside.sim.sensor_errors import (
     AveragedImu,
     SensorErrors,
     perturb_masses,

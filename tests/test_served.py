@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.games.served import MOVED, ServedBody
-from stepaside.sensing.measurement import Measurement
+from stepaside.games.served_player import MOVED, ServedBody
+from stepaside.perception.measurement import Measurement
 
 
 class FakeRobot:

@@ -9,30 +9,30 @@ import numpy as np
 import pytest
 
 from invented_run import check_same
-from stepaside.control.balance.settings import ControlSettings
-from stepaside.drivers.lola.address import Address
-from stepaside.drivers.lola.body import LolaBody
+from stepaside.core.errors import ConfigurationError
+from stepaside.drivers.guardian_process import SessionLost
+from stepaside.drivers.joint.joint_body import LolaBody
+from stepaside.drivers.joint.joint_loop import Playing, Tick
+from stepaside.drivers.joint.safety import State
+from stepaside.drivers.joint.session_options import Handling
 from stepaside.drivers.lola.camera_channel import CameraChannel
-from stepaside.drivers.lola.handling import Handling
-from stepaside.drivers.lola.opening import open_lola
-from stepaside.drivers.lola.safety import State
-from stepaside.drivers.minds import mind_maker
-from stepaside.drivers.playing import Playing, Tick
-from stepaside.drivers.session import SessionLost
-from stepaside.errors import ConfigurationError
+from stepaside.drivers.lola.lola_address import Address
+from stepaside.drivers.lola.lola_connection import open_lola
+from stepaside.drivers.scheme_factory import mind_maker
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.folder import load_run
-from stepaside.games.offers import LolaOffer
-from stepaside.games.serving import serve_duel
-from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.robot_offers import LolaOffer
+from stepaside.games.run_archive import load_run
+from stepaside.games.served_duel import serve_duel
+from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import GaitSettings
 from stepaside.report.run_folder import write_run
-from stepaside.report.stage import Stage
+from stepaside.report.scene import Stage
 from stepaside.robots.description import load_robot
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.strategies import Evasion, Pursuit, Strategy
-from stepaside.world.body_settings import BODIES
-from stepaside.world.camera_settings import CameraSettings, ColourSettings
 
 FEEDBACK = ControlSettings(method="measured", feedback=True)
 

@@ -7,27 +7,27 @@ from threading import Event, Thread
 
 import pytest
 
-from stepaside.control.balance.settings import STABILISED
-from stepaside.drivers.velocity.body import (
+from stepaside.drivers.velocity.template_controller import TemplateMind
+from stepaside.drivers.velocity.velocity_body import (
     REST,
     Report,
     Velocity,
     VelocityBody,
 )
-from stepaside.drivers.velocity.limits import VelocityLimits
-from stepaside.drivers.velocity.mind import TemplateMind
-from stepaside.drivers.velocity.playing import Driving, VelocityPlaying
+from stepaside.drivers.velocity.velocity_limits import VelocityLimits
+from stepaside.drivers.velocity.velocity_loop import Driving, VelocityPlaying
 from stepaside.drivers.velocity.watchdog import WatchSettings
-from stepaside.games.driven import DrivenWalker
 from stepaside.games.duel import Duel
+from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.match import Match, play
-from stepaside.games.offers import Offer
-from stepaside.games.serving import serve_duel
-from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.robot_offers import Offer
+from stepaside.games.served_duel import serve_duel
+from stepaside.games.velocity_walker import DrivenWalker
 from stepaside.games.walker import Walker
+from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.planning import GaitSettings
+from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import Evasion, Pursuit, Strategy
-from stepaside.world.body_settings import BODIES
 
 SETTINGS = DuelSettings(
     seed=7,
@@ -137,10 +137,10 @@ def test_over_ros2_in_lock_step_the_duel_is_the_one_without_a_wire(
 ) -> None:
     """Topics carry doubles: nothing is lost on the way."""
     pytest.importorskip("cyclonedds")
-    from stepaside.drivers.ros2.body import Ros2Body
-    from stepaside.drivers.ros2.domain import Dds
-    from stepaside.drivers.ros2.server import WorldClock
-    from stepaside.games.ros2_offer import Ros2Offer
+    from stepaside.drivers.ros2.dds_domain import Dds
+    from stepaside.drivers.ros2.ros2_body import Ros2Body
+    from stepaside.drivers.ros2.ros2_server import WorldClock
+    from stepaside.games.ros2_offers import Ros2Offer
 
     dds = Dds(0, tag=TAG)
     clock = WorldClock(dds)

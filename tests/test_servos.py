@@ -6,9 +6,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.poses import Array
-from stepaside.world.body_settings import BodySettings
-from stepaside.world.servos import HonestServos, IdealServos
+from stepaside.core.poses import Array
+from stepaside.sim.body_settings import BodySettings
+from stepaside.sim.servos import HonestServos, IdealServos
 
 KP, KV, STALL = 20.0, 0.5, 1.5
 STEP, CYCLE = 0.002, 0.012

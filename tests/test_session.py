@@ -12,18 +12,18 @@ import pytest
 
 from onlooker import look_away, look_on
 from stepaside.control import Phase
-from stepaside.errors import ConfigurationError, StepAsideError
-from stepaside.games.approach import Approach
+from stepaside.core.errors import ConfigurationError, StepAsideError
+from stepaside.games.approach_forecast import Approach
 from stepaside.games.duel import Duel
-from stepaside.games.folder import load_run
-from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.run_archive import load_run
 from stepaside.games.walker import Walker
-from stepaside.report.viewer import saving
-from stepaside.report.viewer import session as live
-from stepaside.report.viewer import trail as trails
-from stepaside.report.viewer.session import Session
-from stepaside.report.viewer.words import outlook, words_of
-from stepaside.strategies.driven import TURN, Driven
+from stepaside.report.viewer import live_session as live
+from stepaside.report.viewer import plot_history as trails
+from stepaside.report.viewer import run_saving as saving
+from stepaside.report.viewer.live_session import Session
+from stepaside.report.viewer.status_text import outlook, words_of
+from stepaside.strategies.teleoperation import TURN, Driven
 
 START = StartSettings(distance=1.0, pursuer_offset=0.0, evader_offset=0.0)
 SETTINGS = DuelSettings(start=START)

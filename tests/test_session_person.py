@@ -10,16 +10,15 @@ import pytest
 
 from fake_page import Gui
 from stepaside.control import Phase
-from stepaside.errors import ConfigurationError
-from stepaside.games.pedestrian import Pedestrian
-from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.core.errors import ConfigurationError
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.person_player import Pedestrian
 from stepaside.games.walker import Walker
-from stepaside.report.viewer.drawing import draw_session
-from stepaside.report.viewer.drive_panel import DrivePanel
-from stepaside.report.viewer.layers import Layers
-from stepaside.report.viewer.push_panel import add_push
-from stepaside.report.viewer.session import Session
-from stepaside.report.viewer.words import phases_of
+from stepaside.report.viewer.drive_panel import DrivePanel, add_push
+from stepaside.report.viewer.live_drawing import draw_session
+from stepaside.report.viewer.live_session import Session
+from stepaside.report.viewer.scene_layers import Layers
+from stepaside.report.viewer.status_text import phases_of
 
 START = StartSettings(distance=2.0, pursuer_offset=0.3, evader_offset=0.0)
 LONG = 60.0  # [s]; no event of a loop that runs comes as late as this

@@ -6,13 +6,13 @@ import click
 import pytest
 
 from documents.tables.settings import LISTS, all_settings
-from stepaside.cli import all_commands
-from stepaside.commands.declared.option import DeclaredOption
-from stepaside.commands.declared.print_config import meanings
-from stepaside.commands.options import NumberType
-from stepaside.errors import StepAsideError
-from stepaside.ranges import Range, check_count, check_settings, ranges_of
-from stepaside.world.settings import PhysicsSettings
+from stepaside.cli.main import all_commands
+from stepaside.cli.options.declaration import DeclaredOption
+from stepaside.cli.options.print_config import meanings
+from stepaside.cli.value_types import NumberType
+from stepaside.core.errors import StepAsideError
+from stepaside.core.ranges import Range, check_count, check_settings, ranges_of
+from stepaside.sim.physics_settings import PhysicsSettings
 
 SETTINGS = all_settings()
 NUMBERS = [

@@ -8,10 +8,10 @@ import pytest
 
 from invented_run import changed, run_of
 from stepaside.games.duel_run import DuelRun
+from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.settings import DuelSettings
-from stepaside.games.track import Track
-from stepaside.report.settling import settling_time, settling_words
+from stepaside.games.trajectory import Track
+from stepaside.report.settling_report import settling_time, settling_words
 
 TIMES = np.linspace(0.0, 60.0, 601)
 STANDING = Track(np.zeros((601, 3)), np.zeros((601, 3)))

@@ -11,17 +11,17 @@ import pytest
 from click.testing import CliRunner
 
 import several_hinges
-from stepaside.cli import main
-from stepaside.errors import ModelError
-from stepaside.fitting.checking import check_robot
-from stepaside.fitting.deriving import Derived, derive
-from stepaside.fitting.findings import findings_of
-from stepaside.fitting.rehearsal import torques_borne
-from stepaside.fitting.strain import Strain
-from stepaside.fitting.survey import survey
-from stepaside.fitting.trials import Walked
-from stepaside.fitting.tuning import GOOD
-from stepaside.fitting.writing import write_description
+from stepaside.cli.main import main
+from stepaside.core.errors import ModelError
+from stepaside.fitting.derivation import Derived, derive
+from stepaside.fitting.description_writer import write_description
+from stepaside.fitting.gait_feasibility import torques_borne
+from stepaside.fitting.gait_search import GOOD
+from stepaside.fitting.joint_strain import Strain
+from stepaside.fitting.model_analysis import survey
+from stepaside.fitting.requirements import findings_of
+from stepaside.fitting.robot_verification import check_robot
+from stepaside.fitting.walk_trials import Walked
 from stepaside.games.robot_settings import settings_of
 from stepaside.robots.description import FILE, load_robot
 from test_robot_tune import Here
@@ -163,7 +163,7 @@ def test_a_hint_names_tune_only_where_tune_searches(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """The search ends at once where walks are steady enough."""
-    from stepaside.fitting import checking
+    from stepaside.fitting import robot_verification as checking
 
     strain = Strain(0.1, "knee", torque, "hip", 0.0, 0.0)
     monkeypatch.setattr(

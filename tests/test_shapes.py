@@ -6,8 +6,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.poses import Array
-from stepaside.world.shapes import points_of
+from stepaside.core.poses import Array
+from stepaside.sim.geom_points import points_of
 
 SIZE = np.array([0.3, 0.2, 0.1])
 QUAT = "0.8 0.3 -0.4 0.2"

@@ -8,11 +8,11 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
-from stepaside.cli import main
-from stepaside.errors import ConfigurationError
+from stepaside.cli.main import main
+from stepaside.core.errors import ConfigurationError
 from stepaside.planning import Direction, Foot, GaitSettings, ManeuverPlanner
+from stepaside.report.figure_sizes import SHEETS, figures_on, sheet
 from stepaside.report.plan_figure import draw_plan
-from stepaside.report.sizes import SHEETS, figures_on, sheet
 
 PLAN = ManeuverPlanner(GaitSettings()).plan(
     0.5, Direction.BACKWARD, first_foot=Foot.LEFT, standing=True

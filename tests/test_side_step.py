@@ -4,9 +4,9 @@ from math import pi, sin
 
 import pytest
 
-from stepaside.errors import PlanError
+from stepaside.core.errors import PlanError
 from stepaside.planning import PRESETS
-from stepaside.unicycle.side_step import side_clearance, side_step
+from stepaside.theory.unicycle.side_step import side_clearance, side_step
 
 
 @pytest.mark.parametrize("time", [0.3, 1.9, 4.0])

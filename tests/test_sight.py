@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.sensing.measurement import Sighting
-from stepaside.world.settings import SightSettings
-from stepaside.world.sight import IdealLineOfSight
+from stepaside.perception.measurement import Sighting
+from stepaside.sim.ideal_sensors import IdealLineOfSight
+from stepaside.sim.physics_settings import SightSettings
 
 OWN: Any = SimpleNamespace(place=(1.0, 2.0), heading=2.5)
 OTHER: Any = SimpleNamespace(place=(-0.5, 1.6), heading=0.0)

@@ -11,16 +11,16 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from invented_run import run_of
+from stepaside.core.poses import Array
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.judge import Still
-from stepaside.games.settings import DuelSettings
-from stepaside.games.track import Track
-from stepaside.poses import Array
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.sight_evaluation import Still
+from stepaside.games.trajectory import Track
+from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.images import ColourImage, DepthImage
+from stepaside.report.figure_style import COLOURS, THEORY, plt
 from stepaside.report.sight_figure import FOUND, TRUE, draw_sight, picture
-from stepaside.report.style import COLOURS, THEORY, plt
-from stepaside.sensing.camera_model import CameraModel
-from stepaside.sensing.images import ColourImage, DepthImage
-from stepaside.world.camera_settings import RoomSettings, Thing
+from stepaside.sim.camera_settings import RoomSettings, Thing
 
 CAMERA = CameraModel(160, 120, 140.0, 140.0)
 

@@ -9,28 +9,28 @@ import numpy as np
 import pytest
 
 from stepaside.control import ControlScheme, Phase
-from stepaside.control.balance.loop import ClosedLoop, OpenLoop
-from stepaside.control.balance.settings import OPEN_LOOP, STABILISED
-from stepaside.control.balance.stabiliser import Stabiliser
-from stepaside.control.senses import CameraSight, GivenSight
-from stepaside.games.standing import stand_walker
+from stepaside.control.sight_sources import CameraSight, GivenSight
+from stepaside.core.poses import Array, Pose
+from stepaside.core.random_streams import named_generator
 from stepaside.games.walker import Walker
+from stepaside.games.walker_factory import stand_walker
+from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
+from stepaside.locomotion.zmp.feedback_loop import ClosedLoop, OpenLoop
+from stepaside.locomotion.zmp.stabiliser import Stabiliser
+from stepaside.perception.measurement import Sighting
 from stepaside.planning import GaitSettings
-from stepaside.poses import Array, Pose
-from stepaside.randomness import named_generator
 from stepaside.robots.description import load_robot
-from stepaside.robots.kinematics import LegKinematics
-from stepaside.robots.own import FOOT_FORCES
-from stepaside.sensing.measurement import Sighting
+from stepaside.robots.description_types import FOOT_FORCES
+from stepaside.robots.leg_kinematics import LegKinematics
+from stepaside.sim.body_settings import BodySettings
+from stepaside.sim.ground_truth import TrueState, torsos_apart
+from stepaside.sim.physics_settings import PhysicsSettings
+from stepaside.sim.push import Push
+from stepaside.sim.sensor_errors import SensorErrors
+from stepaside.sim.servos import HonestServos
+from stepaside.sim.simulated_robot import SimulatedRobot
+from stepaside.sim.world import World
 from stepaside.strategies import Pursuit
-from stepaside.world.body_settings import BodySettings
-from stepaside.world.push import Push
-from stepaside.world.robot import SimulatedRobot
-from stepaside.world.sensor_errors import SensorErrors
-from stepaside.world.servos import HonestServos
-from stepaside.world.settings import PhysicsSettings
-from stepaside.world.truth import TrueState, torsos_apart
-from stepaside.world.world import World
 
 NAO = load_robot("nao")
 FRAME = Pose(1.2, -0.7, 0.9)

@@ -8,11 +8,11 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.poses import Pose
+from stepaside.core.poses import Pose
 from stepaside.robots.description import load_robot
-from stepaside.world.body_settings import BodySettings
-from stepaside.world.settings import PhysicsSettings
-from stepaside.world.world import COLOURS, World, build_model, place_free_body
+from stepaside.sim.body_settings import BodySettings
+from stepaside.sim.physics_settings import PhysicsSettings
+from stepaside.sim.world import COLOURS, World, build_model, place_free_body
 
 NAO = load_robot("nao")
 TWO = dict.fromkeys(("pursuer", "evader"), NAO)

@@ -10,19 +10,19 @@ import numpy as np
 import pytest
 
 import published_humanoid as stranger
-from stepaside.errors import ModelError
-from stepaside.fitting.deriving import (
+from stepaside.core.errors import ModelError
+from stepaside.fitting.derivation import (
     derive,
     name_of,
     shared_sole,
     spacing_of,
 )
-from stepaside.fitting.limbs import Leg
-from stepaside.fitting.posture import knee_limits, standing_of
-from stepaside.fitting.survey import Survey, survey
-from stepaside.fitting.writing import write_description
-from stepaside.robots.compiling import compile_tree
+from stepaside.fitting.description_writer import write_description
+from stepaside.fitting.leg_detection import Leg
+from stepaside.fitting.model_analysis import Survey, survey
+from stepaside.fitting.standing_posture import knee_limits, standing_of
 from stepaside.robots.description import FILE, load_robot
+from stepaside.robots.tree_compiler import compile_tree
 
 BACK, FRONT, HALF = stranger.SOLE
 OUTLINE = (BACK, FRONT, -HALF, HALF)

@@ -5,8 +5,7 @@ from math import cos, pi, radians
 import numpy as np
 import pytest
 
-from stepaside.poses import Array, Pose
-from stepaside.rooms import (
+from stepaside.arena import (
     Box,
     Disc,
     Obstacle,
@@ -14,6 +13,7 @@ from stepaside.rooms import (
     Polygon,
     clearance_between,
 )
+from stepaside.core.poses import Array, Pose
 
 FOOT = np.array([[0.09, 0.04], [-0.05, 0.04], [-0.05, -0.03], [0.09, -0.04]])
 COARSE = radians(3.0)  # to the nearest direction, at most

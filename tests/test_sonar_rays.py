@@ -7,10 +7,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.poses import Array
+from stepaside.core.poses import Array
 from stepaside.robots.head import Mount
-from stepaside.world.camera_settings import SonarSettings
-from stepaside.world.rays import RayCaster, SonarCaster, cone
+from stepaside.sim.camera_settings import SonarSettings
+from stepaside.sim.ray_casting import RayCaster, SonarCaster, cone
 
 AHEAD = Mount(np.array([0.1, 0.0, 0.0]), np.eye(3))
 QUIET = SonarSettings(noise=0.0)

@@ -24,7 +24,7 @@ from made_up_state import (
     stabiliser,
     step,
 )
-from stepaside.control.balance.step import zmp_box
+from stepaside.locomotion.zmp.current_step import zmp_box
 from stepaside.planning import Foot
 
 

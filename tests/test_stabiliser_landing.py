@@ -16,8 +16,9 @@ from made_up_state import (
     stabiliser,
     step,
 )
-from stepaside.control.balance.stabiliser import Stabiliser
-from stepaside.control.balance.step import zmp_box
+from stepaside.core.poses import Pose
+from stepaside.locomotion.zmp.current_step import zmp_box
+from stepaside.locomotion.zmp.stabiliser import Stabiliser
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -25,8 +26,7 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.poses import Pose
-from stepaside.robots.forward import MeasuredPosture
+from stepaside.robots.forward_kinematics import MeasuredPosture
 
 
 def land(

@@ -7,18 +7,18 @@ import numpy as np
 import pytest
 
 from fake_page import Scene
-from stepaside.poses import Array, Pose
-from stepaside.report.parts import Part, parts_of
-from stepaside.report.tops import Tops
-from stepaside.report.viewer.bodies import Bodies
+from stepaside.arena import Disc, Door, Room
+from stepaside.core.poses import Array, Pose
+from stepaside.report.body_heights import Tops
+from stepaside.report.viewer.scene_bodies import Bodies
+from stepaside.report.visual_geoms import Part, parts_of
 from stepaside.robots.description import load_robot
-from stepaside.rooms import Disc, Door, Room
-from stepaside.world.figures import FIGURES
-from stepaside.world.person import add_person, pose_figure
-from stepaside.world.person import parts_of as person_parts
-from stepaside.world.settings import PhysicsSettings
-from stepaside.world.solids import add_solids
-from stepaside.world.world import build_model
+from stepaside.sim.obstacle_geoms import add_solids
+from stepaside.sim.pedestrian_models import FIGURES
+from stepaside.sim.person_body import add_person, pose_figure
+from stepaside.sim.person_body import parts_of as person_parts
+from stepaside.sim.physics_settings import PhysicsSettings
+from stepaside.sim.world import build_model
 
 SHAPES = [(3.0, 3.0), (2.0, 8.0), (9.0, 1.5)]
 DOORS = (Door("east", 0.2, 0.6), Door("south", -0.3, 0.7))
@@ -130,7 +130,7 @@ BODY = """
 def test_a_top_is_over_every_point_of_a_body_and_not_far(
     kind: str, size: str
 ) -> None:
-    from stepaside.report.viewer.bodies import shape_of
+    from stepaside.report.viewer.scene_bodies import shape_of
 
     model = mujoco.MjModel.from_xml_string(BODY.format(kind=kind, size=size))
     (part,) = parts_of(model)

@@ -5,14 +5,14 @@ from typing import Any
 
 import pytest
 
-from stepaside.control.assembly import Clearance
-from stepaside.control.clearance.outline import BodyOutline, sway_of
-from stepaside.control.clearance.settings import MapSettings
-from stepaside.games import standing
-from stepaside.games.standing import clearance_in, fitting
+from stepaside.arena import Disc, Room
+from stepaside.control.clearance.map_settings import MapSettings
+from stepaside.control.clearance.swept_outline import BodyOutline, sway_of
+from stepaside.control.scheme_builder import Clearance
+from stepaside.core.poses import Pose
+from stepaside.games import walker_factory as standing
+from stepaside.games.walker_factory import clearance_in, fitting
 from stepaside.planning import GaitSettings
-from stepaside.poses import Pose
-from stepaside.rooms import Disc, Room
 from stepaside.strategies import Evasion
 from stepaside.strategies.look_ahead import LookAhead
 

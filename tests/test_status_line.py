@@ -5,7 +5,7 @@ from enum import Enum
 from typing import NamedTuple
 
 from stepaside.drivers.status_line import StatusLine
-from stepaside.sensing.measurement import Sighting
+from stepaside.perception.measurement import Sighting
 
 
 class State(Enum):

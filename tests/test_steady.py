@@ -5,7 +5,7 @@ import pytest
 
 from by_hand import plan_of
 from stepaside.planning import Direction, Foot, GaitSettings, ManeuverPlanner
-from stepaside.planning.steady import landing_state, steady_plan
+from stepaside.planning.steady_gait import landing_state, steady_plan
 
 GAIT = GaitSettings()
 

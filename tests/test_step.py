@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stepaside.control.balance.settings import StabiliserSettings
-from stepaside.control.balance.step import (
+from stepaside.core.poses import Pose
+from stepaside.locomotion.zmp.control_settings import StabiliserSettings
+from stepaside.locomotion.zmp.current_step import (
     Box,
     Step,
     adapted_landing,
@@ -28,10 +29,9 @@ from stepaside.planning import (
     GaitSettings,
     ManeuverPlanner,
 )
-from stepaside.planning.settings import Sole
+from stepaside.planning.gait_settings import Sole
 from stepaside.planning.swing import swing_progress
-from stepaside.poses import Pose
-from stepaside.robots.kinematics import BodyReference
+from stepaside.robots.leg_kinematics import BodyReference
 
 GAIT = GaitSettings()
 LIMITS = StabiliserSettings()

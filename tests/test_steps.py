@@ -7,24 +7,24 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.bound import Bound, Grid, against_pursuit
+from stepaside.arena import NO_OBSTACLES, RoomRecipe, make_room, obstacle_set
+from stepaside.core.poses import Pose
 from stepaside.planning import Direction
 from stepaside.planning.path import UnicycleTrajectory
-from stepaside.poses import Pose
-from stepaside.rooms import NO_OBSTACLES, RoomRecipe, make_room, obstacle_set
-from stepaside.steps import (
+from stepaside.strategies.bound_cache import value_table
+from stepaside.strategies.search import (
     NO_VALUE,
     Aims,
     Both,
     Maneuvers,
     StepRules,
 )
-from stepaside.steps.motion import half_turn, step_both
-from stepaside.steps.packed import clearance_at
-from stepaside.steps.rollout import judge, law_turn
-from stepaside.steps.search import look_ahead
-from stepaside.steps.value import value_at
-from stepaside.strategies.tables import value_table
+from stepaside.strategies.search.maneuver_rollout import judge, law_turn
+from stepaside.strategies.search.packed_obstacles import clearance_at
+from stepaside.strategies.search.step_motion import half_turn, step_both
+from stepaside.strategies.search.turn_search import look_ahead
+from stepaside.strategies.search.value_lookup import value_at
+from stepaside.theory.bound import Bound, Grid, against_pursuit
 
 FACED = Pose(1.0, 1.0, 3.9)
 RULES = StepRules(0.04, 0.08, 0.04, 0.08)

@@ -8,13 +8,13 @@ import pytest
 from click.testing import CliRunner, Result
 
 from fuzz import stopping
-from stepaside.cli import LazyGroup, all_commands, main
-from stepaside.commands.keeping import Kept
-from stepaside.commands.outputs import OutputFile, attempt, writes_files
-from stepaside.commands.reproduce import reproduce
-from stepaside.commands.stopping import kept_in
+from stepaside.cli.interruption import kept_in
+from stepaside.cli.main import LazyGroup, all_commands, main
+from stepaside.cli.output_files import OutputFile, attempt, writes_files
+from stepaside.cli.reproduce import reproduce
+from stepaside.cli.run_output import Kept
+from stepaside.core.atomic_output import writing
 from stepaside.games.outcome import Outcome
-from stepaside.outputs import writing
 
 
 @click.command()
@@ -83,7 +83,7 @@ def test_a_campaign_says_what_is_done_and_where_it_goes_on() -> None:
 def test_the_paper_stopped_while_it_is_drawn_keeps_its_runs(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from stepaside.commands import reproduce_figures
+    from stepaside.cli import reproduce_figures
 
     def interrupt(*_: Any) -> None:
         raise KeyboardInterrupt

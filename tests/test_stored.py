@@ -8,12 +8,12 @@ from typing import Any
 import pytest
 
 from made_up_humanoid import made_up
-from stepaside.cli import main
-from stepaside.errors import ModelError
-from stepaside.robots.compiling import compile_tree
+from stepaside.cli.main import main
+from stepaside.core.errors import ModelError
 from stepaside.robots.description import load_robot
-from stepaside.robots.stored import FILE, load_tree, store_tree
-from stepaside.robots.tree import RobotTree
+from stepaside.robots.robot_tree import RobotTree
+from stepaside.robots.tree_cache import FILE, load_tree, store_tree
+from stepaside.robots.tree_compiler import compile_tree
 
 NAO = load_robot("nao")
 
@@ -21,7 +21,7 @@ NAO = load_robot("nao")
 def without_mujoco(patch: pytest.MonkeyPatch) -> None:
     """Let MuJoCo be missing."""
     patch.setitem(sys.modules, "mujoco", None)
-    patch.delitem(sys.modules, "stepaside.robots.compiling", raising=False)
+    patch.delitem(sys.modules, "stepaside.robots.tree_compiler", raising=False)
 
 
 def test_the_stored_nao_is_what_mujoco_compiles() -> None:
@@ -36,7 +36,7 @@ def test_the_stored_nao_is_up_to_date(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     without_mujoco(monkeypatch)
-    monkeypatch.setattr("stepaside.robots.stored._KNOWN", {})
+    monkeypatch.setattr("stepaside.robots.tree_cache._KNOWN", {})
     assert load_tree(NAO).mass == pytest.approx(5.305, abs=2e-3)
 
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stepaside.errors import ConfigurationError, PlanError
+from stepaside.core.errors import ConfigurationError, PlanError
 from stepaside.planning import Direction
 from stepaside.strategies import (
     Driven,
@@ -23,7 +23,7 @@ from stepaside.strategies import (
     Strategy,
     Walk,
 )
-from stepaside.strategies.driven import TURN
+from stepaside.strategies.teleoperation import TURN
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.547)
 ALL: list[Strategy] = [

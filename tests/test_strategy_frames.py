@@ -9,9 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stepaside.poses import Pose, wrap_angle
-from stepaside.rooms import Disc, Polygon, Room, box
-from stepaside.steps import Both
+from stepaside.arena import Disc, Polygon, Room, box
+from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
     Deflected,
     Evasion,
@@ -26,9 +25,10 @@ from stepaside.strategies import (
 )
 from stepaside.strategies.approach import Approach
 from stepaside.strategies.decider import Decider
-from stepaside.strategies.other import Trace, heading_of_way, note
-from stepaside.strategies.places import moved_on
-from stepaside.strategies.steps import StepGame, play_steps
+from stepaside.strategies.look_ahead import moved_on
+from stepaside.strategies.opponent_track import Trace, heading_of_way, note
+from stepaside.strategies.search import Both
+from stepaside.strategies.step_game import StepGame, play_steps
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.7)
 STEP = LIMITS.step_duration

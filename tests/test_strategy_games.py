@@ -6,9 +6,9 @@ from math import pi, sin
 import numpy as np
 import pytest
 
-from stepaside.errors import PlanError
+from stepaside.core.errors import PlanError
+from stepaside.core.poses import wrap_angle
 from stepaside.planning import Direction
-from stepaside.poses import wrap_angle
 from stepaside.strategies import (
     Evasion,
     Intent,
@@ -17,9 +17,9 @@ from stepaside.strategies import (
     Stand,
     Walk,
 )
-from stepaside.strategies.unicycles import StrategyRun, play_strategies
-from stepaside.unicycle import Start, make_game, simulate_sampled
-from stepaside.unicycle.laws import Unicycle
+from stepaside.strategies.unicycle_match import StrategyRun, play_strategies
+from stepaside.theory.unicycle import Start, make_game, simulate_sampled
+from stepaside.theory.unicycle.unicycle_game import Unicycle
 
 BODY = Unicycle(1.0, 0.5)  # Fig. 2
 START = Start(2.5, 0.3, -0.2)

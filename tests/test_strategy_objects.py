@@ -20,13 +20,13 @@ from stepaside import (
     run_duel,
     write_run,
 )
-from stepaside.cli import main
-from stepaside.errors import ConfigurationError
-from stepaside.games.configuration import dump_configuration
+from stepaside.cli.main import main
+from stepaside.core.errors import ConfigurationError
+from stepaside.games.configuration_file import dump_configuration
 from stepaside.planning import Direction
 from stepaside.strategies import STRATEGIES, EvasionMemory, LookAhead, Optimal
-from stepaside.studies.duels import digest_of, run_duels
-from stepaside.studies.records import RecordFile
+from stepaside.studies.duel_campaign import digest_of, run_duels
+from stepaside.studies.record_store import RecordFile
 
 SHORT = DuelSettings(duration=1.2, start=StartSettings(distance=0.7))
 OWN = """

@@ -6,17 +6,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.control.balance.step import Step, resting_step
-from stepaside.control.balance.stride import (
+from stepaside.core.poses import Pose
+from stepaside.locomotion.zmp.current_step import Step, resting_step
+from stepaside.locomotion.zmp.stride_learning import (
     StrideLearning,
     measured_step,
 )
 from stepaside.planning import Foot, GaitSettings
 from stepaside.planning.swing import swing_progress
-from stepaside.poses import Pose
-from stepaside.robots.forward import MeasuredPosture
+from stepaside.robots.forward_kinematics import MeasuredPosture
 from stepaside.robots.head import rotation
-from stepaside.robots.kinematics import BodyReference
+from stepaside.robots.leg_kinematics import BodyReference
 
 GAIT = GaitSettings()
 BOUNDS = np.array([0.015, 0.015, 0.08])

@@ -128,7 +128,7 @@ def test_an_ideal_duel_loads_neither_cameras_nor_vision() -> None:
         "import sys; from stepaside.games import DuelSettings, run_duel;"
         "run_duel(DuelSettings(duration=0.01));"
         "assert 'cv2' not in sys.modules;"
-        "assert 'stepaside.world.eyes' not in sys.modules"
+        "assert 'stepaside.sim.sensor_suite' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
 
@@ -136,7 +136,7 @@ def test_an_ideal_duel_loads_neither_cameras_nor_vision() -> None:
 def test_settings_come_through_doors_that_load_nothing_else() -> None:
     """Whoever asks for help or for a configuration waits for no physics."""
     code = (
-        "import sys; from stepaside.games.settings import DuelSettings;"
+        "import sys; from stepaside.games.duel_settings import DuelSettings;"
         "DuelSettings();"
         "from stepaside import Push, WalkSettings;"
         "WalkSettings(pushes=(Push(1.0, 2.0, 0.0),));"

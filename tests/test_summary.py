@@ -17,22 +17,19 @@ from made_up_record import (
     stepped,
     still,
 )
-from stepaside.games import summary
+from stepaside.core.poses import Array, Pose
+from stepaside.games import duel_evaluation as summary
+from stepaside.games.duel_evaluation import summarise
+from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.forecast import forecast
 from stepaside.games.outcome import Outcome
-from stepaside.games.settings import (
-    DuelSettings,
-    StartSettings,
-)
-from stepaside.games.sight_figures import (
+from stepaside.games.sight_summary import (
     SeeingFigures,
     Seen,
     SightFigures,
     Spread,
 )
-from stepaside.games.summary import summarise
-from stepaside.games.track import Planning
-from stepaside.poses import Array, Pose
+from stepaside.games.trajectory import Planning
 from stepaside.strategies import Evasion
 
 

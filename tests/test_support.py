@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from by_hand import KINDS, corners_by_hand, feet_by_hand, plan_of
-from stepaside.convex import half_planes
+from stepaside.core.convex import half_planes
 from stepaside.planning import Direction, Foot, ManeuverPlan
 from stepaside.planning.zmp import least_values
 

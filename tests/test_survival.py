@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from counting import coverage, is_wilson
 from stepaside.planning import GaitSettings
-from stepaside.studies.limits import push_cases
-from stepaside.studies.pushes import pushes_result
-from stepaside.studies.results import HEADER
-from stepaside.studies.robustness import DIRECTIONS, STRENGTHS, Trial
+from stepaside.studies.push_limits import push_cases
+from stepaside.studies.push_results import pushes_result
+from stepaside.studies.result_files import HEADER
+from stepaside.studies.robustness_campaign import DIRECTIONS, STRENGTHS, Trial
 from stepaside.studies.survival import (
     PUSH,
     bound_at,

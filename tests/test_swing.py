@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from stepaside.core.poses import Array
 from stepaside.planning.swing import (
     SwingProfile,
     swing_acceleration,
     swing_height,
     swing_progress,
 )
-from stepaside.poses import Array
 
 H = 1e-3
 PROFILES: tuple[SwingProfile, ...] = get_args(SwingProfile)

@@ -6,6 +6,7 @@ from math import pi
 import numpy as np
 import pytest
 
+from stepaside.core.poses import Pose
 from stepaside.planning import (
     PRESETS,
     Direction,
@@ -14,9 +15,8 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.planning.steady import landing_state, steady_plan
+from stepaside.planning.steady_gait import landing_state, steady_plan
 from stepaside.planning.swing import SwingProfile
-from stepaside.poses import Pose
 
 FAST = PRESETS["fast"]
 TINY = 1e-4  # between samples of a derivative, in [s]

@@ -6,15 +6,19 @@ from math import cos, pi, sin
 import numpy as np
 import pytest
 
+from stepaside.core.poses import Array, Pose
 from stepaside.planning import (
     Direction,
     Foot,
     GaitSettings,
     ManeuverPlanner,
 )
-from stepaside.planning.steady import steady_plan
-from stepaside.planning.template import clock_of, path_samples, poses_on_path
-from stepaside.poses import Array, Pose
+from stepaside.planning.steady_gait import steady_plan
+from stepaside.planning.template_path import (
+    clock_of,
+    path_samples,
+    poses_on_path,
+)
 
 GAIT = GaitSettings()
 STEP = GAIT.step_duration

@@ -12,17 +12,18 @@ import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
-from stepaside.cli import main
-from stepaside.errors import ConfigurationError
+from stepaside.arena import Room, RoomRecipe
+from stepaside.cli.main import main
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose, wrap_angles
 from stepaside.games.outcome import Outcome
-from stepaside.poses import Pose, wrap_angles
-from stepaside.rooms import Room, RoomRecipe
-from stepaside.strategies import StepGame, tables
-from stepaside.studies import tournament as studied
+from stepaside.strategies import StepGame
+from stepaside.strategies import bound_cache as tables
+from stepaside.studies import tournament_campaign as studied
 from stepaside.studies.floor_used import floor_used
 from stepaside.studies.physics_game import outcome_of, players_touched
-from stepaside.studies.records import RecordFile
-from stepaside.studies.tournament import (
+from stepaside.studies.record_store import RecordFile
+from stepaside.studies.tournament_campaign import (
     play_record,
     play_tournament,
     play_track,

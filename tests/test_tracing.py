@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.robots.tracing import (
+from stepaside.robots.expression_tracing import (
     Number,
     Trace,
     Traced,

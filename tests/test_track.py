@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.sensing.track import (
+from stepaside.perception.track import (
     ANYBODY,
     APART,
     HEARD,
@@ -17,7 +17,7 @@ from stepaside.sensing.track import (
     Observation,
     Track,
 )
-from stepaside.sensing.tracker import PATIENCE, Tracker
+from stepaside.perception.tracker import PATIENCE, Tracker
 
 FRAME = 1.0 / 15.0
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from stepaside.sensing.track import Observation, Track
-from stepaside.sensing.tracker import Tracker
+from stepaside.perception.track import Observation, Track
+from stepaside.perception.tracker import Tracker
 
 
 def look(

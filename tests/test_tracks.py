@@ -10,8 +10,8 @@ import pytest
 
 from by_hand import plan_of
 from invented_run import run_of
-from stepaside.games.track import Track, margin_of, tracks_in
-from stepaside.poses import Array
+from stepaside.core.poses import Array
+from stepaside.games.trajectory import Track, margin_of, tracks_in
 
 SHAPES = {
     "com": (5, 3),

@@ -6,9 +6,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.poses import Pose
+from stepaside.core.poses import Pose
 from stepaside.robots.head import rotation
-from stepaside.world.truth import TrueState, torsos_apart
+from stepaside.sim.ground_truth import TrueState, torsos_apart
 
 
 def put(

@@ -7,8 +7,8 @@ import pytest
 
 from made_up_robot import TICK as FAKE_TICK
 from made_up_robot import FakeStrategy, Run, measure
-from stepaside.control.turning import LEAST, MOST, RESTED, TurnShare
-from stepaside.sensing.measurement import Measurement
+from stepaside.control.turn_calibration import LEAST, MOST, RESTED, TurnShare
+from stepaside.perception.measurement import Measurement
 
 TICK = 0.012
 BIAS = 0.01  # [rad/s]

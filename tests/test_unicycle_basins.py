@@ -7,19 +7,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.unicycle.basins import (
+from stepaside.theory.unicycle.adaptive_simulation import simulate
+from stepaside.theory.unicycle.all_circles import circles_of
+from stepaside.theory.unicycle.basins import (
     Basins,
     find_basins,
     lengths_of,
     random_starts,
     shares_of,
 )
-from stepaside.unicycle.circles import circles_of
-from stepaside.unicycle.kernel import Outcomes, play_games
-from stepaside.unicycle.laws import Game, TurningLaw, make_game
-from stepaside.unicycle.relative import Start
-from stepaside.unicycle.remedies import Remedy, alternatives
-from stepaside.unicycle.simulate import simulate
+from stepaside.theory.unicycle.kernel import Outcomes, play_games
+from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.remedies import Remedy, alternatives
+from stepaside.theory.unicycle.unicycle_game import Game, TurningLaw, make_game
 
 FAST = make_game(2.0, 1.0, 1.0, 4.0)
 SLOW_EVADER = make_game(1.0, 1.0, 2.0, 0.5)
@@ -104,7 +104,7 @@ def test_alternatives_change_one_thing_each() -> None:
 def test_step_is_short_for_both_players(
     gain: float, step: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from stepaside.unicycle import basins
+    from stepaside.theory.unicycle import basins
 
     asked: list[dict[str, float]] = []
 

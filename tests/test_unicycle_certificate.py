@@ -5,18 +5,18 @@ from math import pi
 import numpy as np
 import pytest
 
-from stepaside.errors import PlanError
-from stepaside.unicycle.certificate import (
+from stepaside.core.errors import PlanError
+from stepaside.theory.unicycle.certificate import (
     _largest_spread,
     certify,
     largest_change,
 )
-from stepaside.unicycle.circling import circle_of
-from stepaside.unicycle.kernel import play_games
-from stepaside.unicycle.laws import Game, make_game
-from stepaside.unicycle.motion import State, look
-from stepaside.unicycle.relative import Start
-from stepaside.unicycle.rules import rules_of
+from stepaside.theory.unicycle.circle_equations import circle_of
+from stepaside.theory.unicycle.game_parameters import rules_of
+from stepaside.theory.unicycle.kernel import play_games
+from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.relative_motion import State, look
+from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 ASIDE = make_game(1.0, 1.0, 1.0, 1.0)
 LATCHED = make_game(1.0, 1.0, 1.0, 1.0, side_rule="latched")

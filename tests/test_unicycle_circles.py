@@ -5,18 +5,30 @@ from math import cos, pi, sin
 import numpy as np
 import pytest
 
-from stepaside.poses import wrap_angle
-from stepaside.unicycle.basins import find_basins, random_starts
-from stepaside.unicycle.circles import agrees, circles_of, find_circles
-from stepaside.unicycle.circling import Circle, circle_of
-from stepaside.unicycle.equilibria import Games, find_rests, growth_rates
-from stepaside.unicycle.kernel import play_games
-from stepaside.unicycle.laws import Game, TurningLaw, make_game
-from stepaside.unicycle.measure import circle_at, measure, settling_time
-from stepaside.unicycle.ratios import map_ratios
-from stepaside.unicycle.relative import Start
-from stepaside.unicycle.remedies import alternatives, try_remedies
-from stepaside.unicycle.simulate import simulate
+from stepaside.core.poses import wrap_angle
+from stepaside.theory.unicycle.adaptive_simulation import simulate
+from stepaside.theory.unicycle.all_circles import (
+    agrees,
+    circles_of,
+    find_circles,
+)
+from stepaside.theory.unicycle.basins import find_basins, random_starts
+from stepaside.theory.unicycle.circle_equations import Circle, circle_of
+from stepaside.theory.unicycle.circle_fit import (
+    circle_at,
+    measure,
+    settling_time,
+)
+from stepaside.theory.unicycle.equilibria import (
+    Games,
+    find_rests,
+    growth_rates,
+)
+from stepaside.theory.unicycle.kernel import play_games
+from stepaside.theory.unicycle.ratio_map import map_ratios
+from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.remedies import alternatives, try_remedies
+from stepaside.theory.unicycle.unicycle_game import Game, TurningLaw, make_game
 
 FAST = make_game(2.0, 1.0, 1.0, 4.0)
 FAST_6 = make_game(2.0, 1.0, 1.0, 4.0, pi / 2, "saturated")

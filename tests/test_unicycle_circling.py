@@ -7,10 +7,14 @@ from math import cos, inf, nan, pi, sin
 import numpy as np
 import pytest
 
-from stepaside.errors import PlanError
-from stepaside.unicycle.circling import circle_of, find_circle, imbalance
-from stepaside.unicycle.laws import TurningLaw, make_game
-from stepaside.unicycle.roots import sign_changes
+from stepaside.core.errors import PlanError
+from stepaside.theory.unicycle.circle_equations import (
+    circle_of,
+    find_circle,
+    imbalance,
+)
+from stepaside.theory.unicycle.root_finding import sign_changes
+from stepaside.theory.unicycle.unicycle_game import TurningLaw, make_game
 
 SATURATED = TurningLaw.SATURATED
 

@@ -9,12 +9,12 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from stepaside.commands.circle import circle
-from stepaside.commands.circles import print_circles
-from stepaside.commands.map import map as map_command
-from stepaside.commands.unicycles import unicycles
+from stepaside.cli.circle import circle
+from stepaside.cli.circle_tables import print_circles
+from stepaside.cli.map import map as map_command
+from stepaside.cli.unicycles import unicycles
 from stepaside.report import unicycle_ratios, unicycle_sweep
-from stepaside.unicycle.laws import Game, Unicycle
+from stepaside.theory.unicycle.unicycle_game import Game, Unicycle
 
 COMPARED = (
     "radius_m",

@@ -5,14 +5,14 @@ from math import pi
 import numpy as np
 import pytest
 
-from stepaside.errors import PlanError
-from stepaside.unicycle.circles import circles_of
-from stepaside.unicycle.diamond import least_distance, stays_unwrapped
-from stepaside.unicycle.kernel import play_games
-from stepaside.unicycle.laws import Game, make_game
-from stepaside.unicycle.measure import circle_at
-from stepaside.unicycle.relative import Start
-from stepaside.unicycle.simulate import simulate
+from stepaside.core.errors import PlanError
+from stepaside.theory.unicycle.adaptive_simulation import simulate
+from stepaside.theory.unicycle.all_circles import circles_of
+from stepaside.theory.unicycle.circle_fit import circle_at
+from stepaside.theory.unicycle.diamond import least_distance, stays_unwrapped
+from stepaside.theory.unicycle.kernel import play_games
+from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 KEPT = make_game(1.0, 1.0, 1.0, 1.0, side_rule="latched")
 

@@ -5,17 +5,22 @@ from math import pi, sin
 import numpy as np
 import pytest
 
-from stepaside.unicycle.event_located import (
+from stepaside.theory.unicycle.event_location import (
     Event,
     Moment,
     event_located_step,
     margin,
     time_of,
 )
-from stepaside.unicycle.laws import make_game
-from stepaside.unicycle.modes import Branch, Mode, Piece, piece_of
-from stepaside.unicycle.motion import State, look
-from stepaside.unicycle.rules import Rules, rules_of
+from stepaside.theory.unicycle.game_parameters import Rules, rules_of
+from stepaside.theory.unicycle.relative_motion import State, look
+from stepaside.theory.unicycle.smooth_pieces import (
+    Branch,
+    Mode,
+    Piece,
+    piece_of,
+)
+from stepaside.theory.unicycle.unicycle_game import make_game
 
 ONWARD = Mode(1, Branch.PROPORTIONAL)
 

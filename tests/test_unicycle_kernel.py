@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.errors import PlanError
-from stepaside.unicycle.compiled import load_numba
-from stepaside.unicycle.compiled_batch import sine_cosine
-from stepaside.unicycle.kernel import play_games
-from stepaside.unicycle.laws import Game, make_game
-from stepaside.unicycle.relative import Start
-from stepaside.unicycle.simulate import simulate
+from stepaside.core.errors import PlanError
+from stepaside.theory.unicycle.adaptive_simulation import simulate
+from stepaside.theory.unicycle.compilation import load_numba
+from stepaside.theory.unicycle.compiled_batch import sine_cosine
+from stepaside.theory.unicycle.kernel import play_games
+from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 GAMES = [
     make_game(1.0, 1.0, 0.5, 0.5),
@@ -67,8 +67,8 @@ def test_all_works_where_numba_is_missing() -> None:
     code = (
         "import sys; sys.modules['numba'] = None\n"
         "import numpy as np\n"
-        "from stepaside.unicycle.kernel import play_games\n"
-        "from stepaside.unicycle.laws import make_game\n"
+        "from stepaside.theory.unicycle.kernel import play_games\n"
+        "from stepaside.theory.unicycle.unicycle_game import make_game\n"
         "starts = [[2.0, 0.5, 2.0], [1.0, -2.0, -3.0]]\n"
         "game = make_game(1.0, 1.0, 0.5, 0.5)\n"
         "out = play_games(game, starts, 5.0)\n"

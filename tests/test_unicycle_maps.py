@@ -7,12 +7,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.errors import PlanError
-from stepaside.unicycle.kernel import play_games
-from stepaside.unicycle.laws import Game, make_game
-from stepaside.unicycle.maps import StartBox, find_worst_start, map_starts
-from stepaside.unicycle.relative import Start
-from stepaside.unicycle.simulate import simulate
+from stepaside.core.errors import PlanError
+from stepaside.theory.unicycle.adaptive_simulation import simulate
+from stepaside.theory.unicycle.kernel import play_games
+from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.start_maps import (
+    StartBox,
+    find_worst_start,
+    map_starts,
+)
+from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 FACING = StartBox(0.8, 2.0, radians(30), radians(30.5))
 NAO = make_game(0.1, 0.1, 0.2, 0.2)
@@ -126,7 +130,7 @@ def test_search_plays_whole_cells_and_finds_the_lowest_point(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Of a made-up bowl with an edge, between the points of the grid."""
-    from stepaside.unicycle import maps
+    from stepaside.theory.unicycle import start_maps as maps
 
     box, lowest = StartBox(1.0, 3.0, 0.5, 1.0), np.array([2.2, -0.1, 0.3])
     played: list[np.ndarray] = []

@@ -5,16 +5,16 @@ from math import pi
 import numpy as np
 import pytest
 
-from stepaside.unicycle.circles import circles_of
-from stepaside.unicycle.laws import make_game
-from stepaside.unicycle.measure import (
+from stepaside.theory.unicycle.adaptive_simulation import simulate
+from stepaside.theory.unicycle.all_circles import circles_of
+from stepaside.theory.unicycle.circle_fit import (
     circle_at,
     fit_circle,
     measure,
     settling_time,
 )
-from stepaside.unicycle.relative import Start
-from stepaside.unicycle.simulate import simulate
+from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.unicycle_game import make_game
 
 FAST = make_game(2.0, 1.0, 1.0, 4.0)
 NO_CIRCLE = make_game(1.0, 1.0, 0.5, 2.0, 0.0)

@@ -5,8 +5,8 @@ from math import inf, pi, remainder, tau
 import numpy as np
 import pytest
 
-from stepaside.unicycle.laws import make_game
-from stepaside.unicycle.modes import (
+from stepaside.theory.unicycle.game_parameters import Rules, rules_of
+from stepaside.theory.unicycle.smooth_pieces import (
     Branch,
     Edge,
     Mode,
@@ -16,7 +16,7 @@ from stepaside.unicycle.modes import (
     opposite,
     piece_of,
 )
-from stepaside.unicycle.rules import Rules, rules_of
+from stepaside.theory.unicycle.unicycle_game import make_game
 
 ANGLE, WIDTH, GAIN = 1.1, 0.2, 0.6
 EDGES = tuple(Edge)

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from stepaside.poses import Pose
-from stepaside.unicycle.laws import make_game
-from stepaside.unicycle.modes import Branch, Mode, Piece, piece_of
-from stepaside.unicycle.motion import (
+from stepaside.core.poses import Pose
+from stepaside.theory.unicycle.game_parameters import rules_of
+from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.relative_motion import (
     State,
     derivative,
     look,
@@ -14,9 +14,14 @@ from stepaside.unicycle.motion import (
     look_many,
     rk4,
 )
-from stepaside.unicycle.relative import Start
-from stepaside.unicycle.rules import rules_of
-from stepaside.unicycle.sampled import walk_arc
+from stepaside.theory.unicycle.sampled_game import walk_arc
+from stepaside.theory.unicycle.smooth_pieces import (
+    Branch,
+    Mode,
+    Piece,
+    piece_of,
+)
+from stepaside.theory.unicycle.unicycle_game import make_game
 
 RULES = rules_of(make_game(1.2, 0.9, 0.5, 0.7, 1.1), 0.1)
 HERE = State(1.4, 0.6, -0.8)

@@ -4,7 +4,7 @@ from math import cos, pi, sin
 
 import pytest
 
-from stepaside.unicycle.roots import bisect, sign_changes
+from stepaside.theory.unicycle.root_finding import bisect, sign_changes
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])

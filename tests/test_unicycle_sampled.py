@@ -3,24 +3,24 @@
 import numpy as np
 import pytest
 
-from stepaside.errors import PlanError
-from stepaside.poses import Pose
-from stepaside.unicycle.circling import circle_of
-from stepaside.unicycle.laws import Game, make_game
-from stepaside.unicycle.relative import Start
-from stepaside.unicycle.sampled import (
+from stepaside.core.errors import PlanError
+from stepaside.core.poses import Pose
+from stepaside.theory.unicycle.adaptive_simulation import simulate
+from stepaside.theory.unicycle.circle_equations import circle_of
+from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.sampled_game import (
     choose_turning,
     simulate_sampled,
     walk_arc,
 )
-from stepaside.unicycle.sampled_stability import (
+from stepaside.theory.unicycle.sampled_stability import (
     delayed_eigenvalues,
     largest_stable_delay,
     largest_stable_sample_time,
     step_eigenvalues,
     step_map,
 )
-from stepaside.unicycle.simulate import simulate
+from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 NAO = make_game(0.1, 0.1, 0.2, 0.2)
 UNEVEN = make_game(0.9, 1.0, 0.4, 0.7, 1.1)

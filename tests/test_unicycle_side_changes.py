@@ -6,12 +6,12 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from stepaside.unicycle.basins import random_starts
-from stepaside.unicycle.circles import circles_of
-from stepaside.unicycle.kernel import play_games
-from stepaside.unicycle.laws import Game, make_game
-from stepaside.unicycle.relative import Start
-from stepaside.unicycle.simulate import simulate
+from stepaside.theory.unicycle.adaptive_simulation import simulate
+from stepaside.theory.unicycle.all_circles import circles_of
+from stepaside.theory.unicycle.basins import random_starts
+from stepaside.theory.unicycle.kernel import play_games
+from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 State = tuple[float, float, float]
 # Speeds, gains and angle; a start; distances that it stays between.

@@ -5,12 +5,12 @@ from math import atan2, hypot, pi, remainder, tau
 import numpy as np
 import pytest
 
-from stepaside.errors import PlanError
-from stepaside.poses import Pose
-from stepaside.unicycle.circling import circle_of
-from stepaside.unicycle.laws import Game, make_game
-from stepaside.unicycle.relative import Start
-from stepaside.unicycle.simulate import PlayedGame, simulate
+from stepaside.core.errors import PlanError
+from stepaside.core.poses import Pose
+from stepaside.theory.unicycle.adaptive_simulation import PlayedGame, simulate
+from stepaside.theory.unicycle.circle_equations import circle_of
+from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 GAMES = [
     make_game(1.0, 1.0, 0.5, 0.5),
@@ -227,7 +227,7 @@ def test_plan_of_the_world_is_carried_by_the_pursuers_pose() -> None:
 
 
 def test_circle_fit_finds_a_circle() -> None:
-    from stepaside.unicycle.measure import fit_circle
+    from stepaside.theory.unicycle.circle_fit import fit_circle
 
     turn = np.linspace(0.3, 2.0, 50)
     points = np.column_stack([3 + 2 * np.cos(turn), -1 + 2 * np.sin(turn)])

@@ -12,19 +12,19 @@ import pytest
 from click.testing import CliRunner
 
 from invented_run import check_same
-from stepaside.cli import main
-from stepaside.errors import ReachError
-from stepaside.games.configuration import dump_configuration
+from stepaside.cli.main import main
+from stepaside.core.errors import ReachError
+from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.folder import load_run
+from stepaside.games.duel_settings import PLAYERS, DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.settings import PLAYERS, DuelSettings, StartSettings
+from stepaside.games.run_archive import load_run
 from stepaside.planning import GaitSettings
 from stepaside.report.replay_page import write_page
 from stepaside.report.run_folder import write_run
-from stepaside.report.viewer.session import Session
-from stepaside.robots import kinematics
+from stepaside.report.viewer.live_session import Session
+from stepaside.robots import leg_kinematics as kinematics
 from stepaside.strategies import Evasion
 
 # Four times the paper's stride: it can be stood, and begun.

@@ -16,10 +16,10 @@ from stepaside import (
     WalkSettings,
     make_game,
 )
-from stepaside.poses import Pose
+from stepaside.core.poses import Pose
 from stepaside.strategies import Evasion, Pursuit, play_steps
-from stepaside.strategies.steps import StepGame
-from stepaside.unicycle import simulate_sampled
+from stepaside.strategies.step_game import StepGame
+from stepaside.theory.unicycle import simulate_sampled
 from test_door import a_bound, a_plan, a_run
 
 SHORT = 600  # characters of anything

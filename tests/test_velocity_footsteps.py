@@ -4,15 +4,15 @@ from math import cos, sin
 
 import pytest
 
-from stepaside.drivers.velocity.body import Velocity
-from stepaside.drivers.velocity.footsteps import (
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose
+from stepaside.drivers.velocity.footstep_commands import (
     StepLimits,
     plan_footsteps,
     stride_of,
 )
-from stepaside.errors import ConfigurationError
+from stepaside.drivers.velocity.velocity_body import Velocity
 from stepaside.planning import Direction, Foot, GaitSettings, ManeuverPlanner
-from stepaside.poses import Pose
 
 GAIT = GaitSettings()
 WIDE = StepLimits(stride=1.0, turn=1.5)

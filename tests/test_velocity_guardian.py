@@ -9,8 +9,11 @@ from time import monotonic, sleep
 
 import pytest
 
-from stepaside.drivers.velocity.body import REST, Velocity
-from stepaside.drivers.velocity.guardian import GuardedBody, guardian_of
+from stepaside.drivers.velocity.velocity_body import REST, Velocity
+from stepaside.drivers.velocity.velocity_guardian import (
+    GuardedBody,
+    guardian_of,
+)
 
 from velocity_fakes import FakeWalker  # isort: skip
 

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stepaside.drivers.velocity.body import REST, Velocity
-from stepaside.drivers.velocity.limits import Ramp, VelocityLimits
-from stepaside.errors import ConfigurationError
+from stepaside.core.errors import ConfigurationError
+from stepaside.drivers.velocity.velocity_body import REST, Velocity
+from stepaside.drivers.velocity.velocity_limits import Ramp, VelocityLimits
 
 TIGHT = VelocityLimits(0.2, 0.1, 0.5, 0.4, 2.0)
 

@@ -8,22 +8,22 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.drivers.log import PlayLog
-from stepaside.drivers.rows import read_rows
-from stepaside.drivers.session import SessionLost
+from stepaside.core.poses import Pose
+from stepaside.drivers.guardian_process import SessionLost
+from stepaside.drivers.play_log import PlayLog
+from stepaside.drivers.row_file import read_rows
 from stepaside.drivers.status_line import words_of
-from stepaside.drivers.velocity.body import REST, Report, Velocity
-from stepaside.drivers.velocity.limits import VelocityLimits
-from stepaside.drivers.velocity.mind import TemplateMind
-from stepaside.drivers.velocity.playing import (
+from stepaside.drivers.velocity.template_controller import TemplateMind
+from stepaside.drivers.velocity.velocity_body import REST, Report, Velocity
+from stepaside.drivers.velocity.velocity_limits import VelocityLimits
+from stepaside.drivers.velocity.velocity_loop import (
     Driving,
     VelocityPlaying,
     VelocityTick,
 )
 from stepaside.drivers.velocity.watchdog import WatchSettings
+from stepaside.perception.measurement import Sighting
 from stepaside.planning import GaitSettings
-from stepaside.poses import Pose
-from stepaside.sensing.measurement import Sighting
 from stepaside.strategies import Evasion, Pursuit, Strategy
 
 from velocity_fakes import PERIOD, FakeWalker, report  # isort: skip

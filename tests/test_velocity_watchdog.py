@@ -4,11 +4,11 @@ from math import inf, nan, pi, radians
 
 import pytest
 
-from stepaside.drivers.velocity.body import Report
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose
+from stepaside.drivers.velocity.velocity_body import Report
 from stepaside.drivers.velocity.watchdog import Watchdog, WatchSettings
-from stepaside.errors import ConfigurationError
-from stepaside.poses import Pose
-from stepaside.sensing.measurement import Sighting
+from stepaside.perception.measurement import Sighting
 
 from velocity_fakes import report  # isort: skip
 

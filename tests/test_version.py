@@ -9,14 +9,21 @@ from pathlib import Path
 import pytest
 
 from stepaside.studies import (
-    duels,
-    jobs,
-    tournament_settings,
-    trial_results,
-    version,
+    claim_jobs as jobs,
 )
-from stepaside.studies.dependencies import dependencies
-from stepaside.studies.version import (
+from stepaside.studies import (
+    code_version as version,
+)
+from stepaside.studies import (
+    duel_campaign as duels,
+)
+from stepaside.studies import (
+    robustness_campaign as trial_results,
+)
+from stepaside.studies import (
+    tournament_settings,
+)
+from stepaside.studies.code_version import (
     PHYSICS,
     PLANNER,
     ROOT,
@@ -24,6 +31,7 @@ from stepaside.studies.version import (
     code_version,
     library_versions,
 )
+from stepaside.studies.dependencies import dependencies
 
 FILES = {
     "__init__.py": "",
@@ -148,21 +156,21 @@ def test_a_duel_loads_no_module_that_its_version_leaves_out() -> None:
 @pytest.mark.parametrize(
     ("name", "rooms", "changes"),
     [
-        ("steps/search.py", duels.ROOMS, True),
+        ("strategies/search/turn_search.py", duels.ROOMS, True),
         ("robots/nao/model.xml", duels.ROOMS, True),
-        ("unicycle/certificate.py", duels.ROOMS, True),
+        ("theory/unicycle/certificate.py", duels.ROOMS, True),
         ("cli.py", duels.ROOMS, False),
-        ("commands/duels.py", duels.ROOMS, False),
+        ("cli/duels.py", duels.ROOMS, False),
         ("drivers/lola/wire.py", duels.ROOMS, False),
         ("report/page/page.js", duels.ROOMS, False),
         ("laws.py", PHYSICS, True),
         ("laws.py", UNICYCLES, True),
         ("laws.py", PLANNER, True),
-        ("world/servos.py", UNICYCLES, False),
+        ("sim/servos.py", UNICYCLES, False),
         ("laws.py", trial_results.ROOMS, True),
-        ("bound/solve.py", tournament_settings.ROOMS, True),
+        ("theory/bound/value_solver.py", tournament_settings.ROOMS, True),
         ("constants.py", jobs.DUELS, True),
-        ("bound/table.py", jobs.EVADING, True),
+        ("theory/bound/value_table.py", jobs.EVADING, True),
         ("control/scheme.py", jobs.PLANS, False),
     ],
 )
@@ -179,7 +187,7 @@ def test_records_of_duels_are_made_again_with_other_laws(
     shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns("__pycache__"))
     monkeypatch.setattr(version, "ROOT", copy)
     found = [fingerprint(*duels.ROOMS)]
-    for name in ("laws.py", "constants.py", "bound/numerics.py"):
+    for name in ("laws.py", "constants.py", "theory/bound/upwind_scheme.py"):
         edit(copy / name)
         found.append(fingerprint(*duels.ROOMS))
     edit(copy / "report" / "duel_figure.py")

@@ -14,35 +14,31 @@ import pytest
 from fake_page import Client, Gui, open_fake
 from invented_run import changed, drifted
 from onlooker import look_on
-from stepaside.control.balance.settings import OPEN_LOOP, STABILISED
-from stepaside.control.deciding import Decisions
-from stepaside.errors import ConfigurationError, StepAsideError
+from stepaside.control.strategy_runner import Decisions
+from stepaside.core.errors import ConfigurationError, StepAsideError
+from stepaside.core.poses import Array, wrap_angle
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_run import DuelRun
+from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.settings import (
-    DuelSettings,
-    StartSettings,
-)
 from stepaside.games.walker import Walker
+from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
+from stepaside.perception.images import ColourImage, DepthImage
 from stepaside.planning import GaitSettings
-from stepaside.poses import Array, wrap_angle
+from stepaside.report.figure_style import EVADER, PURSUER
 from stepaside.report.palette import FOR_BOTH
-from stepaside.report.stage import Stage
-from stepaside.report.style import EVADER, PURSUER
-from stepaside.report.viewer import page as pages
-from stepaside.report.viewer import replaying
-from stepaside.report.viewer import trail as trails
-from stepaside.report.viewer.drive_panel import DrivePanel
-from stepaside.report.viewer.page import Page
+from stepaside.report.scene import Stage
+from stepaside.report.viewer import live_page as pages
+from stepaside.report.viewer import plot_history as trails
+from stepaside.report.viewer import replay_viewer as replaying
+from stepaside.report.viewer.drive_panel import DrivePanel, add_push
+from stepaside.report.viewer.live_page import Page
+from stepaside.report.viewer.live_session import Session
+from stepaside.report.viewer.plot_history import Trail
 from stepaside.report.viewer.plots import Plots
-from stepaside.report.viewer.push_panel import add_push
-from stepaside.report.viewer.replaying import ReplayPage
-from stepaside.report.viewer.session import Session
-from stepaside.report.viewer.trail import Trail
-from stepaside.sensing.images import ColourImage, DepthImage
+from stepaside.report.viewer.replay_viewer import ReplayPage
+from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import Driven, Evasion, EvasionMemory, Pursuit
-from stepaside.world.body_settings import BODIES
 
 START = StartSettings(distance=1.0, pursuer_offset=0.3, evader_offset=-0.2)
 SETTINGS = DuelSettings(start=START)

@@ -11,21 +11,22 @@ import pytest
 
 from fake_page import Gui, Scene
 from stepaside.control import Phase
-from stepaside.control.walking import StepBegun, WalkState
+from stepaside.control.walk_snapshots import StepBegun, WalkState
+from stepaside.core.poses import Array, Pose
 from stepaside.games.duel import Duel
-from stepaside.games.settings import DuelSettings, StartSettings
+from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.walker import Walker
+from stepaside.perception.images import ColourImage
 from stepaside.planning import Foot, Sole
-from stepaside.planning.support import sole_corners
-from stepaside.poses import Array, Pose
+from stepaside.planning.support_polygon import sole_corners
+from stepaside.report.figure_style import COLOURS, EVADER, THEORY
 from stepaside.report.palette import FOR_BOTH
-from stepaside.report.parts import colour_of, parts_of
-from stepaside.report.style import COLOURS, EVADER, THEORY
-from stepaside.report.viewer import drawing
-from stepaside.report.viewer.bodies import Bodies, joined, shape_of
+from stepaside.report.viewer import live_drawing as drawing
 from stepaside.report.viewer.camera_panel import FOUND, CameraPanel, picture
-from stepaside.report.viewer.drawing import ZMP_COLOURS, draw_session
-from stepaside.report.viewer.layers import (
+from stepaside.report.viewer.live_drawing import ZMP_COLOURS, draw_session
+from stepaside.report.viewer.plot_history import Trail
+from stepaside.report.viewer.scene_bodies import Bodies, joined, shape_of
+from stepaside.report.viewer.scene_layers import (
     HEIGHTS,
     LAYERS,
     PRINTS,
@@ -38,9 +39,8 @@ from stepaside.report.viewer.layers import (
     safety_of,
     support_of,
 )
-from stepaside.report.viewer.trail import Trail
-from stepaside.report.viewer.words import phases_of, words_of
-from stepaside.sensing.images import ColourImage
+from stepaside.report.viewer.status_text import phases_of, words_of
+from stepaside.report.visual_geoms import colour_of, parts_of
 
 SHAPES = """
 <mujoco>

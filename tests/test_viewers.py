@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from fake_page import Client, Gui, Server
-from stepaside.poses import Array
+from stepaside.arena import Room
+from stepaside.core.poses import Array
 from stepaside.report.palette import FLOORS, FOR_BOTH, contrast
-from stepaside.report.viewer.layers import rgb
-from stepaside.report.viewer.layout import arrange
-from stepaside.report.viewer.viewers import CAMERAS, Viewers
-from stepaside.rooms import Room
+from stepaside.report.viewer.page_layout import arrange
+from stepaside.report.viewer.scene_layers import rgb
+from stepaside.report.viewer.viewer_clients import CAMERAS, Viewers
 
 PLACES = [np.array([0.0, 0.0]), np.array([1.0, 2.0])]
 HEIGHTS = [0.27, 0.28]

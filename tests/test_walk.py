@@ -9,17 +9,17 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli import main
-from stepaside.control.balance.settings import OPEN_LOOP, STABILISED
+from stepaside.cli.main import main
 from stepaside.games.outcome import Outcome
-from stepaside.games.walk import run_walk
+from stepaside.games.support_foot_view import seen_from_foot
+from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_run import WalkRun
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.games.walk_view import seen_from_foot
+from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.planning import GaitSettings
-from stepaside.world.body_settings import BODIES
-from stepaside.world.push import Push
-from stepaside.world.settings import PhysicsSettings
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.physics_settings import PhysicsSettings
+from stepaside.sim.push import Push
 
 GAIT = GaitSettings()
 CYCLE = 2.0 * GAIT.step_duration

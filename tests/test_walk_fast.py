@@ -6,12 +6,12 @@ from typing import Any
 
 import pytest
 
-from stepaside.control.balance.settings import ControlSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.walk import Walking, run_walk
+from stepaside.games.walk_game import Walking, run_walk
 from stepaside.games.walk_settings import WalkSettings
+from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS, GaitSettings
-from stepaside.world.body_settings import BODIES
+from stepaside.sim.body_settings import BODIES
 
 FAST = PRESETS["fast"]
 CONTROL = ControlSettings("closed-form", True)

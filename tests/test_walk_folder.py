@@ -14,22 +14,22 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from invented_run import check_same
-from stepaside.cli import main
-from stepaside.errors import ConfigurationError
+from stepaside.cli.main import main
+from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.folder import load_run, write_record
+from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.settings import DuelSettings
-from stepaside.games.walk import run_walk
+from stepaside.games.run_archive import load_run, write_record
+from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_run import WalkRun
 from stepaside.games.walk_settings import WalkSettings
+from stepaside.report.figure_style import PUSHED
 from stepaside.report.run_folder import write_run
-from stepaside.report.stage import Stage
-from stepaside.report.style import PUSHED
+from stepaside.report.scene import Stage
 from stepaside.report.walk_figure import draw_walk
 from stepaside.report.walks_figure import speed_over
-from stepaside.world.push import Push
+from stepaside.sim.push import Push
 
 PUSHES = (Push(0.5, 1.0, pi / 2), Push(0.4, 1.1, 0.0))
 
@@ -107,7 +107,9 @@ def test_the_figure_of_a_walk_has_its_pushes(
         Figure, "savefig", lambda f, *_, **__: figures.append(f)
     )
     monkeypatch.setattr(plt, "close", lambda figure: None)
-    monkeypatch.setattr("stepaside.report.style.plt.close", lambda _: None)
+    monkeypatch.setattr(
+        "stepaside.report.figure_style.plt.close", lambda _: None
+    )
     draw_walk(walked, tmp_path / "walk.png")
     axes: Any = figures[0].axes
     assert len(axes) == 5 and "Walk, seed 1" in figures[0].get_suptitle()

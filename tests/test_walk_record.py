@@ -8,21 +8,21 @@ import numpy as np
 import pytest
 
 from made_up_players import begun
-from stepaside.control.balance.estimation import BodyState
-from stepaside.control.balance.loop import ClosedLoop
-from stepaside.control.balance.settings import STABILISED
+from stepaside.core.poses import Array, Pose
 from stepaside.games.outcome import Outcome
-from stepaside.games.record import Recorder
-from stepaside.games.walk import Walking
-from stepaside.games.walk_settings import WalkSettings
-from stepaside.games.walk_view import (
+from stepaside.games.recorder import Recorder
+from stepaside.games.support_foot_view import (
     COLUMNS,
     on_its_feet,
     seen_from_foot,
 )
+from stepaside.games.walk_game import Walking
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.locomotion.zmp.control_settings import STABILISED
+from stepaside.locomotion.zmp.feedback_loop import ClosedLoop
+from stepaside.locomotion.zmp.state_estimator import BodyState
 from stepaside.planning import Foot
-from stepaside.poses import Array, Pose
-from stepaside.world.settings import PhysicsSettings
+from stepaside.sim.physics_settings import PhysicsSettings
 
 
 @pytest.fixture(scope="module")

@@ -9,17 +9,17 @@ import pytest
 
 from made_up_players import clock
 from stepaside.control import Phase
-from stepaside.control.balance.mpc import MpcResult
-from stepaside.control.balance.settings import STABILISED
-from stepaside.errors import ConfigurationError, ReachError
+from stepaside.core.errors import ConfigurationError, ReachError
 from stepaside.games.outcome import Outcome
-from stepaside.games.walk import Walking, run_walk
+from stepaside.games.support_foot_view import on_its_feet
+from stepaside.games.walk_game import Walking, run_walk
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.games.walk_view import on_its_feet
+from stepaside.locomotion.zmp.control_settings import STABILISED
+from stepaside.locomotion.zmp.mpc import MpcResult
 from stepaside.planning import Direction
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.push import Push
 from stepaside.strategies import Walk
-from stepaside.world.body_settings import BODIES
-from stepaside.world.push import Push
 
 
 def way(bearing: float, *, backward: bool = False) -> tuple[float, float]:

@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.control.balance.mpc import MpcResult
+from stepaside.core.poses import Array
 from stepaside.games.outcome import Outcome
-from stepaside.games.walk_figures import WalkSummary
+from stepaside.games.support_foot_view import COLUMNS
+from stepaside.games.walk_evaluation import Counted, figures_of
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.games.walk_summary import Counted, figures_of
-from stepaside.games.walk_view import COLUMNS
-from stepaside.poses import Array
+from stepaside.games.walk_summary import WalkSummary
+from stepaside.locomotion.zmp.mpc import MpcResult
 
 SETTINGS = WalkSettings(seed=4)
 CYCLE = 2.0 * SETTINGS.gait.step_duration

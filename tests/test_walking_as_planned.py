@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stepaside.games.walk import Walking
+from stepaside.games.walk_game import Walking
 from stepaside.games.walk_settings import WalkSettings
 
 CYCLES = 12

@@ -4,7 +4,7 @@ from math import pi
 
 import pytest
 
-from stepaside.control.velocity import accepted, fastest, walk_at
+from stepaside.control.velocity_walk import accepted, fastest, walk_at
 from stepaside.planning import Direction, GaitSettings
 from stepaside.strategies import Stand, Walk
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 pytest.importorskip("cv2")
 
-from stepaside.games.judge import Tally  # noqa: E402
-from stepaside.games.seeing import Witness  # noqa: E402
+from stepaside.games.camera_duel import Witness  # noqa: E402
+from stepaside.games.sight_evaluation import Tally  # noqa: E402
 
 COUNT = st.integers(0, 50)
 

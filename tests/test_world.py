@@ -4,15 +4,15 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.errors import ConfigurationError
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose
 from stepaside.games.duel import Duel
+from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.settings import DuelSettings, StartSettings
 from stepaside.games.walker import Walker
-from stepaside.poses import Pose
 from stepaside.robots.description import load_robot
-from stepaside.world.settings import PhysicsSettings, SightSettings
-from stepaside.world.world import World, build_model, place_free_body
+from stepaside.sim.physics_settings import PhysicsSettings, SightSettings
+from stepaside.sim.world import World, build_model, place_free_body
 
 
 def standing(distance: float = 2.0, **changes: object) -> Duel:

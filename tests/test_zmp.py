@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stepaside.errors import PlanError
+from stepaside.core.errors import PlanError
 from stepaside.planning.zmp import PiecewisePolynomial, evaluate
 
 DURATIONS = np.array([0.5, 0.2, 0.3])

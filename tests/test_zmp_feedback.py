@@ -6,19 +6,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.control.balance.mpc import IntrinsicallyStableMpc
-from stepaside.control.balance.settings import (
+from stepaside.core.poses import Array, Pose
+from stepaside.locomotion.zmp.control_settings import (
     ControlSettings,
     StabiliserSettings,
 )
-from stepaside.control.balance.step import Step, resting_step, zmp_box
-from stepaside.control.balance.zmp_feedback import (
+from stepaside.locomotion.zmp.current_step import Step, resting_step, zmp_box
+from stepaside.locomotion.zmp.mpc import IntrinsicallyStableMpc
+from stepaside.locomotion.zmp.zmp_feedback import (
     MpcFeedback,
     ProportionalFeedback,
     zmp_feedback,
 )
 from stepaside.planning import Direction, Foot, GaitSettings, ManeuverPlanner
-from stepaside.poses import Array, Pose
 
 GAIT = GaitSettings()
 EDGE, TICK = 0.002, 0.004

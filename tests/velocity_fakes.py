@@ -5,13 +5,13 @@ from math import cos, sin
 from time import monotonic, sleep
 from typing import Any
 
-from stepaside.drivers.session import SessionLost
-from stepaside.drivers.velocity.body import REST, Report, Velocity
-from stepaside.drivers.velocity.footsteps import FootMove
-from stepaside.drivers.velocity.served import WalkerState
+from stepaside.core.poses import Pose
+from stepaside.drivers.guardian_process import SessionLost
+from stepaside.drivers.velocity.footstep_commands import FootMove
+from stepaside.drivers.velocity.velocity_body import REST, Report, Velocity
+from stepaside.drivers.velocity.walking_robot import WalkerState
+from stepaside.perception.measurement import Sighting
 from stepaside.planning import Foot
-from stepaside.poses import Pose
-from stepaside.sensing.measurement import Sighting
 
 LONGEST = 200.0  # for what takes milliseconds, in [s]
 PERIOD = 0.05  # between reports, in [s]

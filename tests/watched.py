@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from stepaside.core.poses import Array
+from stepaside.games.duel_settings import PLAYERS, DuelSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.settings import PLAYERS, DuelSettings
-from stepaside.games.track import Track
-from stepaside.poses import Array
-from stepaside.studies.watching import WalkedPlan, Watched
+from stepaside.games.trajectory import Track
+from stepaside.studies.watched_duel import WalkedPlan, Watched
 
 RADIUS = 4.0 * 0.1 / (pi * 0.2)
 WEIGHT = 52.0  # of a robot, in [N]

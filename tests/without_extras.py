@@ -8,7 +8,7 @@ import json
 import sys
 from typing import Any
 
-from stepaside.extras import EXTRAS
+from stepaside.core.extras import EXTRAS
 
 BLOCKED = {name for names in EXTRAS.values() for name in names}
 
@@ -26,7 +26,7 @@ if __name__ == "__main__":
     sys.meta_path.insert(0, Blocked())
     from click.testing import CliRunner
 
-    from stepaside.cli import main
+    from stepaside.cli.main import main
 
     for line in json.loads(sys.argv[1]):
         result = CliRunner().invoke(main, line.split())

@@ -7,16 +7,16 @@ from typing import Any, NamedTuple
 
 import click
 
-from stepaside.cli import all_commands
-from stepaside.commands.declared.option import DeclaredOption
-from stepaside.commands.options import NumberType
-from stepaside.commands.plan_settings import PlanSettings
-from stepaside.games.settings import DuelSettings
+from stepaside.cli.main import all_commands
+from stepaside.cli.options.declaration import DeclaredOption
+from stepaside.cli.plan_settings import PlanSettings
+from stepaside.cli.value_types import NumberType
+from stepaside.core.ranges import ranges_of
+from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.ranges import ranges_of
-from stepaside.world.camera_settings import Thing
-from stepaside.world.passer import Passer
-from stepaside.world.push import Push
+from stepaside.sim.camera_settings import Thing
+from stepaside.sim.passer_settings import Passer
+from stepaside.sim.push import Push
 
 from .markdown import table
 

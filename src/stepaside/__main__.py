@@ -6,10 +6,10 @@ import os
 def main() -> None:
     """Run the command line; Ctrl-C is no traceback even while it loads."""
     try:
-        from .interrupting import stoppable
+        from .core.interrupts import stoppable
 
         with stoppable():
-            from .cli import main as run
+            from .cli.main import main as run
 
             run()
     except KeyboardInterrupt:

@@ -11,8 +11,8 @@ import numpy as np
 
 import stepaside
 from stepaside import Direction, Foot, GaitSettings, Start
-from stepaside.errors import StepAsideError
-from stepaside.ranges import Range, ranges_of
+from stepaside.core.errors import StepAsideError
+from stepaside.core.ranges import Range, ranges_of
 
 from .case import Case
 from .values import any_value, around

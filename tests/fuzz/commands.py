@@ -10,11 +10,11 @@ from typing import Any
 import click
 
 from documents.tables.settings import all_settings
-from stepaside.cli import all_commands
-from stepaside.commands.declared.kinds import NameType, WordedType
-from stepaside.commands.declared.option import DeclaredOption
-from stepaside.commands.options import UNITS, AngleType, NumberType
-from stepaside.ranges import Range, ranges_of
+from stepaside.cli.main import all_commands
+from stepaside.cli.options.declaration import DeclaredOption
+from stepaside.cli.options.value_kinds import NameType, WordedType
+from stepaside.cli.value_types import UNITS, AngleType, NumberType
+from stepaside.core.ranges import Range, ranges_of
 
 from .case import Case
 from .invoking import command_case

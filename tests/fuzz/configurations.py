@@ -7,12 +7,12 @@ from random import Random
 from typing import Any
 
 from documents.tables.settings import LISTS, all_settings
-from stepaside.commands.plan_settings import PlanSettings
-from stepaside.errors import StepAsideError
-from stepaside.games.configuration import read_settings
-from stepaside.games.settings import DuelSettings
+from stepaside.cli.plan_settings import PlanSettings
+from stepaside.core.errors import StepAsideError
+from stepaside.core.ranges import ranges_of
+from stepaside.games.configuration_file import read_settings
+from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.ranges import ranges_of
 
 from .case import Case
 from .values import around

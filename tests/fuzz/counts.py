@@ -4,9 +4,9 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
-from stepaside.errors import ConfigurationError
-from stepaside.studies.results import header, read_result, write_result
-from stepaside.studies.version import ROOT
+from stepaside.core.errors import ConfigurationError
+from stepaside.studies.code_version import ROOT
+from stepaside.studies.result_files import header, read_result, write_result
 
 # How complaints begin, and what each is counted as.
 FAULTS = {

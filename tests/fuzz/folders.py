@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from click.testing import CliRunner
 
-from stepaside.cli import main
-from stepaside.errors import StepAsideError
-from stepaside.games.folder import CONFIGURATION, SUMMARY, TRAJECTORIES
-from stepaside.games.folder import load_run as load
-from stepaside.games.sealing import CHECKSUMS
+from stepaside.cli.main import main
+from stepaside.core.errors import StepAsideError
+from stepaside.games.checksums import CHECKSUMS
+from stepaside.games.run_archive import CONFIGURATION, SUMMARY, TRAJECTORIES
+from stepaside.games.run_archive import load_run as load
 
 from .case import Case
 from .invoking import command_case

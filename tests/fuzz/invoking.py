@@ -11,7 +11,7 @@ from unittest.mock import patch
 
 from click.testing import CliRunner
 
-from stepaside.cli import main
+from stepaside.cli.main import main
 
 from .case import Case, Hang, Reached, told, watched
 
@@ -38,8 +38,13 @@ class Pool:
 @contextmanager
 def without_work() -> Iterator[None]:
     """Stop campaigns and pages where they would begin."""
-    from stepaside.report.viewer import page, replaying
-    from stepaside.report.viewer.address import listen
+    from stepaside.report.viewer import (
+        live_page as page,
+    )
+    from stepaside.report.viewer import (
+        replay_viewer as replaying,
+    )
+    from stepaside.report.viewer.page_address import listen
 
     def would_serve(host: str, port: int) -> None:
         listen(host, port).listening.close()
@@ -47,7 +52,7 @@ def without_work() -> Iterator[None]:
 
     with ExitStack() as stack:
         for place, name, instead in (
-            ("stepaside.workers", "worker_pool", lambda *_: Pool()),
+            ("stepaside.core.worker_pool", "worker_pool", lambda *_: Pool()),
             (page.__name__, "open_server", would_serve),
             (replaying.__name__, "open_server", would_serve),
         ):

@@ -6,7 +6,7 @@ from random import Random
 
 from click.testing import CliRunner
 
-from stepaside.cli import main
+from stepaside.cli.main import main
 
 from .calls import call_cases
 from .case import Case
@@ -58,7 +58,7 @@ def _by_turns(left: list[Iterator[Case]]) -> Iterator[Case]:
 def make_run(folder: Path) -> None:
     """Play a short duel and write its folder."""
     from stepaside.games.duel import run_duel
-    from stepaside.games.settings import DuelSettings
+    from stepaside.games.duel_settings import DuelSettings
     from stepaside.report.run_folder import write_run
 
     write_run(folder, run_duel(DuelSettings(duration=0.2)))
@@ -66,8 +66,8 @@ def make_run(folder: Path) -> None:
 
 def warm_up() -> None:
     """Compile what is compiled when it is first called."""
-    from stepaside.unicycle import make_game, play_games
-    from stepaside.unicycle.basins import random_starts
+    from stepaside.theory.unicycle import make_game, play_games
+    from stepaside.theory.unicycle.basins import random_starts
 
     bound = "bound --grid 16 --refine 0 --games 0 --horizon 0.01 --json"
     CliRunner().invoke(main, bound.split())

@@ -13,13 +13,13 @@ from tempfile import TemporaryDirectory
 from time import monotonic, sleep
 from typing import Any, NamedTuple
 
-from stepaside.errors import StepAsideError
+from stepaside.core.atomic_output import DRAFT
+from stepaside.core.errors import StepAsideError
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.folder import load_run
 from stepaside.games.outcome import Outcome
-from stepaside.outputs import DRAFT
-from stepaside.studies.duels import digest_of
-from stepaside.studies.records import _parse
+from stepaside.games.run_archive import load_run
+from stepaside.studies.duel_campaign import digest_of
+from stepaside.studies.record_store import _parse
 
 from .case import Case
 from .groups import Worked

@@ -10,10 +10,10 @@ from unittest.mock import patch
 import click
 
 from published_humanoid import mjcf
-from stepaside.cli import all_commands
-from stepaside.commands.declared.kinds import OutputFile
-from stepaside.fitting.checking import Checked
-from stepaside.fitting.findings import Finding
+from stepaside.cli.main import all_commands
+from stepaside.cli.options.value_kinds import OutputFile
+from stepaside.fitting.requirements import Finding
+from stepaside.fitting.robot_verification import Checked
 
 from .commands import base_of, options_of
 from .short_reproduce import few_claims
@@ -96,13 +96,13 @@ class Here(Executor):
 @contextmanager
 def quickly() -> Iterator[None]:
     """Let commands do a little of their work, and all in this process."""
-    from stepaside.commands import robot_check
+    from stepaside.cli import robot_check
     from stepaside.report import film
-    from stepaside.studies import robustness
+    from stepaside.studies import robustness_campaign as robustness
 
     with ExitStack() as stack:
         for place, name, instead in (
-            ("stepaside.workers", "worker_pool", lambda *_: Here()),
+            ("stepaside.core.worker_pool", "worker_pool", lambda *_: Here()),
             (
                 robustness.__name__,
                 "run_trial",

@@ -20,9 +20,9 @@ from unittest.mock import patch
 
 from click.testing import CliRunner, Result
 
-from stepaside.cli import main
-from stepaside.errors import StepAsideError
-from stepaside.games.folder import load_run
+from stepaside.cli.main import main
+from stepaside.core.errors import StepAsideError
+from stepaside.games.run_archive import load_run
 
 from .case import Case, told
 from .moments import unwhole

@@ -12,9 +12,9 @@ FEW = ("circle", "path", "footsteps", "com")
 @contextmanager
 def few_claims() -> Iterator[None]:
     """Let ``reproduce`` measure a few claims and draw small figures."""
-    from stepaside.commands import reproduce_figures
-    from stepaside.studies import reproduce
-    from stepaside.studies.jobs import JOBS
+    from stepaside.cli import reproduce_figures
+    from stepaside.studies import claim_campaign as reproduce
+    from stepaside.studies.claim_jobs import JOBS
 
     few = {name: JOBS[name] for name in FEW}
     draw = partial(reproduce_figures.draw_figures, duration=0.5, marks=1)
@@ -27,7 +27,7 @@ def few_claims() -> Iterator[None]:
 
 def main() -> None:
     """Run it, as ``stepaside`` does."""
-    from stepaside.cli import main as run
+    from stepaside.cli.main import main as run
 
     words = "reproduce --runs=1 --workers=2 --output"
     with few_claims():

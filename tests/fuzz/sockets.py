@@ -14,8 +14,8 @@ import viser
 from websockets.exceptions import InvalidHandshake, WebSocketException
 from websockets.sync.client import connect
 
-from stepaside.games.settings import DuelSettings
-from stepaside.report.viewer.page import Page
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.report.viewer.live_page import Page
 
 from .case import Case
 from .values import NUMBERS, TEXTS, any_value

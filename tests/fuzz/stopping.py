@@ -18,10 +18,10 @@ from time import monotonic, sleep
 from typing import Any, NamedTuple
 
 from stepaside.games.duel import run_duel
-from stepaside.games.settings import DuelSettings
+from stepaside.games.duel_settings import DuelSettings
 from stepaside.report.run_folder import write_run
 from stepaside.robots.description import load_robot
-from stepaside.studies.results import header, write_result
+from stepaside.studies.result_files import header, write_result
 
 from .groups import Worked, members, obey_ctrl_c
 

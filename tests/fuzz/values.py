@@ -4,7 +4,7 @@ from math import inf, nan, nextafter
 from random import Random
 from typing import Any
 
-from stepaside.ranges import Range
+from stepaside.core.ranges import Range
 
 NUMBERS = (
     *("nan", "inf", "-inf", "-nan", "1e18", "-1e18", "1e300", "1e-300"),

@@ -6,7 +6,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from stepaside.studies.records import RecordFile
+from stepaside.studies.record_store import RecordFile
 
 from .again import survivors_of, write_noticed
 from .campaign import record_reach, try_faults

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from stepaside.studies.results import read_result, write_result
+from stepaside.studies.result_files import read_result, write_result
 
 from .faults import Fault
 from .score import NOTICED

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from stepaside.studies.results import header, write_result
-from stepaside.studies.version import LIBRARIES
+from stepaside.studies.code_version import LIBRARIES
+from stepaside.studies.result_files import header, write_result
 
 # Rooms of the package that faults are put into.
 ROOMS = (

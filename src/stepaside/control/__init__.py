@@ -1,21 +1,5 @@
 """Control of one robot (paper, Fig. 4): perceive, plan, move."""
 
-from typing import TYPE_CHECKING
+import lazy_loader
 
-from ..doors import door
-
-if TYPE_CHECKING:
-    from .body import Body
-    from .phase import Phase
-    from .scheme import ControlScheme
-else:
-    __getattr__ = door(
-        __name__,
-        {
-            "Body": "body",
-            "Phase": "phase",
-            "ControlScheme": "scheme",
-        },
-    )
-
-__all__ = ["Body", "ControlScheme", "Phase"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

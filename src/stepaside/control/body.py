@@ -2,8 +2,8 @@
 
 from typing import Protocol
 
-from ..poses import Array
-from ..sensing.measurement import Measurement
+from ..core.poses import Array
+from ..perception.measurement import Measurement
 
 
 class Body(Protocol):

@@ -2,21 +2,25 @@
 
 from time import process_time
 
+from ..core.poses import Array, Pose
+from ..locomotion.zmp.current_step import Step, resting_step, step_of
+from ..locomotion.zmp.feedback_loop import Balance, OpenLoop
+from ..locomotion.zmp.reference_table import (
+    ReferenceSample,
+    ReferenceTable,
+    resting_sample,
+)
+from ..perception.measurement import Measurement, Sighting
 from ..planning import CenterState, Foot, GaitSettings, ManeuverPlan
-from ..planning.steady import landing_state
-from ..poses import Array, Pose
-from ..robots.kinematics import BodyReference, LegKinematics
-from ..sensing.measurement import Measurement, Sighting
+from ..planning.steady_gait import landing_state
+from ..robots.leg_kinematics import BodyReference, LegKinematics
 from ..strategies.strategy import Strategy
-from .balance.loop import Balance, OpenLoop
-from .balance.step import Step, resting_step, step_of
 from .clearance.guard import Guard
-from .deciding import Decisions
-from .maneuvers import Maneuvers
+from .maneuver_selection import Maneuvers
 from .phase import Phase
-from .reference import ReferenceSample, ReferenceTable, resting_sample
-from .senses import GivenSight, Senses
-from .walking import StepBegun, WalkState
+from .sight_sources import GivenSight, Senses
+from .strategy_runner import Decisions
+from .walk_snapshots import StepBegun, WalkState
 
 SETTLING = 1.0  # how long a halted robot takes to come to rest, in [s]
 PATIENCE = 0.2  # until one that cannot move asks again, in [s]

@@ -8,7 +8,7 @@ from math import degrees
 from time import monotonic
 from typing import Protocol, TextIO
 
-from ..sensing.measurement import Sighting
+from ..perception.measurement import Sighting
 
 PERIOD = 0.2  # between two looks of the line, in [s]
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?")

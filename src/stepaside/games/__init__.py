@@ -1,36 +1,5 @@
 """Games in physics: players, the one loop, and the run that it leaves."""
 
-from typing import TYPE_CHECKING
+import lazy_loader
 
-from ..doors import door
-
-if TYPE_CHECKING:
-    from .duel import Duel, run_duel
-    from .duel_run import DuelRun
-    from .outcome import Outcome
-    from .run import Run
-    from .settings import DuelSettings
-    from .walk_run import WalkRun
-else:
-    __getattr__ = door(
-        __name__,
-        {
-            "Duel": "duel",
-            "DuelRun": "duel_run",
-            "DuelSettings": "settings",
-            "Outcome": "outcome",
-            "Run": "run",
-            "WalkRun": "walk_run",
-            "run_duel": "duel",
-        },
-    )
-
-__all__ = [
-    "Duel",
-    "DuelRun",
-    "DuelSettings",
-    "Outcome",
-    "Run",
-    "WalkRun",
-    "run_duel",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -5,36 +5,36 @@ from typing import TYPE_CHECKING
 
 import mujoco
 
-from ..errors import ConfigurationError
-from ..poses import Pose
-from ..randomness import named_generator
+from ..core.errors import ConfigurationError
+from ..core.poses import Pose
+from ..core.random_streams import named_generator
 from ..robots.description import RobotDescription, load_robot
-from ..robots.machine import prefer_for
+from ..robots.jit import prefer_for
+from ..sim.body_settings import with_cycle
+from ..sim.ground_truth import Truth
+from ..sim.ideal_sensors import IdealLineOfSight
+from ..sim.obstacle_geoms import add_solids, mover_of
+from ..sim.passer_bodies import add_passers, passer_mover
+from ..sim.pedestrian_models import FIGURES
+from ..sim.person_body import Person, add_person
+from ..sim.person_motion import Motion
+from ..sim.push import pushes_of
+from ..sim.world import World
 from ..strategies import Strategy, load_strategy
-from ..world.body_settings import with_cycle
-from ..world.figures import FIGURES
-from ..world.passers import add_passers, passer_mover
-from ..world.person import Person, add_person
-from ..world.person_motion import Motion
-from ..world.push import pushes_of
-from ..world.sight import IdealLineOfSight
-from ..world.solids import add_solids, mover_of
-from ..world.truth import Truth
-from ..world.world import World
 from .duel_end import ended_duel
 from .duel_run import DuelRun
+from .duel_settings import EVADER, PLAYERS, PURSUER, DuelSettings
+from .initial_poses import frames_of, with_start
 from .match import Match, Observer, Progress, play
 from .outcome import Outcome
-from .pedestrian import Pedestrian
+from .person_player import Pedestrian
 from .player import Player
-from .record import Recorder
-from .settings import EVADER, PLAYERS, PURSUER, DuelSettings
-from .standing import clearance_in, stand_walker, watch
-from .start import frames_of, with_start
+from .recorder import Recorder
 from .walker import Walker
+from .walker_factory import clearance_in, stand_walker, watch
 
 if TYPE_CHECKING:
-    from .seeing import Seeing, Witness
+    from .camera_duel import Seeing, Witness
 
 
 class Duel(Match):
@@ -207,7 +207,7 @@ class _Setting:
         """Judges of what the robots see, if they see with cameras."""
         if self._seeing is None:
             return None
-        from .seeing import Witness
+        from .camera_duel import Witness
 
         judges = {}
         for own, other in (self.players, self.players[::-1]):
@@ -278,7 +278,7 @@ def _seeing(
     """Senses of a duel with cameras; an ideal one loads none of it."""
     if settings.sensing != "cameras":
         return None
-    from .seeing import Seeing
+    from .camera_duel import Seeing
 
     if len({d.folder for d in descriptions.values()}) > 1:
         raise ConfigurationError(

@@ -3,15 +3,15 @@
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from .duel_evaluation import summarise
 from .duel_run import DuelRun
+from .duel_settings import DuelSettings
 from .match import Match
 from .outcome import Outcome
-from .record import Recorder
-from .settings import DuelSettings
-from .summary import summarise
+from .recorder import Recorder
 
 if TYPE_CHECKING:
-    from .seeing import Witness
+    from .camera_duel import Witness
 
 
 def ended_duel(

@@ -6,15 +6,15 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..poses import Array
-from ..rooms import Room
-from ..world.camera_settings import Thing
-from .approach import Approach, approach_between, motion_words
-from .circle import angle_between, distance_between, theory_of
-from .figures import DuelSummary
+from ..arena import Room
+from ..core.poses import Array
+from ..sim.camera_settings import Thing
+from .approach_forecast import Approach, approach_between, motion_words
+from .duel_circle import angle_between, distance_between, theory_of
+from .duel_settings import EVADER, PURSUER, DuelSettings
+from .duel_summary import DuelSummary
 from .run import Area, Run
-from .settings import EVADER, PURSUER, DuelSettings
-from .track import Track
+from .trajectory import Track
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

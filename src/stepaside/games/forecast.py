@@ -3,13 +3,13 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
-from ..poses import Pose
-from ..world.person_motion import Motion, Place
-from ..world.person_settings import PersonSettings
-from .circle import converged_at, no_circle_because, pace_of, theory_of
-from .meeting import play_template
-from .settings import EVADER, PURSUER, DuelSettings
-from .start import frames_of
+from ..core.poses import Pose
+from ..sim.person_motion import Motion, Place
+from ..sim.person_settings import PersonSettings
+from .duel_circle import converged_at, no_circle_because, pace_of, theory_of
+from .duel_settings import EVADER, PURSUER, DuelSettings
+from .initial_poses import frames_of
+from .template_approach import play_template
 
 LONGEST = 600.0  # of a game of templates, in [s]
 STEP = 0.05  # of its integration, in [s]

@@ -6,11 +6,11 @@ from math import ceil, hypot
 from time import perf_counter
 from typing import NamedTuple, Protocol
 
-from ..constants import CAPTURE_DISTANCE
-from ..errors import ReachError, StrategyError
-from ..interrupting import Held
-from ..world.truth import torsos_apart
-from ..world.world import World
+from ..core.constants import CAPTURE_DISTANCE
+from ..core.errors import ReachError, StrategyError
+from ..core.interrupts import Held
+from ..sim.ground_truth import torsos_apart
+from ..sim.world import World
 from .outcome import Outcome
 from .player import Player
 

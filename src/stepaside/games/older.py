@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..poses import Array
+from ..core.poses import Array
 
 
 def without_fillers(

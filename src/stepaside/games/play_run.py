@@ -4,12 +4,12 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import ClassVar
 
-from ..poses import Array
-from .play_figures import PlaySummary
+from ..core.poses import Array
+from .duel_settings import EVADER
 from .play_settings import PlaySettings
+from .play_summary import PlaySummary
 from .run import Area, Run
-from .settings import EVADER
-from .track import Track
+from .trajectory import Track
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

@@ -3,16 +3,16 @@
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from ..control.balance.settings import ControlSettings
-from ..errors import ConfigurationError
+from ..core.brief_repr import brief_repr
+from ..core.errors import ConfigurationError
+from ..core.ranges import Ranges, check_settings
+from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
-from ..ranges import Ranges, check_settings
+from ..sim.body_settings import BodySettings
+from ..sim.physics_settings import PhysicsSettings
 from ..strategies import Evasion
 from ..strategies.registry import check_strategy_name
-from ..values import brief_repr
-from ..world.body_settings import BodySettings
-from ..world.settings import PhysicsSettings
-from .settings import EVADER, PLAYERS, PURSUER, RobotSettings
+from .duel_settings import EVADER, PLAYERS, PURSUER, RobotSettings
 from .strategy_objects import EVASION
 
 LANGUAGES = LOLA, NAOQI, ROS2 = ("lola", "naoqi", "ros2")

@@ -4,15 +4,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
-from ..control.walking import StepBegun, WalkState
-from ..poses import Array, Pose
-from ..world.push import GivenPush, Push
-from ..world.stance import Stance
-from ..world.truth import Truth
+from ..control.walk_snapshots import StepBegun, WalkState
+from ..core.poses import Array, Pose
+from ..sim.ground_truth import Truth
+from ..sim.push import GivenPush, Push
+from ..sim.true_stance import Stance
 
 if TYPE_CHECKING:
     from ..perception.frame_report import FrameReport
-    from ..world.robot import SimulatedRobot
+    from ..sim.simulated_robot import SimulatedRobot
 
 
 @dataclass(frozen=True, slots=True, eq=False)

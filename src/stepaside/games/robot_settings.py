@@ -4,12 +4,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any, TypeVar
 
-from ..control.balance.settings import ControlSettings
-from ..errors import ConfigurationError, check_positive
+from ..core.errors import ConfigurationError, check_positive
+from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..robots.description import FILE, RobotDescription, load_robot
-from .configuration import parse_settings
-from .settings import DuelSettings, RobotSettings, StartSettings
+from .configuration_file import parse_settings
+from .duel_settings import DuelSettings, RobotSettings, StartSettings
 
 S = TypeVar("S")
 UNITS = {"push_unit": "N s", "force_unit": "N"}  # of what is no length

@@ -6,19 +6,19 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
+from ..arena import Room
+from ..core.poses import Array
 from ..planning import GaitSettings
-from ..poses import Array
-from ..rooms import Room
-from ..world.body_settings import BodySettings
-from ..world.camera_settings import Thing
-from ..world.settings import PhysicsSettings
-from .circle import angle_between, distance_between
+from ..sim.body_settings import BodySettings
+from ..sim.camera_settings import Thing
+from ..sim.physics_settings import PhysicsSettings
+from .duel_circle import angle_between, distance_between
+from .duel_settings import RobotSettings
 from .outcome import Outcome
-from .settings import RobotSettings
-from .track import Track
+from .trajectory import Track
 
 if TYPE_CHECKING:
-    from .judge import Still
+    from .sight_evaluation import Still
 
 
 class GameSettings(Protocol):

@@ -3,7 +3,7 @@
 from dataclasses import fields
 from typing import Any
 
-from ..errors import ConfigurationError, shown
+from ..core.errors import ConfigurationError, shown
 from ..strategies import STRATEGIES, Evasion, Strategy
 from ..strategies.registry import OF_EVASION
 

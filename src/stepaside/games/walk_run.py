@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from .run import Run
-from .track import Track
-from .walk_figures import WalkSummary
+from .trajectory import Track
 from .walk_settings import WalkSettings
+from .walk_summary import WalkSummary
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

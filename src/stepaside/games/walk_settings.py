@@ -4,9 +4,8 @@ from dataclasses import dataclass, field
 from math import pi
 from typing import ClassVar
 
-from ..control.balance.settings import ControlSettings
-from ..planning import GaitSettings
-from ..ranges import (
+from ..core.brief_repr import brief_repr
+from ..core.ranges import (
     RUNTIME,
     SEEDS,
     Range,
@@ -14,11 +13,12 @@ from ..ranges import (
     check_count,
     check_settings,
 )
-from ..values import brief_repr
-from ..world.body_settings import BodySettings
-from ..world.push import MOST_PUSHES, Push, check_pushes
-from ..world.settings import PhysicsSettings
-from .settings import RobotSettings
+from ..locomotion.zmp.control_settings import ControlSettings
+from ..planning import GaitSettings
+from ..sim.body_settings import BodySettings
+from ..sim.physics_settings import PhysicsSettings
+from ..sim.push import MOST_PUSHES, Push, check_pushes
+from .duel_settings import RobotSettings
 
 WALKER = "walker"
 

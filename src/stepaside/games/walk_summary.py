@@ -1,231 +1,136 @@
-"""The figures of a walk."""
+"""The figures of a walk: what is said of it in numbers."""
 
-from math import degrees
-from typing import NamedTuple
+from dataclasses import asdict, dataclass
+from typing import Any
 
-import numpy as np
-
-from ..control.balance.mpc import MpcResult
-from ..poses import Array
-from .outcome import Outcome
-from .track import Track
-from .walk_figures import (
-    Errors,
-    EstimationErrors,
-    SolverFigures,
-    TrackingErrors,
-    WalkSummary,
-)
-from .walk_settings import WalkSettings
-from .walk_view import COLUMNS, on_its_feet, seen_from_foot
-
-WARM_UP = 3.0  # left out of the figures, in [s]
-ESTIMATED = {
-    "com_x": "m",
-    "com_y": "m",
-    "velocity_x": "m_s",
-    "velocity_y": "m_s",
-    "zmp_x": "m",
-    "zmp_y": "m",
-    "roll": "rad",
-    "pitch": "rad",
-}
+from .summary_parsing import read_figures
 
 
-class Pace(NamedTuple):
-    """How fast a robot walked and turned; None where nothing tells.
+@dataclass(frozen=True, slots=True)
+class Errors:
+    """How far one quantity was from another, in the unit of both."""
+
+    rms: float
+    mean: float
+    max: float
+
+
+@dataclass(frozen=True, slots=True)
+class TrackingErrors:
+    """What was done, from what was asked, seen from the foot that stands."""
+
+    com_x_m: Errors | None
+    com_y_m: Errors | None
+    zmp_x_m: Errors | None
+    zmp_y_m: Errors | None
+
+
+@dataclass(frozen=True, slots=True)
+class EstimationErrors:
+    """What was believed, from what was, seen from the foot that stands."""
+
+    com_x_m: Errors | None
+    com_y_m: Errors | None
+    velocity_x_m_s: Errors | None
+    velocity_y_m_s: Errors | None
+    zmp_x_m: Errors | None
+    zmp_y_m: Errors | None
+    roll_rad: Errors | None
+    pitch_rad: Errors | None
+
+
+@dataclass(frozen=True, slots=True)
+class SolverFigures:
+    """How the solver of the MPC did.
 
     Attributes:
-        speed: In [m/s].
-        way: Way walked over the way that was asked for.
-        yaw_rate: In [deg/s].
-        turn: Turn over the turn that was asked for.
+        solves: How often it was asked.
+        infeasible: How often there was no solution.
+        median_us: Processor time, in [us].
+        p99_us: That of the slowest hundredth.
+        iterations: Mean number.
+        greatest_excess_m: How far outside its bounds a ZMP was, in [m].
     """
 
-    speed: float | None = None
-    way: float | None = None
-    yaw_rate: float | None = None
-    turn: float | None = None
+    solves: int
+    infeasible: int
+    median_us: float
+    p99_us: float
+    iterations: float
+    greatest_excess_m: float
 
 
-class Counted(NamedTuple):
-    """What a record has no samples of.
+@dataclass(frozen=True, slots=True)
+class WalkSummary:
+    """Figures of a walk, after its first three seconds where it says how.
+
+    Errors are in the frame of the support foot; speed and yaw are compared
+    over whole gait cycles with what the plans asked for.
 
     Attributes:
+        outcome: How it ended.
+        message: What ended it, in words.
+        seed: Of every random draw.
+        duration_s: Simulated time, in [s].
         steps: Footsteps begun.
-        adapted: Footsteps that feedback moved.
-        impulse: Of all pushes, in the world (x, y), in [N s].
-        zmp_margin: Least ZMP margin of the plans walked, in [m].
-        answers: Of the solver of the MPC, if there is one.
-        wall_time: Time that the walk took, in [s].
+        adapted_steps: Footsteps that feedback moved.
+        method: Where the plans' CoM came from.
+        feedback: Whether the walk was stabilised.
+        push_impulse_n_s: Impulse given in the world (x, y), in [N s].
+        speed_m_s: Speed over whole gait cycles, in [m/s].
+        speed_ratio: Way over what was planned.
+        yaw_rate_deg_s: Rate of turn, in [deg/s].
+        yaw_ratio: Turn over what was planned.
+        slip_per_step_m: Mean way of the foot that stands, in [m].
+        tracking: What was done, from what was asked.
+        estimation: What was believed, from what was.
+        tilt_max_deg: Greatest tilt of the torso, in [deg].
+        min_zmp_margin_m: Least distance of a ZMP reference from the edge of
+            its support polygon, in [m]; None if nobody walked.
+        qp: How the solver of the MPC did, if there was one.
+        real_time_factor: Simulated time over the time that it took.
+        run_folder: Where the run lies, if it was written.
     """
 
+    outcome: str
+    message: str
+    seed: int
+    duration_s: float
     steps: int
-    adapted: int
-    impulse: tuple[float, float]
-    zmp_margin: float | None
-    answers: tuple[MpcResult, ...]
-    wall_time: float
+    adapted_steps: int
+    method: str
+    feedback: bool
+    push_impulse_n_s: tuple[float, float]
+    speed_m_s: float | None
+    speed_ratio: float | None
+    yaw_rate_deg_s: float | None
+    yaw_ratio: float | None
+    slip_per_step_m: float | None
+    tracking: TrackingErrors
+    estimation: EstimationErrors
+    tilt_max_deg: float | None
+    min_zmp_margin_m: float | None
+    qp: SolverFigures | None
+    real_time_factor: float
+    run_folder: str | None = None
 
+    def to_json(self) -> dict[str, Any]:
+        """Plain values by name, as ``--json`` prints them."""
+        plain = asdict(self)
+        plain["push_impulse_n_s"] = list(self.push_impulse_n_s)
+        if self.run_folder is None:
+            del plain["run_folder"]
+        return plain
 
-def summarise_walk(
-    settings: WalkSettings,
-    outcome: Outcome,
-    message: str,
-    duration: float,
-    times: Array,
-    track: Track,
-    counted: Counted,
-) -> WalkSummary:
-    """Figures of a walk that is over.
+    @classmethod
+    def from_json(cls, plain: Any, source: str) -> "WalkSummary":
+        """Read what :meth:`to_json` gave.
 
-    Args:
-        settings: What decided it.
-        outcome: How it ended.
-        message: What ended it, in words.
-        duration: Simulated time, in [s].
-        times: Of the samples, in [s]. Shape (n,).
-        track: Record of who walked, looked at closely; without samples, if
-            none was kept.
-        counted: What the record has no samples of.
-    """
-    columns = {name: np.zeros(0) for name in COLUMNS}
-    if len(times):
-        even = on_its_feet(times, outcome)
-        seen = seen_from_foot(times, track)
-        columns = {name: values[even] for name, values in seen.items()}
-    return figures_of(settings, outcome, message, duration, columns, counted)
+        Args:
+            plain: Plain values by name.
+            source: Where they come from, for messages.
 
-
-def figures_of(
-    settings: WalkSettings,
-    outcome: Outcome,
-    message: str,
-    duration: float,
-    columns: dict[str, Array],
-    counted: Counted,
-) -> WalkSummary:
-    """Figures of a walk that was seen from its feet.
-
-    Args:
-        settings: What decided it.
-        outcome: How it ended.
-        message: What ended it, in words.
-        duration: Simulated time, in [s].
-        columns: Evenly spaced samples, by the names of ``COLUMNS``.
-        counted: What they do not tell.
-    """
-    steady = columns["time"] >= WARM_UP
-    a = {name: values[steady] for name, values in columns.items()}
-    pace = _pace(a, 2.0 * settings.gait.step_duration)
-    return WalkSummary(
-        outcome=outcome.value,
-        message=message,
-        seed=settings.seed,
-        duration_s=round(duration, 9),
-        steps=counted.steps,
-        adapted_steps=counted.adapted,
-        method=settings.control.method,
-        feedback=settings.control.feedback,
-        push_impulse_n_s=counted.impulse,
-        speed_m_s=pace.speed,
-        speed_ratio=pace.way,
-        yaw_rate_deg_s=pace.yaw_rate,
-        yaw_ratio=pace.turn,
-        slip_per_step_m=_slip(a),
-        tracking=TrackingErrors(
-            com_x_m=_error(a["com_x"], a["reference_x"]),
-            com_y_m=_error(a["com_y"], a["reference_y"]),
-            zmp_x_m=_error(a["zmp_x"], a["zmp_reference_x"]),
-            zmp_y_m=_error(a["zmp_y"], a["zmp_reference_y"]),
-        ),
-        estimation=EstimationErrors(
-            **{
-                f"{name}_{unit}": _error(a[f"estimated_{name}"], a[name])
-                for name, unit in ESTIMATED.items()
-            }
-        ),
-        tilt_max_deg=_tilt(a),
-        min_zmp_margin_m=counted.zmp_margin,
-        qp=_solver(counted.answers),
-        real_time_factor=duration / max(counted.wall_time, 1e-9),
-    )
-
-
-def _solver(answers: tuple[MpcResult, ...]) -> SolverFigures | None:
-    """Figures of the MPC's solver; None without one."""
-    if not answers:
-        return None
-    times = 1e6 * np.array([a.time for a in answers])
-    return SolverFigures(
-        solves=len(answers),
-        infeasible=sum(not a.feasible for a in answers),
-        median_us=float(np.median(times)),
-        p99_us=float(np.quantile(times, 0.99)),
-        iterations=float(np.mean([a.iterations for a in answers])),
-        greatest_excess_m=max(float(np.hypot(*a.excess)) for a in answers),
-    )
-
-
-def _pace(a: dict[str, Array], cycle: float) -> Pace:
-    """Speed and rate of turn, true and asked for."""
-    time = a["time"]
-    if len(time) < 3 or time[-1] - time[0] < 2.0 * cycle:
-        return Pace()
-    stride = round(cycle / float(time[1] - time[0]))
-    turns = (len(time) - 1) // stride
-    rows = np.arange(turns + 1) * stride
-    lasted = float(time[rows[-1]] - time[rows[0]])
-
-    def length(x: Array, y: Array) -> float:
-        return float(np.hypot(np.diff(x[rows]), np.diff(y[rows])).sum())
-
-    true, asked = (
-        length(a["world_x"], a["world_y"]),
-        length(a["asked_x"], a["asked_y"]),
-    )
-    turned = np.unwrap(a["heading"])[rows]
-    wanted = np.unwrap(a["asked_heading"])[rows]
-    yaw = float(wanted[-1] - wanted[0])
-    gone = float(turned[-1] - turned[0])
-    return Pace(
-        true / lasted,
-        true / asked if asked > 0.01 else None,
-        degrees(gone) / lasted,
-        gone / yaw if abs(yaw) > 0.05 else None,
-    )
-
-
-def _slip(a: dict[str, Array]) -> float | None:
-    """Mean way of the support foot in a single support, in [m]."""
-    single = a["single"] > 0.5
-    edges = np.flatnonzero(np.diff(single.astype(int)))
-    slips = [
-        float(
-            np.hypot(
-                a["foot_x"][end - 1] - a["foot_x"][start + 2],
-                a["foot_y"][end - 1] - a["foot_y"][start + 2],
-            )
-        )
-        for start, end in zip(edges[:-1], edges[1:], strict=True)
-        if single[start + 1] and end - start > 6
-    ]
-    return float(np.mean(slips)) if slips else None
-
-
-def _error(value: Array, wanted: Array) -> Errors | None:
-    off = value - wanted
-    off = off[np.isfinite(off)]
-    if off.size == 0:
-        return None
-    return Errors(
-        rms=float(np.sqrt(np.mean(off**2))),
-        mean=float(np.mean(off)),
-        max=float(np.abs(off).max()),
-    )
-
-
-def _tilt(a: dict[str, Array]) -> float | None:
-    if a["roll"].size == 0:
-        return None
-    return degrees(float(np.hypot(a["roll"], a["pitch"]).max()))
+        Raises:
+            ConfigurationError: If it is no such thing; names what is off.
+        """
+        return read_figures(cls, plain, source)

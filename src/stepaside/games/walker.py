@@ -4,12 +4,12 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ..control import ControlScheme, Phase
-from ..control.senses import CameraSight
-from ..control.walking import StepBegun
-from ..poses import Pose
-from ..world.push import Push
-from ..world.robot import SimulatedRobot
-from ..world.truth import Truth
+from ..control.sight_sources import CameraSight
+from ..control.walk_snapshots import StepBegun
+from ..core.poses import Pose
+from ..sim.ground_truth import Truth
+from ..sim.push import Push
+from ..sim.simulated_robot import SimulatedRobot
 from .player import Snapshot, snapshot_of
 
 if TYPE_CHECKING:

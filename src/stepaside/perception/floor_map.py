@@ -6,10 +6,10 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from ..poses import Array, wrap_angles
-from ..rooms import Polygon
-from ..rooms.covering import cover
-from ..sensing.images import DepthImage
+from ..arena import Polygon
+from ..arena.polygon_cover import cover
+from ..core.poses import Array, wrap_angles
+from .images import DepthImage
 
 CELL = 0.05  # side of a cell, in [m]
 HALF = 6.0  # from the start to the edge of the map, in [m]

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from ..sensing.colour_detector import ColourDetection
-from ..sensing.depth_detector import DepthScene
-from ..sensing.images import ColourImage, DepthImage
+from .colour_detector import ColourDetection
+from .depth_detector import DepthScene
+from .images import ColourImage, DepthImage
 
 
 @dataclass(frozen=True, slots=True, eq=False)

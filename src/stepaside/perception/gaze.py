@@ -4,8 +4,8 @@ from math import atan2, hypot, radians
 
 import numpy as np
 
-from ..poses import Array, wrap_angle
-from ..sensing.tracker import TALL
+from ..core.poses import Array, wrap_angle
+from .tracker import TALL
 
 SPEED = 3.0  # of the head while it follows, in [rad/s]
 SCAN_SPEED = 3.0  # of the head while it searches, in [rad/s]

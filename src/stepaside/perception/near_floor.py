@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from ..poses import Array
-from ..sensing.floor_colours import FloorColours, floor_points
-from ..sensing.floor_growing import grow_floor
-from ..sensing.images import ColourImage
+from ..core.poses import Array
+from .floor_colours import FloorColours, floor_points
+from .floor_growing import grow_floor
 from .floor_map import FloorMap
+from .images import ColourImage
 
 EVERY = 2  # of this many colour images one is of the lower camera
 SPARSE = 2  # of this many rows and columns of an image one counts

@@ -4,32 +4,32 @@ from collections import deque
 from collections.abc import Sequence
 from math import atan2
 
-from ..poses import Array, Pose, wrap_angle
+from ..core.poses import Array, Pose, wrap_angle
 from ..robots.body_pose import BodyKinematics, BodyPose
 from ..robots.description import RobotDescription
-from ..robots.forward import ForwardKinematics
+from ..robots.forward_kinematics import ForwardKinematics
 from ..robots.head import HeadDescription
-from ..sensing.colour_detector import Appearance, ColourDetector
-from ..sensing.depth_detector import detect_obstacles
-from ..sensing.images import ColourImage, DepthImage, Percept, SonarEcho
-from ..sensing.measurement import Measurement, Sighting
-from ..sensing.track import ANYBODY, WALKER, Observation, Track
-from ..sensing.tracker import Tracker
-from .attention import UNSEEN, Attention, OneRobot
+from .bottom_camera import LowerCamera
+from .colour_detector import Appearance, ColourDetector
+from .depth_detector import detect_obstacles
 from .floor_map import FloorMap
 from .frame_report import FrameReport
 from .gaze import Gaze, Glances
-from .hearing import is_heard, observe_echo
-from .looking_around import LookAround
-from .lower import LowerCamera
-from .observing import (
+from .images import ColourImage, DepthImage, Percept, SonarEcho
+from .measurement import Measurement, Sighting
+from .observations import (
     angle_of,
     camera_of,
     observe_obstacles,
     observe_shadow,
     observe_trim,
 )
-from .people import People
+from .people_selection import People
+from .room_scan import LookAround
+from .sonar import is_heard, observe_echo
+from .target_selection import UNSEEN, Attention, OneRobot
+from .track import ANYBODY, WALKER, Observation, Track
+from .tracker import Tracker
 
 MEMORY = 1.0  # how long past poses are kept, in [s]
 SURE = 0.5  # age up to which the other is known to be where it is, in [s]

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import check_positive
-from ..poses import Array
+from ..core.errors import check_positive
+from ..core.poses import Array
 from .zmp import PiecewisePolynomial, evaluate
 
 

@@ -5,8 +5,8 @@ from enum import Enum
 
 import numpy as np
 
-from ..errors import check_positive
-from ..poses import Array
+from ..core.errors import check_positive
+from ..core.poses import Array
 from .path import UnicycleTrajectory
 
 

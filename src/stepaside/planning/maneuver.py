@@ -5,20 +5,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .. import laws
-from ..errors import (
+from ..core.errors import (
     PlanError,
     check_bearing,
     check_finite,
     check_positive,
     check_within,
 )
-from ..poses import Array, Pose
+from ..core.poses import Array, Pose
+from ..theory import laws
 from .footsteps import Foot, place_footsteps
+from .gait_settings import GaitSettings
 from .path import Direction, UnicycleTrajectory
 from .plan import ManeuverPlan
 from .schedule import Schedule
-from .settings import GaitSettings
 
 PACES = 8  # steps of the pace, from standing to the gait's own
 CALMEST = 0.5  # least pace of a walk

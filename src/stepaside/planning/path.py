@@ -6,9 +6,9 @@ from enum import Enum
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import laws
-from ..errors import check_bearing, check_positive
-from ..poses import Array
+from ..core.errors import check_bearing, check_positive
+from ..core.poses import Array
+from ..theory import laws
 
 
 class Direction(Enum):

@@ -7,14 +7,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import PlanError, shown
-from ..poses import Array
-from ..values import brief_repr
+from ..core.brief_repr import brief_repr
+from ..core.errors import PlanError, shown
+from ..core.poses import Array
 from .footsteps import Foot, Footstep
+from .gait_settings import GaitSettings
 from .path import Direction
 from .schedule import Sampler, Schedule
-from .settings import GaitSettings
-from .support import SupportPhase, support_phases
+from .support_polygon import SupportPhase, support_phases
 from .zmp import least_values
 
 LONGEST = 86400.0  # time of a sample, in [s]: nobody walks on for a day

@@ -12,9 +12,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..poses import Array
+from ..core.poses import Array
 from .com import BoundedCom
-from .settings import GaitSettings
+from .gait_settings import GaitSettings
 from .swing import swing_acceleration, swing_height, swing_progress
 from .zmp import PiecewisePolynomial, evaluate
 

@@ -5,7 +5,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..poses import Array
+from ..core.poses import Array
 
 SwingProfile = Literal["minimum-jerk", "even"]
 

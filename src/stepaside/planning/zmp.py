@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import PlanError
-from ..poses import Array
+from ..core.errors import PlanError
+from ..core.poses import Array
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 from matplotlib.lines import Line2D
 
-from ..bound import Bound
-from ..bound.barrier import barrier_slice
-from .sizes import sheet
-from .style import EVADER, PURSUER, THEORY, new_figure, save
+from ..theory.bound import Bound
+from ..theory.bound.barrier import barrier_slice
+from .figure_sizes import sheet
+from .figure_style import EVADER, PURSUER, THEORY, new_figure, save
 
 HEADINGS = (0.25, 0.5, 0.75, 1.0)  # between the motions, in pi
 POINTS = 161  # along each side of a slice

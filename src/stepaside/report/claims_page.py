@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..outputs import writing
+from ..core.atomic_output import writing
 
 HEAD = """# Every claim of the paper, measured
 

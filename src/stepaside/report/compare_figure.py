@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from typing import Any
 
-from ..errors import AnyPath
+from ..core.errors import AnyPath
 from ..games.run import Run
-from .averages import whole_cycles
-from .inert import for_figure
-from .sizes import sheet
-from .style import THEORY, colours_of, mark_level, new_figure, save
+from .cycle_means import whole_cycles
+from .figure_sizes import sheet
+from .figure_style import THEORY, colours_of, mark_level, new_figure, save
+from .text_escaping import for_figure
 
 LINES = ("-", "--", ":", "-.")
 RUNS = ("#222222", "#0f7b6c", "#b5651d", "#6a3d9a")

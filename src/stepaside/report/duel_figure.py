@@ -4,17 +4,13 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import AnyPath
+from ..core.errors import AnyPath
+from ..core.poses import Array
 from ..games.duel_run import DuelRun
 from ..games.run import Run
-from ..poses import Array
-from .averages import whole_cycles
-from .inert import for_figure
-from .pushed import draw_pushes, mark_pushes
-from .room_figure import draw_clearance, has_obstacles, room_patches
-from .sizes import sheet
-from .soles import draw_heading, draw_soles
-from .style import (
+from .cycle_means import whole_cycles
+from .figure_sizes import sheet
+from .figure_style import (
     MEAN,
     SWAY,
     THEORY,
@@ -23,6 +19,10 @@ from .style import (
     new_figure,
     save,
 )
+from .push_marks import draw_pushes, mark_pushes
+from .room_figure import draw_clearance, has_obstacles, room_patches
+from .sole_outlines import draw_heading, draw_soles
+from .text_escaping import for_figure
 
 SNAPSHOTS = 4
 STEPS = 6.0  # of the balance that is shown

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .style import COLOURS, LEFT, RIGHT, THEORY, new_figure, save
+from .figure_style import COLOURS, LEFT, RIGHT, THEORY, new_figure, save
 
 # Record, label, unit, colour and where theory stands, panel by panel.
 PANELS = (

@@ -9,20 +9,20 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from ..errors import ConfigurationError, OutputError
-from ..games.folder import load_run
+from ..core.atomic_output import reason_of, writing
+from ..core.errors import ConfigurationError, OutputError
+from ..core.worker_pool import worker_pool
 from ..games.run import Run
-from ..outputs import reason_of, writing
-from ..sensing.images import Pixels
-from ..workers import worker_pool
-from ..world.graphics import RAYCAST, Look, Screen, choose_renderer
+from ..games.run_archive import load_run
+from ..perception.images import Pixels
+from ..sim.offscreen_rendering import RAYCAST, Look, Screen, choose_renderer
 from .film_camera import CameraMan
+from .film_captions import caption, title_of
+from .film_insets import Insets, room_beside
 from .film_layers import decorate, light_up
 from .film_shot import Shot
-from .film_split import Insets, room_beside
 from .film_walls import see_through
-from .film_words import caption, title_of
-from .stage import Stage
+from .scene import Stage
 
 CHUNK = 15  # pictures that one worker draws at a time
 TRAIL = 20.0  # how long traces are, in [s]

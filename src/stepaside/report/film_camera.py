@@ -10,11 +10,11 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from ..errors import ConfigurationError
+from ..core.errors import ConfigurationError
+from ..core.poses import Array
 from ..games.run import Run
-from ..poses import Array
-from ..world.solids import HEIGHT as WALLS
-from .extent import wall_corners
+from ..sim.obstacle_geoms import HEIGHT as WALLS
+from .room_extent import wall_corners
 
 VIEWS = ("fixed", "follow", "top", "eyes", "split")
 AZIMUTH, ELEVATION = 60.0, -32.0  # of a camera that stands, in [deg]

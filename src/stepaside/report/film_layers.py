@@ -6,9 +6,9 @@ from math import hypot
 import mujoco
 import numpy as np
 
+from ..core.poses import Array
 from ..games.run import Run
-from ..poses import Array
-from .style import PUSHED, THEORY, colours_of
+from .figure_style import PUSHED, THEORY, colours_of
 
 THICK = 0.005  # of a line, in [m]
 POINTS = 80  # of a trace, at most about

@@ -5,12 +5,12 @@ from pathlib import Path
 
 from matplotlib.lines import Line2D
 
-from ..games.folder import load_run
 from ..games.run import Run
+from ..games.run_archive import load_run
 from .duel_figure import draw_top
+from .figure_sizes import sheet
+from .figure_style import THEORY, colours_of, new_figure, save
 from .film import Shot, instants_of, pictures
-from .sizes import sheet
-from .style import THEORY, colours_of, new_figure, save
 
 FRAMES = 4
 

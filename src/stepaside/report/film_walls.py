@@ -6,8 +6,8 @@ from contextlib import contextmanager
 import mujoco
 import numpy as np
 
-from ..poses import Array
-from ..world.solids import is_room_wall
+from ..core.poses import Array
+from ..sim.obstacle_geoms import is_room_wall
 
 
 def walls_before(model: mujoco.MjModel, eye: Array) -> list[int]:

@@ -5,7 +5,7 @@ from math import radians
 from pathlib import Path
 from typing import Any
 
-from .style import THEORY, new_figure, plt, save
+from .figure_style import THEORY, new_figure, plt, save
 
 
 def draw_people(
@@ -16,7 +16,7 @@ def draw_people(
     Ahead of the robot is up. A cross marks who touched it.
 
     Args:
-        rows: Of :func:`~stepaside.studies.people.origin_rows`.
+        rows: Of :func:`~stepaside.studies.people_statistics.origin_rows`.
         clearance: That the robot tries to keep, in [m].
         file: Picture to write.
     """

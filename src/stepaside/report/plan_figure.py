@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from ..errors import AnyPath
+from ..core.errors import AnyPath
 from ..planning import ManeuverPlan
-from .sizes import sheet
-from .soles import draw_soles
-from .style import COLOURS, MEAN, THEORY, new_figure, save
+from .figure_sizes import sheet
+from .figure_style import COLOURS, MEAN, THEORY, new_figure, save
+from .sole_outlines import draw_soles
 
 
 def draw_plan(plan: ManeuverPlan, role: str, path: AnyPath) -> None:

@@ -7,8 +7,8 @@ import numpy as np
 
 from ..games.play_run import PlayRun
 from .duel_figure import draw_paths
-from .inert import for_figure
-from .style import MEAN, SWAY, THEORY, colours_of, new_figure, save
+from .figure_style import MEAN, SWAY, THEORY, colours_of, new_figure, save
+from .text_escaping import for_figure
 
 STEPS = 6.0  # of the balance that is shown
 

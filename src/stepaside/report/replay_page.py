@@ -1,24 +1,58 @@
 """A run as one page that opens from disk, without a network."""
 
+import io
+import zipfile
 from base64 import b64encode
+from functools import cache
 from importlib.resources import files
 from typing import Any
 
 import numpy as np
 
-from ..errors import AnyPath, as_path
+from ..core.atomic_output import writing
+from ..core.errors import AnyPath, ConfigurationError, as_path
+from ..core.poses import Array
 from ..games.run import Run
-from ..outputs import writing
-from ..poses import Array
 from ..robots.description import load_robot
-from .averages import whole_cycles
-from .extent import wall_corners
-from .inert import fill_page, visible
-from .library import three
+from .body_heights import Tops
+from .cycle_means import whole_cycles
 from .palette import PALETTES, colours_in
-from .parts import parts_of
-from .stage import Stage
-from .tops import Tops
+from .room_extent import wall_corners
+from .scene import Stage
+from .text_escaping import fill_page, visible
+from .visual_geoms import parts_of
+
+ARCHIVE = "templates/viewer.zip"  # of trimesh
+TEMPLATE = "viewer.html.template"
+BEGIN = "/**\n * @license\n * Copyright 2010-"  # notice of three.js
+END = 'Object.defineProperty(t,"__esModule",{value:!0})}));'
+
+
+@cache
+def three() -> str:
+    """Text of three.js, which gives a page the name ``THREE``.
+
+    Raises:
+        ConfigurationError: If trimesh is not there, or brings it no more.
+    """
+    try:
+        from trimesh.resources import get_bytes
+
+        with zipfile.ZipFile(io.BytesIO(get_bytes(ARCHIVE))) as archive:
+            text = archive.read(TEMPLATE).decode("utf-8")
+        begin = text.index(BEGIN)
+        end = text.index(END, begin) + len(END)
+    except ImportError as error:
+        raise ConfigurationError(
+            "pages need three.js, which comes with trimesh: "
+            "pip install 'stepaside[viewer]'"
+        ) from error
+    except (KeyError, OSError, ValueError, zipfile.BadZipFile) as error:
+        raise ConfigurationError(
+            "pages need a trimesh that brings three.js, as 4.0 to 5.2 do"
+        ) from error
+    return text[begin:end]
+
 
 RATE = 20.0  # frames a second
 SCRIPTS = ("scene.js", "plots.js", "page.js")

@@ -8,13 +8,13 @@ import numpy as np
 from matplotlib.patches import Polygon
 from scipy.spatial import ConvexHull, QhullError
 
-from ..control.reference import standing_reference
+from ..core.poses import Array, Pose
 from ..games.robot_settings import settings_of
-from ..poses import Array, Pose
+from ..locomotion.zmp.reference_table import standing_reference
 from ..robots.description import RobotDescription
-from ..robots.kinematics import LegKinematics
-from ..world.shapes import points_of
-from .style import plt, save
+from ..robots.leg_kinematics import LegKinematics
+from ..sim.geom_points import points_of
+from .figure_style import plt, save
 
 VIEWS = (("from the front", 1, "y [m]"), ("from the left", 0, "x [m]"))
 LINK, SOLE, COM = "#9aa4b2", "#d9862b", "#b02a2a"

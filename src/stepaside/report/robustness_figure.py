@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from matplotlib.patches import Patch
 
-from .sizes import sheet
-from .style import THEORY, new_figure, save
+from .figure_sizes import sheet
+from .figure_style import THEORY, new_figure, save
 
 METHOD_STYLES = {
     "open-loop": ("#8a8a8a", "o", ":"),

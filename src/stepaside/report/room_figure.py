@@ -7,11 +7,11 @@ import numpy as np
 from matplotlib.patches import Circle, Patch
 from matplotlib.patches import Polygon as Outline
 
+from ..arena import BODY_RADIUS, Obstacle, Room
+from ..core.poses import Array
 from ..games.run import Run
-from ..poses import Array
-from ..rooms import BODY_RADIUS, Obstacle, Room
-from .sizes import sheet
-from .style import (
+from .figure_sizes import sheet
+from .figure_style import (
     EVADER,
     PURSUER,
     THEORY,

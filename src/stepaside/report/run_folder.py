@@ -6,13 +6,13 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from ..errors import AnyPath, OutputError, as_path
-from ..games.folder import write_record
+from ..core.atomic_output import check_folder, draft_prefix, reason_of, sweep
+from ..core.errors import AnyPath, OutputError, as_path
+from ..games.checksums import seal
 from ..games.outcome import Outcome
 from ..games.play_run import PlayRun
 from ..games.run import Run
-from ..games.sealing import seal
-from ..outputs import check_folder, draft_prefix, reason_of, sweep
+from ..games.run_archive import write_record
 
 SIGHT = "sight.png"
 

@@ -7,15 +7,15 @@ from typing import Any
 import cv2
 import numpy as np
 
+from ..core.poses import Array, wrap_angles
 from ..games.duel_run import DuelRun
-from ..games.judge import Still
 from ..games.run import Run
-from ..games.track import Track
-from ..poses import Array, wrap_angles
-from ..sensing.images import ColourImage, DepthImage, Pixels
-from .sizes import sheet
-from .soles import draw_heading
-from .style import THEORY, colours_of, new_figure, save
+from ..games.sight_evaluation import Still
+from ..games.trajectory import Track
+from ..perception.images import ColourImage, DepthImage, Pixels
+from .figure_sizes import sheet
+from .figure_style import THEORY, colours_of, new_figure, save
+from .sole_outlines import draw_heading
 
 FOUND = (30, 170, 60)  # red, green and blue of what was detected
 TRUE = (235, 0, 190)  # of where the other truly is

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from math import ceil
 from typing import Any, Protocol
 
-from ..poses import Array
-from ..rooms import Room
+from ..arena import Room
+from ..core.poses import Array
+from .figure_style import EVADER, PURSUER, plt, save
 from .room_figure import draw_body, room_patches
-from .style import EVADER, PURSUER, plt, save
 
 MARKS = "osD^vP*X"
 COLUMNS = 3

@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from ..poses import Array
-from ..unicycle.circling import circle_of
-from ..unicycle.simulate import PlayedGame
-from .style import EVADER, PURSUER, new_figure, save
+from ..core.poses import Array
+from ..theory.unicycle.adaptive_simulation import PlayedGame
+from ..theory.unicycle.circle_equations import circle_of
+from .figure_style import EVADER, PURSUER, new_figure, save
 
 TICK = 0.5  # [m], as in Fig. 2
 _FRACTIONS = (0.0, 0.12, 0.4, 1.0)  # of the time shown

@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-from ..unicycle.circling import Circle
-from ..unicycle.maps import StartMap
-from .style import new_figure, save
+from ..theory.unicycle.circle_equations import Circle
+from ..theory.unicycle.start_maps import StartMap
+from .figure_style import new_figure, save
 
 _QUANTITIES = (
     ("closest_distance", "closest approach [m]", "viridis"),

@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from ..unicycle.laws import Game, TurningLaw
-from ..unicycle.ratios import RatioMap, map_ratios
-from .sizes import sheet
-from .style import EVADER, new_figure, save
+from ..theory.unicycle.ratio_map import RatioMap, map_ratios
+from ..theory.unicycle.unicycle_game import Game, TurningLaw
+from .figure_sizes import sheet
+from .figure_style import EVADER, new_figure, save
 
 _COUNT = 121
 _SPEEDS = (0.8, 4.0)  # pursuer's over evader's

@@ -6,13 +6,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..unicycle.circling import circle_of
-from ..unicycle.laws import Game, SideRule, TurningLaw
-from ..unicycle.measure import Measured, measure, settling_time
-from ..unicycle.relative import Start
-from ..unicycle.simulate import simulate
-from .sizes import sheet
-from .style import LEFT, RIGHT, THEORY, new_figure, save
+from ..theory.unicycle.adaptive_simulation import simulate
+from ..theory.unicycle.circle_equations import circle_of
+from ..theory.unicycle.circle_fit import Measured, measure, settling_time
+from ..theory.unicycle.relative_coordinates import Start
+from ..theory.unicycle.unicycle_game import Game, SideRule, TurningLaw
+from .figure_sizes import sheet
+from .figure_style import LEFT, RIGHT, THEORY, new_figure, save
 
 _STYLES = {
     TurningLaw.PROPORTIONAL: ("-", "o", LEFT),

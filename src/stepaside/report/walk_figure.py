@@ -7,12 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..games.run import Run
-from ..games.track import Track
-from ..games.walk_view import seen_from_foot
+from ..games.support_foot_view import seen_from_foot
+from ..games.trajectory import Track
 from .duel_figure import draw_paths
-from .inert import for_figure
-from .pushed import mark_pushes
-from .style import LEFT, MEAN, RIGHT, THEORY, new_figure, save
+from .figure_style import LEFT, MEAN, RIGHT, THEORY, new_figure, save
+from .push_marks import mark_pushes
+from .text_escaping import for_figure
 
 BEFORE, AFTER = 1.0, 4.0  # what is shown round a push, in [s]
 STEPS = 6.0  # that are shown where nobody pushed

@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
+from ..core.poses import Array
 from ..games.run import Run
-from ..games.walk_view import seen_from_foot
-from ..poses import Array
-from .inert import for_figure
-from .pushed import draw_pushes
-from .style import OTHERS, new_figure, save
+from ..games.support_foot_view import seen_from_foot
+from .figure_style import OTHERS, new_figure, save
+from .push_marks import draw_pushes
+from .text_escaping import for_figure
 
 LINES = ("-", "--", ":", "-.")
 

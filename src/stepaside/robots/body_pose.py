@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..poses import Array, Pose
+from ..core.poses import Array, Pose
 from .description import RobotDescription
-from .forward import ForwardKinematics, MeasuredPosture
+from .forward_kinematics import ForwardKinematics, MeasuredPosture
 from .head import HeadDescription, rotation
 
 

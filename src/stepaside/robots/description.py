@@ -9,10 +9,10 @@ from os.path import normpath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import AnyPath, ModelError, as_path
-from ..values import brief_repr
+from ..core.brief_repr import brief_repr
+from ..core.errors import AnyPath, ModelError, as_path
 from .description_file import read_entries
-from .own import NO_OVERLAY, Overlay, Place, Sensors
+from .description_types import NO_OVERLAY, Overlay, Place, Sensors
 
 if TYPE_CHECKING:
     import mujoco
@@ -101,7 +101,7 @@ class RobotDescription:
             ModelError: If the file is no model, or lacks what the overlay
                 is put on.
         """
-        from .reading import read_model
+        from .model_reader import read_model
 
         try:
             spec = read_model(self.path)
@@ -110,7 +110,7 @@ class RobotDescription:
                 f"{self.path} is no MuJoCo model: {error}"
             ) from error
         if self.overlay != NO_OVERLAY:
-            from .overlaying import put_overlay
+            from .model_overlay import put_overlay
 
             put_overlay(spec, self)
         return spec

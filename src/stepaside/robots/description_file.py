@@ -6,8 +6,8 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from ..errors import ModelError
-from .own import Overlay, Place, Sensors, ServoGains, SolePlace
+from ..core.errors import ModelError
+from .description_types import Overlay, Place, Sensors, ServoGains, SolePlace
 
 Entries = dict[str, Any]
 LEANS = 0.3  # a torso at most, in [rad]

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import ModelError
-from ..poses import Array
+from ..core.errors import ModelError
+from ..core.poses import Array
 from .description import RobotDescription
 
 FILE = "head.toml"

@@ -1,20 +1,20 @@
 """From what a player knows to what it wants (paper, Sec. II)."""
 
-from .deflected import Deflected
-from .driven import Driven
+from .constant_walk import Stand, Walk
+from .deflected_evasion import Deflected
 from .evasion import Evasion, EvasionMemory
 from .herding import HerdingPursuit
 from .knowledge import STAND, Intent, Knowledge, Limits
-from .lead import LeadPursuit
+from .lead_pursuit import LeadPursuit
 from .look_ahead import LookAhead
-from .optimal import Optimal
+from .optimal_evasion import Optimal
 from .optimal_pursuit import OptimalPursuit
 from .pursuit import Pursuit
 from .registry import STRATEGIES, load_strategy
-from .steps import StepGame, StepOutcome, StepTrack, play_steps
+from .step_game import StepGame, StepOutcome, StepTrack, play_steps
 from .strategy import Strategy
-from .unicycles import StrategyRun, play_strategies
-from .walk import Stand, Walk
+from .teleoperation import Driven
+from .unicycle_match import StrategyRun, play_strategies
 
 __all__ = [
     "STAND",

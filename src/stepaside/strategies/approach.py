@@ -3,7 +3,7 @@
 from math import atan2, cos, hypot, inf, pi, sin, sqrt
 from typing import NamedTuple
 
-from ..poses import wrap_angle
+from ..core.poses import wrap_angle
 from .knowledge import Knowledge, Limits
 
 STILL = 0.05  # speed below which nobody comes from anywhere, in [m/s]

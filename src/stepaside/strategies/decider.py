@@ -3,12 +3,12 @@
 from math import cos, sin
 from typing import Any
 
-from ..errors import StrategyError
-from ..poses import Pose
-from ..rooms import Obstacle
-from .asking import ask
+from ..arena import Obstacle
+from ..core.errors import StrategyError
+from ..core.poses import Pose
+from .foreign_code import ask
 from .knowledge import Intent, Knowledge, Limits
-from .rates import FloorVelocity, SightRates
+from .opponent_rates import FloorVelocity, SightRates
 from .strategy import Strategy
 
 

@@ -4,10 +4,10 @@ from dataclasses import dataclass, replace
 from math import inf, pi, radians
 from typing import ClassVar, Literal, NamedTuple, get_args
 
-from .. import laws
-from ..errors import ConfigurationError
+from ..core.errors import ConfigurationError
+from ..core.ranges import Range, Ranges, check_settings
 from ..planning import Direction
-from ..ranges import Range, Ranges, check_settings
+from ..theory import laws
 from .approach import Approach, clearance_of, swift_heading
 from .knowledge import STAND, Intent, Knowledge
 
@@ -22,7 +22,7 @@ class EvasionMemory(NamedTuple):
 
     Attributes:
         evading: Whether it evades.
-        side: On which side, +1 or -1, see :mod:`stepaside.laws`; 0 while it
+        side: On which side, +1 or -1, see :mod:`stepaside.theory.laws`; 0 while it
             does not evade.
         safe: Decisions in a row in which standing would have been safe.
     """

@@ -3,8 +3,8 @@
 from dataclasses import dataclass, field, replace
 from math import atan2, cos, hypot, sin
 
+from ..core.poses import wrap_angle
 from ..planning import Direction
-from ..poses import wrap_angle
 from .knowledge import Intent, Knowledge
 from .pursuit import Pursuit
 

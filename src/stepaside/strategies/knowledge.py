@@ -4,15 +4,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import (
+from ..arena import Obstacle
+from ..core.errors import (
     PlanError,
     check_bearing,
     check_positive,
     check_within,
     shown,
 )
-from ..poses import Pose
-from ..rooms import Obstacle
+from ..core.poses import Pose
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,27 +2,74 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import inf, pi, radians
+from math import cos, inf, pi, radians, sin
 from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import (
+from ..arena import NO_OBSTACLES, obstacle_set
+from ..core.errors import (
     ConfigurationError,
     check_not_negative,
     check_positive,
     check_within,
 )
+from ..core.poses import Pose
 from ..planning import Direction
-from ..rooms import NO_OBSTACLES, obstacle_set
-from ..steps import NO_VALUE, Aims, Both, Maneuvers, StepRules
-from ..steps.maneuvers import DEEPEST
-from ..steps.motion import half_turn, step_both
-from ..steps.packed import clearance_at
+from .bound_cache import pursuit_table
 from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge, Limits
-from .other import Trace, note, pursuer_heading
-from .places import moved_on, place_both
-from .tables import pursuit_table
+from .opponent_track import Trace, note, pursuer_heading
+from .search import NO_VALUE, Aims, Both, Maneuvers, StepRules
+from .search.candidate_maneuvers import DEEPEST
+from .search.packed_obstacles import clearance_at
+from .search.step_motion import half_turn, step_both
+
+
+def place_both(trace: Trace, heading: float) -> Both:
+    """Where both are, in the own odometry.
+
+    Args:
+        trace: At least one sighting.
+        heading: Of the pursuer there, in [rad].
+    """
+    seen = trace[-1]
+    return Both(
+        seen.own_x,
+        seen.own_y,
+        cos(seen.own_theta),
+        sin(seen.own_theta),
+        seen.x,
+        seen.y,
+        cos(heading),
+        sin(heading),
+    )
+
+
+def moved_on(both: Both, knowledge: Knowledge, begins: Pose) -> Both:
+    """Where both are when the step begins that is decided.
+
+    A body passes the foot that landed half a step after it did, and the
+    pursuer has gone on as long.
+
+    Args:
+        both: Where they were when the pursuer was seen.
+        knowledge: Of the own limits, and how long ago that was.
+        begins: Where the step begins, in the own odometry.
+    """
+    limits = knowledge.limits
+    steps = 0.5 + knowledge.age / limits.step_duration
+    way = limits.stride * steps
+    return Both(
+        begins.x,
+        begins.y,
+        cos(begins.theta),
+        sin(begins.theta),
+        both.px + way * both.pc,
+        both.py + way * both.ps,
+        both.pc,
+        both.ps,
+    )
+
 
 ERROR = ConfigurationError
 MARGIN = 0.005  # beyond the clearance that is asked for, in [m]
@@ -84,7 +131,7 @@ class LookAhead:
             the paper's law.
         sight: Largest bearing at which the head sees the pursuer, in [rad].
         lead: How far ahead the pursuer is thought to aim; see
-            :class:`~stepaside.steps.StepRules`.
+            :class:`~stepaside.strategies.search.StepRules`.
         safety_radius: Distance at which it begins, in [m].
         tight: Distance to the pursuer below which it also tries to turn on
             the spot first, where something stands around, in [m].
@@ -152,7 +199,7 @@ class LookAhead:
         self, knowledge: Knowledge, memory: LookAheadMemory
     ) -> tuple[Intent, LookAheadMemory]:
         """Begin the maneuver that keeps the pursuer farthest."""
-        from ..steps.search import look_ahead  # takes Numba with it
+        from .search.turn_search import look_ahead  # takes Numba with it
 
         limits = knowledge.limits
         rules = rules_of(limits, self.lead)

@@ -3,11 +3,11 @@
 from dataclasses import dataclass
 from math import atan2, pi
 
-from ..errors import ConfigurationError, check_within
-from ..poses import wrap_angle
+from ..core.errors import ConfigurationError, check_within
+from ..core.poses import wrap_angle
+from .bound_cache import cars_bound
 from .knowledge import Knowledge
-from .other import PursuitByWay, Seen
-from .tables import cars_bound
+from .opponent_track import PursuitByWay, Seen
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,12 +6,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from .. import laws
+from ..arena import BODY_RADIUS, obstacle_set
+from ..arena.shortest_path import first_point
+from ..core.poses import wrap_angle
+from ..core.ranges import Range, Ranges, check_settings
 from ..planning import Direction
-from ..poses import wrap_angle
-from ..ranges import Range, Ranges, check_settings
-from ..rooms import BODY_RADIUS, obstacle_set
-from ..rooms.paths import first_point
+from ..theory import laws
 from .approach import swift_heading
 from .knowledge import Intent, Knowledge, Limits
 

@@ -11,19 +11,19 @@ from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
-from ..errors import ConfigurationError
-from .asking import FAILURES
-from .deflected import Deflected
+from ..core.errors import ConfigurationError
+from .constant_walk import Stand, Walk
+from .deflected_evasion import Deflected
 from .evasion import Evasion
+from .foreign_code import FAILURES
 from .herding import HerdingPursuit
-from .lead import LeadPursuit
+from .lead_pursuit import LeadPursuit
 from .look_ahead import LookAhead
-from .optimal import Optimal
+from .optimal_evasion import Optimal
 from .optimal_pursuit import OptimalPursuit
 from .pursuit import Pursuit
 from .strategy import Strategy
-from .trial import try_strategy
-from .walk import Stand, Walk
+from .strategy_validation import try_strategy
 
 STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "evasion": lambda evasion: evasion,

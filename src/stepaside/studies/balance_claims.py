@@ -7,9 +7,8 @@ import numpy as np
 
 from ..planning import CenterState, Direction, Foot, ManeuverPlan
 from ..planning.maneuver import ManeuverPlanner
-from .claims import Claim
+from .claims import Claim, Readings, farthest
 from .planner_claims import BEARING, COUNT, GAIT
-from .readings import Readings, farthest
 
 REST = 4.0  # how long the end of a plan is looked at, in [s]
 PLANS = 400  # that are timed

@@ -2,12 +2,25 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from math import isfinite, nan
+from math import inf, isfinite, nan
 from typing import Any, Literal
 
 import numpy as np
 
-from .readings import Readings
+Readings = dict[str, float]
+
+
+def farthest(values: Sequence[float], expected: float) -> float:
+    """Value that is farthest from an expected one; NaN if there is none."""
+    if not len(values):
+        return nan
+    return float(max(values, key=lambda value: _off(value, expected)))
+
+
+def _off(value: float, expected: float) -> float:
+    """Distance from an expected value; a missing value is farthest off."""
+    return abs(value - expected) if isfinite(value) else inf
+
 
 Relation = Literal["=", "<", ">"]
 WIDER = 2.0  # times the tolerance: where every single run must lie
@@ -133,7 +146,7 @@ class Job:
         claims: The claims.
         measure: From a seed to a reading for each claim.
         rooms: Code that the readings depend on; see
-            :func:`~stepaside.studies.version.code_version`.
+            :func:`~stepaside.studies.code_version.code_version`.
         libraries: Libraries that they depend on.
         settings: From a seed to what else decides the readings, in words;
             nothing by default.

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ..games.circle import theory_of
-from ..games.settings import DuelSettings
+from ..games.duel_circle import theory_of
+from ..games.duel_settings import DuelSettings
 from .survival import CONFIDENCE, wilson
 
 FIELDS = (  # of every record
@@ -52,7 +52,7 @@ def summarise_duels(
 
     Args:
         settings: Of all of them.
-        records: Of :func:`~stepaside.studies.duels.play_record`.
+        records: Of :func:`~stepaside.studies.duel_campaign.play_record`.
     """
     theory = _theory(settings)
     played = [r for r in records if r["outcome"] == "completed"]

@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from math import pi, radians
 
-from ..errors import ConfigurationError
+from ..core.errors import ConfigurationError
 from ..strategies import (
     Deflected,
     Evasion,

@@ -6,17 +6,17 @@ from math import inf
 
 import numpy as np
 
+from ..arena import RoomRecipe, make_room
 from ..games.duel import run_duel
 from ..games.duel_run import DuelRun
+from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.outcome import Outcome
-from ..games.settings import PLAYERS, DuelSettings
-from ..rooms import RoomRecipe, make_room
-from ..strategies.steps import StepGame, StepOutcome, StepTrack
-from ..world.camera_settings import RoomSettings
+from ..sim.camera_settings import RoomSettings
+from ..strategies.step_game import StepGame, StepOutcome, StepTrack
+from .claims import Readings
 from .evading_claims import DURATION
 from .physics_game import clearance, outcome_of, players_touched
-from .readings import Readings
-from .tournament import bound_of, play_track
+from .tournament_campaign import bound_of, play_track
 from .tournament_settings import TournamentSettings
 
 EACH = 5  # games of each evader in each world, for one seed

@@ -4,8 +4,8 @@ from math import pi
 
 import numpy as np
 
-from ..convex import convex_hull, signed_area
-from ..poses import Array
+from ..core.convex import convex_hull, signed_area
+from ..core.poses import Array
 
 
 def floor_used(places: Array, radius: float) -> float:

@@ -7,17 +7,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..control.clearance.settings import MapSettings
+from ..arena import ObstacleSet, Room
+from ..control.clearance.map_settings import MapSettings
+from ..core.poses import Array, Pose, wrap_angles
 from ..games.duel_run import DuelRun
+from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.outcome import Outcome
-from ..games.settings import PLAYERS, DuelSettings
-from ..games.track import Track
-from ..poses import Array, Pose, wrap_angles
+from ..games.trajectory import Track
 from ..robots.description import load_robot
-from ..rooms import ObstacleSet, Room
+from ..sim.camera_settings import RoomSettings
+from ..sim.outline_measurement import measure_outline
 from ..strategies import Evasion
-from ..world.camera_settings import RoomSettings
-from ..world.outline import measure_outline
 from .entrants import ALWAYS, SIGHT, pursuer_strategy
 from .floor_used import floor_used
 

@@ -5,17 +5,17 @@ from math import degrees, nan
 
 import numpy as np
 
-from ..games.circle import (
+from ..games.duel_circle import (
     angle_between,
     converged_at,
     distance_between,
     theory_of,
 )
+from ..games.duel_settings import PLAYERS, DuelSettings, StartSettings
 from ..games.outcome import Outcome
-from ..games.settings import PLAYERS, DuelSettings, StartSettings
 from ..planning import PRESETS
-from ..unicycle.measure import fit_circle
-from .readings import Readings, farthest
+from ..theory.unicycle.circle_fit import fit_circle
+from .claims import Readings, farthest
 from .walk_measures import (
     both_feet,
     distance_walked,
@@ -26,7 +26,7 @@ from .walk_measures import (
     steps_of,
     walking_speed,
 )
-from .watching import Watched, watch
+from .watched_duel import Watched, watch
 
 SLIPPERY = 0.05  # sliding friction of a floor on which feet slip
 SLOWEST = 0.5  # of the gait's speed: who is slower does not walk

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..core.poses import Array, wrap_angle, wrap_angles
 from ..planning import (
     Direction,
     Foot,
@@ -11,9 +12,7 @@ from ..planning import (
     ManeuverPlanner,
     UnicycleTrajectory,
 )
-from ..poses import Array, wrap_angle, wrap_angles
-from .claims import Claim
-from .readings import Readings, farthest
+from .claims import Claim, Readings, farthest
 
 BEARING = 0.9  # desired heading, in [rad]
 GAIT = GaitSettings()

@@ -10,10 +10,10 @@ import numpy as np
 
 from ..games.walk_settings import WalkSettings
 from ..planning import Direction, Foot, ManeuverPlanner
-from ..planning.capture import Reach, push_bound
-from ..planning.steady import steady_plan
-from .limits import limit_of, next_strength, outcomes_of
-from .robustness import (
+from ..planning.capturability import Reach, push_bound
+from ..planning.steady_gait import steady_plan
+from .push_limits import limit_of, next_strength, outcomes_of
+from .robustness_campaign import (
     DIRECTIONS,
     STRENGTHS,
     Trial,

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ..strategies.steps import StepGame
-from ..unicycle.circling import find_circle
+from ..strategies.step_game import StepGame
+from ..theory.unicycle.circle_equations import find_circle
 from .entrants import gain_ratio_of
 from .survival import wilson
 
@@ -21,7 +21,7 @@ def tournament_rows(
     """Rows of a tournament, ready for JSON.
 
     Args:
-        records: Of :func:`~stepaside.studies.tournament.play_record`.
+        records: Of :func:`~stepaside.studies.tournament_campaign.play_record`.
         game: Rules of the games.
 
     Returns:

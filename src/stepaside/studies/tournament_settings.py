@@ -6,10 +6,10 @@ from hashlib import sha256
 from math import pi
 from typing import Any
 
-from ..errors import ConfigurationError, check_within
-from ..poses import Pose
-from ..rooms import Room, RoomRecipe, draw_starts, make_room, room_entries
-from ..strategies.steps import StepGame
+from ..arena import Room, RoomRecipe, draw_starts, make_room, room_entries
+from ..core.errors import ConfigurationError, check_within
+from ..core.poses import Pose
+from ..strategies.step_game import StepGame
 
 ERROR = ConfigurationError
 HUMANOIDS = "physics"

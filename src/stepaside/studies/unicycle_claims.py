@@ -5,14 +5,18 @@ from math import nan, pi, sin, sqrt
 
 import numpy as np
 
-from ..poses import Array, wrap_angle
-from ..unicycle.laws import Game, TurningLaw, Unicycle
-from ..unicycle.measure import Measured, fit_circle, measure, settling_time
-from ..unicycle.relative import Start
-from ..unicycle.sampled import SampledRun, simulate_sampled
-from ..unicycle.simulate import PlayedGame, simulate
-from .claims import Claim
-from .readings import Readings
+from ..core.poses import Array, wrap_angle
+from ..theory.unicycle.adaptive_simulation import PlayedGame, simulate
+from ..theory.unicycle.circle_fit import (
+    Measured,
+    fit_circle,
+    measure,
+    settling_time,
+)
+from ..theory.unicycle.relative_coordinates import Start
+from ..theory.unicycle.sampled_game import SampledRun, simulate_sampled
+from ..theory.unicycle.unicycle_game import Game, TurningLaw, Unicycle
+from .claims import Claim, Readings
 
 FIG_2 = Game(Unicycle(1.0, 0.5), Unicycle(1.0, 0.5))
 START = Start(5.0, 0.4, -0.2)

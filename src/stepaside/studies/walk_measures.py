@@ -5,10 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..games.settings import PLAYERS
+from ..core.poses import Array
+from ..games.duel_settings import PLAYERS
 from ..planning import GaitSettings
-from ..poses import Array
-from .watching import WalkedPlan, Watched
+from .watched_duel import WalkedPlan, Watched
 
 BEARS = 1.0  # load from which a foot counts as on the floor, in [N]
 SWING = 0.35  # of a single support: a foot that is off it longer swings

@@ -17,11 +17,11 @@ if that is less, and K is what a leg can reach.
 
 import numpy as np
 
+from ...arena import ObstacleSet
+from ...core.poses import Array, Pose
+from ...locomotion.zmp.control_settings import StabiliserSettings
+from ...locomotion.zmp.qp_solver import load_solver
 from ...planning import GaitSettings, ManeuverPlan, ManeuverPlanner
-from ...poses import Array, Pose
-from ...rooms import ObstacleSet
-from ..balance.quadratic import load_solver
-from ..balance.settings import StabiliserSettings
 
 SOLVED = 1  # what the solver answers if there are such footsteps
 NEGLIGIBLE = 1e-9  # lack of clearance that moves no foot, in [m]

@@ -18,13 +18,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...core.poses import Pose
 from ...planning import ManeuverPlan, ManeuverPlanner
-from ...planning.steady import landing_state
-from ...poses import Pose
+from ...planning.steady_gait import landing_state
 from ...strategies.knowledge import Intent
 from .footholds import Footholds
-from .outline import BodyOutline
 from .surroundings import Surroundings
+from .swept_outline import BodyOutline
 
 SLOWER = (1.0, 0.5, 0.05)  # shares of the wanted speed; the last but turns
 SHARP = 2.0  # heading of a step back where no other is clear, in [rad]

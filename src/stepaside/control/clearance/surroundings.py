@@ -2,11 +2,11 @@
 
 from typing import Protocol
 
+from ...arena import NO_OBSTACLES, ObstacleSet, Room, obstacle_set
+from ...core.poses import Pose
 from ...perception.floor_map import CELL, FloorMap
-from ...poses import Pose
-from ...robots.reference import BodyReference
-from ...rooms import NO_OBSTACLES, ObstacleSet, Room, obstacle_set
-from ...sensing.measurement import Measurement
+from ...perception.measurement import Measurement
+from ...robots.body_reference import BodyReference
 
 HERE = Pose(0.0, 0.0, 0.0)
 AHEAD = 2.0  # for which a map tells where things move: two steps, in [s]

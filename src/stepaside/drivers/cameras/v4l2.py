@@ -4,11 +4,11 @@ from pathlib import Path
 
 import numpy as np
 
-from ...errors import ConfigurationError
-from ...sensing.camera_model import CameraModel
-from ...sensing.images import Pixels
-from ..session import SessionLost
-from .source import LiveCamera
+from ...core.errors import ConfigurationError
+from ...perception.camera_model import CameraModel
+from ...perception.images import Pixels
+from ..guardian_process import SessionLost
+from .image_source import LiveCamera
 
 try:
     import cv2

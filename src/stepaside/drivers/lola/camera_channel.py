@@ -4,10 +4,10 @@ import logging
 from collections import deque
 from dataclasses import replace
 
-from ...sensing.images import Percept
-from ..cameras.wire import ImageError, ImageMessage, ImageReader
-from ..session import SessionLost
-from .address import Address
+from ...perception.images import Percept
+from ..cameras.image_wire import ImageError, ImageMessage, ImageReader
+from ..guardian_process import SessionLost
+from .lola_address import Address
 
 AHEAD = 8  # frames by which an image may come before its frame
 CONNECTING = 5.0  # longest time to connect, in [s]

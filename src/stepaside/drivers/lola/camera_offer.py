@@ -3,11 +3,11 @@
 import logging
 import socket
 
-from ...sensing.images import ColourImage, DepthImage
-from ...sensing.measurement import Measurement
-from ..cameras.wire import ImageMessage, pack_image
-from .address import Address
-from .listener import Listener
+from ...perception.images import ColourImage, DepthImage
+from ...perception.measurement import Measurement
+from ..cameras.image_wire import ImageMessage, pack_image
+from ..joint.listener import Listener
+from .lola_address import Address
 
 ROOM = 1 << 22  # bytes that the system is asked to hold for a client
 log = logging.getLogger(__name__)

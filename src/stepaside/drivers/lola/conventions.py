@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from ...poses import Array
-from ...sensing.images import Percept, SonarEcho
-from ...sensing.measurement import Measurement, Sighting
-from .frames import SensorFrame
-from .joints import JOINT_COUNT, JointMap
+from ...core.poses import Array
+from ...perception.images import Percept, SonarEcho
+from ...perception.measurement import Measurement, Sighting
+from ..joint.frames import SensorFrame
+from ..joint.joint_map import JOINT_COUNT, JointMap
 
 CHEST_BUTTON = 0  # in the order of Touch
 FOOT_BUMPERS = (4, 5, 9, 10)  # likewise: left and right of either foot

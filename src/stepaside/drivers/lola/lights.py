@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from .safety import State
+from ..joint.safety import State
 
 Colour = tuple[float, float, float]
 OFF: Colour = (0.0, 0.0, 0.0)

@@ -4,11 +4,11 @@ import logging
 from collections import deque
 from typing import Protocol
 
-from ...sensing.measurement import Sighting
-from ..session import SessionLost
-from .frame_clock import TICK
-from .link import Link
-from .sight import SightError, SightMessage, unpack_sight
+from ...perception.measurement import Sighting
+from ..guardian_process import SessionLost
+from ..joint.frame_clock import TICK
+from ..joint.link import Link
+from .sight_message import SightError, SightMessage, unpack_sight
 
 AHEAD = 8  # frames by which a sighting may come before its frame: 0.1 s
 log = logging.getLogger(__name__)

@@ -1,9 +1,9 @@
 """The server's end of the ideal line of sight."""
 
-from ...sensing.measurement import Measurement, Sighting
-from .address import Address
-from .listener import Listener
-from .sight import SightMessage, pack_sight
+from ...perception.measurement import Measurement, Sighting
+from ..joint.listener import Listener
+from .lola_address import Address
+from .sight_message import SightMessage, pack_sight
 
 
 class SightOffer:

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import msgpack
 
-from ...errors import StepAsideError
+from ...core.errors import StepAsideError
 
 SENSOR_BYTES = 896  # of every sensor frame
 ACTUATOR_BYTES = 786  # of an actuator frame with all keys

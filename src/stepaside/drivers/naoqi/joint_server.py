@@ -3,14 +3,14 @@
 import logging
 from collections.abc import Sequence
 
-from ...sensing.measurement import Measurement
+from ...perception.measurement import Measurement
+from ..joint.frame_clock import TICK
+from ..joint.served_joints import ServedJoints, ServedRobot
 from ..lola.conventions import COUNTER_RANGE
-from ..lola.frame_clock import TICK
-from ..lola.served_joints import ServedJoints, ServedRobot
-from .address import IDEAL_SIGHT
 from .joint_services import JointMemory, JointMotion, JointRobot
+from .naoqi_url import IDEAL_SIGHT
+from .qi_session import listen
 from .sensor_keys import FRAME, values_of
-from .session import listen
 
 SILENCE = 0.5  # without a command before nobody is there, in [s]
 log = logging.getLogger(__name__)

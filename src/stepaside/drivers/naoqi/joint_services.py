@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from ...poses import Array
-from ..lola.frames import ActuatorFrame
-from ..lola.joints import JOINT_COUNT, NAMES
-from .chains import joints_of, shares_of, values_of
+from ...core.poses import Array
+from ..joint.frames import ActuatorFrame
+from ..joint.joint_map import JOINT_COUNT, NAMES
+from .joint_chains import joints_of, shares_of, values_of
 
 SHARED = "RHipYawPitch"  # the motor of LHipYawPitch turns both
 KNOWN = (*NAMES, SHARED)

@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from typing import Any
 
-from ..velocity.served import WalkerState
-from .address import IDEAL_SIGHT
-from .robot import Robot
+from ..velocity.walking_robot import WalkerState
+from .naoqi_url import IDEAL_SIGHT
+from .service_state import Robot
 
 SUBDEVICES = "Device/SubDeviceList"
 SENSED = "Position/Sensor/Value"

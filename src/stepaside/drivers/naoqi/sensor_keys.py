@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from ..joint.frames import SensorFrame
+from ..joint.joint_map import NAMES
 from ..lola.conventions import (
     CHEST_BUTTON,
     COUNTER,
@@ -17,8 +19,6 @@ from ..lola.conventions import (
     LOCK_STEP,
     REAL_TIME,
 )
-from ..lola.frames import SensorFrame
-from ..lola.joints import NAMES
 from ..lola.wire import WireError
 
 DEVICES = "Device/SubDeviceList"

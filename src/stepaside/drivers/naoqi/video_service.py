@@ -9,9 +9,9 @@ from typing import Any
 
 import qi
 
-from ...sensing.images import ColourImage
-from .robot import Robot
-from .video import RGB, TOP
+from ...perception.images import ColourImage
+from .service_state import Robot
+from .video_client import RGB, TOP
 
 IMAGE = "(iiiiiiriffff)"  # an image as NAOqi's messaging spells it
 MICRO = 1_000_000  # microseconds in a second

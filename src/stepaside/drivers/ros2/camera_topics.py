@@ -1,7 +1,7 @@
 """What the camera of a simulated robot shows, on topics."""
 
-from ...sensing.images import ColourImage
-from .domain import Dds
+from ...perception.images import ColourImage
+from .dds_domain import Dds
 from .messages import CompressedImage, Header, Image, Time
 from .topics import COMPRESSED, IMAGE, dds_topic, frame
 
@@ -27,7 +27,7 @@ class CameraTopics:
         """Write an image, if it is new and somebody reads it."""
         if image is None or image is self._told:
             return
-        from .images import compressed_message, image_message
+        from .image_messages import compressed_message, image_message
 
         self._told = image
         header = Header(Time.of(image.time), self._frame)

@@ -6,7 +6,7 @@ they decide the bytes. A field must not be moved.
 
 from dataclasses import dataclass
 
-from ...errors import ConfigurationError
+from ...core.errors import ConfigurationError
 
 try:
     from cyclonedds.idl import IdlStruct

@@ -2,7 +2,7 @@
 
 from math import atan2, cos, sin
 
-from ...poses import Pose
+from ...core.poses import Pose
 from .messages import (
     Point,
     PointStamped,

@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from math import isfinite
 
-from ...errors import ConfigurationError, check_within
-from ...sensing.measurement import Sighting
-from ..sightings import fault_of
-from .body import Report
+from ...core.errors import ConfigurationError, check_within
+from ...perception.measurement import Sighting
+from ..sighting_checks import fault_of
+from .velocity_body import Report
 
 DRIFT = 0.02  # by which two clocks may differ, relatively
 

@@ -1,12 +1,12 @@
 """Bodies that the page offers, each with its control."""
 
-from ...control.balance.settings import (
+from ...games.duel_settings import DuelSettings
+from ...locomotion.zmp.control_settings import (
     OPEN_LOOP,
     STABILISED,
     ControlSettings,
 )
-from ...games.settings import DuelSettings
-from ...world.body_settings import BODIES, BodySettings
+from ...sim.body_settings import BODIES, BodySettings
 
 OWN = "as started"  # a body that is no preset
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import viser
 
-from ...sensing.images import ColourImage, Pixels
+from ...perception.images import ColourImage, Pixels
 
 if TYPE_CHECKING:
     from ...perception.frame_report import FrameReport

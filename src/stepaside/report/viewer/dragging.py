@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 import viser
 
-from ...errors import StepAsideError
+from ...core.errors import StepAsideError
+from ...core.poses import Array
 from ...games.duel import Duel
-from ...poses import Array
-from ...world.push import Push
+from ...sim.push import Push
+from ..figure_style import PUSHED
 from ..palette import seen_by_all
-from ..style import PUSHED
-from .layers import PUSH_LENGTH, rgb
-from .session import Session
+from .live_session import Session
+from .scene_layers import PUSH_LENGTH, rgb
 
 LEAST, MOST = 0.05, 4.0  # impulse of a hand, in [N s]
 LEVEL = 0.1  # slope of a line of sight that meets the floor nowhere near

@@ -6,14 +6,14 @@ from math import degrees, radians
 
 import viser
 
-from ...errors import StepAsideError
+from ...core.errors import StepAsideError
 from ...games.duel import Duel
-from ...games.settings import SENSING
+from ...games.duel_settings import SENSING
 from ...games.strategy_objects import EVASION
 from ...games.walker import Walker
 from ...planning import GaitSettings
 from .body_choices import body_choices
-from .session import Session
+from .live_session import Session
 
 LAWS = ("proportional (4)", "saturated (6)")
 

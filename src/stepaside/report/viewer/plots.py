@@ -4,10 +4,10 @@ import numpy as np
 import viser
 from viser import uplot
 
-from ...poses import Array
+from ...core.poses import Array
+from ..figure_style import EVADER, PURSUER, THEORY
 from ..palette import seen_by_all
-from ..style import EVADER, PURSUER, THEORY
-from .session import Session
+from .live_session import Session
 
 # Room above and to the right of a plot for its last marks, in [pixels].
 PADDING = (12, 12, 0, 0)

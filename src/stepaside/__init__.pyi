@@ -1,0 +1,100 @@
+from .control import Body as Body
+from .control import ControlScheme as ControlScheme
+from .control.scheme_builder import build_scheme as build_scheme
+from .core.errors import StepAsideError as StepAsideError
+from .games import Duel as Duel
+from .games import DuelRun as DuelRun
+from .games import DuelSettings as DuelSettings
+from .games import Outcome as Outcome
+from .games import Run as Run
+from .games import WalkRun as WalkRun
+from .games import run_duel as run_duel
+from .games.configuration_file import load_configuration as load_configuration
+from .games.duel_settings import StartSettings as StartSettings
+from .games.run_archive import load_run as load_run
+from .games.walk_game import run_walk as run_walk
+from .games.walk_settings import WalkSettings as WalkSettings
+from .locomotion.zmp.control_settings import ControlSettings as ControlSettings
+from .perception.measurement import Measurement as Measurement
+from .perception.measurement import Sighting as Sighting
+from .planning import Direction as Direction
+from .planning import Foot as Foot
+from .planning import GaitSettings as GaitSettings
+from .planning import ManeuverPlan as ManeuverPlan
+from .planning import ManeuverPlanner as ManeuverPlanner
+from .report.compare_figure import draw_comparison as draw_comparison
+from .report.duel_figure import draw_duel as draw_duel
+from .report.plan_figure import draw_plan as draw_plan
+from .report.replay_page import write_page as write_page
+from .report.run_folder import write_run as write_run
+from .robots.description import load_robot as load_robot
+from .robots.joint_configuration import Configuration as Configuration
+from .robots.tree_cache import load_tree as load_tree
+from .sim.body_settings import BODIES as BODIES
+from .sim.body_settings import BodySettings as BodySettings
+from .sim.push import Push as Push
+from .strategies import Evasion as Evasion
+from .strategies import Intent as Intent
+from .strategies import Knowledge as Knowledge
+from .strategies import Pursuit as Pursuit
+from .strategies import Strategy as Strategy
+from .strategies import load_strategy as load_strategy
+from .theory.unicycle import Start as Start
+from .theory.unicycle import find_circle as find_circle
+from .theory.unicycle import make_game as make_game
+from .theory.unicycle import play_games as play_games
+from .theory.unicycle.adaptive_simulation import simulate as simulate
+from .theory.unicycle.certificate import certify as certify
+
+__version__: str
+
+__all__ = [
+    "__version__",
+    "BODIES",
+    "Body",
+    "BodySettings",
+    "Configuration",
+    "ControlScheme",
+    "ControlSettings",
+    "Direction",
+    "Duel",
+    "DuelRun",
+    "DuelSettings",
+    "Evasion",
+    "Foot",
+    "GaitSettings",
+    "Intent",
+    "Knowledge",
+    "ManeuverPlan",
+    "ManeuverPlanner",
+    "Measurement",
+    "Outcome",
+    "Pursuit",
+    "Push",
+    "Run",
+    "Sighting",
+    "Start",
+    "StartSettings",
+    "StepAsideError",
+    "Strategy",
+    "WalkRun",
+    "WalkSettings",
+    "build_scheme",
+    "certify",
+    "draw_comparison",
+    "draw_duel",
+    "draw_plan",
+    "find_circle",
+    "load_configuration",
+    "load_robot",
+    "load_run",
+    "load_strategy",
+    "load_tree",
+    "make_game",
+    "play_games",
+    "run_duel",
+    "run_walk",
+    "simulate",
+    "write_page",
+    "write_run",
+]

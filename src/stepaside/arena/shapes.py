@@ -1,0 +1,217 @@
+"""Shapes on the floor: discs, boxes and convex polygons."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import cos, hypot, sin, tau
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core.convex import convex_hull, signed_area
+from ..core.errors import check_bearing, check_within
+from ..core.poses import Array, Pose, wrap_angle
+from .hull_set import RoundedHull, rounded_hull
+from .obstacles import Obstacle
+from .polygon_checks import (
+    ERROR,
+    FARTHEST,
+    SMALLEST,
+    check_coordinate,
+    checked_corners,
+    crosses_itself,
+    told_corners,
+)
+
+WALL = 0.1  # thickness of a wall, in [m]
+RING = 72  # corners of a disc that is drawn
+
+
+@dataclass(frozen=True)
+class Disc(Obstacle):
+    """Round obstacle: a pillar, a bin.
+
+    Attributes:
+        x: Of its centre, in [m].
+        y: Of its centre, in [m].
+        radius: In [m].
+    """
+
+    x: float
+    y: float
+    radius: float
+
+    kind: ClassVar[str] = "disc"
+
+    def __post_init__(self) -> None:
+        """Refuse what is not finite, or no disc."""
+        check_coordinate(self.x, "disc x")
+        check_coordinate(self.y, "disc y")
+        check_within(
+            self.radius, SMALLEST, FARTHEST, "disc radius", "m", ERROR
+        )
+
+    @cached_property
+    def hull(self) -> RoundedHull:
+        """Its centre, grown by its radius."""
+        return rounded_hull([(self.x, self.y)], self.radius)
+
+    @property
+    def outline(self) -> Array:
+        """Corners on its edge, in [m]. Shape (72, 2)."""
+        angles = np.arange(RING) * (tau / RING)
+        ring = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+        outline: Array = self.points + self.radius * ring
+        return outline
+
+    def moved(self, pose: Pose) -> "Disc":
+        """Return the disc in the frame in which its own has a pose."""
+        moved = pose.compose(Pose(self.x, self.y, 0.0))
+        return Disc(moved.x, moved.y, self.radius)
+
+
+@dataclass(frozen=True)
+class Polygon(Obstacle):
+    """Convex obstacle with corners: a table.
+
+    Attributes:
+        corners: Corners (x, y), in [m], one after the other along the
+            edge; kept counter-clockwise, whichever way they are given.
+    """
+
+    corners: tuple[tuple[float, float], ...]
+
+    kind: ClassVar[str] = "polygon"
+
+    def __post_init__(self) -> None:
+        """Refuse what crosses itself, is not convex or has no inside."""
+        corners = checked_corners(self.corners)
+        points = np.array(corners)
+        if crosses_itself(points):
+            raise ERROR(
+                "polygon must not cross itself, got corners "
+                f"{told_corners(corners)}"
+            )
+        if signed_area(points) < 0.0:
+            corners, points = corners[::-1], points[::-1]
+        edges = np.roll(points, -1, axis=0) - points
+        lengths = np.hypot(edges[:, 0], edges[:, 1])
+        if lengths.min() < SMALLEST:
+            raise ERROR(
+                f"polygon must have edges >= {SMALLEST:g} [m], got corners "
+                f"{told_corners(corners)}"
+            )
+        after = np.roll(edges, -1, axis=0)
+        turns = edges[:, 0] * after[:, 1] - edges[:, 1] * after[:, 0]
+        if turns.min() < -1e-9 * lengths.max() ** 2:
+            raise ERROR(
+                f"polygon must be convex, got corners {told_corners(corners)}"
+            )
+        if signed_area(points) < 0.5 * SMALLEST * lengths.max():
+            raise ERROR(
+                "polygon must have an inside, got corners "
+                f"{told_corners(corners)}"
+            )
+        object.__setattr__(self, "corners", corners)
+
+    @cached_property
+    def hull(self) -> RoundedHull:
+        """Its corners."""
+        return rounded_hull(self.corners)
+
+    def moved(self, pose: Pose) -> "Polygon":
+        """Return the polygon in the frame in which its own has a pose."""
+        moved = pose.transform_points(self.points).tolist()
+        return Polygon(tuple((x, y) for x, y in moved))
+
+
+@dataclass(frozen=True)
+class Box(Obstacle):
+    """Rectangular obstacle: a crate, a wall.
+
+    Attributes:
+        x: Of its centre, in [m].
+        y: Of its centre, in [m].
+        width: Along its heading, in [m].
+        depth: Across its heading, in [m].
+        heading: Of its width, in [rad].
+    """
+
+    x: float
+    y: float
+    width: float
+    depth: float
+    heading: float = 0.0
+
+    kind: ClassVar[str] = "box"
+
+    def __post_init__(self) -> None:
+        """Refuse sizes and places out of their ranges."""
+        check_coordinate(self.x, "box x")
+        check_coordinate(self.y, "box y")
+        check_within(self.width, SMALLEST, FARTHEST, "box width", "m", ERROR)
+        check_within(self.depth, SMALLEST, FARTHEST, "box depth", "m", ERROR)
+        check_bearing(self.heading, "box heading", ERROR)
+        for name, values in zip("xy", self.points.T.tolist(), strict=True):
+            for value in values:
+                check_coordinate(value, f"box corner {name}")
+
+    @cached_property
+    def hull(self) -> RoundedHull:
+        """Its four corners."""
+        c, s = cos(self.heading), sin(self.heading)
+        corners = []
+        for along, across in ((1, 1), (-1, 1), (-1, -1), (1, -1)):
+            u, v = 0.5 * along * self.width, 0.5 * across * self.depth
+            corners.append((self.x + c * u - s * v, self.y + s * u + c * v))
+        return rounded_hull(corners)
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        """Its centre (x, y), in [m]."""
+        return self.x, self.y
+
+    def moved(self, pose: Pose) -> "Box":
+        """Return the box in the frame in which its own has a pose."""
+        x, y, heading = pose.compose(Pose(self.x, self.y, self.heading))
+        return Box(x, y, self.width, self.depth, wrap_angle(heading))
+
+
+def wall_between(
+    start: tuple[float, float],
+    end: tuple[float, float],
+    thickness: float = WALL,
+) -> Box:
+    """Return the wall whose middle runs from one point to another.
+
+    Args:
+        start: Where it begins, (x, y), in [m].
+        end: Where it ends, likewise.
+        thickness: In [m].
+
+    Raises:
+        ConfigurationError: If a value is out of its range.
+    """
+    for name, (x, y) in (("start", start), ("end", end)):
+        check_coordinate(x, f"wall {name} x")
+        check_coordinate(y, f"wall {name} y")
+    check_within(thickness, SMALLEST, FARTHEST, "wall thickness", "m", ERROR)
+    along = np.subtract(end, start)
+    length = hypot(*along)
+    check_within(length, SMALLEST, FARTHEST, "wall length", "m", ERROR)
+    heading = float(np.arctan2(along[1], along[0]))
+    x, y = 0.5 * np.add(start, end)
+    return Box(float(x), float(y), length, thickness, heading)
+
+
+def hull(points: ArrayLike) -> Polygon:
+    """Return the least convex polygon that holds all of some points.
+
+    Args:
+        points: Points (x, y), in [m]. Shape (n, 2).
+
+    Raises:
+        ConfigurationError: If they all lie on a line.
+    """
+    corners = convex_hull(np.asarray(points, dtype=np.float64), 1e-12)
+    return Polygon(tuple((x, y) for x, y in corners.tolist()))

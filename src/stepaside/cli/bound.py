@@ -1,0 +1,253 @@
+"""``stepaside bound``: the best that any evader can do."""
+
+from math import pi, prod
+from typing import TYPE_CHECKING, NamedTuple
+
+import click
+
+from .bound_tables import (
+    describe,
+    describe_refinement,
+    played_games,
+    print_bound,
+)
+from .effort_estimate import CELLS, tell_effort
+from .options.common_options import FIGURE, figure_width, json_option
+from .options.declaration import Declaration
+from .options.value_kinds import NameType, OutputFile
+from .output_files import attempt, writes_files
+from .progress import show_progress
+from .value_types import METERS, SECONDS, NumberType, print_json
+
+if TYPE_CHECKING:
+    from ..theory.bound import Bound, BoundGame, Grid, Scheme
+    from ..theory.bound.grid_refinement import Refinement
+
+SPEED, RATE = NumberType("m/s"), NumberType("rad/s")
+TABLE = Declaration(
+    "--output", "Write the table (.npz).", kind=OutputFile(".npz")
+)
+AGAINST = ("pursuit", "any")
+
+
+def _schemes() -> tuple[str, ...]:
+    from ..theory.bound import Scheme
+
+    return tuple(scheme.value for scheme in Scheme)
+
+
+@click.command("bound")
+@click.option(
+    "--against",
+    type=NameType(lambda: AGAINST),
+    default=AGAINST[0],
+    show_default=True,
+    help="The pursuer of eqs. (1)-(2), or any that turns within its limit.",
+)
+@click.option(
+    "--pursuer-speed",
+    type=SPEED,
+    default=1.0,
+    show_default=True,
+    help="Speed of the pursuer [m/s].",
+)
+@click.option(
+    "--evader-speed",
+    type=SPEED,
+    default=1.0,
+    show_default=True,
+    help="Speed of the evader [m/s].",
+)
+@click.option(
+    "--pursuer-gain",
+    type=NumberType("1/s"),
+    default=0.5,
+    show_default=True,
+    help="Gain k of eq. (2) [1/s], for --against pursuit.",
+)
+@click.option(
+    "--pursuer-turn",
+    type=RATE,
+    help="Largest turning rate [rad/s], for --against any. [default: pi k]",
+)
+@click.option(
+    "--evader-turn",
+    type=RATE,
+    help="Largest turning rate of the evader [rad/s]. "
+    "[default: the pursuer's]",
+)
+@click.option(
+    "--capture",
+    type=METERS,
+    help="Distance whose barrier is shown [m]. [default: 0.7 v/k]",
+)
+@click.option(
+    "--nearest",
+    type=METERS,
+    help="Distance at which a game ends [m]. [default: half of --capture]",
+)
+@click.option(
+    "--farthest", type=METERS, help="Edge of the grid [m]. [default: by game]"
+)
+@click.option(
+    "--grid",
+    "cells",
+    type=click.IntRange(16, 400),
+    default=64,
+    show_default=True,
+    help="Cells along each axis.",
+)
+@click.option(
+    "--refine",
+    type=click.IntRange(0, 3),
+    default=1,
+    show_default=True,
+    help="Coarser grids, of half as many cells each, for the error.",
+)
+@click.option(
+    "--horizon",
+    type=SECONDS,
+    help="Duration [s]. [default: a turn at slowest]",
+)
+@click.option(
+    "--scheme",
+    type=NameType(lambda: _schemes()),
+    default="weno",
+    show_default=True,
+    help="Fifth or first order, by Godunov's or Lax's flux.",
+)
+@click.option(
+    "--games",
+    type=click.IntRange(0, 1_000_000),
+    default=1000,
+    show_default=True,
+    help="Random games played to check the table; 0 for none.",
+)
+@TABLE.option()
+@FIGURE.option()
+@figure_width
+@json_option
+@writes_files
+def bound(
+    against: str,
+    pursuer_speed: float,
+    evader_speed: float,
+    pursuer_gain: float,
+    pursuer_turn: float | None,
+    evader_turn: float | None,
+    capture: float | None,
+    nearest: float | None,
+    farthest: float | None,
+    cells: int,
+    refine: int,
+    horizon: float | None,
+    scheme: str,
+    games: int,
+    output: str | None,
+    figure: str | None,
+    as_json: bool,
+) -> None:
+    """Compute how close the pursuer comes to the best evader."""
+    from ..theory.bound import Scheme
+
+    turn = pi * pursuer_gain if pursuer_turn is None else pursuer_turn
+    asked = _Asked(
+        _game_of(
+            against,
+            (pursuer_speed, evader_speed),
+            (pursuer_gain, turn, evader_turn),
+        ),
+        0.7 * evader_speed / pursuer_gain if capture is None else capture,
+        Scheme(scheme),
+        horizon,
+    )
+    grid = asked.grid(nearest, farthest, cells)
+    table, rows = asked.solve(grid, refine, quiet=as_json)
+    result = describe(table, asked.capture) | describe_refinement(rows)
+    if games:
+        result["played"] = played_games(table, games)
+    if output is not None and attempt(lambda: table.save(output)):
+        result["output"] = output
+    if figure is not None:
+        from ..report.bound_figure import draw_bound
+
+        if attempt(lambda: draw_bound(table, asked.capture, figure)):
+            result["figure"] = figure
+    if as_json:
+        print_json(result)
+        return
+    print_bound(result)
+
+
+def _game_of(
+    against: str,
+    speeds: tuple[float, float],
+    turning: tuple[float, float, float | None],
+) -> "BoundGame":
+    """The game against a pursuer; gain, its limit and the evader's."""
+    from ..theory.bound import against_any, against_pursuit
+
+    gain, limit, evader_turn = turning
+    if against == "pursuit":
+        return against_pursuit(*speeds, gain, evader_turn)
+    return against_any(*speeds, limit, evader_turn)
+
+
+class _Asked(NamedTuple):
+    """What shall be solved.
+
+    Attributes:
+        game: The game.
+        capture: Distance whose barrier is shown, in [m].
+        scheme: Of the solver.
+        horizon: Duration in [s]; that of a turn if None.
+    """
+
+    game: "BoundGame"
+    capture: float
+    scheme: "Scheme"
+    horizon: float | None
+
+    def grid(
+        self, nearest: float | None, farthest: float | None, cells: int
+    ) -> "Grid":
+        """The grid, wide enough unless its edges [m] are given."""
+        from ..theory.bound import Grid
+
+        low = 0.5 * self.capture if nearest is None else nearest
+        high = _edge(self.game, self.capture) if farthest is None else farthest
+        if not low <= self.capture <= high:
+            raise click.BadParameter(
+                f"must lie in [{low:g}, {high:g}] [m], got {self.capture}",
+                param_hint="--capture",
+            )
+        return Grid.cube(low, high, cells)
+
+    def solve(
+        self, grid: "Grid", refine: int, *, quiet: bool
+    ) -> "tuple[Bound, tuple[Refinement, ...]]":
+        """The table, and what coarser ones differ by."""
+        from ..theory.bound import count_steps
+        from ..theory.bound.grid_refinement import refine_bound
+
+        steps = count_steps(self.game, grid, self.horizon, self.scheme)
+        total = prod(grid.shape)
+        tell_effort(
+            f"a table of {total} cells over {steps} steps",
+            total * steps / CELLS,
+        )
+        look = "{l_bar}{bar}| {elapsed}<{remaining}"
+        with show_progress("bound", 1.0, form=look, quiet=quiet) as bar:
+            return refine_bound(
+                self.game,
+                grid,
+                refine,
+                horizon=self.horizon,
+                scheme=self.scheme,
+                progress=bar.update,
+            )
+
+
+def _edge(game: "BoundGame", capture: float) -> float:
+    """Edge of the grid, beyond the barrier of equal players, in [m]."""
+    return capture + (4.0 if game.pursuer_gain > 0.0 else 6.0) * game.unit

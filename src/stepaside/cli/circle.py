@@ -1,0 +1,189 @@
+"""``stepaside circle``: the circles of a game, from its equations."""
+
+from typing import Any
+
+import click
+
+from ..core.atomic_output import FIGURES
+from ..theory.unicycle.unicycle_game import Game
+from .circle_tables import describe_circles, describe_remedies, print_circles
+from .effort_estimate import STEPS, tell_effort
+from .options.common_options import (
+    CAPTURE,
+    DELAY,
+    FIGURE,
+    FIRST_SEED,
+    SAMPLE_TIME,
+    figure_width,
+    json_option,
+)
+from .output_files import OutputFile, attempt, writes_files
+from .progress import show_progress
+from .unicycle_options import describe_game, finite, game_options
+from .value_types import print_json
+
+
+@click.command("circle")
+@game_options
+@SAMPLE_TIME.option(default=0.0, show_default=True)
+@DELAY.option(default=0.0, show_default=True)
+@click.option(
+    "--sweep",
+    type=OutputFile(*FIGURES),
+    help="Write a figure over angle and ratios of gains and speeds.",
+)
+@figure_width
+@FIGURE.option(help="Write a map of the reversed circle over both ratios.")
+@click.option(
+    "--starts",
+    type=click.IntRange(0, 1_000_000),
+    default=400,
+    show_default=True,
+    help="Random starts that are played to see which circle they end on.",
+)
+@FIRST_SEED.option(default=0, show_default=True, help="Of the random starts.")
+@CAPTURE.option(default=1e-6, show_default=True)
+@click.option(
+    "--remedies/--no-remedies",
+    default=False,
+    help="Try what else the evader could do.",
+)
+@json_option
+@writes_files
+def circle(
+    game: Game,
+    sample_time: float,
+    delay: float,
+    sweep: str | None,
+    figure: str | None,
+    starts: int,
+    seed: int,
+    body: float,
+    remedies: bool,
+    as_json: bool,
+) -> None:
+    """Find the circles that a game ends on, and how firmly they hold."""
+    if remedies and starts == 0:
+        raise click.UsageError("--remedies needs --starts > 0")
+    games = _tell(game, starts, remedies=remedies)
+    result = describe_circle(game, sample_time, delay)
+    drawn = (starts, seed, body)
+    with show_progress("circle", games, "games", quiet=as_json) as bar:
+        result |= describe_circles(game, *drawn, bar.update)
+        if remedies:
+            found = describe_remedies(game, *drawn, bar.update)
+            result["remedies"] = found
+    if figure is not None:
+        from ..report.unicycle_ratios import draw_ratios
+
+        if attempt(lambda: draw_ratios(game, figure)):
+            result["figure"] = figure
+    if sweep is not None:
+        from ..report.unicycle_sweep import draw_sweep
+
+        if attempt(lambda: draw_sweep(game, sweep)):
+            result["sweep"] = sweep
+    if as_json:
+        print_json(result)
+        return
+    print_circles(result)
+
+
+def _tell(game: Game, starts: int, *, remedies: bool) -> int:
+    """Say how long playing takes; how many games it is.
+
+    The game as it is is one remedy more.
+    """
+    from ..theory.unicycle.basins import lengths_of
+    from ..theory.unicycle.remedies import alternatives
+
+    played = [game, *(alternatives(game).values() if remedies else ())]
+    steps = 0.0
+    for each in played if starts else ():
+        duration, step = lengths_of(each)
+        steps += starts * duration / step
+    games = starts * len(played)
+    tell_effort(f"{games} games", steps / STEPS)
+    return games
+
+
+def describe_circle(
+    game: Game, sample_time: float = 0.0, delay: float = 0.0
+) -> dict[str, Any]:
+    """Give the circle of a game as plain values, None where undefined."""
+    from ..theory.unicycle.circle_equations import circle_of
+
+    found = circle_of(game)
+    names = (
+        "radius_pursuer_m",
+        "radius_evader_m",
+        "distance_m",
+        "turning_rate_rad_s",
+        "headings_apart_rad",
+        "motions_apart_rad",
+        "pursuer_error_rad",
+        "evader_error_rad",
+        "time_constant_s",
+    )
+    result: dict[str, Any] = {"exists": found.exists}
+    result["radius_m"] = finite(found.radius_pursuer_m)
+    result |= {name: finite(getattr(found, name)) for name in names}
+    result["eigenvalues_per_s"] = _pairs(found.eigenvalues)
+    result["stable"] = found.stable if found.exists else None
+    result["sliding"] = found.sliding
+    result["sample_time_s"], result["delay_s"] = sample_time, delay
+    if found.exists:
+        result |= _describe_sampling(game, found.sliding, sample_time, delay)
+    result["game"] = describe_game(game)
+    return result
+
+
+def _describe_sampling(
+    game: Game, sliding: bool, sample_time: float, delay: float
+) -> dict[str, Any]:
+    """Stability under sampling and delay; empty where it is not defined.
+
+    The eigenvalues named per second then stay those without sampling.
+    """
+    from ..theory.unicycle import sampled_stability as sampled
+
+    if sliding:  # it chatters about the circle: no linearisation
+        asked = sample_time > 0.0 or delay > 0.0
+        return {"stable": None, "time_constant_s": None} if asked else {}
+    result: dict[str, Any] = {
+        "largest_stable_sample_time_s": finite(
+            sampled.largest_stable_sample_time(game, delay)
+        ),
+        "largest_stable_delay_s": _largest_delay(game, sample_time),
+    }
+    if sample_time > 0.0:
+        from math import log
+
+        values = sampled.step_eigenvalues(game, sample_time, delay)
+        size = abs(values[0])
+        result["step_eigenvalues"] = _pairs(values)
+        result["stable"] = size < 1.0
+        settle = -sample_time / log(size) if 0.0 < size < 1.0 else None
+        result["time_constant_s"] = settle
+    elif delay > 0.0:
+        values = sampled.delayed_eigenvalues(game, delay)
+        rate = values[0].real
+        result["delayed_eigenvalues_per_s"] = _pairs(values)
+        result["stable"] = rate < 0.0
+        result["time_constant_s"] = -1.0 / rate if rate < 0.0 else None
+    return result
+
+
+def _largest_delay(game: Game, sample_time: float) -> float | None:
+    """Delay that is still stable; None if sampling is too fine to find it."""
+    from ..core.errors import PlanError
+    from ..theory.unicycle.sampled_stability import largest_stable_delay
+
+    try:
+        return finite(largest_stable_delay(game, sample_time))
+    except PlanError:
+        return None
+
+
+def _pairs(values: tuple[complex, ...]) -> list[list[float]]:
+    return [[value.real, value.imag] for value in values]

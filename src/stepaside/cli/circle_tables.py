@@ -1,0 +1,170 @@
+"""All circles of a game as plain values and as tables."""
+
+from collections.abc import Callable
+from typing import Any
+
+from ..theory.unicycle.circle_equations import Circle
+from ..theory.unicycle.unicycle_game import Game
+from .terminal import echo
+from .unicycle_options import finite
+from .value_labels import rows_of, text_of
+from .value_types import print_table
+
+Progress = Callable[[int], None]
+
+
+def describe_circles(
+    game: Game,
+    starts: int,
+    seed: int,
+    body: float,
+    progress: Progress | None = None,
+) -> dict[str, Any]:
+    """List every circle of a game and the share of starts that end on it.
+
+    Args:
+        game: Parameters of the game.
+        starts: Number of random starts that are played; 0 for none.
+        seed: Of the random starts.
+        body: Distance that counts as capture, in [m].
+        progress: Called with numbers of games done.
+
+    Returns:
+        Values for JSON; shares are None where nothing is played.
+    """
+    from ..theory.unicycle.all_circles import circles_of
+    from ..theory.unicycle.basins import find_basins, random_starts
+
+    if starts == 0:
+        found = [describe_one(c, None) for c in circles_of(game)]
+        return {"circles": found, "starts": None}
+    drawn = random_starts(game, starts, seed=seed)
+    basins = find_basins(game, drawn, capture_distance=body, progress=progress)
+    pairs = zip(basins.circles, basins.shares, strict=True)
+    return {
+        "circles": [describe_one(circle, share) for circle, share in pairs],
+        "starts": {
+            "number": starts,
+            "seed": seed,
+            "nearest_m": float(drawn[:, 0].min()),
+            "farthest_m": float(drawn[:, 0].max()),
+            "duration_s": basins.duration,
+            "body_m": body,
+            "captured_share": basins.captured,
+            "unsettled_share": basins.unsettled,
+            "mean_closest_distance_m": basins.closest_distance,
+        },
+    }
+
+
+def describe_one(circle: Circle, share: float | None) -> dict[str, Any]:
+    """Give one of the circles as plain values."""
+    return {
+        "exists": circle.exists,
+        "direction": circle.direction,
+        "side_rule": "behind" if circle.behind else "latched",
+        "distance_m": circle.distance_m,
+        "radius_pursuer_m": circle.radius_pursuer_m,
+        "radius_evader_m": circle.radius_evader_m,
+        "turning_rate_rad_s": circle.turning_rate_rad_s,
+        "headings_apart_rad": circle.headings_apart_rad,
+        "motions_apart_rad": circle.motions_apart_rad,
+        "pursuer_error_rad": circle.pursuer_error_rad,
+        "evader_error_rad": circle.evader_error_rad,
+        "bearing_rad": circle.bearing_rad,
+        "sliding": circle.sliding,
+        "stable": circle.stable,
+        "time_constant_s": finite(circle.time_constant_s),
+        "eigenvalues_per_s": [[v.real, v.imag] for v in circle.eigenvalues],
+        "share": share,
+    }
+
+
+def describe_remedies(
+    game: Game,
+    starts: int,
+    seed: int,
+    body: float,
+    progress: Progress | None = None,
+) -> list[dict[str, Any]]:
+    """Say what else an evader could do, and what comes of it."""
+    from ..theory.unicycle.basins import random_starts
+    from ..theory.unicycle.remedies import try_remedies
+
+    drawn = random_starts(game, starts, seed=seed)
+    return [
+        {
+            "name": remedy.name,
+            "reversed_share": remedy.reversed_share,
+            "captured_share": remedy.basins.captured,
+            "unsettled_share": remedy.basins.unsettled,
+            "mean_closest_distance_m": remedy.basins.closest_distance,
+            "end_distance_m": finite(remedy.end_distance_m),
+        }
+        for remedy in try_remedies(
+            game, drawn, capture_distance=body, progress=progress
+        )
+    ]
+
+
+_COLUMNS = {
+    "direction": "way round",
+    "side_rule": "side rule",
+    "distance_m": "distance",
+    "radius_evader_m": "evader's radius",
+    "stable": "stable",
+    "time_constant_s": "time constant",
+    "starts_share": "starts that end on it",
+}
+_REMEDIES = {
+    "name": "remedy",
+    "reversed_share": "reversed",
+    "captured_share": "captured",
+    "mean_closest_distance_m": "mean closest approach",
+    "end_distance_m": "least distance at the end",
+}
+_WAYS = {1: "main", -1: "reversed"}
+
+
+def print_circles(result: dict[str, Any]) -> None:
+    """Print what ``stepaside circle`` found as tables."""
+    lists = ("circles", "remedies", "game", "starts")
+    if result["exists"]:
+        print_table(rows_of(result, (k for k in result if k not in lists)))
+    else:
+        others = bool(result["circles"])
+        end = "" if others else "."
+        echo(f"There is no circle for these speeds, gains and angle{end}")
+        if others:
+            echo("that turns the main way round.")
+    found = [
+        circle
+        | {
+            "direction": _WAYS.get(circle["direction"]),
+            "starts_share": circle["share"],
+        }
+        for circle in result["circles"]
+    ]
+    _print_rows(found, _COLUMNS)
+    if result["starts"] is not None:
+        _print_ends(result["starts"])
+    _print_rows(result.get("remedies", []), _REMEDIES)
+
+
+def _print_ends(starts: dict[str, Any]) -> None:
+    """Print the shares of starts that ended on none of the circles."""
+    echo("\n  starts that ended on no circle")
+    print_table(rows_of(starts, ("captured_share", "unsettled_share")))
+
+
+def _print_rows(rows: list[dict[str, Any]], columns: dict[str, str]) -> None:
+    """Print rows under their headings."""
+    if not rows:
+        return
+    cells = [[text_of(name, row[name]) for name in columns] for row in rows]
+    table = [list(columns.values()), *cells]
+    widths = [max(len(line[i]) for line in table) for i in range(len(columns))]
+    echo()
+    for line in table:
+        pairs = zip(line, widths, strict=True)
+        echo("  " + "  ".join(f"{c:<{w}}" for c, w in pairs).rstrip())

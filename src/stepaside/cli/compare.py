@@ -1,0 +1,120 @@
+"""``stepaside compare``: several runs on one figure."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from ..core.atomic_output import FIGURES, free_file
+from ..report.text_escaping import visible
+from .options.common_options import FILE, figure_width, json_option
+from .output_files import OutputFile, attempt, writes_files
+from .terminal import echo
+from .value_types import print_json
+
+if TYPE_CHECKING:
+    from ..games.run import Run
+
+DEFAULT = Path("comparison.png")
+# Of each game what is printed: head, figure, and how it is written.
+COLUMNS = {
+    "duel": (
+        ("distance", "distance_m", "{:.3f} m"),
+        ("angle", "relative_orientation_deg", "{:.1f}\u00b0"),
+        ("closest", "min_distance_m", "{:.3f} m"),
+        ("since", "converged_at_s", "{:.1f} s"),
+    ),
+    "play": (
+        ("distance", "distance_m", "{:.3f} m"),
+        ("radius", "radius_m", "{:.3f} m"),
+        ("closest", "closest_m", "{:.3f} m"),
+        ("walked", "walking_s", "{:.1f} s"),
+    ),
+    "walk": (
+        ("speed", "speed_m_s", "{:.4f} m/s"),
+        ("planned", "speed_ratio", "x {:.3f}"),
+        ("turned", "yaw_ratio", "x {:.3f}"),
+        ("tilt", "tilt_max_deg", "{:.1f}\u00b0"),
+    ),
+}
+
+
+@click.command("compare")
+@click.argument(
+    "runs",
+    nargs=-1,
+    required=True,
+    type=click.Path(exists=True, file_okay=False, path_type=Path),
+)
+@FILE.option(
+    type=OutputFile(*FIGURES),
+    help="Figure to write; comparison.png by default, or comparison-2.png "
+    "and so on if there is one.",
+)
+@figure_width
+@json_option
+@writes_files
+def compare(runs: tuple[Path, ...], output: str | None, as_json: bool) -> None:
+    """Draw the paths of several RUNs, and what they did over time.
+
+    Of duels distance and angle, of walks tilt and speed, of what players
+    kept at a robot the distance at which they saw the other.
+    """
+    from ..games.run_archive import load_run
+
+    loaded = [load_run(folder) for folder in runs]
+    games = sorted({run.game for run in loaded})
+    if len(games) > 1:
+        raise click.UsageError(
+            f"runs to compare must be of one game, got {' and '.join(games)}"
+        )
+    file = free_file(DEFAULT) if output is None else Path(output)
+    drawn = attempt(lambda: _draw(loaded, file))
+    if as_json:
+        print_json(
+            {
+                "figure": str(file) if drawn else None,
+                "runs": {
+                    str(f): r.summary.to_json()
+                    for f, r in zip(runs, loaded, strict=True)
+                },
+            }
+        )
+        return
+    _print(loaded)
+    if drawn:
+        echo(f"\nfigure: {file}")
+
+
+def _draw(runs: "list[Run]", file: Path) -> None:
+    from ..games.play_run import PlayRun
+
+    if len(runs) == 1 and isinstance(runs[0], PlayRun):
+        from ..report.play_figure import draw_play
+
+        draw_play(runs[0], file)
+    elif runs[0].pair is None and not isinstance(runs[0], PlayRun):
+        from ..report.walks_figure import draw_walks
+
+        draw_walks(runs, file)
+    else:
+        from ..report.compare_figure import draw_comparison
+
+        draw_comparison(runs, file)
+
+
+def _print(runs: "list[Run]") -> None:
+    """One line for each run, with what can be compared."""
+    columns = COLUMNS[runs[0].game]
+    line = "{:<28} {:<11} {:>11} {:>8} {:>9} {:>8}"
+    echo(line.format("run", "outcome", *(head for head, _, _ in columns)))
+    for run in runs:
+        cells = (
+            _number(getattr(run.summary, name), text)
+            for _, name, text in columns
+        )
+        echo(line.format(visible(run.name), run.summary.outcome, *cells))
+
+
+def _number(value: float | None, text: str) -> str:
+    return "-" if value is None else text.format(value)

@@ -1,0 +1,201 @@
+"""``stepaside duel``: two humanoids chase each other in physics."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..core.constants import CAPTURE_DISTANCE
+from .duel_options import duel_options
+from .effort_estimate import SIMULATED, tell_effort
+from .options.common_options import FIGURE, FOLDER, figure_width, json_option
+from .options.settings_command import SettingsCommand
+from .output_files import attempt, writes_files
+from .progress import show_progress
+from .run_output import keep
+from .terminal import echo
+from .value_types import print_json, print_table
+
+if TYPE_CHECKING:
+    from ..games.duel_run import DuelRun
+    from ..games.duel_settings import DuelSettings
+
+
+@click.command("duel", cls=SettingsCommand)
+@duel_options()
+@FOLDER.option(
+    help="Run folder; a new one in runs/ by default, none with --json."
+)
+@FIGURE.option(help="Write the figure here, too (.png, .svg or .pdf).")
+@figure_width
+@json_option
+@writes_files
+def duel(
+    settings: "DuelSettings",
+    output: Path | None,
+    figure: str | None,
+    as_json: bool,
+) -> None:
+    """Let two humanoids chase each other until they walk the circle.
+
+    Prints the figures of the last third of the duel beside theory's, and
+    writes a run folder with the configuration that repeats it, the
+    trajectories and a figure.
+    """
+    from ..games.outcome import Outcome
+    from ..report.run_folder import check_output, figure_of, free_folder
+    from ..report.settling_report import settling_words
+
+    if output is None and not as_json:
+        output = free_folder(Path("runs"), f"duel-seed{settings.seed}")
+    if output is not None:
+        check_output(output)
+    seconds = settings.duration
+    tell_effort(f"a duel of {seconds:g} s", seconds / SIMULATED)
+    _say_what_is_expected(settings)
+    run, kept = keep(output, _play(settings))
+    if figure is not None and run.outcome is not Outcome.INTERRUPTED:
+        from ..report.duel_figure import draw_duel
+
+        attempt(lambda: draw_duel(run, Path(figure)))
+    summary = run.summary.to_json()
+    if as_json:
+        print_json(summary)
+    else:
+        _print(summary, settling_words(run))
+        kept.tell(figure_of(run))
+    kept.check()
+    kept.leave_if(run.outcome)
+
+
+def _say_what_is_expected(settings: "DuelSettings") -> None:
+    """Say before a duel of two robots if it is not to end on a circle."""
+    from ..games.forecast import Expected, forecast
+    from ..games.initial_poses import with_start
+
+    told = forecast(with_start(settings))
+    if told and told.expected in (Expected.CONTACT, Expected.NO_CIRCLE):
+        echo(f"stepaside: expected is {told.words}", err=True)
+
+
+def _play(settings: "DuelSettings") -> "DuelRun":
+    """Play with a progress bar on standard error."""
+    from ..games.duel import run_duel
+    from ..games.match import Progress
+
+    look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated{postfix}"
+    total = settings.duration
+    with show_progress("duel", total, "s simulated", form=look) as bar:
+
+        def report(progress: Progress) -> None:
+            bar.n = progress.time
+            bar.set_postfix_str(
+                f"distance {progress.distance:.2f} m, "
+                f"{progress.real_time_factor:.1f}x real time"
+            )
+
+        result = run_duel(settings, report)
+        bar.n = min(result.duration, settings.duration)
+        bar.refresh()
+    return result
+
+
+def _print(summary: dict[str, Any], unsettled: str = "not reached") -> None:
+    theory, converged = summary["theory"], summary["converged_at_s"]
+
+    def beside(value: float | None, wanted: float | None, unit: str) -> str:
+        text = "-" if value is None else f"{value:.3f} {unit}"
+        return text if wanted is None else f"{text:<12} theory {wanted:.3f}"
+
+    def settled(value: float | None, wanted: float | None, unit: str) -> str:
+        """A value of the circle, which the robots may not have reached."""
+        text = beside(value, wanted, unit)
+        reached = wanted is None or converged is not None
+        return text if reached else f"{text}, not converged"
+
+    plans = summary["plan_time_us"]
+    start = summary["start"]
+    rows = [
+        ("outcome", f"{summary['outcome']}: {summary['message']}"),
+        ("start distance", f"{start['distance_m']:.3f} m"),
+        ("expected", theory["words"] or "-"),
+        (
+            "pursuer radius",
+            settled(
+                summary["pursuer"]["radius_m"],
+                theory["pursuer_radius_m"],
+                "m",
+            ),
+        ),
+        (
+            "evader radius",
+            settled(summary["evader"]["radius_m"], theory["radius_m"], "m"),
+        ),
+        (
+            "distance",
+            settled(summary["distance_m"], theory["distance_m"], "m"),
+        ),
+        (
+            "between headings",
+            settled(
+                summary["relative_orientation_deg"],
+                theory["relative_orientation_deg"],
+                "deg",
+            ),
+        ),
+        (
+            "closest approach",
+            beside(
+                summary["min_distance_m"], theory["closest_approach_m"], "m"
+            ),
+        ),
+        ("captured", _captured(summary["captured_at_s"])),
+        (
+            "on the circle",
+            unsettled if converged is None else f"since {converged:.1f} s",
+        ),
+        ("maneuvers planned", str(summary["replans"])),
+        (
+            "planning time",
+            "-"
+            if plans["median"] is None
+            else f"{plans['median']:.0f} us median, {plans['p99']:.0f} us p99",
+        ),
+        ("speed", f"{summary['real_time_factor']:.1f} x real time"),
+    ]
+    rows += [("note", note) for note in summary.get("notes", ())]
+    if "camera" in summary:
+        rows += _sight_rows(summary)
+    print_table(rows)
+
+
+def _captured(at: float | None) -> str:
+    """When the distance first was at most the capture distance."""
+    when = "no" if at is None else f"at {at:.1f} s"
+    return f"{when:<12} nearer than {CAPTURE_DISTANCE:.2f} m"
+
+
+def _sight_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
+    """How well the robots saw."""
+    rows = [("camera", summary["camera"])]
+    for name in ("pursuer", "evader"):
+        error = summary[name].get("bearing_error_deg")
+        # A person tells nobody what it sees.
+        if error is not None and error["median"] is not None:
+            text = f"{error['median']:.2f} deg median, {error['p95']:.2f} p95"
+            rows.append((f"{name}'s bearing error", text))
+    away = summary["evader"]["distance_error_m"]["median"]
+    if away is not None:
+        rows.append(("evader's distance error", f"{away:.3f} m median"))
+    triggered = summary["triggered_at_distance_m"]
+    rate = summary["detection_rate"]
+    rows += [
+        (
+            "triggered at",
+            "never" if triggered is None else f"{triggered:.3f} m",
+        ),
+        ("detection rate", "-" if rate is None else f"{100.0 * rate:.1f} %"),
+        ("false detections", str(summary["false_detections"])),
+        ("lost", f"{summary['lost_s']:.1f} s"),
+    ]
+    return rows

@@ -1,0 +1,92 @@
+"""Somebody who passes, as people write it."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from math import isfinite
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..value_types import ANGLE
+from .declaration import Declaration
+from .push_type import NOBODY
+
+if TYPE_CHECKING:
+    from ...sim.passer_settings import Passer
+
+PASSER = re.compile(
+    r"^(?P<speed>[^@]+)@(?P<distance>[^:]+):(?P<bearing>[^:]+)"
+    r"(?::(?P<miss>.+))?$"
+)
+
+
+class PasserType(click.ParamType["Passer | None"]):
+    """Who passes: ``0.8@3:90deg:1.5``, or ``none`` for nobody.
+
+    That is somebody at 0.8 m/s, 3 m away to the left at first, who aims
+    1.5 m beside the evader.
+    """
+
+    name = "SPEED@DISTANCE:BEARING[:MISS]"
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> "Passer | None":
+        """Parse one who passes."""
+        from ...core.errors import StepAsideError
+        from ...sim.passer_settings import Passer
+
+        if value == NOBODY:
+            return None
+        parts = PASSER.match(str(value))
+        if parts is None:
+            self.fail(
+                "must be SPEED@DISTANCE:BEARING[:MISS] [m/s, m, angle, m] "
+                f"like 0.8@3:90deg:1.5, got {value!r}",
+                param,
+                ctx,
+            )
+        numbers = {}
+        for name, unit in (("speed", "m/s"), ("distance", "m"), ("miss", "m")):
+            if parts[name] is None:
+                continue
+            try:
+                numbers[name] = float(parts[name])
+            except ValueError:
+                numbers[name] = float("nan")
+            if not isfinite(numbers[name]):
+                self.fail(
+                    f"{name} must be a finite number [{unit}], "
+                    f"got {parts[name]!r}",
+                    param,
+                    ctx,
+                )
+        bearing = ANGLE.convert(parts["bearing"], param, ctx)
+        try:
+            passer = Passer(numbers["speed"], numbers["distance"], bearing)
+            if "miss" in numbers:
+                return replace(passer, miss=numbers["miss"])
+            return passer
+        except StepAsideError as error:
+            self.fail(str(error), param, ctx)
+
+
+def all_passers(given: "Sequence[Passer | None]") -> "tuple[Passer, ...]":
+    """Passers of all options together, of which some may say ``none``."""
+    return tuple(passer for passer in given if passer is not None)
+
+
+PASSERS = Declaration(
+    "--passer",
+    "Let somebody else pass, any number of times: 0.8@3:90deg:1.5 walks "
+    "0.8 m/s, is 3 m away to the left at first, and aims 1.5 m beside the "
+    "evader; none takes those of the configuration away.",
+    "passers",
+    kind=PasserType(),
+    gather=all_passers,
+    extra={"multiple": True},
+)

@@ -1,0 +1,134 @@
+"""``stepaside reproduce``: every claim of the paper, measured."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import click
+
+from ..core.atomic_output import check_folder, writing
+from ..core.errors import OutputError
+from .campaign_reports import tell_aside
+from .effort_estimate import tell_effort
+from .interruption import kept_in, leave_stopped
+from .options.common_options import FIRST_SEED, FOLDER, WORKERS, json_option
+from .progress import show_progress
+from .terminal import echo
+from .value_types import print_json
+
+
+@click.command("reproduce")
+@FIRST_SEED.option(
+    default=1,
+    show_default=True,
+    help="Of the first duel; the others follow it.",
+)
+@click.option(
+    "--runs",
+    type=click.IntRange(1, 1_000),
+    default=10,
+    show_default=True,
+    help="Runs of each claim that is measured in physics.",
+)
+@WORKERS.option()
+@FOLDER.option(
+    default=Path("runs/reproduce"),
+    show_default=True,
+    help="Folder of the page; what it holds already and what still has the "
+    "same code, settings and libraries is not measured again.",
+)
+@json_option
+def reproduce(
+    seed: int, runs: int, workers: int | None, output: Path, as_json: bool
+) -> None:
+    """Measure every claim of the paper and write a page about it.
+
+    Takes some minutes. When stopped, it keeps what is done and goes on there
+    next time. The exit status is 1 if a claim fails, else 0.
+    """
+    check_folder(output, new=False)
+    tell_effort(
+        f"every claim of the paper, {runs} runs of those in physics",
+        60.0 + 120.0 * runs,
+        workers,
+    )
+    lost: list[OutputError] = []
+    seeds = range(seed, seed + runs)
+    rows = _measure(output / "rows", seeds, workers, lost)
+    page: Path | None = None
+    try:
+        if not lost:
+            page = _write_all(output, seed, runs, rows)
+    except KeyboardInterrupt:
+        leave_stopped(kept_in("all runs, and figures that are whole,", output))
+    except OutputError as error:
+        lost.append(error)
+    _tell(rows, page, as_json)
+    for failed in lost:
+        raise failed
+    if any(row["verdict"] != "holds" for row in rows):
+        raise SystemExit(1)
+
+
+def _write_all(
+    output: Path, seed: int, runs: int, rows: list[dict[str, Any]]
+) -> Path:
+    """Write figures, results and the page about them."""
+    from ..report.claims_page import write_page
+    from ..studies.claim_campaign import provenance
+    from ..studies.paper_figures import paper_figures
+    from .reproduce_figures import draw_figures, turns_shown
+
+    figures = draw_figures(output, seed)
+    made = {"seed": seed, "runs": runs, "jobs": provenance(seed)}
+    with writing(output / "claims.json") as draft:
+        text = json.dumps(made | {"rows": rows}, indent=1, allow_nan=False)
+        draft.write_text(text + "\n", encoding="utf-8")
+    beside = paper_figures(rows, *turns_shown())
+    return write_page(output, rows, beside, figures, made)
+
+
+def _tell(
+    rows: list[dict[str, Any]], page: Path | None, as_json: bool
+) -> None:
+    """Print what was measured, and where the page is if there is one."""
+    if as_json:
+        print_json(rows)
+        return
+    for row in rows:
+        echo(f"  {row['verdict']:<6} {row['section']:<13} {row['claim']}")
+    held = sum(row["verdict"] == "holds" for row in rows)
+    echo(f"\n{held} of {len(rows)} hold")
+    if page is not None:
+        echo(f"page: {page}")
+
+
+def _measure(
+    folder: Path,
+    seeds: range,
+    workers: int | None,
+    lost: list[OutputError],
+) -> list[dict[str, Any]]:
+    """Measure on all cores, with a progress bar.
+
+    One worker is a process, too: a duel that Ctrl-C cuts short in this one
+    would be kept as though it were whole.
+    """
+    from ..core.worker_pool import worker_pool
+    from ..studies.claim_campaign import reproduce as measure
+
+    with (
+        show_progress("claims", unit="runs") as bar,
+        worker_pool(workers) as executor,
+    ):
+
+        def report(number: int, total: int) -> None:
+            bar.total, bar.n = total, number
+            bar.refresh()
+
+        try:
+            return measure(
+                folder, seeds, executor, report, tell_aside, lost.append
+            )
+        except KeyboardInterrupt:
+            leave_stopped(kept_in(f"{bar.n} of {bar.total} runs", folder))

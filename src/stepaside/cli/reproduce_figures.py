@@ -1,0 +1,119 @@
+"""Figures of ``stepaside reproduce``, drawn again when their code changes."""
+
+from collections.abc import Callable
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+
+def draw_figures(
+    folder: Path, seed: int, *, duration: float = 120.0, marks: int = 7
+) -> list[tuple[str, str]]:
+    """Draw the manner of Fig. 2, the family of strategies and Fig. 5.
+
+    Args:
+        folder: Where they are drawn; those whose code, settings and
+            libraries are still the same are left as they are.
+        seed: Seed of the duel.
+        duration: Simulated time of the duel, in [s].
+        marks: Simulated games along each line of the family.
+
+    Returns:
+        Caption and file name of each.
+    """
+    from ..studies.code_version import code_version, library_versions
+    from ..studies.reading_store import Kept
+    from ..studies.unicycle_claims import FIG_2, START
+    from .campaign_reports import tell_aside
+
+    games = f"{FIG_2!r}; {START!r}"
+    figures: list[tuple[str, str, Callable[[Path], None], Any, Any]] = [
+        (
+            "fig2.png",
+            "Unicycles under (1)-(4), in the manner of Fig. 2",
+            _draw_game,
+            games,
+            ("studies/unicycle_claims", "report/unicycle_figures"),
+        ),
+        (
+            "sweep.png",
+            "The circle over angle and ratios: theory as lines, simulation "
+            "as marks",
+            lambda file: _draw_sweep(file, marks),
+            f"{games}; {marks} marks",
+            ("studies/unicycle_claims", "report/unicycle_sweep"),
+        ),
+        (
+            f"duel-seed{seed}.png",
+            "Two NAOs in physics, in the manner of Fig. 5",
+            lambda file: _draw_duel(file, seed, duration),
+            f"seed {seed}, {duration} s",
+            ("games/duel", "report/duel_figure"),
+        ),
+    ]
+    kept = Kept(folder / "rows", tell_aside)
+    for name, _, draw, settings, rooms in figures:
+        key = {
+            "figure": name,
+            "settings": settings,
+            "version": code_version(rooms),
+            "libraries": library_versions(("matplotlib", "mujoco", "numpy")),
+        }
+        stamp = f"figure-{name.removesuffix('.png')}"
+        found = key | {"picture": _fingerprint(folder / name)}
+        if kept.load(stamp, found, ()) is None:
+            draw(folder / name)
+            found["picture"] = _fingerprint(folder / name)
+            kept.store(stamp, found, {})
+    return [(caption, name) for name, caption, *_ in figures]
+
+
+def _fingerprint(file: Path) -> str | None:
+    """Of what a file holds; None if there is none."""
+    try:
+        return sha256(file.read_bytes()).hexdigest()[:12]
+    except OSError:
+        return None
+
+
+def turns_shown() -> tuple[float, float]:
+    """Turns that the pursuer has made at the end of our Fig. 2, and when.
+
+    Returns:
+        Number of turns, and the time of the last snapshot, in [s].
+    """
+    from math import tau
+
+    from ..report.unicycle_figures import time_shown
+    from ..studies.unicycle_claims import FIG_2, play
+
+    run = play(FIG_2)
+    end = time_shown(run)
+    pursuer, _ = run.poses([0.0, end])
+    return abs(float(pursuer[1, 2] - pursuer[0, 2])) / tau, end
+
+
+def _draw_game(file: Path) -> None:
+    from ..report.unicycle_figures import draw_game
+    from ..studies.unicycle_claims import FIG_2, play
+
+    draw_game(play(FIG_2), str(file))
+
+
+def _draw_sweep(file: Path, marks: int) -> None:
+    from ..report.unicycle_sweep import draw_sweep
+    from ..studies.unicycle_claims import FIG_2
+
+    draw_sweep(FIG_2, str(file), marks=marks)
+
+
+def _draw_duel(file: Path, seed: int, duration: float) -> None:
+    from ..games.duel import run_duel
+    from ..games.duel_settings import DuelSettings
+    from ..games.outcome import Outcome
+    from ..report.duel_figure import draw_duel
+
+    result = run_duel(DuelSettings(seed=seed, duration=duration))
+    if result.outcome is Outcome.INTERRUPTED:
+        raise KeyboardInterrupt  # half a duel is no figure
+    draw_duel(result, file)

@@ -1,0 +1,76 @@
+"""``stepaside robot check``: whether a robot plays."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from .options.common_options import FIGURE, WORKERS, json_option
+from .output_files import attempt, writes_files
+from .progress import show_progress
+from .terminal import echo
+from .value_types import print_json, print_table
+
+if TYPE_CHECKING:
+    from ..fitting.robot_verification import Checked
+    from ..robots.description import RobotDescription
+
+
+@click.command("check")
+@click.argument("folder")
+@WORKERS.option()
+@FIGURE.option(help="Picture of the robot as it stands, with its soles.")
+@json_option
+@writes_files
+def check(
+    folder: str, workers: int | None, figure: str | None, as_json: bool
+) -> None:
+    """Say whether the robot in FOLDER plays, and if not, why.
+
+    Looks at what it has, then lets it walk forward, backward and turning,
+    in open loop and with feedback. Ends with exit status 1 if it does not
+    play as it is described.
+    """
+    from ..robots.description import load_robot
+
+    description = load_robot(folder)
+    checked = _check(description, workers)
+    if figure is not None:
+        from ..report.robot_figure import draw_robot
+
+        attempt(lambda: draw_robot(description, Path(figure)))
+    if as_json:
+        print_json({"robot": description.name} | checked.to_json())
+    else:
+        _print(checked)
+    if not checked.passes:
+        raise SystemExit(1)
+
+
+def _check(description: "RobotDescription", workers: int | None) -> "Checked":
+    """Check with a progress bar on standard error."""
+    from ..core.worker_pool import worker_pool
+    from ..fitting.robot_verification import check_robot
+
+    with (
+        worker_pool(workers) as executor,
+        show_progress("check", unit="walks") as bar,
+    ):
+
+        def report(done: int, of: int) -> None:
+            bar.total, bar.n = of, done
+            bar.refresh()
+
+        return check_robot(description, executor, report)
+
+
+def _print(checked: "Checked") -> None:
+    print_table(
+        [(f.name, f"{f.verdict:<4}  {f.value}") for f in checked.findings]
+    )
+    hints = [f for f in checked.findings if f.hint]
+    if hints:
+        echo("")
+    for finding in hints:
+        echo(f"{finding.name}: {finding.hint}")
+    echo("\nit plays" if checked.passes else "\nit does not play yet")

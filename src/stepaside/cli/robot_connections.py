@@ -1,0 +1,203 @@
+"""Opening a robot that ``stepaside play`` is told of."""
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from .naoqi_options import mover_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from ..control import ControlScheme
+    from ..core.poses import Array
+    from ..drivers.joint.joint_body import LolaBody
+    from ..drivers.joint.joint_loop import Playing
+    from ..drivers.velocity.velocity_body import VelocityBody
+    from ..drivers.velocity.velocity_loop import VelocityPlaying
+    from ..games.duel_settings import DuelSettings
+    from ..strategies import Strategy
+
+LOLA, NAOQI, ROS2 = "lola:", "naoqi:", "ros2:"
+
+
+def strategy_of(settings: "DuelSettings", role: str) -> "Strategy":
+    """What a role plays."""
+    from ..strategies import load_strategy
+
+    names = {
+        "pursuer": settings.pursuer_strategy,
+        "evader": settings.evader_strategy,
+    }
+    return load_strategy(names[role], settings.strategy)
+
+
+def open_joints(
+    settings: "DuelSettings", options: dict[str, Any]
+) -> "Playing":
+    """Connect to a robot whose joints are moved."""
+    from ..drivers.joint.joint_body import LolaBody
+    from ..drivers.joint.joint_loop import Playing
+    from ..drivers.scheme_factory import mind_maker
+    from ..robots.description import load_robot
+    from .feedback_default import with_feedback
+
+    settings = with_feedback(settings)
+    role, dry_run = options["role"], options["dry_run"]
+    strategy = strategy_of(settings, role)
+    sees = settings.sensing == "cameras"
+    open_robot = _joints_of(settings, options, sees=sees)
+
+    def open_body(scheme: "ControlScheme") -> "LolaBody":
+        kinematics = scheme.kinematics
+        return open_robot(kinematics.joint_names, scheme.joint_targets)
+
+    make = mind_maker(
+        load_robot(options["description"]),
+        settings.gait,
+        settings.control,
+        tick=LolaBody.tick,
+        delay_ticks=options["delay_ticks"],
+        sees_as=role if sees else None,
+    )
+    return Playing(open_body, strategy, make, dry_run=dry_run)
+
+
+def _joints_of(
+    settings: "DuelSettings", options: dict[str, Any], *, sees: bool
+) -> "Callable[[Sequence[str], Array], LolaBody]":
+    """What opens the joints of a robot, given their names and its stance."""
+    from functools import partial
+
+    from ..drivers.joint.session_options import Handling
+    from .camera_connections import open_cameras
+
+    robot = options["robot"]
+    asked: dict[str, Any] = {
+        "dry_run": options["dry_run"],
+        "guarded": True,
+        "patience": options["wait"],
+    }
+    if robot.startswith(NAOQI):
+        from ..drivers.naoqi.joint_connection import open_joints as open_naoqi
+        from ..drivers.naoqi.naoqi_url import parse_url
+
+        url = parse_url(robot)
+        own = options | {"images": options["images"] or f"{NAOQI}{url}"}
+        eyes = partial(open_cameras, settings, None, own) if sees else None
+        how = Handling(**asked, open_eyes=eyes)
+        return partial(open_naoqi, url, how=how)
+    from ..drivers.lola.lola_address import parse_address
+    from ..drivers.lola.lola_connection import open_lola
+
+    address = parse_address(robot)
+    eyes = partial(open_cameras, settings, address, options) if sees else None
+    how = Handling(**asked, open_eyes=eyes)
+    return partial(open_lola, address, how=how)
+
+
+def open_velocity(
+    settings: "DuelSettings", options: dict[str, Any]
+) -> "VelocityPlaying":
+    """Connect to a robot that walks by itself."""
+    from math import inf
+
+    from ..drivers.velocity.template_controller import TemplateMind
+    from ..drivers.velocity.velocity_limits import VelocityLimits
+    from ..drivers.velocity.velocity_loop import VelocityPlaying
+    from ..drivers.velocity.watchdog import WatchSettings
+
+    strategy = strategy_of(settings, options["role"])
+    speed = options["max_speed"] or inf
+    limits = VelocityLimits(speed, speed, options["max_turn"] or inf)
+    watch = WatchSettings(paced=not options["sim_time"])
+    return VelocityPlaying(
+        _guarded(settings, options),
+        lambda: TemplateMind(strategy, settings.gait),
+        limits,
+        watch,
+        dry_run=options["dry_run"],
+    )
+
+
+def _guarded(
+    settings: "DuelSettings", options: dict[str, Any]
+) -> "VelocityBody":
+    """A robot, with a guardian where one can be needed."""
+    from ..drivers.guardian_process import open_within
+    from ..drivers.velocity.velocity_guardian import GuardedBody, guardian_of
+
+    open_once, join = _line_to(settings, options)
+
+    def open_body() -> "VelocityBody":
+        return open_within(open_once, options["wait"])
+
+    if options["dry_run"] or options["sim_time"]:
+        return open_body()
+    # Forked here: what speaks to the robot starts threads.
+    guardian = guardian_of(join)
+    try:
+        return GuardedBody(open_body(), guardian)
+    except BaseException:
+        guardian.dismiss()
+        raise
+
+
+def _line_to(
+    settings: "DuelSettings",
+    options: dict[str, Any],
+) -> "tuple[Callable[[], VelocityBody], Callable[[], Callable[[], None]]]":
+    """What opens a robot, and what joins it to make it rest."""
+    robot, dry_run = options["robot"], options["dry_run"]
+    sees = settings.sensing == "cameras"
+    if sees and not robot.startswith(NAOQI):
+        raise click.UsageError(
+            "--sensing cameras is for robots on LoLA or NAOqi, whose head "
+            "follows the other; who is driven over topics is told of it"
+        )
+    if robot.startswith(ROS2):
+        from ..drivers.ros2.namespaces import parse_namespace
+
+        namespace = parse_namespace(robot)
+        domain, beyond = options["domain"], options["network"]
+
+        def open_ros2() -> "VelocityBody":
+            from ..drivers.ros2.ros2_body import Ros2Body
+            from .ros2_hints import join_domain
+
+            dds = join_domain(options)
+            return Ros2Body(dds, namespace, dry_run=dry_run)
+
+        def join_ros2() -> "Callable[[], None]":
+            from ..drivers.ros2.dds_domain import Dds
+            from ..drivers.ros2.ros2_body import rester_of
+
+            return rester_of(Dds(domain, beyond=beyond), namespace)
+
+        return open_ros2, join_ros2
+    if robot.startswith(NAOQI):
+        from ..drivers.naoqi.naoqi_url import parse_url
+
+        url = parse_url(robot)
+
+        def open_naoqi() -> "VelocityBody":
+            if sees:
+                from .camera_connections import open_looking
+
+                return open_looking(settings, url, options)
+            from ..drivers.naoqi.naoqi_body import NaoqiBody
+
+            return NaoqiBody(
+                url, dry_run=dry_run, make_mover=mover_of(settings, options)
+            )
+
+        def join_naoqi() -> "Callable[[], None]":
+            from ..drivers.naoqi.naoqi_body import stopper_of
+
+            return stopper_of(url)
+
+        return open_naoqi, join_naoqi
+    raise click.BadParameter(
+        f"must begin with {LOLA}, {NAOQI} or {ROS2}, got {robot!r}",
+        param_hint="--robot",
+    )

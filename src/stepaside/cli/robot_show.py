@@ -1,0 +1,70 @@
+"""``stepaside robot show``: show a robot, or write its model."""
+
+from pathlib import Path
+
+import click
+
+from ..core.atomic_output import writing
+from .options.common_options import FILE, json_option
+from .output_files import writes_files
+from .terminal import echo
+from .value_labels import rows_of
+from .value_types import print_json, print_table
+
+
+@click.command("show")
+@click.argument("name", default="nao")
+@click.option(
+    "--mjcf/--no-mjcf",
+    default=False,
+    help="Write the MuJoCo model and nothing else.",
+)
+@FILE.option(help="File for the model; standard output by default.")
+@click.option(
+    "--compile/--no-compile",
+    "stores",
+    default=False,
+    help="Write its kinematic tree beside its description: with it, the "
+    "robot is controlled where MuJoCo is not installed.",
+)
+@json_option
+@writes_files
+def show(
+    name: str, mjcf: bool, output: str | None, stores: bool, as_json: bool
+) -> None:
+    """Show the robot NAME, or write its model for MuJoCo's own viewer.
+
+    NAME is a robot that comes with the package (nao), or a folder with a
+    robot.toml and a model.
+    """
+    from ..robots.description import load_robot
+
+    description = load_robot(name)
+    if mjcf or output is not None:
+        text = description.mjcf()
+        if output is None:
+            echo(text)
+        else:
+            with writing(Path(output)) as draft:
+                draft.write_text(text, encoding="utf-8")
+            echo(f"wrote {output}", err=True)
+        return
+    if stores:
+        from ..robots.tree_cache import store_tree
+
+        echo(f"wrote {store_tree(description)}", err=True)
+        return
+    model = description.compile()
+    facts = {
+        "name": description.name,
+        "mass_kg": round(float(model.body_subtreemass[0]), 6),
+        "links": int(model.nbody - 1),
+        "hinges": int(model.njnt - 1),
+        "motors": int(model.nu),
+        "coupled": description.coupled_joints(model),
+        "folder": str(description.folder),
+    }
+    if as_json:
+        print_json(facts)
+    else:
+        print_table(rows_of(facts, facts))

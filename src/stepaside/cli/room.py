@@ -1,0 +1,98 @@
+"""``stepaside room``: make a room by seed, or look at one."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from .options.arena_options import BOXES, DISCS, POLYGONS, SIZE
+from .options.common_options import FIGURE, FILE, FIRST_SEED, json_option
+from .options.room_options import DOOR_WIDTH, DOORS, LARGEST, SMALLEST
+from .options.value_kinds import OutputFile
+from .output_files import attempt, writes_files
+from .value_labels import rows_of
+from .value_types import print_json, print_table
+
+
+@click.command("room")
+@click.argument(
+    "file",
+    required=False,
+    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+)
+@FIRST_SEED.option(default=1, show_default=True)
+@SIZE.option(default="3x3", show_default=True)
+@DISCS.option(default=0, show_default=True)
+@BOXES.option(default=0, show_default=True)
+@POLYGONS.option(default=0, show_default=True)
+@DOORS.option(default=0, show_default=True)
+@SMALLEST.option(default=0.1, show_default=True)
+@LARGEST.option(default=0.25, show_default=True)
+@DOOR_WIDTH.option(default=0.6, show_default=True)
+@FILE.option(
+    type=OutputFile(".toml", ".json"), help="Write the room (.toml or .json)."
+)
+@FIGURE.option()
+@json_option
+@writes_files
+def room(
+    file: Path | None,
+    seed: int,
+    size: tuple[float, float] | None,
+    output: str | None,
+    figure: str | None,
+    as_json: bool,
+    **recipe: Any,
+) -> None:
+    """Make the room of a seed with starts in it, or look at that of FILE."""
+    from ..arena import RoomRecipe, check_starts, load_room, make_room
+    from ..arena.room_metrics import measure_room
+
+    if file is None:
+        width, depth = size or (None, None)
+        made = make_room(RoomRecipe(width, depth, **recipe), seed)
+    else:
+        _refuse_both()
+        made = load_room(file)
+        if made.starts is not None:
+            check_starts(made, made.starts)
+    result = measure_room(made)
+    if output is not None and attempt(lambda: _write(made, Path(output))):
+        result["output"] = output
+    if figure is not None:
+        from ..report.room_figure import draw_room
+
+        if attempt(lambda: draw_room(made, figure)):
+            result["figure"] = figure
+    if as_json:
+        print_json(result)
+        return
+    names = (n for n, v in result.items() if not isinstance(v, dict | list))
+    print_table(rows_of(result, names, 4))
+
+
+def _refuse_both() -> None:
+    """Refuse a file beside options that would make a room."""
+    context = click.get_current_context()
+    for param in context.command.params:
+        own = param.name in ("file", "output", "figure", "as_json")
+        source = context.get_parameter_source(param.name or "")
+        if not own and source is click.core.ParameterSource.COMMANDLINE:
+            raise click.UsageError(
+                f"{param.opts[0]} makes a room, so it must not stand beside "
+                "a file"
+            )
+
+
+def _write(made: Any, file: Path) -> None:
+    """Write a room in the format that the name of the file tells."""
+    import json
+
+    from ..arena import room_entries, room_text
+    from ..core.atomic_output import writing
+
+    text = room_text(made)
+    if file.suffix.lower() == ".json":
+        text = json.dumps(room_entries(made), allow_nan=False) + "\n"
+    with writing(file) as draft:
+        draft.write_text(text, encoding="utf-8")

@@ -1,0 +1,132 @@
+"""Options that say which game of unicycles is played."""
+
+from collections.abc import Callable
+from functools import wraps
+from math import pi
+from typing import Any
+
+import click
+
+from ..theory.unicycle.unicycle_game import (
+    Game,
+    SideRule,
+    TurningLaw,
+    make_game,
+)
+from .options.declaration import Declaration
+from .options.value_kinds import NameType
+from .value_types import NumberType
+
+STRATEGIES = {"move-aside": pi / 2, "move-back": 0.0}
+
+
+def _number(name: str, help_text: str, unit: str) -> Declaration:
+    return Declaration(name, help_text, unit=unit, kind=NumberType(unit))
+
+
+_OPTIONS = [
+    _number("--speed", "Speed of both", "m/s").option(
+        default=1.0, show_default=True
+    ),
+    _number("--gain", "Steering gain of both", "1/s").option(
+        default=0.5, show_default=True
+    ),
+    _number("--pursuer-speed", "Instead of --speed", "m/s").option(),
+    _number("--evader-speed", "Instead of --speed", "m/s").option(),
+    _number("--pursuer-gain", "Instead of --gain", "1/s").option(),
+    _number("--evader-gain", "Instead of --gain", "1/s").option(),
+    Declaration(
+        "--angle",
+        "Evasion angle {unit}, like 1.2, 1.2rad or 70deg. [default: 90deg]",
+        unit="rad",
+    ).option(),
+    Declaration(
+        "--strategy",
+        "Evasion angle by name: 90deg or 0.",
+        kind=NameType(lambda: tuple(STRATEGIES)),
+    ).option(),
+    Declaration(
+        "--law",
+        "Turning law of the evader: eq. (4) or eq. (6).",
+        kind=NameType(lambda: [law.value for law in TurningLaw]),
+    ).option(default=TurningLaw.PROPORTIONAL.value, show_default=True),
+    Declaration(
+        "--side-rule",
+        "Side behind the evader at every instant, or kept.",
+        kind=NameType(lambda: [rule.value for rule in SideRule]),
+    ).option(default=SideRule.BEHIND.value, show_default=True),
+    Declaration(
+        "--hysteresis",
+        "Angle {unit} beyond its axis at which the evader changes side.",
+        unit="rad",
+        more_names=("--side-hysteresis", "hysteresis"),
+    ).option(default=0.0, show_default=True),
+]
+
+
+def game_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options to a command; it gets the game as ``game``."""
+
+    @wraps(function)
+    def command(**values: Any) -> Any:
+        game = _take_game(values)
+        return function(game=game, **values)
+
+    taken: Callable[..., Any] = command
+    for option in reversed(_OPTIONS):
+        taken = option(taken)
+    return taken
+
+
+def _take_game(values: dict[str, Any]) -> Game:
+    """Take the game's options out of a command's values."""
+    speed, gain = values.pop("speed"), values.pop("gain")
+    angle, strategy = values.pop("angle"), values.pop("strategy")
+    if angle is not None and strategy is not None:
+        raise click.UsageError("give --angle or --strategy, not both")
+    if angle is None:
+        angle = STRATEGIES[strategy or "move-aside"]
+    if not 0.0 <= angle <= pi:
+        raise click.BadParameter(
+            f"must lie in [0, pi] [rad], got {angle}", param_hint="--angle"
+        )
+    hysteresis = values.pop("hysteresis")
+    largest = min(angle, pi - angle)
+    if not 0.0 <= hysteresis <= largest:
+        raise click.BadParameter(
+            f"must lie in [0, {largest:g}] [rad], got {hysteresis}",
+            param_hint="--hysteresis",
+        )
+    return make_game(
+        _first(values.pop("pursuer_speed"), speed),
+        _first(values.pop("evader_speed"), speed),
+        _first(values.pop("pursuer_gain"), gain),
+        _first(values.pop("evader_gain"), gain),
+        angle,
+        values.pop("law"),
+        side_rule=values.pop("side_rule"),
+        hysteresis=hysteresis,
+    )
+
+
+def _first(value: float | None, otherwise: float) -> float:
+    return otherwise if value is None else value
+
+
+def describe_game(game: Game) -> dict[str, float | str]:
+    """Parameters of a game, for JSON."""
+    return {
+        "pursuer_speed_m_s": game.pursuer.speed,
+        "evader_speed_m_s": game.evader.speed,
+        "pursuer_gain_per_s": game.pursuer.gain,
+        "evader_gain_per_s": game.evader.gain,
+        "angle_rad": game.angle,
+        "law": game.law.value,
+        "side_rule": game.side_rule.value,
+        "hysteresis_rad": game.hysteresis,
+    }
+
+
+def finite(value: float) -> float | None:
+    """A number for JSON: None where there is none."""
+    return value if abs(value) < float("inf") else None

@@ -1,0 +1,272 @@
+"""``stepaside unicycles``: one game, as a table, a figure and JSON."""
+
+from dataclasses import asdict
+from typing import Any
+
+import click
+
+from ..theory.unicycle.unicycle_game import Game
+from .circle import describe_circle
+from .effort_estimate import DECISIONS, HELD, SETTLED, tell_effort
+from .options.common_options import (
+    DELAY,
+    FIGURE,
+    GAME_TIME,
+    SAMPLE_TIME,
+    figure_width,
+    json_option,
+)
+from .options.strategy_type import PURSUER_STRATEGY, UNICYCLE_STRATEGY
+from .output_files import attempt, writes_files
+from .unicycle_options import describe_game, finite, game_options
+from .unicycle_strategies import check_used, play_named, print_named
+from .value_labels import label_of, rows_of, text_of
+from .value_types import ANGLE, METERS, print_json, print_table
+
+SHORT = 0.01  # time between decisions that are not held, in [s]
+
+
+@click.command("unicycles")
+@game_options
+@click.option(
+    "--distance", type=METERS, help="At the start, in [m]. [default: 2.5 v/k]"
+)
+@click.option(
+    "--aim",
+    type=ANGLE,
+    default=0.2,
+    show_default=True,
+    help="Bearing [rad] of the evader seen by the pursuer at the start.",
+)
+@click.option(
+    "--bearing",
+    type=ANGLE,
+    default=-0.1,
+    show_default=True,
+    help="Bearing [rad] of the pursuer seen by the evader at the start.",
+)
+@GAME_TIME.option(
+    help="Length {unit} of the game. [default: until it has settled]"
+)
+@SAMPLE_TIME.option(default=0.0, show_default=True)
+@DELAY.option(default=0.0, show_default=True)
+@click.option(
+    "--capture-distance",
+    type=METERS,
+    default=1e-6,
+    show_default=True,
+    help="Distance at which the game ends, in [m].",
+)
+@UNICYCLE_STRATEGY.option(default=None)
+@PURSUER_STRATEGY.option(default=None)
+@FIGURE.option()
+@figure_width
+@json_option
+@writes_files
+def unicycles(
+    game: Game,
+    distance: float | None,
+    aim: float,
+    bearing: float,
+    duration: float | None,
+    sample_time: float,
+    delay: float,
+    capture_distance: float,
+    evader_strategy: str | None,
+    pursuer_strategy: str | None,
+    figure: str | None,
+    as_json: bool,
+) -> None:
+    """Play one game of two unicycles until it has settled."""
+    from ..theory.unicycle.circle_fit import settling_time
+    from ..theory.unicycle.relative_coordinates import Start
+
+    if distance is None:
+        distance = 2.5 * game.evader.speed / game.evader.gain
+    if duration is None:
+        duration = settling_time(game)
+    if delay > 0.0 and sample_time == 0.0:
+        raise click.UsageError("--delay needs --sample-time > 0 [s] here")
+    named = bool(evader_strategy or pursuer_strategy)
+    _tell(game, duration, sample_time, named=named)
+    start = Start(distance, aim, bearing)
+    result: dict[str, Any] = {
+        "start": asdict(start),
+        "capture_distance_m": capture_distance,
+        "sample_time_s": sample_time,
+        "delay_s": delay,
+        "game": describe_game(game),
+    }
+    if named:
+        if figure is not None or delay > 0.0:
+            raise click.UsageError(
+                "--figure and --delay are for games of the paper"
+            )
+        names = (pursuer_strategy or "pursuit", evader_strategy or "evasion")
+        check_used(names)
+        result |= play_named(
+            game,
+            start,
+            names,
+            (duration, sample_time or SHORT),
+            capture_distance,
+        )
+        print_json(result) if as_json else print_named(result)
+        return
+    if sample_time > 0.0:
+        if figure is not None:
+            raise click.UsageError("--figure draws games without sampling")
+        times = (duration, sample_time, delay)
+        result |= _play_sampled(game, start, times, capture_distance)
+    else:
+        result |= _play(game, start, duration, capture_distance, figure)
+    theory = describe_circle(game)
+    result["theory"] = {
+        name: theory[name] for name in ("exists", *_NAMES, "time_constant_s")
+    }
+    result["certified"] = _certify(game, start)
+    if as_json:
+        print_json(result)
+    else:
+        _print(result)
+
+
+_NAMES = (
+    "radius_m",
+    "radius_pursuer_m",
+    "radius_evader_m",
+    "distance_m",
+    "turning_rate_rad_s",
+    "headings_apart_rad",
+    "motions_apart_rad",
+)
+
+
+def _tell(
+    game: Game, duration: float, sample_time: float, *, named: bool
+) -> None:
+    """Say how long the game takes."""
+    gain = max(game.pursuer.gain, game.evader.gain)
+    seconds = duration * gain / SETTLED
+    if named:
+        seconds = duration / (sample_time or SHORT) / DECISIONS
+    elif sample_time > 0.0:
+        seconds = duration / sample_time / HELD
+    tell_effort(f"a game of {duration:g} s", seconds)
+
+
+def _play(
+    game: Game, start: Any, duration: float, capture: float, figure: str | None
+) -> dict[str, Any]:
+    """Play by the adaptive integrator and measure the paths."""
+    from ..theory.unicycle.adaptive_simulation import simulate
+    from ..theory.unicycle.circle_fit import measure
+
+    run = simulate(game, start, duration, capture_distance=capture)
+    result: dict[str, Any] = {
+        "captured": run.captured,
+        "end_time_s": run.end_time,
+        "closest_distance_m": run.closest_distance,
+        "closest_time_s": run.closest_time,
+        "switch_times_s": list(run.switches),
+    }
+    if not run.captured:
+        found = {k: finite(v) for k, v in asdict(measure(run)).items()}
+        result |= {"radius_m": found["radius_pursuer_m"]} | found
+        result["turning_rate_rad_s"] = abs(found["turning_rate_rad_s"] or 0.0)
+        last = run.states([run.end_time])[0, :3]
+        result["circle"] = _ended_on(game, last, run.sides[-1])
+    if figure is not None:
+        from ..report.unicycle_figures import draw_game
+
+        if attempt(lambda: draw_game(run, figure)):
+            result["figure"] = figure
+    return result
+
+
+def _certify(game: Game, start: Any) -> dict[str, Any] | None:
+    """What is proved of the closest approach; None outside its reach."""
+    from ..core.errors import PlanError
+    from ..theory.unicycle.certificate import certify
+
+    try:
+        found = certify(game, start)
+    except PlanError:  # unequal players, the saturated law or moving back
+        return None
+    return {"holds": found.holds, "distance_m": found.distance_m}
+
+
+def _ended_on(game: Game, state: Any, side: int) -> dict[str, Any] | None:
+    """Give the circle that a state is on; None for none."""
+    from ..theory.unicycle.all_circles import circles_of
+    from ..theory.unicycle.circle_fit import circle_at
+
+    circle = circle_at(circles_of(game), state, side)
+    if circle is None:
+        return None
+    return {
+        "direction": circle.direction,
+        "distance_m": circle.distance_m,
+        "stable": circle.stable,
+    }
+
+
+def _play_sampled(
+    game: Game, start: Any, times: tuple[float, float, float], capture: float
+) -> dict[str, Any]:
+    """Play with held turning rates; the circle from the last rates."""
+    from math import pi
+
+    from ..core.poses import wrap_angle
+    from ..theory.unicycle.sampled_game import simulate_sampled
+
+    duration, period, delay = times
+    run = simulate_sampled(
+        game,
+        start,
+        duration,
+        period,
+        delay=delay,
+        capture_distance=capture,
+    )
+    result: dict[str, Any] = {
+        "captured": run.captured,
+        "end_time_s": float(run.times[-1]),
+        "closest_distance_m": run.closest_distance,
+    }
+    if run.captured or not len(run.turning_rates):
+        return result
+    turn_p, turn_e = abs(run.turning_rates[-1]).tolist()
+    heading = float(run.pursuer[-1, 2] - run.evader[-1, 2])
+    return result | {
+        "radius_m": finite(game.pursuer.speed / max(turn_p, 1e-300)),
+        "radius_pursuer_m": finite(game.pursuer.speed / max(turn_p, 1e-300)),
+        "radius_evader_m": finite(game.evader.speed / max(turn_e, 1e-300)),
+        "distance_m": float(run.states[-1, 0]),
+        "turning_rate_rad_s": turn_p,
+        "headings_apart_rad": abs(wrap_angle(heading)),
+        "motions_apart_rad": abs(wrap_angle(heading + pi)),
+    }
+
+
+def _print(result: dict[str, Any]) -> None:
+    """Print measured values beside the closed form."""
+    theory = result["theory"]
+    rows = [("", "simulated        closed form")]
+    for name in _NAMES[1:]:
+        cells = [result.get(name), theory[name]]
+        texts = [text_of(name, cell) for cell in cells]
+        rows.append((label_of(name), f"{texts[0]:<16} {texts[1]}"))
+    circle = result.get("circle")
+    if circle is not None:
+        way = "main" if circle["direction"] > 0 else "reversed"
+        rows.append(("ended on", f"the {way} circle"))
+    certified = result["certified"]
+    if certified is not None and certified["holds"]:
+        text = f"{certified['distance_m']:.6g} m at least"
+        rows.append(("certified distance", text))
+    ends = ("captured", "end_time_s", "closest_distance_m")
+    rows += rows_of(result, ends)
+    if "figure" in result:
+        rows.append(("figure", result["figure"]))
+    print_table(rows)

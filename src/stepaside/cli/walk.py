@@ -1,0 +1,128 @@
+"""``stepaside walk``: one humanoid walks, and somebody pushes it."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from .effort_estimate import SIMULATED, tell_effort
+from .options.body_options import BODY, CONTROL, PHYSICS
+from .options.common_options import FIGURE, FOLDER, json_option
+from .options.gait_options import GAIT, WALK
+from .options.game_options import RUN
+from .options.settings_command import SettingsCommand, takes_settings
+from .output_files import attempt, writes_files
+from .progress import show_progress
+from .run_output import check_kept, keep
+from .value_types import print_json, print_table
+
+if TYPE_CHECKING:
+    from ..games.walk_run import WalkRun
+    from ..games.walk_settings import WalkSettings
+
+
+def _walk_settings() -> "type[WalkSettings]":
+    from ..games.walk_settings import WalkSettings
+
+    return WalkSettings
+
+
+@click.command("walk", cls=SettingsCommand)
+@takes_settings(_walk_settings, RUN, WALK, GAIT, BODY, CONTROL, PHYSICS)
+@FOLDER.option(help="Run folder; nothing is kept by default.")
+@FIGURE.option()
+@json_option
+@writes_files
+def walk(
+    settings: "WalkSettings",
+    output: Path | None,
+    figure: str | None,
+    as_json: bool,
+) -> None:
+    """Let one humanoid walk, and say how well it does.
+
+    Speed, turning, slip, tracking and estimation are those after the first
+    three seconds, in the frame of the support foot. A run folder can be
+    replayed, as that of a duel.
+    """
+    from ..games.outcome import Outcome
+
+    check_kept(output)
+    seconds = settings.duration
+    tell_effort(f"a walk of {seconds:g} s", seconds / SIMULATED)
+    run, kept = keep(output, _walk(settings))
+    if figure is not None and run.outcome is not Outcome.INTERRUPTED:
+        from ..report.walk_figure import draw_walk
+
+        attempt(lambda: draw_walk(run, Path(figure)))
+    summary = run.summary.to_json()
+    if as_json:
+        print_json(summary)
+    else:
+        _print(summary)
+        kept.tell(f"{run.game}.png")
+    kept.check()
+    kept.leave_if(run.outcome)
+
+
+def _walk(settings: "WalkSettings") -> "WalkRun":
+    """Walk with a progress bar on standard error."""
+    from ..games.walk_game import run_walk
+
+    look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated"
+    total = settings.duration
+    with show_progress("walk", total, "s simulated", form=look) as bar:
+
+        def report(time: float) -> None:
+            bar.n = time
+            bar.refresh()
+
+        result = run_walk(settings, report)
+        bar.n = result.duration
+    return result
+
+
+def _print(summary: dict[str, Any]) -> None:
+    def number(value: float | None, text: str, scale: float = 1.0) -> str:
+        return "-" if value is None else text.format(scale * value)
+
+    def rms(group: str, name: str, text: str, scale: float) -> str:
+        error = summary[group][name]
+        return "-" if error is None else text.format(scale * error["rms"])
+
+    print_table(
+        [
+            (
+                "outcome",
+                f"{summary['outcome']} after {summary['duration_s']:.2f} s",
+            ),
+            (
+                "steps",
+                f"{summary['steps']}, {summary['adapted_steps']} moved by "
+                "feedback",
+            ),
+            ("speed", number(summary["speed_m_s"], "{:.4f} m/s")),
+            ("speed / planned", number(summary["speed_ratio"], "{:.3f}")),
+            ("turning / planned", number(summary["yaw_ratio"], "{:.3f}")),
+            (
+                "slip per step",
+                number(summary["slip_per_step_m"], "{:.2f} mm", 1e3),
+            ),
+            (
+                "CoM error",
+                rms("tracking", "com_x_m", "{:.2f}", 1e3)
+                + rms("tracking", "com_y_m", " / {:.2f} mm rms", 1e3),
+            ),
+            (
+                "estimation error",
+                rms("estimation", "com_x_m", "{:.2f}", 1e3)
+                + rms("estimation", "com_y_m", " / {:.2f} mm rms", 1e3),
+            ),
+            ("greatest tilt", number(summary["tilt_max_deg"], "{:.2f} deg")),
+            (
+                "ZMP margin",
+                number(summary["min_zmp_margin_m"], "{:.1f} mm", 1e3),
+            ),
+            ("time", f"{summary['real_time_factor']:.1f} x real time"),
+        ]
+    )

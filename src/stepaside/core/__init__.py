@@ -1,0 +1,1 @@
+"""Values and checks that every package uses: errors, ranges, poses, output files."""

@@ -1,0 +1,1 @@
+"""Robots that are driven by their joints, whatever protocol they speak."""

@@ -1,0 +1,161 @@
+"""A listening socket with at most one client."""
+
+import errno
+import logging
+import os
+import socket
+import stat
+from contextlib import suppress
+from tempfile import TemporaryDirectory
+
+from ...core.errors import ConfigurationError
+from ..lola.lola_address import EARLY, Address
+
+log = logging.getLogger(__name__)
+
+
+class Listener:
+    """Accepts one client at a time; a second one is refused.
+
+    Attributes:
+        client: The one that is connected, if there is one.
+        accepted: Clients so far.
+        refused: Clients that came while there was one.
+    """
+
+    def __init__(self, address: Address) -> None:
+        """Listen.
+
+        A socket that nobody listens on any more is replaced.
+
+        Raises:
+            ConfigurationError: If the address cannot be listened on.
+        """
+        self.address = address
+        self.client: socket.socket | None = None
+        self.accepted = self.refused = 0
+        self._socket = address.open()
+        self._inode: tuple[int, int] | None = None
+        try:
+            if address.path:
+                _remove_stale(address)
+                self._listen_at(address.path)
+            else:
+                self._socket.setsockopt(
+                    socket.SOL_SOCKET, socket.SO_REUSEADDR, 1
+                )
+                self._socket.bind(address.target)
+                self._socket.listen()
+        except OSError as error:
+            self._socket.close()
+            raise ConfigurationError(
+                f"cannot listen at {address}: {error}"
+            ) from error
+        self._socket.setblocking(False)
+
+    def _listen_at(self, path: str) -> None:
+        """Listen at a path; once it is there somebody listens."""
+        # In a folder of our own, so that no other file is in the way. Unlike
+        # a renamed file, a linked one replaces nothing.
+        with TemporaryDirectory(
+            prefix=".", dir=os.path.dirname(path) or "."
+        ) as own:
+            early = os.path.join(own, EARLY)
+            self._socket.bind(early)
+            self._socket.listen()
+            self._inode = _inode(early)
+            os.link(early, path)
+
+    def accept(self) -> bool:
+        """Take whoever has come; whether that is a new client."""
+        is_new = False
+        while True:
+            try:
+                arrived, _ = self._socket.accept()
+            except (BlockingIOError, InterruptedError, ConnectionError):
+                return is_new
+            if self.client is not None:
+                self.refused += 1
+                log.warning("%s: a second client is refused", self.address)
+                arrived.close()
+                continue
+            arrived.setblocking(False)
+            if not self.address.path:
+                arrived.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            self.client = arrived
+            self.accepted += 1
+            is_new = True
+
+    def receive(self, limit: int) -> bytes:
+        """Bytes of the client that have arrived, without waiting.
+
+        Raises:
+            ConnectionError: If it has gone.
+        """
+        if self.client is None:
+            return b""
+        try:
+            data = self.client.recv(limit)
+        except (BlockingIOError, InterruptedError):
+            return b""
+        if not data:
+            raise ConnectionResetError("closed by the client")
+        return data
+
+    def send(self, data: bytes) -> None:
+        """Send to the client at once and whole, if there is one.
+
+        Raises:
+            ConnectionError: If it has gone or does not read.
+        """
+        if self.client is None:
+            return
+        try:
+            sent = self.client.send(data)
+        except BlockingIOError as error:
+            raise ConnectionAbortedError("it does not read") from error
+        if sent != len(data):
+            raise ConnectionAbortedError("it does not read")
+
+    def drop(self, why: object) -> None:
+        """Let go of the client, if there is one, and say why."""
+        if self.client is not None:
+            log.warning("%s: client dropped: %s", self.address, why)
+            self.client.close()
+            self.client = None
+
+    def close(self) -> None:
+        """Let go of everybody and take the socket away."""
+        if self.client is not None:
+            self.client.close()
+            self.client = None
+        self._socket.close()
+        path = self.address.path
+        with suppress(OSError):
+            if path and _inode(path) == self._inode:
+                os.unlink(path)
+
+
+def _inode(path: str) -> tuple[int, int]:
+    found = os.lstat(path)
+    return found.st_dev, found.st_ino
+
+
+def _remove_stale(address: Address) -> None:
+    """Remove a socket that is left over; refuse one that is in use."""
+    path = address.path
+    try:
+        if not stat.S_ISSOCK(os.lstat(path).st_mode):
+            raise OSError(errno.EEXIST, "there is a file of that name")
+    except FileNotFoundError:
+        return
+    with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:
+        probe.setblocking(False)
+        try:
+            probe.connect(path)
+        except BlockingIOError:
+            pass  # somebody listens, and is busy
+        except ConnectionRefusedError:
+            os.unlink(path)
+            return
+    raise OSError(errno.EADDRINUSE, "somebody listens there")

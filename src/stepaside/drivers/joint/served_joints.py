@@ -1,0 +1,120 @@
+"""The joints of a simulated robot, in the hands of a client."""
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+
+from ...core.poses import Array
+from ...perception.attitude import AttitudeFilter
+from ...perception.measurement import Measurement
+from ..lola.conventions import sensor_frame_of
+from .frame_clock import TICK
+from .frames import ActuatorFrame, SensorFrame
+from .joint_map import JOINT_COUNT, LEGS, JointMap
+
+SILENT = 8  # ticks without an answer before stiffness decays: 0.1 s
+BELIEF = 0.5  # rate at which the accelerometer is believed, in [1/s]
+FADING = 0.5  # from full stiffness to none, in [s]
+SETTLED = 40  # ticks after which stiffness that stayed will grow no more
+
+
+class ServedRobot(Protocol):
+    """A robot that LoLA can be spoken for."""
+
+    def sensors(self) -> Measurement:
+        """What its sensors give now."""
+
+    def command(self, targets: Array, stiffness: Array) -> None:
+        """Set joint targets, in [rad], and shares of the torque."""
+
+
+class ServedJoints:
+    """What a client's commands make of the joints, tick by tick.
+
+    A tick is :meth:`sense`, then :meth:`take` for what is commanded, then
+    :meth:`act`. Only who commands stiffness keeps the robot stiff.
+
+    Attributes:
+        measurement: What the sensors gave last.
+        share: What is left of the commanded stiffness without commands.
+        stiffness: Of the motors now. Shape (25,).
+    """
+
+    def __init__(self, robot: ServedRobot, joint_names: Sequence[str]) -> None:
+        """Begin limp.
+
+        Args:
+            robot: Whose joints they are.
+            joint_names: Its joints, in the order of its measurements.
+
+        Raises:
+            ModelError: If LoLA has no motor for one of the joints.
+        """
+        self._robot, self._joints = robot, JointMap(joint_names)
+        self._attitude = AttitudeFilter(BELIEF, 0.0, calibration=0.0)
+        self._silent = 0
+        self._unchanged = 0
+        self.share = 0.0
+        self._commanded: Array = np.zeros(JOINT_COUNT)
+        self.stiffness: Array = np.zeros(JOINT_COUNT)
+        self.targets: Array = np.zeros(JOINT_COUNT)
+        self._has_targets = False
+
+    @property
+    def stiff(self) -> bool:
+        """Whether the legs are held as stiff as their client wants them."""
+        least = float(self.stiffness[LEGS].min())
+        return least > 0.99 or (least > 0.0 and self._unchanged >= SETTLED)
+
+    def sense(self) -> Measurement:
+        """Read the sensors."""
+        self.measurement = self._robot.sensors()
+        own, seen = self._attitude, self.measurement
+        own.update(seen.gyro, seen.accelerometer, (0.0, 0.0), TICK)
+        if not self._has_targets:
+            self.targets = self._joints.to_lola(
+                seen.joint_positions, np.zeros(JOINT_COUNT)
+            )
+        return seen
+
+    def frame(
+        self, count: int, *, chest_pressed: bool, lock_step: bool
+    ) -> SensorFrame:
+        """What the robot says of what was sensed last.
+
+        Args:
+            count: Number of the frame.
+            chest_pressed: Whether somebody presses the chest button.
+            lock_step: Whether its world waits for answers.
+        """
+        own = self._attitude
+        return sensor_frame_of(
+            self.measurement,
+            self._joints,
+            angles=(own.roll, own.pitch),
+            stiffness=self.stiffness,
+            count=count,
+            chest_pressed=chest_pressed,
+            lock_step=lock_step,
+        )
+
+    def take(self, frame: ActuatorFrame) -> None:
+        """Take what a client commands."""
+        if frame.position is not None:
+            self.targets, self._has_targets = frame.position, True
+        if frame.stiffness is not None:
+            self._commanded = frame.stiffness
+            self._silent, self.share = 0, 1.0
+
+    def act(self) -> None:
+        """Let the robot do what was asked, as stiff as it may be."""
+        if self._silent >= SILENT:
+            self.share = max(0.0, self.share - TICK / FADING)
+        self._silent += 1
+        stiffness = self.share * self._commanded
+        stays = np.array_equal(stiffness, self.stiffness)
+        self._unchanged = self._unchanged + 1 if stays else 0
+        self.stiffness = stiffness
+        pick = self._joints.from_lola
+        self._robot.command(pick(self.targets), pick(self.stiffness))

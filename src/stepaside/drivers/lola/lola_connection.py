@@ -1,0 +1,93 @@
+"""Connecting to a robot that speaks LoLA."""
+
+import logging
+from collections.abc import Sequence
+from contextlib import ExitStack
+from functools import partial
+
+from ...core.poses import Array
+from ..guardian_process import SessionLost, open_within
+from ..joint.joint_body import LolaBody
+from ..joint.link import SocketLink, connect
+from ..joint.session_options import PLAIN, Handling
+from ..joint.stiffness_guardian import StiffnessGuardian, let_go
+from .lola_address import Address
+from .sight_channel import SightChannel
+from .sight_message import MESSAGE
+from .wire import SENSOR_BYTES
+
+log = logging.getLogger(__name__)
+
+
+def open_lola(
+    address: Address,
+    joint_names: Sequence[str],
+    stance: Array,
+    how: Handling = PLAIN,
+) -> LolaBody:
+    """Connect to a robot, and to the ideal line of sight if it offers one.
+
+    Args:
+        address: Where it listens.
+        joint_names: Actuated joints, in the order of joint targets.
+        stance: Posture in which control begins, in [rad].
+        how: What is asked of the session.
+
+    Raises:
+        SessionLost: If no robot listens there, or no camera.
+    """
+    sees = how.open_eyes is not None
+    with ExitStack() as stack:
+        sight, link = open_within(
+            lambda: _sight_and_link(address, sees=sees), how.patience
+        )
+        stack.callback(link.close)
+        if sight is not None:
+            stack.callback(sight.close)
+        if sight is not None:
+            log.warning("sees by the ideal line of sight of %s", address.sight)
+        elif address.sight is not None and not sees:
+            log.info("no ideal line of sight at %s", address.sight)
+        guardian = None
+        if how.guards:
+            guardian = StiffnessGuardian(partial(let_go, link.socket))
+            stack.callback(guardian.dismiss)
+        body = LolaBody(
+            link,
+            joint_names,
+            stance,
+            sight=sight,
+            eyes=how.eyes(),
+            guardian=guardian,
+            safety=how.safety,
+            dry_run=how.dry_run,
+        )
+        stack.pop_all()  # they are the body's now
+        return body
+
+
+def _sight_and_link(
+    address: Address, *, sees: bool
+) -> tuple[SightChannel | None, SocketLink]:
+    """Connect to what is beside the robot first, which it offers first."""
+    sight = None if sees else _ideal_sight(address)
+    try:
+        link = connect(address, SENSOR_BYTES)
+    except BaseException:
+        if sight is not None:
+            sight.close()
+        raise
+    if sight is None and not sees:
+        sight = _ideal_sight(address)  # it was offered since the first try
+    return sight, link
+
+
+def _ideal_sight(address: Address) -> SightChannel | None:
+    """The simulator's truth, where there is a simulator that offers it."""
+    beside = address.sight
+    if beside is None:
+        return None
+    try:
+        return SightChannel(connect(beside, MESSAGE.size))
+    except SessionLost:
+        return None

@@ -1,0 +1,205 @@
+"""What a robot must have before it walks, looked for one by one."""
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+from ..core.errors import StepAsideError
+from ..core.poses import Pose
+from ..games.robot_settings import settings_of
+from ..locomotion.zmp.reference_table import standing_reference
+from ..robots.description import REMEDY, RobotDescription
+from ..robots.forward_kinematics import ForwardKinematics
+from ..robots.leg_kinematics import LegKinematics
+from ..robots.tree_compiler import compile_tree
+from .gait_feasibility import torques_borne
+
+UNEVEN = 0.05  # difference of the legs' masses that is still a mirror's
+ASIDE = 0.05  # of the CoM from the middle, by its height, likewise
+CLOSE = 0.01  # least room to the greatest height in reach, by that height
+SPENT = 0.95  # share of a torque that a step needs and leaves nothing
+TICK = 0.004  # of the kinematics that stands, in [s]
+
+
+class Finding(NamedTuple):
+    """One thing that was looked at.
+
+    Attributes:
+        name: What.
+        verdict: "pass", "warn" or "fail".
+        value: What was found, in words.
+        hint: What to do about it; empty if it is right.
+    """
+
+    name: str
+    verdict: str
+    value: str
+    hint: str = ""
+
+
+def findings_of(description: RobotDescription) -> list[Finding]:
+    """Look at everything that can be seen while a robot stands still.
+
+    What cannot even be read ends the list, with a failure that says why.
+    """
+    found: list[Finding] = []
+    for name, look in LOOKS.items():
+        try:
+            found += look(description)
+        except StepAsideError as error:
+            found.append(Finding(name, "fail", str(error), HINTS[name]))
+            break
+    return found
+
+
+def _kinematics(description: RobotDescription) -> Iterator[Finding]:
+    tree = compile_tree(description)
+    description.check(tree.bodies, tree.sites, tree.joints, tree.motors)
+    yield Finding("free joint", "pass", f"at {description.torso}")
+    legs = len(description.legs)
+    yield Finding("joints", "pass", f"{len(tree.joints)}, {legs} of the legs")
+
+
+def _masses(description: RobotDescription) -> Iterator[Finding]:
+    model = description.compile()
+    total = float(model.body_mass.sum())
+    names = [model.body(b).name for b in range(model.nbody)]
+    empty = [
+        names[b]
+        for b in range(1, model.nbody)
+        if model.body_jntnum[b] and model.body_subtreemass[b] <= 0.0
+    ]
+    yield Finding(
+        "masses",
+        "fail" if empty else "pass",
+        f"{total:.2f} kg" + (f", none for {empty[0]}" if empty else ""),
+        "give links an inertial" if empty else "",
+    )
+    forward = ForwardKinematics(description)
+    angles = [
+        description.standing.get(name, 0.0) for name in forward.tree.motors
+    ]
+    posture = forward.posture(np.array(angles, dtype=np.float64))
+    aside = abs(float(posture.com[1] - posture.feet[:, 1].mean()))
+    high = float(posture.com[2] - posture.feet[:, 2].mean())
+    sides = posture.feet[0] + posture.feet[1] - 2.0 * posture.feet.mean(axis=0)
+    uneven = abs(float(posture.feet[0, 2] - posture.feet[1, 2])) / high
+    mirrored = aside < ASIDE * high and uneven < UNEVEN and not sides.any()
+    yield Finding(
+        "mirror symmetry",
+        "pass" if mirrored else "warn",
+        f"CoM {1e3 * aside:.1f} mm aside of the feet, which differ by "
+        f"{100.0 * uneven:.1f} % of its height",
+        "" if mirrored else "see standing: angles of both sides must mirror",
+    )
+
+
+def _sensors(description: RobotDescription) -> Iterator[Finding]:
+    model = description.compile()
+    names = {model.sensor(i).name for i in range(model.nsensor)}
+    own = description.sensors
+    wanted = (own.gyro, own.accelerometer, *own.feet)
+    missing = [name for name in wanted if name not in names]
+    yield Finding(
+        "sensors",
+        "fail" if missing else "pass",
+        f"no {', '.join(missing)}" if missing else "IMU, 4 under each foot",
+        f"name them in [sensors]; {REMEDY}" if missing else "",
+    )
+
+
+def _actuators(description: RobotDescription) -> Iterator[Finding]:
+    model = description.compile()
+    free = [n for n in description.legs if n in description.speed_limits]
+    by_joint = {
+        model.joint(model.actuator_trnid[i, 0]).name: i
+        for i in range(model.nu)
+    }
+    lacking = [name for name in free if name not in by_joint]
+    weak = [
+        name
+        for name, i in by_joint.items()
+        if model.actuator_forcerange[i, 1] <= 0.0
+    ]
+    soft = [
+        name
+        for name, i in by_joint.items()
+        if model.actuator_biastype[i] != mujoco.mjtBias.mjBIAS_AFFINE
+    ]
+    wrong = {
+        "no actuator for": lacking,
+        "no force range for": weak,
+        "no position servo for": soft,
+    }
+    said = [f"{why} {names[0]}" for why, names in wrong.items() if names]
+    yield Finding(
+        "actuators",
+        "fail" if said else "pass",
+        "; ".join(said) or f"{model.nu} servos with a force range",
+        REMEDY if said else "",
+    )
+
+
+def _reach(description: RobotDescription) -> Iterator[Finding]:
+    gait = settings_of(description).gait
+    half = 0.5 * gait.foot_spacing
+    feet = Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0)
+    stance = standing_reference(*feet, gait)
+    legs = LegKinematics(description, tick=TICK)
+    plain = legs.legs.is_plain
+    yield Finding(
+        "legs",
+        "pass" if plain else "warn",
+        "six hinges each" if plain else "not six hinges each",
+        "" if plain else "the slower solver is used; see docs/robots.md",
+    )
+    legs.stand(stance)
+    highest = legs.highest_com(stance)
+    room = highest - gait.com_height
+    near = room < CLOSE * highest
+    yield Finding(
+        "reach",
+        "warn" if near else "pass",
+        f"CoM at {gait.com_height:.3f} of {highest:.3f} m",
+        "lower gait.com_height: knees get straight" if near else "",
+    )
+
+
+def _strength(description: RobotDescription) -> Iterator[Finding]:
+    gait = settings_of(description).gait
+    model = description.compile()
+    torques = {
+        model.joint(model.actuator_trnid[i, 0]).name: float(high)
+        for i, high in enumerate(model.actuator_forcerange[:, 1])
+    }
+    borne = torques_borne(description, gait, torques)
+    share, joint = borne.usual, borne.joint
+    weak = share > SPENT
+    yield Finding(
+        "torque of a step",
+        "warn" if weak else "pass",
+        f"{100.0 * share:.0f} % of the limit of {joint}",
+        f"see the torque of {joint}: a step leaves nothing for errors"
+        if weak
+        else "",
+    )
+
+
+LOOKS: dict[str, Callable[[RobotDescription], Iterator[Finding]]] = {
+    "kinematics": _kinematics,
+    "masses": _masses,
+    "sensors": _sensors,
+    "actuators": _actuators,
+    "reach": _reach,
+    "torque": _strength,
+}
+HINTS = {
+    "kinematics": REMEDY,
+    "masses": "give links an inertial",
+    "sensors": REMEDY,
+    "actuators": REMEDY,
+    "torque": "see [overlay.servos]",
+    "reach": "change gait.com_height, foot_spacing or the standing angles",
+}

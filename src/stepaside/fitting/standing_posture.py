@@ -1,0 +1,156 @@
+"""How a stranger's robot stands: knees bent a little, arms hanging."""
+
+import mujoco
+import numpy as np
+
+from ..sim.geom_points import points_of
+from .leg_detection import LEVEL, MOVES, Leg
+from .model_analysis import Survey
+from .standing_angles import STRAIGHT, bend_of, straight_of
+
+ROOM = 0.02  # from the end of a joint's range, in [rad]
+LIFTED = 0.1  # of a leg's length: arms whose CoM is higher do not hang
+AWAY = 0.2  # that hanging arms stand off, in [rad]
+SPARE = 1.15  # on the reach that is measured
+
+
+def standing_of(found: Survey) -> dict[str, float]:
+    """Angles of a stance that are not zero, by joint, in [rad]."""
+    model = found.model
+    angles = {
+        name: _inside(model, name, bend)
+        for leg in found.legs
+        for name, bend in _bends(found, leg).items()
+    }
+    for name in _shoulders(found):
+        angle = _hanging(found, name, angles)
+        if angle != 0.0:
+            angles[name] = angle
+    for name in found.joints:  # zero may be out of a range
+        if name not in angles and _inside(model, name, 0.0) != 0.0:
+            angles[name] = _inside(model, name, 0.0)
+    return {name: round(angle, 3) for name, angle in angles.items()}
+
+
+def stiff_joints(found: Survey) -> list[str]:
+    """Pitch joints of the legs that cannot bend as standing asks."""
+    return [
+        name
+        for leg in found.legs
+        for name, bend in _bends(found, leg).items()
+        if _inside(found.model, name, bend) != bend
+    ]
+
+
+def _bends(found: Survey, leg: Leg) -> dict[str, float]:
+    """Angles of the pitch joints of a leg that stands, in [rad]."""
+    bends = bend_of(leg, _range_of(found, leg.pitches[1]))
+    return dict(zip(leg.pitches, bends, strict=True))
+
+
+def _range_of(found: Survey, name: str) -> tuple[float, float]:
+    """Range of a joint, a half turn each way if it has none, in [rad]."""
+    low, high = found.model.joint(name).range.tolist()
+    return (low, high) if low < high else (-np.pi, np.pi)
+
+
+def knee_limits(found: Survey, leg: Leg) -> tuple[float, float]:
+    """Range in which a knee does not get straight, in [rad]."""
+    name, sign = leg.pitches[1], leg.signs[1]
+    low, high = _range_of(found, name)
+    straight = straight_of(leg)
+    bends = sign * _bends(found, leg)[name] - straight
+    bent = sign * (straight + np.copysign(STRAIGHT, bends))
+    if sign * bends > 0.0:
+        low = max(low, bent)
+    else:
+        high = min(high, bent)
+    return round(low, 4), round(high, 4)
+
+
+def reach_of(
+    found: Survey, standing: dict[str, float], forward: float
+) -> float:
+    """Distance within which all of a standing robot lies, in [m].
+
+    Args:
+        found: The model.
+        standing: Angles of the stance, in [rad].
+        forward: Where the hips are ahead of the torso's origin, in [m].
+    """
+    model, data = found.model, mujoco.MjData(found.model)
+    data.qpos[:] = found.data.qpos
+    for name, angle in standing.items():
+        data.joint(name).qpos[0] = angle
+    mujoco.mj_kinematics(model, data)
+    middle = np.array([forward, 0.0])
+    farthest = 0.0
+    for geom in range(model.ngeom):
+        points = points_of(model, data, geom)
+        if len(points):
+            away = np.linalg.norm(points[:, :2] - middle, axis=1).max()
+            farthest = max(farthest, float(away))
+    for body in range(2, model.nbody):  # where geoms are missing
+        away = np.linalg.norm(data.xpos[body, :2] - middle)
+        farthest = max(farthest, float(away))
+    return round(SPARE * farthest, 3)
+
+
+def _inside(model: mujoco.MjModel, name: str, angle: float) -> float:
+    """An angle, or the nearest one in the range of a joint."""
+    joint = model.joint(name)
+    if not model.jnt_limited[joint.id]:
+        return angle
+    low, high = joint.range.tolist()
+    return float(min(max(angle, min(low + ROOM, 0.0)), max(high - ROOM, 0.0)))
+
+
+def _shoulders(found: Survey) -> list[str]:
+    """Joints that swing the arms out to the side, or to the front."""
+    model, data = found.model, found.data
+    legs = {name for leg in found.legs for name in leg.joints}
+    arms: dict[tuple[float, int], str] = {}  # those nearest to the torso
+    for j in range(model.njnt):
+        name, aside = model.joint(j).name, float(data.xanchor[j, 1])
+        axis = int(np.abs(data.xaxis[j]).argmax())
+        if (
+            model.jnt_type[j] in MOVES
+            and name not in legs
+            and axis < 2
+            and abs(data.xaxis[j, axis]) > LEVEL
+            and abs(aside) > 0.05 * found.length
+        ):
+            arms.setdefault((np.sign(aside), axis), name)
+    return list(arms.values())
+
+
+def _hanging(found: Survey, name: str, known: dict[str, float]) -> float:
+    """Angle at which what a shoulder carries hangs, a little off the body."""
+    model, data = found.model, mujoco.MjData(found.model)
+    joint = model.joint(name)
+    body = int(joint.bodyid[0])
+    data.qpos[:] = found.data.qpos
+    for other, angle in known.items():
+        data.joint(other).qpos[0] = angle
+    low, high = joint.range.tolist()
+    if not model.jnt_limited[joint.id]:
+        low, high = -np.pi / 2, np.pi / 2
+    angles = np.arange(low + ROOM, high - ROOM, 0.05)
+    heights = []
+    for angle in angles:
+        data.joint(name).qpos[0] = angle
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        heights.append(float(data.subtree_com[body, 2]))
+    if not heights:
+        return 0.0
+    best = float(angles[int(np.argmin(heights))])
+    zero = heights[int(np.abs(angles).argmin())]
+    if zero - min(heights) < LIFTED * found.length:
+        return 0.0
+    # Outward: the way that lets the arm swing to its own side.
+    side = float(np.sign(data.xanchor[joint.id, 1]))
+    outward = side * float(np.sign(found.data.xaxis[joint.id, 0]))
+    if abs(found.data.xaxis[joint.id, 0]) > LEVEL:
+        best += AWAY * outward
+    return _inside(model, name, best)

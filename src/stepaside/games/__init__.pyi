@@ -1,0 +1,17 @@
+from .duel import Duel as Duel
+from .duel import run_duel as run_duel
+from .duel_run import DuelRun as DuelRun
+from .duel_settings import DuelSettings as DuelSettings
+from .outcome import Outcome as Outcome
+from .run import Run as Run
+from .walk_run import WalkRun as WalkRun
+
+__all__ = [
+    "Duel",
+    "DuelRun",
+    "DuelSettings",
+    "Outcome",
+    "Run",
+    "WalkRun",
+    "run_duel",
+]

@@ -1,0 +1,169 @@
+"""The figures of a duel, beside what theory says."""
+
+from collections.abc import Mapping
+from math import degrees, isfinite, pi
+
+import numpy as np
+
+from ..core.poses import Array, Pose
+from ..sim.person_motion import Motion, template_approach
+from ..theory.unicycle.circle_equations import Circle
+from ..theory.unicycle.circle_fit import fit_circle
+from .duel_circle import (
+    angle_between,
+    converged_at,
+    distance_between,
+    no_circle_because,
+    pace_of,
+    theory_of,
+)
+from .duel_settings import EVADER, PLAYERS, DuelSettings
+from .duel_summary import (
+    DuelSummary,
+    PlanTimes,
+    PlayerFigures,
+    StartFigures,
+    TheoryFigures,
+)
+from .forecast import Expected, forecast
+from .match import Match
+from .outcome import Outcome
+from .sight_summary import Seen
+from .template_approach import template_meeting
+from .trajectory import Planning, Track
+
+
+def summarise(
+    settings: DuelSettings,
+    match: Match,
+    outcome: Outcome,
+    times: Array,
+    tracks: Mapping[str, Track],
+    planning: Mapping[str, Planning],
+    seen: Seen | None,
+    wall_time: float,
+) -> DuelSummary:
+    """Figures of a duel that is over.
+
+    Args:
+        settings: What decided it, with the start that was drawn.
+        match: The game.
+        outcome: How it ended.
+        times: Of the samples, in [s]. Shape (n,).
+        tracks: Record of each player, by name.
+        planning: How each planned, by name.
+        seen: Figures of what they saw, if with cameras.
+        wall_time: Time that it took, in [s].
+    """
+    pursuer, evader = (tracks[name].unicycle for name in PLAYERS)
+    theory = theory_of(settings)
+    converged = converged_at(times, pursuer, evader, settings, theory)
+    tail = times >= times[-1] * 2.0 / 3.0
+    last = pursuer[tail], evader[tail]
+    start, now = settings.start, match.world.time
+    assert match.min_distance is not None
+    return DuelSummary(
+        outcome=outcome.value,
+        message=match.message,
+        seed=settings.seed,
+        duration_s=round(now, 9),
+        start=StartFigures(
+            start.distance, start.pursuer_offset, start.evader_offset
+        ),
+        triggered_at_s=match.triggered_at,
+        triggered_at_distance_m=match.triggered_distance,
+        distance_m=float(distance_between(*last).mean()),
+        relative_orientation_deg=degrees(float(angle_between(*last).mean())),
+        min_distance_m=match.min_distance,
+        converged_at_s=converged,
+        replans=sum(len(p.times) for p in planning.values()),
+        max_com_velocity_jump_m_s=max(
+            p.velocity_jump for p in planning.values()
+        ),
+        min_zmp_margin_m=min(
+            (
+                p.zmp_margin
+                for p in planning.values()
+                if p.zmp_margin is not None
+            ),
+            default=None,
+        ),
+        theory=_theory(settings, converged),
+        plan_time_us=_plan_times(planning),
+        real_time_factor=now / max(wall_time, 1e-9),
+        pursuer=_player("pursuer", tracks, tail, seen),
+        evader=_player("evader", tracks, tail, seen),
+        sight=None if seen is None else seen.all,
+        touched=list(match.touched),
+        notes=list(settings.notes),
+        captured_at_s=match.captured_at,
+    )
+
+
+def _theory(settings: DuelSettings, converged: float | None) -> TheoryFigures:
+    """What theory says; no circle where contact was to come before it."""
+    circle, told = theory_of(settings), forecast(settings)
+    words = None if circle.exists else no_circle_because(settings)
+    if told is not None and told.expected is Expected.CONTACT:
+        if converged is None:
+            circle = Circle(exists=False)
+    return TheoryFigures(
+        _closest_approach(settings) if told is None else told.closest_m,
+        circle.exists,
+        _number(circle.radius_evader_m),
+        _number(circle.distance_m),
+        _number(degrees(circle.headings_apart_rad)),
+        _number(circle.radius_pursuer_m),
+        None if told is None else told.expected.value,
+        None if told is None else told.circle_since_s,
+        words if told is None else told.words,
+    )
+
+
+def _plan_times(planning: Mapping[str, Planning]) -> PlanTimes:
+    plans = 1e6 * np.concatenate([p.times for p in planning.values()])
+    if not len(plans):
+        return PlanTimes(None, None)
+    return PlanTimes(
+        _number(float(np.median(plans))),
+        _number(float(np.quantile(plans, 0.99))),
+    )
+
+
+def _player(
+    name: str, tracks: Mapping[str, Track], tail: Array, seen: Seen | None
+) -> PlayerFigures:
+    radius = fit_circle(tracks[name].unicycle[tail, :2])[1]
+    sight = None if seen is None else seen.each.get(name)
+    return PlayerFigures(_number(radius), sight)
+
+
+def _closest_approach(settings: DuelSettings) -> float | None:
+    """Closest approach of a person to the evader's template, in [m]."""
+    start, gait = settings.start, settings.robot_of(EVADER).gait
+    if settings.pursuer == "robot" or start.distance is None:
+        return None
+    if not settings.is_of_the_paper or settings.person.path == "visits":
+        return None
+    places = (
+        lambda pose, evader: Motion(settings.person, pose, evader),
+        Pose(0.0, 0.0, start.pursuer_offset or 0.0),
+        Pose(start.distance, 0.0, pi + (start.evader_offset or 0.0)),
+    )
+    if settings.strategy.trigger == "time":
+        return template_meeting(
+            *places, settings.strategy, gait, duration=settings.duration
+        )
+    pace = pace_of(gait)
+    return template_approach(
+        *places,
+        speed=gait.speed * pace,
+        gain=gait.gain * pace,
+        angle=settings.strategy.angle,
+        safety_radius=settings.strategy.safety_radius,
+        duration=settings.duration,
+    )
+
+
+def _number(value: float) -> float | None:
+    return value if isfinite(value) else None

@@ -1,0 +1,69 @@
+"""Robots of our world on NAOqi, by velocity or by their joints."""
+
+from typing import NamedTuple
+
+from ..control.velocity_walk import fastest
+from ..core.errors import ConfigurationError
+from ..drivers.joint.frame_clock import TICK
+from ..drivers.naoqi.joint_server import NaoqiJointServer
+from ..drivers.naoqi.naoqi_server import NaoqiServer
+from ..drivers.velocity.velocity_body import Velocity
+from .robot_offers import Offered
+from .served_player import ServedBody, ServedPlayer
+from .velocity_walker import DrivenWalker
+from .walker import Walker
+
+
+class NaoqiOffer(NamedTuple):
+    """A robot that walks by itself, at velocities that are called for.
+
+    Attributes:
+        url: Where its services are, like tcp://127.0.0.1:PORT.
+        ideal_sight: Whether the true line of sight is told.
+    """
+
+    url: str
+    ideal_sight: bool = True
+
+    def serve(self, walker: Walker, *, lock_step: bool) -> Offered:
+        """Offer a robot that keeps itself up."""
+        if lock_step:
+            raise ConfigurationError(
+                "a robot on NAOqi cannot be played in lock step: its calls "
+                "carry no time"
+            )
+        player = DrivenWalker(walker, offers_sight=self.ideal_sight)
+        server = NaoqiServer(
+            self.url,
+            player,
+            walker.scheme.kinematics.joint_names,
+            Velocity(*fastest(walker.scheme.settings)),
+            tick=TICK,
+            gait=walker.scheme.settings,
+        )
+        player.commander = server
+        return Offered(player, server)
+
+
+class NaoqiJointsOffer(NamedTuple):
+    """A robot whose joints are set by calls; who plays it keeps it up.
+
+    Attributes:
+        url: Where its services are, like tcp://127.0.0.1:PORT.
+        ideal_sight: Whether the true line of sight is told.
+    """
+
+    url: str
+    ideal_sight: bool = True
+
+    def serve(self, walker: Walker, *, lock_step: bool) -> Offered:
+        """Offer a robot's joints."""
+        body = ServedBody(walker.robot)
+        server = NaoqiJointServer(
+            self.url,
+            body,
+            walker.scheme.kinematics.joint_names,
+            lock_step=lock_step,
+            ideal_sight=self.ideal_sight,
+        )
+        return Offered(ServedPlayer(walker.robot, body, server), server)

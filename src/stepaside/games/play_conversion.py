@@ -1,0 +1,198 @@
+"""What a player kept, turned into a run that replays."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from ..core.atomic_output import writing
+from ..core.poses import Array
+from ..drivers.joint.safety import State
+from ..drivers.row_file import HEADER, ROWS
+from ..drivers.velocity.velocity_loop import Driving
+from ..robots.description import load_robot
+from ..theory.unicycle.circle_fit import fit_circle
+from .array_checks import check_times, check_tracks
+from .checksums import seal
+from .duel_circle import cycle_mean, distance_between
+from .duel_settings import PLAYERS
+from .outcome import Outcome
+from .play_joint_path import Believed
+from .play_rows import WORDS, PlayedRows, read_played
+from .play_run import PlayRun
+from .play_settings import PlaySettings
+from .play_sightings import sight_table, sightings_in, track_of_other
+from .play_summary import Change, PlaySummary
+from .run_header import FORMAT, Head
+from .trajectory import Track
+
+MOST_CHANGES = 2000  # of what a robot did, that a summary tells
+LEAST_TURN = 0.5  # of a walk that a circle can be fitted to, in [rad]
+SUMMARY, TRAJECTORIES = "summary.json", "trajectories.npz"
+CUT_OFF = "the record was cut off"
+
+
+def is_play(folder: Path) -> bool:
+    """Whether a folder holds rows of a player, finished or not."""
+    return all((folder / name).is_file() for name in (HEADER, ROWS, WORDS))
+
+
+def run_of_play(
+    folder: Path,
+    settings: PlaySettings,
+    outcome: Outcome = Outcome.FAILED,
+    message: str = CUT_OFF,
+) -> PlayRun:
+    """Turn what a player kept into a run.
+
+    Args:
+        folder: Where its rows lie.
+        settings: What it was told.
+        outcome: How it ended.
+        message: What ended it, in words.
+
+    Raises:
+        ConfigurationError: If there are no rows of such a player.
+        ValueError: If a file is too long, or none.
+        OSError: If it cannot be read.
+    """
+    name = folder.resolve().name
+    rows = read_played(folder)
+    times, found = rows.times[rows.sampled], sightings_in(rows)
+    own = _own(rows, settings, sight_table(found))
+    other = track_of_other(found, times, own.unicycle)
+    tracks = {settings.role: own}
+    if other is not None:
+        both = tracks | {settings.other: other}
+        tracks = {player: both[player] for player in PLAYERS}
+    check_times(times, name)
+    check_tracks(tracks, len(times), name)
+    return PlayRun(
+        name=name,
+        settings=settings,
+        outcome=outcome,
+        message=message,
+        duration=float(times[-1]),
+        times=times,
+        tracks=tracks,
+        summary=_summary(rows, settings, times, tracks, outcome, message),
+    )
+
+
+def seal_play(
+    folder: Path, settings: PlaySettings, outcome: Outcome, message: str
+) -> PlayRun:
+    """Make a run folder of what a player kept, once it is over.
+
+    Summary, trajectories and checksums are added; nothing is drawn, for a
+    robot has nothing to draw with.
+
+    Args:
+        folder: Where its rows and its configuration lie.
+        settings: What it was told.
+        outcome: How it ended.
+        message: What ended it, in words.
+
+    Raises:
+        ConfigurationError: If there are no rows of such a player.
+        OSError: If it cannot be written.
+        OutputError: Likewise.
+    """
+    run = run_of_play(folder, settings, outcome, message)
+    with writing(folder / TRAJECTORIES) as draft:
+        np.savez_compressed(draft, allow_pickle=False, **run.arrays())
+    head = Head(FORMAT, run.game, run.players)
+    summary = {**head.to_json(), **run.summary.to_json()}
+    text = json.dumps(summary, indent=2, allow_nan=False) + "\n"
+    with writing(folder / SUMMARY) as draft:
+        draft.write_text(text, encoding="utf-8")
+    seal(folder)
+    return run
+
+
+def _own(rows: PlayedRows, settings: PlaySettings, sight: Array) -> Track:
+    """Record of who played."""
+    if rows.moves_joints:
+        believed = Believed(rows, load_robot(settings.robot))
+        return believed.track(settings.gait, sight)
+    sampled = rows.sampled
+    torso = rows.columns["pose"][sampled].copy()
+    torso[:, 2] = np.unwrap(torso[:, 2])
+    com = torso.copy()
+    com[:, 2] = 0.0
+    asked = [rows.columns[name][sampled] for name in ("wanted", "velocity")]
+    return Track(com=com, torso=torso, sight=sight, command=np.hstack(asked))
+
+
+def _summary(
+    rows: PlayedRows,
+    settings: PlaySettings,
+    times: Array,
+    tracks: dict[str, Track],
+    outcome: Outcome,
+    message: str,
+) -> PlaySummary:
+    kind = State if rows.moves_joints else Driving
+    walks = list(kind).index(kind.WALKING)
+    walking = rows.columns["state"] == walks
+    passed = np.diff(rows.times, prepend=0.0)
+    walked = float(passed[walking].sum())
+    seen = ~np.isnan(rows.columns["sighting"][:, 0])
+    late = _last_third(rows, walking)[rows.sampled]
+    own = tracks[settings.role]
+    apart = None
+    if len(tracks) > 1:
+        apart = distance_between(*(t.unicycle for t in tracks.values()))
+    smooth = np.column_stack(
+        [cycle_mean(c, times, settings.cycle) for c in own.unicycle[:, :2].T]
+    )
+    steps, spent = None, np.zeros(0)
+    if rows.moves_joints:
+        begun = rows.columns["begun"]
+        steps = int((~np.isnan(begun[:, 0])).sum())
+        spent = begun[~np.isnan(begun[:, 5]), 5]
+    nearest = rows.columns["sighting"][seen, 2]
+    return PlaySummary(
+        outcome=outcome.value,
+        message=message,
+        role=settings.role,
+        language=settings.language,
+        duration_s=float(times[-1]),
+        walking_s=walked,
+        steps=steps,
+        way_m=float(np.hypot(*np.diff(smooth, axis=0).T).sum()),
+        radius_m=_radius(smooth[late], own.unicycle[late, 2]),
+        distance_m=None
+        if apart is None or not late.any()
+        else float(apart[late].mean()),
+        closest_m=float(nearest.min()) if len(nearest) else None,
+        seen_share=float(passed[walking & seen].sum() / walked)
+        if walked > 0.0
+        else None,
+        plan_time_us=1e6 * float(np.median(spent)) if len(spent) else None,
+        changes=_changes(rows),
+    )
+
+
+def _radius(way: Array, headings: Array) -> float | None:
+    """Radius of a way that turns enough for one, in [m]."""
+    if len(way) < 3 or np.ptp(headings) < LEAST_TURN:
+        return None
+    return fit_circle(way)[1]
+
+
+def _last_third(rows: PlayedRows, walking: Array) -> Array:
+    """Rows of the last third of the walk."""
+    at = np.flatnonzero(walking)
+    late = np.zeros(len(walking), dtype=bool)
+    late[at[2 * len(at) // 3 :]] = True
+    return late
+
+
+def _changes(rows: PlayedRows) -> tuple[Change, ...]:
+    times, told = rows.times, rows.changes[:MOST_CHANGES]
+    return tuple(
+        Change(float(times[each.tick]), each.state, each.reason)
+        for each in told
+        if 0 <= each.tick < len(times)
+    )

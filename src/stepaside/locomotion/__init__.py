@@ -1,0 +1,1 @@
+"""Locomotion: from an intended motion of the body to joint targets."""

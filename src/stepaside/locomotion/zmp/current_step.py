@@ -1,0 +1,176 @@
+"""The step that is being made, and what it allows."""
+
+from math import exp, hypot
+from typing import NamedTuple
+
+from ...core.poses import Pose
+from ...planning import Foot, GaitSettings, ManeuverPlan
+from ...planning.swing import swing_progress
+from ...robots.leg_kinematics import BodyReference
+from .control_settings import StabiliserSettings
+
+Box = tuple[tuple[float, float], tuple[float, float]]
+
+
+class Step(NamedTuple):
+    """A step that is being made, in odometry.
+
+    Attributes:
+        support: Foot that bears the weight.
+        swing: Foot that swings, or swung last.
+        landing: Where the plan lets it land.
+        remaining: Time until then, in [s]; negative once it stands.
+        progress: Fraction of its way that it has made.
+        walking: Whether there is a step at all.
+        plan: Plan whose first step it is, if there is one.
+        passed: Time since that plan began, in [s].
+    """
+
+    support: Pose
+    swing: Foot
+    landing: Pose
+    remaining: float
+    progress: float
+    walking: bool
+    plan: ManeuverPlan | None = None
+    passed: float = 0.0
+
+    def to_support(self, x: float, y: float) -> tuple[float, float]:
+        """Turn a vector of odometry into the support foot's axes."""
+        turned = Pose(0.0, 0.0, -self.support.theta).compose(Pose(x, y, 0.0))
+        return turned.x, turned.y
+
+    def from_support(self, x: float, y: float) -> tuple[float, float]:
+        """Turn a vector of the support foot's axes into odometry."""
+        turned = Pose(0.0, 0.0, self.support.theta).compose(Pose(x, y, 0.0))
+        return turned.x, turned.y
+
+
+def resting_step(support: Pose, foot: Foot) -> Step:
+    """No step at all, over a foot that stands beside ``foot``."""
+    return Step(support, foot, support, 0.0, 1.0, False)
+
+
+def step_of(plan: ManeuverPlan, frame: Pose, passed: float) -> Step:
+    """First step of a plan.
+
+    Args:
+        plan: Plan being walked.
+        frame: Pose of its frame in odometry.
+        passed: Time since it began, in [s].
+    """
+    gait = plan.schedule.settings
+    walked = passed
+    if plan.schedule.standing:
+        walked -= gait.start_support
+    return Step(
+        frame,
+        plan.first_foot,
+        frame.compose(Pose(*plan.placements[2].tolist())),
+        gait.single_support - walked,
+        float(
+            swing_progress(walked / gait.single_support, gait.swing_profile)
+        ),
+        True,
+        plan,
+        passed,
+    )
+
+
+def zmp_box(swing: Foot, gait: GaitSettings, edge: float) -> Box:
+    """How far the ZMP can be shifted from its anchor under a foot.
+
+    Args:
+        swing: Foot that does not support.
+        gait: Its sole and anchor.
+        edge: Distance kept from the edge of the sole, in [m].
+
+    Returns:
+        Lowest and highest (x, y) shift in the support foot's axes, in [m].
+    """
+    sole, ahead = gait.sole, gait.zmp_forward
+    outer, inner = sole.outer - edge, sole.inner - edge
+    right, left = (inner, outer) if swing is Foot.RIGHT else (outer, inner)
+    return (
+        (sole.back + edge - ahead, -right),
+        (sole.front - edge - ahead, left),
+    )
+
+
+def clip_to(value: tuple[float, float], box: Box) -> tuple[float, float]:
+    """Nearest point of a box."""
+    low, high = box
+    return (
+        min(max(value[0], low[0]), high[0]),
+        min(max(value[1], low[1]), high[1]),
+    )
+
+
+def beyond(x: float, y: float, radius: float) -> tuple[float, float]:
+    """Part of a vector beyond a radius."""
+    length = hypot(x, y)
+    if length <= radius:
+        return 0.0, 0.0
+    share = 1.0 - radius / length
+    return share * x, share * y
+
+
+def adapted_landing(
+    error: tuple[float, float],
+    step: Step,
+    box: Box,
+    gait: GaitSettings,
+    settings: StabiliserSettings,
+) -> tuple[float, float]:
+    r"""Shift of the landing that takes up what the ZMP cannot hold.
+
+    An error e of the DCM that a constant ZMP shift p cannot bring to zero
+    by the landing, a time T away, leaves
+    :math:`e^{\eta T} (e - (1 - e^{-\eta T})\, p)`; the foot lands that much
+    farther, inside the reach and without crossing the other.
+
+    Args:
+        error: Of the DCM against the plan, in the support foot's axes, [m].
+        step: Step being made.
+        box: Possible ZMP shifts.
+        gait: Gait.
+        settings: Reach.
+
+    Returns:
+        Shift of the landing in odometry, in [m].
+    """
+    grow = exp(gait.eta * max(step.remaining, 1e-3))
+    hold = 1.0 - 1.0 / grow
+    px, py = clip_to((error[0] / hold, error[1] / hold), box)
+    planned = step.support.inverse().compose(step.landing)
+    x, y, side = planned.x, planned.y, step.swing.value
+    left_x = grow * (error[0] - hold * px)
+    left_y = grow * (error[1] - hold * py)
+    if abs(left_x) > 1e-9:
+        low, high = -settings.reach_backward, settings.reach_forward
+        x = min(max(x + left_x, low), high)
+    if abs(left_y) > 1e-9:
+        near = 2.0 * gait.sole.inner + settings.gap
+        far = gait.foot_spacing + settings.reach_outward
+        y = side * min(max(side * (y + left_y), near), far)
+    return step.from_support(x - planned.x, y - planned.y)
+
+
+def shifted_swing(
+    body: BodyReference, step: Step, shift: tuple[float, float]
+) -> BodyReference:
+    """Let the swing foot head for a shifted landing.
+
+    Args:
+        body: What the plan asks for.
+        step: Step being made.
+        shift: Of the landing in odometry, in [m].
+    """
+    if not step.walking or shift == (0.0, 0.0):
+        return body
+    u, v = step.progress * shift[0], step.progress * shift[1]
+    if step.swing is Foot.LEFT:
+        x, y, z, yaw = body.left_foot
+        return body._replace(left_foot=(x + u, y + v, z, yaw))
+    x, y, z, yaw = body.right_foot
+    return body._replace(right_foot=(x + u, y + v, z, yaw))

@@ -1,0 +1,229 @@
+"""State of the body from encoders, IMU and foot forces alone."""
+
+from math import atan2, cos, exp, sin
+from typing import NamedTuple
+
+import numpy as np
+
+from ...core.constants import GRAVITY
+from ...core.poses import Array
+from ...perception.attitude import AttitudeFilter
+from ...perception.measurement import Measurement
+from ...robots.forward_kinematics import ForwardKinematics, MeasuredPosture
+from ...robots.leg_kinematics import BodyReference
+
+STANDS, TOUCHES = 0.2, 0.02  # share of the weight that the feet bear then
+FALLEN = 0.7  # tilt of the torso at which a robot knows that it falls, [rad]
+
+
+class BodyState(NamedTuple):
+    """What the body does, in odometry.
+
+    Attributes:
+        com: CoM (x, y), in [m].
+        velocity: Its velocity, in [m/s].
+        dcm: Divergent component of motion, in [m].
+        zmp: Center of the foot forces, in [m].
+        tilt: Roll and pitch of the torso, in [rad].
+        rate: Angular velocity in the torso frame, in [rad/s].
+        left_share: Share of the weight on the left foot, in [0, 1].
+        weight: Sum of the foot forces, in [N].
+    """
+
+    com: tuple[float, float]
+    velocity: tuple[float, float]
+    dcm: tuple[float, float]
+    zmp: tuple[float, float]
+    tilt: tuple[float, float]
+    rate: tuple[float, float, float]
+    left_share: float
+    weight: float
+
+    @property
+    def has_fallen(self) -> bool:
+        """Whether the torso leans too far to come back."""
+        return max(map(abs, self.tilt)) > FALLEN
+
+
+class StateEstimator:
+    """Estimates the state of one robot.
+
+    The torso's tilt comes from the IMU; where the CoM is follows from the
+    tilt and the measured joints over the feet that bear weight, which
+    stand where odometry has them. A constant-gain observer of the linear
+    inverted pendulum, driven by the measured ZMP, adds the velocity.
+    """
+
+    def __init__(
+        self,
+        kinematics: ForwardKinematics,
+        force_sensors: Array,
+        eta: float,
+        tick: float,
+        *,
+        bandwidth: float = 40.0,
+        correction: float = 0.5,
+        bias_correction: float = 0.06,
+    ) -> None:
+        """Prepare an estimator.
+
+        Args:
+            kinematics: Of the robot.
+            force_sensors: Places of the foot sensors in the foot frames,
+                left then right, in [m]. Shape (8, 2).
+            eta: Rate of the pendulum, in [1/s].
+            tick: Control period, in [s].
+            bandwidth: Of the observer, in [rad/s].
+            correction: See :class:`AttitudeFilter`, in [1/s].
+            bias_correction: Likewise, in [1/s^2].
+        """
+        self._kinematics = kinematics
+        self._sensors = force_sensors
+        self._weight = GRAVITY * kinematics.mass
+        self._eta, self._tick = eta, tick
+        self._attitude = AttitudeFilter(correction, bias_correction)
+        fade = exp(-bandwidth * tick)
+        # Two equal poles at the bandwidth.
+        self._position_gain = 1.0 - fade * fade
+        self._velocity_gain = (1.0 - fade) ** 2 / tick
+        self.posture: MeasuredPosture | None = None
+        self._com: Array | None = None
+        self._velocity = np.zeros(2)
+        self._share = 0.5
+        self._heading = 0.0
+
+    @property
+    def ready(self) -> bool:
+        """Whether the robot has stood still for long enough."""
+        return self._attitude.ready
+
+    @property
+    def tilt(self) -> tuple[float, float]:
+        """Roll and pitch of the torso, in [rad]."""
+        return self._attitude.roll, self._attitude.pitch
+
+    @property
+    def torso_heading(self) -> float:
+        """Heading of the torso in odometry over the loaded foot, in [rad]."""
+        return self._heading
+
+    def update(
+        self,
+        measurement: Measurement,
+        feet: BodyReference,
+        acceleration: tuple[float, float],
+        reaction: tuple[float, float] = (0.0, 0.0),
+    ) -> BodyState:
+        """Estimate the state at one tick.
+
+        Args:
+            measurement: What the sensors give.
+            feet: What was asked of the feet when the motion now measured
+                was requested, in odometry.
+            acceleration: What was asked of the CoM then, in [m/s^2]. The
+                estimated one would not do: through the lever of the CoM a
+                wrong tilt explains its own acceleration.
+            reaction: Shift of the ZMP by the swing leg then, in [m].
+        """
+        attitude, eta = self._attitude, self._eta
+        c, s = cos(self._heading), sin(self._heading)
+        ax, ay = acceleration
+        attitude.update(
+            measurement.gyro,
+            measurement.accelerometer,
+            (c * ax + s * ay, c * ay - s * ax),
+            self._tick,
+        )
+        weight = self._weigh(measurement.foot_forces)
+        posture = self._kinematics.posture(measurement.joint_positions)
+        self.posture = posture
+        seen, zmp = self._place(posture, measurement.foot_forces, feet)
+        com = self._observe(
+            seen, zmp - reaction, stands=weight >= STANDS * self._weight
+        )
+        cx, cy = com.tolist()
+        vx, vy = self._velocity.tolist()
+        px, py = zmp.tolist()
+        return BodyState(
+            (cx, cy),
+            (vx, vy),
+            (cx + vx / eta, cy + vy / eta),
+            (px, py),
+            (attitude.roll, attitude.pitch),
+            attitude.rate,
+            self._share,
+            weight,
+        )
+
+    def _weigh(self, forces: Array) -> float:
+        """Force on both feet, in [N]; notes the left one's share of it."""
+        left, right = float(forces[:4].sum()), float(forces[4:].sum())
+        weight = left + right
+        if weight > TOUCHES * self._weight:
+            share = left / weight
+            # A foot that hardly presses says nothing.
+            self._share = 0.0 if share < 0.02 else min(share, 1.0)
+            if share > 0.98:
+                self._share = 1.0
+        return weight
+
+    def _place(
+        self, posture: MeasuredPosture, forces: Array, feet: BodyReference
+    ) -> tuple[Array, Array]:
+        """CoM and ZMP in odometry [m] by the feet, each as it presses."""
+        share = self._share
+        level = _level(self._attitude.roll, self._attitude.pitch)
+        com, zmp = np.zeros(2), np.zeros(2)
+        for side, pressed in ((0, share), (1, 1.0 - share)):
+            if pressed == 0.0:
+                continue
+            x, y, _, yaw = feet.left_foot if side == 0 else feet.right_foot
+            frame = level @ posture.frames[side]
+            turn = yaw - atan2(frame[1, 0], frame[0, 0])
+            if pressed >= 0.5:
+                self._heading = turn
+            c, s = cos(turn), sin(turn)
+            lever = level @ (posture.com - posture.feet[side])
+            com[0] += pressed * (x + c * lever[0] - s * lever[1])
+            com[1] += pressed * (y + s * lever[0] + c * lever[1])
+            press = forces[4 * side : 4 * side + 4]
+            total = float(press.sum())
+            if total > 0.0:
+                u, v = (
+                    press @ self._sensors[4 * side : 4 * side + 4] / total
+                ).tolist()
+                c, s = cos(yaw), sin(yaw)
+                zmp[0] += pressed * (x + c * u - s * v)
+                zmp[1] += pressed * (y + s * u + c * v)
+        return com, zmp
+
+    def _observe(self, seen: Array, pushed: Array, *, stands: bool) -> Array:
+        """CoM of the observer [m] once it has seen one.
+
+        Args:
+            seen: CoM by the joints, in [m]. Shape (2,).
+            pushed: Where the floor pushes the pendulum from, in [m].
+            stands: Whether the floor bears the robot at all.
+        """
+        tick, eta = self._tick, self._eta
+        before = seen if self._com is None else self._com
+        pull = eta * eta * (before - pushed) if stands else np.zeros(2)
+        predicted = before + tick * self._velocity
+        predicted += 0.5 * tick * tick * pull
+        self._velocity = self._velocity + tick * pull
+        off = seen - predicted
+        self._com = predicted + self._position_gain * off
+        self._velocity = self._velocity + self._velocity_gain * off
+        return self._com
+
+
+def _level(roll: float, pitch: float) -> Array:
+    """Rotation from the torso to a level frame with its heading."""
+    cr, sr, cp, sp = cos(roll), sin(roll), cos(pitch), sin(pitch)
+    return np.array(
+        [
+            [cp, sp * sr, sp * cr],
+            [0.0, cr, -sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )

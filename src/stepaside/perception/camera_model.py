@@ -1,0 +1,111 @@
+"""Pinhole cameras: from pixels to rays and back."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import tan
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core.errors import ConfigurationError, check_within
+from ..core.poses import Array
+
+
+@dataclass(frozen=True, slots=True)
+class CameraModel:
+    """A pinhole camera that looks along x, with y left and z up.
+
+    Attributes:
+        width: Columns.
+        height: Rows.
+        focal_x: Focal length across the columns, in pixels.
+        focal_y: Focal length across the rows, in pixels.
+    """
+
+    width: int
+    height: int
+    focal_x: float
+    focal_y: float
+
+    @classmethod
+    def of_field_of_view(
+        cls, width: int, height: int, horizontal: float, vertical: float
+    ) -> "CameraModel":
+        """Camera of a size that sees so far, in [rad], in all.
+
+        Raises:
+            ConfigurationError: If no pinhole camera can.
+        """
+        error = ConfigurationError
+        for name, size in (("width", width), ("height", height)):
+            check_within(size, 8, 4096, name, "pixels", error)
+        for name, angle in (
+            ("horizontal field of view", horizontal),
+            ("vertical field of view", vertical),
+        ):
+            check_within(angle, 0.05, 2.8, name, "rad", error)
+        return cls(
+            width,
+            height,
+            0.5 * width / tan(0.5 * horizontal),
+            0.5 * height / tan(0.5 * vertical),
+        )
+
+    def ray(self, u: float, v: float) -> Array:
+        """Direction in which a pixel looks, with x = 1. Shape (3,).
+
+        Args:
+            u: Column, from the left edge of the image.
+            v: Row, from the upper edge.
+        """
+        return np.array(
+            [
+                1.0,
+                (0.5 * self.width - u) / self.focal_x,
+                (0.5 * self.height - v) / self.focal_y,
+            ]
+        )
+
+    def rays(self) -> Array:
+        """Directions of all pixels' centers. Shape (height, width, 3)."""
+        return _rays(self)
+
+    def project(self, points: ArrayLike) -> Array:
+        """Pixels of points in the camera's frame; NaN behind it.
+
+        Args:
+            points: Points, in [m]. Shape (n, 3).
+
+        Returns:
+            Columns and rows. Shape (n, 2).
+        """
+        x, y, z = np.atleast_2d(np.asarray(points, dtype=float)).T
+        x = np.where(x > 1e-9, x, np.nan)
+        return np.column_stack(
+            [
+                0.5 * self.width - self.focal_x * y / x,
+                0.5 * self.height - self.focal_y * z / x,
+            ]
+        )
+
+    def sees(self, point: ArrayLike) -> bool:
+        """Whether a point in the camera's frame is inside the image."""
+        u, v = self.project(point)[0].tolist()
+        return bool(0.0 <= u <= self.width and 0.0 <= v <= self.height)
+
+
+@lru_cache(maxsize=16)
+def _rays(model: CameraModel) -> Array:
+    u, v = np.meshgrid(
+        np.arange(model.width) + 0.5, np.arange(model.height) + 0.5
+    )
+    rays = np.stack(
+        [
+            np.ones_like(u),
+            (0.5 * model.width - u) / model.focal_x,
+            (0.5 * model.height - v) / model.focal_y,
+        ],
+        axis=-1,
+    )
+    rays.flags.writeable = False
+    return rays

@@ -1,0 +1,27 @@
+from .footsteps import Foot as Foot
+from .footsteps import Footstep as Footstep
+from .gait_settings import PRESETS as PRESETS
+from .gait_settings import STABILISED as STABILISED
+from .gait_settings import GaitSettings as GaitSettings
+from .gait_settings import Sole as Sole
+from .maneuver import CenterState as CenterState
+from .maneuver import ManeuverPlanner as ManeuverPlanner
+from .path import Direction as Direction
+from .path import UnicycleTrajectory as UnicycleTrajectory
+from .plan import ManeuverPlan as ManeuverPlan
+from .plan import PlanSamples as PlanSamples
+
+__all__ = [
+    "PRESETS",
+    "STABILISED",
+    "CenterState",
+    "Direction",
+    "Foot",
+    "Footstep",
+    "GaitSettings",
+    "ManeuverPlan",
+    "ManeuverPlanner",
+    "PlanSamples",
+    "Sole",
+    "UnicycleTrajectory",
+]

@@ -1,0 +1,76 @@
+"""How a step ends, and the state that recurs in a walk under way."""
+
+import numpy as np
+
+from ..core.poses import Pose
+from .footsteps import Foot
+from .maneuver import CenterState, ManeuverPlanner
+from .path import Direction
+from .plan import ManeuverPlan
+
+PLACES = 4  # numbers in a state: position and velocity
+
+
+def landing_state(plan: ManeuverPlan) -> CenterState:
+    """State at the end of the first step, in the frame of its landing."""
+    samples = plan.sample(plan.schedule.first_step_sampler)
+    back = Pose(*plan.placements[2].tolist()).inverse()
+    x, y = samples.com[0].tolist()
+    vx, vy = samples.com_velocity[0].tolist()
+    position = back.compose(Pose(x, y, 0.0))
+    velocity = Pose(0.0, 0.0, back.theta).compose(Pose(vx, vy, 0.0))
+    return CenterState(position[:2], velocity[:2])
+
+
+def steady_plan(
+    planner: ManeuverPlanner,
+    bearing: float,
+    direction: Direction,
+    *,
+    first_foot: Foot,
+    saturated: bool = False,
+) -> ManeuverPlan:
+    """Plan of a walk that has gone on for ever with one bearing.
+
+    Planning takes the state at one landing to that at the next, and is
+    affine in it; the state that recurs after two steps is a fixed point.
+
+    Args:
+        planner: Of the gait.
+        bearing: Desired heading in the frame of each support foot, in [rad].
+        direction: Forward or backward.
+        first_foot: Foot that lands first.
+        saturated: Whether the template turns by (6) instead of (8).
+
+    Returns:
+        The plan; its first step begins in the recurring state.
+
+    Raises:
+        PlanError: If the bearing is not finite.
+    """
+
+    def plan_from(
+        state: np.ndarray, foot: Foot, swing_start: Pose | None = None
+    ) -> ManeuverPlan:
+        x, y, vx, vy = state.tolist()
+        return planner.plan(
+            bearing,
+            direction,
+            first_foot=foot,
+            state=CenterState((x, y), (vx, vy)),
+            swing_start=swing_start,
+            saturated=saturated,
+        )
+
+    def recur(state: np.ndarray) -> np.ndarray:
+        for foot in (first_foot, first_foot.other):
+            position, velocity = landing_state(plan_from(state, foot))
+            state = np.array([*position, *velocity])
+        return state
+
+    origin = recur(np.zeros(PLACES))
+    columns = [recur(unit) - origin for unit in np.eye(PLACES)]
+    state = np.linalg.solve(np.eye(PLACES) - np.column_stack(columns), origin)
+    before = plan_from(state, first_foot.other)
+    left_behind = Pose(*before.placements[2].tolist()).inverse()
+    return plan_from(state, first_foot, left_behind)

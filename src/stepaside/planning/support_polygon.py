@@ -1,0 +1,121 @@
+"""Where the ZMP can be: under the feet on the floor, over time.
+
+This is the one description of support. It holds for every kind of plan: one
+that starts from standing begins with a double support, and the last double
+support of any plan never ends, for there the robot stands.
+"""
+
+from math import inf
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.convex import convex_hull, half_planes
+from ..core.poses import Array
+from .footsteps import Foot
+from .gait_settings import Sole
+from .schedule import Schedule
+
+
+class SupportPhase(NamedTuple):
+    """Time over which the same feet are on the floor.
+
+    Attributes:
+        start: When it begins, since the plan began, in [s].
+        end: When it ends, in [s]; infinite for the last one.
+        rows: Rows of the placements whose feet are on the floor; in single
+            support there is one.
+        corners: Of the hull of their soles, counter-clockwise, in the plan
+            frame, in [m]. Shape (n, 2).
+        normals: Outward unit normals of its edges. Shape (n, 2).
+        offsets: A ZMP p is under the feet if normals p <= offsets, in [m].
+            Shape (n,).
+    """
+
+    start: float
+    end: float
+    rows: tuple[int, ...]
+    corners: Array
+    normals: Array
+    offsets: Array
+
+    @property
+    def single(self) -> bool:
+        """Whether one foot is on the floor."""
+        return len(self.rows) == 1
+
+
+def support_phases(
+    schedule: Schedule,
+    placements: Array,
+    first_foot: Foot,
+    duration: float = inf,
+) -> tuple[SupportPhase, ...]:
+    """Feet on the floor over time, phase by phase.
+
+    At the instant between two phases both hold: the foot that lands or
+    leaves is on the floor, but a ZMP that moves on has to be under the one
+    foot of the single support.
+
+    Args:
+        schedule: Timing of the plan.
+        placements: Rows (x [m], y [m], theta [rad]) of the first swing
+            foot, the support foot and the footsteps. Shape (count + 2, 3).
+        first_foot: Foot that lands first.
+        duration: Phases that begin later than this are left out, in [s].
+
+    Returns:
+        Phases in order, without gaps.
+    """
+    sole = schedule.settings.sole
+    sides = (first_foot, first_foot.other)
+    starts = schedule.starts.tolist()
+    bearing = [rows for i in range(schedule.count) for rows in _step_rows(i)]
+    if schedule.standing:
+        bearing.insert(0, (0, 1))
+    phases = []
+    for i, rows in enumerate(bearing):
+        if starts[i] >= duration - 1e-9:
+            break
+        corners = convex_hull(
+            np.concatenate(
+                [sole_corners(placements[r], sides[r % 2], sole) for r in rows]
+            )
+        )
+        end = inf if i == len(bearing) - 1 else starts[i + 1]
+        phase = SupportPhase(
+            starts[i], end, rows, corners, *half_planes(corners)
+        )
+        phases.append(phase)
+    return tuple(phases)
+
+
+def _step_rows(step: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Rows on the floor in the single and double support of a step."""
+    return (step + 1,), (step + 1, step + 2)
+
+
+def sole_corners(pose: Array, foot: Foot, sole: Sole) -> Array:
+    """Corners of a sole in the frame of its pose.
+
+    Args:
+        pose: Foot frame (x [m], y [m], theta [rad]). Shape (3,).
+        foot: Side.
+        sole: Shape of a left sole.
+
+    Returns:
+        Corners, in [m]. Shape (4, 2).
+    """
+    x, y, theta = pose
+    left = np.array(
+        [
+            [sole.front, sole.outer],
+            [sole.back, sole.outer],
+            [sole.back, -sole.inner],
+            [sole.front, -sole.inner],
+        ]
+    )
+    left[:, 1] *= foot.value
+    c, s = np.cos(theta), np.sin(theta)
+    corners: Array = left @ np.array([[c, s], [-s, c]]) + (x, y)
+    return corners

@@ -1,0 +1,119 @@
+"""Bodies of a run, put where they were."""
+
+import mujoco
+import numpy as np
+
+from ..core.errors import ConfigurationError
+from ..core.poses import Pose
+from ..games.duel_settings import EVADER, DuelSettings
+from ..games.initial_poses import frames_of, walls_of
+from ..games.run import Run
+from ..robots.description import load_robot
+from ..robots.head import load_head
+from ..sim.obstacle_geoms import add_solids, mover_of
+from ..sim.passer_bodies import add_passers, passer_mover
+from ..sim.passer_settings import Passer
+from ..sim.pedestrian_models import FIGURES
+from ..sim.person_body import add_person, parts_of, pose_figure
+from ..sim.room_furnishing import Furnish, furnisher, hide_walls
+from ..sim.template_body import add_template, pose_template
+from ..sim.world import build_model
+
+
+class Stage:
+    """Bodies of a run, put where they were.
+
+    Attributes:
+        model: Robots, floor and what stands on it.
+        data: Their state.
+    """
+
+    def __init__(self, run: Run) -> None:
+        """Build the robots of a run, without its physics.
+
+        Raises:
+            ConfigurationError: If it is a run of other robots.
+        """
+        robots = run.robots
+        names = {name: run.settings.robot_of(name).robot for name in robots}
+        persons = run.persons
+        self._templates = [
+            name for name in run.players if name not in {*robots, *persons}
+        ]
+
+        settings = run.settings
+        who, passers = "adult", tuple[Passer, ...]()
+        if isinstance(settings, DuelSettings):
+            who, passers = settings.person.figure, settings.passers
+        self._figure = FIGURES[who]
+        plan, surround = run.plan, surroundings_of(run)
+
+        def furnish(spec: mujoco.MjSpec) -> None:
+            if surround is not None:
+                surround(spec)
+            if plan is not None:
+                add_solids(spec, plan)
+            for name in persons:
+                add_person(spec, name, self._figure)
+            add_passers(spec, passers)
+            for name in self._templates:
+                add_template(spec, name)
+
+        self.model = build_model(
+            {name: load_robot(robot) for name, robot in names.items()},
+            run.settings.physics,
+            seed=run.settings.seed,
+            furnish=furnish,
+        )
+        hide_walls(self.model)
+        self.data = mujoco.MjData(self.model)
+        postures = [run.tracks[name].qpos for name in robots]
+        known = [qpos for qpos in postures if qpos is not None]
+        wide = sum(qpos.shape[1] for qpos in known)
+        if len(known) < len(robots) or wide != self.model.nq:
+            raise ConfigurationError(
+                f"qpos of run {run.name} must have {self.model.nq} columns "
+                f"for {', '.join(robots)}, as "
+                f"{' and '.join(dict.fromkeys(names.values()))} have, "
+                f"got {wide}"
+            )
+        none = np.zeros((len(run.times), 0))
+        self._postures = np.concatenate([none, *known], axis=1)
+        self._persons = {name: parts_of(self.model, name) for name in persons}
+        self._tracks, self._times = run.tracks, run.times
+        self._moves = []
+        if plan is not None:
+            self._moves.append(mover_of(self.model, self.data, plan))
+        if isinstance(settings, DuelSettings) and passers:
+            evader = frames_of(settings)[1]
+            self._moves.append(
+                passer_mover(self.model, self.data, passers, evader)
+            )
+
+    def put(self, index: int) -> None:
+        """Put the bodies where they were at a sample."""
+        self.data.qpos[:] = self._postures[index]
+        for move in self._moves:
+            move(float(self._times[index]))
+        for name, parts in self._persons.items():
+            walked = self._tracks[name].torso
+            frame = Pose(*walked[index].tolist())
+            steps = np.diff(walked[: index + 1, :2], axis=0)
+            way = float(np.hypot(steps[:, 0], steps[:, 1]).sum())
+            pose_figure(self.data, parts, frame, way, self._figure)
+        for name in self._templates:
+            stood = Pose(*self._tracks[name].torso[index].tolist())
+            pose_template(self.model, self.data, name, stood)
+        mujoco.mj_kinematics(self.model, self.data)
+        mujoco.mj_camlight(self.model, self.data)
+
+
+def surroundings_of(run: Run) -> Furnish | None:
+    """What stood around robots that saw: walls, things, a depth camera."""
+    settings = run.settings
+    if not isinstance(settings, DuelSettings):
+        return None
+    if settings.sensing != "cameras" or EVADER not in run.robots:
+        return None
+    head = load_head(load_robot(settings.robot_of(EVADER).robot))
+    return furnisher(settings.room, EVADER, head, walls=walls_of(settings))

@@ -1,0 +1,220 @@
+"""A run on the page, with a slider for time."""
+
+import logging
+import threading
+from time import perf_counter, sleep
+from typing import Any
+
+import numpy as np
+import viser
+
+from ...core.poses import Array
+from ...games.run import Run
+from ..figure_style import EVADER, PURSUER, PUSHED, THEORY, colours_of
+from ..palette import LIGHTS
+from ..scene import Stage
+from ..text_escaping import for_markdown
+from .page_layout import WATCH
+from .page_server import open_server
+from .plots import TITLES, add_plot, plot_data
+from .scene_bodies import Bodies
+from .scene_layers import (
+    HEIGHTS,
+    Layers,
+    chain,
+    legend,
+    prints_at,
+    pushes_at,
+    ring,
+    safety_of,
+)
+from .viewer_clients import CAMERAS, Viewers
+
+LOG = logging.getLogger(__name__)
+RATE = 30.0  # updates of the scene a second
+MOST_PLOTTED = 1500  # samples of a curve, about
+REPLAYED = (
+    *("CoM trace", "footsteps", "pushes", "line of sight", "safety area"),
+    "circle of theory",
+)
+
+
+class ReplayPage:
+    """A run on a server.
+
+    Attributes:
+        server: The server.
+        slider: Time of the run that is shown, in [s].
+    """
+
+    def __init__(self, run: Run, *, port: int) -> None:
+        """Serve a run on this machine alone."""
+        self._run, self._stage = run, Stage(run)
+        self.server = open_server("127.0.0.1", port).server
+        self._closing = threading.Event()
+        self._playing = False
+        self._set_scene()
+        self._layers = Layers(self.server.scene)
+        self._viewers = Viewers(self.server, self._run.plan)
+        self._arrange()
+        self._thread = threading.Thread(target=self._loop, daemon=True)
+
+    def _set_scene(self) -> None:
+        """Put the robots with their names into the scene, with light."""
+        scene, camera = self.server.scene, self.server.initial_camera
+        scene.set_up_direction("+z")
+        scene.configure_default_lights(cast_shadow=True)
+        last = self._run.tracks[self._run.players[-1]].torso[0]
+        x, y = float(last[0]), float(last[1])
+        camera.position = (x - 1.5, y - 1.6, 1.3)
+        camera.look_at = (x, y, 0.2)
+        self._bodies = Bodies(scene, self._stage.model)
+        self._bodies.name(self._stage.model, self._run.players)
+
+    def _arrange(self) -> None:
+        """Dock what is watched and moved to the right of the scene."""
+        gui = self.server.gui
+        gui.set_panel_label("stepaside")
+        gui.main_panel.dock_right()
+        gui.main_panel.set_width(WATCH)
+        self._status = gui.add_markdown("")
+        self._play = gui.add_button("Play")
+        self.slider: viser.GuiSliderHandle[float] = gui.add_slider(
+            "Time [s]",
+            min=0.0,
+            max=max(0.02, float(self._run.times[-1])),
+            step=0.02,
+            initial_value=0.0,
+        )
+        self._speed = gui.add_slider(
+            "Speed", min=0.25, max=8.0, step=0.25, initial_value=1.0
+        )
+        self._add_views()
+        self._add_plots()
+        with gui.add_folder("Shown", expand_by_default=False):
+            for layer in REPLAYED:
+                self._add_layer(layer)
+            gui.add_markdown(legend(REPLAYED))
+
+        @self._play.on_click
+        def _(_: object) -> None:
+            self._playing = not self._playing
+
+    def _add_plots(self) -> None:
+        """Show distance and angle of the whole run beside theory."""
+        run = self._run
+        _, distance, angle = run.theory or (None, None, None)
+        shown = (
+            (TITLES[0], run.distance, distance, PURSUER),
+            (TITLES[1], run.orientation, angle, EVADER),
+        )
+        for title, values, level, colour in shown:
+            if values is not None:
+                self._add_plot(title, values, level, colour)
+
+    def _add_plot(
+        self, title: str, values: Array, level: float | None, colour: str
+    ) -> None:
+        """Show one figure over time, and where theory ends."""
+        times = self._run.times
+        thin = slice(None, None, max(1, len(times) // MOST_PLOTTED))
+        data = plot_data(times[thin], values[thin], level)
+        add_plot(self.server.gui, title, "run", colour, data)
+
+    def _add_views(self) -> None:
+        """Let each viewer choose a camera, and a light."""
+        gui, viewers = self.server.gui, self._viewers
+        alone = len(self._run.players) < 2
+        names = CAMERAS[:3] if alone else CAMERAS
+        camera = gui.add_button_group("Camera", names)
+        light = gui.add_button_group("Light", LIGHTS)
+
+        @camera.on_click
+        def _(event: Any) -> None:
+            viewers.choose(event.client, camera.value)
+
+        @light.on_click
+        def _(event: Any) -> None:
+            viewers.light_up(event.client, light.value)
+
+    def _add_layer(self, layer: str) -> None:
+        box = self.server.gui.add_checkbox(layer[0].upper() + layer[1:], True)
+
+        @box.on_update
+        def _(_: object) -> None:
+            self._layers.shown[layer] = box.value
+
+    def start(self) -> None:
+        """Start to show."""
+        self._thread.start()
+
+    def close(self) -> None:
+        """Stop the server."""
+        self._closing.set()
+        self._thread.join(timeout=5.0)
+        self.server.stop()
+
+    def _loop(self) -> None:
+        before = perf_counter()
+        while not self._closing.is_set():
+            now = perf_counter()
+            passed, before = now - before, now
+            try:
+                if self._playing:
+                    time = self.slider.value + passed * self._speed.value
+                    end = float(self._run.times[-1])
+                    self.slider.value = min(time, end)  # type: ignore[misc]
+                    if time >= float(self._run.times[-1]):
+                        self._playing = False
+                self._show(float(self.slider.value))
+            except Exception:
+                LOG.exception("the replay could not be shown")
+            sleep(max(0.001, 1.0 / RATE - (perf_counter() - now)))
+
+    def _show(self, time: float) -> None:
+        run = self._run
+        index = run.index_at(time)
+        self._stage.put(index)
+        data = self._stage.data
+        with self.server.atomic():
+            self._bodies.move(data.xpos, data.xquat)
+            self._draw(index)
+        tracks = list(run.tracks.values())
+        self._viewers.aim(
+            [track.torso[index, :2] for track in tracks],
+            [float(track.com[index, 2]) for track in tracks],
+        )
+        self._play.label = "Pause" if self._playing else "Play"
+        text = (
+            f"**{for_markdown(run.name)}**: "
+            f"{for_markdown(run.words(index))}\n\n{run.times[index]:.2f} s"
+        )
+        distance, angle = run.distance, run.orientation
+        if distance is not None:
+            text += f", distance {distance[index]:.2f} m"
+        if angle is not None:
+            text += f", between the headings {angle[index]:.0f}\u00b0"
+        if self._status.content != text:
+            self._status.content = text
+
+    def _draw(self, index: int) -> None:
+        run, layers = self._run, self._layers
+        first, now = max(0, index - 1500), float(run.times[index])
+        colours = colours_of(run.players)
+        for name, track in run.tracks.items():
+            trace = track.com[first : index + 1 : 5, :2]
+            lines = chain(trace, HEIGHTS["CoM trace"])
+            layers.draw("CoM trace", name, lines, colours[name])
+            prints = prints_at(track.landings, run.settings.gait.sole, now)
+            layers.draw("footsteps", name, prints, colours[name])
+            layers.draw("pushes", name, pushes_at(track.pushes, now), PUSHED)
+        if run.safety is not None:
+            who, radius = run.safety
+            area = safety_of(run.tracks[who].torso[index, :2], radius)
+            layers.draw("safety area", who, area, colours[who])
+        if run.pair is not None:
+            sight = [[*t.torso[index, :2], 0.25] for t in run.pair]
+            layers.draw("line of sight", "both", np.array([sight]), THEORY)
+        if run.circle is not None:
+            circle = ring(*run.circle, HEIGHTS["circle of theory"])
+            layers.draw("circle of theory", "both", circle, THEORY)

@@ -1,0 +1,254 @@
+"""Numbers that remember how they were computed, and become a function.
+
+Small vectors are slow in arrays: a call of NumPy takes as long as fifty
+multiplications. Formulas written for plain numbers run on these once; what
+is constant folds, what repeats is shared, and the rest is written down as
+one straight function of floats.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable, Sequence
+from math import cos, sin
+
+from .jit import function_of
+
+DEPTH = 12  # of an expression before it gets a name
+
+
+class Traced:
+    """A number that depends on variables.
+
+    Attributes:
+        operation: What it is: a name, or one of ``+ - * / neg sin cos``.
+        operands: Of what; floats are constants.
+        hint: Its value where it was traced, to choose pivots by.
+    """
+
+    __slots__ = ("_trace", "hint", "operands", "operation")
+
+    def __init__(
+        self,
+        trace: Trace,
+        operation: str,
+        operands: tuple[Traced | float, ...],
+        hint: float,
+    ) -> None:
+        """Take part in a trace; made by :class:`Trace` alone."""
+        self._trace = trace
+        self.operation, self.operands = operation, operands
+        self.hint = hint
+
+    def _is(self, operation: str) -> bool:
+        return self.operation == operation
+
+    def __neg__(self) -> Traced | float:
+        if self._is("neg"):
+            return self.operands[0]
+        if self._is("-"):
+            return self.operands[1] - self.operands[0]
+        return self._trace.make("neg", (self,), -self.hint)
+
+    def __add__(self, other: Traced | float) -> Traced | float:
+        if isinstance(other, Traced):
+            if other._is("neg"):
+                return self - other.operands[0]
+            if self._is("neg"):
+                return other - self.operands[0]
+        elif other == 0.0:
+            return self
+        elif self._is("neg"):
+            return other - self.operands[0]
+        elif self._is("+") and isinstance(self.operands[1], float):
+            return self.operands[0] + (self.operands[1] + other)
+        hint = self.hint + hint_of(other)
+        return self._trace.make("+", (self, other), hint)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Traced | float) -> Traced | float:
+        if isinstance(other, Traced):
+            if other is self:
+                return 0.0
+            if other._is("neg"):
+                return self + other.operands[0]
+        else:
+            return self + -other
+        if self._is("neg"):
+            return -(self.operands[0] + other)
+        hint = self.hint - hint_of(other)
+        return self._trace.make("-", (self, other), hint)
+
+    def __rsub__(self, other: float) -> Traced | float:
+        if other == 0.0:
+            return -self
+        if self._is("neg"):
+            return self.operands[0] + other
+        return self._trace.make("-", (other, self), other - self.hint)
+
+    def __mul__(self, other: Traced | float) -> Traced | float:
+        if self._is("neg"):
+            return -(self.operands[0] * other)
+        if isinstance(other, Traced):
+            if other._is("neg"):
+                return -(self * other.operands[0])
+        elif other == 0.0:
+            return 0.0
+        elif other < 0.0:
+            return -(self * -other)
+        elif other == 1.0:
+            return self
+        hint = self.hint * hint_of(other)
+        return self._trace.make("*", (self, other), hint)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Traced | float) -> Traced | float:
+        if not isinstance(other, Traced):
+            return self * (1.0 / other)
+        if other is self:
+            return 1.0
+        if self._is("neg"):
+            return -(self.operands[0] / other)
+        if other._is("neg"):
+            return -(self / other.operands[0])
+        return self._trace.make(
+            "/", (self, other), self.hint / (other.hint or 1.0)
+        )
+
+    def __rtruediv__(self, other: float) -> Traced | float:
+        if other == 0.0:
+            return 0.0
+        if self._is("neg"):
+            return -(other / self.operands[0])
+        return self._trace.make("/", (other, self), other / (self.hint or 1.0))
+
+    def apply(self, name: str, function: Callable[[float], float]) -> Traced:
+        """Value of a function of one number, by its name."""
+        return self._trace.make(name, (self,), function(self.hint))
+
+
+class Trace:
+    """Variables and what was computed from them."""
+
+    def __init__(self) -> None:
+        """Begin with no variables."""
+        self._known: dict[tuple[object, ...], Traced] = {}
+        self._names: list[str] = []
+
+    def variable(self, name: str, hint: float = 0.0) -> Traced:
+        """Add an argument of the function; ``hint`` is a usual value."""
+        self._names.append(name)
+        return Traced(self, name, (), hint)
+
+    def make(
+        self, operation: str, operands: tuple[Number, ...], hint: float
+    ) -> Traced:
+        """Number by its operation; equal ones are the same object."""
+        keys = [x if isinstance(x, float) else id(x) for x in operands]
+        if operation in "+*":
+            keys.sort(key=str)
+        found = self._known.get((operation, *keys))
+        if found is None:
+            found = Traced(self, operation, operands, hint)
+            self._known[(operation, *keys)] = found
+        return found
+
+    def source(self, name: str, results: Sequence[Number]) -> str:
+        """Text of the function of all variables that gives ``results``."""
+        uses = _count_uses(results)
+        lines: list[tuple[str, str]] = []  # name, text
+        texts: dict[int, tuple[str, int]] = {}
+
+        def write(number: Number) -> tuple[str, int]:
+            """Text of a number and how deep it is nested."""
+            if not isinstance(number, Traced):
+                return repr(float(number)), 0
+            if not number.operands:
+                return number.operation, 0
+            if id(number) in texts:
+                return texts[id(number)]
+            parts = [write(operand) for operand in number.operands]
+            text = _written(number.operation, [part for part, _ in parts])
+            depth = 1 + max(depth for _, depth in parts)
+            if uses[id(number)] > 1 or depth > DEPTH:
+                lines.append((f"v{len(lines)}_", text))
+                text, depth = lines[-1][0], 0
+            texts[id(number)] = (text, depth)
+            return texts[id(number)]
+
+        written = ", ".join(write(result)[0] for result in results)
+        lines.append(("return", f"({written},)"))
+        head = f"def {name}({', '.join(self._names)}):"
+        return "\n".join([head, *_renamed(lines), ""])
+
+    def function(
+        self, name: str, results: Sequence[Number]
+    ) -> Callable[..., tuple[float, ...]]:
+        """Function of all variables, in their order, that gives results."""
+        return function_of(name, self.source(name, results))
+
+
+Number = Traced | float
+
+
+def hint_of(number: Number) -> float:
+    """Value of a number where it was traced."""
+    return number.hint if isinstance(number, Traced) else number
+
+
+def sine(angle: Number) -> Number:
+    """Sine of an angle, in [rad]."""
+    return angle.apply("sin", sin) if isinstance(angle, Traced) else sin(angle)
+
+
+def cosine(angle: Number) -> Number:
+    """Cosine of an angle, in [rad]."""
+    return angle.apply("cos", cos) if isinstance(angle, Traced) else cos(angle)
+
+
+def _count_uses(results: Sequence[Number]) -> Counter[int]:
+    uses: Counter[int] = Counter()
+    waiting = [r for r in results if isinstance(r, Traced)]
+    while waiting:
+        number = waiting.pop()
+        uses[id(number)] += 1
+        if uses[id(number)] == 1:
+            waiting += [x for x in number.operands if isinstance(x, Traced)]
+    return uses
+
+
+def _renamed(lines: list[tuple[str, str]]) -> list[str]:
+    """Assignments that use a name again once nobody needs its number.
+
+    Numbers that are let go early leave room that is still warm for the
+    next ones.
+    """
+    last = {
+        name: i
+        for i, (_, text) in enumerate(lines)
+        for name in re.findall(r"v\d+_", text)
+    }
+    idle: list[str] = []
+    names: dict[str, str] = {}
+    written = []
+    for i, (name, text) in enumerate(lines):
+        used = dict.fromkeys(re.findall(r"v\d+_", text))
+        text = re.sub(r"v\d+_", lambda found: names[found[0]], text)
+        idle += [names[old] for old in used if last[old] == i]
+        if name == "return":
+            written.append(f"    return {text}")
+            continue
+        names[name] = idle.pop() if idle else f"v{len(names)}"
+        written.append(f"    {names[name]} = {text}")
+    return written
+
+
+def _written(operation: str, parts: list[str]) -> str:
+    if operation in ("sin", "cos"):
+        return f"{operation}({parts[0]})"
+    if operation == "neg":
+        return f"(-{parts[0]})"
+    return f"({parts[0]} {operation} {parts[1]})"

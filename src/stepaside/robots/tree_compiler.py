@@ -1,0 +1,174 @@
+"""From a MuJoCo model to the tree of a robot; the only use of MuJoCo here."""
+
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from ..core.errors import ModelError
+from ..core.poses import Array
+from .description import RobotDescription
+from .robot_tree import HINGE, SLIDE, Frame, Link, RobotTree, Servo, Triple
+
+KINDS = {
+    int(mujoco.mjtJoint.mjJNT_HINGE): HINGE,
+    int(mujoco.mjtJoint.mjJNT_SLIDE): SLIDE,
+}
+DECIMALS = 14  # kept: what is meant to be 0 or 1 is
+
+
+def compile_tree(description: RobotDescription) -> RobotTree:
+    """Let MuJoCo compile a robot's model, and take the tree out of it.
+
+    Raises:
+        ModelError: If the model lacks what is described, the torso has no
+            free joint, or another joint is neither hinge nor slide.
+    """
+    model = description.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)  # at the zero posture
+    return _Reader(model, data, description).tree()
+
+
+class _Reader:
+    """A compiled model in its zero posture, seen from the torso."""
+
+    def __init__(
+        self, model: Any, data: Any, description: RobotDescription
+    ) -> None:
+        self._model, self._data = model, data
+        self._description = description
+        self._torso = torso = model.body(description.torso).id
+        first = int(model.body_jntadr[torso])
+        free = int(mujoco.mjtJoint.mjJNT_FREE)
+        if first < 0 or model.jnt_type[first] != free:
+            raise ModelError(
+                f"torso of {description.name}: body {description.torso!r} "
+                "has no free joint"
+            )
+        self._place = data.xpos[torso].copy()
+        self._axes = data.xmat[torso].reshape(3, 3).copy()
+        self._links: list[Link] = []
+        self._anchors: list[Array] = []
+        self._link_of_body: dict[int, int] = {}
+
+    def tree(self) -> RobotTree:
+        """Take links and frames out of the model."""
+        model = self._model
+        for body in range(self._torso, model.nbody):
+            parent = int(model.body_parentid[body])
+            if body == self._torso:
+                self._add_torso()
+            elif parent in self._link_of_body:
+                self._add_body(body, self._link_of_body[parent])
+        bodies = {
+            model.body(b).name: self._frame(
+                link, self._data.xpos[b], self._data.xmat[b]
+            )
+            for b, link in self._link_of_body.items()
+        }
+        sites = {
+            model.site(i).name: self._frame(
+                self._link_of_body[int(model.site_bodyid[i])],
+                self._data.site_xpos[i],
+                self._data.site_xmat[i],
+            )
+            for i in range(model.nsite)
+            if int(model.site_bodyid[i]) in self._link_of_body
+        }
+        motors = tuple(
+            model.joint(model.actuator_trnid[i, 0]).name
+            for i in range(model.nu)
+        )
+        return RobotTree(
+            tuple(self._links),
+            bodies,
+            sites,
+            motors,
+            tuple(self._servo(i) for i in range(model.nu)),
+            self._description.coupled_joints(model),
+        )
+
+    def _servo(self, actuator: int) -> Servo:
+        """Gains of a position actuator: torque = k (target - q) - d q'."""
+        gain = float(self._model.actuator_gainprm[actuator, 0])
+        _, by_angle, by_speed = self._model.actuator_biasprm[actuator, :3]
+        if gain <= 0.0 or by_angle != -gain:
+            return Servo(0.0, 0.0)
+        return Servo(gain, -float(by_speed))
+
+    def _add_torso(self) -> None:
+        nothing = (0.0, 0.0, 0.0)
+        self._anchors.append(np.zeros(3))
+        self._links.append(
+            Link("", -1, "", nothing, nothing, 0.0, 0.0, 0.0, 0.0, nothing)
+        )
+        self._link_of_body[self._torso] = 0
+        self._weigh(self._torso, 0)
+
+    def _add_body(self, body: int, link: int) -> None:
+        """Hang a body's joints on a link, one link each, or weld it."""
+        model = self._model
+        start = int(model.body_jntadr[body])
+        for joint in range(start, start + int(model.body_jntnum[body])):
+            link = self._add_joint(joint, link)
+        self._link_of_body[body] = link
+        self._weigh(body, link)
+
+    def _add_joint(self, joint: int, parent: int) -> int:
+        model, data = self._model, self._data
+        name = model.joint(joint).name
+        kind = KINDS.get(int(model.jnt_type[joint]))
+        if kind is None:
+            raise ModelError(
+                f"joint {name!r} of {self._description.name} must be a hinge "
+                "or a slide"
+            )
+        anchor = self._seen(data.xanchor[joint])
+        low, high = model.jnt_range[joint].tolist()
+        if not model.jnt_limited[joint]:
+            low, high = -np.inf, np.inf
+        self._links.append(
+            Link(
+                name,
+                parent,
+                kind,
+                _clean(self._axes.T @ data.xaxis[joint]),
+                _clean(anchor - self._anchors[parent]),
+                float(model.qpos0[model.jnt_qposadr[joint]]),
+                low,
+                high,
+                0.0,
+                (0.0, 0.0, 0.0),
+            )
+        )
+        self._anchors.append(anchor)
+        return len(self._links) - 1
+
+    def _weigh(self, body: int, link: int) -> None:
+        """Lump the mass of a body into its link."""
+        mass = float(self._model.body_mass[body])
+        com = self._seen(self._data.xipos[body]) - self._anchors[link]
+        old = self._links[link]
+        total = old.mass + mass
+        if total > 0.0:
+            com = (old.mass * np.array(old.com) + mass * com) / total
+            self._links[link] = old._replace(mass=total, com=_clean(com))
+
+    def _frame(self, link: int, place: Array, axes: Array) -> Frame:
+        x, y, z = self._axes.T @ axes.reshape(3, 3)
+        return Frame(
+            link,
+            _clean(self._seen(place) - self._anchors[link]),
+            (_clean(x), _clean(y), _clean(z)),
+        )
+
+    def _seen(self, place: Array) -> Array:
+        seen: Array = self._axes.T @ (place - self._place)
+        return seen
+
+
+def _clean(numbers: Array) -> Triple:
+    """Numbers without the noise of turning them about."""
+    x, y, z = (np.round(numbers, DECIMALS) + 0.0).tolist()
+    return x, y, z

@@ -1,1 +1,0 @@
-"""From images to where the other is (paper, Sec. II)."""

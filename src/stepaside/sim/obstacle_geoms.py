@@ -1,0 +1,132 @@
+"""The solids of a room, in MuJoCo: pillars, boxes and walls."""
+
+from collections.abc import Callable
+from math import cos, sin
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from ..arena import Box, Disc, Obstacle, Polygon, Room
+
+FLOOR_BIT = 1  # as of the floor: robots run into it
+HEIGHT = 0.6  # of all of them, a little above a NAO's head, in [m]
+GREY = (0.54, 0.56, 0.60, 1.0)
+BROWN = (0.60, 0.44, 0.28, 1.0)  # of what moves
+PALE = (0.78, 0.79, 0.81, 1.0)  # of walls
+
+
+def add_solids(spec: mujoco.MjSpec, room: Room) -> None:
+    """Put all that stands in a room into a world.
+
+    Each is a body of its own, so that a contact has its name: "disc 1",
+    "box 1", "polygon 1" and "wall 1", each counted from one.
+
+    Args:
+        spec: Specification of the world.
+        room: The room; its frame is that of the world.
+    """
+    for name, solid in named_solids(room):
+        colour = PALE if name.startswith("wall") else GREY
+        _add_solid(spec, name, solid, colour)
+    for number, box in enumerate(room.moving, start=1):
+        _add_solid(spec, _name(number), box.at(0.0), BROWN, moves=True)
+
+
+def mover_of(
+    model: mujoco.MjModel, data: mujoco.MjData, room: Room
+) -> Callable[[float], None]:
+    """What puts the moving boxes of a room where they are at a time, in [s].
+
+    Args:
+        model: World that has them.
+        data: Its state.
+        room: The room.
+    """
+    numbers = [
+        int(model.body(_name(number)).mocapid[0])
+        for number in range(1, len(room.moving) + 1)
+    ]
+
+    def move(time: float) -> None:
+        for number, box in zip(numbers, room.moving, strict=True):
+            data.mocap_pos[number, :2] = box.place_at(time)
+
+    return move
+
+
+def _name(number: int) -> str:
+    return f"moving box {number}"
+
+
+def is_room_wall(model: mujoco.MjModel, geom: int) -> bool:
+    """Whether a geom is a wall of a room that :func:`add_solids` put there."""
+    name: str = model.body(int(model.geom_bodyid[geom])).name
+    return name.startswith("wall ")
+
+
+def named_solids(room: Room) -> tuple[tuple[str, Obstacle], ...]:
+    """Solids of a room with the names of their bodies."""
+    counts: dict[str, int] = {}
+    named = []
+    for number, solid in enumerate(room.solids):
+        kind = "wall" if number >= len(room.obstacles) else solid.kind
+        counts[kind] = counts.get(kind, 0) + 1
+        named.append((f"{kind} {counts[kind]}", solid))
+    return tuple(named)
+
+
+def _add_solid(
+    spec: mujoco.MjSpec,
+    name: str,
+    solid: Obstacle,
+    colour: tuple[float, ...],
+    *,
+    moves: bool = False,
+) -> None:
+    x, y = solid.centre
+    body = spec.worldbody.add_body(name=name, pos=[x, y, 0.0], mocap=moves)
+    body.add_geom(
+        **_GEOMS[solid.kind](spec, name, solid),
+        rgba=list(colour),
+        contype=FLOOR_BIT,
+        conaffinity=0,
+    )
+
+
+def _cylinder(spec: mujoco.MjSpec, name: str, disc: Disc) -> dict[str, Any]:
+    return {
+        "type": mujoco.mjtGeom.mjGEOM_CYLINDER,
+        "pos": [0.0, 0.0, 0.5 * HEIGHT],
+        "size": [disc.radius, 0.5 * HEIGHT, 0.0],
+    }
+
+
+def _cuboid(spec: mujoco.MjSpec, name: str, box: Box) -> dict[str, Any]:
+    turn = 0.5 * box.heading
+    return {
+        "type": mujoco.mjtGeom.mjGEOM_BOX,
+        "pos": [0.0, 0.0, 0.5 * HEIGHT],
+        "size": [0.5 * box.width, 0.5 * box.depth, 0.5 * HEIGHT],
+        "quat": [cos(turn), 0.0, 0.0, sin(turn)],
+    }
+
+
+def _prism(spec: mujoco.MjSpec, name: str, polygon: Polygon) -> dict[str, Any]:
+    around = polygon.points - polygon.centre
+    corners = [(*p, z) for p in around.tolist() for z in (0.0, HEIGHT)]
+    mesh = spec.add_mesh(name=name)
+    mesh.uservert = np.array(corners).ravel().tolist()
+    return {
+        "type": mujoco.mjtGeom.mjGEOM_MESH,
+        "meshname": name,
+        "pos": [0.0, 0.0, 0.0],
+    }
+
+
+# What a model is made of, for each kind of obstacle.
+_GEOMS: dict[str, Callable[..., dict[str, Any]]] = {
+    Disc.kind: _cylinder,
+    Box.kind: _cuboid,
+    Polygon.kind: _prism,
+}

@@ -1,0 +1,111 @@
+"""What a robot covers of the floor, measured on its model."""
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from ..control.clearance.swept_outline import BodyOutline
+from ..core.poses import Array, Pose
+from ..locomotion.zmp.reference_table import standing_reference
+from ..planning import GaitSettings
+from ..robots.description import RobotDescription
+from ..robots.leg_kinematics import LegKinematics
+
+SIDES = 32  # of the polygon around the body
+
+
+def measure_outline(
+    description: RobotDescription, gait: GaitSettings
+) -> BodyOutline:
+    """Measure the outline of a robot that stands as it walks.
+
+    It goes around all shapes that can collide: by the directions of a
+    polygon for the trunk with head, arms and legs, and by a rectangle for
+    each foot.
+
+    Args:
+        description: The robot.
+        gait: Its gait, which says how it stands.
+
+    Raises:
+        ReachError: If the robot cannot stand as the gait asks.
+    """
+    half = 0.5 * gait.foot_spacing
+    left, right = Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0)
+    kinematics = LegKinematics(description, tick=1.0)
+    kinematics.stand(standing_reference(left, right, gait))
+    model = description.compile()
+    data = mujoco.MjData(model)
+    data.qpos[:] = kinematics.posture
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    feet = (description.left_foot, description.right_foot)
+    bodies = [int(model.site(foot).bodyid[0]) for foot in feet]
+    solid = np.flatnonzero((model.geom_contype | model.geom_conaffinity) != 0)
+    owners = model.geom_bodyid[solid]
+    # The legs at a stance lie between trunk and soles.
+    root = model.body(description.torso).id
+    trunk = _outline_of(
+        model,
+        data,
+        solid[~np.isin(owners, bodies)],
+        data.subtree_com[root][:2],
+        np.array([[1.0, 0.0], [0.0, 1.0]]),
+        SIDES,
+    )
+    soles = []
+    for foot, body in zip(feet, bodies, strict=True):
+        site = data.site(foot)
+        axes = site.xmat.reshape(3, 3)[:2, :2]
+        own = solid[owners == body]
+        soles.append(_outline_of(model, data, own, site.xpos[:2], axes, 4))
+    return BodyOutline(trunk, *soles)
+
+
+def _outline_of(
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    geoms: NDArray[np.int_],
+    origin: Array,
+    axes: Array,
+    sides: int,
+) -> Array:
+    """Corners of a polygon around shapes, in a frame. Shape (sides, 2)."""
+    angles = np.arange(sides) * (2.0 * np.pi / sides)
+    normals = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    level = np.zeros((sides, 3))
+    level[:, :2] = normals @ axes.T
+    reach = np.max([_reach(model, data, g, level) for g in geoms], axis=0)
+    reach = reach - level[:, :2] @ origin
+    # Each corner lies on two lines that follow each other.
+    after, farther = np.roll(normals, -1, axis=0), np.roll(reach, -1)
+    lines = np.stack([normals, after], axis=1)
+    corners: Array = np.linalg.solve(
+        lines, np.stack([reach, farther], axis=1)[:, :, None]
+    )[:, :, 0]
+    return corners
+
+
+def _reach(
+    model: mujoco.MjModel, data: mujoco.MjData, geom: int, along: Array
+) -> Array:
+    """How far a shape reaches along directions. Shapes (n, 3), (n,)."""
+    kind = mujoco.mjtGeom(model.geom_type[geom])
+    turned = along @ data.geom_xmat[geom].reshape(3, 3)
+    a, b, c = model.geom_size[geom].tolist()
+    offset = np.zeros(3)
+    if kind is mujoco.mjtGeom.mjGEOM_SPHERE:
+        reach = np.full(len(along), a)
+    elif kind is mujoco.mjtGeom.mjGEOM_CAPSULE:
+        reach = a + b * np.abs(turned[:, 2])
+    elif kind is mujoco.mjtGeom.mjGEOM_CYLINDER:
+        reach = a * np.hypot(turned[:, 0], turned[:, 1])
+        reach = reach + b * np.abs(turned[:, 2])
+    elif kind is mujoco.mjtGeom.mjGEOM_ELLIPSOID:
+        reach = np.linalg.norm(turned * (a, b, c), axis=1)
+    else:  # a box, or the box around a mesh
+        offset = model.geom_aabb[geom, :3]
+        reach = np.abs(turned) @ model.geom_aabb[geom, 3:]
+    shift = data.geom_xpos[geom]
+    found: Array = along @ shift + turned @ offset + reach
+    return found

@@ -1,0 +1,160 @@
+"""Servos between what control asks and what the joints do."""
+
+from collections import deque
+
+import mujoco
+import numpy as np
+
+from ..core.poses import Array
+from .body_settings import BodySettings
+
+
+class IdealServos:
+    """Servos that take their targets at once.
+
+    They follow no faster than the joints' speed limits and feed the
+    targets' own speed forward.
+    """
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        actuators: np.ndarray,
+        speed_limits: Array,
+        cycle: float,
+    ) -> None:
+        """Drive neighbouring actuators of a model.
+
+        Args:
+            model: Compiled model.
+            data: Its state.
+            actuators: Their numbers, without gaps.
+            speed_limits: Of their joints, in [rad/s].
+            cycle: Control period, in [s].
+        """
+        self._data = data
+        self._ctrl = slice(int(actuators[0]), int(actuators[-1]) + 1)
+        self._sent: Array = data.ctrl[self._ctrl]  # a view
+        gains = model.actuator_gainprm[actuators, 0]
+        self._lead = -model.actuator_biasprm[actuators, 2] / gains / cycle
+        self._reach = speed_limits * cycle
+        self._back = -self._reach
+        self._target = np.zeros(actuators.size)
+        self._range = model.actuator_forcerange[self._ctrl]
+        self._full = self._range[:, 1].copy()
+
+    def soften(self, stiffness: Array) -> None:
+        """Let joints push with a share of their torque, 0 to 1 each."""
+        self._range[:, 1] = self._full * stiffness
+        self._range[:, 0] = -self._range[:, 1]
+
+    def reset(self, targets: Array) -> None:
+        """Take targets, in [rad], as the ones that were always there."""
+        self._target = targets
+        self._sent[:] = targets
+
+    def write(self, targets: Array) -> None:
+        """Follow new targets, in [rad]. Shape (joints,)."""
+        change = self._limited(targets)
+        self._target = self._target + change
+        change *= self._lead
+        np.add(change, self._target, out=self._sent)
+
+    def _limited(self, targets: Array) -> Array:
+        change = targets - self._target
+        np.minimum(change, self._reach, out=change)
+        np.maximum(change, self._back, out=change)
+        return change
+
+
+class HonestServos(IdealServos):
+    """Servos with delay, backlash and motors that tire with speed.
+
+    A request arrives some cycles late, and the servo ramps to it in one
+    cycle. Within the backlash the motor turns without the joint. The torque
+    falls linearly with the joint's speed, to zero at the no-load speed.
+    """
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        actuators: np.ndarray,
+        speed_limits: Array,
+        cycle: float,
+        body: BodySettings,
+        backlash: Array,
+    ) -> None:
+        """Drive neighbouring actuators; see :class:`IdealServos`.
+
+        Args:
+            model: Compiled model, whose gains and torque limits are set.
+            data: Its state.
+            actuators: Their numbers, without gaps.
+            speed_limits: No-load speeds of their joints, in [rad/s].
+            cycle: Control period, in [s].
+            body: The body's effects.
+            backlash: Width of the dead zone of each joint, in [rad].
+        """
+        model.actuator_gainprm[actuators, 0] *= body.servo_gain
+        model.actuator_biasprm[actuators, 1] *= body.servo_gain
+        super().__init__(model, data, actuators, speed_limits, cycle)
+        joints = model.actuator_trnid[actuators, 0]
+        self._qpos = model.jnt_qposadr[joints]
+        self._dofs = model.jnt_dofadr[joints]
+        self._half_backlash = 0.5 * backlash
+        share = body.efficiency * body.stiffness
+        self._stall = model.actuator_forcerange[actuators, 1] * share
+        self._full = self._stall.copy()
+        self._range[:, 0], self._range[:, 1] = -self._stall, self._stall
+        self._no_load = speed_limits if body.torque_speed else None
+        self._slope = (
+            None if self._no_load is None else self._stall / speed_limits
+        )
+        self._pending: deque[Array] = deque()
+        self._delay = body.delay_cycles
+        self._cycle, self._time_step = cycle, model.opt.timestep
+        self._change = np.zeros(actuators.size)
+        self._elapsed = 0.0
+
+    def soften(self, stiffness: Array) -> None:
+        """Let joints push with a share of their torque, 0 to 1 each."""
+        super().soften(stiffness)
+        self._stall = self._full * stiffness
+        if self._no_load is not None:
+            self._slope = self._stall / self._no_load
+
+    def reset(self, targets: Array) -> None:
+        """Take targets, in [rad], as the ones that were always there."""
+        super().reset(targets)
+        self._pending = deque([targets] * self._delay)
+        self._change = np.zeros(targets.size)
+
+    def write(self, targets: Array) -> None:
+        """Send new targets, in [rad], on their way. Shape (joints,)."""
+        self._target = self._target + self._change
+        self._pending.append(targets)
+        self._change = self._limited(self._pending.popleft())
+        self._elapsed = 0.0
+
+    def before_step(self, time: float) -> None:
+        """Set control and torque limits for one physics step."""
+        self._elapsed = min(self._elapsed + self._time_step, self._cycle)
+        data = self._data
+        ramp = self._target + self._change * (self._elapsed / self._cycle)
+        angle = data.qpos[self._qpos]
+        error = ramp - angle
+        half = self._half_backlash
+        error -= np.minimum(np.maximum(error, -half), half)
+        error += angle
+        error += self._lead * self._change
+        self._sent[:] = error
+        if self._slope is not None:
+            loss = self._slope * data.qvel[self._dofs]
+            stall = self._stall
+            high, low = self._range[:, 1], self._range[:, 0]
+            np.subtract(stall, loss, out=high)
+            np.minimum(np.maximum(high, 0.0, out=high), stall, out=high)
+            np.subtract(-stall, loss, out=low)
+            np.maximum(np.minimum(low, 0.0, out=low), -stall, out=low)

@@ -1,0 +1,57 @@
+"""How a robot truly stands: what no sensor of its own tells it."""
+
+from math import asin, atan2
+from typing import NamedTuple
+
+import mujoco
+
+from ..core.poses import Pose
+from ..robots.description import RobotDescription
+
+
+class Stance(NamedTuple):
+    """Torso, feet and velocity of a robot in its world.
+
+    Attributes:
+        velocity: Of the CoM (x, y), in [m/s].
+        tilt: Roll and pitch of the torso, in [rad].
+        left_sole: Place and heading of the left sole.
+        right_sole: Likewise.
+    """
+
+    velocity: tuple[float, float]
+    tilt: tuple[float, float]
+    left_sole: Pose
+    right_sole: Pose
+
+
+class StanceWatch:
+    """Looks how one robot of a world stands."""
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        name: str,
+        description: RobotDescription,
+    ) -> None:
+        """Watch the robot with a name."""
+        self._model, self._data = model, data
+        self._torso = model.body(f"{name}/{description.torso}").id
+        feet = description.left_foot, description.right_foot
+        self._soles = [model.site(f"{name}/{foot}").id for foot in feet]
+
+    def read(self) -> Stance:
+        """How it stands at this instant."""
+        data, torso = self._data, self._torso
+        mujoco.mj_subtreeVel(self._model, data)
+        vx, vy, _ = data.subtree_linvel[torso].tolist()
+        frame = data.xmat[torso].tolist()
+        left, right = (self._pose(sole) for sole in self._soles)
+        tilt = atan2(frame[7], frame[8]), -asin(max(-1.0, min(1.0, frame[6])))
+        return Stance((vx, vy), tilt, left, right)
+
+    def _pose(self, site: int) -> Pose:
+        x, y, _ = self._data.site_xpos[site].tolist()
+        frame = self._data.site_xmat[site]
+        return Pose(x, y, atan2(frame[3], frame[0]))

@@ -1,0 +1,232 @@
+"""A floor with robots on it, in MuJoCo."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import combinations
+from math import cos, sin
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.poses import Pose
+from ..core.random_streams import named_generator
+from ..robots.description import RobotDescription
+from ..robots.tree_cache import load_tree
+from .body_settings import BodySettings
+from .floor import add_floor, tilt_gravity
+from .physics_settings import PhysicsSettings
+from .sensor_errors import perturb_masses
+
+FLOOR_BIT = 1
+CONTACT_BITS = 0x7FFFFFFF  # of MuJoCo's contact masks, without the sign
+COLOURS = {
+    "pursuer": (0.80, 0.16, 0.14, 1.0),
+    "evader": (0.10, 0.36, 0.75, 1.0),
+}
+
+
+def build_model(
+    robots: Mapping[str, RobotDescription],
+    physics: PhysicsSettings,
+    body: BodySettings | None = None,
+    seed: int = 0,
+    furnish: Callable[[mujoco.MjSpec], None] | None = None,
+) -> mujoco.MjModel:
+    """Compile a floor and robots that collide with it and each other.
+
+    Args:
+        robots: Robots by name; the names become prefixes, as in
+            ``pursuer/torso``.
+        physics: Time step and floor.
+        body: How far the robots are from their descriptions; not at all by
+            default.
+        seed: Seed of the floor and of the robots' errors.
+        furnish: Puts more into the world, once the robots are in it.
+    """
+    spec = mujoco.MjSpec()
+    spec.option.timestep = physics.time_step
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.solver = mujoco.mjtSolver.mjSOL_NEWTON
+    spec.option.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
+    spec.visual.global_.offwidth = 1920
+    spec.visual.global_.offheight = 1080
+    spec.stat.extent = 1.0
+    tilt_gravity(spec, physics)
+    add_floor(spec, physics, named_generator(seed, "floor"), FLOOR_BIT)
+    for (name, description), own in zip(
+        robots.items(), _contact_types(), strict=False
+    ):
+        part = description.spec()
+        for geom in part.geoms:
+            if geom.contype or geom.conaffinity:
+                geom.contype = own
+                # Floor and all other robots, not itself.
+                geom.conaffinity = CONTACT_BITS & ~own
+                geom.friction[0] = physics.friction
+        if body is not None and body.mass_error + body.com_error > 0.0:
+            generator = named_generator(seed, f"masses/{name}")
+            perturb_masses(
+                part.bodies,
+                body,
+                description.torso,
+                generator,
+                length_unit=description.game.get("length_unit", 1.0),
+            )
+        if name in COLOURS:
+            _dye(part, description, COLOURS[name])
+        # What the world has of its own wins, without a word about it.
+        part.option = spec.option
+        frame = spec.worldbody.add_frame()
+        spec.attach(part, prefix=f"{name}/", frame=frame)
+    if furnish is not None:
+        furnish(spec)
+    return spec.compile()
+
+
+def _contact_types() -> Iterator[int]:
+    """Yield contact types of robots, each with a bit that the others lack.
+
+    They are halves of the bits, so no type holds another: a type meets the
+    complement of every other, but not its own. 30 bits have 1.6e8 halves.
+    """
+    bits = range(1, CONTACT_BITS.bit_length())  # the first is the floor's
+    for half in combinations(bits, len(bits) // 2):
+        yield sum(1 << bit for bit in half)
+
+
+def _dye(
+    part: mujoco.MjSpec,
+    description: RobotDescription,
+    colour: tuple[float, float, float, float],
+) -> None:
+    """Give a robot the colour of its role: its accent, or else its torso."""
+    if description.accent:
+        accent = part.material(description.accent)
+        if accent is not None:
+            accent.rgba = colour
+        return
+    for geom in part.body(description.torso).geoms:
+        geom.material, geom.rgba = "", colour
+
+
+class World:
+    """Physics of a model whose robots advance it together.
+
+    Time passes when every robot has asked for it, so that each can be
+    driven through its own interface.
+
+    Attributes:
+        model: Compiled model.
+        data: Its state.
+        physics: Time step and control period.
+        ticks: Control ticks that have passed.
+        before_step: Called with the time, in [s], before each physics step.
+    """
+
+    def __init__(
+        self,
+        robots: Mapping[str, RobotDescription],
+        physics: PhysicsSettings,
+        body: BodySettings | None = None,
+        seed: int = 0,
+        furnish: Callable[[mujoco.MjSpec], None] | None = None,
+    ) -> None:
+        """Compile a world in which every robot still has to be placed.
+
+        Args are those of :func:`build_model`.
+
+        Raises:
+            ModelError: If a model lacks what its description names.
+        """
+        for robot in robots.values():
+            load_tree(robot)  # refuses a model that lacks what is described
+        self.physics = physics
+        self.model = build_model(robots, physics, body, seed, furnish)
+        self.data = mujoco.MjData(self.model)
+        self.before_step: list[Callable[[float], None]] = []
+        self.ticks = 0
+        self._waiting = self._robots = len(robots)
+        roots = [
+            self.model.body(f"{name}/{robot.torso}").id
+            for name, robot in robots.items()
+        ]
+        # Floor and walls are nobody's; other things are strangers.
+        owner = np.full(self.model.nbody, self._robots + 1)
+        owner[0] = 0
+        for number, root in enumerate(roots, start=1):
+            owner[self.model.body_rootid == self.model.body_rootid[root]] = (
+                number
+            )
+        self._owner_of_geom = owner[self.model.geom_bodyid]
+
+    @property
+    def time(self) -> float:
+        """Simulated time: a count of ticks, so that sums are exact. [s]."""
+        return self.ticks * self.physics.tick
+
+    def advance(self) -> None:
+        """Note that one robot is done; step when all of them are."""
+        self._waiting -= 1
+        if self._waiting == 0:
+            self._waiting = self._robots
+            self.step()
+
+    def step(self) -> None:
+        """Let one control tick pass."""
+        steps = self.physics.steps_per_tick
+        if self.before_step:
+            self._step_singly(steps)
+        else:
+            mujoco.mj_step(self.model, self.data, nstep=steps)
+        self.ticks += 1
+
+    def _step_singly(self, steps: int) -> None:
+        now, time_step = self.time, self.physics.time_step
+        for step in range(steps):
+            for call in self.before_step:
+                call(now + step * time_step)
+            mujoco.mj_step(self.model, self.data)
+
+    def robots_touch(self) -> bool:
+        """Whether two robots, or one and a thing, are in contact."""
+        return bool(self._touching().any())
+
+    def touching(self) -> tuple[str, ...]:
+        """Names of who and what is in contact with each other, sorted."""
+        pairs = self.data.contact.geom[self._touching()]
+        bodies = self.model.geom_bodyid[pairs.ravel()]
+        names = {self.model.body(body).name for body in bodies}
+        return tuple(sorted({n.split("/")[0] or "a thing" for n in names}))
+
+    def _touching(self) -> NDArray[np.bool_]:
+        """Which contacts are between different owners. Shape (ncon,)."""
+        if self.data.ncon == 0:
+            return np.zeros(0, dtype=bool)
+        owners = self._owner_of_geom[self.data.contact.geom]
+        apart = owners[:, 0] != owners[:, 1]
+        touching: NDArray[np.bool_] = apart & (owners.min(axis=1) > 0)
+        return touching
+
+
+def place_free_body(qpos: Sequence[float], pose: Pose) -> list[float]:
+    """Move the free joint of a robot to where its odometry begins.
+
+    Args:
+        qpos: Position and quaternion in odometry. Shape (7,).
+        pose: Pose of odometry in the world.
+
+    Returns:
+        Position and quaternion in the world. Shape (7,).
+    """
+    x, y, z, w, a, b, c = qpos
+    place = pose.compose(Pose(x, y, 0.0))
+    cw, sw = cos(0.5 * pose.theta), sin(0.5 * pose.theta)
+    return [
+        place.x,
+        place.y,
+        z,
+        cw * w - sw * c,
+        cw * a - sw * b,
+        cw * b + sw * a,
+        cw * c + sw * w,
+    ]

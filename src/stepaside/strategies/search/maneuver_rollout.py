@@ -1,0 +1,106 @@
+"""Rolling one maneuver out, and how good it is."""
+
+from math import atan2, pi
+from pathlib import Path
+from typing import Any
+
+from ...arena.obstacles import PackedObstacles
+from ...theory.unicycle.compilation import (
+    compiled,
+    forget_stale,
+    inlined,
+    load_numba,
+)
+from .candidate_maneuvers import Aims
+from .packed_obstacles import clearance_at
+from .step_motion import Both, StepRules, half_turn, step_both
+from .value_lookup import ValueTable, value_at
+
+if load_numba() is not None:
+    _HERE = Path(__file__).parent
+    forget_stale(
+        _HERE, [*_HERE.glob("*.py"), *(_HERE.parent / "unicycle").glob("*.py")]
+    )
+
+
+@inlined
+def judge(
+    both: Both, score: float, aims: Aims, packed: PackedObstacles
+) -> float:
+    """Score after one more step, given that before it."""
+    dx, dy = both.px - both.ex, both.py - both.ey
+    worth = min((dx * dx + dy * dy) ** 0.5, aims.enough)
+    if worth < score:
+        score = worth
+    lacks = aims.clearance - clearance_at(
+        packed, both.ex, both.ey, aims.clearance
+    )
+    if aims.sight < pi:
+        psi = abs(
+            atan2(both.ec * dy - both.es * dx, both.ec * dx + both.es * dy)
+        )
+        if psi > aims.sight:
+            score = min(score, worth - aims.blindness * (psi - aims.sight))
+    if lacks > 0.0:
+        score = min(score, worth - aims.penalty * lacks)
+    return score
+
+
+@inlined
+def law_turn(both: Both, side: float, angle: float, share: float) -> float:
+    """Turn of a step by eqs. (4)-(5), in [rad]."""
+    dx, dy = both.px - both.ex, both.py - both.ey
+    psi = atan2(both.ec * dy - both.es * dx, both.ec * dx + both.es * dy)
+    heading = psi + side * angle
+    if heading > pi:
+        heading -= 2.0 * pi
+    elif heading < -pi:
+        heading += 2.0 * pi
+    return share * heading
+
+
+@compiled
+def follow(
+    both: Both, score: float, turns: Any, count: int, spot: int,
+    still: StepRules, horizon: int, best: float, angle: float,
+    rules: StepRules, aims: Aims, packed: PackedObstacles, table: ValueTable,
+) -> tuple[float, int]:  # fmt: skip
+    """Roll a maneuver out that is given as turns, then the law.
+
+    Args:
+        both: Where both are.
+        score: Score so far.
+        turns: Turn of each step; those of the law are written behind.
+        count: How many are given.
+        spot: How many of the first are made on the spot.
+        still: Of such a step.
+        horizon: How many there are in the end.
+        best: Score at which it is given up.
+        angle: Strategy alpha of the law, in [rad].
+        rules: Of a step.
+        aims: What is good.
+        packed: What stands there.
+        table: What comes after the horizon.
+
+    Returns:
+        Score, and steps that were made.
+    """
+    side = 0.0
+    for n in range(horizon):
+        if n >= count:
+            if side == 0.0:
+                dx, dy = both.px - both.ex, both.py - both.ey
+                left = both.ec * dy - both.es * dx
+                side = -1.0 if left > 0.0 else 1.0
+            turns[n] = law_turn(both, side, angle, rules.evader_share)
+        c, s, ratio = half_turn(0.5 * turns[n])
+        if n < spot:
+            both = step_both(both, c, s, ratio, still)
+        else:
+            both = step_both(both, c, s, ratio, rules)
+        score = judge(both, score, aims, packed)
+        if score <= best:
+            return score, n + 1
+    if table.values.shape[0] > 0:
+        score = min(score, min(value_at(table, both), aims.enough))
+    return score, horizon

@@ -1,0 +1,62 @@
+"""The bound's table at a point, for compiled loops."""
+
+from math import atan2, hypot, pi, tau
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...theory.unicycle.compilation import inlined
+from .step_motion import Both
+
+
+class ValueTable(NamedTuple):
+    """Best least distance on an open floor, from every relative state.
+
+    Attributes:
+        values: Values, in units of length. Shape (a, r, psi), all around,
+            with one node more on both sides of each bearing; empty for
+            none.
+        near: Least distance of its nodes, in units.
+        step: Spacing of the distances, in units.
+        unit: Length of the unit, in [m].
+    """
+
+    values: Any
+    near: float
+    step: float
+    unit: float
+
+
+NO_VALUE = ValueTable(np.zeros((0, 0, 0), dtype=np.float32), 0.0, 1.0, 1.0)
+"""Nothing is known of what comes after the horizon."""
+
+
+@inlined
+def value_at(table: ValueTable, both: Both) -> float:
+    """Best least distance from where both are, in [m], by a table."""
+    values = table.values
+    dx, dy = both.ex - both.px, both.ey - both.py
+    distance = hypot(dx, dy)
+    r = (distance / table.unit - table.near) / table.step
+    if r <= 0.0:
+        return distance
+    a = atan2(both.pc * dy - both.ps * dx, both.pc * dx + both.ps * dy)
+    psi = atan2(both.es * dx - both.ec * dy, -both.ec * dx - both.es * dy)
+    na, nr, npsi = values.shape
+    beyond = max(r - (nr - 1.0), 0.0)
+    u = (a + pi) * ((na - 2) / tau) + 0.5
+    v = min(r, nr - 1.0)
+    w = (psi + pi) * ((npsi - 2) / tau) + 0.5
+    i = min(int(u), na - 2)
+    j = min(int(v), nr - 2)
+    k = min(int(w), npsi - 2)
+    u, v, w = u - i, v - j, w - k
+    low = (1.0 - w) * values[i, j, k] + w * values[i, j, k + 1]
+    up = (1.0 - w) * values[i, j + 1, k] + w * values[i, j + 1, k + 1]
+    before = (1.0 - v) * low + v * up
+    low = (1.0 - w) * values[i + 1, j, k] + w * values[i + 1, j, k + 1]
+    up = (1.0 - w) * values[i + 1, j + 1, k] + w * values[i + 1, j + 1, k + 1]
+    after = (1.0 - v) * low + v * up
+    found = (1.0 - u) * before + u * after + beyond * table.step
+    value: float = min(distance, found * table.unit)
+    return value

@@ -1,0 +1,149 @@
+"""Any two strategies, played by unicycles that decide step by step."""
+
+from dataclasses import dataclass
+from math import ceil
+
+import numpy as np
+
+from ..core.errors import check_positive
+from ..core.poses import Array, Pose
+from ..planning.path import UnicycleTrajectory
+from ..theory.unicycle.relative_coordinates import Start
+from ..theory.unicycle.unicycle_game import Unicycle
+from .decider import Decider
+from .knowledge import Intent, Limits
+from .strategy import Strategy
+
+PARTS = 8  # samples of the record between two decisions
+
+
+@dataclass(frozen=True, slots=True)
+class StrategyRun:
+    """A game as it went.
+
+    Attributes:
+        times: Times, in [s]. Shape (n,).
+        pursuer: Poses (x [m], y [m], theta [rad]). Shape (n, 3).
+        evader: Poses of the evader, likewise.
+        captured: Whether the distance fell to the capture distance, with
+            which the game ends.
+    """
+
+    times: Array
+    pursuer: Array
+    evader: Array
+    captured: bool
+
+    @property
+    def distances(self) -> Array:
+        """Distance between the two, in [m]. Shape (n,)."""
+        apart = self.evader - self.pursuer
+        found: Array = np.hypot(apart[:, 0], apart[:, 1])
+        return found
+
+    @property
+    def closest_distance(self) -> float:
+        """Least distance, in [m], of the times recorded."""
+        return float(self.distances.min())
+
+
+class _Player:
+    """One unicycle with its strategy."""
+
+    def __init__(
+        self, strategy: Strategy, body: Unicycle, pose: Pose, period: float
+    ) -> None:
+        self.strategy, self.body, self.pose = strategy, body, pose
+        limits = Limits(body.speed, body.gain, body.speed * period, period)
+        self._decider = Decider(strategy, limits, period, sees_velocity=True)
+
+    def decide(self, time: float, bearing: float, distance: float) -> Intent:
+        """Ask the strategy."""
+        return self._decider.decide(time, self.pose, bearing, distance)
+
+    def drive(self, intent: Intent, times: Array) -> Array:
+        """Drive as was decided; poses at times since then. Shape (n, 3)."""
+        if not intent.walks:
+            return np.tile(self.pose, (len(times), 1))
+        path = UnicycleTrajectory(
+            intent.heading,
+            intent.speed_factor * self.body.speed,
+            self.body.gain,
+            self.strategy.direction,
+            self.strategy.saturated,
+        ).poses(intent.pace * times)
+        path[:, :2] = self.pose.transform_points(path[:, :2])
+        path[:, 2] += self.pose.theta
+        self.pose = Pose(*path[-1].tolist())
+        return path
+
+
+def play_strategies(
+    pursuer: Strategy,
+    evader: Strategy,
+    start: Start,
+    *,
+    bodies: tuple[Unicycle, Unicycle],
+    period: float,
+    duration: float,
+    capture_distance: float = 1e-6,
+) -> StrategyRun:
+    r"""Let two unicycles play, each by a strategy.
+
+    Both decide at the same instants, and drive on the trajectory (9)-(14)
+    of the maneuver that they chose until the next: with
+    :math:`\Delta / \bar{v}` as the period, as walkers do, step by step; with
+    a short one as unicycles under feedback. Time is path time. Who stands
+    starts at the next instant.
+
+    Args:
+        pursuer: Strategy of the pursuer, which starts at the origin.
+        evader: Strategy of the evader.
+        start: Where they stand to each other.
+        bodies: Speed and gain of pursuer and evader.
+        period: Time between two decisions, in [s].
+        duration: Time after which the game ends, in [s]; rounded up to
+            whole periods.
+        capture_distance: Distance at which the game ends, in [m].
+
+    Raises:
+        PlanError: If a value is out of its range, or a strategy asks for
+            what no unicycle can do.
+    """
+    for body in bodies:
+        check_positive(body.speed, "speed", "m/s")
+        check_positive(body.gain, "gain", "1/s")
+    check_positive(period, "period", "s")
+    check_positive(duration, "duration", "s")
+    check_positive(capture_distance, "capture_distance", "m")
+    origin = Pose(0.0, 0.0, 0.0)
+    players = (
+        _Player(pursuer, bodies[0], origin, period),
+        _Player(evader, bodies[1], start.evader_pose(origin), period),
+    )
+    parts = period * np.arange(1, PARTS + 1) / PARTS
+    tracks = [[np.array([player.pose])] for player in players]
+    times = [np.zeros(1)]
+    captured = start.distance <= capture_distance
+    for step in range(ceil(duration / period - 1e-9)):
+        if captured:
+            break
+        poses = [player.pose for player in players]
+        distance, a, psi = Start.from_world(*poses).wrapped()
+        intents = [
+            player.decide(step * period, bearing, distance)
+            for player, bearing in zip(players, (a, psi), strict=True)
+        ]
+        ways = [
+            player.drive(intent, parts)
+            for player, intent in zip(players, intents, strict=True)
+        ]
+        apart = np.hypot(*(ways[1] - ways[0])[:, :2].T)
+        caught = np.flatnonzero(apart <= capture_distance)
+        captured = caught.size > 0
+        kept = int(caught[0]) + 1 if captured else PARTS
+        times.append(step * period + parts[:kept])
+        for track, way in zip(tracks, ways, strict=True):
+            track.append(way[:kept])
+    driven, evaded = (np.concatenate(track) for track in tracks)
+    return StrategyRun(np.concatenate(times), driven, evaded, captured)

@@ -1,0 +1,100 @@
+"""What measures the claims of the paper, job by job."""
+
+from collections.abc import Callable
+
+from ..games.configuration_file import dump_configuration
+from ..games.duel_settings import DuelSettings
+from . import balance_claims as balance
+from . import evading_claims as evading
+from . import physics_claims as physics
+from . import physics_readings as read
+from . import planner_claims as planner
+from . import unicycle_claims as unicycle
+from .claims import Claim, Job, Readings
+from .code_version import LIBRARIES
+from .evading_readings import (
+    WORLDS,
+    measure_evading,
+    measure_room,
+    room_settings,
+)
+
+# Modules that take readings. Verdicts are found anew each time.
+GAMES = ("studies/unicycle_claims",)
+PLANS = ("studies/planner_claims",)
+BALANCE = ("studies/balance_claims",)
+DUELS = ("studies/physics_readings",)
+EVADING = ("studies/evading_readings",)
+
+
+def _game(claims: tuple[Claim, ...], measure: Callable[[], Readings]) -> Job:
+    """Job on unicycles; its settings are in the code."""
+    return Job(claims, lambda _: measure(), GAMES, ("numpy", "scipy"))
+
+
+def _plan(
+    claims: tuple[Claim, ...],
+    measure: Callable[[], Readings],
+    rooms: tuple[str, ...],
+) -> Job:
+    """Job on the planner, with the gait of Sec. IV."""
+    settings = repr(planner.GAIT)
+    return Job(
+        claims, lambda _: measure(), rooms, ("numpy",), lambda _: settings
+    )
+
+
+def _duel(
+    claims: tuple[Claim, ...],
+    measure: Callable[[int], Readings],
+    *settings: Callable[[int], DuelSettings],
+) -> Job:
+    """Job on two NAOs in physics, from the random starts of its seeds."""
+
+    def in_words(seed: int) -> str:
+        return "; ".join(dump_configuration(each(seed)) for each in settings)
+
+    return Job(claims, measure, DUELS, LIBRARIES, in_words, seeded=True)
+
+
+JOBS: dict[str, Job] = {
+    "circle": _game(unicycle.CIRCLE, unicycle.read_circle),
+    "saturated": _game(unicycle.SATURATED, unicycle.read_saturated),
+    "strategies": _game(unicycle.STRATEGIES, unicycle.read_strategies),
+    "sampled": _game(unicycle.SAMPLED, unicycle.read_sampled),
+    "path": _plan(planner.PATH, planner.read_path, PLANS),
+    "footsteps": _plan(planner.FOOTSTEPS, planner.read_footsteps, PLANS),
+    "com": _plan(balance.COM, balance.read_com, BALANCE),
+    "timing": _plan(balance.TIMING, balance.read_timing, BALANCE),
+    "humanoids": _duel(
+        physics.HUMANOIDS, read.measure_humanoids, read.circle_settings
+    ),
+    "durations": _duel(
+        physics.DURATIONS,
+        read.measure_durations,
+        lambda seed: read.walk_settings(seed, "as-printed"),
+        read.walk_settings,
+    ),
+    "slip": _duel(
+        physics.SLIP,
+        read.measure_slip,
+        lambda seed: read.slip_settings(seed, slippery=False),
+        lambda seed: read.slip_settings(seed, slippery=True),
+    ),
+    "evading": Job(
+        evading.EVADING,
+        measure_evading,
+        EVADING,
+        ("numba", "numpy"),
+        lambda _: repr(WORLDS),
+        seeded=True,
+    ),
+    "rooms": Job(
+        evading.ROOM,
+        measure_room,
+        EVADING,
+        ("mujoco", "numba", "numpy"),
+        lambda seed: dump_configuration(room_settings(seed)),
+        seeded=True,
+    ),
+}

@@ -1,0 +1,299 @@
+"""Many duels from many starts: what comes out, how surely, what was worst."""
+
+import json
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import Executor, as_completed
+from dataclasses import asdict, replace
+from functools import cache
+from hashlib import sha256
+from math import isfinite
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from ..core.errors import PlanError
+from ..core.poses import Pose
+from ..core.random_streams import named_generator
+from ..core.worker_pool import give_up
+from ..games.duel import run_duel
+from ..games.duel_run import DuelRun
+from ..games.duel_settings import DuelSettings
+from ..games.strategy_objects import check_named
+from ..robots.jit import prefer_for
+from ..strategies.registry import file_of
+from ..theory.unicycle.certificate import certify
+from ..theory.unicycle.relative_coordinates import Start
+from ..theory.unicycle.unicycle_game import make_game
+from .code_version import code_version, library_versions
+from .duel_statistics import FIELDS
+from .later import LATER
+from .record_store import RecordFile
+
+Record = dict[str, Any]
+# Modules that play a duel and make its record.
+ROOMS = ("studies/duels",)
+# Of a record, what depends on the machine and not on the duel alone.
+MACHINE = ("version", "libraries", "verified", "wall_s")
+
+
+def _drop(entries: Record, plain: Record, path: list[str]) -> None:
+    """Leave an entry out if it is the plain one."""
+    name, *deeper = path
+    if deeper:
+        _drop(entries[name], plain[name], deeper)
+    elif entries[name] == plain[name]:
+        del entries[name]
+
+
+def settings_hash(settings: DuelSettings) -> str:
+    """Fingerprint of everything that decides a duel but its seed.
+
+    Of strategies in files, what the files hold counts, too; what they import
+    does not.
+    """
+    entries = asdict(replace(settings.named(), seed=0))
+    plain = asdict(DuelSettings(seed=0))
+    for path in LATER:
+        _drop(entries, plain, path.split("."))
+    for name in (settings.evader_strategy, settings.pursuer_strategy):
+        file = file_of(name) if isinstance(name, str) else None
+        if file is not None and file.is_file():
+            entries[f"content of {name}"] = file.read_bytes().hex()
+    text = json.dumps(entries, sort_keys=True)
+    return sha256(text.encode()).hexdigest()[:12]
+
+
+def key_of(settings: DuelSettings) -> str:
+    """Key of a duel among records: its seed and its settings."""
+    return f"{settings.seed}/{settings_hash(settings)}"
+
+
+@cache
+def _stamp() -> Record:
+    return {
+        "version": code_version(ROOMS),
+        "libraries": library_versions(("mujoco", "numpy")),
+    }
+
+
+def play_record(settings: DuelSettings) -> Record:
+    """Play one duel and keep its figures.
+
+    Returns:
+        Figures in SI units and [deg] as their names say, ``digest`` of the
+        whole trajectories, versions of code and libraries.
+    """
+    began = perf_counter()
+    prefer_for(settings.duration, many=True)
+    run = run_duel(settings)
+    summary = run.summary
+    record = {
+        "seed": settings.seed,
+        "outcome": summary.outcome,
+        "message": summary.message,
+        "duration_s": summary.duration_s,
+        "start_distance_m": run.settings.start.distance,
+        "pursuer_radius_m": summary.pursuer.radius_m,
+        "evader_radius_m": summary.evader.radius_m,
+        "distance_m": summary.distance_m,
+        "relative_orientation_deg": summary.relative_orientation_deg,
+        "converged_at_s": summary.converged_at_s,
+        "min_distance_m": summary.min_distance_m,
+        "triggered_at_s": summary.triggered_at_s,
+        "triggered_at_distance_m": summary.triggered_at_distance_m,
+        "min_zmp_margin_m": summary.min_zmp_margin_m,
+        "max_com_velocity_jump_m_s": summary.max_com_velocity_jump_m_s,
+        **_evasion(run),
+    }
+    if summary.sight is not None:
+        for name in ("lost_s", "detection_rate", "false_detections"):
+            record[name] = getattr(summary.sight, name)
+    record["digest"] = digest_of(run)
+    record["wall_s"] = round(perf_counter() - began, 3)
+    return record | _stamp()
+
+
+def _evasion(run: DuelRun) -> Record:
+    """Closest approach while evading, and what is certain of the template.
+
+    The certificate is that of two unicycles that start like the players at
+    the moment evasion begins, with an evader that keeps its side.
+    """
+    found: Record = {"evading_min_distance_m": None, "certified_m": None}
+    triggered = run.summary.triggered_at_s
+    if triggered is None or run.settings.pursuer != "robot":
+        return found
+    since = run.times >= triggered - 1e-9
+    if not since.any():
+        return found
+    apart = run.distance[since]
+    found["evading_min_distance_m"] = float(apart.min())
+    first = int(np.argmax(since))
+    start = Start.from_world(
+        Pose(*run.pursuer.unicycle[first].tolist()),
+        Pose(*run.evader.unicycle[first].tolist()),
+    )
+    gait, strategy = run.settings.gait, run.settings.strategy
+    ends = strategy.trigger == "time" or isfinite(strategy.release_distance)
+    if ends or not run.settings.is_of_the_paper:
+        return found  # the certificate is of an evader that does not cease
+    try:
+        game = make_game(
+            *(gait.speed, gait.speed, gait.gain, gait.gain),
+            strategy.angle,
+            "saturated" if strategy.saturated else "proportional",
+            side_rule="latched",
+        )
+        certificate = certify(game, start)
+    except PlanError:  # not a game that the certificate speaks of
+        return found
+    if certificate.holds:
+        found["certified_m"] = certificate.distance_m
+    return found
+
+
+def digest_of(run: DuelRun) -> str:
+    """Fingerprint of every number that was recorded of a duel."""
+    digest = sha256()
+    for name, array in sorted(run.arrays().items()):
+        digest.update(name.encode())
+        digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()[:12]
+
+
+def run_duels(
+    settings: DuelSettings,
+    seeds: Sequence[int],
+    file: RecordFile | None,
+    executor: Executor,
+    report: Callable[[int], None] | None = None,
+    done: dict[str, Record] | None = None,
+) -> dict[str, Record]:
+    """Play what a file of records does not hold yet.
+
+    Args:
+        settings: Of every duel but for the seed.
+        seeds: One duel each.
+        file: Where records are kept as they come; None keeps nothing. One
+            that was made by another version of the code is made again.
+        executor: Any executor of ``concurrent.futures``.
+        report: Called with the number of duels that are done.
+        done: Filled with the records as they come, for whoever stops it.
+
+    Returns:
+        Records by key, in the order of the seeds.
+    """
+    wanted = {
+        key_of(one): one
+        for one in (replace(settings, seed=seed) for seed in seeds)
+    }
+    results: dict[str, Record] = {} if done is None else done
+    if file is not None:
+        check_named(settings)
+        results |= {
+            key: record
+            for key, record in file.read(FIELDS).items()
+            if key in wanted and is_current(record)
+        }
+    if report is not None:
+        report(len(results))
+    futures = {
+        executor.submit(play_record, one): key
+        for key, one in wanted.items()
+        if key not in results
+    }
+    try:
+        for future in as_completed(futures):
+            key = futures[future]
+            results[key] = future.result()
+            if file is not None:
+                file.append(key, results[key])
+            if report is not None:
+                report(len(results))
+    except BaseException:
+        give_up(executor, futures)
+        raise
+    return {key: results[key] for key in wanted}
+
+
+def is_current(record: Record) -> bool:
+    """Whether this version of the code and libraries made a record.
+
+    A record that another version made counts, too, once
+    :func:`verify_duels` has found that the two play the same.
+    """
+    now = _stamp()
+    stamp = record.get("verified", record)
+    return all(stamp.get(name) == now[name] for name in now)
+
+
+def verify_duels(
+    settings: DuelSettings,
+    file: RecordFile,
+    number: int,
+    executor: Executor,
+) -> tuple[list[int], list[int]]:
+    """Hold records of an older version against duels played anew.
+
+    If every one of some drawn records comes out the same, all of them are
+    marked as verified by this version: by whom they were played stays.
+
+    Args:
+        settings: Of every duel but for the seed.
+        file: Records.
+        number: How many to play again.
+        executor: Any executor of ``concurrent.futures``.
+
+    Returns:
+        Seeds that were played again, and those that came out otherwise.
+    """
+    own = settings_hash(settings)
+    records = file.read(FIELDS)
+    old = [
+        key
+        for key, record in records.items()
+        if key.endswith("/" + own) and not is_current(record)
+    ]
+    drawn = named_generator(0, "verify").permutation(len(old))[:number]
+    keys = [old[i] for i in sorted(drawn.tolist())]
+    tasks = [replace(settings, seed=records[key]["seed"]) for key in keys]
+    differ = [
+        int(records[key]["seed"])
+        for key, new in zip(
+            keys, executor.map(play_record, tasks), strict=True
+        )
+        if _substance(new) != _substance(records[key])
+    ]
+    if keys and not differ:
+        stamp = _stamp() | {"replayed": len(keys)}
+        for key in old:
+            records[key]["verified"] = stamp
+        file.write(records)
+    return [int(records[key]["seed"]) for key in keys], differ
+
+
+def _substance(record: Record) -> Record:
+    return {k: v for k, v in record.items() if k not in MACHINE}
+
+
+def stamps_of(records: Iterable[Record]) -> Record:
+    """Which versions played records, for whoever keeps what they say.
+
+    Returns:
+        ``version`` and ``libraries`` that played them, and ``verified``:
+        versions that were found to play the same, if any. Lists where there
+        is more than one.
+    """
+    stamps: dict[str, list[Any]] = {}
+    for record in records:
+        for name in ("version", "libraries", "verified"):
+            value = record.get(name)
+            found = stamps.setdefault(name, [])
+            if value is not None and value not in found:
+                found.append(value)
+    return {
+        name: found[0] if len(found) == 1 else found
+        for name, found in stamps.items()
+        if found
+    }

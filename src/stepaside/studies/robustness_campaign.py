@@ -1,0 +1,304 @@
+"""Campaigns: what a walk survives, over disturbance, strength and method."""
+
+import json
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Executor, as_completed
+from dataclasses import asdict, dataclass, replace
+from functools import cache
+from math import pi, radians
+from pathlib import Path
+from typing import Any
+
+from ..core.errors import ConfigurationError
+from ..core.worker_pool import give_up
+from ..games.outcome import Outcome
+from ..games.robot_settings import game_of
+from ..games.walk_game import run_walk
+from ..games.walk_settings import WalkSettings
+from ..locomotion.zmp.control_settings import ControlSettings, Method
+from ..planning import GaitSettings
+from ..robots.description import load_robot
+from ..robots.forward_kinematics import ForwardKinematics
+from ..sim.body_settings import BODIES, BodySettings
+from ..sim.push import Push
+from .code_version import code_version, library_versions
+from .record_store import RecordFile
+from .settings_diff import OWN, changed_walk
+
+# Modules that play a trial and judge it.
+ROOMS = ("studies/robustness", "studies/encounters")
+
+
+def read_results(file: Path | None) -> dict[str, bool]:
+    """Results of this version of the code and libraries, by key of the trial.
+
+    Args:
+        file: Of :class:`RecordFile`; those of another version, and lines
+            that are not whole, are left out. None holds nothing.
+    """
+    if file is None:
+        return {}
+    now = stamp()
+    return {
+        key: bool(record["survived"])
+        for key, record in RecordFile(file).read(["survived"]).items()
+        if all(record.get(name) == now[name] for name in now)
+    }
+
+
+def note_result(file: Path | None, key: str, survived: bool) -> None:
+    """Add a result, at once, so that a campaign can be stopped any time."""
+    if file is not None:
+        RecordFile(file).append(key, record_of(survived))
+
+
+def record_of(survived: bool) -> dict[str, Any]:
+    """A result as it is recorded, with what it is of."""
+    return {"survived": survived} | stamp()
+
+
+def stamp() -> dict[str, Any]:
+    """Versions of the code and the libraries that a result is of."""
+    return {"version": code_version(ROOMS), "libraries": library_versions()}
+
+
+DIRECTIONS = {"left": 90.0, "right": -90.0, "forward": 0.0, "backward": 180.0}
+STRENGTHS: dict[str, tuple[float, ...]] = {
+    "push": (0.4, 0.8, 1.0, 1.2, 1.4, 1.6, 2.0, 2.4, 2.8, 3.2),
+    "friction": (0.05, 0.1, 0.2, 0.3, 0.5, 0.8),
+    "unevenness": (0.0, 0.002, 0.003, 0.005, 0.008),
+    "delay": (0.0, 2.0, 3.0, 4.0, 6.0),
+    "backlash": (0.0, 0.5, 1.0, 2.0, 3.0),
+    "noise": (0.0, 1.0, 2.0, 4.0, 8.0),
+    "model": (0.0, 0.03, 0.06, 0.1, 0.2),
+}
+KINDS = (*STRENGTHS, "person")  # of the last see .encounters
+UNITS = {
+    "push": "N s",
+    "friction": "1",
+    "unevenness": "m",
+    "delay": "cycles",
+    "backlash": "deg",
+    "noise": "times the preset",
+    "model": "relative mass error",
+}
+METHODS = ("open-loop", "closed-form", "measured", "mpc")
+BEFORE, AFTER = 6, 4.0  # steps before a push, seconds after it
+REFERENCE = "nao"  # robot that the strengths of pushes are made for
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """One walk of a campaign.
+
+    Attributes:
+        kind: Disturbance, a key of ``STRENGTHS``.
+        strength: In the unit of ``UNITS``.
+        direction: Of a push, a key of ``DIRECTIONS``; else empty.
+        phase: Of a push, as a fraction of the gait cycle.
+        seed: Of the walk.
+        method: One of ``METHODS``.
+        body: Preset of the body; ``OWN`` for the one of ``changes``.
+        changes: What else the walk has other than by default, as JSON; see
+            :func:`~.changes.changes_of`.
+    """
+
+    kind: str
+    strength: float
+    direction: str
+    phase: float
+    seed: int
+    method: str
+    body: str
+    changes: str = ""
+
+    @property
+    def key(self) -> str:
+        """Name of the trial in a file of results."""
+        values = list(asdict(self).values())
+        return json.dumps(values if self.changes else values[:-1])
+
+
+def control_of(
+    method: str, control: ControlSettings | None = None
+) -> ControlSettings:
+    """Control of a method's name.
+
+    Args:
+        method: One of ``METHODS``.
+        control: What holds beside it; the default by default.
+    """
+    named: dict[str, Method] = {
+        "open-loop": "closed-form",
+        "closed-form": "closed-form",
+        "measured": "measured",
+        "mpc": "mpc",
+    }
+    return replace(
+        control or ControlSettings(),
+        method=named[method],
+        feedback=method != "open-loop",
+    )
+
+
+def push_time(
+    phase: float, control: ControlSettings, gait: GaitSettings | None = None
+) -> float:
+    """When a push at a phase of the cycle begins, in [s]."""
+    gait = gait or GaitSettings()
+    begins = gait.start_support + (1.0 if control.feedback else 0.0)
+    return begins + (BEFORE + 2.0 * phase) * gait.step_duration
+
+
+def walk_of(trial: Trial) -> WalkSettings:
+    """Walk of a trial, not disturbed yet."""
+    walk = changed_walk(trial.changes)
+    return replace(
+        walk,
+        seed=trial.seed,
+        body=walk.body if trial.body == OWN else BODIES[trial.body],
+        control=control_of(trial.method, walk.control),
+    )
+
+
+@cache
+def mass_of(robot: str) -> float:
+    """Mass of a robot, in [kg]."""
+    return float(ForwardKinematics(load_robot(robot)).mass)
+
+
+def push_scale(robot: str) -> float:
+    """What a push must be to do the same to a robot, by one of NAO's.
+
+    Strengths of pushes are in N s for NAO. A description has its robot's
+    unit of pushes, which goes with the mass and the speed of the pendulum;
+    where one says nothing, all are pushed to the same speeds.
+    """
+    own, nao = (game_of(load_robot(name)) for name in (robot, REFERENCE))
+    if own is None or nao is None:
+        return mass_of(robot) / mass_of(REFERENCE)
+    return own.push_unit / nao.push_unit
+
+
+def settings_of(trial: Trial) -> WalkSettings:
+    """Walk of a trial.
+
+    Raises:
+        ConfigurationError: If the kind is unknown.
+    """
+    walk = walk_of(trial)
+    body, physics, control = walk.body, walk.physics, walk.control
+    x = trial.strength
+    if trial.kind == "push":
+        time = push_time(trial.phase, control, walk.gait)
+        direction = radians(DIRECTIONS[trial.direction])
+        impulse = x * push_scale(walk.robot)
+        return replace(
+            walk,
+            duration=time + AFTER,
+            pushes=(Push(impulse, time, direction),),
+        )
+    if trial.kind in ("friction", "unevenness"):
+        physics = (
+            replace(physics, friction=x)
+            if trial.kind == "friction"
+            else replace(physics, unevenness=x)
+        )
+    elif trial.kind == "delay":
+        body = replace(
+            body, cycle=0.012, delay_cycles=round(x), imu_delay_cycles=1
+        )
+    elif trial.kind == "backlash":
+        body = replace(body, backlash=x * pi / 180.0)
+    elif trial.kind == "noise":
+        body = louder(body, x)
+    elif trial.kind == "model":
+        body = replace(body, mass_error=x, com_error=0.1 * x)
+    else:
+        raise ConfigurationError(
+            f"kind must be one of {', '.join(STRENGTHS)}, got {trial.kind!r}"
+        )
+    return replace(walk, duration=20.0, body=body, physics=physics)
+
+
+def louder(body: BodySettings, factor: float) -> BodySettings:
+    """Body with the hardware's noise and bias, times a factor."""
+    hardware = BODIES["hardware"]
+    names = (
+        *("gyro_noise", "gyro_bias", "accelerometer_noise"),
+        *("accelerometer_bias", "force_noise", "force_gain_error"),
+    )
+    return replace(
+        body, **{name: factor * getattr(hardware, name) for name in names}
+    )
+
+
+def run_trial(trial: Trial) -> tuple[str, bool]:
+    """Key of a trial, and whether the robot stood to the end."""
+    result = run_walk(settings_of(trial), record=False)
+    return trial.key, result.outcome is Outcome.COMPLETED
+
+
+def trials(
+    kinds: Iterable[str],
+    methods: Sequence[str],
+    body: str,
+    *,
+    seeds: int,
+    first_seed: int = 1,
+    changes: str = "",
+) -> Iterator[Trial]:
+    """Grid of strengths and seeds; for pushes see :mod:`.limits`."""
+    for method in methods:
+        for kind in kinds:
+            if kind == "push":
+                continue
+            for strength in STRENGTHS[kind]:
+                for seed in range(first_seed, first_seed + seeds):
+                    yield Trial(
+                        *(kind, strength, "", 0.0, seed, method, body),
+                        changes,
+                    )
+
+
+def run_campaign(
+    grid: Sequence[Trial],
+    file: Path | None,
+    executor: Executor,
+    report: Callable[[int], None] | None = None,
+    done: dict[str, bool] | None = None,
+) -> dict[str, bool]:
+    """Run what a file of results does not hold yet.
+
+    Args:
+        grid: Trials.
+        file: Results that are done, which grows, so that a campaign that
+            was stopped goes on. None keeps nothing.
+        executor: Any executor of ``concurrent.futures``.
+        report: Called with the number of trials that are done.
+        done: Filled with the results as they come, for whoever stops it.
+
+    Returns:
+        Whether each trial was survived, by key.
+    """
+    wanted = {trial.key for trial in grid}
+    results: dict[str, bool] = {} if done is None else done
+    known = read_results(file)
+    results.update((key, known[key]) for key in wanted & known.keys())
+    missing = [trial for trial in grid if trial.key not in results]
+    number = len(grid) - len(missing)
+    if report is not None:
+        report(number)
+    futures = [executor.submit(run_trial, trial) for trial in missing]
+    try:
+        for future in as_completed(futures):
+            key, survived = future.result()
+            results[key] = survived
+            number += 1
+            note_result(file, key, survived)
+            if report is not None:
+                report(number)
+    except BaseException:
+        give_up(executor, futures)
+        raise
+    return results

@@ -1,0 +1,255 @@
+"""Evaders against pursuers, in rooms by seed: one game a record."""
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor, Future, as_completed
+from dataclasses import asdict
+from functools import cache
+from math import atan2, hypot, isfinite, pi
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..arena import Room
+from ..core.poses import Array, wrap_angle, wrap_angles
+from ..core.worker_pool import give_up
+from ..strategies.bound_cache import pursuit_bound
+from ..strategies.step_game import StepGame, StepTrack, play_steps
+from .code_version import code_version, library_versions
+from .entrants import SIGHT, evader_of, pursuer_of
+from .floor_used import floor_used
+from .record_store import RecordFile
+from .tournament_settings import HUMANOIDS, TournamentSettings
+
+if TYPE_CHECKING:
+    from ..games.duel_run import DuelRun
+    from .physics_game import DuelWays
+
+Record = dict[str, Any]
+FIELDS = (  # of every record
+    *("evader", "pursuer", "seed", "outcome", "survived_s", "closest_m"),
+    *("bound_m", "floor_m2", "walked_m", "turning_rad_s", "unseen"),
+    *("decision_s", "longest_decision_s"),
+)
+CELLS = 64  # of the bound's table
+FEEDBACK = 8  # decisions in a step, of unicycles
+
+
+Pairing = tuple[str, str]
+"""Names of an evader and of a pursuer."""
+
+
+def play_ways(
+    settings: TournamentSettings, pairing: Pairing, seed: int
+) -> "tuple[Room, StepTrack | DuelWays]":
+    """Play one game of a tournament, and keep where both went."""
+    if settings.level != HUMANOIDS:
+        return play_track(settings, pairing, seed)
+    from .physics_game import ways_of
+
+    room, run = _play_humanoids(settings, pairing, seed)
+    return room, ways_of(run)
+
+
+def _play_humanoids(
+    settings: TournamentSettings, pairing: Pairing, seed: int
+) -> "tuple[Room, DuelRun]":
+    """Play one game in physics.
+
+    Raises:
+        KeyboardInterrupt: If it was stopped: one that was cut short is none.
+    """
+    from ..games.duel import run_duel
+    from ..games.outcome import Outcome
+    from .physics_game import duel_settings
+
+    room, starts = settings.arena(seed)
+    run = run_duel(
+        duel_settings(
+            pairing,
+            room,
+            starts,
+            seed=seed,
+            duration=settings.game.duration,
+            angle=settings.angle,
+            source=settings.map,
+        )
+    )
+    if run.outcome is Outcome.INTERRUPTED:
+        raise KeyboardInterrupt
+    return room, run
+
+
+def play_track(
+    settings: TournamentSettings, pairing: Pairing, seed: int
+) -> tuple[Room, StepTrack]:
+    """Play one game in steps, or of unicycles, and keep all of it."""
+    room, starts = settings.arena(seed)
+    unicycles = settings.level == "unicycles"
+    values = asdict(settings.game)
+    game = StepGame(**values | {"decisions": FEEDBACK if unicycles else 1})
+    track = play_steps(
+        pursuer_of(pairing[1]),
+        evader_of(pairing[0], settings.angle),
+        starts,
+        room=room,
+        game=game,
+    )
+    return room, track
+
+
+def play_record(
+    settings: TournamentSettings, pairing: Pairing, seed: int
+) -> Record:
+    """Play one game of a tournament, and keep its figures.
+
+    Returns:
+        Figures in SI units, and the version of code and libraries.
+    """
+    played = _humanoids if settings.level == HUMANOIDS else _steps
+    return {
+        "evader": pairing[0],
+        "pursuer": pairing[1],
+        "seed": seed,
+        **played(settings, pairing, seed),
+    } | _stamp(*settings.depends)
+
+
+def _steps(
+    settings: TournamentSettings, pairing: Pairing, seed: int
+) -> Record:
+    """Figures of a game in steps, or of unicycles."""
+    _, track = play_track(settings, pairing, seed)
+    game = settings.game
+    distances = track.distances
+    turns = wrap_angles(np.diff(track.evader[:, 2]))
+    moved = np.diff(track.evader[:, :2], axis=0)
+    seconds = (len(distances) - 1) * game.period
+    seconds /= FEEDBACK if settings.level == "unicycles" else 1
+    clear = float(track.clearances.min())
+    return {
+        "outcome": str(track.outcome),
+        "survived_s": seconds,
+        "closest_m": float(distances.min()),
+        "bound_m": bound_of(track.pursuer[0], track.evader[0], game),
+        "clearance_m": clear if isfinite(clear) else None,
+        "floor_m2": floor_used(track.evader[:, :2], game.body_radius),
+        "walked_m": float(np.hypot(*moved.T).sum()),
+        "turning_rad_s": float(np.abs(turns).sum()) / max(seconds, 1e-9),
+        "unseen": float((np.abs(track.bearings) > SIGHT).mean()),
+        "decision_s": track.decision,
+        "longest_decision_s": track.longest_decision,
+    }
+
+
+def _humanoids(
+    settings: TournamentSettings, pairing: Pairing, seed: int
+) -> Record:
+    """Figures of a game in physics."""
+    from .physics_game import figures_of
+
+    _, run = _play_humanoids(settings, pairing, seed)
+    pursuer, evader = (
+        track.unicycle[0] for track in (run.pursuer, run.evader)
+    )
+    found = figures_of(run, settings.game.body_radius)
+    return found | {"bound_m": bound_of(pursuer, evader, settings.game)}
+
+
+def bound_of(pursuer: Array, evader: Array, game: StepGame) -> float:
+    """Best least distance on an open floor from two poses, in [m]."""
+    x, y = (evader[:2] - pursuer[:2]).tolist()
+    sight, unit = atan2(y, x), game.speed / game.gain
+    value = pursuit_bound(CELLS).value(
+        hypot(x, y) / unit,
+        wrap_angle(sight - float(pursuer[2])),
+        wrap_angle(sight + pi - float(evader[2])),
+    )
+    return unit * float(value)
+
+
+def key_of(settings: TournamentSettings, pairing: Pairing, seed: int) -> str:
+    """Key of a game among records."""
+    return f"{settings.fingerprint()}/{'/'.join(pairing)}/{seed}"
+
+
+def play_tournament(
+    settings: TournamentSettings,
+    pairings: Sequence[Pairing],
+    seeds: Sequence[int],
+    file: RecordFile | None = None,
+    executor: Executor | None = None,
+    report: Callable[[int], None] | None = None,
+    done: dict[str, Record] | None = None,
+) -> dict[str, Record]:
+    """Play what a file of records does not hold yet.
+
+    Args:
+        settings: Of every game.
+        pairings: Who plays whom.
+        seeds: One game of each pairing for each.
+        file: Where records are kept as they come; one that another version
+            of the code made is made again.
+        executor: Any executor of ``concurrent.futures``; None plays here.
+        report: Called with the number of games that are done.
+        done: Filled with the records as they come, for whoever stops it.
+
+    Returns:
+        Records by key, by pairing and then by seed.
+    """
+    wanted = {
+        key_of(settings, pairing, seed): (pairing, seed)
+        for pairing in pairings
+        for seed in seeds
+    }
+    results: dict[str, Record] = {} if done is None else done
+    if file is not None:
+        for key, record in file.read(FIELDS).items():
+            now = _stamp(*settings.depends)
+            stamp = {name: record.get(name) for name in now}
+            if key in wanted and stamp == now:
+                results[key] = record
+    left = [key for key in wanted if key not in results]
+    pursuit_bound(CELLS)  # solved once, before many want it
+
+    def take(keys: list[str], records: list[Record]) -> None:
+        for key, record in zip(keys, records, strict=True):
+            results[key] = record
+            if file is not None:
+                file.append(key, record)
+        if report is not None:
+            report(len(results))
+
+    take([], [])
+    size = settings.block
+    blocks = [left[i : i + size] for i in range(0, len(left), size)]
+    if executor is None:
+        for keys in blocks:
+            take(keys, _play_block(settings, [wanted[key] for key in keys]))
+    else:
+        futures: dict[Future[list[Record]], list[str]] = {
+            executor.submit(
+                _play_block, settings, [wanted[key] for key in keys]
+            ): keys
+            for keys in blocks
+        }
+        try:
+            for future in as_completed(futures):
+                take(futures[future], future.result())
+        except BaseException:
+            give_up(executor, futures)
+            raise
+    return {key: results[key] for key in wanted}
+
+
+def _play_block(
+    settings: TournamentSettings, games: list[tuple[Pairing, int]]
+) -> list[Record]:
+    return [play_record(settings, pairing, seed) for pairing, seed in games]
+
+
+@cache
+def _stamp(rooms: tuple[str, ...], libraries: tuple[str, ...]) -> Record:
+    return {
+        "version": code_version(rooms),
+        "libraries": library_versions(libraries),
+    }

@@ -1,0 +1,1 @@
+"""Equations of the paper and the games of unicycles that follow from them."""

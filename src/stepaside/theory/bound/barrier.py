@@ -1,0 +1,166 @@
+r"""The barrier of two identical cars, in closed form.
+
+Derived here by following the characteristics backwards in time from where
+capture grazes; ``docs/bound.md`` has the derivation. In units of speed and
+turning radius, with the evader at :math:`(x, y)` in the pursuer's frame and
+:math:`\theta` between the directions of motion, the left half of the barrier
+at one :math:`\theta` is a curve of three pieces:
+
+1. both turn into the line of sight (pursuer left, evader right) until
+   capture grazes at the bearing :math:`a_0 \in (0, \theta/2]`;
+2. the same for a while, then the pursuer drives straight and the evader
+   turns on until it is straight ahead;
+3. as 2, but the pursuer turns right first, as the evader does.
+
+The right half is the left one at :math:`2\pi - \theta`, mirrored. What lies
+between both, up to where they cross, can be captured.
+"""
+
+from math import pi, tau
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import PlanError, check_positive
+from .relative_game import BoundGame
+
+Array = NDArray[np.float64]
+COUNT = 60  # points on each piece
+
+
+def turn_back(
+    state: tuple[Array, Array, Array], pursuer: float, evader: float, t: Array
+) -> tuple[Array, Array, Array]:
+    """Where the evader was, if both have turned steadily since.
+
+    Args:
+        state: x, y and theta now, in units of the turning radius and [rad].
+        pursuer: Turning rate of the pursuer: -1, 0 or 1.
+        evader: The same of the evader.
+        t: How long ago, in units of one over the turning rate.
+
+    Returns:
+        x, y and theta then.
+    """
+    x, y, theta = state
+    forward, aside = _car_ago(evader, t)
+    x = x + np.cos(theta) * forward - np.sin(theta) * aside
+    y = y + np.sin(theta) * forward + np.cos(theta) * aside
+    forward, aside = _car_ago(pursuer, t)
+    x, y, heading = x - forward, y - aside, -pursuer * t
+    c, s = np.cos(heading), np.sin(heading)
+    return c * x + s * y, c * y - s * x, theta + (pursuer - evader) * t
+
+
+def left_half(
+    capture: float, theta: float, count: int = COUNT
+) -> tuple[Array, Array]:
+    """Left half of the barrier at one angle between the motions.
+
+    Args:
+        capture: Distance of capture, in turning radii.
+        theta: Direction of the evader's motion less that of the pursuer's,
+            in (0, 2 pi), in [rad].
+        count: Points on each piece.
+
+    Returns:
+        Points (x, y), in turning radii, shape (3 count, 2), and the number
+        of the piece that each is on, 1 to 3.
+    """
+    zero, one = np.zeros(count), np.ones(count)
+    ago = np.linspace(0.0, theta / 2.0, count)
+    a = theta / 2.0 - ago
+    grazing = capture * np.cos(a), capture * np.sin(a), 2.0 * a
+    first = turn_back(grazing, 1.0, -1.0, ago)
+    ahead = capture * one, zero, zero
+    chase = np.linspace(0.0, theta, count)
+    straight = turn_back(ahead, 0.0, -1.0, chase)
+    second = turn_back(straight, 1.0, -1.0, (theta - chase) / 2.0)
+    whole = turn_back(ahead, 0.0, -1.0, theta * one)
+    ago = np.linspace(0.0, tau - theta, count)
+    third = turn_back(whole, -1.0, -1.0, ago)
+    points = [np.column_stack(p[:2]) for p in (first, second, third)]
+    return np.concatenate(points), np.repeat([1, 2, 3], count)
+
+
+def barrier_slice(
+    capture: float, theta: float, count: int = COUNT
+) -> tuple[Array, Array]:
+    """Barrier at one angle: both halves up to where they cross.
+
+    Args:
+        capture: As in :func:`left_half`.
+        theta: As in :func:`left_half`.
+        count: As in :func:`left_half`.
+
+    Returns:
+        Points (x, y) from one end on the circle of capture to the other, in
+        turning radii, shape (n, 2), and the pieces, negative on the right.
+
+    Raises:
+        PlanError: If the halves do not cross.
+    """
+    left, pieces = left_half(capture, theta, count)
+    right, others = left_half(capture, tau - theta, count)
+    right = right * [1.0, -1.0]
+    i, j, point = _first_crossing(left, right)
+    points = np.concatenate([left[: i + 1], [point], right[j::-1]])
+    numbers = np.concatenate([pieces[: i + 1], [pieces[i]], -others[j::-1]])
+    return points, numbers
+
+
+def barrier_states(
+    game: BoundGame, capture: float, angles: int = 18, count: int = COUNT
+) -> tuple[Array, Array]:
+    """Relative states on the barrier of two identical cars.
+
+    Args:
+        game: Two identical cars.
+        capture: Distance of capture, in [m].
+        angles: Number of angles between the motions, over (0, pi]; the rest
+            is the mirror image.
+        count: Points on each piece.
+
+    Returns:
+        Rows of r [m], a, psi [rad], and the pieces; see
+        :func:`barrier_slice`.
+
+    Raises:
+        PlanError: If the cars differ or the distance is not positive.
+    """
+    check_positive(capture, "capture", "m")
+    if not game.identical:
+        raise PlanError("the barrier is known for two identical cars only")
+    unit = game.unit
+    states, numbers = [], []
+    for theta in np.linspace(0.0, pi, angles + 1)[1:]:
+        points, pieces = barrier_slice(capture / unit, float(theta), count)
+        x, y = unit * points.T
+        a = np.arctan2(y, x)
+        psi = (a - theta + pi) % tau - pi
+        states.append(np.column_stack([np.hypot(x, y), a, psi]))
+        numbers.append(pieces)
+    return np.concatenate(states), np.concatenate(numbers)
+
+
+def _car_ago(rate: float, t: Array) -> tuple[Array, Array]:
+    """Where a car was, in its frame now: ahead of it and to its left."""
+    if rate == 0.0:
+        return -t, np.zeros_like(t)
+    return -np.sin(rate * t) / rate, (1.0 - np.cos(rate * t)) / rate
+
+
+def _first_crossing(first: Array, second: Array) -> tuple[int, int, Array]:
+    """Segments at which two polylines cross first, and the point."""
+    p, d = first[:-1, None], np.diff(first, axis=0)[:, None]
+    q, e = second[None, :-1], np.diff(second, axis=0)[None]
+    w = q - p
+    cross = d[..., 0] * e[..., 1] - d[..., 1] * e[..., 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s = (w[..., 0] * e[..., 1] - w[..., 1] * e[..., 0]) / cross
+        t = (w[..., 0] * d[..., 1] - w[..., 1] * d[..., 0]) / cross
+    hits = np.argwhere((s >= 0.0) & (s <= 1.0) & (t >= 0.0) & (t <= 1.0))
+    if not len(hits):
+        raise PlanError("the two halves of the barrier do not cross")
+    i, j = (int(n) for n in hits[0])
+    return i, j, first[i] + s[i, j] * (first[i + 1] - first[i])

@@ -1,0 +1,297 @@
+"""The solved game: value, barrier and strategies, in a file and at a point."""
+
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from json import dumps, loads
+from math import pi, tau
+from typing import Any
+from zipfile import BadZipFile
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...core.atomic_output import writing
+from ...core.brief_repr import brief_repr
+from ...core.errors import AnyPath, PlanError, as_path, check_within
+from ..unicycle.relative_coordinates import check_bearings
+from .relative_game import BoundGame
+from .state_grid import Grid, Values
+
+Array = NDArray[np.float64]
+FORMAT = 1  # of the files
+FLAT = 1e-3  # slope over a cell that says nothing, in game units a radian
+
+
+@dataclass(frozen=True)
+class Bound:
+    r"""Best least distance over relative states, and how to reach it.
+
+    Tables have the layout of :class:`.grid.Grid`, (a > 0, r, psi); the other
+    half follows by :math:`V(r, -a, -\psi) = V(r, a, \psi)`.
+
+    Attributes:
+        game: The game that was solved.
+        grid: The grid it was solved on.
+        values: Least distance that the best evader keeps against the
+            pursuer, in [m]. Shape ``grid.shape``.
+        horizon: Duration of the game, in [s].
+        scheme: How it was discretised; see :class:`.solve.Scheme`.
+        falling_mean: How far the value fell in the last tenth of the
+            horizon, in the mean, in [m].
+        falling_worst: The same at worst, in [m].
+        seconds: Time that the solution took, in [s].
+    """
+
+    game: BoundGame
+    grid: Grid
+    values: Values
+    horizon: float
+    scheme: str
+    falling_mean: float
+    falling_worst: float
+    seconds: float
+
+    __repr__ = brief_repr
+
+    def __post_init__(self) -> None:
+        """Freeze the table."""
+        self.values.flags.writeable = False
+
+    def value(
+        self, distance: ArrayLike, error: ArrayLike, bearing: ArrayLike
+    ) -> Array:
+        """Best least distance, interpolated linearly.
+
+        Args:
+            distance: Distance r, in [m]. Below the grid it is returned as it
+                is; beyond, the value rises with it.
+            error: Bearing of the evader seen by the pursuer, in [rad].
+            bearing: Bearing of the pursuer seen by the evader, in [rad].
+
+        Returns:
+            Values of the shape that the arguments have together, in [m].
+
+        Raises:
+            PlanError: If an angle lies outside of one turn either way.
+        """
+        return self._value(*_checked(distance, error, bearing))
+
+    def _value(self, r: Array, error: Array, bearing: Array) -> Array:
+        """Value at angles that may lie beyond a turn."""
+        found = self._look_up(r, error, bearing)
+        beyond = np.maximum(r - self.grid.far, 0.0)
+        value: Array = np.where(r < self.grid.near, r, found + beyond)
+        return value
+
+    def evader_turn(
+        self, distance: ArrayLike, error: ArrayLike, bearing: ArrayLike
+    ) -> Array:
+        """Turning rate of the best evader, in [rad/s]; see :meth:`value`.
+
+        It turns as fast as it can to where the value rises, and holds its
+        bearing on a ridge. Where turning does not matter it turns away.
+        """
+        r, a, psi = np.broadcast_arrays(*_checked(distance, error, bearing))
+        step = self.grid.spacings[2]
+        before, here, after = self._value(
+            r, a, np.stack([psi - step, psi, psi + step])
+        )
+        swing = self._swing(r, a, psi)
+        limit = self.game.evader_turn
+        habit = limit * np.clip(_wrapped(psi) / step, -1.0, 1.0)
+        flat = FLAT * step * self.game.unit
+        return _steer(before, here, after, swing, limit, habit, flat)
+
+    def pursuer_turn(
+        self, distance: ArrayLike, error: ArrayLike, bearing: ArrayLike
+    ) -> Array:
+        """Turning rate of the best pursuer, in [rad/s]; see :meth:`value`.
+
+        A pursuer that obeys a law turns by that law; any other turns to the
+        evader where turning does not matter.
+        """
+        r, a, psi = np.broadcast_arrays(*_checked(distance, error, bearing))
+        law = self.game.pursuer_gain * _wrapped(a)
+        if self.game.pursuer_turn == 0.0:
+            return law
+        step = self.grid.spacings[1]
+        before, here, after = self._value(
+            r, np.stack([a - step, a, a + step]), psi
+        )
+        swing = self._swing(r, a, psi) - law
+        limit = self.game.pursuer_turn
+        habit = limit * np.clip(_wrapped(a) / step, -1.0, 1.0)
+        flat = FLAT * step * self.game.unit
+        return law + _steer(-before, -here, -after, swing, limit, habit, flat)
+
+    def barrier(self, capture: float) -> Array:
+        """Largest distance from which the pursuer can come that close.
+
+        Args:
+            capture: Distance of capture, in [m].
+
+        Returns:
+            For each pair of bearings the distance where the value crosses
+            the capture distance for the last time, in [m]; the capture
+            distance itself where the evader gets away from any. Shape
+            (a, psi) of the grid.
+
+        Raises:
+            PlanError: If the capture distance lies outside of the grid.
+        """
+        near, far = self.grid.near, self.grid.far
+        check_within(capture, near, far, "capture", "m")
+        r = self.grid.axes()[1]
+        caught = self.values < capture
+        caught[:, r < capture] = True
+        last = len(r) - 1 - caught[:, ::-1].argmax(axis=1)
+        after = np.minimum(last + 1, len(r) - 1)
+        low, high = (
+            np.take_along_axis(self.values, n[:, None], axis=1)[:, 0]
+            for n in (last, after)
+        )
+        rise = np.maximum(high - low, 1e-12)
+        share = np.clip((capture - low) / rise, 0.0, 1.0)
+        reach = r[last] + share * (r[after] - r[last])
+        found: Array = np.maximum(reach, capture)
+        return found
+
+    def save(self, path: AnyPath) -> None:
+        """Write the tables and all settings to one ``.npz`` file."""
+        from ... import __version__
+
+        head = {
+            "format": FORMAT,
+            "version": __version__,
+            "game": asdict(self.game),
+            "grid": asdict(self.grid),
+            "horizon": self.horizon,
+            "scheme": self.scheme,
+            "falling_mean": self.falling_mean,
+            "falling_worst": self.falling_worst,
+            "seconds": self.seconds,
+        }
+        a, r, psi = self.grid.axes()
+        nodes = r[:, None], a[:, None, None], psi
+        with writing(as_path(path, "path")) as draft, draft.open("wb") as file:
+            np.savez_compressed(
+                file,
+                head=np.array(dumps(head)),
+                values=self.values,
+                evader_turn=self.evader_turn(*nodes).astype(np.float32),
+                pursuer_turn=self.pursuer_turn(*nodes).astype(np.float32),
+            )
+
+    @cached_property
+    def _around(self) -> Values:
+        """Values over all bearings, one node more on every side."""
+        whole = np.concatenate([self.values[::-1, :, ::-1], self.values])
+        return np.pad(whole, ((1, 1), (0, 0), (1, 1)), mode="wrap")
+
+    def _swing(self, r: Array, a: Array, psi: Array) -> Array:
+        """Rate of the line of sight, in [rad/s]."""
+        vp, ve = self.game.pursuer_speed, self.game.evader_speed
+        swing: Array = (vp * np.sin(a) - ve * np.sin(psi)) / r
+        return swing
+
+    def _look_up(self, distance: Array, error: Array, bearing: Array) -> Array:
+        grid, (step_r, step_a, step_psi) = self.grid, self.grid.spacings
+        table = self._around
+        places = (
+            (error + pi) % tau / step_a + 0.5,
+            np.clip(
+                (distance - grid.near) / step_r,
+                0.0,
+                grid.distances - 1.0,
+            ),
+            (bearing + pi) % tau / step_psi + 0.5,
+        )
+        found: Any = 0.0
+        cells = [
+            np.minimum(place.astype(np.int64), length - 2)
+            for place, length in zip(places, table.shape, strict=True)
+        ]
+        shares = [p - c for p, c in zip(places, cells, strict=True)]
+        for corner in range(8):
+            weight: Any = 1.0
+            index = []
+            for axis in range(3):
+                up = corner >> axis & 1
+                weight = weight * (shares[axis] if up else 1 - shares[axis])
+                index.append(cells[axis] + up)
+            found = found + weight * table[tuple(index)]
+        return np.asarray(found, dtype=np.float64)
+
+
+def load_bound(path: AnyPath) -> Bound:
+    """Read what :meth:`Bound.save` wrote.
+
+    Raises:
+        PlanError: If the file is no such table.
+    """
+    path = as_path(path, "path", PlanError)
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            head = loads(str(file["head"]))
+            values = file["values"]
+        if head["format"] != FORMAT:
+            raise PlanError(
+                f"{path} has format {head['format']}, this reads {FORMAT}"
+            )
+        game, grid = BoundGame(**head["game"]), Grid(**head["grid"])
+        rest = ("format", "version", "game", "grid")
+        settings = {k: v for k, v in head.items() if k not in rest}
+        return Bound(game, grid, values, **settings)
+    except (
+        OSError,
+        EOFError,
+        KeyError,
+        ValueError,
+        TypeError,
+        BadZipFile,
+    ) as error:
+        if isinstance(error, PlanError):
+            raise
+        raise PlanError(f"{path} is no table of a bound: {error}") from error
+
+
+def _checked(
+    distance: ArrayLike, error: ArrayLike, bearing: ArrayLike
+) -> tuple[Array, Array, Array]:
+    """Distances, errors and bearings as arrays, the latter within a turn."""
+    angles = np.asarray(error, np.float64), np.asarray(bearing, np.float64)
+    check_bearings(angles[0], "error")
+    check_bearings(angles[1], "bearing")
+    return np.asarray(distance, np.float64), *angles
+
+
+def _wrapped(angle: Array) -> Array:
+    """Angles in [-pi, pi), in [rad]."""
+    wrapped: Array = (angle + pi) % tau - pi
+    return wrapped
+
+
+def _steer(
+    before: Array,
+    here: Array,
+    after: Array,
+    swing: Array,
+    limit: float,
+    habit: Array,
+    flat: float,
+) -> Array:
+    """Turn towards larger values, given those a cell before and after.
+
+    A turn to the left lowers a bearing. Near the top of a parabola through
+    the three values the bearing is brought to the top and held there; where
+    they differ by less than ``flat`` the turn is ``habit``.
+    """
+    slope, bend = after - before, after - 2.0 * here + before
+    top = -0.5 * slope / np.minimum(bend, -1e-12)  # in cells
+    hold = np.clip(swing, -limit, limit) * (1.0 - np.abs(top)) - limit * top
+    ridge = (bend < 0.0) & (np.abs(top) < 1.0)
+    full = np.where(slope > 0.0, -limit, limit)
+    turn = np.where(ridge, np.clip(hold, -limit, limit), full)
+    same = (np.abs(slope) < flat) & (np.abs(bend) < flat)
+    chosen: Array = np.where(same, habit, turn)
+    return chosen

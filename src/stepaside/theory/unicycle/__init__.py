@@ -1,0 +1,36 @@
+"""Pursuit and evasion with unicycles (paper, Sec. II)."""
+
+from .adaptive_simulation import PlayedGame, simulate
+from .all_circles import circles_of, find_circles
+from .circle_equations import Circle, circle_of, find_circle
+from .kernel import Outcomes, play_games
+from .relative_coordinates import Start
+from .sampled_game import simulate_sampled
+from .unicycle_game import (
+    MOVE_ASIDE,
+    MOVE_BACK,
+    Game,
+    SideRule,
+    TurningLaw,
+    make_game,
+)
+
+__all__ = [
+    "MOVE_ASIDE",
+    "MOVE_BACK",
+    "Circle",
+    "Game",
+    "Outcomes",
+    "PlayedGame",
+    "SideRule",
+    "Start",
+    "TurningLaw",
+    "circle_of",
+    "circles_of",
+    "find_circle",
+    "find_circles",
+    "make_game",
+    "play_games",
+    "simulate",
+    "simulate_sampled",
+]

@@ -1,0 +1,178 @@
+r"""A lower bound of the distance that holds for a whole game.
+
+Equal speeds :math:`v` and gains :math:`k`, proportional laws, side +1 (side
+-1 is the mirror image). With :math:`d = a - b`,
+:math:`x = (a + b - \alpha) / 2`, :math:`z = r e^{ix}`,
+:math:`c(d) = 2 v \sin((\alpha + d) / 2)`, :math:`r^* = 2 c(0) / (k \alpha)`
+and :math:`\rho = |z - r^*|`, while no error wraps and no side changes,
+
+.. math::
+    \dot d = -k d, \qquad
+    \tfrac12 \tfrac{d}{dt} \rho^2
+    = r \sin x \, [c(d) - c(0) - k r^* x],
+
+so that, :math:`\Delta = |c(d) - c(0)|`,
+
+.. math::
+    \dot\rho \le \min\Bigl(\Delta,\;
+    \frac{(r^* + \rho) \Delta^2}{4 k r^* \rho}\Bigr).
+
+Integrated over the known decay of :math:`d` this bounds :math:`\rho`, and
+:math:`r \ge r^* - \rho`. No error wraps in a game that starts in the diamond
+:math:`|a| + |\psi| < \pi`, which no game leaves (:mod:`.diamond`). Proofs in
+``docs/unicycles.md``.
+"""
+
+from cmath import exp
+from dataclasses import dataclass
+from math import asin, inf, log, pi, sin
+
+import numpy as np
+
+from ...core.errors import PlanError
+from ..laws import evasion_heading, side_behind
+from .circle_equations import circle_of
+from .diamond import stays_unwrapped
+from .relative_coordinates import Start
+from .unicycle_game import Game
+
+_FACTOR = 0.98  # of |d| from one interval of the integration to the next
+_STOPS = 2000  # on the rim of the disc that holds the game
+_TAIL = 1e-6  # |d| below which the rest is bounded by v |d| / k, in [rad]
+
+
+@dataclass(frozen=True, slots=True)
+class Certificate:
+    """What is certain of a game before it is played.
+
+    Attributes:
+        holds: Whether a bound is proved for this start: it is positive, no
+            error wraps and no side changes. The game then ends on the
+            circle.
+        distance_m: Bound: the distance never falls below it, in [m]; None
+            where nothing is proved.
+        plain_distance_m: The bound with |c(d) - c(0)| <= v |d| only, which
+            is not above it, in [m]; None likewise.
+    """
+
+    holds: bool
+    distance_m: float | None = None
+    plain_distance_m: float | None = None
+
+
+def certify(game: Game, start: Start, *, side: int = 0) -> Certificate:
+    """Bound the closest approach of a game from below.
+
+    Args:
+        game: Parameters; equal speeds and gains, proportional law, and an
+            angle above zero.
+        start: Relative coordinates at the start.
+        side: Side at the start, +1 or -1; 0 for the one behind the evader.
+
+    Returns:
+        The bound, and whether it is proved for this start.
+
+    Raises:
+        PlanError: If the game is not of that kind.
+    """
+    if game.pursuer != game.evader or game.saturated or game.angle == 0.0:
+        raise PlanError(
+            "the certificate needs equal speeds and gains, the proportional "
+            f"law and an angle > 0 [rad], got {game}"
+        )
+    speed, gain, alpha = game.pursuer.speed, game.pursuer.gain, game.angle
+    radius = circle_of(game).distance_m
+    r, a, psi = start.wrapped()
+    if side == 0:
+        side = side_behind(psi)
+    a, psi = side * a, side * psi
+    if psi > 0.0 and not game.keeps_side:
+        return Certificate(False)  # the side changes at once
+    b = evasion_heading(psi, 1, alpha)
+    d, x = a - b, 0.5 * (a + b - alpha)
+    spread = abs(r * exp(1j * x) - radius)
+    plain = radius - spread - speed * abs(d) / gain
+    spread = _largest_spread(spread, d, alpha, speed, gain, radius)
+    bound = radius - spread
+    unwrapped = stays_unwrapped(game, a, psi) or _unwrapped(
+        game, bound, radius, d
+    )
+    if bound > 0.0 and unwrapped and _keeps_side(game, bound, radius):
+        return Certificate(True, bound, plain)
+    return Certificate(False)
+
+
+def _largest_spread(
+    spread: float,
+    d: float,
+    alpha: float,
+    speed: float,
+    gain: float,
+    radius: float,
+) -> float:
+    """Upper sum of the comparison equation over the decay of ``d``."""
+    size, sign = abs(d), 1.0 if d > 0.0 else -1.0
+    while size > _TAIL:
+        smaller = _FACTOR * size
+        ends = sorted((sign * size, sign * smaller))
+        largest = 2.0 * speed * largest_change(alpha, ends[0], ends[1])
+        slow = inf
+        if spread > 0.0:
+            slow = (radius + spread) * largest**2
+            slow /= 4.0 * gain * radius * spread
+        spread += min(largest, slow) * log(1.0 / _FACTOR) / gain
+        size = smaller
+    return spread + speed * size / gain
+
+
+def largest_change(alpha: float, low: float, high: float) -> float:
+    """Largest |sin((alpha + d) / 2) - sin(alpha / 2)| over an interval.
+
+    Args:
+        alpha: Evasion angle in [0, pi], in [rad].
+        low: Least d, above -2 pi, in [rad].
+        high: Largest d, below 2 pi, in [rad].
+    """
+    # The sine has its maximum at pi - alpha and its minimum at -pi - alpha.
+    turns = [d for d in (pi - alpha, -pi - alpha) if low < d < high]
+    still = sin(0.5 * alpha)
+    return max(
+        abs(sin(0.5 * (alpha + d)) - still) for d in (low, high, *turns)
+    )
+
+
+def _unwrapped(game: Game, bound: float, radius: float, d: float) -> bool:
+    """Whether a bound rules out that an error wraps.
+
+    An error reaches pi only where the line of sight turns at k pi, or where
+    it is that far out.
+    """
+    tilt = asin(min(1.0, (radius - bound) / radius))
+    if tilt + 0.5 * (game.angle + abs(d)) < pi:
+        return True
+    return bound * game.evader.gain * pi > 2.0 * game.evader.speed
+
+
+def _keeps_side(game: Game, bound: float, radius: float) -> bool:
+    """Whether a bound rules out that the side changes.
+
+    It changes only where the line of sight, which then turns at
+    v |sin 2 x| / r, outruns the evader; on every ray the nearest point of
+    the disc around r* is on its rim, which is walked with a Lipschitz bound
+    between the stops.
+    """
+    if game.keeps_side:
+        return True
+    speed, gain = game.evader.speed, game.evader.gain
+    slowest = gain * min(game.angle, pi - game.angle)
+    if game.hysteresis > 0.0 or slowest == 0.0:
+        return False
+    if bound * slowest > speed:
+        return True
+    spread, far = radius - bound, 2.0 * radius - bound
+    slope = spread * (3.0 * slowest * far**2 + 4.0 * speed * far)
+    slack = slope * pi / _STOPS
+    around = pi * np.arange(_STOPS + 1) / _STOPS
+    z = radius - spread * np.exp(-1j * around)
+    lead = slowest * np.abs(z) ** 3 - 2.0 * speed * z.real * z.imag
+    return bool(lead.min() > slack)

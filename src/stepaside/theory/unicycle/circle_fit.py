@@ -1,0 +1,112 @@
+"""What a played game ends on, measured on the floor."""
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.poses import wrap_angle
+from .adaptive_simulation import PlayedGame
+from .all_circles import circles_of
+from .circle_equations import Circle
+from .game_batch import NEAR
+from .kernel import circle_states, circles_off
+from .unicycle_game import Game
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """Circle that two paths end on; the fields are those of ``Circle``.
+
+    Attributes:
+        radius_pursuer_m: Radius fitted to the pursuer's path, in [m].
+        radius_evader_m: Radius fitted to the evader's path, in [m].
+        distance_m: Distance at the end, in [m].
+        turning_rate_rad_s: Mean turning rate of the pursuer, in [rad/s].
+        headings_apart_rad: Angle between the headings, in [rad].
+        motions_apart_rad: Angle between the directions of motion, in [rad].
+        centers_apart_m: Distance between the two fitted centres, in [m].
+    """
+
+    radius_pursuer_m: float
+    radius_evader_m: float
+    distance_m: float
+    turning_rate_rad_s: float
+    headings_apart_rad: float
+    motions_apart_rad: float
+    centers_apart_m: float
+
+
+def fit_circle(points: Array) -> tuple[Array, float]:
+    """Fit a circle to points of shape (n, 2): centre [m] and radius [m]."""
+    origin = points.mean(axis=0)
+    local = points - origin
+    matrix = np.column_stack([2.0 * local, np.ones(len(local))])
+    squares = (local**2).sum(axis=1)
+    (x, y, rest), *_ = np.linalg.lstsq(matrix, squares, rcond=None)
+    return origin + (x, y), float(np.sqrt(rest + x * x + y * y))
+
+
+def circle_at(
+    circles: tuple[Circle, ...], state: Array, side: int
+) -> Circle | None:
+    """Find the circle that a state is on, within 2 % and 0.02 rad.
+
+    Args:
+        circles: Circles of the game.
+        state: r [m], a, psi [rad]. Shape (3,).
+        side: Side of the evader, +1 or -1.
+
+    Returns:
+        The nearest of them, or None.
+    """
+    if not circles:
+        return None
+    off = circles_off(circle_states(circles), state[None], [side])[:, 0]
+    return circles[int(off.argmin())] if off.min() <= NEAR else None
+
+
+def settling_time(game: Game, *, precision: float = 1e-6) -> float:
+    """Time of a game after which its last turn is a circle, in [s]."""
+    gain = min(game.pursuer.gain, game.evader.gain)
+    ends = [
+        -np.log(precision) * circle.time_constant_s
+        + 2.0 * pi / abs(circle.turning_rate_rad_s)
+        for circle in circles_of(game)
+        if circle.stable
+    ]
+    if not ends:
+        return 60.0 / gain
+    return float(30.0 / gain + max(ends))
+
+
+def measure(run: PlayedGame, *, count: int = 361) -> Measured:
+    """Fit circles to the last turn of a game, or its last tenth if shorter.
+
+    Args:
+        run: A game that was not captured.
+        count: Number of points of each path.
+    """
+    last = run.states([run.end_time])[0, :3]
+    circle = circle_at(circles_of(run.game), last, run.sides[-1])
+    span = 0.1 * run.end_time
+    if circle is not None:
+        turn = 2.0 * pi / abs(circle.turning_rate_rad_s)
+        span = min(turn, 0.5 * run.end_time)
+    times = np.linspace(run.end_time - span, run.end_time, count)
+    pursuer, evader = run.poses(times)
+    center_p, radius_p = fit_circle(pursuer[:, :2])
+    center_e, radius_e = fit_circle(evader[:, :2])
+    heading = float(pursuer[-1, 2] - evader[-1, 2])
+    return Measured(
+        radius_p,
+        radius_e,
+        float(np.hypot(*(evader[-1, :2] - pursuer[-1, :2]))),
+        float(pursuer[-1, 2] - pursuer[0, 2]) / span,
+        abs(wrap_angle(heading)),
+        abs(wrap_angle(heading + pi)),
+        float(np.hypot(*(center_p - center_e))),
+    )

@@ -1,0 +1,96 @@
+r"""Relative coordinates of two unicycles.
+
+.. math::
+    \dot r = v_e \cos\psi - v_p \cos a, \qquad
+    \Omega = (v_p \sin a - v_e \sin\psi) / r, \qquad
+    \dot a = \Omega - \omega_p, \qquad \dot\psi = \Omega - \omega_e
+"""
+
+from dataclasses import dataclass
+from math import atan2, cos, hypot, pi, sin
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...core.errors import check_bearing, check_positive
+from ...core.poses import Pose, wrap_angle
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    r"""Where two unicycles stand to each other.
+
+    Attributes:
+        distance: Distance :math:`r`, in [m].
+        pursuer_error: Bearing :math:`a` of the evader in the pursuer's
+            frame, which is the error of (2), in [rad].
+        bearing: Bearing :math:`\psi` of the pursuer in the evader's frame,
+            in [rad]; zero when the evader faces the pursuer.
+    """
+
+    distance: float
+    pursuer_error: float = 0.0
+    bearing: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Check the values."""
+        check_positive(self.distance, "distance", "m")
+        check_bearing(self.pursuer_error, "pursuer_error")
+        check_bearing(self.bearing, "bearing")
+
+    @classmethod
+    def from_world(cls, pursuer: Pose, evader: Pose) -> "Start":
+        """Take relative coordinates of two poses in one frame."""
+        dx, dy = evader.x - pursuer.x, evader.y - pursuer.y
+        sight = atan2(dy, dx)
+        return cls(
+            hypot(dx, dy),
+            wrap_angle(sight - pursuer.theta),
+            wrap_angle(sight + pi - evader.theta),
+        )
+
+    def wrapped(self) -> tuple[float, float, float]:
+        """Distance [m], and both angles wrapped to [-pi, pi] [rad]."""
+        a, psi = wrap_angle(self.pursuer_error), wrap_angle(self.bearing)
+        return self.distance, a, psi
+
+    def evader_pose(self, pursuer: Pose) -> Pose:
+        """Pose of the evader, in the frame of the pursuer's pose."""
+        sight = pursuer.theta + self.pursuer_error
+        return Pose(
+            pursuer.x + self.distance * cos(sight),
+            pursuer.y + self.distance * sin(sight),
+            sight + pi - self.bearing,
+        )
+
+
+def check_bearings(angles: ArrayLike, name: str) -> None:
+    """Raise :class:`PlanError` unless all angles lie within one turn.
+
+    Args:
+        angles: In [rad]. Of any shape.
+        name: What they are, for the message.
+    """
+    flat = np.asarray(angles, dtype=np.float64).ravel()
+    if flat.size:
+        check_bearing(float(flat[np.abs(flat).argmax()]), name)
+
+
+def world_poses(states: ArrayLike) -> tuple[Array, Array]:
+    """Place both players on the floor.
+
+    Args:
+        states: Columns r [m], a, psi, direction of the line of sight [rad],
+            x, y of the pursuer [m]. Shape (n, 6).
+
+    Returns:
+        Poses (x [m], y [m], theta [rad]) of pursuer and evader, each of
+        shape (n, 3).
+    """
+    r, a, psi, sight, x, y = np.asarray(states, dtype=np.float64).T
+    pursuer = np.stack([x, y, sight - a], axis=-1)
+    evader_x, evader_y = x + r * np.cos(sight), y + r * np.sin(sight)
+    heading = sight + np.pi - psi
+    return pursuer, np.stack([evader_x, evader_y, heading], axis=-1)

@@ -1,0 +1,173 @@
+"""Games in which the turning rates are held from step to step.
+
+So do the humanoids: they replan when a step is done (Sec. III-E) and walk
+an arc in between (Sec. III-B). What was perceived may be late. Between
+samples both players move on arcs, which have closed form.
+"""
+
+from collections import deque
+from dataclasses import dataclass
+from math import ceil, floor, inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.brief_repr import brief_repr
+from ...core.errors import check_not_negative, check_positive
+from ...core.poses import Pose
+from .. import laws
+from .relative_coordinates import Start
+from .unicycle_game import Game
+
+Array = NDArray[np.float64]
+_PARTS = 16  # of each arc, where the closest approach is looked for
+
+
+@dataclass(frozen=True, slots=True)
+class SampledRun:
+    """A game with held turning rates.
+
+    Attributes:
+        times: Sampling times, in [s]. Shape (n + 1,).
+        states: r [m], a, psi [rad] at those times. Shape (n + 1, 3).
+        pursuer: Poses of the pursuer (x, y [m], theta [rad]). (n + 1, 3).
+        evader: Poses of the evader, likewise.
+        turning_rates: Rates of pursuer and evader that are chosen at each
+            sample, in [rad/s]. Shape (n, 2).
+        sides: Side that is chosen at each sample. Shape (n,).
+        closest_distance: Least distance, in [m], looked for at 16 places
+            of every arc.
+        captured: Whether the distance fell to the capture distance.
+    """
+
+    __repr__ = brief_repr
+
+    times: Array
+    states: Array
+    pursuer: Array
+    evader: Array
+    turning_rates: Array
+    sides: NDArray[np.int64]
+    closest_distance: float
+    captured: bool
+
+
+def walk_arc(pose: Pose, speed: float, turning: float, time: float) -> Pose:
+    """Move along an arc at constant speed (negative: backward), eq. (9)."""
+    half = 0.5 * turning * time
+    chord = speed * time * float(np.sinc(half / np.pi))
+    step = Pose(chord * np.cos(half), chord * np.sin(half), 2.0 * half)
+    return pose.compose(step)
+
+
+def choose_turning(
+    game: Game, start: Start, side: int
+) -> tuple[float, float, int]:
+    """Turning rates of both players, in [rad/s], and the side.
+
+    Args:
+        game: Parameters of the game.
+        start: What is perceived.
+        side: Side until now, or 0 for none yet.
+    """
+    _, a, psi = start.wrapped()
+    if side == 0 or not game.keeps_side:
+        side = laws.keep_side(side, psi, game.hysteresis)
+    error = laws.evasion_heading(psi, side, game.angle)
+    turn = laws.saturated_rate if game.saturated else laws.proportional_rate
+    aim = laws.pursuit_heading(a)
+    return (
+        laws.proportional_rate(aim, game.pursuer.gain),
+        turn(error, game.evader.gain),
+        side,
+    )
+
+
+def _drive(
+    game: Game,
+    pursuer: Pose,
+    evader: Pose,
+    turns: tuple[float, float],
+    span: float,
+) -> tuple[Pose, Pose, float]:
+    """Move both along arcs: poses after a time, and the least distance [m]."""
+    closest = inf
+    for time in (span * np.arange(1, _PARTS + 1) / _PARTS).tolist():
+        p = walk_arc(pursuer, game.pursuer.speed, turns[0], time)
+        e = walk_arc(evader, -game.evader.speed, turns[1], time)
+        closest = min(closest, float(np.hypot(e.x - p.x, e.y - p.y)))
+    return p, e, closest
+
+
+def simulate_sampled(
+    game: Game,
+    start: Start,
+    duration: float,
+    sample_time: float,
+    *,
+    delay: float = 0.0,
+    side: int = 0,
+    capture_distance: float = 1e-6,
+    pursuer: Pose = Pose(0.0, 0.0, 0.0),  # noqa: B008 (immutable)
+) -> SampledRun:
+    """Play one game with turning rates held between samples.
+
+    Args:
+        game: Parameters of the game.
+        start: Relative coordinates at the start.
+        duration: Time after which the game ends, in [s].
+        sample_time: Time between samples, in [s].
+        delay: Age of a perception when it takes effect, in [s]. Before the
+            first one does, both players drive straight on.
+        side: Side at the start, +1 or -1; 0 for the one behind the evader.
+        capture_distance: Distance at which the game ends, in [m].
+        pursuer: Pose of the pursuer at the start.
+
+    Returns:
+        The game at its sampling times.
+
+    Raises:
+        PlanError: If a value is out of its range.
+    """
+    check_positive(duration, "duration", "s")
+    check_positive(sample_time, "sample_time", "s")
+    check_not_negative(delay, "delay", "s")
+    check_positive(capture_distance, "capture_distance", "m")
+    evader = start.evader_pose(pursuer)
+    whole = floor(delay / sample_time + 1e-12)
+    late = max(0.0, delay - whole * sample_time)
+    count = ceil(duration / sample_time - 1e-9)
+    whole = min(whole, count)  # what is later than that takes no effect
+    # Rates in effect before and after the change within a period.
+    queue = deque([(0.0, 0.0)] * (whole + 1))
+    poses_p, poses_e, states = [pursuer], [evader], [start.wrapped()]
+    rates, sides = [], []
+    closest, captured = start.distance, start.distance <= capture_distance
+    for _ in range(count):
+        if captured:
+            break
+        turn_p, turn_e, side = choose_turning(game, Start(*states[-1]), side)
+        queue.append((turn_p, turn_e))
+        rates.append((turn_p, turn_e))
+        sides.append(side)
+        old = queue.popleft()
+        for turns, span in ((old, late), (queue[0], sample_time - late)):
+            if span > 0.0:
+                pursuer, evader, least = _drive(
+                    game, pursuer, evader, turns, span
+                )
+                closest = min(closest, least)
+        captured = closest <= capture_distance
+        poses_p.append(pursuer)
+        poses_e.append(evader)
+        states.append(Start.from_world(pursuer, evader).wrapped())
+    return SampledRun(
+        sample_time * np.arange(len(states), dtype=np.float64),
+        np.array(states),
+        np.array(poses_p),
+        np.array(poses_e),
+        np.array(rates).reshape(-1, 2),
+        np.array(sides, dtype=np.int64),
+        closest,
+        captured,
+    )

@@ -1,0 +1,202 @@
+r"""Stability of the circle under sampling and delay.
+
+The held arc is the circle itself, so sampling and delay leave the circle as
+it is; only the way back to it changes.
+"""
+
+from collections.abc import Callable
+from math import floor, pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import PlanError, check_not_negative, check_positive
+from .circle_equations import Circle, circle_of
+from .root_finding import bisect
+from .stability import feedback_matrix, geometry_jacobian, sorted_eigenvalues
+from .unicycle_game import Game
+
+Array = NDArray[np.float64]
+# Sample times in a delay: each is two rows more of a matrix whose eigenvalues
+# are searched for.
+DEEPEST = 200
+
+
+def smooth_circle(game: Game) -> Circle:
+    """Find a circle about which the law is smooth.
+
+    Raises:
+        PlanError: If there is no circle, or the saturated evader slides on
+            it: sampled, it chatters about zero error instead.
+    """
+    circle = circle_of(game)
+    if not circle.exists:
+        raise PlanError("there is no circle for these speeds, gains, angle")
+    if circle.sliding:
+        raise PlanError(
+            "the saturated evader slides on this circle; sampled or delayed "
+            "it chatters about it, and no linearisation exists"
+        )
+    return circle
+
+
+def _geometry(game: Game, circle: Circle) -> tuple[Array, Array]:
+    bearing = circle.evader_error_rad - game.angle
+    return geometry_jacobian(
+        game, circle.distance_m, circle.pursuer_error_rad, bearing
+    )
+
+
+def _held(state: Array, turning: Array, time: float) -> tuple[Array, Array]:
+    """Transition over a time with turning rates held (both exact)."""
+    from scipy.linalg import expm
+
+    joint = np.zeros((5, 5))
+    joint[:3, :3], joint[:3, 3:] = state, turning
+    moved = expm(joint * time)
+    return moved[:3, :3], moved[:3, 3:]
+
+
+def step_map(game: Game, sample_time: float, delay: float = 0.0) -> Array:
+    """Linearise one sampling period about the circle.
+
+    Along the circle the relative state rests, so the linearisation of the
+    held motion has constant coefficients and its exponential is exact.
+
+    Args:
+        game: Parameters of the game.
+        sample_time: Time between samples, in [s].
+        delay: Age of a perception when it takes effect, in [s].
+
+    Returns:
+        Map of (r, a, psi, turning rates in the pipe, newest first) over one
+        period. Shape (n, n) with n = 3, or more with a delay.
+
+    Raises:
+        PlanError: If a value is out of range or there is no smooth circle.
+    """
+    check_positive(sample_time, "sample_time", "s")
+    check_not_negative(delay, "delay", "s")
+    state, turning = _geometry(game, smooth_circle(game))
+    feedback = feedback_matrix(game)
+    whole = floor(delay / sample_time + 1e-12)
+    if whole > DEEPEST:
+        raise PlanError(
+            f"delay must be at most {DEEPEST} sample times, "
+            f"{DEEPEST * sample_time:g} [s], got {delay:g}"
+        )
+    late = max(0.0, delay - whole * sample_time)
+    early_state, early_turning = _held(state, turning, late)
+    rest_state, rest_turning = _held(state, turning, sample_time - late)
+    depth = (
+        whole + 1
+    )  # of the pipe; the last is in effect when a period starts
+    size = 3 + 2 * depth
+    full = np.zeros((size, size))
+    full[:3, :3] = rest_state @ early_state
+    full[:3, size - 2 :] = rest_state @ early_turning
+    if whole == 0:
+        full[:3, :3] += rest_turning @ feedback
+    else:
+        full[:3, size - 4 : size - 2] += rest_turning
+    full[3:5, :3] = feedback
+    full[5:, 3 : size - 2] = np.eye(size - 5)
+    return full
+
+
+def step_eigenvalues(
+    game: Game, sample_time: float, delay: float = 0.0
+) -> tuple[complex, ...]:
+    """Eigenvalues of the step map, the largest modulus first."""
+    values = np.linalg.eigvals(step_map(game, sample_time, delay)).tolist()
+    return tuple(
+        sorted((complex(v) for v in values), key=lambda z: (-abs(z), -z.imag))
+    )
+
+
+def delayed_eigenvalues(
+    game: Game, delay: float, *, count: int = 3, nodes: int = 24
+) -> tuple[complex, ...]:
+    """Rightmost eigenvalues of the law without sampling, with a delay.
+
+    The history over one delay is collocated at Chebyshev points.
+
+    Args:
+        game: Parameters of the game.
+        delay: Age of what is perceived, in [s].
+        count: Number of eigenvalues wanted.
+        nodes: Number of intervals of the collocation.
+
+    Returns:
+        Eigenvalues, the slowest first, in [1/s].
+    """
+    check_positive(delay, "delay", "s")
+    state, turning = _geometry(game, smooth_circle(game))
+    n = nodes
+    k = np.arange(n + 1)
+    x = np.cos(pi * k / n)
+    c = np.where((k == 0) | (k == n), 2.0, 1.0) * (-1.0) ** k
+    gaps = x[:, None] - x[None, :] + np.eye(n + 1)
+    d = np.outer(c, 1.0 / c) / gaps
+    d -= np.diag(d.sum(axis=1))
+    full = np.kron(d * (2.0 / delay), np.eye(3))
+    full[:3] = 0.0
+    full[:3, :3] = state
+    full[:3, -3:] += turning @ feedback_matrix(game)
+    return sorted_eigenvalues(full)[:count]
+
+
+def largest_stable_sample_time(game: Game, delay: float = 0.0) -> float:
+    """Sampling time at which the circle first loses stability, in [s].
+
+    Returns:
+        The time; 0 where none is found to be stable with this delay: with
+        a delay the search starts at a twentieth of it.
+    """
+    gain = max(game.pursuer.gain, game.evader.gain)
+
+    def excess(sample_time: float) -> float:
+        return abs(step_eigenvalues(game, sample_time, delay)[0]) - 1.0
+
+    if delay > 0.0 and delay >= largest_stable_delay(game):
+        return 0.0
+    low = 1e-2 / gain if delay == 0.0 else 0.05 * delay
+    return _first_crossing(excess, low, 0.02 / gain, 4000)
+
+
+def largest_stable_delay(game: Game, sample_time: float = 0.0) -> float:
+    """Delay at which the circle first loses stability, in [s].
+
+    Args:
+        game: Parameters of the game.
+        sample_time: Time between samples, in [s]; 0 for none.
+
+    Returns:
+        The delay; 0 where the circle is unstable even without one.
+    """
+    circle = smooth_circle(game)
+    gain = max(game.pursuer.gain, game.evader.gain)
+
+    def excess(delay: float) -> float:
+        if sample_time > 0.0:
+            return abs(step_eigenvalues(game, sample_time, delay)[0]) - 1.0
+        return delayed_eigenvalues(game, delay)[0].real / gain
+
+    if sample_time == 0.0 and not circle.stable:
+        return 0.0
+    low = 0.0 if sample_time > 0.0 else 1e-3 / gain
+    return _first_crossing(excess, low, 0.02 / gain, 4000)
+
+
+def _first_crossing(
+    excess: Callable[[float], float], low: float, step: float, count: int
+) -> float:
+    """Least argument at which an excess turns positive; inf if none."""
+    if excess(low) >= 0.0:
+        return 0.0
+    for _ in range(count):
+        if excess(low + step) >= 0.0:
+            return bisect(excess, low, low + step)
+        low += step
+        step *= 1.02
+    return float("inf")

@@ -1,0 +1,191 @@
+r"""Pieces on which the laws are smooth, and how one leads to the next.
+
+In relative coordinates :math:`(r, a, \psi)` the laws jump where a wrapped
+error passes :math:`\pm\pi`, where the evader changes side, and, saturated,
+where its error changes sign. Between those places
+
+.. math:: \dot\psi = f \Omega - c_1 \psi - c_0,
+    \qquad \psi \in [\text{low}, \text{high}].
+
+The functions take and return numbers, so that they can be compiled as they
+are.
+"""
+
+from enum import IntEnum
+from math import inf, pi
+from typing import Any, NamedTuple
+
+from .. import laws
+from .compilation import inlined
+from .game_parameters import Rules
+
+inlined(laws.wrap_once)  # the heading calls it
+evasion_heading = inlined(laws.evasion_heading)
+proportional_rate = inlined(laws.proportional_rate)
+saturated_rate = inlined(laws.saturated_rate)
+side_behind = inlined(laws.side_behind)
+
+
+class Branch(IntEnum):
+    """Which formula gives the evader's turning rate."""
+
+    PROPORTIONAL = 0  # eq. (4)
+    LEFT = 1  # eq. (6): full rate to the left,
+    RIGHT = 2  # to the right,
+    SLIDING = 3  # and what Filippov's rule gives between the two
+
+
+class Edge(IntEnum):
+    """Which end of a piece's range of bearings."""
+
+    LOW = -1
+    HIGH = 1
+
+
+class Mode(NamedTuple):
+    """What names a piece.
+
+    Attributes:
+        side: Side of the line of sight that the evader takes, +1 or -1.
+        branch: Branch of its turning law.
+    """
+
+    side: int
+    branch: Branch
+
+
+class Piece(NamedTuple):
+    """The numbers of a piece, or of the pieces of many games.
+
+    Attributes:
+        low: Least bearing, in [rad].
+        high: Largest bearing, in [rad].
+        constant: Turning rate of the evader at bearing zero, in [rad/s].
+        slope: Its derivative by the bearing, in [1/s].
+        free: 0 where the evader turns with the line of sight, else 1.
+    """
+
+    low: Any
+    high: Any
+    constant: Any
+    slope: Any
+    free: Any
+
+
+@inlined
+def branch_at(code: int) -> Branch:
+    """The branch of a number, which is what arrays hold."""
+    if code == 0:
+        return Branch.PROPORTIONAL
+    if code == 1:
+        return Branch.LEFT
+    if code == 2:
+        return Branch.RIGHT
+    return Branch.SLIDING
+
+
+@inlined
+def towards(amount: float) -> Branch:
+    """Branch on which the evader turns to the side of a sign."""
+    return Branch.LEFT if amount > 0.0 else Branch.RIGHT
+
+
+@inlined
+def opposite(branch: Branch) -> Branch:
+    """The branch that turns the other way."""
+    if branch == Branch.LEFT:
+        return Branch.RIGHT
+    if branch == Branch.RIGHT:
+        return Branch.LEFT
+    return branch
+
+
+@inlined
+def piece_of(mode: Mode, rules: Rules) -> Piece:
+    """Give the numbers of a piece."""
+    gain, width = rules.evader_gain, rules.hysteresis
+    zero = -mode.side * rules.angle  # bearing where the evader's error is zero
+    if mode.branch == Branch.SLIDING:
+        return Piece(-inf, inf, 0.0, 0.0, 0.0)
+    if rules.keeps_side:
+        low, high = zero - pi, zero + pi
+    elif mode.side < 0:
+        low, high = -width, pi + width
+    else:
+        low, high = -pi - width, width
+    if mode.branch == Branch.PROPORTIONAL:
+        constant = proportional_rate(-zero, gain)
+        slope = proportional_rate(1.0, gain)
+        return Piece(low, high, constant, slope, 1.0)
+    if mode.branch == Branch.LEFT:
+        return Piece(zero, high, saturated_rate(1.0, gain), 0.0, 1.0)
+    return Piece(low, zero, saturated_rate(-1.0, gain), 0.0, 1.0)
+
+
+@inlined
+def enter(
+    bearing: float, sight_rate: float, side: int, rules: Rules
+) -> tuple[float, Mode]:
+    """Find the piece that a game starts in.
+
+    Args:
+        bearing: Bearing of the pursuer, in [-pi, pi], in [rad].
+        sight_rate: Rate of the line of sight, in [rad/s].
+        side: +1 or -1, or 0 for the side behind the evader.
+        rules: Rules of the game.
+
+    Returns:
+        Bearing (a whole turn away from the given one at most), and the mode.
+    """
+    if side == 0:
+        side = side_behind(bearing)
+    error = bearing + side * rules.angle
+    if rules.keeps_side:
+        error = evasion_heading(bearing, side, rules.angle)
+    branch = Branch.PROPORTIONAL
+    if rules.saturated:
+        if error != 0.0:
+            branch = towards(error)
+        elif abs(sight_rate) <= rules.evader_gain:
+            branch = Branch.SLIDING
+        else:
+            branch = towards(sight_rate)
+    return error - side * rules.angle, Mode(side, branch)
+
+
+@inlined
+def leave(
+    bearing: float, sight_rate: float, mode: Mode, edge: Edge, rules: Rules
+) -> tuple[float, Mode]:
+    """Find the piece that follows when a game leaves its piece.
+
+    Args:
+        bearing: Bearing of the pursuer at that instant, in [rad].
+        sight_rate: Rate of the line of sight, in [rad/s].
+        mode: Mode of the piece left.
+        edge: Where the bearing leaves; of no meaning when sliding, which
+            ends where the line of sight outruns the evader.
+        rules: Rules of the game.
+
+    Returns:
+        Bearing and mode on the next piece.
+    """
+    side, branch = mode.side, mode.branch
+    zero = -side * rules.angle
+    if branch == Branch.SLIDING:
+        return zero, Mode(side, towards(sight_rate))
+    falls = branch == Branch.LEFT and edge == Edge.LOW
+    if falls or (branch == Branch.RIGHT and edge == Edge.HIGH):
+        # The saturated evader's error is zero.
+        if abs(sight_rate) <= rules.evader_gain:
+            return zero, Mode(side, Branch.SLIDING)
+        return zero, Mode(side, opposite(branch))
+    turned = bearing - (2.0 * pi if edge == Edge.HIGH else -2.0 * pi)
+    if rules.keeps_side:
+        return turned, Mode(side, opposite(branch))
+    if (edge == Edge.HIGH) == (side < 0):
+        bearing = turned  # the pursuer passes behind the evader's back
+    side = -side
+    if branch != Branch.PROPORTIONAL:
+        branch = towards(bearing + side * rules.angle)
+    return bearing, Mode(side, branch)

@@ -1,0 +1,156 @@
+"""The game of two unicycles and its laws, eqs. (1)-(6) of the paper."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import wraps
+from inspect import signature
+from math import pi
+from typing import Any, ParamSpec, TypeVar
+
+from ...core.errors import check_positive, check_within
+
+Values = ParamSpec("Values")
+Found = TypeVar("Found")
+
+MOVE_BACK = 0.0
+"""Evasion angle of "move back", in [rad]."""
+MOVE_ASIDE = pi / 2
+"""Evasion angle of "move aside", in [rad]."""
+
+
+class TurningLaw(StrEnum):
+    """How the evader turns its error into a turning rate."""
+
+    PROPORTIONAL = "proportional"  # eq. (4)
+    SATURATED = "saturated"  # eq. (6)
+
+
+class SideRule(StrEnum):
+    """On which side of the line of sight the evader moves aside.
+
+    ``BEHIND`` takes, at every instant, the direction behind the evader
+    (Sec. II-B), with an optional hysteresis. ``LATCHED`` keeps the side that
+    the game starts with.
+    """
+
+    BEHIND = "behind"
+    LATCHED = "latched"
+
+
+@dataclass(frozen=True, slots=True)
+class Unicycle:
+    """One player.
+
+    Attributes:
+        speed: Magnitude of the driving velocity, in [m/s]. The pursuer
+            drives forward (1), the evader backward (3).
+        gain: Steering gain :math:`k`, in [1/s]; in (6) it is the turning
+            rate itself, in [rad/s].
+    """
+
+    speed: float
+    gain: float
+
+
+@dataclass(frozen=True, slots=True)
+class Game:
+    r"""Parameters of a game.
+
+    With :math:`\psi` the bearing of the pursuer in the evader's frame and
+    :math:`\sigma = \pm 1` the side, the evader's error is
+    :math:`b = \psi + \sigma \alpha`; behind the evader means
+    :math:`\sigma = -\mathrm{sign}\,\psi`. Eq. (5) is
+    :math:`\alpha = \pi / 2`, :math:`\sigma = 1`. Errors are wrapped to
+    :math:`[-\pi, \pi]`, which is part of the model.
+
+    Attributes:
+        pursuer: Speed and gain of the pursuer.
+        evader: Speed and gain of the evader.
+        angle: Evasion angle :math:`\alpha` in [0, pi], in [rad].
+        law: Turning law of the evader, (4) or (6).
+        side_rule: How the side is chosen.
+        hysteresis: The side flips only when the pursuer's bearing is this
+            far beyond the evader's axis, in [rad]; for ``BEHIND`` only.
+    """
+
+    pursuer: Unicycle
+    evader: Unicycle
+    angle: float = MOVE_ASIDE
+    law: TurningLaw = TurningLaw.PROPORTIONAL
+    side_rule: SideRule = SideRule.BEHIND
+    hysteresis: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Check the parameters, naming them as options do."""
+        check_positive(self.pursuer.speed, "pursuer_speed", "m/s")
+        check_positive(self.evader.speed, "evader_speed", "m/s")
+        check_positive(self.pursuer.gain, "pursuer_gain", "1/s")
+        check_positive(self.evader.gain, "evader_gain", "1/s")
+        check_within(self.angle, 0.0, pi, "angle", "rad")
+        largest = min(self.angle, pi - self.angle)
+        check_within(self.hysteresis, 0.0, largest, "hysteresis", "rad")
+
+    @property
+    def saturated(self) -> bool:
+        """Whether the evader turns by (6) rather than by (4)."""
+        return self.law is TurningLaw.SATURATED
+
+    @property
+    def keeps_side(self) -> bool:
+        """Whether the side never changes.
+
+        At angles 0 and pi both sides name the same direction.
+        """
+        ends = self.angle in (0.0, pi)
+        return ends or self.side_rule is SideRule.LATCHED
+
+
+def make_game(
+    pursuer_speed: float,
+    evader_speed: float,
+    pursuer_gain: float,
+    evader_gain: float,
+    angle: float = MOVE_ASIDE,
+    law: TurningLaw | str = TurningLaw.PROPORTIONAL,
+    *,
+    side_rule: SideRule | str = SideRule.BEHIND,
+    hysteresis: float = 0.0,
+) -> Game:
+    """Build a game from plain values; see :class:`Game` for units."""
+    return Game(
+        Unicycle(pursuer_speed, pursuer_gain),
+        Unicycle(evader_speed, evader_gain),
+        angle,
+        TurningLaw(law),
+        SideRule(side_rule),
+        hysteresis,
+    )
+
+
+def with_values(
+    name: str, make: Callable[Values, Game], find: Callable[[Game], Found]
+) -> Callable[Values, Found]:
+    """Give a function of a game a twin that takes the values of one.
+
+    Args:
+        name: Name of the twin.
+        make: Makes a game of values, as :func:`make_game` does.
+        find: Function of a game.
+    """
+
+    @wraps(make, assigned=())
+    def found(*values: Values.args, **named: Values.kwargs) -> Found:
+        return find(make(*values, **named))
+
+    made: Any = found
+    given = signature(find).return_annotation
+    made.__signature__ = signature(make).replace(return_annotation=given)
+    first = (find.__doc__ or "").partition("\n")[0]
+    found.__name__ = found.__qualname__ = name
+    found.__module__ = find.__module__
+    found.__doc__ = (
+        f"{first}\n\nSee :func:`{find.__name__}`; the game is that which "
+        f":func:`.laws.{make.__name__}` makes of the values."
+    )
+    return found
