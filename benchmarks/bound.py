@@ -24,12 +24,20 @@ from asking import ask, machine
 from numpy.typing import NDArray
 
 from stepaside.studies.result_files import header, write_result
-from stepaside.theory.bound import Grid, Scheme, against_pursuit, solve_bound
+from stepaside.theory.bound import (
+    DiscretisationScheme,
+    Grid,
+    against_pursuit,
+    solve_bound,
+)
 from stepaside.theory.bound.relative_game import BoundGame
 
 ROOMS = ("bound", "unicycle")
 Array = NDArray[np.float64]
-ACCURACY = {Scheme.LAX: "very_high", Scheme.FIRST_LAX: "low"}
+ACCURACY = {
+    DiscretisationScheme.LAX: "very_high",
+    DiscretisationScheme.FIRST_LAX: "low",
+}
 WITHIN = 5e-4  # difference that counts as none, in [m]
 LIBRARIES = ("numpy", "numba", "jax", "hj_reachability")
 
@@ -118,7 +126,7 @@ def use_one_core() -> None:
 
 
 def measure(
-    cells: int, horizon: float, scheme: Scheme, *, double: bool
+    cells: int, horizon: float, scheme: DiscretisationScheme, *, double: bool
 ) -> dict[str, Any]:
     """Times of both, their ratio, and how far their values are apart."""
     import jax
@@ -168,9 +176,9 @@ def main() -> None:
     use_one_core()
     cells, horizon = arguments.cells, arguments.horizon
     rows = [
-        measure(cells, horizon, Scheme.LAX, double=True),
-        measure(cells, horizon, Scheme.FIRST_LAX, double=False),
-        measure(cells, horizon, Scheme.LAX, double=False),
+        measure(cells, horizon, DiscretisationScheme.LAX, double=True),
+        measure(cells, horizon, DiscretisationScheme.FIRST_LAX, double=False),
+        measure(cells, horizon, DiscretisationScheme.LAX, double=False),
     ]
     settings = {"cells": cells, "horizon": horizon, "within": WITHIN}
     head = header(settings, rooms=ROOMS, libraries=LIBRARIES)

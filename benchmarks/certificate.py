@@ -13,7 +13,7 @@ from asking import ask
 from stepaside.studies.code_version import UNICYCLES
 from stepaside.studies.result_files import header, write_result
 from stepaside.theory.unicycle.certificate import certify
-from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.unicycle_game import make_game
 
 BOXES = {
@@ -38,7 +38,7 @@ def main() -> None:
         r = rng.uniform(low, high, COUNT)
         a = rng.uniform(-aim, aim, COUNT)
         psi = rng.uniform(-facing, facing, COUNT)
-        starts = [Start(*row) for row in zip(r, a, psi, strict=True)]
+        starts = [RelativeStart(*row) for row in zip(r, a, psi, strict=True)]
         row: dict[str, object] = {"starts": name}
         inside = np.abs(a) + np.abs(psi) < pi
         row["in the diamond"] = float(inside.mean())

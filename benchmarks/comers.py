@@ -30,7 +30,7 @@ from stepaside.studies.duel_campaign import (
     run_duels,
     verify_duels,
 )
-from stepaside.studies.record_store import RecordFile
+from stepaside.studies.record_store import RecordStore
 from stepaside.studies.result_files import header, write_result
 
 FAST = DuelSettings(
@@ -96,7 +96,7 @@ def main() -> None:
         tqdm(total=every, unit="duel", disable=None) as bar,
     ):
         for kind in asked.kinds:
-            file = RecordFile(asked.records / f"{kind}.jsonl")
+            file = RecordStore(asked.records / f"{kind}.jsonl")
             if asked.verify is not None:
                 taken = KINDS[kind], file, asked.verify, executor
                 print(f"{kind}: otherwise: seeds {verify_duels(*taken)[1]}")

@@ -18,11 +18,11 @@ from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.match import Match, play
 from stepaside.games.outcome import Outcome
-from stepaside.games.person_player import Pedestrian
+from stepaside.games.person_player import PersonPlayer
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
-from stepaside.sim.camera_settings import RoomSettings
+from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
 from stepaside.studies.people_campaign import PASSING
@@ -42,7 +42,7 @@ def game(seed: int, speed: float, duration: float) -> DuelSettings:
         strategy=Evasion(trigger="time"),
         sensing="cameras",
         cameras=CAMERAS,
-        room=RoomSettings(walls=0.0),
+        room=SceneSettings(walls=0.0),
         pursuer="person",
         person=PersonSettings("visits", speed),
         start=StartSettings(4.5, 0.0),
@@ -69,7 +69,7 @@ class Counts:
     def before(self, match: Match) -> None:
         """Look at each tick."""
         person, robot = match.players
-        assert isinstance(person, Pedestrian)
+        assert isinstance(person, PersonPlayer)
         visits = person.person.visits
         if robot.is_moving and not self._moved:
             self.triggers += 1
@@ -86,7 +86,7 @@ class Counts:
     def ended(self, match: Match, outcome: Outcome) -> None:
         """Add a game up."""
         person = match.players[0]
-        assert isinstance(person, Pedestrian)
+        assert isinstance(person, PersonPlayer)
         self.crossings += person.person.visits.number
         assert match.min_distance is not None
         self.closest = min(self.closest, match.min_distance)

@@ -11,7 +11,7 @@ import numpy as np
 
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings
-from stepaside.robots.jit import Machine, prefer
+from stepaside.robots.jit import JitPreference, prefer
 
 OURS = ("real_time_factor", "duel_over_bare_physics", "control_tick_us")
 
@@ -19,7 +19,7 @@ OURS = ("real_time_factor", "duel_over_bare_physics", "control_tick_us")
 def measure_duel(duration: float = 60.0) -> dict[str, float]:
     """Times of a duel, in Python, then by machine code; see there."""
     plain = _measure_duel(duration)
-    prefer(Machine.COMPILED)
+    prefer(JitPreference.COMPILED)
     swift = _measure_duel(duration)
     return plain | {f"{name}_machine_code": swift[name] for name in OURS}
 

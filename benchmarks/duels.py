@@ -32,7 +32,7 @@ from stepaside.studies.duel_campaign import (
     verify_duels,
 )
 from stepaside.studies.duel_statistics import summarise_duels
-from stepaside.studies.record_store import RecordFile
+from stepaside.studies.record_store import RecordStore
 from stepaside.studies.result_files import header, read_result, write_result
 
 KINDS = {
@@ -59,7 +59,7 @@ def summarise(output: Path, settings: DuelSettings) -> None:
         settings: Of its duels.
     """
     result = read_result(output)
-    file = RecordFile(output.with_suffix(".jsonl"))
+    file = RecordStore(output.with_suffix(".jsonl"))
     found, kind = file.read(), result["records"]["settings"]
     seeds = range(*result["settings"]["seeds"])
     records = [found[f"{seed}/{kind}"] for seed in seeds]
@@ -83,7 +83,7 @@ def main() -> None:
     if asked.summarise:
         summarise(output, settings)
         return
-    file = RecordFile(output.with_suffix(".jsonl"))
+    file = RecordStore(output.with_suffix(".jsonl"))
     with (
         worker_pool(asked.workers) as executor,
         tqdm(total=len(seeds), unit="duel", disable=None) as bar,

@@ -16,7 +16,7 @@ from asking import ask, machine, seeds_of
 from stepaside.arena import RoomRecipe
 from stepaside.core.worker_pool import worker_pool
 from stepaside.studies.entrants import EVADERS
-from stepaside.studies.record_store import RecordFile
+from stepaside.studies.record_store import RecordStore
 from stepaside.studies.result_files import header, write_result
 from stepaside.studies.tournament_campaign import play_tournament
 from stepaside.studies.tournament_rows import tournament_rows
@@ -47,7 +47,7 @@ def main() -> None:
     asked.add_argument("--workers", type=int)
     asked.add_argument("--records", type=Path)
     arguments = asked.parse_args()
-    file = arguments.records and RecordFile(arguments.records / "games.jsonl")
+    file = arguments.records and RecordStore(arguments.records / "games.jsonl")
     with worker_pool(arguments.workers) as executor:
 
         def rows(

@@ -12,7 +12,7 @@ import numpy as np
 from tqdm import tqdm
 
 from stepaside.core.worker_pool import give_up, worker_pool
-from stepaside.studies.record_store import RecordFile
+from stepaside.studies.record_store import RecordStore
 
 Row = dict[str, Any]
 Job = TypeVar("Job")
@@ -41,7 +41,7 @@ def gather(
     Returns:
         What each gave, in the order of the jobs.
     """
-    file = RecordFile(part_of(output))
+    file = RecordStore(part_of(output))
     mark = {key: head[key] for key in ("version", "libraries")}
     mark["script"] = sha256(Path(sys.argv[0]).read_bytes()).hexdigest()
     own = json.dumps(mark, sort_keys=True)

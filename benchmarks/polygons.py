@@ -29,7 +29,7 @@ from stepaside.arena import (
     make_room,
 )
 from stepaside.arena.polygon_cover import cover
-from stepaside.control.clearance.guard import Choice, Guard
+from stepaside.control.clearance.guard import Guard, GuardDecision
 from stepaside.control.clearance.surroundings import HERE
 from stepaside.control.clearance.swept_outline import sway_of
 from stepaside.core.poses import Pose, wrap_angle
@@ -113,7 +113,7 @@ def guarded(pose: Pose, solids: ObstacleSet) -> Callable[[], object]:
     support = pose.compose(Pose(0.0, -half, 0.0))
     state = CenterState((0.01, 0.025), (-0.07, -0.04))
 
-    def plan_for(choice: Choice) -> ManeuverPlan:
+    def plan_for(choice: GuardDecision) -> ManeuverPlan:
         return PLANNER.plan(
             choice.intent.heading,
             Direction.BACKWARD,

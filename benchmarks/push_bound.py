@@ -20,17 +20,17 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.planning.capturability import Reach, push_bound
+from stepaside.planning.capturability import FootReach, push_bound
 from stepaside.planning.steady_gait import steady_plan
 
 MASS = 5.3  # [kg]
 CASES = 60
-REACHES = (Reach(), Reach(0.08, 0.08, 0.02, 0.012))
+REACHES = (FootReach(), FootReach(0.08, 0.08, 0.02, 0.012))
 
 
 def case(
     generator: np.random.Generator,
-) -> tuple[ManeuverPlan, float, float, Reach, float]:
+) -> tuple[ManeuverPlan, float, float, FootReach, float]:
     """One plan, time, direction, reach and length of the push."""
     gait = replace(
         GaitSettings(), zmp_profile=("linear", "cubic")[generator.integers(2)]

@@ -17,7 +17,7 @@ import numpy as np
 from asking import RESULTS, ask
 
 from stepaside.core.poses import Array
-from stepaside.games.walk_game import Walking
+from stepaside.games.walk_game import WalkGame
 from stepaside.games.walk_settings import WALKER
 from stepaside.planning import (
     CenterState,
@@ -32,7 +32,7 @@ from stepaside.studies.push_results import ROOMS
 from stepaside.studies.result_files import header, read_result, write_result
 from stepaside.studies.robustness_campaign import (
     DIRECTIONS,
-    Trial,
+    RobustnessTrial,
     settings_of,
 )
 from stepaside.studies.survival import PUSH, bound_at, walking_reach
@@ -53,7 +53,9 @@ def ground(model: Any, data: Any, foot: int) -> tuple[Array, float]:
     return moment / total, share / total
 
 
-def bound_with_landing(trial: Trial, rest: float, mass: float) -> float:
+def bound_with_landing(
+    trial: RobustnessTrial, rest: float, mass: float
+) -> float:
     """Bound if the foot in the air landed after another time, in [N s]."""
     passed = 2.0 * trial.phase * GAIT.step_duration
     foot = Foot.LEFT if passed < GAIT.step_duration else Foot.RIGHT
@@ -73,7 +75,7 @@ def bound_with_landing(trial: Trial, rest: float, mass: float) -> float:
     return push_bound(plan, 0.0, angle, mass, walking_reach(), lasts=PUSH)
 
 
-def follow(trial: Trial) -> dict[str, float | str | bool]:
+def follow(trial: RobustnessTrial) -> dict[str, float | str | bool]:
     """Moment pivot and ZMP along the push, until the foot in the air lands.
 
     The push has to come in single support.
@@ -82,7 +84,7 @@ def follow(trial: Trial) -> dict[str, float | str | bool]:
     count for the DCM. Lengths are from the ankle of the foot that stands, in
     the direction of the push, in [mm].
     """
-    walking = Walking(settings_of(trial), recorded=False)
+    walking = WalkGame(settings_of(trial), recorded=False)
     world, walker = walking.world, walking.walker
     robot, scheme = walker.robot, walker.scheme
     model, data = world.model, world.data
@@ -165,12 +167,12 @@ def follow(trial: Trial) -> dict[str, float | str | bool]:
     }
 
 
-def trials_above(file: Path) -> list[Trial]:
+def trials_above(file: Path) -> list[RobustnessTrial]:
     """Largest pushes survived that lie above their bound, from a result."""
     made = read_result(file)
     body, seed = made["settings"]["body"], made["settings"]["seed"]
     return [
-        Trial(
+        RobustnessTrial(
             *("push", row["limit_n_s"], row["direction"], row["phase"]),
             *(seed, row["method"], body),
         )

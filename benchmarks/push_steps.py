@@ -22,7 +22,11 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.planning.capturability import Reach, held_regions, ray_interval
+from stepaside.planning.capturability import (
+    FootReach,
+    held_regions,
+    ray_interval,
+)
 from stepaside.planning.steady_gait import steady_plan
 from stepaside.studies.code_version import PLANNER
 from stepaside.studies.result_files import header, write_result
@@ -60,7 +64,7 @@ def largest_shifts(
     return np.array(found)
 
 
-def ratios(plan: ManeuverPlan, reach: Reach) -> tuple[Array, Array]:
+def ratios(plan: ManeuverPlan, reach: FootReach) -> tuple[Array, Array]:
     """Shifts held with more steps and by earlier ones, over the bound's.
 
     Returns:

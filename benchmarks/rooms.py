@@ -18,7 +18,7 @@ from stepaside.arena import RoomRecipe, make_room
 from stepaside.control.clearance.map_settings import MAPS, MapSettings
 from stepaside.core.constants import CAPTURE_DISTANCE
 from stepaside.games import DuelSettings, run_duel
-from stepaside.sim.camera_settings import RoomSettings
+from stepaside.sim.camera_settings import SceneSettings
 from stepaside.studies.physics_game import clearance
 from stepaside.studies.result_files import header, read_result, write_result
 
@@ -43,7 +43,7 @@ def play(played: Played) -> Row:
         duration=played.duration,
         evader_strategy=played.strategy,
         sensing="cameras" if seen else "ideal",
-        room=RoomSettings(plan=make_room(RECIPE, played.seed)),
+        room=SceneSettings(plan=make_room(RECIPE, played.seed)),
         map=MapSettings(source=played.map),
     )
     run = run_duel(settings)

@@ -13,7 +13,11 @@ from asking import ask, machine, seeds_of
 from gathering import Row, finished, gather, spread
 
 from stepaside.games import DuelSettings, run_duel
-from stepaside.sim.camera_settings import CLUTTER, CameraSettings, RoomSettings
+from stepaside.sim.camera_settings import (
+    CLUTTER,
+    CameraSettings,
+    SceneSettings,
+)
 from stepaside.studies.result_files import header, write_result
 
 BEYOND = 0.85  # start distance beyond which the trigger tells something, [m]
@@ -44,7 +48,7 @@ def play(seen: Seen) -> Row:
             seed=seen.seed,
             sensing="cameras",
             cameras=CameraSettings(drop_frames=0.3, added_latency=0.1),
-            room=RoomSettings(things=list(CLUTTER)),
+            room=SceneSettings(things=list(CLUTTER)),
         )
     found = run_duel(settings).summary.to_json()
     row = {key: found[key] for key in PLAIN}

@@ -149,7 +149,7 @@ def play_against(listen: str, chest: Path) -> dict[str, Any]:
     import numpy as np
 
     from stepaside.drivers.joint.joint_map import HIGH, LOW, NAMES
-    from stepaside.drivers.joint.safety import State
+    from stepaside.drivers.joint.safety import RobotState
     from stepaside.drivers.lola.lola_address import parse_address
     from stepaside.drivers.lola.lola_connection import open_lola
 
@@ -165,13 +165,13 @@ def play_against(listen: str, chest: Path) -> dict[str, Any]:
         state = body.state
         if not states or states[-1] != state.value:
             states.append(state.value)
-        if state is State.READY:
+        if state is RobotState.READY:
             stood += 1  # press for ten ticks; the button acts when let go
             if stood == 10:
                 chest.touch()
             elif stood == 20:
                 chest.unlink()
-        elif state is State.WALKING:
+        elif state is RobotState.WALKING:
             if walked > 2:  # an answer acts on this frame or on the next
                 errors.append(
                     min(
@@ -184,9 +184,9 @@ def play_against(listen: str, chest: Path) -> dict[str, Any]:
             asked = [*asked[-2:], float(wanted[0])]
             if walked == WALKED:
                 body.rest("the check is over")
-        elif state is State.STOPPING:
+        elif state is RobotState.STOPPING:
             body.halted()
-        if state is State.LIMP and len(states) > 1:
+        if state is RobotState.LIMP and len(states) > 1:
             break
         body.write(wanted)
     rate = frames / (time.monotonic() - began)

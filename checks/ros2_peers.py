@@ -34,7 +34,7 @@ import numpy as np
 import ros2_peer as peer
 
 from stepaside.core.poses import Pose
-from stepaside.drivers.ros2.dds_domain import Dds, taken
+from stepaside.drivers.ros2.dds_domain import DdsParticipant, taken
 from stepaside.drivers.ros2.image_messages import pixels_of
 from stepaside.drivers.ros2.messages import (
     CompressedImage,
@@ -45,7 +45,7 @@ from stepaside.drivers.ros2.messages import (
 from stepaside.drivers.ros2.ros2_body import Ros2Body
 from stepaside.drivers.ros2.ros2_server import Ros2Server, WorldClock
 from stepaside.drivers.ros2.topics import dds_topic
-from stepaside.drivers.velocity.velocity_body import REST, Velocity
+from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
 from stepaside.drivers.velocity.walking_robot import WalkerState
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.images import ColourImage
@@ -60,7 +60,7 @@ LONGEST = 60.0  # for anything to be heard, in [s]
 WALKED = 2.0  # seconds of a walk by play, or in a served world
 TICK = 0.012
 KINDS = ("Twist", "TwistStamped")
-ASKED = Velocity(*peer.ASKED)
+ASKED = VelocityCommand(*peer.ASKED)
 TYPES = {
     "odom": "nav_msgs/Odometry",
     "joint_states": "sensor_msgs/JointState",
@@ -160,7 +160,7 @@ def row(
 class Sensors:
     """What we hear of a robot of ROS 2, beside what a body reads."""
 
-    def __init__(self, dds: Dds) -> None:
+    def __init__(self, dds: DdsParticipant) -> None:
         """Take part in its topics."""
         kinds = {
             "odom": (Odometry, self.odometry),
@@ -217,7 +217,7 @@ class Sensors:
 
 def their_robot(python: str, kind: str) -> Iterator[dict[str, Any]]:
     """Our body at a robot of ROS 2 that takes one type of command."""
-    dds = Dds(DOMAIN)
+    dds = DdsParticipant(DOMAIN)
     sensors = Sensors(dds)
     body = Ros2Body(dds, "/theirs")
     with started(python, "robot", "--command", kind) as node:
@@ -276,7 +276,7 @@ class Walker:
 
 def our_robot(python: str, kind: str) -> Iterator[dict[str, Any]]:
     """A commander of ROS 2 at our server."""
-    dds = Dds(DOMAIN)
+    dds = DdsParticipant(DOMAIN)
     walker: Any = Walker()
     server = Ros2Server(
         dds, "/ours", walker, peer.NAMES, WorldClock(dds), tick=TICK

@@ -53,14 +53,14 @@ def survival_on_hardware(store: Store, file: Path) -> None:
 def many_duels(store: Store, file: Path) -> None:
     """How the figures of many duels are distributed, kind by kind."""
     from stepaside.report.duels_figure import draw_duels
-    from stepaside.studies.record_store import RecordFile
+    from stepaside.studies.record_store import RecordStore
 
     groups = {}
     for kind in ("ideal", "hardware", "cameras"):
         result = store.result(f"duels-{kind}")
         seeds = range(*result["settings"]["seeds"])
         own = "/" + result["records"]["settings"]
-        records = RecordFile(store.folder / result["records"]["file"]).read()
+        records = RecordStore(store.folder / result["records"]["file"]).read()
         groups[kind] = [
             record
             for key, record in records.items()

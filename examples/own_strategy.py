@@ -9,7 +9,13 @@ from math import pi
 
 import numpy as np
 
-from stepaside import Direction, DuelSettings, Start, StartSettings, run_duel
+from stepaside import (
+    Direction,
+    DuelSettings,
+    RelativeStart,
+    StartSettings,
+    run_duel,
+)
 from stepaside import strategies as st
 from stepaside.theory.unicycle.unicycle_game import Unicycle
 
@@ -39,7 +45,7 @@ def main(duration: float) -> None:
     body = Unicycle(0.1, 0.2)  # NAO's, in path time: 0.4 s in 0.547 s
     for name in ("evasion", f"{__file__}:BackAndAside"):
         game = st.play_strategies(
-            st.Pursuit(), st.load_strategy(name), Start(0.9, 0.3, -0.2),
+            st.Pursuit(), st.load_strategy(name), RelativeStart(0.9, 0.3, -0.2),
             bodies=(body, body), period=0.4, duration=0.4 / 0.547 * duration,
         )  # fmt: skip
         start = StartSettings(0.9, -0.3, 0.2)

@@ -12,7 +12,7 @@ from time import perf_counter
 import numpy as np
 
 from stepaside import (
-    Start,
+    RelativeStart,
     certify,
     find_circle,
     make_game,
@@ -29,7 +29,7 @@ print(
     f"{degrees(circle.headings_apart_rad):.0f} deg apart"
 )
 
-start = Start(1.0, 0.3, 0.4)  # distance [m], both bearings [rad]
+start = RelativeStart(1.0, 0.3, 0.4)  # distance [m], both bearings [rad]
 certificate = certify(game, start)
 run = simulate(game, start, 60.0)
 assert certificate.distance_m is not None

@@ -14,7 +14,7 @@ from scipy.optimize import linprog
 from by_hand import sole_by_hand
 from stepaside.core.poses import Array
 from stepaside.planning import Foot, ManeuverPlan
-from stepaside.planning.capturability import Reach
+from stepaside.planning.capturability import FootReach
 
 SAMPLES = 8  # in each phase
 STANDS = 1.5  # how long the ZMP is sampled after the last landing, in [s]
@@ -45,7 +45,7 @@ def landing(plan: ManeuverPlan, row: int, x: float, y: float) -> Array:
     )
 
 
-def landings(plan: ManeuverPlan, reach: Reach, number: int) -> list[Array]:
+def landings(plan: ManeuverPlan, reach: FootReach, number: int) -> list[Array]:
     """Grid of landings in the axes of the support foot, as for a left one."""
     gait = plan.schedule.settings
     near = 2.0 * gait.sole.inner + reach.gap
@@ -57,7 +57,7 @@ def landings(plan: ManeuverPlan, reach: Reach, number: int) -> list[Array]:
 
 
 def options(
-    plan: ManeuverPlan, time: float, reach: Reach, number: int
+    plan: ManeuverPlan, time: float, reach: FootReach, number: int
 ) -> list[Supports]:
     """Everything the feet can do: stay, or one footstep of the grid."""
     gait = plan.schedule.settings
@@ -83,7 +83,9 @@ def options(
     return steps
 
 
-def two_steps(plan: ManeuverPlan, time: float, reach: Reach) -> list[Supports]:
+def two_steps(
+    plan: ManeuverPlan, time: float, reach: FootReach
+) -> list[Supports]:
     """Two footsteps from a single support, the second beside the first."""
     gait = plan.schedule.settings
     old = corners_of(plan, 1)
@@ -153,7 +155,7 @@ def brute_force(
     time: float,
     direction: float,
     mass: float,
-    reach: Reach,
+    reach: FootReach,
     *,
     lasts: float = 0.0,
     number: int = 5,

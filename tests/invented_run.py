@@ -12,15 +12,15 @@ from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.duel_summary import (
     DuelSummary,
     PlanTimes,
-    PlayerFigures,
-    StartFigures,
-    TheoryFigures,
+    PlayerSummary,
+    StartSummary,
+    TheorySummary,
 )
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import Run
-from stepaside.games.trajectory import Track
+from stepaside.games.trajectory import Trajectory
 
-NO_THEORY = TheoryFigures(None, False, None, None, None)
+NO_THEORY = TheorySummary(None, False, None, None, None)
 
 
 def figures(**changes: Any) -> DuelSummary:
@@ -30,7 +30,7 @@ def figures(**changes: Any) -> DuelSummary:
         message="played 18.00 s",
         seed=7,
         duration_s=18.0,
-        start=StartFigures(1.0, 0.0, 0.0),
+        start=StartSummary(1.0, 0.0, 0.0),
         triggered_at_s=None,
         triggered_at_distance_m=None,
         distance_m=1.0,
@@ -43,15 +43,15 @@ def figures(**changes: Any) -> DuelSummary:
         theory=NO_THEORY,
         plan_time_us=PlanTimes(None, None),
         real_time_factor=1.0,
-        pursuer=PlayerFigures(None),
-        evader=PlayerFigures(None),
+        pursuer=PlayerSummary(None),
+        evader=PlayerSummary(None),
     )
     return replace(told, **changes)
 
 
 def run_of(
     times: Array,
-    tracks: Mapping[str, Track],
+    tracks: Mapping[str, Trajectory],
     *,
     settings: DuelSettings | None = None,
     name: str = "invented",

@@ -15,7 +15,7 @@ from stepaside.perception.frame_report import FrameReport
 from stepaside.perception.images import ColourImage, DepthImage
 from stepaside.perception.measurement import Measurement
 from stepaside.perception.perception import Perception
-from stepaside.perception.track import Observation, Track
+from stepaside.perception.track import Observation, TargetTrack
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
 
@@ -85,7 +85,7 @@ class Eyes:
         self.support = SUPPORT
 
     @property
-    def tracks(self) -> list[Track]:
+    def tracks(self) -> list[TargetTrack]:
         """Everything followed."""
         return self.perception._tracker.tracks
 
@@ -112,14 +112,14 @@ class Eyes:
         self.reports += self.perception.reports
         return seen
 
-    def know(self, x: float, y: float, **changes: Any) -> Track:
+    def know(self, x: float, y: float, **changes: Any) -> TargetTrack:
         """Follow something at a place in odometry."""
         values: dict[str, Any] = {
             "time": 0.0,
             "identified": True,
             "ranged": True,
         } | changes
-        track = Track(
+        track = TargetTrack(
             Observation(
                 x=x, y=y, bearing=0.0, along=0.02, across=0.02, **values
             )
@@ -186,5 +186,5 @@ def axis_of(eyes: Eyes, sonar: str) -> float:
     return atan2(axis[1], axis[0])
 
 
-def hits(track: Track) -> list[bool]:
+def hits(track: TargetTrack) -> list[bool]:
     return list(track._hits)

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from stepaside.control.walk_snapshots import StepBegun
+from stepaside.control.walk_snapshots import StepStarted
 from stepaside.core.poses import Pose
 from stepaside.games import match as loop
 from stepaside.games.match import Match
@@ -70,7 +70,7 @@ class FakePlayer:
     ) -> None:
         self.world, self.name = world, name
         self.truth: Any = FakeTruth(x, y)
-        self.begun: StepBegun | None = None
+        self.begun: StepStarted | None = None
         self.reports: Any = ()
         self.is_moving = self.has_fallen = False
         self.closed = 0
@@ -145,7 +145,7 @@ def raising(error: BaseException) -> Callable[[], None]:
     return act
 
 
-def begun(**changes: Any) -> StepBegun:
+def begun(**changes: Any) -> StepStarted:
     """A step whose plan has a margin of 2 cm in the part that is walked."""
     plan: Any = SimpleNamespace(
         schedule=SimpleNamespace(first_step_duration=0.5),
@@ -160,7 +160,7 @@ def begun(**changes: Any) -> StepBegun:
         "planning_time": 2e-4,
         "velocity_jump": 0.0,
     } | changes
-    return StepBegun(**values)
+    return StepStarted(**values)
 
 
 def clock(monkeypatch: pytest.MonkeyPatch, step: float) -> None:

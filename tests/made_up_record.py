@@ -7,7 +7,7 @@ import numpy as np
 from stepaside.core.poses import Array
 from stepaside.games.duel_circle import theory_of
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.trajectory import Track
+from stepaside.games.trajectory import Trajectory
 
 SETTINGS = DuelSettings(start=StartSettings(1.0, 0.1, -0.2))
 THEORY = theory_of(SETTINGS)
@@ -71,9 +71,11 @@ class Record:
                 ]
             )
 
-    def tracks(self) -> dict[str, Track]:
+    def tracks(self) -> dict[str, Trajectory]:
         """Record of each player."""
         return {
-            name: Track(self.coms[name], self.torsos[name], self.places[name])
+            name: Trajectory(
+                self.coms[name], self.torsos[name], self.places[name]
+            )
             for name in self.torsos
         }

@@ -8,7 +8,7 @@ import numpy as np
 
 from stepaside.control.phase import Phase
 from stepaside.control.scheme import ControlScheme
-from stepaside.control.walk_snapshots import StepBegun
+from stepaside.control.walk_snapshots import StepStarted
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop
 from stepaside.perception.measurement import Measurement, Sighting
@@ -123,7 +123,7 @@ class Run:
             self.strategy, gait, legs, tick=TICK, **changes
         )
         self.ticks = 0
-        self.steps: list[StepBegun] = []
+        self.steps: list[StepStarted] = []
 
     @property
     def replans(self) -> int:

@@ -9,7 +9,7 @@ from stepaside.locomotion.zmp.control_settings import (
     ControlSettings,
     StabiliserSettings,
 )
-from stepaside.locomotion.zmp.current_step import Step
+from stepaside.locomotion.zmp.current_step import CurrentStep
 from stepaside.locomotion.zmp.reference_table import ReferenceSample
 from stepaside.locomotion.zmp.stabiliser import Stabiliser
 from stepaside.locomotion.zmp.state_estimator import BodyState
@@ -93,7 +93,7 @@ def stabiliser(
     return Stabiliser(settings, fake, GAIT, tick=TICK, **changes), fake
 
 
-def step(**changes: Any) -> Step:
+def step(**changes: Any) -> CurrentStep:
     landing = SUPPORT.compose(Pose(0.04, 0.1, 0.0))
     values: dict[str, Any] = {
         "support": SUPPORT,
@@ -103,7 +103,7 @@ def step(**changes: Any) -> Step:
         "progress": 0.5,
         "walking": True,
     } | changes
-    return Step(**values)
+    return CurrentStep(**values)
 
 
 def same(one: Any, other: Any) -> None:

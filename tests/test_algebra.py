@@ -5,8 +5,8 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.robots import scalar_algebra as algebra
-from stepaside.robots.expression_tracing import Number, Trace
-from stepaside.robots.scalar_algebra import Factors, rotation_about
+from stepaside.robots.expression_tracing import ExpressionTrace, Number
+from stepaside.robots.scalar_algebra import LuFactors, rotation_about
 
 RANDOM = np.random.default_rng(5)
 
@@ -38,7 +38,9 @@ def test_a_rotation_turns_by_its_angle_about_its_axis(
 
 
 def test_a_turn_about_an_axis_of_the_frame_leaves_zeros_and_one() -> None:
-    turned = rotation_about((0.0, 1.0, 0.0), Trace().variable("angle", 0.3))
+    turned = rotation_about(
+        (0.0, 1.0, 0.0), ExpressionTrace().variable("angle", 0.3)
+    )
     assert [turned[i][j] for i, j in ((0, 1), (1, 0), (1, 2), (2, 1))] == [
         0.0
     ] * 4
@@ -51,7 +53,7 @@ def test_factors_solve_both_ways(size: int) -> None:
     matrix = RANDOM.uniform(-1, 1, (size, size))
     matrix[0, 0] = 0.0 if size > 1 else 2.0
     right = RANDOM.uniform(-1, 1, size)
-    factors = Factors(matrix.tolist())
+    factors = LuFactors(matrix.tolist())
     straight = numbers(factors.solve(right.tolist()))
     np.testing.assert_allclose(matrix @ straight, right, atol=1e-12)
     transposed = numbers(factors.solve_transposed(right.tolist()))
@@ -60,11 +62,11 @@ def test_factors_solve_both_ways(size: int) -> None:
 
 def test_rows_that_share_a_number_cost_no_division() -> None:
     """As columns of parallel joints do: the difference is zero for good."""
-    trace = Trace()
+    trace = ExpressionTrace()
     x, y, z = (
         trace.variable(n, h) for n, h in zip("xyz", (2, 3, 5), strict=True)
     )
-    factors = Factors([[x, y, 0.0], [x, y, 1.0], [0.0, z, 1.0]])
+    factors = LuFactors([[x, y, 0.0], [x, y, 1.0], [0.0, z, 1.0]])
     text = trace.source("f", factors.solve([1.0, 2.0, 3.0]))
     assert text.count("/") == 2
     values = trace.function("f", factors.solve([1.0, 2.0, 3.0]))(4.0, 6.0, 7.0)
@@ -74,7 +76,7 @@ def test_rows_that_share_a_number_cost_no_division() -> None:
 
 def test_a_singular_matrix_is_refused() -> None:
     with pytest.raises(ZeroDivisionError):
-        Factors([[1.0, 2.0], [2.0, 4.0]])
+        LuFactors([[1.0, 2.0], [2.0, 4.0]])
 
 
 @pytest.mark.parametrize("size", [3, 6])
@@ -84,7 +86,7 @@ def test_what_is_zero_for_good_stays_zero(size: int, corner: int) -> None:
     arrow = np.diag(RANDOM.uniform(1.0, 2.0, size))
     arrow[corner, :] = arrow[:, corner] = RANDOM.uniform(1.0, 2.0, size)
     arrow[corner, corner] = 9.0
-    factors = Factors(arrow.tolist())
+    factors = LuFactors(arrow.tolist())
     assert sum(len(made) for _, _, made in factors._steps) == size - 1
     right = RANDOM.uniform(-1, 1, size)
     found = numbers(factors.solve(right.tolist()))
@@ -94,7 +96,7 @@ def test_what_is_zero_for_good_stays_zero(size: int, corner: int) -> None:
 def test_no_row_is_divided_by_what_is_nearly_zero() -> None:
     """However many zeros are beside it."""
     matrix = np.array([[1e-13, 1.0, 1.0], [1.0, 1.0, 0.5], [0.0, 1.0, 2.0]])
-    factors = Factors(matrix.tolist())
+    factors = LuFactors(matrix.tolist())
     for row, column, _ in factors._steps:
         assert abs(factors._rows[row][column]) > 0.01  # type: ignore[arg-type]
     found = numbers(factors.solve([1.0, 2.0, 3.0]))

@@ -18,14 +18,14 @@ from matplotlib.figure import Figure
 from stepaside.core.poses import Array
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import Run
-from stepaside.games.trajectory import Track
+from stepaside.games.trajectory import Trajectory
 from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.report import film_layers, run_folder
 from stepaside.report.compare_figure import draw_comparison
 from stepaside.report.figure_style import COLOURS, PUSHED, THEORY, colours_of
 from stepaside.report.replay_page import write_page
-from stepaside.report.scene import Stage
+from stepaside.report.scene import RunScene
 from stepaside.report.viewer.replay_viewer import ReplayPage
 from stepaside.report.viewer.scene_layers import pushes_at
 
@@ -55,7 +55,7 @@ def game(count: int) -> Run:
     )
 
 
-def _beside(track: Track, y: float) -> Track:
+def _beside(track: Trajectory, y: float) -> Trajectory:
     assert track.qpos is not None
     columns = {"com": 1, "torso": 1, "qpos": 1}
     moved: dict[str, Array] = {}
@@ -150,7 +150,7 @@ def test_everybody_is_on_the_page(count: int, tmp_path: Path) -> None:
 @by_count
 def test_everybody_is_in_the_film(count: int) -> None:
     run = game(count)
-    drawn = mujoco.MjvScene(Stage(run).model, maxgeom=5000)
+    drawn = mujoco.MjvScene(RunScene(run).model, maxgeom=5000)
     film_layers.decorate(drawn, run=run, index=20, trail=0.8)
     colours = list(colours_of(run.players).values())
     for colour in colours:
@@ -158,7 +158,7 @@ def test_everybody_is_in_the_film(count: int) -> None:
     assert len(_of(drawn, THEORY)) == (0 if count == 1 else 1)
     (arrow,) = _of(drawn, PUSHED)
     assert arrow.type == mujoco.mjtGeom.mjGEOM_ARROW
-    early = mujoco.MjvScene(Stage(run).model, maxgeom=5000)
+    early = mujoco.MjvScene(RunScene(run).model, maxgeom=5000)
     film_layers.decorate(early, run=run, index=3, trail=0.8)
     assert _of(early, PUSHED) == []
 

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 from invented_run import run_of
 from stepaside.control import Phase
-from stepaside.games.approach_forecast import Approach, approach_between
+from stepaside.games.approach_forecast import CourseApproach, approach_between
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.trajectory import Track
+from stepaside.games.trajectory import Trajectory
 from stepaside.report.viewer.status_text import outlook, words_of
 
 SPEED = st.floats(-2.0, 2.0)
@@ -25,7 +25,7 @@ def seen(offset: tuple[float, float], velocity: tuple[float, float]) -> str:
         hypot(*offset),
         Phase.STANDING,
         safety=0.8,
-        approach=Approach(offset, velocity),
+        approach=CourseApproach(offset, velocity),
         theory=(0.9, 90.0),
         settling=10.0,
     )
@@ -36,7 +36,7 @@ def test_an_approach_agrees_with_where_it_leads(
     x: float, y: float, vx: float, vy: float
 ) -> None:
     """Closest approach and time against a fine walk along the course."""
-    approach = Approach((x, y), (vx, vy))
+    approach = CourseApproach((x, y), (vx, vy))
     times = np.linspace(0.0, 60.0, 6001)
     away = np.hypot(x + vx * times, y + vy * times)
     assert approach.closest <= away.min() + 1e-9
@@ -111,7 +111,9 @@ def test_nothing_is_said_of_a_time_that_cannot_be_told() -> None:
 def test_a_pursuer_comes_only_while_the_distance_falls(
     velocity: tuple[float, float] | None, said: str
 ) -> None:
-    approach = None if velocity is None else Approach((3.0, 0.0), velocity)
+    approach = (
+        None if velocity is None else CourseApproach((3.0, 0.0), velocity)
+    )
     phases = (Phase.WALKING, Phase.STANDING)
     words = words_of(phases, 3.0, 90.0, 0.8, None, approach=approach)
     assert said in words and "standing" in words
@@ -129,8 +131,8 @@ def walked(velocity: float, bearing: float) -> DuelRun:
     )
     evader = np.zeros((301, 3))
     tracks = {
-        "pursuer": Track(com=pursuer.copy(), torso=pursuer),
-        "evader": Track(com=evader.copy(), torso=evader),
+        "pursuer": Trajectory(com=pursuer.copy(), torso=pursuer),
+        "evader": Trajectory(com=evader.copy(), torso=evader),
     }
     return run_of(times, tracks)
 

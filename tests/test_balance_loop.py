@@ -9,8 +9,8 @@ import pytest
 
 from made_up_robot import measure
 from stepaside.control.scheme_builder import build_balance, build_scheme
-from stepaside.control.sight_sources import CameraSight, GivenSight
-from stepaside.control.turn_calibration import TurnShare
+from stepaside.control.sight_sources import CameraSight, MeasuredSight
+from stepaside.control.turn_calibration import TurnCalibration
 from stepaside.core.poses import Pose
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop, OpenLoop
@@ -196,7 +196,7 @@ def test_a_mind_is_put_together_without_a_world(seen: Sighting | None) -> None:
     mind = build_scheme(wish, NAO, GAIT, OPEN_LOOP, tick=0.004, sighting=seen)
     assert mind.decisions.strategy is wish and mind.settings is GAIT
     assert isinstance(mind.balance, OpenLoop)
-    assert isinstance(mind.senses, GivenSight)
+    assert isinstance(mind.senses, MeasuredSight)
     assert mind.joint_targets.shape == (len(mind.kinematics.joint_names),)
     targets = mind.update(measure(0.0, distance=None))
     assert mind.sighting == seen and (mind.plan is None) is (seen is None)
@@ -206,7 +206,7 @@ def test_a_mind_is_put_together_without_a_world(seen: Sighting | None) -> None:
 def test_a_mind_learns_turns_if_it_is_to() -> None:
     for control in (OPEN_LOOP, replace(OPEN_LOOP, learn_turns=True)):
         mind = build_scheme(Pursuit(), NAO, GAIT, control, tick=0.004)
-        learns = isinstance(mind.decisions.turns, TurnShare)
+        learns = isinstance(mind.decisions.turns, TurnCalibration)
         assert learns is control.learn_turns
 
 

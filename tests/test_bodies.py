@@ -11,7 +11,7 @@ from stepaside.control import ControlScheme
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose
 from stepaside.core.random_streams import named_generator
-from stepaside.games.walk_game import Walking
+from stepaside.games.walk_game import WalkGame
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
@@ -28,7 +28,7 @@ from stepaside.strategies import Walk
 def standing(
     body: BodySettings, tick: float = 0.004
 ) -> tuple[SimulatedRobot, ControlScheme]:
-    walker = Walking(
+    walker = WalkGame(
         WalkSettings(body=body, physics=PhysicsSettings(tick=tick))
     ).walker
     return walker.robot, walker.scheme

@@ -16,7 +16,11 @@ from stepaside.theory.bound.bound_checks import check_by_playing
 from stepaside.theory.bound.grid_refinement import differences, refine_bound
 from stepaside.theory.bound.relative_game import against_any, against_pursuit
 from stepaside.theory.bound.state_grid import Grid
-from stepaside.theory.bound.value_solver import Scheme, march, solve_bound
+from stepaside.theory.bound.value_solver import (
+    DiscretisationScheme,
+    march,
+    solve_bound,
+)
 from stepaside.theory.bound.value_table import Bound
 
 GAME = against_pursuit(0.12, 0.1, 0.2)
@@ -102,9 +106,11 @@ def test_what_a_finer_grid_changes_is_measured_at_every_node(
     assert rows[1].order == pytest.approx(np.log2(ratio))
 
 
-@pytest.mark.parametrize("scheme", [Scheme.FIRST, Scheme.WENO])
+@pytest.mark.parametrize(
+    "scheme", [DiscretisationScheme.FIRST, DiscretisationScheme.WENO]
+)
 def test_a_solved_table_is_the_last_of_the_march_and_stays_so(
-    scheme: Scheme,
+    scheme: DiscretisationScheme,
 ) -> None:
     """What fell late is the change over the last tenth of the horizon."""
     horizon = 8.0

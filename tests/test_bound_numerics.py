@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.theory.bound import Grid, Scheme, against_any
+from stepaside.theory.bound import DiscretisationScheme, Grid, against_any
 from stepaside.theory.bound.compiled_stage import stage_blocks, wake_neighbours
 from stepaside.theory.bound.numpy_stage import stage_arrays
 from stepaside.theory.bound.state_grid import fill_ghosts
@@ -108,10 +108,10 @@ def test_godunov_is_monotone_and_fills_valleys_less_than_lax() -> None:
         assert broad >= here - 1e-6
 
 
-@pytest.mark.parametrize("scheme", Scheme)
+@pytest.mark.parametrize("scheme", DiscretisationScheme)
 @pytest.mark.skipif(load_numba() is None, reason="needs Numba")
 def test_plain_numpy_does_the_same_step(
-    scheme: Scheme, monkeypatch: pytest.MonkeyPatch
+    scheme: DiscretisationScheme, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from stepaside.theory.bound import (
         numpy_stage as arrays,

@@ -12,8 +12,8 @@ from stepaside.core.errors import PlanError
 from stepaside.theory.bound import (
     Bound,
     BoundGame,
+    DiscretisationScheme,
     Grid,
-    Scheme,
     against_any,
     against_pursuit,
     solve_bound,
@@ -189,8 +189,10 @@ def test_single_precision_suffices(pursuit: Bound) -> None:
     np.testing.assert_allclose(pursuit.values, double.values, atol=2e-3)
 
 
-@pytest.mark.parametrize("scheme", Scheme)
-def test_every_scheme_closes_in_on_the_value(scheme: Scheme) -> None:
+@pytest.mark.parametrize("scheme", DiscretisationScheme)
+def test_every_scheme_closes_in_on_the_value(
+    scheme: DiscretisationScheme,
+) -> None:
     grid = Grid(0.4, 3.4, 25, 24, 24)
     bound, rows = refine_bound(PURSUIT, grid, 1, horizon=2.0, scheme=scheme)
     assert [row.grid for row in rows] == [grid.coarser()]

@@ -13,9 +13,9 @@ from stepaside.sim.camera_settings import (
     CameraSettings,
     ColourSettings,
     DepthSettings,
-    RoomSettings,
+    RoomObject,
+    SceneSettings,
     SonarSettings,
-    Thing,
 )
 from stepaside.sim.person_settings import PersonSettings, check_pursuer
 
@@ -34,7 +34,7 @@ ENDS = [  # settings, name, least, greatest, step beyond them
     (SonarSettings, "cone", 0.05, 2.5, 0.005),
     (CameraSettings, "drop_frames", 0.0, 1.0, 0.01),
     (CameraSettings, "added_latency", 0.0, 0.5, 0.01),
-    (RoomSettings, "walls", 2.0, 20.0, 0.1),
+    (SceneSettings, "walls", 2.0, 20.0, 0.1),
     (PersonSettings, "miss", -10.0, 10.0, 0.1),
 ]
 POSITIVE = [
@@ -78,7 +78,7 @@ def test_noise_may_be_nothing(kind: Any, name: str) -> None:
 
 
 def test_rooms_may_have_no_walls() -> None:
-    assert RoomSettings(walls=0.0).walls == 0.0
+    assert SceneSettings(walls=0.0).walls == 0.0
 
 
 def test_people_walk_no_faster_than_they_run() -> None:
@@ -98,14 +98,17 @@ def test_a_pursuer_is_a_robot_or_a_person() -> None:
 @pytest.mark.parametrize("kind", KINDS)
 def test_things_stand_within_twenty_meters(kind: str) -> None:
     for place in ((20.0, -20.0), (-20.0, 20.0)):
-        assert (Thing(kind, *place).x, Thing(kind, *place).y) == place
+        assert (
+            RoomObject(kind, *place).x,
+            RoomObject(kind, *place).y,
+        ) == place
     for place in ((20.1, 0.0), (0.0, 20.1), (-20.1, 0.0), (0.0, -20.1)):
         with pytest.raises(
             ConfigurationError, match=f"{kind} [xy] must lie in"
         ):
-            Thing(kind, *place)
+            RoomObject(kind, *place)
     with pytest.raises(ConfigurationError, match="got 'red ball'"):
-        Thing("red ball", 0.0, 0.0)
+        RoomObject("red ball", 0.0, 0.0)
 
 
 def field_of_view(kind: ColourSettings | DepthSettings) -> tuple[float, ...]:
@@ -141,7 +144,7 @@ def test_sensors_are_by_default_those_of_the_documents() -> None:
     assert degrees(sonar.cone) == pytest.approx(60.0)
     whole = CameraSettings()
     assert (whole.drop_frames, whole.added_latency) == (0.0, 0.0)
-    assert RoomSettings() == RoomSettings(5.0, [])
+    assert SceneSettings() == SceneSettings(5.0, [])
     assert PersonSettings() == PersonSettings("steer", 0.15, 0.2, 0.0)
 
 

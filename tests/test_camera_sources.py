@@ -101,11 +101,13 @@ def test_a_robot_on_naoqi_shows_what_its_camera_sees() -> None:
     pytest.importorskip("qi")
     from stepaside.drivers.naoqi.naoqi_server import NaoqiServer
     from stepaside.drivers.naoqi.video_client import open_video
-    from stepaside.drivers.velocity.velocity_body import Velocity
+    from stepaside.drivers.velocity.velocity_body import VelocityCommand
 
     walker = Seer()
     url = "tcp://127.0.0.1:0"
-    server = NaoqiServer(url, walker, ["a", "b"], Velocity(1, 1), tick=0.012)
+    server = NaoqiServer(
+        url, walker, ["a", "b"], VelocityCommand(1, 1), tick=0.012
+    )
     camera = open_video(server.url, MODEL, rate=15.0, latency=0.05)
     try:
         sleep(0.05)
@@ -126,16 +128,18 @@ def test_a_robot_on_naoqi_shows_what_its_camera_sees() -> None:
 @pytest.mark.parametrize("squeezed", [False, True])
 def test_a_robot_on_topics_shows_what_its_camera_sees(squeezed: bool) -> None:
     pytest.importorskip("cyclonedds")
-    from stepaside.drivers.ros2.dds_domain import Dds
+    from stepaside.drivers.ros2.dds_domain import DdsParticipant
     from stepaside.drivers.ros2.image_messages import TopicCamera
     from stepaside.drivers.ros2.ros2_server import Ros2Server, WorldClock
     from stepaside.drivers.ros2.topics import COMPRESSED, IMAGE
 
-    dds, walker = Dds(0, tag=TAG), Seer()
+    dds, walker = DdsParticipant(0, tag=TAG), Seer()
     clock = WorldClock(dds)
     server = Ros2Server(dds, "/n", walker, ["a", "b"], clock, tick=0.012)
     name = COMPRESSED if squeezed else IMAGE
-    camera = TopicCamera(Dds(0, tag=TAG), f"/n/{name}", MODEL, latency=0.1)
+    camera = TopicCamera(
+        DdsParticipant(0, tag=TAG), f"/n/{name}", MODEL, latency=0.1
+    )
 
     def look() -> Any:
         walker.time += 0.012

@@ -17,7 +17,7 @@ from stepaside.drivers.cameras.image_wire import (
 from stepaside.drivers.guardian_process import SessionLost
 from stepaside.drivers.lola.camera_channel import CameraChannel
 from stepaside.drivers.lola.camera_offer import CameraOffer
-from stepaside.drivers.lola.lola_address import Address
+from stepaside.drivers.lola.lola_address import LolaAddress
 from stepaside.drivers.lola.lola_server import LolaServer
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.images import ColourImage, DepthImage
@@ -77,8 +77,8 @@ def test_what_is_no_image_is_refused(field: int, value: object) -> None:
 def test_images_come_with_the_frame_that_they_belong_to(
     tmp_path: Path,
 ) -> None:
-    offer = CameraOffer(Address(str(tmp_path / "c")))
-    channel = CameraChannel(Address(str(tmp_path / "c")))
+    offer = CameraOffer(LolaAddress(str(tmp_path / "c")))
+    channel = CameraChannel(LolaAddress(str(tmp_path / "c")))
     seen = measured(1.0, ColourImage(0.952, MODEL, PIXELS))
     offer.tell(seen, 40)
     offer.tell(seen, 41)  # the same tick again: nothing new
@@ -95,8 +95,8 @@ def test_images_come_with_the_frame_that_they_belong_to(
 def test_who_does_not_read_misses_images_and_the_world_goes_on(
     tmp_path: Path,
 ) -> None:
-    offer = CameraOffer(Address(str(tmp_path / "c")))
-    channel = CameraChannel(Address(str(tmp_path / "c")))
+    offer = CameraOffer(LolaAddress(str(tmp_path / "c")))
+    channel = CameraChannel(LolaAddress(str(tmp_path / "c")))
     large = CameraModel(640, 480, 500.0, 500.0)
     pixels = np.zeros((480, 640, 3), np.uint8)
     for tick in range(20):
@@ -110,8 +110,8 @@ def test_who_does_not_read_misses_images_and_the_world_goes_on(
 
 
 def test_a_channel_that_brings_garbage_is_silent(tmp_path: Path) -> None:
-    offer = CameraOffer(Address(str(tmp_path / "c")))
-    channel = CameraChannel(Address(str(tmp_path / "c")))
+    offer = CameraOffer(LolaAddress(str(tmp_path / "c")))
+    channel = CameraChannel(LolaAddress(str(tmp_path / "c")))
     offer.tell(measured(0.0), 0)
     offer._send(b"x" * 200)
     assert channel.percepts(0, 0.0, 0.012) == []
@@ -121,7 +121,7 @@ def test_a_channel_that_brings_garbage_is_silent(tmp_path: Path) -> None:
 
 
 def test_a_robot_without_cameras_offers_none(tmp_path: Path) -> None:
-    place = Address(str(tmp_path / "r"))
+    place = LolaAddress(str(tmp_path / "r"))
     server = LolaServer(place, MadeUpRobot(), JOINTS)
     assert place.cameras is not None
     with pytest.raises(SessionLost, match="no camera at"):

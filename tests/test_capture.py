@@ -18,13 +18,17 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.planning.capturability import Reach, held_regions, push_bound
+from stepaside.planning.capturability import (
+    FootReach,
+    held_regions,
+    push_bound,
+)
 from stepaside.planning.steady_gait import steady_plan
 
 MASS = 5.305  # [kg], of the NAO
 GAIT = GaitSettings()
-REACH = Reach()
-SHORT = Reach(0.08, 0.08, 0.02, 0.012)  # of the feedback
+REACH = FootReach()
+SHORT = FootReach(0.08, 0.08, 0.02, 0.012)  # of the feedback
 OUTWARD = {Foot.LEFT: -pi / 2.0, Foot.RIGHT: pi / 2.0}
 
 
@@ -85,7 +89,7 @@ def test_crossing_the_feet_is_no_way_out() -> None:
     """Ahead and outward a foot would land across, if the gap let it."""
     plan, direction = walking(), -pi / 4.0
     bounds = [
-        push_bound(plan, 0.4, direction, MASS, Reach(gap=gap))
+        push_bound(plan, 0.4, direction, MASS, FootReach(gap=gap))
         for gap in (0.0, 0.012, 0.05)
     ]
     assert bounds[0] > bounds[1] + 0.02 and bounds[1] > bounds[2] + 0.02
@@ -101,7 +105,7 @@ def test_bound_grows_with_the_sole_the_reach_and_the_steps(
     larger = walking(bearing=0.5, gait=replace(GAIT, sole=sole))
     bound = push_bound(plan, time, direction, MASS, REACH)
     assert push_bound(larger, time, direction, MASS, REACH) > bound
-    wide = Reach(0.2, 0.2, 0.2, 0.0)
+    wide = FootReach(0.2, 0.2, 0.2, 0.0)
     assert push_bound(plan, time, direction, MASS, wide) >= bound
     by_steps = [
         push_bound(plan, time, direction, MASS, REACH, steps=n)
@@ -183,7 +187,7 @@ def test_a_push_later_in_the_step_may_be_harder_forward() -> None:
         ({"lasts": -0.1}, "lasts"),
         ({"lasts": inf}, "lasts"),
         ({"steps": -1}, "steps"),
-        ({"reach": Reach(gap=-0.01)}, "reach.gap"),
+        ({"reach": FootReach(gap=-0.01)}, "reach.gap"),
     ],
 )
 def test_refuses_what_is_no_push(

@@ -18,13 +18,17 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.planning.capturability import Reach, push_bound, ray_interval
+from stepaside.planning.capturability import (
+    FootReach,
+    push_bound,
+    ray_interval,
+)
 from stepaside.planning.steady_gait import steady_plan
 
 MASS = 5.305  # [kg], of the NAO
 GAIT = GaitSettings()
-REACH = Reach()
-SHORT = Reach(0.08, 0.08, 0.02, 0.012)  # of the feedback
+REACH = FootReach()
+SHORT = FootReach(0.08, 0.08, 0.02, 0.012)  # of the feedback
 
 
 def walking(
@@ -60,7 +64,7 @@ def test_bound_is_the_best_of_all_linear_programs(
     kind: str,
     time: float,
     direction: float,
-    reach: Reach,
+    reach: FootReach,
     lasts: float,
     profile: Literal["linear", "cubic"],
 ) -> None:
@@ -123,7 +127,7 @@ def reachable(start: Array, heading: Array, corners: Array) -> float:
     [(0.1, 0.3, SHORT), (0.3, 3.0, SHORT), (0.4, -0.3, REACH)],
 )
 def test_two_footsteps_hold_what_linear_programs_say(
-    time: float, direction: float, reach: Reach
+    time: float, direction: float, reach: FootReach
 ) -> None:
     plan = walking(bearing=0.2)
     found = [

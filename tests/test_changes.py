@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from stepaside.games.robot_settings import GameOfRobot
+from stepaside.games.robot_settings import RobotGameSettings
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import (
     STABILISED,
@@ -19,7 +19,7 @@ from stepaside.studies import robustness_campaign as robustness
 from stepaside.studies import survival
 from stepaside.studies.push_limits import outcomes_of, push_cases
 from stepaside.studies.robustness_campaign import (
-    Trial,
+    RobustnessTrial,
     control_of,
     push_scale,
     push_time,
@@ -77,7 +77,7 @@ def test_trials_walk_as_was_asked_but_for_the_disturbance() -> None:
 
 
 def test_keys_of_usual_trials_are_as_ever_and_others_differ() -> None:
-    usual = Trial("friction", 0.3, "", 0.0, 5, "mpc", "ideal")
+    usual = RobustnessTrial("friction", 0.3, "", 0.0, 5, "mpc", "ideal")
     assert usual.key == '["friction", 0.3, "", 0.0, 5, "mpc", "ideal"]'
     other = replace(usual, changes=changes_of(WALK)[1])
     assert other.key != usual.key
@@ -91,7 +91,9 @@ def test_a_push_waits_for_the_phase_of_the_gait_that_is_walked() -> None:
     later = push_time(0.5, control, GAIT) - push_time(0.0, control, GAIT)
     assert later == pytest.approx(GAIT.step_duration)
     changes = changes_of(WALK)[1]
-    trial = Trial("push", 1.0, "left", 0.5, 1, "mpc", "ideal", changes)
+    trial = RobustnessTrial(
+        "push", 1.0, "left", 0.5, 1, "mpc", "ideal", changes
+    )
     [push] = settings_of(trial).pushes
     assert push.time == push_time(0.5, control, GAIT)
 
@@ -118,7 +120,7 @@ def test_robots_are_pushed_to_the_same_speeds_whatever_their_mass(
     assert push_scale("nao") == 1.0
     walk = heavier(monkeypatch, 4.0)
     assert push_scale("heavy") == 4.0
-    trial = Trial("push", 1.2, "left", 0.0, 1, "mpc", "ideal")
+    trial = RobustnessTrial("push", 1.2, "left", 0.0, 1, "mpc", "ideal")
     pushed = [
         settings_of(replace(trial, changes=changes)).pushes[0]
         for changes in ("", changes_of(walk)[1])
@@ -136,7 +138,7 @@ def test_robots_with_a_unit_of_pushes_are_pushed_by_it(
     monkeypatch.setattr(
         robustness,
         "game_of",
-        lambda robot: GameOfRobot(0.8, 0.4, 0.6, 1.5, units[robot]),
+        lambda robot: RobotGameSettings(0.8, 0.4, 0.6, 1.5, units[robot]),
     )
     assert push_scale("tall") == 24.0
 

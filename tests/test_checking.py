@@ -14,14 +14,14 @@ from stepaside.fitting import (
     walk_trials as trials,
 )
 from stepaside.fitting.gait_feasibility import torques_borne
-from stepaside.fitting.joint_strain import Strain
+from stepaside.fitting.joint_strain import JointStrain
 from stepaside.fitting.requirements import findings_of
 from stepaside.fitting.robot_verification import check_robot
 from stepaside.fitting.walk_trials import (
     STRAYS,
     WAYS,
-    Trial,
-    Walked,
+    WalkTrial,
+    WalkTrialResult,
     trials_of,
     walk_trial,
 )
@@ -41,10 +41,10 @@ class Here(Executor):
         return future
 
 
-def walked(trial: Trial, **changes: Any) -> Walked:
+def walked(trial: WalkTrial, **changes: Any) -> WalkTrialResult:
     """A steady walk whose joints bore something."""
-    strain = Strain(0.37, "LHipRoll", 0.82, "RKneePitch", 0.0, 0.0043)
-    plain = Walked(
+    strain = JointStrain(0.37, "LHipRoll", 0.82, "RKneePitch", 0.0, 0.0043)
+    plain = WalkTrialResult(
         trial.way.name,
         trial.control.feedback,
         "walked",
@@ -105,12 +105,12 @@ def test_walks_steer_for_angles_in_radians_to_the_side_they_name() -> None:
 
 @pytest.mark.parametrize("way", [WAYS[0], WAYS[3]], ids=["ahead", "turn"])
 def test_a_short_walk_is_told_in_degrees_and_shares(
-    monkeypatch: pytest.MonkeyPatch, way: trials.Way
+    monkeypatch: pytest.MonkeyPatch, way: trials.TrialPath
 ) -> None:
     monkeypatch.setattr(trials, "CYCLES", 3)
     own = settings_of(NAO)
     leaning = replace(NAO, lean=0.03)
-    found = walk_trial(Trial(leaning, own.gait, own.control, way))
+    found = walk_trial(WalkTrial(leaning, own.gait, own.control, way))
     assert found.completed and found.lasted == pytest.approx(1.0, abs=0.01)
     assert found.lean == pytest.approx(degrees(0.03))
     # It leans over a foot that the CoM is right over, so hardly so far.

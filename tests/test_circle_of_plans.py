@@ -18,7 +18,7 @@ from stepaside.planning import Foot, GaitSettings
 from stepaside.strategies import Evasion, Pursuit
 from stepaside.theory.unicycle.circle_equations import Circle, find_circle
 from stepaside.theory.unicycle.circle_fit import fit_circle
-from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.sampled_game import simulate_sampled
 from stepaside.theory.unicycle.unicycle_game import Unicycle, make_game
 
@@ -136,7 +136,7 @@ def test_the_sampled_template_is_in_balance_on_the_circle() -> None:
     circle = find_circle(GAIT.speed, GAIT.speed, GAIT.gain, GAIT.gain)
     body = Unicycle(GAIT.speed, GAIT.gain)
     game = make_game(*(body.speed, body.speed, body.gain, body.gain), 0.5 * pi)
-    start = Start(circle.distance_m, -0.25 * pi, 0.25 * pi)
+    start = RelativeStart(circle.distance_m, -0.25 * pi, 0.25 * pi)
     for delay in (0.0, 0.34 * GAIT.path_interval):
         run = simulate_sampled(
             game, start, 200.0, GAIT.path_interval, delay=delay

@@ -14,10 +14,10 @@ from stepaside.studies import evading_readings as read
 from stepaside.studies.claim_jobs import JOBS
 from stepaside.studies.claims import Claim
 from stepaside.studies.evading_claims import DURATION
-from stepaside.studies.evading_readings import GAME, Played
+from stepaside.studies.evading_readings import GAME, PlayedGames
 
 BEST = 1.0  # bound of all starts, in [m]
-Fault = Callable[[Played], Played]
+Fault = Callable[[PlayedGames], PlayedGames]
 
 
 @pytest.fixture(autouse=True)
@@ -48,9 +48,9 @@ TOUCHED = game(outcome=StepOutcome.TOUCHED, clear=0.19)
 CAPTURED = game(0.34, StepOutcome.CAPTURED)
 
 
-def played() -> Played:
+def played() -> PlayedGames:
     """What five games of each are like."""
-    return Played(
+    return PlayedGames(
         {
             "open": {
                 "aside": 5 * (game(0.7),),
@@ -69,7 +69,7 @@ def played() -> Played:
 def with_games(world: str, evader: str, *games: StepTrack) -> Fault:
     """Let an evader play other games in a world."""
 
-    def fault(found: Played) -> Played:
+    def fault(found: PlayedGames) -> PlayedGames:
         changed = found.games[world] | {evader: games}
         return replace(found, games=found.games | {world: changed})
 

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from stepaside.studies.claim_jobs import JOBS
-from stepaside.studies.claims import Claim, Row
+from stepaside.studies.claims import Claim, ClaimRow
 
 SPEED, GAIN, STRIDE = 0.1, 0.2, 0.04  # of Sec. IV, in [m/s], [1/s], [m]
 SINGLE, DOUBLE = 0.425, 0.122  # of the supports, in [s]
@@ -119,7 +119,7 @@ def test_what_is_measured_is_the_mean_of_all_runs(
 ) -> None:
     """Also of those that a claim would fail by; with their spread."""
     claim = Claim("x", "is one", "I", "steps", 1.0, "m", 0.1)
-    row = Row("job.x", claim, tuple(values), "1")
+    row = ClaimRow("job.x", claim, tuple(values), "1")
     assert row.measured == pytest.approx(fmean(values))
     spread = stdev(values) if len(values) > 1 else 0.0
     assert row.spread == pytest.approx(spread, abs=1e-9)

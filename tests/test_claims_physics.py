@@ -16,10 +16,10 @@ from stepaside.studies import walk_measures
 from stepaside.studies.claim_jobs import JOBS
 from stepaside.studies.claims import Claim, Readings
 from stepaside.studies.walk_measures import swings
-from stepaside.studies.watched_duel import WalkedPlan, Watched, watch
+from stepaside.studies.watched_duel import WalkedPlan, WatchedDuel, watch
 from watched import RADIUS, changed, standing_duel, walked_duel
 
-Fault = Callable[[Watched], Watched]
+Fault = Callable[[WatchedDuel], WatchedDuel]
 
 
 def claims(job: str) -> dict[str, Claim]:
@@ -29,7 +29,7 @@ def claims(job: str) -> dict[str, Claim]:
 # --- the duel of Fig. 5 ---------------------------------------------------
 
 
-def far_until_late(duel: Watched) -> Watched:
+def far_until_late(duel: WatchedDuel) -> WatchedDuel:
     """They come to the circle at the very end only."""
     late = duel.times < 27.0
     return changed(
@@ -40,7 +40,7 @@ def far_until_late(duel: Watched) -> Watched:
 def later_plans(by: float) -> Fault:
     """Let the evader replace its plans at another time."""
 
-    def fault(duel: Watched) -> Watched:
+    def fault(duel: WatchedDuel) -> WatchedDuel:
         walked = duel.plans["evader"]
         later = tuple(plan._replace(sent=plan.sent + by) for plan in walked)
         return replace(duel, plans={**duel.plans, "evader": later})
@@ -48,13 +48,13 @@ def later_plans(by: float) -> Fault:
     return fault
 
 
-def seldom_plans(duel: Watched) -> Watched:
+def seldom_plans(duel: WatchedDuel) -> WatchedDuel:
     """Plans are walked for fifteen steps, well onto the straight part."""
     plans = {name: walked[::15] for name, walked in duel.plans.items()}
     return replace(duel, plans=plans)
 
 
-def one_long_plan(duel: Watched) -> Watched:
+def one_long_plan(duel: WatchedDuel) -> WatchedDuel:
     """One plan only is walked well onto the straight part."""
     walked = duel.plans["evader"]
     plans = {**duel.plans, "evader": walked[:5] + walked[20:]}
@@ -64,7 +64,7 @@ def one_long_plan(duel: Watched) -> Watched:
 def from_a_plan_on(change: Callable[[Array], Array]) -> Fault:
     """Change the evader's reference from one of its plans on."""
 
-    def fault(duel: Watched) -> Watched:
+    def fault(duel: WatchedDuel) -> WatchedDuel:
         started = duel.plans["evader"][7].started
         since = np.maximum(duel.ticks - started, 0.0)[:, None]
         moved = duel.references["evader"] + change(since)
@@ -76,14 +76,14 @@ def from_a_plan_on(change: Callable[[Array], Array]) -> Fault:
 def feet_of(change: Callable[[Array], Array]) -> Fault:
     """Change what the evader's feet bear."""
 
-    def fault(duel: Watched) -> Watched:
+    def fault(duel: WatchedDuel) -> WatchedDuel:
         loads = change(duel.loads["evader"].copy())
         return replace(duel, loads={**duel.loads, "evader": loads})
 
     return fault
 
 
-def evader_stands(duel: Watched) -> Watched:
+def evader_stands(duel: WatchedDuel) -> WatchedDuel:
     """Only the pursuer walks."""
     still = standing_duel()
     return replace(
@@ -175,16 +175,16 @@ def test_who_falls_or_touches_is_on_no_circle(outcome: Outcome) -> None:
 # --- the durations --------------------------------------------------------
 
 
-def tosses(tilt: float = radians(6.0), slide: float = 0.02) -> Watched:
+def tosses(tilt: float = radians(6.0), slide: float = 0.02) -> WatchedDuel:
     """Feet that are dragged, and a torso that tosses."""
     return walked_duel(tilt=tilt, slide=slide)
 
 
-def falls(tilt: float = radians(50.0), duration: float = 4.0) -> Watched:
+def falls(tilt: float = radians(50.0), duration: float = 4.0) -> WatchedDuel:
     return walked_duel(duration, outcome=Outcome.FALL, tilt=tilt)
 
 
-Duels = tuple[Watched, ...]
+Duels = tuple[WatchedDuel, ...]
 TOSSES: dict[str, Duels] = {
     "printed_slide": (walked_duel(), tosses(slide=0.0015)),
     "printed_tilt": (walked_duel(), tosses(tilt=radians(2.9))),
@@ -209,7 +209,7 @@ WALKS: dict[str, Duels] = {
 def test_every_claim_on_the_durations_holds_and_fails(key: str) -> None:
     claim = claims("durations")[key]
 
-    def reading(printed: Watched, walked: Watched) -> float:
+    def reading(printed: WatchedDuel, walked: WatchedDuel) -> float:
         return read.read_durations(printed, walked)[key]
 
     assert claim.holds([reading(tosses(), walked_duel())])

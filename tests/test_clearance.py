@@ -19,9 +19,9 @@ from stepaside.arena import (
     hull,
     make_room,
 )
-from stepaside.control.clearance.guard import Choice, Guard
+from stepaside.control.clearance.guard import Guard, GuardDecision
 from stepaside.control.clearance.map_settings import MapSettings
-from stepaside.control.clearance.surroundings import GivenRoom
+from stepaside.control.clearance.surroundings import KnownRoom
 from stepaside.control.clearance.swept_outline import BodyOutline
 from stepaside.control.phase import Phase
 from stepaside.control.scheme import ControlScheme
@@ -84,7 +84,7 @@ def scheme_in(
 ) -> ControlScheme:
     legs: Any = FakeLegs()
     guard = Guard(
-        GivenRoom(room, start),
+        KnownRoom(room, start),
         OUTLINE,
         ManeuverPlanner(GAIT),
         margin=MARGIN,
@@ -146,7 +146,7 @@ def test_between_an_accepted_step_and_rest_nothing_is_touched() -> None:
     room = make_room(RoomRecipe(2.2, 2.2, discs=2, boxes=1), 2)
     planner = ManeuverPlanner(GAIT)
     guard = Guard(
-        GivenRoom(room, Pose(0.0, 0.0, 0.0)), OUTLINE, planner, margin=MARGIN
+        KnownRoom(room, Pose(0.0, 0.0, 0.0)), OUTLINE, planner, margin=MARGIN
     )
     answers = []
     for _ in range(40):
@@ -184,7 +184,7 @@ def test_who_stands_too_near_may_only_leave() -> None:
     planner = ManeuverPlanner(GAIT)
     support = Pose(0.045, -0.05, 0.0)  # its toes are 1 cm from the box
     guard = Guard(
-        GivenRoom(room, Pose(0.0, 0.0, 0.0)), OUTLINE, planner, margin=MARGIN
+        KnownRoom(room, Pose(0.0, 0.0, 0.0)), OUTLINE, planner, margin=MARGIN
     )
 
     def accepts(direction: Direction, *, standing: bool) -> bool:
@@ -202,9 +202,9 @@ def test_what_cannot_be_walked_is_slowed_then_turned_then_dropped() -> None:
     """Before a wall a robot turns on the spot; in a box it stands."""
     planner = ManeuverPlanner(GAIT)
 
-    def chosen(*solids: Obstacle) -> Choice | None:
+    def chosen(*solids: Obstacle) -> GuardDecision | None:
         guard = Guard(
-            GivenRoom(Room(obstacles=solids), Pose(0.0, 0.0, 0.0)),
+            KnownRoom(Room(obstacles=solids), Pose(0.0, 0.0, 0.0)),
             OUTLINE,
             planner,
             margin=MARGIN,
@@ -223,8 +223,8 @@ def test_what_cannot_be_walked_is_slowed_then_turned_then_dropped() -> None:
         )
 
     wall = Box(0.642, 0.0, 1.0, 3.0)
-    assert chosen() == Choice(Intent(0.5))
-    assert chosen(wall) == Choice(Intent(0.5, 0.05))
+    assert chosen() == GuardDecision(Intent(0.5))
+    assert chosen(wall) == GuardDecision(Intent(0.5, 0.05))
     assert chosen(wall, *(Box(0.0, s * 0.3, 3.0, 0.2) for s in (1, -1))) is (
         None
     )
@@ -235,13 +235,13 @@ def test_who_stands_before_a_pillar_finds_a_step_back(wanted: float) -> None:
     """Where a NAO stood once: it sways too near to it but in a sharp turn."""
     planner, nao = ManeuverPlanner(GAIT), measure_outline(NAO, GAIT)
     room = Room(3.0, 3.0, (Disc(0.0, 0.0, 0.2),))
-    around = GivenRoom(room, Pose(0.0, 0.0, 0.0))
+    around = KnownRoom(room, Pose(0.0, 0.0, 0.0))
     guard = Guard(around, nao, planner, margin=MARGIN)
     left = Pose(-0.3584152, -0.0619644, -0.9484182)
     right = Pose(-0.4396647, -0.1202613, -0.9484182)
     rest = right.inverse().compose(Pose(-0.3866308, -0.107408, 0.0))
 
-    def plan_for(choice: Choice) -> ManeuverPlan:
+    def plan_for(choice: GuardDecision) -> ManeuverPlan:
         return planner.plan(
             choice.intent.heading,
             Direction(1 - 2 * choice.back),
@@ -285,7 +285,7 @@ def test_a_body_between_two_instants_counts() -> None:
 
 def test_a_place_that_is_measured_corrects_odometry() -> None:
     """A robot that is where its odometry does not say knows it."""
-    around = GivenRoom(Room(), Pose(1.0, 2.0, 0.5))
+    around = KnownRoom(Room(), Pose(1.0, 2.0, 0.5))
     body = BodyReference(
         (0.3, 0.1, 0.26), (0.3, 0.15, 0.0, 0.2), (0.3, 0.05, 0.0, 0.2)
     )

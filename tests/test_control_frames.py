@@ -22,10 +22,10 @@ from made_up_state import (
 )
 from stepaside.arena import Disc, Room
 from stepaside.control.clearance.guard import Guard
-from stepaside.control.clearance.surroundings import GivenRoom
+from stepaside.control.clearance.surroundings import KnownRoom
 from stepaside.control.clearance.swept_outline import BodyOutline
 from stepaside.control.phase import Phase
-from stepaside.control.strategy_runner import Decisions
+from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.locomotion.zmp.feedback_loop import OpenLoop
 from stepaside.locomotion.zmp.reference_table import (
@@ -122,7 +122,7 @@ def told(odometry: Pose, room: Pose) -> Knowledge:
     """What a strategy is told, with odometry and room lying somewhere."""
     strategy = FakeStrategy()
     around: Any = Around(room.compose(odometry.inverse()))
-    made = Decisions(strategy, GAIT, TICK, around)
+    made = StrategyRunner(strategy, GAIT, TICK, around)
     for i in range(8):
         now = 0.4 * i
         own = odometry.compose(Pose(0.02 * i, 0.01 * i, 0.1 * i))
@@ -201,7 +201,7 @@ def test_a_measured_place_puts_odometry_where_the_body_is(
     start: Pose, planned: Pose, place: Pose
 ) -> None:
     """What was planned for the body, seen from the room, is its place."""
-    around = GivenRoom(Room(None, None, (Disc(9.0, 9.0, 0.2),)), start)
+    around = KnownRoom(Room(None, None, (Disc(9.0, 9.0, 0.2),)), start)
     x, y, yaw = planned
     foot = (x, y, 0.0, yaw)
     body = BodyReference((x, y, 0.27), foot, foot)

@@ -28,8 +28,8 @@ from stepaside.games.run_archive import (
     load_run,
     write_record,
 )
-from stepaside.games.trajectory import Track
-from stepaside.report.scene import Stage
+from stepaside.games.trajectory import Trajectory
+from stepaside.report.scene import RunScene
 
 Damage = Callable[[Path], None]
 
@@ -252,7 +252,7 @@ def test_commands_refuse_it_in_one_line(
 
 
 def test_every_array_of_a_track_is_checked() -> None:
-    assert set(KINDS) == set(Track.__dataclass_fields__)
+    assert set(KINDS) == set(Trajectory.__dataclass_fields__)
 
 
 def test_arrays_of_nobody_are_refused_by_name(folder: Path) -> None:
@@ -278,7 +278,7 @@ def test_a_run_of_other_robots_has_no_stage(played: DuelRun) -> None:
     qpos = played.pursuer.qpos
     assert qpos is not None
     for changed in (qpos[:, :-1], None):
-        track: Track = replace(played.pursuer, qpos=changed)
+        track: Trajectory = replace(played.pursuer, qpos=changed)
         run = replace(played, tracks={**played.tracks, "pursuer": track})
         with pytest.raises(ConfigurationError, match="columns"):
-            Stage(run)
+            RunScene(run)

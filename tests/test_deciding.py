@@ -8,7 +8,7 @@ import pytest
 
 from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run
 from stepaside.control.phase import Phase
-from stepaside.control.strategy_runner import Decisions
+from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.errors import StrategyError
 from stepaside.core.poses import Pose
 from stepaside.perception.measurement import Sighting
@@ -25,9 +25,9 @@ from stepaside.strategies import (
 PLACE = Pose(1.0, 2.0, 0.5)
 
 
-def decisions(strategy: FakeStrategy | None = None) -> Decisions:
+def decisions(strategy: FakeStrategy | None = None) -> StrategyRunner:
     """Decisions of a robot whose torso looks along 0.2 rad."""
-    made = Decisions(strategy or FakeStrategy(), GAIT, TICK)
+    made = StrategyRunner(strategy or FakeStrategy(), GAIT, TICK)
     made.headings.note(0.0, 0.2)
     made.templates.note(0.0, PLACE)
     return made
@@ -122,7 +122,7 @@ def test_a_robot_that_stands_remembers_but_not_what_made_it_walk() -> None:
 
 
 def test_a_strategy_of_the_same_kind_goes_on_with_what_is_remembered() -> None:
-    made = Decisions(Evasion(), GAIT, TICK)
+    made = StrategyRunner(Evasion(), GAIT, TICK)
     made.memory = EvasionMemory(True, 1)
     made.adopt(Evasion(angle=1.0))
     assert made.memory == EvasionMemory(True, 1)

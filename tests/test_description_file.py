@@ -11,10 +11,10 @@ from stepaside.core.errors import ModelError
 from stepaside.robots.description_file import REQUIRED, read_entries
 from stepaside.robots.description_types import (
     Overlay,
-    Place,
-    Sensors,
+    ReferencePoint,
+    SensorNames,
     ServoGains,
-    SolePlace,
+    SoleFrame,
 )
 
 FEET = [f"foot_{i}" for i in range(8)]
@@ -101,12 +101,12 @@ def test_all_that_a_description_says_is_read(tmp_path: Path) -> None:
         "sole": {"back": -0.05, "front": 0.1},
         "control": {"method": "mpc"},
         "game": {"distance": 2.0},
-        "sensors": Sensors("g", "a", tuple(FEET)),
-        "place": Place(-0.02, 0.9),
+        "sensors": SensorNames("g", "a", tuple(FEET)),
+        "place": ReferencePoint(-0.02, 0.9),
         "overlay": Overlay(
             (
-                SolePlace("left", (1, 2, 3), (1, 0, 0, 0.5)),
-                SolePlace("right", (1, -2, 3), (1, 0, 0, 0)),
+                SoleFrame("left", (1, 2, 3), (1, 0, 0, 0.5)),
+                SoleFrame("right", (1, -2, 3), (1, 0, 0, 0)),
             ),
             {"knee": ServoGains(50.0, 0, 7.0, 0.01)},
             ("meshes",),

@@ -20,7 +20,7 @@ from stepaside import (
     DuelSettings,
     Foot,
     GaitSettings,
-    Start,
+    RelativeStart,
 )
 from stepaside.arena import MovingBox, Room, box, load_room
 from stepaside.core.errors import StepAsideError
@@ -196,8 +196,8 @@ ANGLES: dict[str, Callable[[Any], Any]] = {
     ),
     "LookAhead sight": lambda a: stepaside.strategies.LookAhead(sight=a),
     "StepGame largest_turn": lambda a: StepGame(largest_turn=a),
-    "Start pursuer_error": lambda a: Start(1.0, a),
-    "Start bearing": lambda a: Start(1.0, 0.0, a),
+    "Start pursuer_error": lambda a: RelativeStart(1.0, a),
+    "Start bearing": lambda a: RelativeStart(1.0, 0.0, a),
     "StartSettings pursuer_offset": lambda a: stepaside.StartSettings(1.0, a),
     "StartSettings evader_offset": lambda a: stepaside.StartSettings(
         1.0, 0.0, a
@@ -247,7 +247,7 @@ def test_a_bearing_is_taken(name: str) -> None:
 def test_a_whole_turn_either_way_is_a_bearing(angle: float) -> None:
     assert plan(angle).bearing == angle
     assert stepaside.Intent(angle).heading == angle
-    assert Start(1.0, angle, -angle).bearing == -angle
+    assert RelativeStart(1.0, angle, -angle).bearing == -angle
 
 
 def is_asked_for(name: str, key: str, text: str) -> bool:

@@ -15,7 +15,7 @@ from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.core.poses import Array  # noqa: E402
 from stepaside.report.viewer.dragging import (  # noqa: E402
     MOST,
-    Dragging,
+    PushDragging,
     pulled,
 )
 from stepaside.report.viewer.scene_layers import PUSH_LENGTH  # noqa: E402
@@ -80,7 +80,7 @@ def table(player: Player) -> tuple[Any, Any, Handle, list[str]]:
     duel = SimpleNamespace(world=world, players=(None, player))
     session: Any = SimpleNamespace(change=lambda request: request(duel))
     scene, mesh, said = Scene(), Handle("mesh"), list[str]()
-    Dragging(scene, session, said.append).attend(1, [mesh])  # type: ignore[arg-type]
+    PushDragging(scene, session, said.append).attend(1, [mesh])  # type: ignore[arg-type]
     return session, scene, mesh, said
 
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.drivers.velocity.velocity_body import REST, Velocity
+from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.velocity_walker import DrivenWalker
+from stepaside.games.velocity_walker import VelocityWalker
 from stepaside.games.walker import Walker
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
@@ -27,10 +27,10 @@ STEP = 0.547  # of the gait, in [s]
 class Told:
     """Tells a robot the same all the time, until it is told otherwise."""
 
-    def __init__(self, velocity: Velocity) -> None:
+    def __init__(self, velocity: VelocityCommand) -> None:
         self.velocity = velocity
 
-    def act(self) -> Velocity:
+    def act(self) -> VelocityCommand:
         """What the robot is to do."""
         return self.velocity
 
@@ -39,14 +39,14 @@ class Told:
 
 
 @pytest.fixture(scope="module")
-def walked() -> tuple[DrivenWalker, DrivenWalker, list[Velocity]]:
+def walked() -> tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]]:
     """Two robots that were told to walk for 5 s, and then to rest for 3 s."""
     duel = Duel(SETTINGS, recorded=False)
-    told = [Told(Velocity(0.06, 0.1)), Told(Velocity(-0.2, 0.2))]
+    told = [Told(VelocityCommand(0.06, 0.1)), Told(VelocityCommand(-0.2, 0.2))]
     players = []
     for player, commander in zip(duel.players, told, strict=True):
         assert isinstance(player, Walker)
-        players.append(DrivenWalker(player))
+        players.append(VelocityWalker(player))
         players[-1].commander = commander
     before = [player.state().velocity for player in players]
     for tick in range(667):
@@ -60,7 +60,7 @@ def walked() -> tuple[DrivenWalker, DrivenWalker, list[Velocity]]:
 
 
 def test_a_robot_walks_as_it_is_told_and_rests_when_it_is_told(
-    walked: tuple[DrivenWalker, DrivenWalker, list[Velocity]],
+    walked: tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]],
 ) -> None:
     ahead, back, before = walked
     assert before == [REST, REST]
@@ -76,7 +76,7 @@ def test_a_robot_walks_as_it_is_told_and_rests_when_it_is_told(
 
 
 def test_odometry_is_where_the_robot_is(
-    walked: tuple[DrivenWalker, DrivenWalker, list[Velocity]],
+    walked: tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]],
 ) -> None:
     for robot in walked[:2]:
         state = robot.state()
@@ -87,7 +87,7 @@ def test_odometry_is_where_the_robot_is(
 
 
 def test_the_sight_that_is_offered_counts_from_the_odometry(
-    walked: tuple[DrivenWalker, DrivenWalker, list[Velocity]],
+    walked: tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]],
 ) -> None:
     own, other, _ = walked
     state = own.state()
@@ -104,8 +104,8 @@ def test_the_sight_that_is_offered_counts_from_the_odometry(
 def test_a_robot_may_keep_to_itself_what_it_sees() -> None:
     player = Duel(SETTINGS, recorded=False).players[0]
     assert isinstance(player, Walker)
-    assert DrivenWalker(player).state().sighting is not None
-    silent = DrivenWalker(player, offers_sight=False)
+    assert VelocityWalker(player).state().sighting is not None
+    silent = VelocityWalker(player, offers_sight=False)
     assert silent.state().sighting is None
 
 
@@ -116,7 +116,7 @@ def test_a_robot_that_is_driven_makes_up_for_its_turns_once() -> None:
     player = duel.players[0]
     assert isinstance(player, Walker)
     assert player.scheme.decisions.turns is not None
-    assert DrivenWalker(player).scheme.decisions.turns is None
+    assert VelocityWalker(player).scheme.decisions.turns is None
 
 
 def test_a_hardware_like_robot_turns_by_as_much_as_it_is_told() -> None:
@@ -126,8 +126,8 @@ def test_a_hardware_like_robot_turns_by_as_much_as_it_is_told() -> None:
     players = []
     for player, forward in zip(duel.players, (0.06, -0.06), strict=True):
         assert isinstance(player, Walker)
-        players.append(DrivenWalker(player))
-        players[-1].commander = Told(Velocity(forward, 0.12))
+        players.append(VelocityWalker(player))
+        players[-1].commander = Told(VelocityCommand(forward, 0.12))
     turned = np.zeros(2)
     headings = np.zeros(2)
     learnt, cycles = round(12.0 / 0.012), round(14 * STEP / 0.012)
@@ -149,8 +149,8 @@ def test_what_is_offered_of_the_other_is_from_the_heading_of_then() -> None:
     players = []
     for player in duel.players:
         assert isinstance(player, Walker)
-        robot = DrivenWalker(player)
-        robot.commander = Told(Velocity(0.05, 0.12))
+        robot = VelocityWalker(player)
+        robot.commander = Told(VelocityCommand(0.05, 0.12))
         players.append((robot, player.frame))
     poses: list[dict[int, tuple[Pose, float]]] = [{}, {}]
     checked = 0

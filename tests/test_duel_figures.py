@@ -12,10 +12,14 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel_summary import (
     DuelSummary,
     PlanTimes,
-    PlayerFigures,
-    TheoryFigures,
+    PlayerSummary,
+    TheorySummary,
 )
-from stepaside.games.sight_summary import SeeingFigures, SightFigures, Spread
+from stepaside.games.sight_summary import (
+    ErrorSpread,
+    PerceptionSummary,
+    SightSummary,
+)
 
 BLIND = figures(
     seed=3,
@@ -25,27 +29,27 @@ BLIND = figures(
     converged_at_s=11.0,
     replans=40,
     min_zmp_margin_m=0.021,
-    theory=TheoryFigures(None, True, 0.637, 0.9, 90.0),
+    theory=TheorySummary(None, True, 0.637, 0.9, 90.0),
     plan_time_us=PlanTimes(180.0, 300.0),
-    pursuer=PlayerFigures(0.63),
-    evader=PlayerFigures(0.64),
+    pursuer=PlayerSummary(0.63),
+    evader=PlayerSummary(0.64),
 )
-EYES = SightFigures(
-    bearing_error_deg=Spread(0.7, None),
-    distance_error_m=Spread(None, None),
+EYES = SightSummary(
+    bearing_error_deg=ErrorSpread(0.7, None),
+    distance_error_m=ErrorSpread(None, None),
     detection_rate=0.9,
     false_detections=2,
     misled_s=0.5,
     lost_s=0.0,
 )
 SEEING = figures(
-    pursuer=PlayerFigures(0.63, EYES),
-    evader=PlayerFigures(None, replace(EYES, depth_detection_rate=1.0)),
-    sight=SeeingFigures("raycast", 0.97, 4, 1.5),
+    pursuer=PlayerSummary(0.63, EYES),
+    evader=PlayerSummary(None, replace(EYES, depth_detection_rate=1.0)),
+    sight=PerceptionSummary("raycast", 0.97, 4, 1.5),
     run_folder="/some/where",
 )
 WITH_A_PERSON = figures(
-    pursuer=PlayerFigures(None), evader=PlayerFigures(0.6, EYES)
+    pursuer=PlayerSummary(None), evader=PlayerSummary(0.6, EYES)
 )
 
 

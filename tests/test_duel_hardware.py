@@ -15,7 +15,7 @@ from stepaside.games.walker import Walker
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop
 from stepaside.sim.body_settings import BODIES
-from stepaside.sim.servos import HonestServos
+from stepaside.sim.servos import RealisticServos
 
 
 def hardware(**changes: Any) -> DuelSettings:
@@ -45,7 +45,7 @@ def test_both_robots_of_a_hardware_duel_have_honest_bodies() -> None:
     for walker in duel.players:
         assert isinstance(walker, Walker)
         robot, balance = walker.robot, walker.scheme.balance
-        assert isinstance(robot.servos, HonestServos)
+        assert isinstance(robot.servos, RealisticServos)
         assert isinstance(balance, ClosedLoop)
         assert balance.stabiliser.settings == STABILISED
         torso = duel.world.model.body(f"{robot.name}/torso").id

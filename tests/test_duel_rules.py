@@ -15,9 +15,9 @@ from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.match import Progress
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorder import Recorder
-from stepaside.games.trajectory import Planning
+from stepaside.games.trajectory import PlanningTimes
 from stepaside.games.walker import Walker
-from stepaside.sim.camera_settings import RoomSettings, Thing
+from stepaside.sim.camera_settings import RoomObject, SceneSettings
 from stepaside.sim.ground_truth import torsos_apart
 from stepaside.sim.physics_settings import SightSettings
 from stepaside.sim.simulated_robot import SimulatedRobot
@@ -113,7 +113,7 @@ def test_contact_is_looked_for_where_there_can_be_any() -> None:
     words = "evader and pursuer touched at 0.00 s"
     assert touching(0.6, *both) == (Outcome.CONTACT, words)
     assert touching(0.9, *both) == (None, "")
-    room = RoomSettings(things=[Thing("red box", 3.0, 0.0)])
+    room = SceneSettings(things=[RoomObject("red box", 3.0, 0.0)])
     assert touching(0.9, "evader", "thing 0", room=room) == (
         Outcome.CONTACT,
         "evader and thing 0 touched at 0.00 s",
@@ -199,8 +199,8 @@ def test_figures_of_both_robots_are_put_together(
 ) -> None:
     """Of the players' planning, as the recorder has it."""
     told = {
-        "pursuer": Planning(2, np.array([0.1, 0.2]), 0.2, 0.02),
-        "evader": Planning(3, np.array([0.2, 0.2]), 0.1, 0.03),
+        "pursuer": PlanningTimes(2, np.array([0.1, 0.2]), 0.2, 0.02),
+        "evader": PlanningTimes(3, np.array([0.2, 0.2]), 0.1, 0.03),
     }
     monkeypatch.setattr(Recorder, "planning", lambda recorder: told)
     summary = run_duel(DuelSettings(start=START, duration=0.02)).summary

@@ -36,7 +36,7 @@ from stepaside.studies.duel_statistics import (
     share,
     summarise_duels,
 )
-from stepaside.studies.record_store import RecordFile
+from stepaside.studies.record_store import RecordStore
 
 SETTINGS = DuelSettings(duration=120.0)
 NOW = {"version": "new", "libraries": {"mujoco": "1"}}
@@ -116,7 +116,7 @@ def test_only_a_certified_start_has_a_certified_distance() -> None:
 
 
 def test_what_is_done_is_not_done_again(quick: Here, tmp_path: Path) -> None:
-    file = RecordFile(tmp_path / "r.jsonl")
+    file = RecordStore(tmp_path / "r.jsonl")
     run_duels(SETTINGS, range(3), file, quick)
     told: list[int] = []
     found = run_duels(SETTINGS, range(5), file, quick, told.append)
@@ -136,7 +136,7 @@ def test_what_is_done_is_not_done_again(quick: Here, tmp_path: Path) -> None:
 def test_records_of_other_versions_are_done_again(
     quick: Here, tmp_path: Path, change: dict[str, Any]
 ) -> None:
-    file = RecordFile(tmp_path / "r.jsonl")
+    file = RecordStore(tmp_path / "r.jsonl")
     file.append(key_of(replace(SETTINGS, seed=1)), made(1, **change))
     run_duels(SETTINGS, range(1, 2), file, quick)
     assert quick.seeds == [1]
@@ -169,7 +169,7 @@ def test_the_key_of_a_default_duel_is_that_of_its_records() -> None:
 def test_records_of_other_settings_are_not_these(
     quick: Here, tmp_path: Path
 ) -> None:
-    file = RecordFile(tmp_path / "r.jsonl")
+    file = RecordStore(tmp_path / "r.jsonl")
     run_duels(replace(SETTINGS, duration=60.0), [1], file, quick)
     run_duels(SETTINGS, [1], file, quick)
     assert quick.seeds == [1, 1]
@@ -179,7 +179,7 @@ def test_records_of_other_settings_are_not_these(
 def test_older_records_are_taken_over_if_they_play_the_same(
     quick: Here, tmp_path: Path
 ) -> None:
-    file = RecordFile(tmp_path / "r.jsonl")
+    file = RecordStore(tmp_path / "r.jsonl")
     for seed in range(6):
         one = replace(SETTINGS, seed=seed)
         file.append(key_of(one), made(seed, version="old", wall_s=9.0))
@@ -196,7 +196,7 @@ def test_older_records_are_taken_over_if_they_play_the_same(
 def test_records_that_play_otherwise_are_not_taken_over(
     quick: Here, tmp_path: Path
 ) -> None:
-    file = RecordFile(tmp_path / "r.jsonl")
+    file = RecordStore(tmp_path / "r.jsonl")
     for seed in range(3):
         one = replace(SETTINGS, seed=seed)
         file.append(key_of(one), made(seed, version="old"))
@@ -211,7 +211,7 @@ def test_only_older_records_can_vouch_for_older_ones(
     quick: Here, tmp_path: Path
 ) -> None:
     """Current records come out the same; that says nothing of the others."""
-    file = RecordFile(tmp_path / "r.jsonl")
+    file = RecordStore(tmp_path / "r.jsonl")
     for seed in range(12):
         one = replace(SETTINGS, seed=seed)
         wrong = {"version": "old", "digest": "wrong"} if seed < 2 else {}
@@ -316,7 +316,7 @@ def test_the_command_writes_records_summary_and_figure(
     found = json.loads(answer.stdout)
     assert found["seeds"] == "5:7" and found["summary"]["duels"] == 2
     assert found == json.loads((folder / "summary.json").read_text())
-    assert len(RecordFile(folder / "duels.jsonl").read()) == 2
+    assert len(RecordStore(folder / "duels.jsonl").read()) == 2
     assert (folder / "duels.png").stat().st_size > 1000
     table = CliRunner().invoke(duels, [*line, "--output", str(folder)])
     assert "completed" in table.output and "2 of 2" in table.output
@@ -341,7 +341,7 @@ def test_verifying_nothing_is_refused(tmp_path: Path) -> None:
 def test_nothing_is_played_when_verified_duels_differ(
     quick: Here, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    file = RecordFile(tmp_path / "duels.jsonl")
+    file = RecordStore(tmp_path / "duels.jsonl")
     for seed in range(3):
         one = replace(SETTINGS, seed=seed)
         digest = "another" if seed else "d0"

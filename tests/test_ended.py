@@ -17,10 +17,10 @@ from fuzz.moments import SIGNALS, moment_case
 from stepaside.cli import reproduce_figures
 from stepaside.core.atomic_output import DRAFT, draft_prefix, sweep, writing
 from stepaside.core.errors import OutputError
-from stepaside.core.interrupts import stoppable
+from stepaside.core.interrupts import interruptible
 from stepaside.core.worker_pool import worker_pool
-from stepaside.studies.reading_store import Kept
-from stepaside.studies.record_store import RecordFile
+from stepaside.studies.reading_store import ReadingStore
+from stepaside.studies.record_store import RecordStore
 
 HERE = sha256(platform.node().encode()).hexdigest()[:8]
 
@@ -68,18 +68,18 @@ def test_drafts_of_the_dead_are_swept_and_no_others(tmp_path: Path) -> None:
 
 def test_sigterm_is_ctrl_c_while_a_command_runs() -> None:
     before = signal.getsignal(signal.SIGTERM)
-    with pytest.raises(KeyboardInterrupt), stoppable():
+    with pytest.raises(KeyboardInterrupt), interruptible():
         signal.raise_signal(signal.SIGTERM)
     assert signal.getsignal(signal.SIGTERM) == before
 
 
 def test_a_record_behind_a_torn_one_is_not_lost(tmp_path: Path) -> None:
-    file = RecordFile(tmp_path / "records.jsonl")
+    file = RecordStore(tmp_path / "records.jsonl")
     file.append("a", {"x": 1})
     with file.path.open("a") as out:
         out.write('{"key": "b", "rec')  # its writer was killed
     file.append("c", {"x": 3})
-    again = RecordFile(file.path)
+    again = RecordStore(file.path)
     assert again.read() == {"a": {"x": 1}, "c": {"x": 3}}
     assert again.aside == 1
 
@@ -88,7 +88,7 @@ def test_readings_that_were_altered_are_set_aside_by_name(
     tmp_path: Path,
 ) -> None:
     told: list[Path] = []
-    kept = Kept(tmp_path, told.append)
+    kept = ReadingStore(tmp_path, told.append)
     kept.store("one", {"seed": 1}, {"x": 0.25})
     file = tmp_path / "one.json"
     assert kept.load("one", {"seed": 1}, ["x"]) == {"x": 0.25}
@@ -168,7 +168,7 @@ def test_the_package_is_a_command_too() -> None:
 
 def test_what_lies_aside_already_stays(tmp_path: Path) -> None:
     """It may be an earlier one, or a file of somebody else."""
-    kept = Kept(tmp_path)
+    kept = ReadingStore(tmp_path)
     (tmp_path / "one.json.aside").write_text("mine")
     (tmp_path / "one.json").write_text("torn")
     assert kept.load("one", {}, ["x"]) is None
@@ -180,7 +180,7 @@ def test_an_empty_file_that_was_there_stays_where_room_runs_out(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for made_before in (True, False):
-        file = RecordFile(tmp_path / f"{made_before}.jsonl")
+        file = RecordStore(tmp_path / f"{made_before}.jsonl")
         if made_before:
             file.path.touch()
         with monkeypatch.context() as patch:

@@ -10,7 +10,7 @@ import pytest
 from made_up_robot import GAIT, FakeLegs
 from stepaside.arena import check_starts, load_room
 from stepaside.control.clearance.guard import Guard
-from stepaside.control.clearance.surroundings import GivenRoom
+from stepaside.control.clearance.surroundings import KnownRoom
 from stepaside.control.clearance.swept_outline import BodyOutline, sway_of
 from stepaside.control.scheme import ControlScheme
 from stepaside.core.poses import Pose, wrap_angle
@@ -35,7 +35,7 @@ def test_a_pursuer_reaches_who_stands_and_touches_nothing(file: Path) -> None:
     check_starts(room, room.starts)
     start, other = room.starts
     needs = NAO.radius + MARGIN + sway_of(GAIT)
-    around = GivenRoom(room, start)
+    around = KnownRoom(room, start)
     guard = Guard(around, NAO, ManeuverPlanner(GAIT), margin=MARGIN)
     legs: Any = FakeLegs()
     tick = 0.02

@@ -8,7 +8,7 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.drivers.joint.frame_clock import TICK
-from stepaside.games.lockstep import PRESSED, STEADY, Exchange
+from stepaside.games.lockstep import PRESSED, STEADY, Lockstep
 
 from lola_fakes import Clock  # isort: skip
 
@@ -50,9 +50,9 @@ class FakeServer:
 
 def exchange_of(
     *servers: FakeServer, **changes: Any
-) -> tuple[Exchange, Clock]:
+) -> tuple[Lockstep, Clock]:
     clock = Clock()
-    exchange = Exchange(
+    exchange = Lockstep(
         servers,  # type: ignore[arg-type]
         clock=clock,
         pause=clock.pause,

@@ -26,7 +26,12 @@ from stepaside.sim.camera_settings import (
     DepthSettings,
     SonarSettings,
 )
-from stepaside.sim.sensor_suite import Eyes, Grain, Stream, _size_for
+from stepaside.sim.sensor_suite import (
+    ImageNoise,
+    SensorStream,
+    SensorSuite,
+    _size_for,
+)
 
 TICK = 0.004
 HEAD = load_head(load_robot("nao"))
@@ -39,15 +44,15 @@ PLAIN = CameraSettings(
 
 def stream(
     period: float = 0.1, latency: float = 0.0, drop: float = 0.0
-) -> Stream:
+) -> SensorStream:
     def take(now: float) -> Percept:
         return SonarEcho(now, "left", None)
 
     generator = np.random.default_rng(1)
-    return Stream(take, period, latency, drop, generator, 0, deque())
+    return SensorStream(take, period, latency, drop, generator, 0, deque())
 
 
-def watch(sensor: Stream, ticks: int) -> tuple[list[float], list[float]]:
+def watch(sensor: SensorStream, ticks: int) -> tuple[list[float], list[float]]:
     """When percepts were taken, and how old they were at their arrival."""
     noted: list[Percept] = []
     ages, taken = [], []
@@ -90,7 +95,7 @@ def eyes_of(
     depth: bool = True,
     seed: int = 3,
     renderer: str = "raycast",
-) -> Eyes:
+) -> SensorSuite:
     """Eyes of a head 0.5 m above a floor, with a box 1.6 m ahead."""
     model = mujoco.MjModel.from_xml_string(
         '<mujoco><worldbody><geom name="floor" type="plane" size="9 9 1"/>'
@@ -103,7 +108,7 @@ def eyes_of(
     mujoco.mj_kinematics(model, data)
     physics = SimpleNamespace(tick=TICK)
     world: Any = SimpleNamespace(model=model, data=data, physics=physics)
-    return Eyes(
+    return SensorSuite(
         world,
         "me",
         "torso",
@@ -115,7 +120,9 @@ def eyes_of(
     )
 
 
-def arrivals(eyes: Eyes, ticks: int) -> dict[str, list[tuple[float, float]]]:
+def arrivals(
+    eyes: SensorSuite, ticks: int
+) -> dict[str, list[tuple[float, float]]]:
     """Time of each percept and of its arrival, by kind."""
     found: dict[str, list[tuple[float, float]]] = {}
     for tick in range(ticks):
@@ -219,7 +226,7 @@ def test_senses_drop_their_images_apart_from_each_other() -> None:
 def test_grain_is_noise_of_the_size_asked_for() -> None:
     camera = CameraModel.of_field_of_view(80, 60, 1.0, 0.8)
     grey = np.full((60, 80, 3), 128, dtype=np.uint8)
-    grain = Grain(camera, 6.0, np.random.default_rng(2))
+    grain = ImageNoise(camera, 6.0, np.random.default_rng(2))
     one, other = grain.spoil(grey), grain.spoil(grey)
     assert one.shape == grey.shape and one.dtype == np.uint8
     assert not np.array_equal(one, other)
@@ -229,7 +236,7 @@ def test_grain_is_noise_of_the_size_asked_for() -> None:
     # Bright stays bright: noise does not wrap around.
     white = np.full((60, 80, 3), 254, dtype=np.uint8)
     assert grain.spoil(white).min() > 200
-    still = Grain(camera, 0.0, np.random.default_rng(2))
+    still = ImageNoise(camera, 0.0, np.random.default_rng(2))
     np.testing.assert_array_equal(still.spoil(grey), grey)
 
 
@@ -237,7 +244,7 @@ def test_noise_is_shifted_all_about() -> None:
     """Any part of the tile may come, up to its last row and column."""
     camera = CameraModel.of_field_of_view(10, 8, 1.0, 0.8)
     grey = np.full((8, 10, 3), 128, dtype=np.uint8)
-    grain = Grain(camera, 6.0, np.random.default_rng(2))
+    grain = ImageNoise(camera, 6.0, np.random.default_rng(2))
     images = {grain.spoil(grey).tobytes() for _ in range(2000)}
     assert len(images) == 80
 

@@ -11,12 +11,12 @@ from stepaside.core.poses import Pose, wrap_angle
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.colour_detector import RED
 from stepaside.perception.floor_colours import floor_points
-from stepaside.perception.foot_tracking import CLOSE, Feet
+from stepaside.perception.foot_tracking import CLOSE, FootDetector
 from stepaside.perception.images import ColourImage
 from stepaside.perception.measurement import Measurement
 from stepaside.perception.observations import camera_of
 from stepaside.perception.perception import Perception
-from stepaside.perception.track import Observation, Track
+from stepaside.perception.track import Observation, TargetTrack
 from stepaside.robots.head import Mount
 
 CAMERA = CameraModel.of_field_of_view(160, 120, radians(60.9), radians(47.6))
@@ -57,9 +57,13 @@ class Standing:
         assert mount is not None
         return mount
 
-    def follow(self, x: float, y: float, *, walked: bool = True) -> Track:
+    def follow(
+        self, x: float, y: float, *, walked: bool = True
+    ) -> TargetTrack:
         """Somebody who is believed to be at a place, 0.15 m beside it."""
-        track = Track(Observation(0.0, x, y, 0.0, 0.15, 0.15, False, True))
+        track = TargetTrack(
+            Observation(0.0, x, y, 0.0, 0.15, 0.15, False, True)
+        )
         track.confirmed, track.walked = True, walked
         self.perception._tracker.tracks.append(track)
         return track
@@ -136,7 +140,7 @@ def test_it_is_the_same_wherever_odometry_began(
     up, down = (camera_of(body, robot.mount(low=low)) for low in (False, True))
     x, y = began.transform_points([(2.4, 0.9)])[0].tolist()
     people = [robot.follow(2.4, 0.9)], [robot.follow(x, y)]
-    both = Feet(), Feet()
+    both = FootDetector(), FootDetector()
     for i in range(2):
         far = robot.image(0.02 * i, [], low=False)
         both[0].learn(far, *up, (0.0, 0.0), people[0])
@@ -159,7 +163,7 @@ def test_floor_is_learnt_where_nobody_hides_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """From half a metre to 2.5 m, not near anybody nor behind."""
-    feet, robot, floors = Feet(), Standing(), []
+    feet, robot, floors = FootDetector(), Standing(), []
     monkeypatch.setattr(
         feet.colours, "learn", lambda _, floor: floors.append(floor)
     )
@@ -186,7 +190,7 @@ def test_floor_is_learnt_where_nobody_hides_it(
 
 def test_of_the_floor_under_somebody_nothing_is_learnt() -> None:
     """Nor of what is hidden behind."""
-    feet, robot = Feet(), Standing()
+    feet, robot = FootDetector(), Standing()
     someone = robot.follow(1.0, 0.0)
     body = robot.perception.body
     assert body is not None

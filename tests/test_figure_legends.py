@@ -8,10 +8,10 @@ import pytest
 from matplotlib.figure import Figure
 
 from invented_run import run_of
-from stepaside.games.trajectory import Track
+from stepaside.games.trajectory import Trajectory
 from stepaside.report import bound_figure, people_figure
 from stepaside.report import figure_style as style
-from stepaside.report.film_shot import Shot
+from stepaside.report.film_shot import FilmSettings
 from stepaside.report.film_strip import line_names
 from stepaside.theory.bound import Bound, Grid, against_any, solve_bound
 
@@ -66,16 +66,16 @@ def test_pictures_of_a_strip_have_every_line_named() -> None:
     tracks = {}
     for name, x in (("pursuer", 0.0), ("evader", 1.0)):
         torso = np.tile([x, 0.0, 0.0], (31, 1))
-        tracks[name] = Track(com=torso.copy(), torso=torso)
+        tracks[name] = Trajectory(com=torso.copy(), torso=torso)
     run = run_of(times, tracks)
-    _, names = line_names(run, Shot())
+    _, names = line_names(run, FilmSettings())
     assert names == [
         "path of the pursuer",
         "path of the evader",
         "ring: safety radius of the evader, 0.8 m",
         "line of sight",
     ]
-    assert len(line_names(run, Shot(layers=False))[1]) == 2
+    assert len(line_names(run, FilmSettings(layers=False))[1]) == 2
 
 
 def test_the_bound_s_lines_are_named(kept: list[Figure], bound: Bound) -> None:

@@ -20,21 +20,21 @@ from stepaside.core.poses import Array
 from stepaside.games.duel_circle import theory_of
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings
-from stepaside.games.duel_summary import TheoryFigures
-from stepaside.games.trajectory import Track
+from stepaside.games.duel_summary import TheorySummary
+from stepaside.games.trajectory import Trajectory
 from stepaside.planning import (
     Direction,
     Foot,
     GaitSettings,
     ManeuverPlanner,
-    Sole,
+    SoleRectangle,
 )
 from stepaside.planning.support_polygon import sole_corners
 from stepaside.report import compare_figure, duel_figure, plan_figure
 from stepaside.report.cycle_means import whole_cycles
 from stepaside.report.figure_style import COLOURS, EVADER, PURSUER, THEORY, plt
 from stepaside.report.sole_outlines import draw_heading, draw_soles
-from stepaside.sim.camera_settings import RoomSettings
+from stepaside.sim.camera_settings import SceneSettings
 
 TIMES = np.linspace(0.0, 18.0, 901)
 SETTINGS = DuelSettings(seed=7)
@@ -43,7 +43,7 @@ CYCLE = 2.0 * SETTINGS.gait.step_duration
 
 
 @cache
-def record() -> dict[str, Track]:
+def record() -> dict[str, Trajectory]:
     """Robots that walk along, one behind the other, with some sway."""
     sway = 0.02 * np.sin(2.0 * pi * TIMES / CYCLE)
     tracks = {}
@@ -51,7 +51,7 @@ def record() -> dict[str, Track]:
         c, s = cos(heading), sin(heading)
         x, y = ahead + 0.1 * TIMES - s * sway, 0.2 * ahead + c * sway
         turn = np.full_like(TIMES, heading)
-        tracks[name] = Track(
+        tracks[name] = Trajectory(
             com=np.column_stack([x + 0.01, y, 0.27 + 0 * x]),
             torso=np.column_stack([x, y, turn]),
             com_reference=np.column_stack([x - 3.0, y + 1.0]),
@@ -117,7 +117,7 @@ def levels(axes: Any) -> dict[float, str]:
     }
 
 
-THEORY_OF_IT = TheoryFigures(None, True, 0.64, 0.9, 90.0)
+THEORY_OF_IT = TheorySummary(None, True, 0.64, 0.9, 90.0)
 
 
 def duel(kept: list[Figure], **theory: Any) -> Figure:
@@ -260,7 +260,7 @@ def test_a_room_has_its_clearance_where_balance_was(
     kept: list[Figure], moving: tuple[MovingBox, ...]
 ) -> None:
     room = Room(20.0, 16.0, (Disc(2.0, 5.0, 0.5),), moving=moving)
-    settings = replace(SETTINGS, room=RoomSettings(plan=room))
+    settings = replace(SETTINGS, room=SceneSettings(plan=room))
     made = run_of(TIMES, record(), settings=settings, theory=THEORY_OF_IT)
     duel_figure.draw_duel(made, Path("figure.png"))
     figure = kept[-1]
@@ -292,7 +292,7 @@ def test_a_person_has_a_way_but_neither_footsteps_nor_balance(
 ) -> None:
     """What a robot has is drawn as ever, and its balance takes the row."""
     walked = record()["pursuer"]
-    tracks = record() | {"pursuer": Track(walked.com, walked.torso)}
+    tracks = record() | {"pursuer": Trajectory(walked.com, walked.torso)}
     made = run_of(TIMES, tracks, settings=SETTINGS, theory=THEORY_OF_IT)
     duel_figure.draw_duel(made, Path("figure.png"))
     both, figure = duel(kept), kept[0]
@@ -316,7 +316,7 @@ def test_a_duel_that_was_over_at_once_is_drawn_too(
 ) -> None:
     """Interrupted before the first tick: one sample, and no step."""
     first = {
-        name: Track(
+        name: Trajectory(
             **{field: getattr(track, field)[:1] for field in FIELDS},
             **{"landings": np.zeros((0, 5))},
         )
@@ -357,7 +357,7 @@ def test_a_wedge_points_where_the_robot_heads(
 
 def test_soles_lie_where_they_landed_with_their_side() -> None:
     axes = Figure().add_subplot()
-    sole = Sole()
+    sole = SoleRectangle()
     rows = np.array([[0.0, 1.0, 0.3, 0.1, 0.4], [0.5, -1.0, 0.4, -0.1, 0.2]])
     draw_soles(axes, rows, sole, EVADER, alpha=0.5)
     for patch, row, foot in zip(axes.patches, rows, Foot, strict=True):

@@ -11,10 +11,10 @@ from invented_run import run_of
 from stepaside.core.poses import Array
 from stepaside.games.duel_settings import PLAYERS, DuelSettings
 from stepaside.games.run import Run
-from stepaside.games.trajectory import Track
+from stepaside.games.trajectory import Trajectory
 from stepaside.report import film_layers
-from stepaside.report.film import Shot, closest_time
-from stepaside.report.film_camera import MARGIN, VIEWS, CameraMan, framing
+from stepaside.report.film import FilmSettings, closest_time
+from stepaside.report.film_camera import MARGIN, VIEWS, FilmCamera, framing
 from stepaside.report.film_captions import caption, title_of
 from stepaside.report.film_shot import AROUND, SLOWEST
 from stepaside.report.palette import PALETTES
@@ -32,7 +32,7 @@ def run() -> Run:
         "evader": (4.0 + 0.2 * TIMES, 0.3 * TIMES),
     }
     tracks = {
-        name: Track(
+        name: Trajectory(
             com=np.column_stack([*way, 0.27 + 0.0 * TIMES]),
             torso=np.column_stack([*way, angle]),
         )
@@ -41,7 +41,7 @@ def run() -> Run:
     return run_of(TIMES, tracks, settings=DuelSettings(seed=7))
 
 
-def seen_at(man: CameraMan, index: int, height: float) -> Array:
+def seen_at(man: FilmCamera, index: int, height: float) -> Array:
     """Places of both players in the picture. Shape (2, 2)."""
     view = man.view(index)
     found = []
@@ -58,7 +58,7 @@ def seen_at(man: CameraMan, index: int, height: float) -> Array:
 def test_both_players_are_in_the_picture_from_foot_to_head(
     name: str, index: int
 ) -> None:
-    man = CameraMan(run(), name, FOVY, ASPECT)
+    man = FilmCamera(run(), name, FOVY, ASPECT)
     for height in (0.0, 0.6):
         places = np.abs(seen_at(man, index, height))
         assert (places <= [0.97 * ASPECT, 0.97]).all()
@@ -66,7 +66,7 @@ def test_both_players_are_in_the_picture_from_foot_to_head(
 
 def test_who_follows_comes_nearer_and_moves_calmly() -> None:
     fixed, follow = (
-        CameraMan(run(), name, FOVY, ASPECT) for name in ("fixed", "follow")
+        FilmCamera(run(), name, FOVY, ASPECT) for name in ("fixed", "follow")
     )
     views = [follow.view(i) for i in range(len(TIMES))]
     assert views[0].distance < 0.6 * fixed.view(0).distance
@@ -88,7 +88,7 @@ def test_a_view_frames_its_points_and_wastes_no_room(
 
 
 def test_the_evader_s_eyes_see_the_pursuer_in_the_middle() -> None:
-    man = CameraMan(run(), "eyes", FOVY, ASPECT)
+    man = FilmCamera(run(), "eyes", FOVY, ASPECT)
     view = man.view(100)
     pursuer, evader = (run().tracks[n].com[100] for n in PLAYERS)
     assert view.project(pursuer, FOVY) == pytest.approx((0.0, 0.0), abs=1e-9)
@@ -101,7 +101,7 @@ def test_the_evader_s_eyes_see_the_pursuer_in_the_middle() -> None:
 @pytest.mark.parametrize("name", VIEWS)
 def test_a_view_is_that_of_mujoco_s_camera(name: str) -> None:
     """Their axes: what is projected lies where it is drawn."""
-    view = CameraMan(run(), name, FOVY, ASPECT).view(50)
+    view = FilmCamera(run(), name, FOVY, ASPECT).view(50)
     model = mujoco.MjModel.from_xml_string("<mujoco><worldbody/></mujoco>")
     data = mujoco.MjData(model)
     scene = mujoco.MjvScene(model, 10)
@@ -152,7 +152,7 @@ def test_the_light_shines_on_what_is_looked_at() -> None:
 
 def test_time_is_slow_about_the_closest_approach_alone() -> None:
     closest = 12.0
-    shot = Shot(slow=True, speed=2.0, rate=10.0)
+    shot = FilmSettings(slow=True, speed=2.0, rate=10.0)
     times = np.array(shot.instants(30.0, closest))
     paces = np.diff(times) * 10.0
     near = np.abs(times[:-1] - closest)
@@ -160,7 +160,7 @@ def test_time_is_slow_about_the_closest_approach_alone() -> None:
     assert paces.min() == pytest.approx(2.0 * SLOWEST)
     assert near[paces.argmin()] <= 0.5 * AROUND + 0.2
     assert np.abs(np.diff(paces)).max() < 0.5
-    plain = Shot(speed=2.0, rate=10.0)
+    plain = FilmSettings(speed=2.0, rate=10.0)
     assert plain.instants(30.0, closest) == plain.instants(30.0)
 
 
@@ -172,7 +172,7 @@ def test_the_closest_approach_is_that_of_the_run() -> None:
 
 def test_words_are_written_over_the_players_and_below() -> None:
     grey = np.full((360, 640, 3), 128, dtype=np.uint8)
-    view = CameraMan(run(), "fixed", FOVY, ASPECT).view(0)
+    view = FilmCamera(run(), "fixed", FOVY, ASPECT).view(0)
     told = caption(grey, run(), 0, view=view, fovy=FOVY, pace=1.0)
     assert told.shape == grey.shape and (grey == 128).all()
     assert told[-5, 300].min() > 180  # the band
@@ -195,7 +195,7 @@ def test_words_are_written_over_the_players_and_below() -> None:
 def test_words_of_anybody_are_written_however_long_they_are() -> None:
     long = replace(run(), message="x" * 500 + "\x1b\n")
     grey = np.full((360, 640, 3), 128, dtype=np.uint8)
-    view = CameraMan(run(), "top", FOVY, ASPECT).view(0)
+    view = FilmCamera(run(), "top", FOVY, ASPECT).view(0)
     last = len(TIMES) - 1
     caption(grey, long, last, view=view, fovy=FOVY, pace=1.0)
     titled = title_of(grey, "a\x1b[2J title")

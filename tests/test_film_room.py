@@ -10,11 +10,11 @@ from invented_run import run_of
 from stepaside.arena import Door, Room
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings
-from stepaside.games.trajectory import Track
-from stepaside.report.film_camera import CameraMan
+from stepaside.games.trajectory import Trajectory
+from stepaside.report.film_camera import FilmCamera
 from stepaside.report.film_captions import rings_of
 from stepaside.report.film_walls import see_through, walls_before
-from stepaside.sim.camera_settings import RoomSettings
+from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.obstacle_geoms import add_solids
 
 SHAPES = [(3.0, 3.0), (2.0, 8.0), (9.0, 1.6)]
@@ -62,8 +62,8 @@ def still(plan: Room | None) -> DuelRun:
     tracks = {}
     for name, x in (("pursuer", -0.3), ("evader", 0.4)):
         torso = np.tile([x, 0.1, 0.0], (21, 1))
-        tracks[name] = Track(com=torso.copy(), torso=torso)
-    settings = DuelSettings(room=RoomSettings(plan=plan))
+        tracks[name] = Trajectory(com=torso.copy(), torso=torso)
+    settings = DuelSettings(room=SceneSettings(plan=plan))
     return run_of(times, tracks, settings=settings)
 
 
@@ -73,7 +73,7 @@ def test_all_of_a_room_is_in_a_film_from_above(
     shape: tuple[float, float], aspect: float
 ) -> None:
     room = Room(width=shape[0], depth=shape[1])
-    view = CameraMan(still(room), "top", 45.0, aspect).view(0)
+    view = FilmCamera(still(room), "top", 45.0, aspect).view(0)
     for wall in room.walls:
         for x, y in wall.points.tolist():
             seen = view.project(np.array([x, y, 0.6]), 45.0)

@@ -14,10 +14,10 @@ from stepaside.games.outcome import Outcome
 from stepaside.games.run import Run
 from stepaside.report import film
 from stepaside.report import film_insets as film_split
-from stepaside.report.film import Cinema, Shot
+from stepaside.report.film import FilmRenderer, FilmSettings
 from stepaside.report.film_insets import WITH_WALLS, room_beside
-from stepaside.report.scene import Stage
-from stepaside.sim.camera_settings import RoomSettings, Thing
+from stepaside.report.scene import RunScene
+from stepaside.sim.camera_settings import RoomObject, SceneSettings
 from stepaside.sim.offscreen_rendering import PLAIN
 from stepaside.sim.room_furnishing import SIDES
 
@@ -69,7 +69,7 @@ def screened(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def insets_of(run: Run) -> Any:
-    cinema = Cinema(run, Shot(camera="split"), "egl")
+    cinema = FilmRenderer(run, FilmSettings(camera="split"), "egl")
     cinema._stage.put(1)
     return cinema._insets
 
@@ -79,8 +79,10 @@ def insets_of(run: Run) -> Any:
 def test_a_split_picture_is_whole_and_half_of_it_is_what_both_see(
     width: int, height: int
 ) -> None:
-    shot = Shot(camera="split", width=width, height=height, words=False)
-    cinema = Cinema(short_run(), shot, "egl")
+    shot = FilmSettings(
+        camera="split", width=width, height=height, words=False
+    )
+    cinema = FilmRenderer(short_run(), shot, "egl")
     picture = cinema.picture(0.05)
     assert picture.shape == (height, width, 3)
     beside = room_beside(width, height)
@@ -131,7 +133,7 @@ def test_there_is_no_tick_of_what_is_behind_or_not_known_yet() -> None:
 
 def cluttered() -> Run:
     """The run of robots that see boxes and walls."""
-    room = RoomSettings(things=[Thing("red box", 1.0, 2.0)], walls=4.0)
+    room = SceneSettings(things=[RoomObject("red box", 1.0, 2.0)], walls=4.0)
     run = short_run()
     start = StartSettings(distance=1.0, pursuer_offset=0.0, evader_offset=0.0)
     settings = DuelSettings(start=start, sensing="cameras", room=room)
@@ -139,7 +141,7 @@ def cluttered() -> Run:
 
 
 def test_things_stand_in_a_film_and_walls_in_what_is_seen_alone() -> None:
-    model = Stage(cluttered()).model
+    model = RunScene(cluttered()).model
     assert model.body("thing 0").pos[:2].tolist() == [1.0, 2.0]
     box = model.body("thing 0").geomadr[0]
     assert model.geom_group[box] < PLAIN.groups
@@ -147,7 +149,7 @@ def test_things_stand_in_a_film_and_walls_in_what_is_seen_alone() -> None:
         wall = model.geom(f"wall {x} {y}")
         assert max(abs(wall.pos[:2])) == 4.0
         assert PLAIN.groups <= wall.group[0] < WITH_WALLS.groups
-    bare = Stage(short_run()).model
+    bare = RunScene(short_run()).model
     assert bare.ngeom < model.ngeom and bare.nq == model.nq
 
 
@@ -156,7 +158,7 @@ def test_a_run_without_a_robot_s_camera_is_refused(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     run = short_run()
-    stage = Stage(run)
+    stage = RunScene(run)
     monkeypatch.setattr(film_split, "_cameras", lambda run: {})
     with pytest.raises(ConfigurationError, match="has none"):
-        film_split.Insets(run, stage, "egl", (480, 720))
+        film_split.FilmInsets(run, stage, "egl", (480, 720))

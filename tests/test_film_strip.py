@@ -11,9 +11,9 @@ import pytest
 from invented_run import run_of
 from stepaside.games.duel_settings import PLAYERS
 from stepaside.games.run import Run
-from stepaside.games.trajectory import Track
+from stepaside.games.trajectory import Trajectory
 from stepaside.report import film_strip
-from stepaside.report.film import Shot, instants_of
+from stepaside.report.film import FilmSettings, instants_of
 from stepaside.report.film_strip import FRAMES, spread, write_strip
 
 TIMES = np.linspace(0.0, 30.0, 301)
@@ -23,7 +23,7 @@ TIMES = np.linspace(0.0, 30.0, 301)
 def run() -> Run:
     """Two who walk apart."""
     tracks = {
-        name: Track(
+        name: Trajectory(
             com=np.column_stack([way, 0.1 * TIMES, 0.27 + 0.0 * TIMES]),
             torso=np.column_stack([way, 0.1 * TIMES, 0.0 * TIMES]),
         )
@@ -38,7 +38,7 @@ def run() -> Run:
 def test_pictures_are_evenly_spread_from_begin_to_end(
     begin: float, duration: float, end: float
 ) -> None:
-    asked = Shot(begin=begin, duration=duration, speed=3.0, slow=True)
+    asked = FilmSettings(begin=begin, duration=duration, speed=3.0, slow=True)
     times = instants_of(run(), spread(asked, 30.0))
     np.testing.assert_allclose(times, np.linspace(begin, end, FRAMES))
 
@@ -48,7 +48,7 @@ def test_a_strip_has_each_picture_over_its_view_from_above(
 ) -> None:
     drawn: list[float] = []
 
-    def shades(folder: Path, shot: Shot) -> Iterator[Any]:
+    def shades(folder: Path, shot: FilmSettings) -> Iterator[Any]:
         for number in range(FRAMES):
             yield np.full((48, 64, 3), 40 * number, dtype=np.uint8)
 
@@ -60,7 +60,10 @@ def test_a_strip_has_each_picture_over_its_view_from_above(
     monkeypatch.setattr(film_strip, "draw_top", top)
     file, told = tmp_path / "strip.png", list[tuple[int, int]]()
     count = write_strip(
-        tmp_path, file, Shot(), lambda done, every: told.append((done, every))
+        tmp_path,
+        file,
+        FilmSettings(),
+        lambda done, every: told.append((done, every)),
     )
     assert count == FRAMES and file.stat().st_size > 0
     np.testing.assert_allclose(drawn, [0.0, 10.0, 20.0, 30.0])

@@ -15,8 +15,8 @@ from stepaside.arena import (
     RoomRecipe,
     make_room,
 )
-from stepaside.control.clearance.surroundings import GivenRoom, SeenRoom
-from stepaside.control.strategy_runner import Decisions
+from stepaside.control.clearance.surroundings import KnownRoom, MappedRoom
+from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.poses import Pose
 from stepaside.perception.floor_map import CELL, FloorMap
 from stepaside.perception.measurement import Sighting
@@ -102,10 +102,10 @@ def test_a_map_that_is_exact_is_taken_at_its_word(
 
 
 def test_strategies_are_told_how_far_off_a_map_may_be() -> None:
-    given = GivenRoom(Room(), Pose(0.0, 0.0, 0.0))
-    seen = SeenRoom(FloorMap(), unseen_is_free=False)
+    given = KnownRoom(Room(), Pose(0.0, 0.0, 0.0))
+    seen = MappedRoom(FloorMap(), unseen_is_free=False)
     for around, blur in ((None, 0.0), (given, 0.0), (seen, CELL)):
-        decisions = Decisions(LookAhead(), GAIT, 0.02, around)
+        decisions = StrategyRunner(LookAhead(), GAIT, 0.02, around)
         decisions.headings.note(0.0, 0.0)
         decisions.templates.note(0.0, Pose(0.0, 0.0, 0.0))
         told = decisions._knowledge(0.0, Sighting(0.0, 0.0, 1.0), moving=True)

@@ -10,7 +10,7 @@ from stepaside.core.poses import Array
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.floor_colours import (
     FloorColours,
-    Footing,
+    FloorContact,
     find_footings,
     floor_points,
 )
@@ -36,7 +36,7 @@ def colours() -> FloorColours:
 
 def find(
     colours: FloorColours, posts: list[Post], axes: Array = AHEAD
-) -> tuple[Footing, ...]:
+) -> tuple[FloorContact, ...]:
     seen = image(axes, posts)
     return find_footings(seen, colours, EYE, axes, (0.0, 0.0))
 

@@ -23,13 +23,13 @@ from stepaside.games.run_archive import (
     write_record,
 )
 from stepaside.games.run_header import FORMAT
-from stepaside.games.trajectory import Track
+from stepaside.games.trajectory import Trajectory
 
 ROWS = 6
 TIMES: Array = 0.02 * np.arange(float(ROWS))
 
 
-def robot(number: float, *, sees: bool = False) -> Track:
+def robot(number: float, *, sees: bool = False) -> Trajectory:
     """A robot whose every quantity tells what it is."""
     rows = np.arange(float(ROWS))[:, None]
 
@@ -39,7 +39,7 @@ def robot(number: float, *, sees: bool = False) -> Track:
 
     zmp = table(5.0, 2)
     zmp[2] = np.nan  # in flight
-    return Track(
+    return Trajectory(
         com=table(1.0, 3),
         torso=table(2.0, 3),
         com_reference=table(3.0, 2),
@@ -51,12 +51,12 @@ def robot(number: float, *, sees: bool = False) -> Track:
     )
 
 
-def person() -> Track:
+def person() -> Trajectory:
     track = robot(1.0)
-    return Track(track.com, track.torso)
+    return Trajectory(track.com, track.torso)
 
 
-def duel(pursuer: Track, **changes: Any) -> DuelRun:
+def duel(pursuer: Trajectory, **changes: Any) -> DuelRun:
     return run_of(
         TIMES,
         {"pursuer": pursuer, "evader": robot(2.0, sees=True)},
@@ -142,7 +142,7 @@ def check_same(found: Run, run: Run) -> None:
     np.testing.assert_array_equal(found.times, run.times)
     assert list(found.tracks) == list(run.tracks)
     for name, track in run.tracks.items():
-        for field in fields(Track):
+        for field in fields(Trajectory):
             value = getattr(track, field.name)
             again = getattr(found.tracks[name], field.name)
             if value is None:

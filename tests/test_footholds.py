@@ -8,8 +8,8 @@ import pytest
 
 from stepaside.arena import Box, Disc, Obstacle, ObstacleSet, Room
 from stepaside.control.clearance.footholds import Footholds
-from stepaside.control.clearance.surroundings import HERE, GivenRoom
-from stepaside.control.scheme_builder import Clearance, guard_of
+from stepaside.control.clearance.surroundings import HERE, KnownRoom
+from stepaside.control.scheme_builder import ClearanceSetup, guard_of
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.zmp.control_settings import (
     ControlSettings,
@@ -220,7 +220,7 @@ def test_only_with_the_mpc_footsteps_are_moved(method: Method) -> None:
     frame = Pose(-1.5 + NEEDS + 0.06, 0.0, 0.5)
     outline = measure_outline(load_robot("nao"), GAIT)
     guard = guard_of(
-        Clearance(GivenRoom(room, frame), outline, 0.0),
+        ClearanceSetup(KnownRoom(room, frame), outline, 0.0),
         GAIT,
         ControlSettings(method, True),
     )

@@ -14,9 +14,9 @@ from stepaside.cli.main import main
 from stepaside.core.poses import wrap_angle
 from stepaside.games.duel_circle import no_circle_because, pace_of, theory_of
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.forecast import Expected, Forecast, forecast
+from stepaside.games.forecast import ExpectedEnd, Forecast, forecast
 from stepaside.games.initial_poses import with_start
-from stepaside.sim.camera_settings import RoomSettings
+from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
 
@@ -68,12 +68,12 @@ def closest(settings: DuelSettings, step: float = 0.005) -> float:
 @pytest.mark.parametrize("seed", range(3))
 def test_a_plain_duel_is_expected_on_the_circle(seed: int) -> None:
     found = told(DuelSettings(seed=seed, duration=90.0))
-    assert found.expected is Expected.CIRCLE
+    assert found.expected is ExpectedEnd.CIRCLE
     assert found.circle_since_s is not None
     assert 0.0 < found.circle_since_s < 60.0
     assert found.closest_m > 0.4
     soon = told(DuelSettings(seed=seed, duration=8.0))
-    assert soon.expected is Expected.LATER and soon.circle_since_s is None
+    assert soon.expected is ExpectedEnd.LATER and soon.circle_since_s is None
     assert soon.words == "the circle, after 8 s"
 
 
@@ -115,7 +115,7 @@ def test_a_circle_on_which_two_bodies_do_not_fit_is_contact(
     circle = theory_of(settings)
     assert circle.distance_m < settings.start.least
     found = told(settings)
-    assert found.expected is Expected.CONTACT
+    assert found.expected is ExpectedEnd.CONTACT
     assert found.words == (
         f"contact likely: the template comes to {found.closest_m:.2f} m, "
         "bodies are clear of each other from 0.40 m on"
@@ -127,7 +127,7 @@ def test_an_evader_that_looks_away_is_expected_to_be_touched(
     offset: float,
 ) -> None:
     settings = replace(BASE, start=replace(START, evader_offset=offset))
-    assert told(settings).expected is Expected.CONTACT
+    assert told(settings).expected is ExpectedEnd.CONTACT
 
 
 @pytest.mark.parametrize("release", [0.81, 0.85, 0.899])
@@ -138,7 +138,7 @@ def test_an_evader_that_ends_inside_the_circle_has_none(
     assert theory_of(playing(release_distance=1.5)).exists
     assert not theory_of(settings).exists
     found = told(settings)
-    assert found.expected is Expected.NO_CIRCLE
+    assert found.expected is ExpectedEnd.NO_CIRCLE
     assert found.words == no_circle_because(settings)
     assert f"evasion ends at {release:g} m" in found.words
 
@@ -146,7 +146,7 @@ def test_an_evader_that_ends_inside_the_circle_has_none(
 def test_an_evader_by_time_has_no_circle() -> None:
     settings = playing(trigger="time")
     assert not theory_of(settings).exists
-    assert told(settings).expected is Expected.NO_CIRCLE
+    assert told(settings).expected is ExpectedEnd.NO_CIRCLE
     assert "time to contact" in no_circle_because(settings)
 
 
@@ -171,7 +171,7 @@ def test_only_a_person_who_keeps_steering_has_a_circle(
 
 
 def test_nothing_is_told_of_other_games() -> None:
-    room = RoomSettings(plan=Room(3.0, 3.0))
+    room = SceneSettings(plan=Room(3.0, 3.0))
     for settings in (
         replace(BASE, start=StartSettings(), room=room),
         replace(BASE, evader_strategy="walk"),

@@ -19,7 +19,7 @@ from stepaside.studies import (
 from stepaside.studies import (
     tournament_campaign as tournament,
 )
-from stepaside.studies.record_store import RecordFile
+from stepaside.studies.record_store import RecordStore
 
 STRATEGY = """
 import os, sys
@@ -188,11 +188,11 @@ def test_a_model_without_the_robot_is_refused(
 
 def without(file: Path, field: str) -> None:
     """Take a field out of every record of a file, with right checksums."""
-    records = RecordFile(file).read()
+    records = RecordStore(file).read()
     file.unlink()
     for key, record in records.items():
         left = {k: v for k, v in record.items() if k != field}
-        RecordFile(file).append(key, left)
+        RecordStore(file).append(key, left)
 
 
 CAMPAIGNS: dict[str, tuple[str, ...]] = {
@@ -215,12 +215,12 @@ def test_a_record_without_a_field_is_set_aside_and_made_again(
 
     run()
     (file,) = folder.glob("*.jsonl")
-    fields = sorted({k for r in RecordFile(file).read().values() for k in r})
+    fields = sorted({k for r in RecordStore(file).read().values() for k in r})
     for field in fields:
-        number = len(RecordFile(file).read())
+        number = len(RecordStore(file).read())
         without(file, field)
         run()
-        again = RecordFile(file).read()
+        again = RecordStore(file).read()
         assert len(again) == number
         if field in (*duel_statistics.FIELDS, *tournament.FIELDS, "version"):
             assert all(field in record for record in again.values()), field

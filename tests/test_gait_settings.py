@@ -7,7 +7,7 @@ import pytest
 
 from stepaside.core.errors import PlanError
 from stepaside.planning import GaitSettings
-from stepaside.planning.gait_settings import Sole
+from stepaside.planning.gait_settings import SoleRectangle
 
 
 def test_gait_has_the_values_of_the_paper() -> None:
@@ -24,7 +24,7 @@ def test_gait_has_the_values_of_the_paper() -> None:
 
 def test_soles_are_those_of_the_nao_model() -> None:
     """The box of `docs/nao.md`: longer ahead, wider outside."""
-    sole = Sole()
+    sole = SoleRectangle()
     assert (sole.back, sole.front) == (-0.05, 0.095)
     assert (sole.outer, sole.inner) == (0.042, 0.035)
 
@@ -37,7 +37,7 @@ def test_a_sole_that_does_not_hold_its_frame_is_refused(
     name: str, value: float
 ) -> None:
     with pytest.raises(PlanError, match=f"sole.{name} must lie in"):
-        replace(Sole(), **{name: value})
+        replace(SoleRectangle(), **{name: value})
 
 
 def test_horizons_from_two_to_a_thousand_are_allowed() -> None:
@@ -52,4 +52,4 @@ def test_horizons_from_two_to_a_thousand_are_allowed() -> None:
 
 def test_soles_that_touch_are_refused() -> None:
     with pytest.raises(PlanError, match="overlap"):
-        replace(GaitSettings(), foot_spacing=2.0 * Sole().inner)
+        replace(GaitSettings(), foot_spacing=2.0 * SoleRectangle().inner)

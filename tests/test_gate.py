@@ -20,23 +20,23 @@ from websockets.sync.client import connect  # noqa: E402
 from stepaside.cli.main import main  # noqa: E402
 from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.report.viewer import access_control as gates  # noqa: E402
-from stepaside.report.viewer.access_control import Gate  # noqa: E402
-from stepaside.report.viewer.page_address import Address, listen  # noqa: E402
+from stepaside.report.viewer.access_control import AccessControl  # noqa: E402
+from stepaside.report.viewer.page_address import PageAddress, listen  # noqa: E402
 from stepaside.report.viewer.page_messages import LARGEST  # noqa: E402
-from stepaside.report.viewer.page_server import Served, open_server  # noqa: E402
+from stepaside.report.viewer.page_server import PageServer, open_server  # noqa: E402
 
 PROTOCOL: Any = [f"viser-v{viser.__version__}"]
 
 
 @pytest.fixture(scope="module")
-def served() -> Iterator[Served]:
+def served() -> Iterator[PageServer]:
     opened = open_server("127.0.0.1", 8790)
     yield opened
     opened.server.stop()
 
 
 @pytest.fixture(scope="module")
-def abroad() -> Iterator[Served]:
+def abroad() -> Iterator[PageServer]:
     opened = open_server("0.0.0.0", 8890)
     yield opened
     opened.server.stop()
@@ -53,11 +53,11 @@ def ask(port: int, path: str = "/", *headers: str) -> str:
     return answer.decode("latin-1")
 
 
-def port_of(served: Served) -> int:
+def port_of(served: PageServer) -> int:
     return served.gate.address.port
 
 
-def plug(served: Served, origin: str | None, path: str = "") -> Any:
+def plug(served: PageServer, origin: str | None, path: str = "") -> Any:
     """A socket of somebody who says to come from there."""
     return connect(
         f"ws://127.0.0.1:{port_of(served)}{path}",
@@ -67,7 +67,7 @@ def plug(served: Served, origin: str | None, path: str = "") -> Any:
     )
 
 
-def own(served: Served) -> str:
+def own(served: PageServer) -> str:
     return f"http://127.0.0.1:{port_of(served)}"
 
 
@@ -84,7 +84,7 @@ def until(true: Any) -> None:
 
 
 def test_who_knocks_with_nonsense_leaves_no_word(
-    served: Served, caplog: pytest.LogCaptureFixture
+    served: PageServer, caplog: pytest.LogCaptureFixture
 ) -> None:
     for raw in (b"\r\n\r\n", b"\xff" * 90 + b"\n", b"GET / HTTP/1.1\n"):
         with socket.create_connection(("127.0.0.1", port_of(served)), 9) as s:
@@ -96,7 +96,9 @@ def test_who_knocks_with_nonsense_leaves_no_word(
 
 
 @pytest.mark.parametrize("name", ["127.0.0.1", "localhost", "LOCALHOST"])
-def test_the_page_is_served_under_its_names(served: Served, name: str) -> None:
+def test_the_page_is_served_under_its_names(
+    served: PageServer, name: str
+) -> None:
     answer = ask(port_of(served), "/", f"Host: {name}:{port_of(served)}")
     assert answer.startswith("HTTP/1.1 200")
     assert "frame-ancestors 'none'" in answer
@@ -111,11 +113,11 @@ def test_the_page_is_served_under_its_names(served: Served, name: str) -> None:
         *("192.168.0.1", "0.0.0.0", "localhost.", "\xff", "127.1"),
     ],
 )
-def test_another_name_is_refused(served: Served, host: str) -> None:
+def test_another_name_is_refused(served: PageServer, host: str) -> None:
     assert ask(port_of(served), "/", f"Host: {host}")[9:12] in ("403", "")
 
 
-def test_a_request_has_one_name(served: Served) -> None:
+def test_a_request_has_one_name(served: PageServer) -> None:
     port = port_of(served)
     assert ask(port)[9:12] == "403"
     two = (f"Host: 127.0.0.1:{port}", "Host: evil.example")
@@ -131,7 +133,7 @@ def test_a_request_has_one_name(served: Served) -> None:
     ],
 )
 def test_a_socket_of_elsewhere_is_refused(
-    served: Served, origin: str | None
+    served: PageServer, origin: str | None
 ) -> None:
     said = origin and origin.format(p=port_of(served))
     with pytest.raises(InvalidStatus) as refused, plug(served, said):
@@ -139,7 +141,7 @@ def test_a_socket_of_elsewhere_is_refused(
     assert refused.value.response.status_code == 403
 
 
-def test_a_control_takes_its_own_values_alone(served: Served) -> None:
+def test_a_control_takes_its_own_values_alone(served: PageServer) -> None:
     gui = served.server.gui
     told: list[Any] = []
     refused: list[str] = []
@@ -198,7 +200,7 @@ def test_a_control_takes_its_own_values_alone(served: Served) -> None:
 
 
 def test_a_message_that_is_too_long_ends_the_connection(
-    served: Served,
+    served: PageServer,
 ) -> None:
     with plug(served, own(served)) as connection:
         connection.send(b"\xc4" * (LARGEST + 1))
@@ -209,7 +211,7 @@ def test_a_message_that_is_too_long_ends_the_connection(
 
 
 def test_so_many_pages_are_open_and_no_more(
-    served: Served, monkeypatch: pytest.MonkeyPatch
+    served: PageServer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(gates, "CLIENTS", 2)
     until(lambda: served.gate.connected == 0)
@@ -225,7 +227,9 @@ def test_so_many_pages_are_open_and_no_more(
         again.recv(timeout=200)
 
 
-def test_beyond_this_machine_the_link_holds_a_secret(abroad: Served) -> None:
+def test_beyond_this_machine_the_link_holds_a_secret(
+    abroad: PageServer,
+) -> None:
     port, secret = port_of(abroad), abroad.gate.secret
     host = f"Host: 127.0.0.1:{port}"
     assert len(secret) >= 32
@@ -243,21 +247,21 @@ def test_beyond_this_machine_the_link_holds_a_secret(abroad: Served) -> None:
 
 def test_everywhere_is_known_by_its_numbers_but_by_no_name() -> None:
     with socket.socket() as sock:
-        place = Address(sock, "0.0.0.0", "0.0.0.0", 80)
+        place = PageAddress(sock, "0.0.0.0", "0.0.0.0", 80)
         assert place.answers_to("192.168.0.7") and place.answers_to("::1")
         assert place.answers_to("localhost")
         assert not place.answers_to("evil.example")
         assert not place.answers_to("")
-        one = Address(sock, "192.168.0.7", "192.168.0.7", 80)
+        one = PageAddress(sock, "192.168.0.7", "192.168.0.7", 80)
         assert one.answers_to("192.168.0.7")
         assert not one.answers_to("192.168.0.8")
-        assert Gate(one).secret and Gate(place).secret
-        here = Address(sock, "::1", "::1", 80)
-        assert here.url == "http://[::1]:80" and not Gate(here).secret
+        assert AccessControl(one).secret and AccessControl(place).secret
+        here = PageAddress(sock, "::1", "::1", 80)
+        assert here.url == "http://[::1]:80" and not AccessControl(here).secret
 
 
 def test_a_port_that_is_taken_is_left_to_whoever_has_it(
-    served: Served,
+    served: PageServer,
 ) -> None:
     other = listen("127.0.0.1", port_of(served))
     with other.listening:

@@ -14,7 +14,7 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.sim import offscreen_rendering as graphics
 from stepaside.sim.offscreen_rendering import (
     BACKENDS,
-    Screen,
+    OffscreenRenderer,
     _works,
     choose_renderer,
 )
@@ -131,7 +131,7 @@ def test_a_screen_draws_what_a_camera_sees_the_right_way_up(
     mujoco.mj_forward(model, data)
     for name in ("MUJOCO_GL", "PYOPENGL_PLATFORM"):
         monkeypatch.setenv(name, "none")
-    screen = Screen(model, 64, 48, renderer)
+    screen = OffscreenRenderer(model, 64, 48, renderer)
     assert os.environ["MUJOCO_GL"] == renderer
     assert os.environ["PYOPENGL_PLATFORM"] == renderer
     ahead = screen.draw(data, model.camera("ahead").id)

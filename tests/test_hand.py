@@ -8,19 +8,19 @@ import pytest
 pytest.importorskip("viser")
 
 from stepaside.report.viewer.gamepad import held_by  # noqa: E402
-from stepaside.report.viewer.page_server import Served, open_server  # noqa: E402
+from stepaside.report.viewer.page_server import PageServer, open_server  # noqa: E402
 
 Held = list[tuple[float, bool]]
 
 
 @pytest.fixture(scope="module")
-def served() -> Iterator[Served]:
+def served() -> Iterator[PageServer]:
     opened = open_server("127.0.0.1", 8990)
     yield opened
     opened.server.stop()
 
 
-def ask(served: Served, path: str, **headers: str) -> tuple[int, str]:
+def ask(served: PageServer, path: str, **headers: str) -> tuple[int, str]:
     """Status and text of an answer."""
     link = HTTPConnection("127.0.0.1", served.gate.address.port, timeout=60)
     link.request("GET", path, headers=headers)
@@ -53,7 +53,7 @@ def test_only_a_stick_that_can_be_held_so_is_heard(
 
 
 def test_a_stick_is_on_the_page_that_attends_and_tells_how_it_is_held(
-    served: Served,
+    served: PageServer,
 ) -> None:
     assert "stick.js" not in ask(served, "/")[1]
     assert ask(served, "/hand?turn=0&going=1")[0] == 404
@@ -68,7 +68,7 @@ def test_a_stick_is_on_the_page_that_attends_and_tells_how_it_is_held(
     assert held == [(-0.5, True)]
 
 
-def test_pages_of_elsewhere_hold_no_stick(served: Served) -> None:
+def test_pages_of_elsewhere_hold_no_stick(served: PageServer) -> None:
     """An image or a form elsewhere sends no header of ours; nor a script."""
     held: Held = []
     served.hand.attend(lambda turn, going: held.append((turn, going)))

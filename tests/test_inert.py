@@ -18,7 +18,7 @@ from invented_run import run_of
 from stepaside.cli.main import main
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.run_archive import write_record
-from stepaside.games.trajectory import Track
+from stepaside.games.trajectory import Trajectory
 from stepaside.report.text_escaping import (
     UNSEEN,
     fill_page,
@@ -38,7 +38,7 @@ def small_run(message: str) -> DuelRun:
     times = np.arange(0.0, 3.0, 0.5)
     rows = np.column_stack([times, 0.0 * times, 0.0 * times])
     tracks = {
-        name: Track(com=rows, torso=rows + side)
+        name: Trajectory(com=rows, torso=rows + side)
         for name, side in (("pursuer", 0.0), ("evader", 1.0))
     }
     return run_of(times, tracks, message=message)

@@ -13,14 +13,14 @@ import pytest
 from stepaside.cli.main import LazyGroup
 from stepaside.cli.output_files import writes_files
 from stepaside.core.interrupts import (
-    Held,
+    DeferredInterrupt,
     interrupt,
+    interruptible,
     is_loading,
-    stoppable,
     was_interrupted,
 )
 from stepaside.games.outcome import Outcome
-from stepaside.games.player_record import Record
+from stepaside.games.player_record import PlayerRecord
 from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.studies.code_version import ROOT
@@ -77,7 +77,7 @@ def test_an_interrupt_comes_when_the_library_is_there(
         return "whole"
 
     whole = ""
-    with stoppable(), pytest.raises(KeyboardInterrupt):
+    with interruptible(), pytest.raises(KeyboardInterrupt):
         whole = loader("ExtensionFileLoader")(begin)
         while True:
             pass
@@ -92,7 +92,7 @@ class Lost:
 
 
 def test_an_interrupt_that_nobody_could_be_told_comes_again() -> None:
-    with stoppable(), pytest.raises(KeyboardInterrupt):
+    with interruptible(), pytest.raises(KeyboardInterrupt):
         Lost()
         while True:
             pass
@@ -111,7 +111,7 @@ def test_an_interrupt_while_a_lost_one_is_sent_again_is_not_lost(
             timer.join()
 
     monkeypatch.setattr(threading.Timer, "start", starts)
-    with stoppable(), pytest.raises(KeyboardInterrupt):
+    with interruptible(), pytest.raises(KeyboardInterrupt):
         Lost()
         while True:
             pass
@@ -129,12 +129,12 @@ def mistake(sign: signal.Signals) -> None:
 def test_an_interrupt_that_a_library_mistook_is_told_from_an_error(
     sign: signal.Signals,
 ) -> None:
-    with stoppable():
+    with interruptible():
         assert not was_interrupted()
         with pytest.raises(ValueError, match="bounding"):
             mistake(sign)
         assert was_interrupted()
-    with stoppable():
+    with interruptible():
         assert not was_interrupted()
 
 
@@ -174,12 +174,12 @@ def test_whoever_has_a_handler_keeps_it() -> None:
 
     before = signal.signal(signal.SIGINT, own)
     try:
-        with stoppable():
+        with interruptible():
             assert signal.getsignal(signal.SIGINT) is own
             assert signal.getsignal(signal.SIGTERM) is interrupt
     finally:
         signal.signal(signal.SIGINT, before)
-    with stoppable():
+    with interruptible():
         assert signal.getsignal(signal.SIGINT) is interrupt
     assert signal.getsignal(signal.SIGINT) is before
 
@@ -189,7 +189,11 @@ def test_an_interrupt_waits_for_what_is_being_done(
     sign: signal.Signals,
 ) -> None:
     whole = 0
-    with stoppable(), pytest.raises(KeyboardInterrupt), Held() as held:
+    with (
+        interruptible(),
+        pytest.raises(KeyboardInterrupt),
+        DeferredInterrupt() as held,
+    ):
         for _ in range(3):
             held.let_through()
             signal.raise_signal(sign)
@@ -199,7 +203,7 @@ def test_an_interrupt_waits_for_what_is_being_done(
 
 def test_the_second_interrupt_does_not_wait() -> None:
     whole = False
-    with pytest.raises(KeyboardInterrupt), Held():
+    with pytest.raises(KeyboardInterrupt), DeferredInterrupt():
         signal.raise_signal(signal.SIGINT)
         signal.raise_signal(signal.SIGINT)
         whole = True
@@ -208,7 +212,7 @@ def test_the_second_interrupt_does_not_wait() -> None:
 
 def test_work_without_an_end_is_interrupted_all_the_same() -> None:
     before = signal.getsignal(signal.SIGINT)
-    with pytest.raises(KeyboardInterrupt), Held():
+    with pytest.raises(KeyboardInterrupt), DeferredInterrupt():
         signal.raise_signal(signal.SIGINT)
         while True:
             pass
@@ -216,13 +220,13 @@ def test_work_without_an_end_is_interrupted_all_the_same() -> None:
 
 
 def test_what_waited_is_not_lost_at_the_end_and_comes_once() -> None:
-    with pytest.raises(KeyboardInterrupt), Held():
+    with pytest.raises(KeyboardInterrupt), DeferredInterrupt():
         signal.raise_signal(signal.SIGINT)
-    with pytest.raises(ValueError), Held() as held:
+    with pytest.raises(ValueError), DeferredInterrupt() as held:
         signal.raise_signal(signal.SIGINT)
         raise ValueError
     assert held._timer is None
-    with Held() as held:
+    with DeferredInterrupt() as held:
         held.let_through()
 
 
@@ -231,16 +235,16 @@ def test_a_record_is_whole_whenever_ctrl_c_comes(
     times: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """In the middle of a sample, even if it is pressed twice."""
-    add = Record.add
+    add = PlayerRecord.add
     count = iter(range(100))
 
-    def pressed(record: Record, seen: Any) -> None:
+    def pressed(record: PlayerRecord, seen: Any) -> None:
         add(record, seen)
         if next(count) == 5:
             for _ in range(times):
                 signal.raise_signal(signal.SIGINT)
 
-    monkeypatch.setattr(Record, "add", pressed)
+    monkeypatch.setattr(PlayerRecord, "add", pressed)
     run = run_walk(WalkSettings(duration=0.5))
     assert run.outcome is Outcome.INTERRUPTED and 3 < len(run.times) < 9
     lengths = {
@@ -270,7 +274,7 @@ def test_little_is_loaded_before_it_is_known_what_ctrl_c_does() -> None:
 
 def test_a_terminal_that_hangs_up_interrupts_once() -> None:
     """The shell sends a SIGHUP, and the system another one."""
-    with stoppable():
+    with interruptible():
         with pytest.raises(KeyboardInterrupt):
             signal.raise_signal(signal.SIGHUP)
         signal.raise_signal(signal.SIGHUP)
@@ -281,7 +285,7 @@ def test_a_terminal_that_hangs_up_interrupts_once() -> None:
 def test_what_shall_survive_its_terminal_does() -> None:
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
-        with stoppable():
+        with interruptible():
             signal.raise_signal(signal.SIGHUP)
     finally:
         signal.signal(signal.SIGHUP, before)

@@ -9,8 +9,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.games.sight_evaluation import Judge, Tally
-from stepaside.games.sight_summary import Spread
+from stepaside.games.sight_evaluation import FrameCounts, SightEvaluator
+from stepaside.games.sight_summary import ErrorSpread
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.frame_report import FrameReport
 from stepaside.perception.images import ColourImage, DepthImage, SonarEcho
@@ -68,7 +68,7 @@ class Scene:
         )
         other: Any = self.other
         head: Any = HEAD
-        self.judge = Judge(
+        self.judge = SightEvaluator(
             *(own, other, self.mind, head, things or [], still_times),
             wears_trim=wears_trim,
         )
@@ -176,7 +176,7 @@ def test_without_samples_there_are_no_errors() -> None:
     scene = Scene()
     assert scene.judge.array().shape == (0, 6)
     figures = scene.judge.figures()
-    assert figures.bearing_error_deg == Spread(None, None)
+    assert figures.bearing_error_deg == ErrorSpread(None, None)
     assert figures.misled_s == figures.lost_s == 0.0
     assert figures.detection_rate is None
     rows(scene, [90.0])
@@ -184,8 +184,8 @@ def test_without_samples_there_are_no_errors() -> None:
 
 
 def test_rates_are_shares_of_the_frames_that_could_have_found_it() -> None:
-    assert Tally().rate is None
-    assert Tally(shown=8, found=2).rate == 0.25
+    assert FrameCounts().rate is None
+    assert FrameCounts(shown=8, found=2).rate == 0.25
 
 
 @pytest.mark.parametrize("yaw", [0.0, 2.0, -1.0])
@@ -205,8 +205,8 @@ def test_frames_count_as_shown_found_and_false(
     scene.stand(TOP, side * radians(50.0), 1.2)
     show(scene, colour())
     show(scene, colour(), 0.0)
-    assert scene.judge.colour == Tally(shown=6, found=4, false=4)
-    assert scene.judge.depth == Tally()
+    assert scene.judge.colour == FrameCounts(shown=6, found=4, false=4)
+    assert scene.judge.depth == FrameCounts()
     figures = scene.judge.figures()
     assert figures.detection_rate == pytest.approx(4 / 6)
     assert figures.false_detections == 4
@@ -220,8 +220,8 @@ def test_both_cameras_count_separately_and_false_ones_together() -> None:
     show(scene, colour(), 0.0, 25.0)
     show(scene, depth(), 0.0, -25.0, 25.0)
     show(scene, depth())
-    assert scene.judge.colour == Tally(1, 1, 1)
-    assert scene.judge.depth == Tally(2, 1, 2)
+    assert scene.judge.colour == FrameCounts(1, 1, 1)
+    assert scene.judge.depth == FrameCounts(2, 1, 2)
     figures = scene.judge.figures()
     assert figures.false_detections == 3
     assert figures.detection_rate == 1.0
@@ -277,11 +277,11 @@ def test_what_was_not_noted_is_not_judged_nor_twice() -> None:
     scene = Scene()
     image = colour()
     scene.judge.judge(FrameReport(image, (1.0,)))
-    assert scene.judge.colour == Tally()
+    assert scene.judge.colour == FrameCounts()
     scene.stand(TOP, 0.0, 1.0)
     show(scene, image, 0.0)
     scene.judge.judge(FrameReport(image, (0.0,)))
-    assert scene.judge.colour == Tally(1, 1, 0)
+    assert scene.judge.colour == FrameCounts(1, 1, 0)
     scene.judge.note(SonarEcho(0.0, "left", 0.5))
 
 
@@ -291,7 +291,7 @@ def test_an_image_in_which_nobody_was_sought_is_not_judged() -> None:
     image = colour()
     scene.judge.note(image)
     scene.judge.judge(FrameReport(image, (), sought=False))
-    assert scene.judge.colour == Tally()
+    assert scene.judge.colour == FrameCounts()
     assert not scene.judge._true and not scene.judge.stills["colour"]
 
 
@@ -303,15 +303,15 @@ def test_a_look_notes_what_is_exposed_and_judges_what_is_reported() -> None:
     scene.eyes.exposed = [one, late, SonarEcho(0.0, "left", 0.5)]
     scene.mind.reports = [FrameReport(one, (0.0,))]
     scene.judge.look()
-    assert scene.judge.colour == Tally(1, 1, 0)
+    assert scene.judge.colour == FrameCounts(1, 1, 0)
     scene.stand(TOP, radians(50.0), 1.0)  # the truth counts of then
     scene.eyes.exposed = []
     scene.mind.reports = [FrameReport(late, (0.0,))]
     scene.judge.look()
-    assert scene.judge.colour == Tally(2, 2, 0)
+    assert scene.judge.colour == FrameCounts(2, 2, 0)
     scene.eyes.exposed, scene.mind.reports = [], []
     scene.judge.look()
-    assert scene.judge.colour == Tally(2, 2, 0)
+    assert scene.judge.colour == FrameCounts(2, 2, 0)
 
 
 def test_without_eyes_there_is_nothing_to_note() -> None:
@@ -320,7 +320,7 @@ def test_without_eyes_there_is_nothing_to_note() -> None:
     blind.eyes = None
     scene.mind.reports = [FrameReport(colour(), (0.0,))]
     scene.judge.look()
-    assert scene.judge.colour == Tally()
+    assert scene.judge.colour == FrameCounts()
 
 
 def test_stills_are_the_first_images_at_their_times() -> None:
@@ -341,8 +341,8 @@ def test_a_person_without_trim_counts_in_depth_images_alone() -> None:
     scene.stand(TOP, 0.0, 1.5)
     show(scene, colour())
     show(scene, colour(0.1), 40.0)
-    assert scene.judge.colour == Tally(shown=0, found=0, false=1)
+    assert scene.judge.colour == FrameCounts(shown=0, found=0, false=1)
     assert scene.judge.colour.rate is None
     scene.stand(DEPTH, 0.0, 1.5)
     show(scene, depth(), 0.0)
-    assert scene.judge.depth == Tally(shown=1, found=1, false=0)
+    assert scene.judge.depth == FrameCounts(shown=1, found=1, false=0)

@@ -16,8 +16,8 @@ from stepaside.fitting.derivation import LEANS, derive, least_lean
 from stepaside.fitting.description_edit import rewritten
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.gait_candidates import Candidate
-from stepaside.fitting.gait_feasibility import Borne
-from stepaside.fitting.walk_trials import Walked
+from stepaside.fitting.gait_feasibility import TorqueShares
+from stepaside.fitting.walk_trials import WalkTrialResult
 from stepaside.games.robot_settings import settings_of
 from stepaside.locomotion.zmp.control_settings import StabiliserSettings
 from stepaside.locomotion.zmp.joint_correction import Ankles
@@ -163,8 +163,8 @@ def test_it_leans_no_farther_than_it_has_to(
 ) -> None:
     """By what a step asks for at each lean that is tried."""
 
-    def borne(robot: RobotDescription, *_: object) -> Borne:
-        return Borne(0.5, "hip", shares[LEANS.index(robot.lean)], "hip")
+    def borne(robot: RobotDescription, *_: object) -> TorqueShares:
+        return TorqueShares(0.5, "hip", shares[LEANS.index(robot.lean)], "hip")
 
     monkeypatch.setattr(leaning, "torques_borne", borne)
     found, kept = least_lean(NAO, settings_of(NAO).gait, {})
@@ -191,7 +191,7 @@ def test_the_file_says_how_far_it_leans(tmp_path: Path) -> None:
 def test_a_walk_that_leans_on_purpose_may_tilt_by_that_too() -> None:
     def unsteadiness(tilt: float, lean: float) -> float:
         nothing = (0.0, 1.0, None, None)
-        return Walked(
+        return WalkTrialResult(
             *("forward", True, "walked", True, 1.0, tilt), *nothing, lean
         ).unsteadiness
 

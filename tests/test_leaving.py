@@ -9,11 +9,11 @@ from made_up_robot import GAIT, FakeStrategy, Run
 from stepaside.arena import Box, Disc, ObstacleSet, Room
 from stepaside.control.clearance.guard import (
     GAINED,
-    Choice,
     Guard,
-    Passage,
+    GuardDecision,
+    ManeuverClearance,
 )
-from stepaside.control.clearance.surroundings import GivenRoom, SeenRoom
+from stepaside.control.clearance.surroundings import KnownRoom, MappedRoom
 from stepaside.core.poses import Pose
 from stepaside.perception.floor_map import CELL, FloorMap
 from stepaside.planning import Direction, Foot, ManeuverPlan, ManeuverPlanner
@@ -27,7 +27,7 @@ NAO = measure_outline(load_robot("nao"), GAIT)
 SUPPORT = Pose(0.0, -0.05, 0.0)
 
 
-def plan_for(choice: Choice) -> ManeuverPlan:
+def plan_for(choice: GuardDecision) -> ManeuverPlan:
     return PLANNER.plan(
         choice.intent.heading,
         Direction(1 - 2 * choice.back),
@@ -37,29 +37,29 @@ def plan_for(choice: Choice) -> ManeuverPlan:
     )
 
 
-def beside(gap: float, around: Any, *, out: bool) -> Choice | None:
+def beside(gap: float, around: Any, *, out: bool) -> GuardDecision | None:
     """What is chosen beside a wall on the left, at a distance in [m]."""
     guard = Guard(around, NAO, PLANNER, margin=MARGIN)
     half = float(NAO.trunk[:, 1].max())
     around.solids = ObstacleSet((Box(0.0, half + gap + 0.5, 9.0, 1.0),))
-    passage = guard.passage(plan_for(Choice(Intent(0.0))), SUPPORT)
+    passage = guard.passage(plan_for(GuardDecision(Intent(0.0))), SUPPORT)
     assert passage.now == pytest.approx(gap, abs=1e-9)
     if out:
         return guard.way_out(Intent(0.6), plan_for, SUPPORT)
     return guard.choose(Intent(0.6), plan_for, SUPPORT, standing=True)
 
 
-def given() -> GivenRoom:
-    return GivenRoom(Room(obstacles=()), Pose(0.0, 0.0, 0.0))
+def given() -> KnownRoom:
+    return KnownRoom(Room(obstacles=()), Pose(0.0, 0.0, 0.0))
 
 
-def seen() -> SeenRoom:
-    return SeenRoom(FloorMap(), unseen_is_free=False)
+def seen() -> MappedRoom:
+    return MappedRoom(FloorMap(), unseen_is_free=False)
 
 
 def test_a_step_sways_to_where_a_map_sees_a_wall() -> None:
     """Beside a wall that is known to be there nobody does that."""
-    assert beside(0.3, given(), out=False) == Choice(Intent(0.6))
+    assert beside(0.3, given(), out=False) == GuardDecision(Intent(0.6))
     for around in (given(), seen()):
         assert beside(0.009, around, out=False) is None
     assert beside(0.009, given(), out=True) is None
@@ -79,16 +79,19 @@ def test_who_has_room_to_stand_takes_no_such_way() -> None:
 @pytest.mark.parametrize(
     ("passage", "leaves"),
     [
-        (Passage(0.01, 0.01, 0.011), True),
-        (Passage(0.01, -0.039, 0.011), True),
-        (Passage(0.01, -0.041, 0.011), False),  # too near on the way
-        (Passage(0.01, 0.01, 0.01), False),  # no farther
-        (Passage(0.01, 0.01, 0.009), False),
-        (Passage(0.02, 0.0, 0.1), False),  # where it stands is room enough
+        (ManeuverClearance(0.01, 0.01, 0.011), True),
+        (ManeuverClearance(0.01, -0.039, 0.011), True),
+        (ManeuverClearance(0.01, -0.041, 0.011), False),  # too near on the way
+        (ManeuverClearance(0.01, 0.01, 0.01), False),  # no farther
+        (ManeuverClearance(0.01, 0.01, 0.009), False),
+        (
+            ManeuverClearance(0.02, 0.0, 0.1),
+            False,
+        ),  # where it stands is room enough
     ],
 )
 def test_a_way_out_leads_farther_and_comes_hardly_nearer(
-    passage: Passage, leaves: bool
+    passage: ManeuverClearance, leaves: bool
 ) -> None:
     assert passage.leaves(MARGIN, 0.05) is leaves
     strict = leaves and passage.least >= passage.now
@@ -99,11 +102,11 @@ def test_of_two_ways_out_the_one_that_comes_least_near_is_taken(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     random = np.random.default_rng(3)
-    told: dict[Choice, Passage] = {}
+    told: dict[GuardDecision, ManeuverClearance] = {}
 
-    def passage(_: Guard, plan: Any, support: Pose) -> Passage:
+    def passage(_: Guard, plan: Any, support: Pose) -> ManeuverClearance:
         return told.setdefault(
-            plan, Passage(0.01, random.uniform(-0.03, 0.0), 0.02)
+            plan, ManeuverClearance(0.01, random.uniform(-0.03, 0.0), 0.02)
         )
 
     monkeypatch.setattr(Guard, "passage", passage)
@@ -119,8 +122,11 @@ def test_of_two_ways_out_the_one_that_comes_least_near_is_taken(
 def test_a_way_out_ends_farther_by_a_little_or_at_the_margin() -> None:
     """Else somebody would shuffle there for ever."""
     for last, leaves in ((0.013, False), (0.0141, True)):
-        assert Passage(0.01, 0.0, last).leaves(MARGIN, 0.05, GAINED) is leaves
-    assert Passage(0.018, 0.0, 0.0201).leaves(MARGIN, 0.05, GAINED)
+        assert (
+            ManeuverClearance(0.01, 0.0, last).leaves(MARGIN, 0.05, GAINED)
+            is leaves
+        )
+    assert ManeuverClearance(0.018, 0.0, 0.0201).leaves(MARGIN, 0.05, GAINED)
     assert GAINED == 0.004
 
 
@@ -134,7 +140,7 @@ def begun(around: Any) -> Foot | None:
 
 def test_neither_foot_is_left_out_for_a_loose_way() -> None:
     """A disc at the right: who swings the right foot first sways off it."""
-    ahead = plan_for(Choice(Intent(0.0)))
+    ahead = plan_for(GuardDecision(Intent(0.0)))
     around: Any
     for around in (given(), seen()):
         guard, away = Guard(around, NAO, PLANNER, margin=MARGIN), 0.1

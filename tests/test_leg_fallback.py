@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from stepaside.robots.description import load_robot
-from stepaside.robots.leg_joints import Legs
+from stepaside.robots.leg_joints import LegJoints
 from stepaside.robots.leg_kinematics import FAR, BodyReference, LegKinematics
 from stepaside.robots.tree_cache import load_tree
 
@@ -85,7 +85,7 @@ def test_a_step_that_has_no_solution_is_damped() -> None:
 
 def test_no_leg_that_is_plain_has_joints_that_move_as_one() -> None:
     """A knee that its hip moves leaves a row without an unknown."""
-    plain = Legs.of(NAO, load_tree(NAO))
+    plain = LegJoints.of(NAO, load_tree(NAO))
     assert plain.is_plain and len(plain.free) == 11
     for chain in (plain.chain(0), plain.chain(1)):
         columns = list(plain.columns)

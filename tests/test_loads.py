@@ -11,7 +11,7 @@ from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Array
 from stepaside.locomotion.zmp.feedforward import LoadFeedforward
 from stepaside.planning import GaitSettings
-from stepaside.robots.body_reference import Stance
+from stepaside.robots.body_reference import Posture
 from stepaside.robots.description import load_robot
 from stepaside.robots.joint_loads import LegLoads
 from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
@@ -121,7 +121,7 @@ class Moved:
         self.by = np.zeros(3)
 
     @property
-    def stance(self) -> Stance:
+    def stance(self) -> Posture:
         """The stance, somewhere else."""
         stance = self._kinematics.stance
         x, y, z = (np.array(stance.place) + self.by).tolist()

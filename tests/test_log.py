@@ -7,12 +7,12 @@ import pytest
 
 from made_up_robot import FIRST, STEP, Run
 from stepaside.core.poses import Array, Pose
-from stepaside.drivers.joint.joint_loop import Tick
-from stepaside.drivers.joint.safety import State
+from stepaside.drivers.joint.joint_loop import JointTick
+from stepaside.drivers.joint.safety import RobotState
 from stepaside.drivers.play_log import PlayLog
 from stepaside.drivers.row_file import read_rows
-from stepaside.drivers.velocity.velocity_body import Velocity
-from stepaside.drivers.velocity.velocity_loop import Driving, VelocityTick
+from stepaside.drivers.velocity.velocity_body import VelocityCommand
+from stepaside.drivers.velocity.velocity_loop import DrivingState, VelocityTick
 from stepaside.games.play_conversion import run_of_play
 from stepaside.games.play_rows import PlayedRows
 from stepaside.games.play_settings import PlaySettings
@@ -45,8 +45,8 @@ def test_every_column_is_what_its_name_says(tmp_path: Path) -> None:
     for i, time in enumerate((FIRST - 0.2, FIRST + 0.1, FIRST + STEP + 0.1)):
         scheme = run.until(time)
         told = measured(time, i)
-        tick = Tick(
-            State.WALKING,
+        tick = JointTick(
+            RobotState.WALKING,
             "chest button",
             scheme.phase,
             told,
@@ -90,13 +90,13 @@ def test_what_was_wanted_is_not_what_was_asked_for(tmp_path: Path) -> None:
     for i in range(3):
         log.note(
             VelocityTick(
-                Driving.WALKING,
+                DrivingState.WALKING,
                 "sees the other",
                 0.1 * i,
                 Pose(1.0 + i, 2.0, 0.3),
                 None,
-                Velocity(0.2, -0.4 - i),
-                Velocity(0.1 + i, -0.3),
+                VelocityCommand(0.2, -0.4 - i),
+                VelocityCommand(0.1 + i, -0.3),
             )
         )
     log.close()
@@ -154,13 +154,13 @@ def test_what_is_said_of_a_walk_is_of_its_walking_alone(
         seen = i < 200 or i % 4 == 0 or i >= 1000
         log.note(
             VelocityTick(
-                Driving.WALKING if walking else Driving.STANDING,
+                DrivingState.WALKING if walking else DrivingState.STANDING,
                 "sees the other",
                 now,
                 Pose(radius * np.sin(angle), -radius * np.cos(angle), angle),
                 Sighting(now, 0.3, 1.5 if walking else 0.9) if seen else None,
-                Velocity(0.1, 0.2),
-                Velocity(0.1, 0.2),
+                VelocityCommand(0.1, 0.2),
+                VelocityCommand(0.1, 0.2),
             )
         )
     log.close()

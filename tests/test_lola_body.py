@@ -18,9 +18,9 @@ from lola_fakes import (
 from stepaside.drivers.guardian_process import SessionLost
 from stepaside.drivers.joint.frame_clock import TICK
 from stepaside.drivers.joint.frames import pack_sensors
-from stepaside.drivers.joint.joint_body import LolaBody
+from stepaside.drivers.joint.joint_body import JointBody
 from stepaside.drivers.joint.joint_map import LEGS, NAMES
-from stepaside.drivers.joint.safety import State
+from stepaside.drivers.joint.safety import RobotState
 from stepaside.drivers.lola.lights import COLOURS
 from stepaside.drivers.lola.sight_channel import SightChannel
 from stepaside.drivers.lola.sight_message import SightMessage, pack_sight
@@ -33,16 +33,16 @@ START = [pack_sensors(pressed()), FINE]
 
 def body_of(
     script: Iterable[Any], **changes: Any
-) -> tuple[LolaBody, FakeLink, Clock]:
+) -> tuple[JointBody, FakeLink, Clock]:
     clock = Clock()
     link = FakeLink(clock, script)
-    body = LolaBody(
+    body = JointBody(
         link, JOINTS, STANCE, clock=clock, pause=clock.pause, **changes
     )
     return body, link, clock
 
 
-def play(body: LolaBody, ticks: int, targets: Any = STANCE) -> None:
+def play(body: JointBody, ticks: int, targets: Any = STANCE) -> None:
     for _ in range(ticks):
         body.read()
         body.write(targets)
@@ -51,10 +51,10 @@ def play(body: LolaBody, ticks: int, targets: Any = STANCE) -> None:
 
 def walking(
     script: Iterable[Any] = (), **changes: Any
-) -> tuple[LolaBody, FakeLink, Clock]:
+) -> tuple[JointBody, FakeLink, Clock]:
     body, link, clock = body_of([*TO_READY, *START, *script], **changes)
     play(body, 102)
-    assert body.state is State.WALKING
+    assert body.state is RobotState.WALKING
     return body, link, clock
 
 
@@ -62,13 +62,18 @@ def test_a_robot_that_stands_is_ready_after_a_second_and_walks_by_button() -> (
     None
 ):
     body, link, _ = body_of([*TO_READY, *START])
-    shown: list[State] = []
+    shown: list[RobotState] = []
     for _ in range(102):
         play(body, 1)
         if not shown or shown[-1] is not body.state:
             shown.append(body.state)
-    assert shown == [State.LIMP, State.REACHING, State.READY, State.WALKING]
-    assert link.sent[-1].lights["Chest"] == COLOURS[State.WALKING]
+    assert shown == [
+        RobotState.LIMP,
+        RobotState.REACHING,
+        RobotState.READY,
+        RobotState.WALKING,
+    ]
+    assert link.sent[-1].lights["Chest"] == COLOURS[RobotState.WALKING]
 
 
 def test_the_first_frames_are_answered_without_a_command() -> None:
@@ -119,20 +124,20 @@ def test_a_few_bad_frames_are_passed_over() -> None:
     broken = b"\x00" * 896
     body, link, _ = walking([*3 * [broken], FINE, broken, FINE])
     play(body, 2)
-    assert body.state is State.WALKING and body.refused == 4
+    assert body.state is RobotState.WALKING and body.refused == 4
 
 
-def state_of(body: LolaBody) -> State:
+def state_of(body: JointBody) -> RobotState:
     """What it does by now."""
     return body.state
 
 
-def lost(body: LolaBody, link: FakeLink, said: str) -> None:
+def lost(body: JointBody, link: FakeLink, said: str) -> None:
     """The session ends with a reason, and the robot goes limp softly."""
     before = len(link.sent)
     with pytest.raises(SessionLost, match=said):
         play(body, 100)
-    assert body.state is State.LIMP
+    assert body.state is RobotState.LIMP
     fading = [a.stiffness for a in link.sent[before:]]
     shares = [float(s.max()) for s in fading if s is not None]
     if not link.broken:
@@ -163,7 +168,7 @@ def test_endless_garbage_ends_the_session_as_silence_does() -> None:
 def test_falling_goes_limp_at_once(change: dict[str, Any]) -> None:
     body, link, _ = walking(60 * [sensor_frame(**change)])
     play(body, 1)
-    assert body.state is State.LIMP
+    assert body.state is RobotState.LIMP
     play(body, 59)
     stiffness = link.sent[-1].stiffness
     assert stiffness is not None and stiffness.max() == 0.0
@@ -216,7 +221,7 @@ def test_a_walk_ends_when_a_sensor_says_that_it_must(
 ) -> None:
     body, _, _ = walking(frames)
     play(body, len(frames))
-    assert body.state is State.STOPPING and word in body.reason
+    assert body.state is RobotState.STOPPING and word in body.reason
 
 
 @pytest.mark.parametrize(
@@ -238,14 +243,14 @@ def test_a_walk_ends_when_a_sensor_says_that_it_must(
 def test_a_walk_goes_on_where_all_is_well(frames: list[Any]) -> None:
     body, _, _ = walking(frames)
     play(body, len(frames))
-    assert body.state is State.WALKING
+    assert body.state is RobotState.WALKING
 
 
 def test_turning_about_the_vertical_is_no_fall() -> None:
     turning = sensor_frame(gyroscope=np.array([0.0, 0.0, 5.0]))
     body, _, _ = walking([turning])
     play(body, 1)
-    assert body.state is State.WALKING
+    assert body.state is RobotState.WALKING
 
 
 def test_a_control_that_was_away_finds_its_robot_limp() -> None:
@@ -255,7 +260,7 @@ def test_a_control_that_was_away_finds_its_robot_limp() -> None:
     link.queue = 83 * [pack_sensors(weak)]
     body.frame = weak
     play(body, 1)
-    assert body.state is State.LIMP
+    assert body.state is RobotState.LIMP
     assert "no frame was read for 1.0" in body.reason
     stiffness = link.sent[-1].stiffness
     assert stiffness is not None and stiffness.max() < 0.4
@@ -267,13 +272,13 @@ def test_a_queue_that_was_left_is_read_to_its_newest_frame() -> None:
     clock.now += 5 * TICK
     link.queue = [FINE] * 4 + [pack_sensors(last)]
     assert body.read().percepts[0].distance == 0.5  # type: ignore[union-attr]
-    assert body.state is State.WALKING
+    assert body.state is RobotState.WALKING
 
 
 def test_control_that_asks_for_what_is_no_number_is_cut_off() -> None:
     body, link, _ = walking(2 * [FINE])
     play(body, 1, np.full(23, np.nan))
-    assert body.state is State.LIMP and "no number" in body.reason
+    assert body.state is RobotState.LIMP and "no number" in body.reason
     assert link.sent[-1].position is not None
     assert np.all(np.isfinite(link.sent[-1].position))
 
@@ -290,22 +295,22 @@ def test_the_button_stops_and_control_says_when_it_stands() -> None:
             link.script = iter([moved] * 3)
 
     play(body, 2)
-    assert body.state is State.STOPPING
+    assert body.state is RobotState.STOPPING
     body.halted()
-    assert state_of(body) is State.RESTING
+    assert state_of(body) is RobotState.RESTING
     link.follow = follow
     link.script = iter(rest)
     for _ in range(600):
         play(body, 1)
-        if state_of(body) is State.LIMP:
+        if state_of(body) is RobotState.LIMP:
             break
-    assert state_of(body) is State.LIMP and body.reason == "rests"
+    assert state_of(body) is RobotState.LIMP and body.reason == "rests"
 
 
 def test_a_dry_run_commands_nothing_but_lights() -> None:
     body, link, _ = body_of([*TO_READY, *START, *TO_READY], dry_run=True)
     play(body, 150)
-    assert body.state is State.WALKING
+    assert body.state is RobotState.WALKING
     body.close()
     for answer in link.sent:
         assert answer.position is None and answer.stiffness is None
@@ -347,7 +352,7 @@ def test_a_world_in_lock_step_may_think_for_seconds() -> None:
     script: list[Any] = [*frames[:4], *400 * [None], frames[4]]
     body, _, _ = body_of(script)
     play(body, 5)
-    assert body.state is State.REACHING
+    assert body.state is RobotState.REACHING
 
 
 def test_sightings_come_with_their_frame_and_with_their_age() -> None:

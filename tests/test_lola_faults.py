@@ -27,11 +27,11 @@ from stepaside.drivers.joint.frames import (
     pack_actuators,
     pack_sensors,
 )
-from stepaside.drivers.joint.joint_body import LolaBody
+from stepaside.drivers.joint.joint_body import JointBody
 from stepaside.drivers.joint.link import SocketLink
-from stepaside.drivers.joint.safety import State
+from stepaside.drivers.joint.safety import RobotState
 from stepaside.drivers.joint.served_joints import FADING, SILENT
-from stepaside.drivers.lola.lola_address import Address
+from stepaside.drivers.lola.lola_address import LolaAddress
 from stepaside.drivers.lola.lola_connection import open_lola
 from stepaside.drivers.lola.lola_server import LolaServer
 from stepaside.drivers.lola.wire import SENSOR_BYTES
@@ -105,8 +105,10 @@ def open_files() -> int:
 
 
 @contextmanager
-def serving(folder: Path) -> Iterator[tuple[LolaServer, MadeUpRobot, Address]]:
-    robot, address = MadeUpRobot(), Address(path=str(folder / "r"))
+def serving(
+    folder: Path,
+) -> Iterator[tuple[LolaServer, MadeUpRobot, LolaAddress]]:
+    robot, address = MadeUpRobot(), LolaAddress(path=str(folder / "r"))
     server = LolaServer(address, robot, JOINTS, lock_step=True)
     try:
         yield server, robot, address
@@ -162,7 +164,7 @@ def test_control_that_is_frozen_leaves_no_stiff_robot(tmp_path: Path) -> None:
 
 
 def test_a_world_that_is_killed_ends_control(tmp_path: Path) -> None:
-    address = Address(path=str(tmp_path / "r"))
+    address = LolaAddress(path=str(tmp_path / "r"))
     with process(WORLD, address.path) as world:
         assert world.stdout is not None and world.stdout.readline()
         body = open_lola(address, JOINTS, STANCE)
@@ -174,12 +176,12 @@ def test_a_world_that_is_killed_ends_control(tmp_path: Path) -> None:
             while True:
                 body.read()
                 body.write(STANCE)
-        assert body.state is State.LIMP
+        assert body.state is RobotState.LIMP
         body.close()
 
 
 def test_a_world_that_is_frozen_ends_control(tmp_path: Path) -> None:
-    address = Address(path=str(tmp_path / "r"))
+    address = LolaAddress(path=str(tmp_path / "r"))
     with process(WORLD, address.path) as world:
         assert world.stdout is not None and world.stdout.readline()
         body = open_lola(address, JOINTS, STANCE)
@@ -192,9 +194,9 @@ def test_a_world_that_is_frozen_ends_control(tmp_path: Path) -> None:
         body.close()
 
 
-def body_on(near: socket.socket) -> LolaBody:
+def body_on(near: socket.socket) -> JointBody:
     clock = Clock()
-    return LolaBody(
+    return JointBody(
         SocketLink(near, SENSOR_BYTES),
         JOINTS,
         STANCE,
@@ -255,12 +257,12 @@ def test_ten_thousand_garbage_frames_from_a_robot_are_passed_over() -> None:
     )
     clock = Clock()
     link = FakeLink(clock, script)
-    body = LolaBody(link, JOINTS, STANCE, clock=clock, pause=clock.pause)
+    body = JointBody(link, JOINTS, STANCE, clock=clock, pause=clock.pause)
     for _ in range(10_000):
         time = body.read().time
         body.write(STANCE)
     assert body.refused == 10_000
-    assert body.state is State.READY
+    assert body.state is RobotState.READY
     assert time == pytest.approx(19_998 * 0.012)
     body.close()
 

@@ -13,7 +13,7 @@ from stepaside.drivers.joint.stiffness_guardian import (
     StiffnessGuardian,
     let_go,
 )
-from stepaside.drivers.lola.lola_server import AnswerReader
+from stepaside.drivers.lola.lola_server import ActuatorFrameReader
 
 TARGETS = np.linspace(-0.2, 0.2, 25)
 STIFF = np.full(25, 0.8)
@@ -22,7 +22,7 @@ STIFF = np.full(25, 0.8)
 def answers_until_limp(robot: socket.socket) -> list[ActuatorFrame]:
     """What a robot is told, until it is told to be limp or left."""
     robot.settimeout(30.0)
-    reader, answers = AnswerReader(), []
+    reader, answers = ActuatorFrameReader(), []
     while True:
         data = robot.recv(4096)
         answers += reader.feed(data) if data else []

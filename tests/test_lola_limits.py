@@ -7,8 +7,12 @@ from lola_fakes import JOINTS, STANCE, sensor_frame
 from stepaside.drivers.joint.frame_clock import TICK
 from stepaside.drivers.joint.frames import ActuatorFrame, pack_actuators
 from stepaside.drivers.joint.joint_map import HIGH, LOW, NAMES, SPEED, JointMap
-from stepaside.drivers.joint.motion_states import CROUCH, SLOWLY, Motion
-from stepaside.drivers.joint.safety import State
+from stepaside.drivers.joint.motion_states import (
+    CROUCH,
+    SLOWLY,
+    JointMotionState,
+)
+from stepaside.drivers.joint.safety import RobotState
 from stepaside.drivers.joint.target_limits import (
     HOT,
     LEAST,
@@ -83,9 +87,11 @@ def test_stiffness_takes_a_second_to_grow_and_half_of_one_to_fade() -> None:
     assert faded[-1] == 0.0 < faded[-2]
 
 
-def motion_at(state: State, ticks: int, start: np.ndarray) -> Motion:
+def motion_at(
+    state: RobotState, ticks: int, start: np.ndarray
+) -> JointMotionState:
     """A motion of a robot that follows its targets."""
-    motion = Motion(JointMap(JOINTS), STANCE)
+    motion = JointMotionState(JointMap(JOINTS), STANCE)
     position = start
     for _ in range(ticks):
         frame = sensor_frame(position=position)
@@ -97,57 +103,59 @@ def motion_at(state: State, ticks: int, start: np.ndarray) -> Motion:
 def test_a_posture_is_reached_slowly_from_where_the_robot_is() -> None:
     start = np.zeros(25)
     start[KNEE] = 1.5
-    motion = Motion(JointMap(JOINTS), STANCE)
+    motion = JointMotionState(JointMap(JOINTS), STANCE)
     last, position = start, start
     for _ in range(400):
         targets, stiffness = motion.move(
-            State.REACHING, sensor_frame(position=position), STANCE
+            RobotState.REACHING, sensor_frame(position=position), STANCE
         )
         assert np.all(np.abs(targets - last) <= SLOWLY * TICK + 1e-12)
         last = position = targets
-        if motion.reached(State.REACHING, position):
+        if motion.reached(RobotState.REACHING, position):
             break
     assert stiffness.tolist() == [1.0] * 25
     np.testing.assert_allclose(position[:23], STANCE, atol=0.02)
 
 
 def test_a_leg_that_is_held_has_not_reached_the_stance() -> None:
-    motion = motion_at(State.REACHING, 400, np.zeros(25))
+    motion = motion_at(RobotState.REACHING, 400, np.zeros(25))
     there = motion.targets.copy()
-    assert motion.reached(State.REACHING, there)
+    assert motion.reached(RobotState.REACHING, there)
     held = there.copy()
     held[KNEE] += 0.5
-    assert not motion.reached(State.REACHING, held)
-    assert not motion.reached(State.WALKING, there)
+    assert not motion.reached(RobotState.REACHING, held)
+    assert not motion.reached(RobotState.WALKING, there)
 
 
 def test_rest_is_a_crouch_over_the_feet() -> None:
-    motion = motion_at(State.RESTING, 600, sensor_frame().position)
+    motion = motion_at(RobotState.RESTING, 600, sensor_frame().position)
     for side in "LR":
         knee = motion.targets[NAMES.index(f"{side}KneePitch")]
         assert knee == pytest.approx(CROUCH["KneePitch"], abs=0.02)
     pitches = CROUCH["HipPitch"] + CROUCH["KneePitch"] + CROUCH["AnklePitch"]
     assert pitches == pytest.approx(0.0)  # the torso stays upright
-    assert motion.reached(State.RESTING, motion.targets)
+    assert motion.reached(RobotState.RESTING, motion.targets)
 
 
 def test_a_limp_robot_holds_nothing_and_starts_from_where_it_lies() -> None:
-    motion = Motion(JointMap(JOINTS), STANCE)
+    motion = JointMotionState(JointMap(JOINTS), STANCE)
     lying = np.full(25, 0.3)
-    motion.move(State.LIMP, sensor_frame(), STANCE)
+    motion.move(RobotState.LIMP, sensor_frame(), STANCE)
     targets, stiffness = motion.move(
-        State.LIMP, sensor_frame(position=lying), STANCE
+        RobotState.LIMP, sensor_frame(position=lying), STANCE
     )
     assert stiffness.tolist() == [0.0] * 25 and motion.is_limp
     np.testing.assert_array_equal(targets, lying)
 
 
 def test_every_state_has_its_own_colour_and_fits_the_wire() -> None:
-    assert set(COLOURS) == set(State)
-    assert len(set(COLOURS.values())) == len(State)
-    for state in State:
+    assert set(COLOURS) == set(RobotState)
+    assert len(set(COLOURS.values())) == len(RobotState)
+    for state in RobotState:
         lights = lights_for(state, sees=True, charge=0.5)
         assert lights["Chest"] == COLOURS[state]
         assert sum(lights["LEar"]) == 5.0
         assert len(pack_actuators(ActuatorFrame(lights=lights))) > 400
-    assert sum(lights_for(State.READY, sees=False, charge=2)["LEye"]) == 0.0
+    assert (
+        sum(lights_for(RobotState.READY, sees=False, charge=2)["LEye"]) == 0.0
+    )

@@ -5,18 +5,21 @@ from typing import Any
 import pytest
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.drivers.joint.safety import Safety, State
-from stepaside.drivers.joint.safety_conditions import SafetySettings, Seen
+from stepaside.drivers.joint.safety import RobotState, Safety
+from stepaside.drivers.joint.safety_conditions import (
+    SafetyInputs,
+    SafetySettings,
+)
 
 SETTINGS = SafetySettings()
-MOVING = [s for s in State if s is not State.LIMP]
+MOVING = [s for s in RobotState if s is not RobotState.LIMP]
 
 
-def seen(time: float = 0.0, **changes: Any) -> Seen:
-    return Seen(time)._replace(**changes)
+def seen(time: float = 0.0, **changes: Any) -> SafetyInputs:
+    return SafetyInputs(time)._replace(**changes)
 
 
-def press(machine: Safety, time: float = 0.0) -> State:
+def press(machine: Safety, time: float = 0.0) -> RobotState:
     machine.frame(seen(time, chest_pressed=True))
     return machine.frame(seen(time))
 
@@ -28,98 +31,100 @@ def warm() -> Safety:
     return machine
 
 
-def at(state: State) -> Safety:
+def at(state: RobotState) -> Safety:
     """A machine in a state, since time zero."""
     machine = warm()
-    if state is State.REACHING:
+    if state is RobotState.REACHING:
         return machine
     machine.frame(seen(reached=True))
-    if state is State.READY:
+    if state is RobotState.READY:
         return machine
     press(machine)
-    if state is State.WALKING:
+    if state is RobotState.WALKING:
         return machine
     press(machine)
-    if state is State.STOPPING:
+    if state is RobotState.STOPPING:
         return machine
     machine.halted(0.0)
-    if state is State.RESTING:
+    if state is RobotState.RESTING:
         return machine
     machine.frame(seen(reached=True))
     return machine
 
 
-@pytest.mark.parametrize("state", State)
-def test_every_state_can_be_reached(state: State) -> None:
+@pytest.mark.parametrize("state", RobotState)
+def test_every_state_can_be_reached(state: RobotState) -> None:
     assert at(state).state is state
 
 
 def test_nothing_moves_on_what_the_first_frames_say() -> None:
     machine = Safety(SETTINGS)
     for _ in range(SETTINGS.warm_up - 1):
-        assert machine.frame(seen(reached=True)) is State.LIMP
-    assert machine.frame(seen()) is State.REACHING
+        assert machine.frame(seen(reached=True)) is RobotState.LIMP
+    assert machine.frame(seen()) is RobotState.REACHING
 
 
 def test_only_walking_and_stopping_are_moved_by_control() -> None:
-    movers = {state for state in State if state.moves_by_control}
-    assert movers == {State.WALKING, State.STOPPING}
+    movers = {state for state in RobotState if state.moves_by_control}
+    assert movers == {RobotState.WALKING, RobotState.STOPPING}
 
 
 def test_the_button_acts_when_it_is_let_go_and_only_once() -> None:
-    machine = at(State.READY)
+    machine = at(RobotState.READY)
     for _ in range(5):
-        assert machine.frame(seen(chest_pressed=True)) is State.READY
-    assert machine.frame(seen()) is State.WALKING
+        assert machine.frame(seen(chest_pressed=True)) is RobotState.READY
+    assert machine.frame(seen()) is RobotState.WALKING
     for _ in range(5):
-        assert machine.frame(seen()) is State.WALKING
+        assert machine.frame(seen()) is RobotState.WALKING
     assert machine.reason == "chest button"
 
 
 @pytest.mark.parametrize(
     ("state", "after"),
     [
-        (State.LIMP, State.REACHING),
-        (State.REACHING, State.RESTING),
-        (State.READY, State.WALKING),
-        (State.WALKING, State.STOPPING),
-        (State.STOPPING, State.RESTING),
-        (State.RESTING, State.RESTING),
+        (RobotState.LIMP, RobotState.REACHING),
+        (RobotState.REACHING, RobotState.RESTING),
+        (RobotState.READY, RobotState.WALKING),
+        (RobotState.WALKING, RobotState.STOPPING),
+        (RobotState.STOPPING, RobotState.RESTING),
+        (RobotState.RESTING, RobotState.RESTING),
     ],
 )
-def test_the_button_starts_stops_and_wakes(state: State, after: State) -> None:
+def test_the_button_starts_stops_and_wakes(
+    state: RobotState, after: RobotState
+) -> None:
     assert press(at(state)) is after
 
 
 @pytest.mark.parametrize("state", MOVING)
-def test_a_robot_that_falls_goes_limp(state: State) -> None:
+def test_a_robot_that_falls_goes_limp(state: RobotState) -> None:
     machine = at(state)
     assert machine.frame(seen(tilt=0.99 * SETTINGS.fall)) is state
-    assert machine.frame(seen(tilt=1.01 * SETTINGS.fall)) is State.LIMP
+    assert machine.frame(seen(tilt=1.01 * SETTINGS.fall)) is RobotState.LIMP
     assert "falls" in machine.reason
 
 
 def test_a_robot_that_lies_does_not_get_up_by_the_button() -> None:
-    machine = at(State.LIMP)
+    machine = at(RobotState.LIMP)
     machine.frame(seen(tilt=1.5, chest_pressed=True))
-    assert machine.frame(seen(tilt=1.5)) is State.LIMP
+    assert machine.frame(seen(tilt=1.5)) is RobotState.LIMP
     assert "falls" in machine.reason
-    assert press(machine) is State.REACHING
+    assert press(machine) is RobotState.REACHING
 
 
 @pytest.mark.parametrize("hot", [{"status": 2}, {"temperature": 81.0}])
 @pytest.mark.parametrize(
     ("state", "after"),
     [
-        (State.WALKING, State.STOPPING),
-        (State.READY, State.RESTING),
-        (State.REACHING, State.RESTING),
-        (State.RESTING, State.RESTING),
-        (State.LIMP, State.LIMP),
+        (RobotState.WALKING, RobotState.STOPPING),
+        (RobotState.READY, RobotState.RESTING),
+        (RobotState.REACHING, RobotState.RESTING),
+        (RobotState.RESTING, RobotState.RESTING),
+        (RobotState.LIMP, RobotState.LIMP),
     ],
 )
 def test_a_hot_robot_comes_to_rest(
-    state: State, after: State, hot: dict[str, Any]
+    state: RobotState, after: RobotState, hot: dict[str, Any]
 ) -> None:
     machine = at(state)
     assert machine.frame(seen(**hot)) is after
@@ -127,60 +132,64 @@ def test_a_hot_robot_comes_to_rest(
 
 
 def test_a_hot_robot_that_has_rested_goes_limp_and_stays_so() -> None:
-    machine = at(State.RESTING)
-    assert machine.frame(seen(status=2, reached=True)) is State.LIMP
-    assert machine.frame(seen(status=2, chest_pressed=True)) is State.LIMP
-    assert machine.frame(seen(status=2)) is State.LIMP
+    machine = at(RobotState.RESTING)
+    assert machine.frame(seen(status=2, reached=True)) is RobotState.LIMP
+    assert machine.frame(seen(status=2, chest_pressed=True)) is RobotState.LIMP
+    assert machine.frame(seen(status=2)) is RobotState.LIMP
 
 
 @pytest.mark.parametrize("state", MOVING)
-def test_critical_heat_goes_limp(state: State) -> None:
-    assert at(state).frame(seen(status=3)) is State.LIMP
+def test_critical_heat_goes_limp(state: RobotState) -> None:
+    assert at(state).frame(seen(status=3)) is RobotState.LIMP
 
 
 def test_a_little_heat_is_borne() -> None:
-    machine = at(State.WALKING)
-    assert machine.frame(seen(status=1, temperature=79.0)) is State.WALKING
+    machine = at(RobotState.WALKING)
+    assert (
+        machine.frame(seen(status=1, temperature=79.0)) is RobotState.WALKING
+    )
 
 
-@pytest.mark.parametrize("state", [State.REACHING, State.RESTING])
+@pytest.mark.parametrize("state", [RobotState.REACHING, RobotState.RESTING])
 def test_a_posture_that_is_not_reached_in_time_is_given_up(
-    state: State,
+    state: RobotState,
 ) -> None:
     machine = at(state)
     assert machine.frame(seen(SETTINGS.longest_reach)) is state
-    assert machine.frame(seen(SETTINGS.longest_reach + 0.1)) is State.LIMP
+    assert machine.frame(seen(SETTINGS.longest_reach + 0.1)) is RobotState.LIMP
     assert "took too long" in machine.reason
 
 
 def test_control_that_does_not_stop_is_stopped() -> None:
-    machine = at(State.STOPPING)
-    assert machine.frame(seen(SETTINGS.longest_stop)) is State.STOPPING
-    assert machine.frame(seen(SETTINGS.longest_stop + 0.1)) is State.RESTING
+    machine = at(RobotState.STOPPING)
+    assert machine.frame(seen(SETTINGS.longest_stop)) is RobotState.STOPPING
+    assert (
+        machine.frame(seen(SETTINGS.longest_stop + 0.1)) is RobotState.RESTING
+    )
 
 
 def test_halting_matters_only_to_a_robot_that_stops() -> None:
-    for state in State:
+    for state in RobotState:
         machine = at(state)
         machine.halted(0.0)
-        stops = state is State.STOPPING
-        assert machine.state is (State.RESTING if stops else state)
+        stops = state is RobotState.STOPPING
+        assert machine.state is (RobotState.RESTING if stops else state)
 
 
 @pytest.mark.parametrize("state", MOVING)
-def test_what_fails_goes_limp_and_says_why(state: State) -> None:
+def test_what_fails_goes_limp_and_says_why(state: RobotState) -> None:
     machine = at(state)
     machine.fail("no good frame for 0.1 s", 0.0)
-    assert machine.state is State.LIMP
+    assert machine.state is RobotState.LIMP
     assert machine.reason == "no good frame for 0.1 s"
 
 
 def test_rest_stops_who_walks_and_lowers_who_stands() -> None:
     for state, after in (
-        (State.WALKING, State.STOPPING),
-        (State.READY, State.RESTING),
-        (State.REACHING, State.RESTING),
-        (State.LIMP, State.LIMP),
+        (RobotState.WALKING, RobotState.STOPPING),
+        (RobotState.READY, RobotState.RESTING),
+        (RobotState.REACHING, RobotState.RESTING),
+        (RobotState.LIMP, RobotState.LIMP),
     ):
         machine = at(state)
         machine.rest("asked to", 0.0)
@@ -189,7 +198,7 @@ def test_rest_stops_who_walks_and_lowers_who_stands() -> None:
 
 def lasting(
     machine: Safety, duration: float, begin: float = 1.0, **changes: Any
-) -> State:
+) -> RobotState:
     """What frames of that duration, 12 ms apart, lead to."""
     count = round(duration / 0.012)
     for i in range(count + 1):
@@ -220,47 +229,49 @@ LASTING = 0.75  # longer than any condition has to last, in [s]
 @pytest.mark.parametrize(
     ("state", "after"),
     [
-        (State.WALKING, State.STOPPING),
-        (State.STOPPING, State.STOPPING),
-        (State.READY, State.RESTING),
-        (State.REACHING, State.RESTING),
-        (State.RESTING, State.RESTING),
-        (State.LIMP, State.LIMP),
+        (RobotState.WALKING, RobotState.STOPPING),
+        (RobotState.STOPPING, RobotState.STOPPING),
+        (RobotState.READY, RobotState.RESTING),
+        (RobotState.REACHING, RobotState.RESTING),
+        (RobotState.RESTING, RobotState.RESTING),
+        (RobotState.LIMP, RobotState.LIMP),
     ],
 )
 def test_a_robot_that_must_not_go_on_stops_and_rests(
-    state: State, after: State, changes: dict[str, Any], word: str
+    state: RobotState, after: RobotState, changes: dict[str, Any], word: str
 ) -> None:
     machine = at(state)
     assert lasting(machine, LASTING, **changes) is after
-    if state not in (State.STOPPING, State.RESTING):
+    if state not in (RobotState.STOPPING, RobotState.RESTING):
         assert word in machine.reason
     machine.halted(2.0)
-    rests = (State.WALKING, State.STOPPING)
-    assert machine.state is (State.RESTING if state in rests else after)
+    rests = (RobotState.WALKING, RobotState.STOPPING)
+    assert machine.state is (RobotState.RESTING if state in rests else after)
 
 
 @pytest.mark.parametrize(("changes", "word"), TO_STAND.values(), ids=TO_STAND)
 def test_a_robot_that_may_stand_but_not_walk_stops_and_stands(
     changes: dict[str, Any], word: str
 ) -> None:
-    machine = at(State.WALKING)
-    assert lasting(machine, LASTING, **changes) is State.STOPPING
+    machine = at(RobotState.WALKING)
+    assert lasting(machine, LASTING, **changes) is RobotState.STOPPING
     assert word in machine.reason
     machine.halted(2.0)
-    assert machine.state is State.READY and word in machine.reason
+    assert machine.state is RobotState.READY and word in machine.reason
     # Nothing but the button lets it walk on, and not while that lasts.
     machine.frame(seen(2.1, chest_pressed=True, **changes))
-    assert machine.frame(seen(2.2, **changes)) is State.READY
+    assert machine.frame(seen(2.2, **changes)) is RobotState.READY
     assert word in machine.reason
-    assert lasting(machine, LASTING, 3.0) is State.READY
-    assert press(machine, 5.0) is State.WALKING
+    assert lasting(machine, LASTING, 3.0) is RobotState.READY
+    assert press(machine, 5.0) is RobotState.WALKING
 
 
-@pytest.mark.parametrize("state", [State.REACHING, State.READY, State.LIMP])
+@pytest.mark.parametrize(
+    "state", [RobotState.REACHING, RobotState.READY, RobotState.LIMP]
+)
 @pytest.mark.parametrize(("changes", "word"), TO_STAND.values(), ids=TO_STAND)
 def test_a_robot_that_may_not_walk_may_take_its_stance(
-    changes: dict[str, Any], word: str, state: State
+    changes: dict[str, Any], word: str, state: RobotState
 ) -> None:
     assert lasting(at(state), LASTING, **changes) is state
 
@@ -268,14 +279,16 @@ def test_a_robot_that_may_not_walk_may_take_its_stance(
 @pytest.mark.parametrize("name", [*TO_REST, *TO_STAND])
 def test_every_third_frame_alone_is_no_reason_to_stop(name: str) -> None:
     changes, _ = (TO_REST | TO_STAND)[name]
-    machine = at(State.WALKING)
+    machine = at(RobotState.WALKING)
     for i in range(400):
         odd = changes if i % 3 == 0 else {}
-        assert machine.frame(seen(1.0 + 0.012 * i, **odd)) is State.WALKING
+        assert (
+            machine.frame(seen(1.0 + 0.012 * i, **odd)) is RobotState.WALKING
+        )
 
 
 def test_what_a_walk_reads_is_no_reason_to_stop() -> None:
-    machine = at(State.WALKING)
+    machine = at(RobotState.WALKING)
     for i in range(400):
         lands = i % 40 == 0
         state = machine.frame(
@@ -288,21 +301,21 @@ def test_what_a_walk_reads_is_no_reason_to_stop() -> None:
                 charge=0.11,
             )
         )
-        assert state is State.WALKING
+        assert state is RobotState.WALKING
 
 
 def test_a_worse_reason_while_it_stops_makes_it_rest() -> None:
-    machine = at(State.WALKING)
+    machine = at(RobotState.WALKING)
     lasting(machine, LASTING, bumper=True)
     lasting(machine, LASTING, 2.0, charge=0.05)
     machine.halted(3.0)
-    assert machine.state is State.RESTING
+    assert machine.state is RobotState.RESTING
 
 
 def test_the_worst_of_several_reasons_counts() -> None:
-    machine = at(State.WALKING)
+    machine = at(RobotState.WALKING)
     everything: dict[str, Any] = {"load": 0.0, "charge": 0.01, "tilt": 1.0}
-    assert lasting(machine, LASTING, **everything) is State.LIMP
+    assert lasting(machine, LASTING, **everything) is RobotState.LIMP
     assert "falls" in machine.reason
 
 

@@ -19,7 +19,7 @@ from stepaside.drivers.joint.frames import (
 from stepaside.drivers.joint.link import SocketLink, connect
 from stepaside.drivers.joint.served_joints import FADING, SETTLED, SILENT
 from stepaside.drivers.lola.conventions import REAL_TIME
-from stepaside.drivers.lola.lola_address import Address, parse_address
+from stepaside.drivers.lola.lola_address import LolaAddress, parse_address
 from stepaside.drivers.lola.lola_server import LolaServer
 from stepaside.drivers.lola.sight_message import MESSAGE, unpack_sight
 from stepaside.drivers.lola.wire import SENSOR_BYTES
@@ -31,19 +31,19 @@ STIFF = pack_actuators(
 
 
 @pytest.fixture
-def address(tmp_path: Path) -> Address:
-    return Address(path=str(tmp_path / "r.sock"))
+def address(tmp_path: Path) -> LolaAddress:
+    return LolaAddress(path=str(tmp_path / "r.sock"))
 
 
 @pytest.fixture
-def served(address: Address) -> Iterator[tuple[LolaServer, MadeUpRobot]]:
+def served(address: LolaAddress) -> Iterator[tuple[LolaServer, MadeUpRobot]]:
     robot = MadeUpRobot()
     server = LolaServer(address, robot, JOINTS)
     yield server, robot
     server.close()
 
 
-def call(address: Address) -> SocketLink:
+def call(address: LolaAddress) -> SocketLink:
     return connect(address, SENSOR_BYTES)
 
 
@@ -57,7 +57,7 @@ def tick(server: LolaServer, link: SocketLink | None, answer: bytes) -> None:
 
 
 def test_a_client_gets_896_bytes_each_tick_in_one_piece(
-    served: tuple[LolaServer, MadeUpRobot], address: Address
+    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
     server, robot = served
     link = call(address)
@@ -73,7 +73,7 @@ def test_a_client_gets_896_bytes_each_tick_in_one_piece(
 
 
 def test_an_answer_moves_the_robot_in_the_same_tick(
-    served: tuple[LolaServer, MadeUpRobot], address: Address
+    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
     server, robot = served
     link = call(address)
@@ -85,7 +85,7 @@ def test_an_answer_moves_the_robot_in_the_same_tick(
 
 
 def test_nobody_is_waited_for_but_a_client_that_has_not_answered(
-    served: tuple[LolaServer, MadeUpRobot], address: Address
+    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
     server, _ = served
     server.speak()
@@ -99,7 +99,7 @@ def test_nobody_is_waited_for_but_a_client_that_has_not_answered(
 
 
 def test_an_answer_that_is_late_is_taken_but_not_for_the_next_ones(
-    served: tuple[LolaServer, MadeUpRobot], address: Address
+    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
     """Else every answer from then on would act one tick late."""
     server, robot = served
@@ -115,7 +115,7 @@ def test_an_answer_that_is_late_is_taken_but_not_for_the_next_ones(
 
 
 def test_stiffness_decays_without_answers_and_not_before_100_ms(
-    served: tuple[LolaServer, MadeUpRobot], address: Address
+    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
     server, robot = served
     link = call(address)
@@ -133,7 +133,7 @@ def test_stiffness_decays_without_answers_and_not_before_100_ms(
 
 
 def test_who_holds_the_legs_half_stiff_is_ready_when_that_stays_so(
-    served: tuple[LolaServer, MadeUpRobot], address: Address
+    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
     """Others' code walks at a half; ours is ready at full stiffness only."""
     server, _ = served
@@ -156,7 +156,7 @@ def test_who_holds_the_legs_half_stiff_is_ready_when_that_stays_so(
 
 
 def test_lights_alone_keep_nobody_stiff(
-    served: tuple[LolaServer, MadeUpRobot], address: Address
+    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
     server, robot = served
     link = call(address)
@@ -169,7 +169,7 @@ def test_lights_alone_keep_nobody_stiff(
 
 
 def test_a_second_client_is_refused_and_the_first_goes_on(
-    served: tuple[LolaServer, MadeUpRobot], address: Address
+    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
     server, _ = served
     first = call(address)
@@ -186,7 +186,7 @@ def test_a_second_client_is_refused_and_the_first_goes_on(
 
 
 def test_who_comes_after_one_has_left_is_counted_from_zero(
-    served: tuple[LolaServer, MadeUpRobot], address: Address
+    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
     server, _ = served
     for _ in range(3):
@@ -202,7 +202,9 @@ def test_who_comes_after_one_has_left_is_counted_from_zero(
 
 @pytest.mark.parametrize("garbage", [b"\xc1", b"\x00", b"\x81\xa1x\x00"])
 def test_garbage_ends_the_session_and_not_the_server(
-    served: tuple[LolaServer, MadeUpRobot], address: Address, garbage: bytes
+    served: tuple[LolaServer, MadeUpRobot],
+    address: LolaAddress,
+    garbage: bytes,
 ) -> None:
     server, robot = served
     link = call(address)
@@ -216,7 +218,7 @@ def test_garbage_ends_the_session_and_not_the_server(
 
 
 def test_a_client_that_does_not_read_is_dropped_and_does_not_block(
-    served: tuple[LolaServer, MadeUpRobot], address: Address
+    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
     server, _ = served
     link = call(address)
@@ -229,7 +231,7 @@ def test_a_client_that_does_not_read_is_dropped_and_does_not_block(
 
 
 def test_the_chest_button_is_pressed_by_the_world(
-    served: tuple[LolaServer, MadeUpRobot], address: Address
+    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
     server, _ = served
     link = call(address)
@@ -242,7 +244,7 @@ def test_the_chest_button_is_pressed_by_the_world(
 
 
 def test_the_true_line_of_sight_has_a_channel_that_says_so(
-    served: tuple[LolaServer, MadeUpRobot], address: Address
+    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
     server, robot = served
     assert address.sight is not None
@@ -263,7 +265,7 @@ def test_the_true_line_of_sight_has_a_channel_that_says_so(
 
 
 def test_sockets_are_taken_away_and_leftovers_replaced(
-    address: Address,
+    address: LolaAddress,
 ) -> None:
     with socket.socket(socket.AF_UNIX) as left:
         left.bind(address.path)  # as a killed world leaves it
@@ -275,7 +277,7 @@ def test_sockets_are_taken_away_and_leftovers_replaced(
     assert not Path(address.path + ".ideal-sight").exists()
 
 
-def test_a_file_is_not_taken_for_a_socket(address: Address) -> None:
+def test_a_file_is_not_taken_for_a_socket(address: LolaAddress) -> None:
     Path(address.path).write_text("mine")
     with pytest.raises(ConfigurationError, match="a file of that name"):
         LolaServer(address, MadeUpRobot(), JOINTS)
@@ -287,7 +289,7 @@ def test_a_file_is_not_taken_for_a_socket(address: Address) -> None:
 )
 @pytest.mark.parametrize("kind", ["file", "link", "lost link", "datagrams"])
 def test_nothing_of_others_is_removed_or_replaced(
-    address: Address, suffix: str, kind: str
+    address: LolaAddress, suffix: str, kind: str
 ) -> None:
     """Whether the server starts or not, and wherever something lies."""
     theirs, aim = Path(address.path + suffix), Path(address.path + ".aim")
@@ -328,7 +330,7 @@ def test_a_socket_may_have_any_name_in_a_long_folder(
     server.close()
 
 
-def test_nobody_at_home_is_said_at_once(address: Address) -> None:
+def test_nobody_at_home_is_said_at_once(address: LolaAddress) -> None:
     with pytest.raises(SessionLost, match="no robot listens at .*r.sock"):
         call(address)
 
@@ -336,15 +338,17 @@ def test_nobody_at_home_is_said_at_once(address: Address) -> None:
 @pytest.mark.parametrize(
     ("text", "wanted"),
     [
-        ("lola:", Address(path="/tmp/robocup")),
-        ("lola:/run/a.sock", Address(path="/run/a.sock")),
-        ("P.sock", Address(path="P.sock")),
-        ("lola:nao.local:10000", Address(host="nao.local", port=10000)),
-        ("127.0.0.1:1", Address(host="127.0.0.1", port=1)),
-        ("/tmp/a:5", Address(path="/tmp/a:5")),
+        ("lola:", LolaAddress(path="/tmp/robocup")),
+        ("lola:/run/a.sock", LolaAddress(path="/run/a.sock")),
+        ("P.sock", LolaAddress(path="P.sock")),
+        ("lola:nao.local:10000", LolaAddress(host="nao.local", port=10000)),
+        ("127.0.0.1:1", LolaAddress(host="127.0.0.1", port=1)),
+        ("/tmp/a:5", LolaAddress(path="/tmp/a:5")),
     ],
 )
-def test_an_address_is_a_path_or_a_port(text: str, wanted: Address) -> None:
+def test_an_address_is_a_path_or_a_port(
+    text: str, wanted: LolaAddress
+) -> None:
     assert parse_address(text) == wanted
 
 
@@ -361,7 +365,7 @@ def test_a_port_serves_as_a_path_does() -> None:
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    address = Address(host="127.0.0.1", port=port)
+    address = LolaAddress(host="127.0.0.1", port=port)
     assert address.sight is None
     server = LolaServer(address, MadeUpRobot(), JOINTS)
     link = call(address)

@@ -17,7 +17,7 @@ from stepaside.drivers.joint.frames import (
     unpack_actuators,
     unpack_sensors,
 )
-from stepaside.drivers.lola.lola_server import AnswerReader
+from stepaside.drivers.lola.lola_server import ActuatorFrameReader
 from stepaside.drivers.lola.wire import (
     ACTUATOR_BYTES,
     LONGEST_ANSWER,
@@ -260,7 +260,7 @@ def test_garbage_is_refused_with_one_error(data: bytes) -> None:
         with pytest.raises(WireError):
             unpack_actuators(data)
     try:
-        AnswerReader().feed(data)
+        ActuatorFrameReader().feed(data)
     except WireError:
         pass
 
@@ -290,19 +290,19 @@ def test_bombs_do_not_go_off(bomb: bytes) -> None:
     with pytest.raises(WireError):
         unpack_actuators(bomb)
     with pytest.raises(WireError):  # at the latest when more has come
-        AnswerReader().feed(bomb + bytes(3 * LONGEST_ANSWER))
+        ActuatorFrameReader().feed(bomb + bytes(3 * LONGEST_ANSWER))
 
 
 def test_answers_are_cut_out_of_a_stream_wherever_it_is_cut() -> None:
     stream = 3 * ACTUATOR_VECTOR
     for at in range(0, len(stream), 97):
-        reader = AnswerReader()
+        reader = ActuatorFrameReader()
         frames = reader.feed(stream[:at]) + reader.feed(stream[at:])
         assert [f.sonar for f in frames] == 3 * [(True, False)]
 
 
 def test_an_answer_that_never_ends_is_given_up() -> None:
-    reader = AnswerReader()
+    reader = ActuatorFrameReader()
     entry = b"\xa8Position" + MANY + 25 * HALF
     with pytest.raises(WireError):
         reader.feed(b"\x8f")

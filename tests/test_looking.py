@@ -10,16 +10,20 @@ pytest.importorskip("cv2")
 
 from stepaside.core.poses import wrap_angle  # noqa: E402
 from stepaside.drivers.scheme_factory import level_perception  # noqa: E402
-from stepaside.drivers.velocity.head_control import PERIOD, LookingBody
-from stepaside.drivers.velocity.template_controller import TemplateMind  # noqa: E402
-from stepaside.drivers.velocity.velocity_body import REST, Report, Velocity
+from stepaside.drivers.velocity.head_control import PERIOD, CameraBody
+from stepaside.drivers.velocity.template_controller import TemplateController  # noqa: E402
+from stepaside.drivers.velocity.velocity_body import (
+    REST,
+    VelocityCommand,
+    VelocityReport,
+)
 from stepaside.drivers.velocity.velocity_limits import VelocityLimits  # noqa: E402
-from stepaside.drivers.velocity.velocity_loop import VelocityPlaying  # noqa: E402
+from stepaside.drivers.velocity.velocity_loop import VelocityLoop  # noqa: E402
 from stepaside.drivers.velocity.watchdog import WatchSettings  # noqa: E402
 from stepaside.games.duel import Duel  # noqa: E402
 from stepaside.games.duel_settings import DuelSettings, StartSettings  # noqa: E402
 from stepaside.games.match import Match, play  # noqa: E402
-from stepaside.games.velocity_walker import DrivenWalker  # noqa: E402
+from stepaside.games.velocity_walker import VelocityWalker  # noqa: E402
 from stepaside.games.walker import Walker  # noqa: E402
 from stepaside.locomotion.zmp.control_settings import STABILISED  # noqa: E402
 from stepaside.perception.images import Percept  # noqa: E402
@@ -44,15 +48,15 @@ SETTINGS = DuelSettings(
 class NoWire:
     """Player, robot and camera in one process."""
 
-    def __init__(self, robot: DrivenWalker, role: str, plays: Strategy):
+    def __init__(self, robot: VelocityWalker, role: str, plays: Strategy):
         self.robot, self._ticks, self._velocity = robot, 0, REST
         self._told: Any = None
-        self.seen: Report | None = None
+        self.seen: VelocityReport | None = None
         perception = level_perception(role, load_robot("nao"), PERIOD)
-        self._looking = LookingBody(self, self, perception)
-        self.playing = VelocityPlaying(
+        self._looking = CameraBody(self, self, perception)
+        self.playing = VelocityLoop(
             self._looking,
-            lambda: TemplateMind(plays, GaitSettings()),
+            lambda: TemplateController(plays, GaitSettings()),
             VelocityLimits(),
             WatchSettings(paced=False),
         )
@@ -72,17 +76,17 @@ class NoWire:
         self._told = image
         return [] if image is None or image is before else [image]
 
-    def listen(self, patience: float) -> Report | None:
+    def listen(self, patience: float) -> VelocityReport | None:
         """Where it is; nobody tells it of the other."""
         state = self.robot.state()
         assert state.sighting is None
-        return Report(state.time, state.pose)
+        return VelocityReport(state.time, state.pose)
 
-    def command(self, velocity: Velocity) -> None:
+    def command(self, velocity: VelocityCommand) -> None:
         """Take what is asked for."""
         self._velocity = velocity
 
-    def act(self) -> Velocity:
+    def act(self) -> VelocityCommand:
         """What the robot is to do at this tick."""
         if self._ticks % EVERY == 0:
             self.tick = self.playing.tick()
@@ -99,7 +103,7 @@ def test_they_find_each_other_and_walk() -> None:
     plays: dict[str, Strategy] = {"pursuer": Pursuit(), "evader": Evasion()}
     for player in duel.players:
         assert isinstance(player, Walker)
-        robot = DrivenWalker(player)
+        robot = VelocityWalker(player)
         robot.commander = wire = NoWire(robot, player.name, plays[player.name])
         wires[player.name] = wire
         players.append(robot)
@@ -130,7 +134,9 @@ def test_the_head_of_a_robot_on_naoqi_turns_and_nothing_else() -> None:
     walker = MadeUpWalker()
     names = ["HeadYaw", "HeadPitch"]
     place = "tcp://127.0.0.1:0"
-    server = NaoqiServer(place, walker, names, Velocity(1, 1), tick=0.012)
+    server = NaoqiServer(
+        place, walker, names, VelocityCommand(1, 1), tick=0.012
+    )
 
     def turned() -> Any:
         server.speak()

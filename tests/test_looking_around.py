@@ -15,7 +15,7 @@ from stepaside.perception.colour_detector import RED
 from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.gaze import Gaze
 from stepaside.perception.perception import Perception
-from stepaside.perception.room_scan import BEHIND, FACING, LONGEST, LookAround
+from stepaside.perception.room_scan import BEHIND, FACING, LONGEST, RoomScan
 from stepaside.planning import Direction
 
 TICK = 0.02
@@ -26,9 +26,9 @@ BEGINS, RATE = 0.8, 0.46  # of a turn on the spot, in [s] and [rad/s]
 
 def looked(
     *, behind: bool, rate: float = RATE
-) -> tuple[float, Array, LookAround]:
+) -> tuple[float, Array, RoomScan]:
     """How long a look takes, in [s], and where the eyes were turned."""
-    gaze, around = Gaze(HEAD.coupling, TICK), LookAround()
+    gaze, around = Gaze(HEAD.coupling, TICK), RoomScan()
     around.behind = behind
     now, heading, turned = 0.0, 0.0, []
     while around.lasts(gaze):
@@ -64,7 +64,7 @@ def test_a_body_that_turns_has_seen_all_around() -> None:
 
 
 def test_who_has_turned_back_waits_for_others_without_turning() -> None:
-    gaze, around = Gaze(HEAD.coupling, TICK), LookAround()
+    gaze, around = Gaze(HEAD.coupling, TICK), RoomScan()
     other = SimpleNamespace(looking=True)
     around.behind, around.company = True, [other]
     headings = np.array([0.0, -0.7, -1.4, -1.4, -0.7, 0.0, 0.1])
@@ -88,7 +88,7 @@ def test_a_turn_that_does_not_come_is_not_waited_for_ever() -> None:
 @pytest.mark.parametrize("rate", [0.05, 0.1, 0.2, 0.26])
 def test_who_turns_slowly_turns_back_in_time(rate: float) -> None:
     """Whatever it has seen by then: a game begins as it was put."""
-    gaze, around = Gaze(HEAD.coupling, TICK), LookAround()
+    gaze, around = Gaze(HEAD.coupling, TICK), RoomScan()
     around.behind, now, heading = True, 0.0, START
     while around.lasts(gaze):
         around.look(gaze, now, heading)

@@ -8,9 +8,14 @@ import pytest
 
 from stepaside.robots import jit as machine
 from stepaside.robots.description import load_robot
-from stepaside.robots.expression_tracing import Number, Trace, cosine, sine
+from stepaside.robots.expression_tracing import (
+    ExpressionTrace,
+    Number,
+    cosine,
+    sine,
+)
 from stepaside.robots.ik_solver import solver_of
-from stepaside.robots.jit import Machine
+from stepaside.robots.jit import JitPreference
 from stepaside.robots.tree_cache import load_tree
 
 pytest.importorskip("numba")
@@ -20,12 +25,12 @@ pytest.importorskip("numba")
 def fresh(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Nothing is stored, and nothing preferred afterwards."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setattr(machine, "_used", Machine.PLAIN)
+    monkeypatch.setattr(machine, "_used", JitPreference.PLAIN)
     yield
 
 
 def formula(factor: float) -> machine.Function:
-    trace = Trace()
+    trace = ExpressionTrace()
     x, y = trace.variable("x"), trace.variable("y")
     results: list[Number] = [sine(x) * cosine(y) + factor * x, x / y]
     return trace.function("formula", results)
@@ -39,17 +44,17 @@ def files() -> list[str]:
 
 def test_nothing_is_compiled_unless_it_is_preferred() -> None:
     formula(2.0)
-    machine.prefer(Machine.STORED)
+    machine.prefer(JitPreference.STORED)
     formula(2.0)
     assert not machine.folder().exists()
 
 
 def test_what_was_compiled_once_is_there_the_next_time() -> None:
     plain = formula(2.0)
-    machine.prefer(Machine.COMPILED)
+    machine.prefer(JitPreference.COMPILED)
     compiled = formula(2.0)
     assert files() == [".nbc", ".nbi", ".py"]
-    machine.prefer(Machine.STORED)
+    machine.prefer(JitPreference.STORED)
     for function in (compiled, formula(2.0)):
         assert type(function) is not type(plain)
         assert function(0.3, 0.7) == plain(0.3, 0.7)
@@ -58,7 +63,7 @@ def test_what_was_compiled_once_is_there_the_next_time() -> None:
 
 
 def test_another_formula_is_another_file() -> None:
-    machine.prefer(Machine.COMPILED)
+    machine.prefer(JitPreference.COMPILED)
     first, second = formula(2.0), formula(3.0)
     assert first(1.0, 1.0) != second(1.0, 1.0)
     assert len(files()) == 6
@@ -67,7 +72,7 @@ def test_another_formula_is_another_file() -> None:
 @pytest.mark.parametrize("suffix", [".nbc", ".nbi", ".py"])
 def test_damaged_code_is_not_used(suffix: str) -> None:
     plain = formula(2.0)
-    machine.prefer(Machine.COMPILED)
+    machine.prefer(JitPreference.COMPILED)
     formula(2.0)
     (path,) = machine.folder().rglob(f"*{suffix}")
     path.write_bytes(b"raise SystemExit(1)")
@@ -76,18 +81,18 @@ def test_damaged_code_is_not_used(suffix: str) -> None:
 
 def test_short_games_do_not_wait_for_machine_code() -> None:
     machine.prefer_for(machine.LONG - 1.0, many=True)
-    assert machine.preferred() is Machine.PLAIN
+    assert machine.preferred() is JitPreference.PLAIN
     machine.prefer_for(machine.LONG)
-    assert machine.preferred() is Machine.STORED
+    assert machine.preferred() is JitPreference.STORED
     machine.prefer_for(machine.LONG, many=True)
     machine.prefer_for(machine.LONG)
-    assert machine.preferred() is Machine.COMPILED
+    assert machine.preferred() is JitPreference.COMPILED
 
 
 def test_legs_step_to_the_same_bits() -> None:
     robot = load_robot("nao")
     plain = solver_of(robot, load_tree(robot)).quick
-    machine.prefer(Machine.COMPILED)
+    machine.prefer(JitPreference.COMPILED)
     compiled = solver_of(robot, load_tree(robot)).quick
     assert plain is not None and compiled is not None
     assert plain is not compiled

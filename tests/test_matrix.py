@@ -30,17 +30,17 @@ from stepaside.games.duel_settings import (
 )
 from stepaside.games.outcome import Outcome
 from stepaside.games.run_archive import load_run, write_record
-from stepaside.games.trajectory import Track
+from stepaside.games.trajectory import Trajectory
 from stepaside.games.walker import Walker
 from stepaside.locomotion.zmp.control_settings import METHODS, ControlSettings
 from stepaside.report.compare_figure import draw_comparison
 from stepaside.report.figure_style import plt
-from stepaside.report.film import Cinema, Shot
+from stepaside.report.film import FilmRenderer, FilmSettings
 from stepaside.report.replay_page import write_page
 from stepaside.report.run_folder import write_run
 from stepaside.report.viewer.camera_panel import picture
 from stepaside.report.viewer.live_drawing import draw_session
-from stepaside.report.viewer.live_session import Session
+from stepaside.report.viewer.live_session import LiveSession
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.camera_settings import (
     CameraSettings,
@@ -182,11 +182,11 @@ def test_everybody_leaves_what_it_has(played: Played) -> None:
     for name, track in run.tracks.items():
         lacking = {
             field
-            for field in Track.__dataclass_fields__
+            for field in Trajectory.__dataclass_fields__
             if getattr(track, field) is None
         }
         if name not in case.walkers:
-            assert lacking == set(Track.__dataclass_fields__) - {
+            assert lacking == set(Trajectory.__dataclass_fields__) - {
                 *("com", "place", "torso")
             }
             continue
@@ -260,7 +260,7 @@ def test_an_offline_page_is_written(played: Played, tmp_path: Path) -> None:
 )
 def test_a_film_has_a_picture(played: Played) -> None:
     run = load_run(played.folder)
-    cinema = Cinema(run, Shot(64, 48), choose_renderer())
+    cinema = FilmRenderer(run, FilmSettings(64, 48), choose_renderer())
     shown = cinema.picture(0.5 * played.case.duration)
     cinema.close()
     assert shown.shape == (48, 64, 3) and shown.std() > 5.0
@@ -273,13 +273,13 @@ def test_a_run_is_compared_with_itself(played: Played, tmp_path: Path) -> None:
 
 
 @pytest.fixture
-def session(played: Played) -> Iterator[Session]:
-    made = Session(played.case.settings())
+def session(played: Played) -> Iterator[LiveSession]:
+    made = LiveSession(played.case.settings())
     yield made
     made.close()
 
 
-def stepped(session: Session, duration: float) -> None:
+def stepped(session: LiveSession, duration: float) -> None:
     """Let a while pass, and wait until it has."""
     done = Event()
     session.step(duration)
@@ -288,7 +288,7 @@ def stepped(session: Session, duration: float) -> None:
 
 
 def test_a_live_duel_is_played_pushed_and_drawn(
-    played: Played, session: Session
+    played: Played, session: LiveSession
 ) -> None:
     case = played.case
     stepped(session, case.duration)

@@ -8,7 +8,7 @@ import pytest
 from stepaside.core.poses import Pose
 from stepaside.games.template_approach import template_meeting
 from stepaside.planning import PRESETS, Direction
-from stepaside.sim.person_motion import Motion, Place
+from stepaside.sim.person_motion import PersonMotion, Place
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion, Intent, Knowledge
 
@@ -20,8 +20,8 @@ def met(frame: Pose, speed: float = 0.5, strategy: object = EVADER) -> float:
     """Closest approach of who comes straight on, in some frame."""
     person = PersonSettings("straight", speed)
 
-    def motion(start: Pose, evader: Place) -> Motion:
-        return Motion(person, start, evader)
+    def motion(start: Pose, evader: Place) -> PersonMotion:
+        return PersonMotion(person, start, evader)
 
     start, evader = Pose(-3.0, 0.0, 0.0), Pose(0.0, 0.1, pi - 0.2)
     return template_meeting(

@@ -2,14 +2,14 @@
 
 import pytest
 
-from stepaside.control.state_history import KEPT, Memory
+from stepaside.control.state_history import KEPT, StateHistory
 
 TICK = 0.02
 
 
-def filled(ticks: int) -> Memory[float]:
+def filled(ticks: int) -> StateHistory[float]:
     """Memory of a torso that turns by 1 rad/s."""
-    memory: Memory[float] = Memory(TICK)
+    memory: StateHistory[float] = StateHistory(TICK)
     for i in range(ticks):
         memory.note(TICK * i, TICK * i)
     return memory
@@ -45,7 +45,7 @@ def test_two_seconds_are_kept_and_no_more() -> None:
 
 
 def test_a_slow_clock_keeps_at_least_one() -> None:
-    memory: Memory[float] = Memory(10.0)
+    memory: StateHistory[float] = StateHistory(10.0)
     memory.note(0.0, 1.0)
     memory.note(10.0, 2.0)
     assert memory.at(0.0) == 2.0

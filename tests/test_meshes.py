@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 import trimesh
 
-from stepaside.report.mesh_simplification import MOST, Shell, thinned
+from stepaside.report.mesh_simplification import MOST, TriangleMesh, thinned
 
 
-def ball(fine: int) -> Shell:
+def ball(fine: int) -> TriangleMesh:
     """A ball of radius 1."""
     mesh = trimesh.creation.icosphere(subdivisions=fine)
-    return Shell(np.array(mesh.vertices), np.array(mesh.faces))
+    return TriangleMesh(np.array(mesh.vertices), np.array(mesh.faces))
 
 
 def test_a_small_shell_stays_as_it_is() -> None:

@@ -10,8 +10,11 @@ from hypothesis import strategies as st
 
 from made_up_robot import FakeStrategy
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.drivers.velocity.template_controller import TemplateMind
-from stepaside.drivers.velocity.velocity_body import Report, Velocity
+from stepaside.drivers.velocity.template_controller import TemplateController
+from stepaside.drivers.velocity.velocity_body import (
+    VelocityCommand,
+    VelocityReport,
+)
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction, GaitSettings
 
@@ -35,13 +38,13 @@ def test_an_old_sighting_is_of_where_the_robot_was_then(
         heading=0.4, direction=Direction.BACKWARD, saturated=saturated
     )
     start, other = Pose(0.5, -0.2, heading), Pose(1.4, 0.3, 0.0)
-    mind = TemplateMind(strategy, GAIT)
+    mind = TemplateController(strategy, GAIT)
     for i in range(40):
         now, taken = PERIOD * i, PERIOD * max(0, i - late)
         then = way(taken, start, rate)
         x, y, _ = then.inverse().compose(other)
         seen = Sighting(taken, wrap_angle(atan2(y, x)), hypot(x, y))
-        told = mind.decide(Report(now, way(now, start, rate), seen))
+        told = mind.decide(VelocityReport(now, way(now, start, rate), seen))
     assert told.forward == pytest.approx(-GAIT.speed)
     turn = GAIT.gain * (1.0 if saturated else 0.4)
     assert told.turn == pytest.approx(turn)
@@ -63,13 +66,13 @@ def test_it_knows_since_when_and_from_where(
 ) -> None:
     strategy = Noting()
     start, other = Pose(0.5, -0.2, heading), Pose(1.4, 0.3, 0.0)
-    mind = TemplateMind(strategy, GAIT)
+    mind = TemplateController(strategy, GAIT)
     for i in range(40):
         now, taken = PERIOD * i, PERIOD * max(0, i - late)
         then = way(taken, start, rate)
         x, y, _ = then.inverse().compose(other)
         seen = Sighting(taken, wrap_angle(atan2(y, x)), hypot(x, y))
-        mind.decide(Report(now, way(now, start, rate), seen))
+        mind.decide(VelocityReport(now, way(now, start, rate), seen))
     known = strategy.known
     assert known.age == pytest.approx(PERIOD * late)
     assert known.pose == then
@@ -109,7 +112,7 @@ def test_an_image_is_of_where_the_robot_was_when_it_was_taken(
 ) -> None:
     """Place, heading and joints alike, also where the heading wraps."""
     pytest.importorskip("cv2")
-    from stepaside.drivers.velocity.head_control import LookingBody
+    from stepaside.drivers.velocity.head_control import CameraBody
 
     start, rate = Pose(0.2, 0.1, heading), 1.7
     made: Any = Remembering()
@@ -124,24 +127,24 @@ def test_an_image_is_of_where_the_robot_was_when_it_was_taken(
         def __init__(self) -> None:
             self.count, self.joints = -1, np.zeros(2)
 
-        def listen(self, patience: float) -> Report:
+        def listen(self, patience: float) -> VelocityReport:
             self.count += 1
             now = PERIOD * self.count
             self.joints = np.array([0.5 * now, -now])
             x, y, theta = where(now)
-            return Report(now, Pose(x, y, wrap_angle(theta)))
+            return VelocityReport(now, Pose(x, y, wrap_angle(theta)))
 
         def percepts(self, frame: int, now: float, tick: float) -> list[Any]:
             return [Image(now - late)] if now > late else []
 
-        def command(self, velocity: Velocity) -> None:
+        def command(self, velocity: VelocityCommand) -> None:
             """Stand."""
 
         def look(self, yaw: float, pitch: float) -> None:
             """Look ahead."""
 
     body: Any = Body()
-    looking = LookingBody(body, body, made)
+    looking = CameraBody(body, body, made)
     for _ in range(30):
         looking.listen(0.1)
     assert len(made.recalled) > 20

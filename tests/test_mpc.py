@@ -13,7 +13,7 @@ from by_hand import KINDS, corners_by_hand, plan_of
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
 from stepaside.games.match import play
-from stepaside.games.walk_game import Walking, run_walk
+from stepaside.games.walk_game import WalkGame, run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import (
     STABILISED,
@@ -239,7 +239,7 @@ def test_the_closed_loop_stays_bounded(tail: str) -> None:
 def test_a_pushed_walk_reports_what_the_solver_said() -> None:
     """The solver is asked at every tick that has a shift."""
     control = replace(STABILISED, method="mpc")
-    walking = Walking(
+    walking = WalkGame(
         WalkSettings(
             duration=6.0, control=control, pushes=(Push(1.0, 3.0, 1.57),)
         )

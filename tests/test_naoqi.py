@@ -29,12 +29,16 @@ from stepaside.drivers.naoqi.naoqi_body import NaoqiBody, stop  # noqa: E402
 from stepaside.drivers.naoqi.naoqi_server import SILENCE, NaoqiServer  # noqa: E402
 from stepaside.drivers.naoqi.naoqi_url import parse_url  # noqa: E402
 from stepaside.drivers.naoqi.qi_session import connect, listen  # noqa: E402
-from stepaside.drivers.naoqi.service_state import Robot  # noqa: E402
+from stepaside.drivers.naoqi.service_state import WalkServiceState  # noqa: E402
 from stepaside.drivers.naoqi.velocity_mover import REPEATED, STUCK  # noqa: E402
-from stepaside.drivers.velocity.template_controller import TemplateMind  # noqa: E402
-from stepaside.drivers.velocity.velocity_body import REST, Report, Velocity
+from stepaside.drivers.velocity.template_controller import TemplateController  # noqa: E402
+from stepaside.drivers.velocity.velocity_body import (
+    REST,
+    VelocityCommand,
+    VelocityReport,
+)
 from stepaside.drivers.velocity.velocity_limits import VelocityLimits  # noqa: E402
-from stepaside.drivers.velocity.velocity_loop import Driving, VelocityPlaying
+from stepaside.drivers.velocity.velocity_loop import DrivingState, VelocityLoop
 from stepaside.drivers.velocity.watchdog import WatchSettings  # noqa: E402
 from stepaside.perception.measurement import Sighting  # noqa: E402
 from stepaside.planning import GaitSettings  # noqa: E402
@@ -55,11 +59,11 @@ class Scene:
             "tcp://127.0.0.1:0",
             self.walker,
             ["LKneePitch", "RKneePitch"],
-            Velocity(0.07, 0.4),
+            VelocityCommand(0.07, 0.4),
             tick=TICK,
         )
 
-    def round(self) -> Velocity:
+    def round(self) -> VelocityCommand:
         """One tick of the world."""
         self.server.speak()
         velocity = self.server.act()
@@ -74,15 +78,15 @@ def scene() -> Iterator[Scene]:
     scene.server.close()
 
 
-def heard(body: NaoqiBody) -> Report:
+def heard(body: NaoqiBody) -> VelocityReport:
     """Next report of a robot that stands: that answer may be on its way."""
 
-    def told() -> Report | None:
+    def told() -> VelocityReport | None:
         report = body.listen(1.0)
         rises = report is not None and report.hindrance == "stands up"
         return None if rises else report
 
-    report: Report = until(told)
+    report: VelocityReport = until(told)
     return report
 
 
@@ -114,8 +118,8 @@ def test_velocities_arrive_and_odometry_comes_back(
     scene: Scene, body: NaoqiBody
 ) -> None:
     scene.walker.pose = Pose(1.0, -2.0, 2.5)
-    body.command(Velocity(-0.06, 0.2))
-    until(lambda: scene.round() == Velocity(-0.06, 0.2))
+    body.command(VelocityCommand(-0.06, 0.2))
+    until(lambda: scene.round() == VelocityCommand(-0.06, 0.2))
     report = heard(body)
     assert report.pose == pytest.approx(scene.server.robot.state.pose)
     assert report.sighting is None and report.hindrance == ""
@@ -170,8 +174,10 @@ class Chained:
         names = [*CHAINS["Head"], *CHAINS["LLeg"], *CHAINS["RLeg"]]
         angles = [0.01 * i for i in range(len(names))]
         state = MadeUpWalker().state()._replace(joints=angles)
-        self.robot = Robot(state, names)
-        self.motion = ALMotion(self.robot, Velocity(0.07, 0.4), GaitSettings())
+        self.robot = WalkServiceState(state, names)
+        self.motion = ALMotion(
+            self.robot, VelocityCommand(0.07, 0.4), GaitSettings()
+        )
         self.motion.wakeUp()
 
 
@@ -256,7 +262,7 @@ def test_a_velocity_that_cannot_be_walked_is_refused_and_the_robot_rests(
     motion = session.service("ALMotion")
     motion.wakeUp()
     motion.move(0.05, 0.0, 0.0)
-    assert scene.round() == Velocity(0.05, 0.0)
+    assert scene.round() == VelocityCommand(0.05, 0.0)
     with pytest.raises(RuntimeError, match="finite|aside"):
         motion.move(*asked)
     assert scene.round() == REST
@@ -308,13 +314,15 @@ def test_a_robot_that_fell_stays_down_until_its_button_is_let_go(
 
 
 @contextmanager
-def offering(**services: object) -> Iterator[tuple[str, Robot]]:
+def offering(**services: object) -> Iterator[tuple[str, WalkServiceState]]:
     """Services of a robot, some of them other than ours."""
-    robot = Robot(MadeUpWalker().state(), ["a", "b"])
+    robot = WalkServiceState(MadeUpWalker().state(), ["a", "b"])
     for service in services.values():
         service._robot = robot  # type: ignore[attr-defined]
     ours = {
-        "ALMotion": ALMotion(robot, Velocity(0.07, 0.4), GaitSettings()),
+        "ALMotion": ALMotion(
+            robot, VelocityCommand(0.07, 0.4), GaitSettings()
+        ),
         "ALMemory": ALMemory(robot),
         "ALRobotPosture": ALRobotPosture(robot),
     }
@@ -362,18 +370,18 @@ def test_a_robot_that_answers_slowly_is_heard_and_walks(slow: float) -> None:
             sleep(slow)
             return super().getRobotPosition(use_sensors)
 
-    motion = Slow(None, Velocity(0.07, 0.4), GaitSettings())  # type: ignore[arg-type]
+    motion = Slow(None, VelocityCommand(0.07, 0.4), GaitSettings())  # type: ignore[arg-type]
     with offering(ALMotion=motion) as (url, robot):
         drive_and_hear(url, robot)
 
 
-def drive_and_hear(url: str, robot: Robot) -> None:
+def drive_and_hear(url: str, robot: WalkServiceState) -> None:
     """Let control drive a robot that sees somebody, and see that it walks."""
     walker = MadeUpWalker()
     body = NaoqiBody(url)
-    player = VelocityPlaying(
+    player = VelocityLoop(
         body,
-        lambda: TemplateMind(Pursuit(), GaitSettings()),
+        lambda: TemplateController(Pursuit(), GaitSettings()),
         VelocityLimits(),
         WatchSettings(),
     )
@@ -386,7 +394,7 @@ def drive_and_hear(url: str, robot: Robot) -> None:
             player.tick()
         assert robot.asked.forward > 0.0
         ticks = [player.tick() for _ in range(20)]
-        assert all(tick.state is Driving.WALKING for tick in ticks)
+        assert all(tick.state is DrivingState.WALKING for tick in ticks)
     finally:
         body.close()
 
@@ -400,13 +408,13 @@ class Refusing(ALMotion):
 
 
 def test_the_whole_reason_of_a_refused_call_is_told() -> None:
-    motion = Refusing(None, Velocity(0.07, 0.4), GaitSettings())  # type: ignore[arg-type]
+    motion = Refusing(None, VelocityCommand(0.07, 0.4), GaitSettings())  # type: ignore[arg-type]
     with offering(ALMotion=motion) as (url, _):
         body = NaoqiBody(url)
         heard(body)
         with pytest.raises(SessionLost) as refused:
             for i in range(1000):
-                body.command(Velocity(0.05, 0.001 * i))
+                body.command(VelocityCommand(0.05, 0.001 * i))
                 sleep(0.002)
         said = str(refused.value)
         assert "ALMotion::move motors are hot: LHipRoll" in said
@@ -418,11 +426,11 @@ def test_a_robot_that_nobody_asks_anything_rests(
     scene: Scene, body: NaoqiBody
 ) -> None:
     def asked() -> bool:
-        body.command(Velocity(0.05, 0.1))
-        return bool(scene.round() == Velocity(0.05, 0.1))
+        body.command(VelocityCommand(0.05, 0.1))
+        return bool(scene.round() == VelocityCommand(0.05, 0.1))
 
     until(asked)
-    assert scene.round() == Velocity(0.05, 0.1)
+    assert scene.round() == VelocityCommand(0.05, 0.1)
     until(lambda: scene.round() == REST)
     assert not scene.server.connected
 
@@ -446,12 +454,12 @@ def test_a_world_that_freezes_is_silence_and_then_takes_no_command(
     with scene.server.robot.lock:  # every service waits for it
         now[0] += 1.0
         assert body.listen(0.02) is None
-        body.command(Velocity(0.05, 0.0))
+        body.command(VelocityCommand(0.05, 0.0))
         now[0] += 0.9 * STUCK
-        body.command(Velocity(0.06, 0.0))
+        body.command(VelocityCommand(0.06, 0.0))
         now[0] += 0.2 * STUCK
         with pytest.raises(SessionLost, match="takes no command"):
-            body.command(Velocity(0.06, 0.0))
+            body.command(VelocityCommand(0.06, 0.0))
     now[0] += 1.0
     assert heard(body).hindrance == ""  # it goes on
     body.close()
@@ -463,7 +471,7 @@ def test_what_a_second_client_asks_holds_until_the_first_asks_again(
     """NAOqi refuses nobody; the last word counts, and rest is one."""
     now = [100.0]
     body = NaoqiBody(scene.server.url, clock=lambda: now[0])
-    asked = Velocity(0.05, 0.1)
+    asked = VelocityCommand(0.05, 0.1)
     heard(body)
     body.command(asked)
     until(lambda: scene.round() == asked)
@@ -486,7 +494,7 @@ def test_what_a_second_client_asks_holds_until_the_first_asks_again(
 
 def test_a_dry_run_wakes_nobody_and_commands_nothing(scene: Scene) -> None:
     body = NaoqiBody(scene.server.url, dry_run=True)
-    body.command(Velocity(0.05, 0.1))
+    body.command(VelocityCommand(0.05, 0.1))
     heard(body)
     body.close()
     assert not scene.server.robot.awake and scene.round() == REST
@@ -495,8 +503,8 @@ def test_a_dry_run_wakes_nobody_and_commands_nothing(scene: Scene) -> None:
 def test_a_guardian_can_stop_the_robot_by_itself(
     scene: Scene, body: NaoqiBody
 ) -> None:
-    body.command(Velocity(0.05, 0.1))
-    until(lambda: scene.round() == Velocity(0.05, 0.1))
+    body.command(VelocityCommand(0.05, 0.1))
+    until(lambda: scene.round() == VelocityCommand(0.05, 0.1))
     stop(scene.server.url)
     assert scene.round() == REST
     assert scene.server.robot.awake
@@ -520,7 +528,7 @@ def test_a_commander_that_is_killed_leaves_a_robot_at_rest(
         [sys.executable, "-c", COMMANDER, scene.server.url]
     )
     try:
-        until(lambda: scene.round() == Velocity(0.03, -0.1))
+        until(lambda: scene.round() == VelocityCommand(0.03, -0.1))
         process.kill()
         process.wait(20.0)
         for _ in range(SILENT):

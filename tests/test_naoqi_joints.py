@@ -17,10 +17,10 @@ pytest.importorskip("msgpack")
 
 from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
 from stepaside.drivers.joint.frame_clock import TICK  # noqa: E402
-from stepaside.drivers.joint.joint_body import LolaBody  # noqa: E402
-from stepaside.drivers.joint.joint_loop import Playing, Tick  # noqa: E402
+from stepaside.drivers.joint.joint_body import JointBody  # noqa: E402
+from stepaside.drivers.joint.joint_loop import JointLoop, JointTick  # noqa: E402
 from stepaside.drivers.joint.joint_map import NAMES  # noqa: E402
-from stepaside.drivers.joint.safety import State  # noqa: E402
+from stepaside.drivers.joint.safety import RobotState  # noqa: E402
 from stepaside.drivers.lola.conventions import (  # noqa: E402
     COUNTER,
     LOCK_STEP,
@@ -32,11 +32,11 @@ from stepaside.drivers.naoqi.joint_server import (  # noqa: E402
     NaoqiJointServer,
 )
 from stepaside.drivers.naoqi.joint_services import (  # noqa: E402
-    JointMemory,
-    JointMotion,
-    JointRobot,
+    JointMemoryService,
+    JointMotionService,
+    JointServiceState,
 )
-from stepaside.drivers.naoqi.joint_transport import JointLine, fade
+from stepaside.drivers.naoqi.joint_transport import JointTransport, fade
 from stepaside.drivers.naoqi.qi_session import listen  # noqa: E402
 from stepaside.drivers.naoqi.sensor_keys import (  # noqa: E402
     KEYS,
@@ -136,7 +136,7 @@ def test_what_some_robots_lack_is_not_needed() -> None:
     assert isnan(frame.gyroscope[2]) and frame.gyroscope[0] == 0.0
 
 
-class OlderMemory(JointMemory):
+class OlderMemory(JointMemoryService):
     """ALMemory of a NAO V3 or V4."""
 
     def _renamed(self, key: str) -> str:
@@ -159,14 +159,17 @@ def test_robots_with_the_older_inertial_unit_are_read() -> None:
         f"{device}/{name}/Sensor/Value"
         for name in ("AccX", "AccY", "AccZ", "GyrX", "GyrY")
     }
-    robot = JointRobot()
+    robot = JointServiceState()
     robot.values = values_of(
         sensor_frame(
             accelerometer=np.array([0.5, -0.25, -9.5]),
             gyroscope=np.array([0.1, -0.2, 7.0]),
         )
     )
-    services = {"ALMotion": JointMotion(robot), "ALMemory": OlderMemory(robot)}
+    services = {
+        "ALMotion": JointMotionService(robot),
+        "ALMemory": OlderMemory(robot),
+    }
     session = listen(ANYWHERE, services)
     try:
         body = open_joints(session.endpoints()[0], JOINTS, STANCE)
@@ -189,7 +192,7 @@ class Scene:
         self.server = NaoqiJointServer(
             ANYWHERE, self.robot, JOINTS, lock_step=lock_step
         )
-        self.body: LolaBody = open_joints(self.server.url, JOINTS, STANCE)
+        self.body: JointBody = open_joints(self.server.url, JOINTS, STANCE)
 
     def ticks(self, count: int, targets: Any = STANCE) -> None:
         """Ticks of world and player."""
@@ -209,7 +212,10 @@ class Scene:
         self.ticks(1)
         self.server.press(False)
         self.ticks(1)
-        assert (before, self.body.state) == (State.READY, State.WALKING)
+        assert (before, self.body.state) == (
+            RobotState.READY,
+            RobotState.WALKING,
+        )
 
 
 @pytest.fixture
@@ -280,7 +286,7 @@ def test_a_world_that_freezes_ends_the_session_and_the_robot_is_limp() -> None:
         scene.body.write(STANCE)
     with pytest.raises(SessionLost, match="no good frame for"):
         scene.body.read()
-    assert scene.body.state is State.LIMP
+    assert scene.body.state is RobotState.LIMP
     until(lambda: scene.server.robot.stiffness.max() == 0.0)
     scene.body.close()
     scene.server.close()
@@ -293,7 +299,7 @@ def test_a_world_that_is_gone_ends_the_session(scene: Scene) -> None:
         for _ in range(100):
             scene.body.read()
             scene.body.write(STANCE)
-    assert scene.body.state is State.LIMP
+    assert scene.body.state is RobotState.LIMP
 
 
 def test_values_that_are_no_numbers_are_refused_and_then_silence(
@@ -306,7 +312,7 @@ def test_values_that_are_no_numbers_are_refused_and_then_silence(
     scene.server.speak()
     with pytest.raises(SessionLost, match="1 refused"):
         scene.body.read()
-    assert scene.body.state is State.LIMP
+    assert scene.body.state is RobotState.LIMP
 
 
 def test_a_client_that_falls_silent_leaves_a_robot_whose_stiffness_decays(
@@ -323,7 +329,7 @@ def test_a_client_that_falls_silent_leaves_a_robot_whose_stiffness_decays(
 def test_the_last_of_two_clients_has_the_joint(scene: Scene) -> None:
     """NAOqi refuses nobody: limits and stiffness hold for the sum of them."""
     scene.ticks(12)
-    other = JointLine(scene.server.url)
+    other = JointTransport(scene.server.url)
     other._motion.setAngles("HeadYaw", 0.5, 1.0)
     scene.server.act()
     head = list(JOINTS).index("HeadYaw")
@@ -347,16 +353,16 @@ def test_the_last_of_two_clients_has_the_joint(scene: Scene) -> None:
 def test_what_no_joint_can_do_is_refused(
     method: str, values: tuple[Any, ...], said: str
 ) -> None:
-    robot = JointRobot()
-    motion = JointMotion(robot)
+    robot = JointServiceState()
+    motion = JointMotionService(robot)
     with pytest.raises(ValueError, match=said):
         getattr(motion, method)(*values)
     assert robot.taken() is None and not robot.answered
 
 
 def test_joints_are_found_by_name() -> None:
-    robot = JointRobot()
-    motion = JointMotion(robot)
+    robot = JointServiceState()
+    motion = JointMotionService(robot)
     motion.setStiffnesses("Body", 0.5)
     motion.setAngles(["RHipYawPitch", "LKneePitch"], [0.1, 0.2], 0.5)
     assert motion.getAngles("LHipYawPitch", False) == [0.1]
@@ -368,13 +374,13 @@ def test_joints_are_found_by_name() -> None:
     assert motion.getAngles("LKneePitch", False) == [0.0]
     assert set(motion.getBodyNames("Body")) == {*NAMES, "RHipYawPitch"}
     robot.values["a"] = 1.0
-    assert JointMemory(robot).getListData(["a", "b"]) == [1.0, None]
-    assert JointMemory(robot).getData("a") == 1.0
+    assert JointMemoryService(robot).getListData(["a", "b"]) == [1.0, None]
+    assert JointMemoryService(robot).getData("a") == 1.0
 
 
 def test_a_chain_is_its_joints_and_no_others() -> None:
-    robot = JointRobot()
-    motion = JointMotion(robot)
+    robot = JointServiceState()
+    motion = JointMotionService(robot)
     motion.wakeUp()
     motion.setStiffnesses("Head", 0.0)
     assert [NAMES[i] for i in np.flatnonzero(robot.stiffness == 0.0)] == [
@@ -460,19 +466,19 @@ SETTINGS = DuelSettings(
 )
 
 
-def client(url: str, ticks: list[Tick]) -> None:
+def client(url: str, ticks: list[JointTick]) -> None:
     """The evader, until its robot is gone."""
     make = mind_maker(
         load_robot("nao"), GaitSettings(), SETTINGS.control, tick=0.012
     )
 
-    def open_body(scheme: Any) -> LolaBody:
+    def open_body(scheme: Any) -> JointBody:
         names = scheme.kinematics.joint_names
         stance = scheme.joint_targets
-        body: LolaBody = until(lambda: _opened(url, names, stance))
+        body: JointBody = until(lambda: _opened(url, names, stance))
         return body
 
-    playing = Playing(open_body, Evasion(), make)
+    playing = JointLoop(open_body, Evasion(), make)
     try:
         while True:
             ticks.append(playing.tick())
@@ -480,7 +486,7 @@ def client(url: str, ticks: list[Tick]) -> None:
         playing.body.close()
 
 
-def _opened(url: str, names: Any, stance: Any) -> LolaBody | None:
+def _opened(url: str, names: Any, stance: Any) -> JointBody | None:
     try:
         return open_joints(url, names, stance)
     except SessionLost:
@@ -490,7 +496,7 @@ def _opened(url: str, names: Any, stance: Any) -> LolaBody | None:
 def test_in_lock_step_a_walk_is_the_one_played_in_one_process() -> None:
     """Calls carry no time, but frames their number, and both wait."""
     url = "tcp://127.0.0.1:29661"
-    ticks: list[Tick] = []
+    ticks: list[JointTick] = []
     player = Thread(target=client, args=(url, ticks))
     player.start()
     try:

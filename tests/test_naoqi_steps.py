@@ -15,12 +15,12 @@ from stepaside.drivers.naoqi.footstep_mover import REFUSALS, FootstepMover
 from stepaside.drivers.naoqi.motion_services import ALMotion  # noqa: E402
 from stepaside.drivers.naoqi.naoqi_body import NaoqiBody  # noqa: E402
 from stepaside.drivers.naoqi.naoqi_server import SILENCE, NaoqiServer
-from stepaside.drivers.naoqi.service_state import Robot  # noqa: E402
-from stepaside.drivers.velocity.footstep_commands import FootMove  # noqa: E402
-from stepaside.drivers.velocity.velocity_body import REST, Velocity  # noqa: E402
+from stepaside.drivers.naoqi.service_state import WalkServiceState  # noqa: E402
+from stepaside.drivers.velocity.footstep_commands import FootCommand  # noqa: E402
+from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand  # noqa: E402
 from stepaside.games.duel import Duel  # noqa: E402
 from stepaside.games.duel_settings import DuelSettings, StartSettings  # noqa: E402
-from stepaside.games.velocity_walker import DrivenWalker  # noqa: E402
+from stepaside.games.velocity_walker import VelocityWalker  # noqa: E402
 from stepaside.games.walker import Walker  # noqa: E402
 from stepaside.locomotion.zmp.control_settings import STABILISED  # noqa: E402
 from stepaside.planning import Foot, GaitSettings  # noqa: E402
@@ -31,10 +31,10 @@ from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
 
 GAIT = GaitSettings()
 TICK = 0.012
-FASTEST = Velocity(0.07, 0.4)
-AHEAD = Velocity(0.1, 0.1)
+FASTEST = VelocityCommand(0.07, 0.4)
+AHEAD = VelocityCommand(0.1, 0.1)
 LEFT = ["LLeg", "RLeg"], [[0.04, 0.1, 0.0], [0.04, -0.1, 0.0]], [0.6, 1.2]
-LANDING = FootMove(Foot.LEFT, Pose(0.03, 0.1, 0.0), 0.3)
+LANDING = FootCommand(Foot.LEFT, Pose(0.03, 0.1, 0.0), 0.3)
 
 
 class Alone:
@@ -42,14 +42,14 @@ class Alone:
 
     def __init__(self) -> None:
         self.walker = MadeUpWalker()
-        self.robot = Robot(self.walker.state(), ["a", "b"])
+        self.robot = WalkServiceState(self.walker.state(), ["a", "b"])
         self.robot.awake = True
         self.service = ALMotion(self.robot, FASTEST, GAIT)
         self.motion = Direct(self.service)
         self.now = 100.0
         self.mover = FootstepMover(self.motion, GAIT, lambda: self.now)
 
-    def ask(self, velocity: Velocity, times: int = 4) -> None:
+    def ask(self, velocity: VelocityCommand, times: int = 4) -> None:
         """Ask for a velocity again and again."""
         for _ in range(times):
             self.now += 0.05
@@ -71,7 +71,7 @@ def test_footsteps_are_told_once_until_a_step_begins() -> None:
     assert times == pytest.approx([0.547, 1.094, 1.641])
     assert [step[1] > 0.0 for step in steps] == [True, False, True]
     alone.begin()
-    alone.ask(Velocity(0.1, -0.1), 10)
+    alone.ask(VelocityCommand(0.1, -0.1), 10)
     _, again = alone.motion.called("setFootSteps")
     assert again[0] == ["RLeg", "LLeg", "RLeg"]
     assert [step[2] < 0.0 for step in again[1]] == 3 * [True]
@@ -194,7 +194,7 @@ def test_footsteps_arrive_over_the_wire_and_end_with_who_told_them(
 
     body = NaoqiBody(server.url, make_mover=by_steps)
 
-    def walks() -> Velocity:
+    def walks() -> VelocityCommand:
         body.command(AHEAD)
         server.speak()
         return server.act()
@@ -210,7 +210,7 @@ def test_footsteps_arrive_over_the_wire_and_end_with_who_told_them(
 
 
 @pytest.fixture(scope="module")
-def walked() -> tuple[DrivenWalker, list[Velocity]]:
+def walked() -> tuple[VelocityWalker, list[VelocityCommand]]:
     """A robot that was told four footsteps, in one process."""
     settings = DuelSettings(
         seed=7,
@@ -221,7 +221,7 @@ def walked() -> tuple[DrivenWalker, list[Velocity]]:
     duel = Duel(settings, recorded=False)
     player = duel.players[0]
     assert isinstance(player, Walker)
-    walker = DrivenWalker(player)
+    walker = VelocityWalker(player)
     served = NaoqiServer(
         *("tcp://127.0.0.1:0", walker, ["a"] * 24, FASTEST), tick=TICK
     )
@@ -247,7 +247,7 @@ def walked() -> tuple[DrivenWalker, list[Velocity]]:
 
 
 def test_a_robot_steps_as_it_is_told_and_rests_after_the_last_step(
-    walked: tuple[DrivenWalker, list[Velocity]],
+    walked: tuple[VelocityWalker, list[VelocityCommand]],
 ) -> None:
     """On the spot first, then ahead, then back on an arc, after a rest."""
     walker, asked = walked

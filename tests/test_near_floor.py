@@ -9,11 +9,11 @@ import pytest
 from drawn_depth import Post, draw, paint
 from made_up_eyes import HEAD, Eyes
 from stepaside.core.poses import Array
-from stepaside.perception.bottom_camera import LowerCamera
+from stepaside.perception.bottom_camera import BottomCamera
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.floor_map import CELL, FloorMap, _centres
 from stepaside.perception.images import ColourImage
-from stepaside.perception.near_floor import NearFloor
+from stepaside.perception.near_floor import NearFloorMapper
 from stepaside.robots.head import rotation
 
 CAMERA = CameraModel.of_field_of_view(160, 120, radians(60.9), radians(47.6))
@@ -42,18 +42,18 @@ def image(posts: list[Post], axes: Array, *, low: bool) -> ColourImage:
     return ColourImage(0.0, CAMERA, paint(CAMERA, EYE, axes, posts), low)
 
 
-def learnt(floor: FloorMap, posts: list[Post]) -> NearFloor:
+def learnt(floor: FloorMap, posts: list[Post]) -> NearFloorMapper:
     """Who saw the floor behind, where nothing stands."""
-    near = NearFloor(floor)
+    near = NearFloorMapper(floor)
     for yaw in (2.0, pi, -2.0):
         axes = axes_of(1.2, yaw)
         near.learn(image(posts, axes, low=False), EYE, axes, HERE, None)
     return near
 
 
-def lower_of(floor: FloorMap) -> LowerCamera:
+def lower_of(floor: FloorMap) -> BottomCamera:
     """The lower camera of who knows what the floor looks like."""
-    made = LowerCamera(HEAD.bottom, people=False, floor=floor)
+    made = BottomCamera(HEAD.bottom, people=False, floor=floor)
     made.near = learnt(floor, [])
     return made
 
@@ -124,13 +124,13 @@ def test_the_floor_is_learnt_where_rays_passed() -> None:
     """What stands before it, and floor that nobody saw, teaches nothing."""
     post = [(1.2, 0.0, 0.3, 0.8)]
     floor, axes = around(post), axes_of(1.2)
-    near = NearFloor(floor)
+    near = NearFloorMapper(floor)
     near.learn(image(post, axes, low=False), EYE, axes, HERE, None)
     dark = np.full((4, 4, 3), 64, dtype=np.uint8)
     light = np.full((4, 4, 3), 212, dtype=np.uint8)
     assert near._colours.strange(dark).all()
     assert not near._colours.strange(light).any()
-    blind = NearFloor(FloorMap())
+    blind = NearFloorMapper(FloorMap())
     blind.learn(image([], axes, low=False), EYE, axes, HERE, None)
     assert not blind._colours._counts.any()
 
@@ -140,19 +140,19 @@ def test_who_stands_on_the_floor_is_not_learnt() -> None:
     floor, axes = around([]), axes_of(1.2)
     other = 0.9, 0.1
     post = [(*other, 0.12, 0.58)]
-    near = NearFloor(floor)
+    near = NearFloorMapper(floor)
     near.learn(image(post, axes, low=False), EYE, axes, HERE, other)
     dark = np.full((4, 4, 3), 64, dtype=np.uint8)
     assert not near._colours._counts[4, 4, 4]
     assert near._colours.strange(dark).all()
-    alone = NearFloor(floor)
+    alone = NearFloorMapper(floor)
     alone.learn(image(post, axes, low=False), EYE, axes, HERE, None)
     assert alone._colours._counts[4, 4, 4]
 
 
 def test_the_lower_camera_looks_every_other_time_once_it_knows() -> None:
     floor = around([])
-    near = NearFloor(floor)
+    near = NearFloorMapper(floor)
     assert not any(near.wanted() for _ in range(6))
     near = learnt(floor, [])
     asked = [near.wanted() for _ in range(6)]

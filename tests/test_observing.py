@@ -30,7 +30,7 @@ from stepaside.perception.observations import (
     observe_trim,
 )
 from stepaside.perception.ranging import BREADTH, FORWARD
-from stepaside.perception.track import Observation, Track
+from stepaside.perception.track import Observation, TargetTrack
 from stepaside.robots.head import rotation
 
 CAMERA = CameraModel(640, 480, 550.0, 560.0)
@@ -69,15 +69,17 @@ def trim(distance: float, bearing: float, **changes: Any) -> ColourDetection:
     return ColourDetection(**values)
 
 
-def observe(found: ColourDetection, *tracks: Track) -> Observation:
+def observe(found: ColourDetection, *tracks: TargetTrack) -> Observation:
     return observe_trim(IMAGE, found, PLACE, AXES, RED, tracks)
 
 
-def track(distance: float, bearing: float, time: float = 3.5) -> Track:
+def track(distance: float, bearing: float, time: float = 3.5) -> TargetTrack:
     """Something that was seen at a distance from the camera."""
     x = PLACE[0] + distance * cos(bearing)
     y = PLACE[1] + distance * sin(bearing)
-    return Track(Observation(time, x, y, bearing, 0.03, 0.01, True, True))
+    return TargetTrack(
+        Observation(time, x, y, bearing, 0.03, 0.01, True, True)
+    )
 
 
 def distance_of(seen: Observation) -> float:

@@ -13,8 +13,8 @@ from stepaside.core.errors import ModelError
 from stepaside.fitting import com_height as stature
 from stepaside.fitting.com_height import stature_of
 from stepaside.fitting.derivation import SPACE, WIDE, derive
-from stepaside.fitting.gait_scaling import Size
-from stepaside.fitting.leg_detection import Leg
+from stepaside.fitting.gait_scaling import RobotSize
+from stepaside.fitting.leg_detection import DetectedLeg
 from stepaside.fitting.model_analysis import _looks_ahead, survey
 from stepaside.fitting.motor_data import published_speeds
 from stepaside.robots.description import load_robot
@@ -76,7 +76,7 @@ def test_what_moves_things_around_the_robot_goes_with_them(
     assert found.model.nu == 0 and found.model.nsensor == 0
 
 
-def _leg(outline: tuple[float, ...], **changes: Any) -> Leg:
+def _leg(outline: tuple[float, ...], **changes: Any) -> DetectedLeg:
     nothing = np.zeros(3)
     values = {
         "joints": ("knee",),
@@ -84,7 +84,7 @@ def _leg(outline: tuple[float, ...], **changes: Any) -> Leg:
         "signs": (1.0, 1.0, 1.0),
         "is_guessed": False,
     } | changes
-    return Leg(
+    return DetectedLeg(
         foot="foot",
         hip=nothing,
         ankle=nothing,
@@ -190,7 +190,7 @@ def test_it_stands_lower_where_straight_knees_were_too_fast(
 ) -> None:
     left = list(shares)
     monkeypatch.setattr(stature, "lengths_share", lambda *_: left.pop(0))
-    size = Size(0.28, 5.3, 0.1, SOLE, 0.2)
+    size = RobotSize(0.28, 5.3, 0.1, SOLE, 0.2)
     found, walked = stature_of(NAO, size, 0.2)
     assert found.com_height == pytest.approx(part * 0.28)
     assert walked == share and not left

@@ -13,10 +13,10 @@ import pytest
 from stepaside.cli.bound import AGAINST
 from stepaside.cli.main import COMMANDS, main
 from stepaside.cli.options.connection_options import WAYS
-from stepaside.cli.options.declaration import Declaration, DeclaredOption
+from stepaside.cli.options.declaration import DeclaredOption, OptionDeclaration
 from stepaside.cli.options.print_config import meanings
 from stepaside.cli.options.room_options import RECIPE
-from stepaside.cli.options.value_kinds import NameType, WordedType
+from stepaside.cli.options.value_kinds import NameType, WordOrValueType
 from stepaside.cli.plan_settings import FEET, ROLES, PlanSettings
 from stepaside.cli.serve import SIGHTS
 from stepaside.cli.unicycle_options import STRATEGIES
@@ -36,7 +36,7 @@ from stepaside.sim.person_settings import PURSUERS
 from stepaside.strategies.evasion import TRIGGERS
 from stepaside.studies import robustness_campaign as robustness
 from stepaside.studies.tournament_settings import LEVELS
-from stepaside.theory.bound import Scheme
+from stepaside.theory.bound import DiscretisationScheme
 from stepaside.theory.unicycle.unicycle_game import SideRule, TurningLaw
 
 SETTINGS = {
@@ -77,7 +77,7 @@ REGISTRIES: dict[str, Iterable[str]] = {
     "--camera": VIEWS,
     "--sight": SIGHTS,
     "--against": AGAINST,
-    "--scheme": [scheme.value for scheme in Scheme],
+    "--scheme": [scheme.value for scheme in DiscretisationScheme],
 }
 # Names that say something else to games of unicycles, to films or to a
 # campaign than to a robot in physics; each is declared once in each sense.
@@ -160,7 +160,7 @@ def test_every_option_says_what_it_means_and_in_which_unit(name: str) -> None:
         assert len(text.split("[default")[0].strip()) > 5, option.opts
         assert "{" not in text, option.opts
         kind: Any = option.type
-        if isinstance(kind, WordedType):
+        if isinstance(kind, WordOrValueType):
             kind = kind.kind
         if isinstance(kind, NumberType):
             assert f"[{kind.unit}]" in text, option.opts
@@ -189,7 +189,7 @@ def test_what_commands_share_is_declared_once() -> None:
     """One name, one sense, one declaration, but for the senses listed."""
     by_name: dict[str, set[object]] = defaultdict(set)
     takers: dict[str, int] = defaultdict(int)
-    by_path: dict[str, set[Declaration]] = defaultdict(set)
+    by_path: dict[str, set[OptionDeclaration]] = defaultdict(set)
     for _, option in every_option():
         declaration: Any = getattr(option, "declaration", option)
         for spelling in option.opts:

@@ -12,9 +12,9 @@ from stepaside.core.errors import ModelError
 from stepaside.core.poses import Array
 from stepaside.robots.description_types import (
     Overlay,
-    Sensors,
+    SensorNames,
     ServoGains,
-    SolePlace,
+    SoleFrame,
 )
 from stepaside.robots.model_overlay import (
     IMU,
@@ -51,8 +51,8 @@ MODEL = """<mujoco>
 </mujoco>"""
 TURN = (0.9, 0.1, -0.3, 0.2)  # of both soles, as quaternions of any length
 SOLES = (
-    SolePlace("left", (0.01, 0.02, -0.05), TURN),
-    SolePlace("right", (0.03, -0.01, -0.04), TURN),
+    SoleFrame("left", (0.01, 0.02, -0.05), TURN),
+    SoleFrame("right", (0.03, -0.01, -0.04), TURN),
 )
 SERVOS = {
     "left_bend": ServoGains(50.0, 2.0, 7.0, 0.03),
@@ -61,7 +61,7 @@ SERVOS = {
 SOLE = {"back": -0.05, "front": 0.11, "outer": 0.045, "inner": 0.03}
 ROBOT = SimpleNamespace(
     overlay=Overlay(SOLES, SERVOS),
-    sensors=Sensors(),
+    sensors=SensorNames(),
     path=Path("made-up.xml"),
     path_of=Path,
     torso="trunk",

@@ -22,11 +22,11 @@ from stepaside.games.outcome import Outcome
 from stepaside.planning import Direction
 from stepaside.strategies import (
     STRATEGIES,
-    Deflected,
+    DeflectedEvasion,
     Evasion,
     HerdingPursuit,
     Pursuit,
-    Stand,
+    StandStill,
     Walk,
     load_strategy,
 )
@@ -126,9 +126,9 @@ def test_strategies_have_names() -> None:
     assert load_strategy("evasion", evader) is evader
     assert load_strategy("evasion") == Evasion()
     assert load_strategy("pursuit") == Pursuit()
-    assert load_strategy("stand") == Stand()
+    assert load_strategy("stand") == StandStill()
     assert load_strategy("walk") == Walk()
-    assert load_strategy("deflected", evader) == Deflected(evader)
+    assert load_strategy("deflected", evader) == DeflectedEvasion(evader)
     assert load_strategy("pursuit-x2.5") == Pursuit(gain_ratio=2.5)
     assert load_strategy("sharp") == Pursuit(gain_ratio=inf)
     assert load_strategy("herding") == HerdingPursuit()

@@ -12,7 +12,7 @@ from stepaside.control.strategy_runner import QUICKENING, next_pace
 from stepaside.core.errors import PlanError
 from stepaside.core.poses import Pose
 from stepaside.games.outcome import Outcome
-from stepaside.games.walk_game import Walking
+from stepaside.games.walk_game import WalkGame
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import (
@@ -140,7 +140,7 @@ def test_a_robot_takes_its_time_as_it_is_asked_to() -> None:
 @pytest.mark.parametrize("pace", [0.5, 0.75])
 def test_a_calm_walk_walks(pace: float) -> None:
     """In physics, and the calmer the slower."""
-    walking = Walking(
+    walking = WalkGame(
         WalkSettings(gait=FAST, control=ControlSettings("closed-form", True)),
         recorded=False,
     )

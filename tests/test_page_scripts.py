@@ -12,7 +12,7 @@ from http import HTTPStatus
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
-from stepaside.report.viewer.page_scripts import Scripts
+from stepaside.report.viewer.page_scripts import PageScripts
 
 
 @pytest.mark.parametrize("sent", [{}, {"Accept-Encoding": "gzip"}])
@@ -25,7 +25,7 @@ def test_the_page_comes_whatever_encodings_are_accepted(
         asked.append(request)
         return Response(HTTPStatus.OK, "OK", Headers(), b"<title>x</title>")
 
-    scripts = Scripts("stick.js")
+    scripts = PageScripts("stick.js")
     scripts.add("stick.js")
     connection: Any = SimpleNamespace()
     page = scripts.answering(answer)(connection, Request("/", Headers(sent)))

@@ -34,9 +34,9 @@ from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.run_archive import load_run
 from stepaside.games.walker import Walker
 from stepaside.report.replay_page import write_page
-from stepaside.report.scene import Stage
+from stepaside.report.scene import RunScene
 from stepaside.report.text_escaping import visible
-from stepaside.report.viewer.live_session import Session
+from stepaside.report.viewer.live_session import LiveSession
 
 SLOW = 0.02  # speed at which a sight of some seconds lasts for minutes
 
@@ -222,7 +222,7 @@ def test_a_robot_is_pulled_with_the_pointer_and_driven_by_hand(
         live.close()
 
 
-def settle(page: Any, session: Session) -> None:
+def settle(page: Any, session: LiveSession) -> None:
     """Wait until the loop behind the page begins a round."""
     for _ in range(3):
         served = threading.Event()
@@ -353,7 +353,7 @@ def test_robots_stand_on_the_page_where_the_numbers_say(
     write_page(run, file)
     page = open_page(browser)
     page.goto(file.as_uri())
-    stage = Stage(run)
+    stage = RunScene(run)
     for time in (0.0, 1.0, 2.0):
         page.evaluate(f"stepaside.seek({time})")
         places = page.evaluate("stepaside.places()")

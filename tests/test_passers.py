@@ -18,7 +18,7 @@ from stepaside.games.configuration_file import (
 )
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.report.scene import Stage
+from stepaside.report.scene import RunScene
 from stepaside.sim.passer_settings import Passer
 from stepaside.sim.person_settings import PersonSettings
 
@@ -79,7 +79,7 @@ def test_a_passer_walks_in_the_world_and_on_the_stage_again() -> None:
         there = passer.pose_at(last, evader)
         assert place == pytest.approx((there.x, there.y), abs=1e-9)
     run = run_duel(settings)
-    stage = Stage(run)
+    stage = RunScene(run)
     stage.put(10)
     for number, passer in enumerate(passers, start=1):
         there = passer.pose_at(float(run.times[10]), evader)

@@ -14,9 +14,9 @@ from stepaside.perception.colour_detector import RED
 from stepaside.perception.images import Percept, SonarEcho
 from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.perception.observations import camera_of
-from stepaside.perception.people_selection import People, nearest
+from stepaside.perception.people_selection import PeopleSelection, nearest
 from stepaside.perception.perception import Perception
-from stepaside.perception.track import Observation, Track
+from stepaside.perception.track import Observation, TargetTrack
 from stepaside.perception.tracker import Tracker
 
 CAMERA = CameraModel.of_field_of_view(80, 60, radians(58.0), radians(45.0))
@@ -120,13 +120,13 @@ def test_who_comes_is_told_from_who_passes() -> None:
     assert len(counted) == 1
 
 
-def followed(*places: Place) -> Track:
+def followed(*places: Place) -> TargetTrack:
     """A confirmed track of what was seen at places, 0.1 s apart."""
     first, *rest = [
         Observation(0.1 * i, x, y, 0.0, 0.03, 0.03, False, True)
         for i, (x, y) in enumerate(places)
     ]
-    track = Track(first)
+    track = TargetTrack(first)
     for seen in rest:
         track.correct(seen)
     track.confirmed = True
@@ -142,7 +142,7 @@ def looks(begin: float, speed: float, seconds: float, spread: float) -> float:
         seconds: The while.
         spread: Deviation of its places, in [m].
     """
-    people, at, count = People(), 0, round(seconds / 0.1)
+    people, at, count = PeopleSelection(), 0, round(seconds / 0.1)
 
     def seen(i: int) -> Observation:
         place = begin + 0.1 * i * speed
@@ -150,7 +150,7 @@ def looks(begin: float, speed: float, seconds: float, spread: float) -> float:
             0.1 * i, place, 0.0, 0.0, spread, spread, False, True
         )
 
-    track = Track(seen(0))
+    track = TargetTrack(seen(0))
     track.confirmed = looked = True
     for i in range(1, count):
         if looked or i % 20 == 0:  # else the head sweeps by it
@@ -173,7 +173,7 @@ def test_glances_come_every_few_seconds_and_sooner_at_who_walks(
     walks: bool,
 ) -> None:
     """0.6 s long, 3 s apart at what rests, 1 s at a walker who leaves."""
-    people, track, looked = People(), followed((3.0, 0.0)), []
+    people, track, looked = PeopleSelection(), followed((3.0, 0.0)), []
     track.walked = walks
     track._state[2] = 0.3 if walks else 0.0
     for i in range(2000):
@@ -207,11 +207,11 @@ def test_who_walks_counts_before_what_is_nearer_and_rests() -> None:
     passer = followed(*[(2.0 - 0.1 * i, 1.5) for i in range(10)])
     tracker = Tracker()
     tracker.tracks = [wall, passer, walker]
-    assert People().main(tracker, 0.95, 0.0, 0.0) is walker
+    assert PeopleSelection().main(tracker, 0.95, 0.0, 0.0) is walker
     tracker.tracks = [wall]
-    assert People().main(tracker, 0.95, 0.0, 0.0) is wall
+    assert PeopleSelection().main(tracker, 0.95, 0.0, 0.0) is wall
     # Another must come clearly nearer to count instead.
-    people = People()
+    people = PeopleSelection()
     again = followed(*[(0.1, 3.1 - 0.05 * i) for i in range(10)])
     tracker.tracks = [again]
     assert people.main(tracker, 0.95, 0.0, 0.0) is again
@@ -234,7 +234,7 @@ def test_where_somebody_goes_is_told_after_a_while_of_watching(
 ) -> None:
     """At once, nearly, of somebody who turns up near by."""
     track = followed((begin, 0.0))
-    people, settled = People(), []
+    people, settled = PeopleSelection(), []
     for i in range(1, 20):
         now, x = 0.05 * i, begin + 0.05 * i * speed
         place = Observation(now, x, 0.0, 0.0, 0.03, 0.03, False, True)
@@ -268,7 +268,7 @@ def test_who_may_pass_is_watched_for_longer(
 ) -> None:
     """Far away and near by; who comes straight on is not."""
     track = followed((begin, beside))
-    people, settled = People(), []
+    people, settled = PeopleSelection(), []
     for i in range(1, 40):
         now, x = 0.05 * i, begin - 0.05 * i * 0.8
         track.correct(

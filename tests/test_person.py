@@ -13,7 +13,11 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.sim.person_motion import Motion, read_path, template_approach
+from stepaside.sim.person_motion import (
+    PersonMotion,
+    read_path,
+    template_approach,
+)
 from stepaside.sim.person_settings import PersonSettings
 
 START = StartSettings(distance=1.5, pursuer_offset=0.0, evader_offset=0.0)
@@ -25,8 +29,8 @@ def duel_with(person: PersonSettings, duration: float) -> DuelSettings:
     )
 
 
-def walk(person: PersonSettings, start: Pose, evader: Pose) -> Motion:
-    return Motion(person, start, evader[:2])
+def walk(person: PersonSettings, start: Pose, evader: Pose) -> PersonMotion:
+    return PersonMotion(person, start, evader[:2])
 
 
 def test_a_straight_walk_passes_at_its_miss() -> None:
@@ -121,7 +125,7 @@ def test_the_template_evader_gets_away_from_a_slower_one() -> None:
     def approach(speed: float) -> float:
         person = PersonSettings("straight", speed)
         return template_approach(
-            lambda pose, evader: Motion(person, pose, evader),
+            lambda pose, evader: PersonMotion(person, pose, evader),
             Pose(0.0, 0.0, 0.0),
             Pose(1.5, 0.0, pi),
             speed=0.1,

@@ -14,7 +14,7 @@ from stepaside.games.outcome import Outcome
 from stepaside.games.template_approach import template_meeting
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS
-from stepaside.sim.person_motion import Motion
+from stepaside.sim.person_motion import PersonMotion
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
 from stepaside.theory.unicycle.side_step import side_step
@@ -28,7 +28,7 @@ def met(
 ) -> float:
     """Closest approach of a straight walk to the template, in [m]."""
     return template_meeting(
-        lambda pose, evader: Motion(
+        lambda pose, evader: PersonMotion(
             PersonSettings("straight", speed, miss=miss), pose, evader
         ),
         Pose(0.0, 0.0, 0.0),

@@ -12,19 +12,19 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose
 from stepaside.games.duel import Duel, furnisher_of
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.person_player import Pedestrian
+from stepaside.games.person_player import PersonPlayer
 from stepaside.games.walker import Walker
 from stepaside.robots.head import rotation
 from stepaside.sim.ground_truth import torsos_apart
 from stepaside.sim.pedestrian_models import FIGURES, HIP
 from stepaside.sim.person_body import (
     PARTS,
-    Person,
+    PersonBody,
     add_person,
     parts_of,
     pose_figure,
 )
-from stepaside.sim.person_motion import Motion
+from stepaside.sim.person_motion import PersonMotion
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.sim.push import Push
 
@@ -220,8 +220,10 @@ def world_of(model: mujoco.MjModel, data: mujoco.MjData) -> Any:
 def test_a_person_walks_leg_by_leg_towards_the_evader() -> None:
     model, data = figure()
     world = world_of(model, data)
-    motion = Motion(PersonSettings("steer", 0.5), Pose(1.03, 2, 0), (4, 2))
-    person = Person(world, "her", motion)
+    motion = PersonMotion(
+        PersonSettings("steer", 0.5), Pose(1.03, 2, 0), (4, 2)
+    )
+    person = PersonBody(world, "her", motion)
     assert (person.name, person.world) == ("her", world)
     trunk = int(model.body("her/trunk").mocapid[0])
     leg = int(model.body("her/left leg").mocapid[0])
@@ -243,8 +245,8 @@ def test_a_recorded_person_is_where_the_end_of_the_tick_says(
     file.write_text("time,x,y\n0,0,0\n10,10,0\n")
     model, data = figure()
     world = world_of(model, data)
-    motion = Motion(PersonSettings(str(file)), STANDING, (4.0, 0.0))
-    person = Person(world, "her", motion)
+    motion = PersonMotion(PersonSettings(str(file)), STANDING, (4.0, 0.0))
+    person = PersonBody(world, "her", motion)
     world.time = 2.0
     person.step((4.0, 0.0))
     assert person.truth.position == pytest.approx((2.0 + TICK, 0.0))
@@ -252,8 +254,8 @@ def test_a_recorded_person_is_where_the_end_of_the_tick_says(
 
 def test_truth_of_a_person_is_that_of_the_walk() -> None:
     model, data = figure()
-    motion = Motion(PersonSettings("steer"), Pose(1, 2, 0.7), (4.0, 2.0))
-    truth = Person(world_of(model, data), "her", motion).truth
+    motion = PersonMotion(PersonSettings("steer"), Pose(1, 2, 0.7), (4.0, 2.0))
+    truth = PersonBody(world_of(model, data), "her", motion).truth
     assert truth.heading == 0.7
     assert truth.com.tolist() == [1.0, 2.0, 1.0]
     assert truth.has_fallen is False
@@ -264,12 +266,12 @@ def test_truth_of_a_person_is_that_of_the_walk() -> None:
 def test_nothing_is_known_of_a_person_but_where_it_is() -> None:
     """What only a robot has is None, and a walk is no plan of ours."""
     model, data = figure()
-    motion = Motion(PersonSettings("steer"), Pose(1, 2, 0.7), (4.0, 2.0))
+    motion = PersonMotion(PersonSettings("steer"), Pose(1, 2, 0.7), (4.0, 2.0))
     world = world_of(model, data)
     world.time = 1.5
-    person = Person(world, "her", motion)
+    person = PersonBody(world, "her", motion)
     other: Any = SimpleNamespace(position=(4.0, 2.0))
-    player = Pedestrian(person, other)
+    player = PersonPlayer(person, other)
     seen = player.snapshot()
     assert (seen.name, seen.time) == ("her", 1.5)
     assert seen.torso == (1.0, 2.0, 0.7) and seen.com == (1.0, 2.0, 1.0)
@@ -285,9 +287,11 @@ def test_nothing_is_known_of_a_person_but_where_it_is() -> None:
 
 def test_nobody_pushes_a_person() -> None:
     model, data = figure()
-    motion = Motion(PersonSettings("steer"), STANDING, (4.0, 2.0))
+    motion = PersonMotion(PersonSettings("steer"), STANDING, (4.0, 2.0))
     other: Any = SimpleNamespace(position=(4.0, 2.0))
-    player = Pedestrian(Person(world_of(model, data), "her", motion), other)
+    player = PersonPlayer(
+        PersonBody(world_of(model, data), "her", motion), other
+    )
     with pytest.raises(ConfigurationError, match="robot, got her, who is a"):
         player.push(Push(1.0, 0.0, 0.0))
 
@@ -295,9 +299,11 @@ def test_nobody_pushes_a_person() -> None:
 def test_a_person_walks_to_where_the_other_is_by_then() -> None:
     model, data = figure()
     world = world_of(model, data)
-    motion = Motion(PersonSettings("steer", 0.5, 2.0), STANDING, (4.0, 0.0))
+    motion = PersonMotion(
+        PersonSettings("steer", 0.5, 2.0), STANDING, (4.0, 0.0)
+    )
     other: Any = SimpleNamespace(position=(0.0, 4.0))
-    player = Pedestrian(Person(world, "her", motion), other)
+    player = PersonPlayer(PersonBody(world, "her", motion), other)
     for side in (1.0, -1.0):
         other.position = (0.0, 4.0 * side)
         before = player.truth.heading
@@ -340,7 +346,7 @@ def test_a_person_stands_where_the_pursuer_would_and_knows_the_evader() -> (
         )
         duel = Duel(settings)
         person, evader = duel.players
-        assert isinstance(person, Pedestrian) and isinstance(evader, Walker)
+        assert isinstance(person, PersonPlayer) and isinstance(evader, Walker)
         assert (person.name, evader.name) == ("pursuer", "evader")
         assert person.truth.position == (0.0, 0.0)
         aside = np.arctan2(miss, 2.0)

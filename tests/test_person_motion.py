@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.sim.person_motion import (
-    Motion,
+    PersonMotion,
     Place,
     read_path,
     template_approach,
@@ -27,7 +27,7 @@ def test_a_straight_walk_aims_to_the_left_of_the_evader(
 ) -> None:
     """A right miss is a negative one; the heading at the start is nothing."""
     person = PersonSettings("straight", 0.5, miss=miss)
-    motion = Motion(person, Pose(*start, 2.0), EVADER)
+    motion = PersonMotion(person, Pose(*start, 2.0), EVADER)
     assert motion.pose[:2] == start
     dx, dy = EVADER[0] - start[0], EVADER[1] - start[1]
     aside = wrap_angle(motion.pose.theta - atan2(dy, dx))
@@ -36,7 +36,7 @@ def test_a_straight_walk_aims_to_the_left_of_the_evader(
 
 def test_a_straight_walk_does_not_care_where_the_evader_goes() -> None:
     person = PersonSettings("straight", 0.5)
-    motion = Motion(person, Pose(0.0, 0.0, 0.0), EVADER)
+    motion = PersonMotion(person, Pose(0.0, 0.0, 0.0), EVADER)
     heading = motion.pose.theta
     for i in range(10):
         motion.advance(0.1 * (i + 1), 0.1, (5.0 * i, 7.0))
@@ -51,7 +51,7 @@ def test_steering_turns_the_short_way_and_walks_on(
     bearing: float, heading: float
 ) -> None:
     person = PersonSettings("steer", 0.4, 0.6)
-    motion = Motion(person, Pose(1.0, 2.0, heading), EVADER)
+    motion = PersonMotion(person, Pose(1.0, 2.0, heading), EVADER)
     assert motion.pose.theta == heading
     aim = heading + bearing
     evader = 1.0 + 9.0 * cos(aim), 2.0 + 9.0 * sin(aim)
@@ -75,7 +75,7 @@ def test_a_recorded_walk_is_where_and_heads_as_recorded(
 ) -> None:
     file = recorded(tmp_path, "1,0,0\n3,-1,-1\n5,-1.5,-2\n")
     person = PersonSettings(str(file))
-    motion = Motion(person, Pose(9.0, 9.0, 1.0), EVADER)
+    motion = PersonMotion(person, Pose(9.0, 9.0, 1.0), EVADER)
     aslant, down = -0.75 * pi, atan2(-1.0, -0.5)
     assert motion.pose == pytest.approx((0.0, 0.0, 0.0))  # not begun yet
     for time, pose in (
@@ -92,7 +92,9 @@ def test_a_recorded_walk_is_where_and_heads_as_recorded(
 
 def test_who_rests_heads_ahead(tmp_path: Path) -> None:
     file = recorded(tmp_path, "0,1,2\n3,1,2\n")
-    motion = Motion(PersonSettings(str(file)), Pose(0.0, 0.0, 1.0), EVADER)
+    motion = PersonMotion(
+        PersonSettings(str(file)), Pose(0.0, 0.0, 1.0), EVADER
+    )
     assert motion.pose == (1.0, 2.0, 0.0)
 
 
@@ -143,7 +145,7 @@ def approach(
     walk = person or PersonSettings("straight", 0.15)
     given = {"duration": 18.0, "speed": SPEED, "gain": GAIN} | changes
     return template_approach(
-        lambda pose, place: Motion(walk, pose, place),
+        lambda pose, place: PersonMotion(walk, pose, place),
         start,
         evader,
         angle=angle,
@@ -253,7 +255,7 @@ def test_a_straight_retreat_is_the_difference_of_the_speeds() -> None:
 
 def walked(person: PersonSettings, ways: int = 40) -> list[Pose]:
     """Poses of a walk in steps of 0.05 m, the start among them."""
-    motion = Motion(person, Pose(0.0, 0.0, 0.0), (9.0, 0.0))
+    motion = PersonMotion(person, Pose(0.0, 0.0, 0.0), (9.0, 0.0))
     poses = [motion.pose]
     for i in range(ways):
         motion.advance(0.1 * (i + 1), 0.1, (9.0, 0.0))
@@ -298,7 +300,7 @@ def test_who_walks_backward_goes_the_same_way_and_faces_away(
 
 def test_visits_come_from_everywhere_and_pass_where_they_aim() -> None:
     """Round the evader, which has moved meanwhile, from 4.5 m away."""
-    motion = Motion(
+    motion = PersonMotion(
         PersonSettings("visits", 1.0, miss=0.5),
         Pose(-4.5, 0.0, 0.0),
         (0.0, 0.0),

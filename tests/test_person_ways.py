@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.sim.person_motion import Motion
+from stepaside.sim.person_motion import PersonMotion
 from stepaside.sim.person_settings import PersonSettings
-from stepaside.sim.person_visits import AROUND, Visits
+from stepaside.sim.person_visits import AROUND, RepeatedVisits
 
 GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 
@@ -23,7 +23,9 @@ def test_whoever_is_recorded_heads_along_the_way(
     x, y = (round(4.0 * speed * f(course), 12) for f in (cos, sin))
     file = tmp_path / "walk.csv"
     file.write_text(f"time,x,y\n0,0,0\n4,{x},{y}\n", encoding="utf-8")
-    motion = Motion(PersonSettings(str(file)), Pose(0.0, 0.0, 0.0), (9.0, 9.0))
+    motion = PersonMotion(
+        PersonSettings(str(file)), Pose(0.0, 0.0, 0.0), (9.0, 9.0)
+    )
     for time in (0.0, 1.0, 3.3):
         motion.advance(time, 0.02, (9.0, 9.0))
         assert wrap_angle(motion.pose.theta - course) == pytest.approx(0.0)
@@ -31,7 +33,7 @@ def test_whoever_is_recorded_heads_along_the_way(
 
 def test_visits_aim_by_the_golden_ratio_and_pass_on_that_side() -> None:
     """Crossing k aims 1.5 m (2 frac(k / 1.618) - 1) to the left."""
-    visits, evader = Visits(0.4), (0.7, -0.3)
+    visits, evader = RepeatedVisits(0.4), (0.7, -0.3)
     x, y, course, step = evader[0] - AROUND, evader[1] + 0.4, 0.0, 0.02
     aims: dict[int, float] = {}
     passed: dict[int, float] = {}

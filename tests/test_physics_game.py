@@ -10,7 +10,7 @@ from invented_run import figures, run_of
 from made_up_record import Record
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_summary import PlanTimes
-from stepaside.games.trajectory import Track
+from stepaside.games.trajectory import Trajectory
 from stepaside.studies.physics_game import figures_of
 
 
@@ -20,7 +20,7 @@ def played(turns: float = 0.0) -> DuelRun:
     tracks = made.tracks()
     evader = tracks["evader"]
     place = evader.unicycle + np.array([0.0, 0.0, tau * turns])
-    tracks["evader"] = Track(evader.com, evader.torso, place)
+    tracks["evader"] = Trajectory(evader.com, evader.torso, place)
     run = run_of(made.times, tracks)
     spent = PlanTimes(median=300.0, p99=900.0)
     return replace(run, summary=figures(plan_time_us=spent))

@@ -11,7 +11,7 @@ import pytest
 
 from lola_fakes import JOINTS, STANCE, MadeUpRobot
 from stepaside.cli.main import main
-from stepaside.drivers.lola.lola_address import Address
+from stepaside.drivers.lola.lola_address import LolaAddress
 from stepaside.drivers.lola.lola_server import LolaServer
 
 
@@ -82,7 +82,7 @@ def test_play_waits_for_a_robot_that_is_not_there_yet(
         sleep(0.05)
     assert f"no robot listens at {place}" in caplog.text
     server = LolaServer(
-        *(Address(str(place)), MadeUpRobot(), JOINTS),
+        *(LolaAddress(str(place)), MadeUpRobot(), JOINTS),
         lock_step=True,
         ideal_sight=sight,
     )
@@ -114,7 +114,7 @@ def test_a_dry_run_looks_on_and_writes_down_what_it_saw(
 ) -> None:
     place, log = tmp_path / "e", tmp_path / "log"
     robot = MadeUpRobot()
-    server = LolaServer(Address(str(place)), robot, JOINTS, lock_step=True)
+    server = LolaServer(LolaAddress(str(place)), robot, JOINTS, lock_step=True)
 
     def play() -> None:
         words = ["play", "--role", "evader", "--robot", f"lola:{place}"]
@@ -146,7 +146,7 @@ def test_a_session_that_is_lost_is_got_again_for_a_while(
 ) -> None:
     """It begins limp, as the first did, and waits for the button."""
     place, log = tmp_path / "e", tmp_path / "log"
-    address = Address(str(place))
+    address = LolaAddress(str(place))
 
     def play() -> None:
         words = ["play", "--role", "evader", "--robot", f"lola:{place}"]

@@ -14,8 +14,8 @@ from fuzz.places import full, room_in, short_of, taken
 from stepaside.cli.play_record import PlayRecord
 from stepaside.core.errors import OutputError
 from stepaside.core.poses import Pose
-from stepaside.drivers.velocity.velocity_body import Velocity
-from stepaside.drivers.velocity.velocity_loop import Driving, VelocityTick
+from stepaside.drivers.velocity.velocity_body import VelocityCommand
+from stepaside.drivers.velocity.velocity_loop import DrivingState, VelocityTick
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.play_run import PlayRun
@@ -27,15 +27,15 @@ OPTIONS = {
     "description": "nao",
     "dry_run": False,
 }
-REST = Velocity(0.0, 0.0)
+REST = VelocityCommand(0.0, 0.0)
 AS_IT_GOES = {"columns.json", "rows.f64", "play.json", "configuration.toml"}
 TICKS = 200  # more than reach the disk at once
 
 
 def tick(number: int) -> VelocityTick:
-    time, state = 0.05 * number, Driving.WAITING
+    time, state = 0.05 * number, DrivingState.WAITING
     if number >= TICKS // 2:
-        state = Driving.WALKING
+        state = DrivingState.WALKING
     return VelocityTick(state, "", time, Pose(0, 0, 0), None, REST, REST)
 
 

@@ -15,14 +15,14 @@ pytest.importorskip("qi")
 pytest.importorskip("msgpack")
 
 from stepaside.cli.main import main  # noqa: E402
-from stepaside.drivers.joint.safety import State  # noqa: E402
+from stepaside.drivers.joint.safety import RobotState  # noqa: E402
 from stepaside.drivers.naoqi.joint_server import (  # noqa: E402
     NaoqiJointServer,
 )
 from stepaside.drivers.naoqi.naoqi_server import NaoqiServer  # noqa: E402
 from stepaside.drivers.row_file import read_rows  # noqa: E402
-from stepaside.drivers.velocity.velocity_body import REST, Velocity  # noqa: E402
-from stepaside.drivers.velocity.velocity_loop import Driving  # noqa: E402
+from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand  # noqa: E402
+from stepaside.drivers.velocity.velocity_loop import DrivingState  # noqa: E402
 from stepaside.games.outcome import Outcome  # noqa: E402
 from stepaside.games.play_run import PlayRun  # noqa: E402
 from stepaside.games.run_archive import load_run  # noqa: E402
@@ -65,7 +65,7 @@ class Walks:
     def __init__(self) -> None:
         self.walker = MadeUpWalker()
         self.server = NaoqiServer(
-            ANYWHERE, self.walker, ["a", "b"], Velocity(1, 1), tick=TICK
+            ANYWHERE, self.walker, ["a", "b"], VelocityCommand(1, 1), tick=TICK
         )
         self.told = 0
 
@@ -121,14 +121,19 @@ def test_what_was_played_lies_in_a_run_folder_that_replays(
     assert run.summary.walking_s == pytest.approx(WALKED, abs=0.2)
     states = [change.state for change in run.summary.changes]
     if isinstance(scene, Joints):
-        walked = [State.LIMP, State.REACHING, State.READY, State.WALKING]
-        walked += [State.RESTING, State.LIMP]  # it has not moved yet
+        walked = [
+            RobotState.LIMP,
+            RobotState.REACHING,
+            RobotState.READY,
+            RobotState.WALKING,
+        ]
+        walked += [RobotState.RESTING, RobotState.LIMP]  # it has not moved yet
         assert states == [state.value for state in walked]
         assert scene.robot.stiffness.max() == 0.0
         assert run.player.qpos is not None
         assert run.summary.closest_m == pytest.approx(2.0)
     else:
-        assert Driving.WALKING.value in states and scene.told
+        assert DrivingState.WALKING.value in states and scene.told
         assert not scene.server.robot.awake
         assert run.summary.closest_m == pytest.approx(2.0)
         assert np.abs(read_rows(folder)["wanted"][:, 0]).max() > 0.0

@@ -13,12 +13,12 @@ from click.testing import CliRunner
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.drivers.joint.joint_loop import Tick
-from stepaside.drivers.joint.safety import State
+from stepaside.drivers.joint.joint_loop import JointTick
+from stepaside.drivers.joint.safety import RobotState
 from stepaside.drivers.play_log import PlayLog
 from stepaside.drivers.row_file import read_rows
-from stepaside.drivers.velocity.velocity_body import Velocity
-from stepaside.drivers.velocity.velocity_loop import Driving, VelocityTick
+from stepaside.drivers.velocity.velocity_body import VelocityCommand
+from stepaside.drivers.velocity.velocity_loop import DrivingState, VelocityTick
 from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
@@ -31,7 +31,7 @@ from stepaside.games.run_archive import load_run
 from stepaside.games.walker import Walker
 from stepaside.perception.measurement import Sighting
 from stepaside.report.run_folder import draw_run
-from stepaside.report.scene import Stage
+from stepaside.report.scene import RunScene
 from stepaside.robots.description import load_robot
 from stepaside.robots.tree_cache import load_tree
 from stepaside.sim.body_settings import BODIES
@@ -59,8 +59,8 @@ def look_at(log: PlayLog, walker: Walker) -> None:
         write(targets)
         scheme = walker.scheme
         log.note(
-            Tick(
-                State.WALKING,
+            JointTick(
+                RobotState.WALKING,
                 "chest button",
                 scheme.phase,
                 measured[0],
@@ -181,7 +181,7 @@ def test_a_record_that_was_cut_off_replays_as_far_as_it_goes(
 
 
 def test_it_is_drawn_and_told_of(walked: Walked, tmp_path: Path) -> None:
-    stage = Stage(walked.run)
+    stage = RunScene(walked.run)
     stage.put(50)
     assert stage.model.body("pursuer/trunk").mocapid[0] >= 0
     draw_run(walked.run, tmp_path / "play.png")
@@ -208,13 +208,13 @@ def circling(log: PlayLog, offset: float) -> None:
         seen = Sighting(time, float(bearing), 1.0) if tick > 20 else None
         log.note(
             VelocityTick(
-                Driving.WALKING,
+                DrivingState.WALKING,
                 "sees the other",
                 time,
                 pose,
                 seen,
-                Velocity(0.3, 0.2),
-                Velocity(0.2, 0.2),
+                VelocityCommand(0.3, 0.2),
+                VelocityCommand(0.2, 0.2),
             )
         )
     log.close()
@@ -232,15 +232,15 @@ def test_a_robot_that_walks_by_itself_is_a_template(tmp_path: Path) -> None:
     assert run.player.command is not None
     np.testing.assert_array_equal(run.player.command[5], [0.3, 0.2, 0.2, 0.2])
     draw_run(run, tmp_path / "play.png")
-    Stage(run).put(10)
+    RunScene(run).put(10)
     assert load_run(tmp_path / "p").players == ("pursuer", "evader")
 
 
 def test_who_saw_nobody_is_alone(tmp_path: Path) -> None:
     log = log_at(tmp_path / "p", EVADER)
     at = Pose(0.0, 0.0, 0.0)
-    rest = Velocity(0.0, 0.0)
-    why = (Driving.WAITING, "sees nobody")
+    rest = VelocityCommand(0.0, 0.0)
+    why = (DrivingState.WAITING, "sees nobody")
     for tick in range(5):
         log.note(VelocityTick(*why, 0.05 * tick, at, None, rest, rest))
     log.close()
@@ -248,7 +248,7 @@ def test_who_saw_nobody_is_alone(tmp_path: Path) -> None:
     assert run.players == ("evader",) and run.pair is None
     assert run.summary.closest_m is None and run.summary.walking_s == 0.0
     draw_run(run, tmp_path / "play.png")
-    Stage(run).put(0)
+    RunScene(run).put(0)
 
 
 def test_one_clock_goes_on_where_a_robots_clock_begins_anew() -> None:

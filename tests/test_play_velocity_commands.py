@@ -106,11 +106,13 @@ def test_play_that_is_killed_is_outlived_by_who_stops_its_robot(
     """The guardian calls in a session of its own; the log can be read."""
     pytest.importorskip("qi")
     from stepaside.drivers.naoqi.naoqi_server import NaoqiServer
-    from stepaside.drivers.velocity.velocity_body import REST, Velocity
+    from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
 
     walker = MadeUpWalker()
     url = "tcp://127.0.0.1:0"
-    server = NaoqiServer(url, walker, ["a", "b"], Velocity(1, 1), tick=TICK)
+    server = NaoqiServer(
+        url, walker, ["a", "b"], VelocityCommand(1, 1), tick=TICK
+    )
     log = tmp_path / "log"
     robot = f"naoqi:{server.url}"
     words = ["play", "--role", "pursuer", "--robot", robot, "--by", way]

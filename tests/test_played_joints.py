@@ -8,9 +8,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from stepaside.core.poses import Array, Pose, wrap_angle
-from stepaside.games.play_joint_path import PRESSED, Believed, _quaternion
+from stepaside.games.play_joint_path import PRESSED, OdometryPath, _quaternion
 from stepaside.games.play_rows import PlayedRows
-from stepaside.games.trajectory import Track
+from stepaside.games.trajectory import Trajectory
 from stepaside.planning import Foot, GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.robots.forward_kinematics import ForwardKinematics
@@ -22,7 +22,7 @@ SUPPORT = Pose(0.4, -0.7, 2.2)
 TILT = (0.07, -0.05)
 
 
-def believed(forces: Array, foot: Foot = Foot.LEFT) -> Track:
+def believed(forces: Array, foot: Foot = Foot.LEFT) -> Trajectory:
     """Track of a robot that stands on a foot and leans, at one instant."""
     columns = {
         "joint_positions": BENT[None],
@@ -36,12 +36,12 @@ def believed(forces: Array, foot: Foot = Foot.LEFT) -> Track:
         "begun": np.full((1, 6), np.nan),
         "state": np.zeros(1),
     }
-    body = Believed(PlayedRows(columns, np.zeros(1), ()), NAO)
+    body = OdometryPath(PlayedRows(columns, np.zeros(1), ()), NAO)
     body._tilts = np.array([TILT])
     return body.track(GaitSettings(), np.full((1, 3), np.nan))
 
 
-def shown(track: Track) -> mujoco.MjData:
+def shown(track: Trajectory) -> mujoco.MjData:
     """The body of a track, as MuJoCo moves it."""
     model = NAO.compile()
     data = mujoco.MjData(model)
@@ -139,7 +139,7 @@ def test_each_mind_has_its_odometry_midway_between_the_feet(
         "state": np.zeros(2),
     }
     rows = PlayedRows(columns, np.array([0.0, 0.02]), ())
-    body = Believed(rows, NAO)
+    body = OdometryPath(rows, NAO)
     body._tilts = np.array([TILT, TILT])
     track = body.track(GaitSettings(), np.full((2, 3), np.nan))
     for name in ("com", "place", "torso", "zmp", "qpos"):

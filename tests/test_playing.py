@@ -12,21 +12,21 @@ import pytest
 
 from lola_fakes import JOINTS, STANCE, Clock, FakeLink, pressed, sensor_frame
 from stepaside.control import Phase
-from stepaside.control.strategy_runner import Decisions
+from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.control.walk_snapshots import WalkState
 from stepaside.core.errors import ConfigurationError, ReachError, StrategyError
 from stepaside.core.poses import Pose
 from stepaside.drivers.joint.frames import pack_sensors
-from stepaside.drivers.joint.joint_body import LolaBody
-from stepaside.drivers.joint.joint_loop import Playing
-from stepaside.drivers.joint.safety import State
+from stepaside.drivers.joint.joint_body import JointBody
+from stepaside.drivers.joint.joint_loop import JointLoop
+from stepaside.drivers.joint.safety import RobotState
 from stepaside.drivers.play_log import PlayLog
 from stepaside.drivers.row_file import read_rows
 from stepaside.drivers.status_line import StatusLine
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Foot, GaitSettings
 from stepaside.robots.body_reference import BodyReference
-from stepaside.strategies import Evasion, Stand, Strategy
+from stepaside.strategies import Evasion, StandStill, Strategy
 
 FINE = pack_sensors(sensor_frame())
 PRESS = [pack_sensors(pressed()), FINE]
@@ -62,7 +62,7 @@ class FakeMind:
     """Control that walks until its strategy wants nothing more."""
 
     def __init__(self, strategy: Strategy) -> None:
-        self.decisions = Decisions(strategy, GaitSettings(), 0.012)
+        self.decisions = StrategyRunner(strategy, GaitSettings(), 0.012)
         self.phase = Phase.STANDING
         self.joint_targets = STANCE
         self.kinematics = SimpleNamespace(joint_names=JOINTS)
@@ -92,10 +92,10 @@ class Game:
         self.minds: list[FakeMind] = []
         self.link = FakeLink(Clock(), script)
 
-        def open_body(scheme: Any) -> LolaBody:
+        def open_body(scheme: Any) -> JointBody:
             clock = self.link.clock
             names = scheme.kinematics.joint_names
-            return LolaBody(
+            return JointBody(
                 self.link,
                 names,
                 scheme.joint_targets,
@@ -108,7 +108,7 @@ class Game:
             self.minds.append(FakeMind(strategy))
             return self.minds[-1]
 
-        self.playing = Playing(open_body, WISH, make, **changes)
+        self.playing = JointLoop(open_body, WISH, make, **changes)
 
     def play(self, ticks: int) -> Any:
         """Play some ticks, and return the last."""
@@ -132,9 +132,9 @@ def test_the_button_lets_control_stop_and_the_next_walk_has_a_new_mind() -> (
     game = Game([*TO_READY, *PRESS, *3 * [FINE], *PRESS, *3 * [FINE]])
     assert game.play(105).phase is Phase.WALKING
     game.play(2)  # pressed and let go: control is told, and walks on
-    assert game.playing.body.state is State.STOPPING
-    assert isinstance(game.minds[0].decisions.strategy, Stand)
-    assert game.play(1).state is State.RESTING
+    assert game.playing.body.state is RobotState.STOPPING
+    assert isinstance(game.minds[0].decisions.strategy, StandStill)
+    assert game.play(1).state is RobotState.RESTING
     assert len(game.minds) == 1
     game.playing.body.fail("lies on its belly")
     game.play(1)
@@ -147,11 +147,11 @@ def test_a_robot_that_was_lifted_stands_and_walks_anew_by_the_button() -> None:
     script = [*TO_READY, *PRESS, *40 * [lifted], *5 * [FINE], *PRESS, FINE]
     game = Game(script)
     tick = game.play(142)
-    assert tick.state is State.READY and "in the air" in tick.reason
-    assert game.play(5).state is State.READY
+    assert tick.state is RobotState.READY and "in the air" in tick.reason
+    assert game.play(5).state is RobotState.READY
     assert len(game.minds) == 2
     game.play(3)
-    assert game.playing.body.state is State.WALKING
+    assert game.playing.body.state is RobotState.WALKING
     assert game.minds[1].decisions.strategy is WISH
     np.testing.assert_allclose(game.minds[1].times, [0.0, 0.012])
 
@@ -168,7 +168,7 @@ def test_control_that_gives_up_lets_the_robot_go_limp(kind: str) -> None:
         game.minds[0].update = lambda _: STANCE  # type: ignore[method-assign, assignment]
         game.minds[0].phase = Phase.FALLEN
     tick = game.play(1)
-    assert tick.state is State.LIMP
+    assert tick.state is RobotState.LIMP
     said = {"footing": "too short", "strategy": "'x'", "falling": "falls"}
     assert said[kind] in tick.reason
 
@@ -231,7 +231,7 @@ def test_a_terminal_that_hung_up_does_not_end_the_walk() -> None:
     for _ in range(102):
         line.note(game.playing.tick())
     line.close()
-    assert game.playing.body.state is State.WALKING
+    assert game.playing.body.state is RobotState.WALKING
 
 
 @pytest.mark.parametrize("stream", [io.StringIO(), Terminal()])

@@ -9,7 +9,7 @@ import pytest
 from stepaside.arena import Disc, Room, wall_between
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
-    Deflected,
+    DeflectedEvasion,
     Evasion,
     HerdingPursuit,
     Knowledge,
@@ -164,7 +164,7 @@ def test_on_an_open_floor_nothing_deflects() -> None:
     game = StepGame(duration=20.0)
     one, other = (
         play_steps(Pursuit(), evader, START, game=game).evader
-        for evader in (ASIDE, Deflected(ASIDE))
+        for evader in (ASIDE, DeflectedEvasion(ASIDE))
     )
     np.testing.assert_array_equal(one, other)
 
@@ -173,7 +173,7 @@ def test_a_wall_turns_it_along_and_a_far_one_does_not() -> None:
     """Backing into a wall: the push out of it has the closed form."""
     turn = Pose(0.0, 0.0, 0.4)  # so that it pushes along x and y
     wall = wall_between((-5.0, -0.55), (5.0, -0.55))  # its face at -0.5
-    back = Deflected(Evasion(angle=0.0, safety_radius=9.0))
+    back = DeflectedEvasion(Evasion(angle=0.0, safety_radius=9.0))
     known = Knowledge(0.0, 0.0, 1.0, NAO, pose=Pose(0.0, 0.0, 0.5))
     straight, _ = back.decide(known, back.begin())
     assert straight.heading == 0.0

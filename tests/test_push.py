@@ -10,7 +10,7 @@ import pytest
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
 from stepaside.sim.push import Push, check_pushes, pushes_of
-from stepaside.sim.push_forces import Pusher
+from stepaside.sim.push_forces import PushApplier
 
 STEP = 0.002
 MODEL = f"""
@@ -30,7 +30,7 @@ class Bench:
         self.data = mujoco.MjData(self.model)
         self.data.qpos[10:14] = quaternion
         mujoco.mj_forward(self.model, self.data)
-        self.pusher = Pusher(self.model, self.data, 2)
+        self.pusher = PushApplier(self.model, self.data, 2)
         for push in pushes:
             self.pusher.add(push)
 

@@ -6,7 +6,7 @@ import pytest
 
 from stepaside.strategies.opponent_rates import (
     FloorVelocity,
-    Rates,
+    SightRateEstimate,
     SightRates,
 )
 
@@ -16,7 +16,7 @@ STEP = 0.5
 def test_nothing_is_known_of_the_first_sightings() -> None:
     rates = SightRates(STEP)
     for time in (0.0, 0.0, 0.1, 0.3):
-        assert rates.note(time, 0.3, 1.0) == Rates(None, None)
+        assert rates.note(time, 0.3, 1.0) == SightRateEstimate(None, None)
 
 
 @pytest.mark.parametrize("every", [0.004, 0.1, 0.5])
@@ -52,7 +52,7 @@ def test_after_a_gap_nothing_is_known() -> None:
     rates = SightRates(STEP)
     for time in (0.0, 0.5, 1.0):
         rates.note(time, time, 1.0)
-    assert rates.note(9.0, 0.0, 5.0) == Rates(None, None)
+    assert rates.note(9.0, 0.0, 5.0) == SightRateEstimate(None, None)
 
 
 def test_few_sightings_are_kept_for_however_long() -> None:

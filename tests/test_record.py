@@ -11,7 +11,7 @@ from stepaside.core.poses import Array, Pose
 from stepaside.games.match import Match
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorder import Recorder
-from stepaside.games.trajectory import Track
+from stepaside.games.trajectory import Trajectory
 from stepaside.planning import Foot
 
 FRAMES = (Pose(0.0, 0.0, 0.0), Pose(1.0, 2.0, pi / 2))
@@ -230,7 +230,7 @@ def test_tracks_that_were_handed_out_stay_as_they_were() -> None:
     first = made.tracks()["a"]
     tell(players[0], 1)
     sample(made, match)
-    assert isinstance(first, Track) and first.com.shape == (1, 3)
+    assert isinstance(first, Trajectory) and first.com.shape == (1, 3)
     np.testing.assert_array_equal(first.com, [[1.0, 2.0, 3.0]])
     assert made.tracks()["a"].com.shape == (2, 3)
 

@@ -11,22 +11,22 @@ from every_field import changed
 from stepaside.arena import Disc, Door, Room, RoomRecipe
 from stepaside.core.poses import Pose
 from stepaside.fitting import gait_search as tuning
-from stepaside.fitting.gait_search import Search
-from stepaside.fitting.walk_trials import Walked
+from stepaside.fitting.gait_search import GaitSearch
+from stepaside.fitting.walk_trials import WalkTrialResult
 from stepaside.games.duel_settings import DuelSettings, RobotSettings
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BODIES
-from stepaside.sim.camera_settings import Thing
+from stepaside.sim.camera_settings import RoomObject
 from stepaside.sim.passer_settings import Passer
 from stepaside.sim.push import Push
 from stepaside.studies.duel_campaign import key_of, settings_hash
 from stepaside.studies.people_campaign import encounters
 from stepaside.studies.push_results import pushes_result
-from stepaside.studies.record_store import RecordFile
-from stepaside.studies.robustness_campaign import Trial
+from stepaside.studies.record_store import RecordStore
+from stepaside.studies.robustness_campaign import RobustnessTrial
 from stepaside.studies.settings_diff import changed_walk, changes_of
 from stepaside.studies.tournament_campaign import key_of as game_key
 from stepaside.studies.tournament_settings import TournamentSettings
@@ -46,7 +46,7 @@ OTHERS: dict[str, Any] = {
     "evader_robot": [RobotSettings(gait=PRESETS["fast"])],
     "pushes": [(Push(1.0, 2.0, 0.0),)],
     "passers": [(Passer(1.0, 4.0),)],
-    "room.things": [[Thing("red box", 1.0, 1.0)]],
+    "room.things": [[RoomObject("red box", 1.0, 1.0)]],
     "room.plan": [ROOM],
     "map.source": ["none", "seen"],
     "map.unseen": ["free"],
@@ -57,7 +57,9 @@ WALK = WalkSettings(control=FEEDBACK)
 # What every trial of a campaign sets itself.
 OF_TRIALS = {"seed", "duration", "pushes", "control.method"}
 OF_TRIALS |= {"control.feedback"}
-FALLEN = Walked("", False, "", False, 0.1, None, None, None, None, None)
+FALLEN = WalkTrialResult(
+    "", False, "", False, 0.1, None, None, None, None, None
+)
 
 
 class Here(Executor):
@@ -133,7 +135,7 @@ def test_every_setting_of_an_encounter_changes_its_key() -> None:
 
 
 def test_every_part_of_a_trial_changes_its_key() -> None:
-    trial = Trial("push", 1.2, "left", 0.25, 5, "mpc", "ideal", "{}")
+    trial = RobustnessTrial("push", 1.2, "left", 0.25, 5, "mpc", "ideal", "{}")
     others = {
         "kind": ["noise"],
         "direction": ["right"],
@@ -199,8 +201,8 @@ def test_every_part_of_a_description_names_the_walks_of_a_search(
 
     def keys_of(description: Any, name: str) -> set[str]:
         file = tmp_path / f"{name}.jsonl"
-        Search(description, Here(), file).run()
-        return set(RecordFile(file).read())
+        GaitSearch(description, Here(), file).run()
+        return set(RecordStore(file).read())
 
     changes: dict[str, Any] = {
         "standing": own.standing | {"LKneePitch": 0.9},

@@ -7,24 +7,24 @@ from pathlib import Path
 
 import pytest
 
-from stepaside.studies.record_store import RecordFile
+from stepaside.studies.record_store import RecordStore
 
 
 @pytest.fixture
-def file(tmp_path: Path) -> RecordFile:
+def file(tmp_path: Path) -> RecordStore:
     """File with two records."""
-    records = RecordFile(tmp_path / "records.jsonl")
+    records = RecordStore(tmp_path / "records.jsonl")
     records.append("a", {"x": 1.5})
     records.append("b", {"x": 2.5, "none": None})
     return records
 
 
-def test_what_is_appended_is_read(file: RecordFile) -> None:
+def test_what_is_appended_is_read(file: RecordStore) -> None:
     assert file.read() == {"a": {"x": 1.5}, "b": {"x": 2.5, "none": None}}
     assert file.aside == 0
 
 
-def test_of_two_records_with_a_key_the_last_counts(file: RecordFile) -> None:
+def test_of_two_records_with_a_key_the_last_counts(file: RecordStore) -> None:
     file.append("a", {"x": 3.0})
     assert file.read()["a"] == {"x": 3.0}
 
@@ -41,7 +41,7 @@ def test_of_two_records_with_a_key_the_last_counts(file: RecordFile) -> None:
     ],
 )
 def test_torn_and_foreign_lines_are_set_aside(
-    file: RecordFile, line: str
+    file: RecordStore, line: str
 ) -> None:
     with file.path.open("a", encoding="utf-8") as out:
         out.write(line)
@@ -50,16 +50,16 @@ def test_torn_and_foreign_lines_are_set_aside(
     aside = file.path.with_name("records.jsonl.aside")
     assert aside.read_text(encoding="utf-8") == line + "\n"
     file.append("c", {"x": 4.0})  # not glued to what was torn
-    assert set(RecordFile(file.path).read()) == {"a", "b", "c"}
+    assert set(RecordStore(file.path).read()) == {"a", "b", "c"}
 
 
-def test_an_altered_number_is_noticed(file: RecordFile) -> None:
+def test_an_altered_number_is_noticed(file: RecordStore) -> None:
     text = file.path.read_text(encoding="utf-8").replace("1.5", "1.6")
     file.path.write_text(text, encoding="utf-8")
     assert set(file.read()) == {"b"}
 
 
-def test_a_record_under_another_key_is_noticed(file: RecordFile) -> None:
+def test_a_record_under_another_key_is_noticed(file: RecordStore) -> None:
     lines = file.path.read_text(encoding="utf-8").splitlines()
     entry = json.loads(lines[0]) | {"key": "z"}
     file.path.write_text(json.dumps(entry) + "\n", encoding="utf-8")
@@ -67,7 +67,7 @@ def test_a_record_under_another_key_is_noticed(file: RecordFile) -> None:
 
 
 def test_no_file_holds_nothing_and_is_not_made(tmp_path: Path) -> None:
-    file = RecordFile(tmp_path / "none.jsonl")
+    file = RecordStore(tmp_path / "none.jsonl")
     assert file.read() == {}
     assert not file.path.exists()
 
@@ -89,7 +89,7 @@ except OutputError:
 
 
 def test_no_half_of_a_record_stays_where_room_runs_out(
-    file: RecordFile,
+    file: RecordStore,
 ) -> None:
     pytest.importorskip("resource")
     before = file.path.read_bytes()

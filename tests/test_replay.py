@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.run_archive import load_run
-from stepaside.report.film import Shot
+from stepaside.report.film import FilmSettings
 from stepaside.report.replay_page import three, write_page
 from stepaside.sim.offscreen_rendering import RAYCAST, choose_renderer
 
@@ -91,7 +91,7 @@ def test_a_gif_moves(run: Path, tmp_path: Path) -> None:
 
 
 def test_a_film_knows_its_instants() -> None:
-    shot = Shot(rate=10.0, speed=2.0, begin=1.0, duration=4.0)
+    shot = FilmSettings(rate=10.0, speed=2.0, begin=1.0, duration=4.0)
     instants = shot.instants(100.0)
     assert instants[0] == 1.0 and instants[-1] == pytest.approx(5.0)
     assert len(instants) == 21

@@ -19,13 +19,13 @@ from stepaside.core.poses import Array
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.trajectory import Track
+from stepaside.games.trajectory import Trajectory
 from stepaside.report import film, film_layers
 from stepaside.report.cycle_means import whole_cycles
 from stepaside.report.figure_style import COLOURS, THEORY
-from stepaside.report.film import Cinema, Shot
+from stepaside.report.film import FilmRenderer, FilmSettings
 from stepaside.report.replay_page import write_page
-from stepaside.report.scene import Stage
+from stepaside.report.scene import RunScene
 from stepaside.report.visual_geoms import parts_of
 from stepaside.sim.offscreen_rendering import RAYCAST
 
@@ -48,7 +48,7 @@ def made() -> DuelRun:
     return replace(run, name="a </b> run", tracks=tracks)
 
 
-def thinned(track: Track, every: int) -> Track:
+def thinned(track: Trajectory, every: int) -> Trajectory:
     """Track with some of its samples."""
     assert track.qpos is not None
     return replace(
@@ -107,7 +107,7 @@ def test_bodies_on_the_page_are_where_they_were(
     run = replace(run, tracks=tracks)
     shown = content(run, tmp_path)
     places, turns = poses(shown)
-    stage = Stage(run)
+    stage = RunScene(run)
     seen = {part.body for part in parts_of(stage.model)} - {0}
     assert shown["bodies"] == sorted(seen)
     for row, index in ((0, 0), (20, 40), (51, 101)):
@@ -119,7 +119,7 @@ def test_bodies_on_the_page_are_where_they_were(
         np.testing.assert_allclose(turns[row], turned, atol=2e-5)
 
 
-def moved(track: Track, away: float) -> Track:
+def moved(track: Trajectory, away: float) -> Trajectory:
     """Track of a robot that stands somewhere else."""
     assert track.qpos is not None
     qpos = np.array(track.qpos, dtype=np.float64)
@@ -157,7 +157,7 @@ def test_a_page_tells_what_the_run_tells(tmp_path: Path) -> None:
     np.testing.assert_allclose(shown["middle"], middle, atol=6e-4)
     size = np.hypot(*(both.max(axis=0) - both.min(axis=0)))
     assert shown["away"] == pytest.approx(1.4 + 1.05 * size)
-    stage = Stage(run)
+    stage = RunScene(run)
     for robot, name in zip(
         shown["robots"], ("pursuer", "evader"), strict=True
     ):
@@ -192,7 +192,7 @@ def test_a_page_of_a_person_has_its_way_but_no_footsteps(
     shown = content(run, tmp_path)
     person, robot = shown["robots"]
     assert (person["name"], robot["name"]) == ("pursuer", "evader")
-    model = Stage(run).model
+    model = RunScene(run).model
     assert model.body(person["torso"]).name == "pursuer/trunk"
     assert model.body(robot["torso"]).name == "evader/torso"
     assert person["landings"] == []
@@ -209,16 +209,20 @@ def test_a_page_of_a_person_has_its_way_but_no_footsteps(
 @pytest.mark.parametrize(
     ("shot", "last", "expected"),
     [
-        (Shot(rate=10.0, duration=0.3), 9.0, [0.0, 0.1, 0.2, 0.3]),
-        (Shot(rate=10.0, begin=0.8), 1.0, [0.8, 0.9, 1.0]),
-        (Shot(rate=10.0, speed=4.0, duration=1.0), 9.0, [0.0, 0.4, 0.8]),
-        (Shot(rate=10.0, begin=2.0), 2.0, [2.0]),
-        (Shot(rate=10.0, begin=2.1), 2.0, []),
-        (Shot(rate=10.0, begin=5.0), 2.0, []),
+        (FilmSettings(rate=10.0, duration=0.3), 9.0, [0.0, 0.1, 0.2, 0.3]),
+        (FilmSettings(rate=10.0, begin=0.8), 1.0, [0.8, 0.9, 1.0]),
+        (
+            FilmSettings(rate=10.0, speed=4.0, duration=1.0),
+            9.0,
+            [0.0, 0.4, 0.8],
+        ),
+        (FilmSettings(rate=10.0, begin=2.0), 2.0, [2.0]),
+        (FilmSettings(rate=10.0, begin=2.1), 2.0, []),
+        (FilmSettings(rate=10.0, begin=5.0), 2.0, []),
     ],
 )
 def test_pictures_of_a_film_are_evenly_spaced(
-    shot: Shot, last: float, expected: list[float]
+    shot: FilmSettings, last: float, expected: list[float]
 ) -> None:
     np.testing.assert_allclose(shot.instants(last), expected, atol=1e-12)
 
@@ -246,8 +250,8 @@ def screened(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(film, "Screen", FakeScreen)
 
 
-def filmed(shot: Shot, time: float) -> tuple[Any, Any, Any]:
-    cinema = Cinema(made(), shot, "egl")
+def filmed(shot: FilmSettings, time: float) -> tuple[Any, Any, Any]:
+    cinema = FilmRenderer(made(), shot, "egl")
     screen: Any = cinema._screen
     width, height, backend, look = screen.asked
     assert (width, height, backend) == (shot.width, shot.height, "egl")
@@ -264,21 +268,21 @@ def filmed(shot: Shot, time: float) -> tuple[Any, Any, Any]:
     ("time", "index"), [(0.0, 0), (1.0, 50), (1.01, 51), (2.02, 101), (9, 101)]
 )
 def test_a_picture_is_of_the_time_asked_for(time: float, index: int) -> None:
-    places, _, add = filmed(Shot(), time)
-    stage = Stage(made())
+    places, _, add = filmed(FilmSettings(), time)
+    stage = RunScene(made())
     stage.put(index)
     np.testing.assert_array_equal(places, stage.data.xpos)
     bare, full = scene(), scene()
     add(full)
     film_layers.decorate(bare, run=made(), index=index, trail=20.0)
     assert full.ngeom == bare.ngeom
-    _, _, add = filmed(Shot(layers=False), time)
+    _, _, add = filmed(FilmSettings(layers=False), time)
     add(empty := scene())
     assert empty.ngeom == 0
 
 
 def scene() -> mujoco.MjvScene:
-    return mujoco.MjvScene(Stage(made()).model, maxgeom=2000)
+    return mujoco.MjvScene(RunScene(made()).model, maxgeom=2000)
 
 
 def lines_of(drawn: mujoco.MjvScene, colour: str) -> list[Any]:
@@ -359,7 +363,7 @@ def test_footprints_come_half_a_second_early_and_go_with_the_trail(
 
 
 def test_a_full_scene_takes_no_more() -> None:
-    small = mujoco.MjvScene(Stage(made()).model, maxgeom=10)
+    small = mujoco.MjvScene(RunScene(made()).model, maxgeom=10)
     film_layers.decorate(small, run=made(), index=60, trail=20.0)
     assert small.ngeom == 10
 
@@ -394,12 +398,12 @@ def test_pictures_come_in_order_and_all_of_them(
     monkeypatch.setattr(film, "load_run", lambda folder: made())
     monkeypatch.setattr(film, "worker_pool", InlinePool)
     monkeypatch.setattr(film, "_draw", lambda f, s, b, times: list(times))
-    shot = Shot(rate=100.0)
+    shot = FilmSettings(rate=100.0)
     for workers in (1, 2, 30):
         drawn = list(film.pictures(Path("run"), shot, workers=workers))
         np.testing.assert_allclose(drawn, 0.01 * np.arange(203))
     with pytest.raises(ConfigurationError, match="before the run's end"):
-        list(film.pictures(Path("run"), Shot(begin=5.0)))
+        list(film.pictures(Path("run"), FilmSettings(begin=5.0)))
     monkeypatch.setattr(film, "choose_renderer", lambda wanted: RAYCAST)
     with pytest.raises(ConfigurationError, match="EGL or OSMesa"):
         list(film.pictures(Path("run"), shot))
@@ -415,13 +419,13 @@ def test_a_worker_keeps_its_graphics(monkeypatch: pytest.MonkeyPatch) -> None:
         def picture(self, time: float) -> float:
             return 2.0 * time
 
-    monkeypatch.setattr(film, "Cinema", Kept)
+    monkeypatch.setattr(film, "FilmRenderer", Kept)
     monkeypatch.setattr(film, "load_run", lambda folder: folder)
     monkeypatch.setattr(film, "_cinemas", {})
     for times in ([1.0, 2.0], [3.0]):
-        drawn = film._draw(Path("run"), Shot(), "egl", times)
+        drawn = film._draw(Path("run"), FilmSettings(), "egl", times)
         assert drawn == [2.0 * time for time in times]
-    assert began == [(Path("run"), Shot(), "egl")]
+    assert began == [(Path("run"), FilmSettings(), "egl")]
 
 
 def shades(count: int) -> Iterator[Any]:
@@ -437,7 +441,7 @@ def test_films_have_their_pictures_and_their_rate(
     monkeypatch.setattr(film, "pictures", lambda folder, shot: shades(6))
     told: list[tuple[int, int]] = []
     file = tmp_path / f"run.{kind}"
-    shot = Shot(64, 48, rate=5.0, duration=1.0)
+    shot = FilmSettings(64, 48, rate=5.0, duration=1.0)
 
     def report(done: int, all_of_them: int) -> None:
         told.append((done, all_of_them))
@@ -464,12 +468,12 @@ def test_a_film_that_fails_leaves_nothing_behind(
 ) -> None:
     pytest.importorskip("av")
 
-    def failing(folder: Path, shot: Shot) -> Iterator[Any]:
+    def failing(folder: Path, shot: FilmSettings) -> Iterator[Any]:
         yield from shades(2)
         raise RuntimeError("the light went out")
 
     monkeypatch.setattr(film, "load_run", lambda folder: made())
     monkeypatch.setattr(film, "pictures", failing)
     with pytest.raises(RuntimeError, match="light"):
-        film.write_video(tmp_path, tmp_path / "run.mp4", Shot(64, 48))
+        film.write_video(tmp_path, tmp_path / "run.mp4", FilmSettings(64, 48))
     assert list(tmp_path.iterdir()) == []

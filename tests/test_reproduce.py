@@ -17,10 +17,16 @@ from stepaside.core import worker_pool as workers
 from stepaside.report.claims_page import markdown_page
 from stepaside.studies import claim_campaign as reproduce
 from stepaside.studies.claim_jobs import JOBS
-from stepaside.studies.claims import Claim, Job, Readings, Row, farthest
+from stepaside.studies.claims import (
+    Claim,
+    ClaimJob,
+    ClaimRow,
+    Readings,
+    farthest,
+)
 from stepaside.studies.code_version import code_version
 from stepaside.studies.paper_figures import paper_figures
-from stepaside.studies.reading_store import Kept
+from stepaside.studies.reading_store import ReadingStore
 
 NAN, INF = float("nan"), float("inf")
 
@@ -53,19 +59,19 @@ def claim(relation: Any = "=", key: str = "it") -> Claim:
 def test_verdict(
     relation: Any, values: tuple[float, ...], holds: bool
 ) -> None:
-    row = Row("a.it", claim(relation), values, "v")
+    row = ClaimRow("a.it", claim(relation), values, "v")
     assert row.holds is holds
     assert row.to_json()["verdict"] == ("holds" if holds else "fails")
 
 
 def test_a_row_tells_mean_spread_and_runs() -> None:
-    row = Row("a.it", claim(), (1.0, 1.02, 0.98), "v").to_json()
+    row = ClaimRow("a.it", claim(), (1.0, 1.02, 0.98), "v").to_json()
     assert row["measured"] == pytest.approx(1.0)
     assert row["spread"] == pytest.approx(0.02)
     assert (row["least"], row["greatest"], row["runs"]) == (0.98, 1.02, 3)
-    alone = Row("a.it", claim(), (1.0,), "v").to_json()
+    alone = ClaimRow("a.it", claim(), (1.0,), "v").to_json()
     assert (alone["spread"], alone["runs"], alone["version"]) == (0.0, 1, "v")
-    fallen = Row("a.it", claim(), (1.0, NAN), "v").to_json()
+    fallen = ClaimRow("a.it", claim(), (1.0, NAN), "v").to_json()
     assert fallen["measured"] is fallen["spread"] is None
     assert fallen["runs"] == 2
 
@@ -92,7 +98,7 @@ class Bench:
             "once": self.job("once", ("unicycle",), False),
         }
 
-    def job(self, name: str, rooms: tuple[str, ...], seeded: bool) -> Job:
+    def job(self, name: str, rooms: tuple[str, ...], seeded: bool) -> ClaimJob:
         """One that depends on some rooms."""
 
         def measure(seed: int) -> Readings:
@@ -101,7 +107,7 @@ class Bench:
             self.measured.append((name, seed))
             return {"it": 1.0 + 0.01 * seed}
 
-        return Job(
+        return ClaimJob(
             (claim(),),
             measure,
             rooms,
@@ -211,7 +217,7 @@ def test_what_another_version_made_is_replaced_without_a_copy(
     whole = file.read_text()
     older = json.loads(whole.replace(ours, others).replace('"it"', '"it_was"'))
     assert whole.replace(ours, others) != whole
-    Kept(tmp_path).store(file.stem, older["key"], older["readings"])
+    ReadingStore(tmp_path).store(file.stem, older["key"], older["readings"])
     assert again(bench, tmp_path, 1, 2) == [("seeded", 1)]
     assert file.read_text() == whole
     assert not list(tmp_path.glob("*.aside"))
@@ -251,7 +257,7 @@ def test_each_job_names_each_of_its_claims_once() -> None:
     for name, job in JOBS.items():
         keys = [claim.key for claim in job.claims]
         assert len(set(keys)) == len(keys) > 0, name
-        assert reproduce.key_of(reproduce.Trial(name, 1), job)["version"]
+        assert reproduce.key_of(reproduce.ClaimTrial(name, 1), job)["version"]
 
 
 def test_settings_of_a_physical_job_name_seed_and_gait() -> None:
@@ -276,9 +282,9 @@ MADE = {
 
 def test_the_page_tells_values_runs_and_how_it_was_made() -> None:
     rows = [
-        Row("a.it", claim(), (1.0, 1.02, 0.98), "v").to_json(),
-        Row("b.it", claim("<"), (0.5,), "v").to_json(),
-        Row("c.it", claim(), (NAN,), "v").to_json(),
+        ClaimRow("a.it", claim(), (1.0, 1.02, 0.98), "v").to_json(),
+        ClaimRow("b.it", claim("<"), (0.5,), "v").to_json(),
+        ClaimRow("c.it", claim(), (NAN,), "v").to_json(),
     ]
     page = markdown_page(rows, [("2", "a|b")], [("A figure", "a.png")], MADE)
     assert "2 of 3 hold" in page

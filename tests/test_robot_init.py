@@ -12,12 +12,17 @@ from click.testing import CliRunner
 import published_humanoid as stranger
 from stepaside.cli.main import main
 from stepaside.core.errors import ModelError
-from stepaside.fitting.derivation import Derived, derive
+from stepaside.fitting.derivation import DerivedDescription, derive
 from stepaside.fitting.description_writer import write_description
-from stepaside.fitting.gait_scaling import Size, gait_of, game_of_size
+from stepaside.fitting.gait_scaling import RobotSize, gait_of, game_of_size
 from stepaside.fitting.model_analysis import survey
 from stepaside.fitting.motor_data import GIVES, LEAST, STIFFNESS, gains_of
-from stepaside.fitting.walk_trials import WAYS, Trial, trials_of, walk_trial
+from stepaside.fitting.walk_trials import (
+    WAYS,
+    WalkTrial,
+    trials_of,
+    walk_trial,
+)
 from stepaside.games import DuelSettings, run_duel
 from stepaside.games.robot_settings import settings_of, with_robot
 from stepaside.robots.description import (
@@ -26,7 +31,7 @@ from stepaside.robots.description import (
     load_robot,
 )
 from stepaside.robots.tree_compiler import compile_tree
-from stepaside.sim.ground_truth import TrueState
+from stepaside.sim.ground_truth import TrueRobotState
 from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.sim.world import COLOURS, build_model
 
@@ -36,7 +41,9 @@ PUBLISHED = pytest.mark.parametrize(
 Publish = Callable[[Path], Path]
 
 
-def described(model: Path, folder: Path) -> tuple[Derived, RobotDescription]:
+def described(
+    model: Path, folder: Path
+) -> tuple[DerivedDescription, RobotDescription]:
     """Derive a description, write it, and read it again."""
     folder.mkdir(exist_ok=True)
     found = derive(model, folder, [])
@@ -165,7 +172,7 @@ def test_the_place_of_a_torso_is_midway_between_its_hips(
     half_turn = (np.cos(0.4), 0.0, 0.0, np.sin(0.4))  # heading 0.8 rad
     data.qpos[:7] = (3.0, -1.0, 0.9, *half_turn)
     mujoco.mj_kinematics(model, data)
-    state = TrueState(model, data, "chest", place=robot.place)
+    state = TrueRobotState(model, data, "chest", place=robot.place)
     hips = [data.body(f"{s}_spin_link").xpos[:2] for s, _ in stranger.SIDES]
     np.testing.assert_allclose(state.position, np.mean(hips, axis=0))
 
@@ -209,9 +216,9 @@ def test_the_command_writes_a_folder_once(tmp_path: Path) -> None:
 def test_equal_shapes_walk_alike() -> None:
     """Lengths go with the CoM's height, times with the root of it."""
     sole = (-0.05, 0.1, 0.04, 0.04)
-    small = Size(0.3, 5.0, 0.1, sole, 0.2)
+    small = RobotSize(0.3, 5.0, 0.1, sole, 0.2)
     times = 4.0
-    large = Size(0.3 * times, 320.0, 0.4, tuple(4 * e for e in sole), 0.8)  # type: ignore[arg-type]
+    large = RobotSize(0.3 * times, 320.0, 0.4, tuple(4 * e for e in sole), 0.8)  # type: ignore[arg-type]
     one, other = gait_of(small), gait_of(large)
     for name in ("stride", "step_height", "com_height", "foot_spacing"):
         assert other[name] == pytest.approx(times * one[name], rel=0.01)
@@ -234,7 +241,7 @@ def test_a_stranger_walks_backward_round_a_circle(
         for trial in trials_of(robot, feedback=feedback)
         if trial.way is WAYS[-1]
     ]
-    walked = walk_trial(Trial(robot, trial.gait, trial.control, trial.way))
+    walked = walk_trial(WalkTrial(robot, trial.gait, trial.control, trial.way))
     assert walked.is_steady, walked
 
 
@@ -304,7 +311,7 @@ def test_units_of_nao_are_one() -> None:
     nao = load_robot("nao")
     mass = float(nao.compile().body_mass.sum())
     sole = (-0.05, 0.1, 0.04, 0.04)
-    size = Size(0.268, mass, 0.1, sole, 0.2)
+    size = RobotSize(0.268, mass, 0.1, sole, 0.2)
     game = game_of_size(size, gait_of(size))
     assert game["force_unit"] == pytest.approx(1.0, abs=2e-3)
     assert game["length_unit"] == pytest.approx(1.0, abs=2e-3)

@@ -17,11 +17,11 @@ from stepaside.fitting.derivation import derive
 from stepaside.fitting.description_edit import rewritten
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.gait_candidates import Candidate
-from stepaside.fitting.gait_search import Search
-from stepaside.fitting.joint_strain import Strain
+from stepaside.fitting.gait_search import GaitSearch
+from stepaside.fitting.joint_strain import JointStrain
 from stepaside.fitting.requirements import findings_of
 from stepaside.fitting.robot_verification import check_robot
-from stepaside.fitting.walk_trials import WAYS, Trial, Walked
+from stepaside.fitting.walk_trials import WAYS, WalkTrial, WalkTrialResult
 from stepaside.games.robot_settings import settings_of
 from stepaside.robots.description import (
     FILE,
@@ -29,7 +29,7 @@ from stepaside.robots.description import (
     load_robot,
 )
 
-CALM = Strain(0.1, "knee", 0.4, "hip", 0.0, 0.001)
+CALM = JointStrain(0.1, "knee", 0.4, "hip", 0.0, 0.001)
 
 
 class Here(Executor):
@@ -52,9 +52,11 @@ def described(folder: Path) -> RobotDescription:
     return load_robot(folder)
 
 
-def walked(trial: Trial, off: float, *, falls: bool = False) -> Walked:
+def walked(
+    trial: WalkTrial, off: float, *, falls: bool = False
+) -> WalkTrialResult:
     """A walk that strays by a part of what a steady one may."""
-    return Walked(
+    return WalkTrialResult(
         trial.way.name,
         trial.control.feedback,
         "fell" if falls else "walked",
@@ -122,7 +124,7 @@ def test_a_check_passes_what_walks_as_it_is_described(
     own = described(tmp_path)
     told: list[tuple[int, int]] = []
 
-    def falls_with_feedback(trial: Trial) -> Walked:
+    def falls_with_feedback(trial: WalkTrial) -> WalkTrialResult:
         return walked(trial, 0.3, falls=trial.control.feedback)
 
     monkeypatch.setattr(checking, "walk_trial", falls_with_feedback)
@@ -141,7 +143,7 @@ def test_a_check_passes_what_walks_as_it_is_described(
 def test_unsteadiness_is_that_of_the_worst_measure(tmp_path: Path) -> None:
     own = described(tmp_path)
     settings = settings_of(own)
-    trial = Trial(own, settings.gait, settings.control, WAYS[0])
+    trial = WalkTrial(own, settings.gait, settings.control, WAYS[0])
     assert walked(trial, 0.5).unsteadiness == pytest.approx(0.5)
     slow = walked(trial, 0.5)._replace(speed=0.7)
     assert slow.unsteadiness == pytest.approx(2.0)
@@ -155,11 +157,11 @@ def search(
     own: RobotDescription,
     monkeypatch: pytest.MonkeyPatch,
     kept: Path | None = None,
-) -> tuple[tuning.Tuned, int]:
+) -> tuple[tuning.SearchResult, int]:
     """Search where smaller steps and stiffer joints are steadier."""
     walks = []
 
-    def walk(trial: Trial) -> Walked:
+    def walk(trial: WalkTrial) -> WalkTrialResult:
         walks.append(trial)
         gait = trial.gait
         stiff = trial.description.overlay.servos["near_bend"].stiffness
@@ -171,7 +173,7 @@ def search(
         return walked(trial, off, falls=trial.control.feedback)
 
     monkeypatch.setattr(tuning, "walk_trial", walk)
-    return Search(own, Here(), kept).run(), len(walks)
+    return GaitSearch(own, Here(), kept).run(), len(walks)
 
 
 def test_a_search_joins_the_changes_that_help(
@@ -192,7 +194,7 @@ def test_a_search_finds_a_way_out_of_falling(
     gait = settings_of(own).gait
     walks = []
 
-    def walk(trial: Trial) -> Walked:
+    def walk(trial: WalkTrial) -> WalkTrialResult:
         walks.append(trial)
         quick = trial.gait.single_support < 0.9 * gait.single_support
         ahead = trial.gait.zmp_forward < gait.zmp_forward
@@ -200,7 +202,7 @@ def test_a_search_finds_a_way_out_of_falling(
         return walked(trial, 0.1, falls=falls)
 
     monkeypatch.setattr(tuning, "walk_trial", walk)
-    found = Search(own, Here(), None).run()
+    found = GaitSearch(own, Here(), None).run()
     assert found.before.unsteadiness > found.best.unsteadiness
     assert found.best.unsteadiness == pytest.approx(0.1)
     best = found.best.candidate
@@ -214,14 +216,14 @@ def test_a_candidate_that_cannot_win_walks_no_farther(
     own = described(tmp_path)
     begun: dict[float, int] = {}
 
-    def walk(trial: Trial) -> Walked:
+    def walk(trial: WalkTrial) -> WalkTrialResult:
         same = trial.gait == settings_of(own).gait
         part = round(trial.gait.stride / settings_of(own).gait.stride, 2)
         begun[part] = begun.get(part, 0) + 1
         return walked(trial, 0.3 if same else 0.5)
 
     monkeypatch.setattr(tuning, "walk_trial", walk)
-    found = Search(own, Here(), None).run()
+    found = GaitSearch(own, Here(), None).run()
     assert found.best == found.before
     assert begun[0.5] == begun[0.75] == 1
 

@@ -33,7 +33,7 @@ from stepaside.studies.push_limits import (
 from stepaside.studies.robustness_campaign import (
     DIRECTIONS,
     STRENGTHS,
-    Trial,
+    RobustnessTrial,
     control_of,
     louder,
     push_time,
@@ -42,8 +42,8 @@ from stepaside.studies.robustness_campaign import (
     trials,
 )
 
-TRIAL = Trial("friction", 0.3, "", 0.0, 5, "measured", "hardware")
-PUSH = Trial("push", 1.2, "left", 0.25, 5, "closed-form", "ideal")
+TRIAL = RobustnessTrial("friction", 0.3, "", 0.0, 5, "measured", "hardware")
+PUSH = RobustnessTrial("push", 1.2, "left", 0.25, 5, "closed-form", "ideal")
 
 
 class Inline(Executor):
@@ -62,12 +62,12 @@ class Inline(Executor):
 
 
 def survives(
-    monkeypatch: pytest.MonkeyPatch, rule: Callable[[Trial], bool]
-) -> list[Trial]:
+    monkeypatch: pytest.MonkeyPatch, rule: Callable[[RobustnessTrial], bool]
+) -> list[RobustnessTrial]:
     """Replace walks by a rule; return those that were asked for."""
-    asked: list[Trial] = []
+    asked: list[RobustnessTrial] = []
 
-    def run(trial: Trial) -> tuple[str, bool]:
+    def run(trial: RobustnessTrial) -> tuple[str, bool]:
         asked.append(trial)
         return trial.key, rule(trial)
 
@@ -304,7 +304,7 @@ def test_a_search_that_was_stopped_ends_as_one_that_was_not(
     whole = search_limits(cases, None, Inline())
     file = tmp_path / "trials.jsonl"
 
-    def fails(trial: Trial) -> bool:
+    def fails(trial: RobustnessTrial) -> bool:
         if trial.strength > 0.9:
             raise KeyboardInterrupt
         return trial.strength < 1.0 + trial.phase

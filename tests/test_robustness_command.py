@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from stepaside.cli import robustness as command
-from stepaside.cli.campaign_reports import Ended
+from stepaside.cli.campaign_reports import CampaignOutcome
 from stepaside.cli.main import main
 from stepaside.studies.push_limits import next_strength, outcomes_of
 from stepaside.studies.result_files import read_result
@@ -21,7 +21,7 @@ ASKED = "--kind backlash --kind push --method mpc --seeds 3 --phases 1".split()
 
 def survive_a_newton_second(
     grid: list[Any], cases: list[Any], *_: Any
-) -> tuple[dict[str, bool], Ended]:
+) -> tuple[dict[str, bool], CampaignOutcome]:
     """Every push up to 1 N s is survived, and every other disturbance."""
     results = {trial.key: True for trial in grid}
     for case, outcomes in outcomes_of(cases, {}).items():
@@ -29,7 +29,7 @@ def survive_a_newton_second(
             outcomes[strength] = strength <= 1.0
             key = replace(case, strength=strength).key
             results[key] = outcomes[strength]
-    return results, Ended()
+    return results, CampaignOutcome()
 
 
 @pytest.fixture(autouse=True)
@@ -116,10 +116,10 @@ def test_a_stopped_campaign_writes_no_result_over_another(
 
     def stopped(
         grid: list[Any], cases: list[Any], *_: Any
-    ) -> tuple[dict[str, bool], Ended]:
-        return survive_a_newton_second(grid[:7], cases[:1])[0], Ended(
-            stopped=True
-        )
+    ) -> tuple[dict[str, bool], CampaignOutcome]:
+        return survive_a_newton_second(grid[:7], cases[:1])[
+            0
+        ], CampaignOutcome(stopped=True)
 
     monkeypatch.setattr(command, "run_walks", stopped)
     asked = ("robustness", *ASKED, "--output", str(tmp_path))

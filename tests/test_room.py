@@ -6,14 +6,14 @@ import pytest
 
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
-from stepaside.sim.camera_settings import RoomSettings, Thing
+from stepaside.sim.camera_settings import RoomObject, SceneSettings
 from stepaside.sim.room_furnishing import LOWER, furnisher
 
 HEAD = load_head(load_robot("nao"))
 
 
 def furnished(
-    room: RoomSettings, *, lower: tuple[str, ...] = ()
+    room: SceneSettings, *, lower: tuple[str, ...] = ()
 ) -> tuple[mujoco.MjModel, mujoco.MjData]:
     spec = mujoco.MjSpec()
     spec.worldbody.add_body(name="me/head", pos=[1.0, 2.0, 0.5]).add_geom(
@@ -27,7 +27,7 @@ def furnished(
 
 
 def test_walls_stand_all_around_at_their_distance() -> None:
-    model, data = furnished(RoomSettings(walls=3.0))
+    model, data = furnished(SceneSettings(walls=3.0))
     for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         wall = model.geom(f"wall {x} {y}")
         np.testing.assert_allclose(wall.pos, (3.0 * x, 3.0 * y, 1.2))
@@ -56,7 +56,7 @@ def test_walls_stand_all_around_at_their_distance() -> None:
 
 def test_walls_are_pale_and_checked() -> None:
     """Two tones that nobody takes for trim."""
-    model, _ = furnished(RoomSettings(walls=3.0))
+    model, _ = furnished(SceneSettings(walls=3.0))
     texture = model.tex("wall")
     start = int(texture.adr[0])
     pixels = model.tex_data[start : start + 3 * 128 * 128].reshape(-1, 3)
@@ -68,7 +68,7 @@ def test_walls_are_pale_and_checked() -> None:
 
 
 def test_no_walls_are_no_walls() -> None:
-    model, _ = furnished(RoomSettings(walls=0.0))
+    model, _ = furnished(SceneSettings(walls=0.0))
     names = [model.geom(i).name for i in range(model.ngeom)]
     assert not any("wall" in name for name in names)
     assert model.ngeom == 2  # the head and what it wears
@@ -80,7 +80,7 @@ def test_no_walls_are_no_walls() -> None:
 def test_a_box_is_forty_centimeters_high_and_coloured(
     kind: str, channel: int
 ) -> None:
-    model, data = furnished(RoomSettings(0.0, [Thing(kind, 0.5, -0.7)]))
+    model, data = furnished(SceneSettings(0.0, [RoomObject(kind, 0.5, -0.7)]))
     body = model.body("thing 0")
     (box,) = np.flatnonzero(model.geom_bodyid == body.id)
     np.testing.assert_allclose(data.geom_xpos[box], (0.5, -0.7, 0.2))
@@ -92,8 +92,8 @@ def test_a_box_is_forty_centimeters_high_and_coloured(
 
 
 def test_a_white_figure_is_as_tall_as_a_robot_and_symmetric() -> None:
-    thing = Thing("white figure", 1.0, 2.0)
-    model, data = furnished(RoomSettings(0.0, [thing]))
+    thing = RoomObject("white figure", 1.0, 2.0)
+    model, data = furnished(SceneSettings(0.0, [thing]))
     parts = np.flatnonzero(model.geom_bodyid == model.body("thing 0").id)
     places = data.geom_xpos[parts] - (1.0, 2.0, 0.0)
     sizes = model.geom_size[parts]
@@ -125,15 +125,18 @@ def test_a_white_figure_is_as_tall_as_a_robot_and_symmetric() -> None:
 
 
 def test_things_stand_where_each_is_said_to_stand() -> None:
-    things = [Thing("red box", 1.0, 0.0), Thing("white figure", -1.0, 0.5)]
-    model, _ = furnished(RoomSettings(0.0, things))
+    things = [
+        RoomObject("red box", 1.0, 0.0),
+        RoomObject("white figure", -1.0, 0.5),
+    ]
+    model, _ = furnished(SceneSettings(0.0, things))
     for index, thing in enumerate(things):
         place = model.body(f"thing {index}").pos
         np.testing.assert_allclose(place, (thing.x, thing.y, 0.0))
 
 
 def test_the_depth_camera_is_worn_without_weight_behind_its_window() -> None:
-    model, data = furnished(RoomSettings(0.0))
+    model, data = furnished(SceneSettings(0.0))
     head = model.body("me/head").id
     _, housing = np.flatnonzero(model.geom_bodyid == head)
     assert model.body_mass[head] == pytest.approx(0.6)
@@ -151,7 +154,7 @@ def test_the_depth_camera_is_worn_without_weight_behind_its_window() -> None:
 
 def test_the_lower_camera_looks_where_its_mount_has_it() -> None:
     """Along its own -z, with x to the right; nobody has it unasked."""
-    model, data = furnished(RoomSettings(walls=0.0), lower=("me",))
+    model, data = furnished(SceneSettings(walls=0.0), lower=("me",))
     mujoco.mj_camlight(model, data)
     camera, mount = model.camera(f"me/{LOWER}").id, HEAD.bottom
     assert mount is not None
@@ -163,4 +166,4 @@ def test_the_lower_camera_looks_where_its_mount_has_it() -> None:
     np.testing.assert_allclose(right, -left, atol=1e-9)
     np.testing.assert_allclose(up, upward, atol=1e-9)
     assert forward[2] == pytest.approx(-np.sin(np.radians(39.7)))
-    assert furnished(RoomSettings(walls=0.0))[0].ncam == 0
+    assert furnished(SceneSettings(walls=0.0))[0].ncam == 0

@@ -30,7 +30,7 @@ from stepaside.games.configuration_file import (
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
-from stepaside.sim.camera_settings import RoomSettings
+from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.obstacle_geoms import HEIGHT, add_solids, named_solids
 
 TRIANGLE = Polygon(((0.5, 0.5), (0.9, 0.5), (0.7, 0.9)))
@@ -41,7 +41,7 @@ STARTS = (Pose(-1.1, -1.1, 0.8), Pose(-1.1, 0.9, -1.5))
 
 
 def placed(room: Room, **changes: Any) -> DuelSettings:
-    return DuelSettings(room=RoomSettings(plan=room), **changes)
+    return DuelSettings(room=SceneSettings(plan=room), **changes)
 
 
 def test_solids_stand_in_the_world_as_in_the_room() -> None:

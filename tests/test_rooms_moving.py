@@ -16,7 +16,7 @@ from stepaside.arena import (
     room_entries,
     room_of_entries,
 )
-from stepaside.control.clearance.surroundings import AHEAD, GivenRoom
+from stepaside.control.clearance.surroundings import AHEAD, KnownRoom
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
 from stepaside.games.duel import Duel
@@ -24,9 +24,9 @@ from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.match import play
 from stepaside.perception.measurement import Measurement
 from stepaside.report.room_figure import room_patches
-from stepaside.report.scene import Stage
+from stepaside.report.scene import RunScene
 from stepaside.robots.leg_kinematics import BodyReference
-from stepaside.sim.camera_settings import RoomSettings
+from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.obstacle_geoms import add_solids, mover_of
 from stepaside.studies.tournament_settings import TournamentSettings
 
@@ -141,7 +141,7 @@ def test_it_stands_in_the_world_where_the_room_has_it() -> None:
 
 
 def test_a_given_map_tells_where_it_is_and_soon_will_be() -> None:
-    around, nothing = GivenRoom(ROOM, Pose(0.0, 0.0, 0.0)), np.zeros(3)
+    around, nothing = KnownRoom(ROOM, Pose(0.0, 0.0, 0.0)), np.zeros(3)
     body: Any = BodyReference
     for now in (0.0, 1.0, 5.0):
         told = Measurement(now, nothing, nothing, nothing, np.zeros(8), None)
@@ -155,12 +155,12 @@ def test_a_given_map_tells_where_it_is_and_soon_will_be() -> None:
 
 
 def test_a_run_shows_it_where_it_was() -> None:
-    settings = DuelSettings(duration=0.6, room=RoomSettings(plan=ROOM))
+    settings = DuelSettings(duration=0.6, room=SceneSettings(plan=ROOM))
     duel = Duel(settings)
     run = duel.run(*play(duel, 0.6, None))
     last = duel.world.data.mocap_pos[0, :2]
     assert last == pytest.approx(BOX.place_at(0.6), abs=0.003)
-    stage = Stage(run)
+    stage = RunScene(run)
     body = stage.model.body("moving box 1").id
     for index in (0, len(run.times) - 1):
         stage.put(index)

@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("cyclonedds")
 
 from stepaside.core.poses import Pose  # noqa: E402
-from stepaside.drivers.ros2.dds_domain import Dds, taken  # noqa: E402
+from stepaside.drivers.ros2.dds_domain import DdsParticipant, taken  # noqa: E402
 from stepaside.drivers.ros2.messages import (  # noqa: E402
     Header,
     Odometry,
@@ -28,10 +28,14 @@ from stepaside.drivers.ros2.topics import (  # noqa: E402
     pose_message,
     vector,
 )
-from stepaside.drivers.velocity.template_controller import TemplateMind  # noqa: E402
-from stepaside.drivers.velocity.velocity_body import REST, Report, Velocity  # noqa: E402
+from stepaside.drivers.velocity.template_controller import TemplateController  # noqa: E402
+from stepaside.drivers.velocity.velocity_body import (  # noqa: E402
+    REST,
+    VelocityCommand,
+    VelocityReport,
+)
 from stepaside.drivers.velocity.velocity_limits import VelocityLimits  # noqa: E402
-from stepaside.drivers.velocity.velocity_loop import Driving, VelocityPlaying
+from stepaside.drivers.velocity.velocity_loop import DrivingState, VelocityLoop
 from stepaside.drivers.velocity.watchdog import WatchSettings  # noqa: E402
 from stepaside.planning import GaitSettings  # noqa: E402
 from stepaside.strategies import Pursuit  # noqa: E402
@@ -41,14 +45,14 @@ from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
 TAG = f"stepaside-commands-{os.getpid()}"
 TOPIC = dds_topic("/nao", "cmd_vel")
 ZERO = (0.0,) * 36
-ASKED = Velocity(0.05, -0.2)
+ASKED = VelocityCommand(0.05, -0.2)
 
 
 class Robot:
     """A robot of others: it tells its odometry, and takes some type."""
 
     def __init__(self, *kinds: type[Any]) -> None:
-        self.dds = Dds(0, tag=TAG)
+        self.dds = DdsParticipant(0, tag=TAG)
         self.odometry = self.dds.writer(dds_topic("/nao", "odom"), Odometry)
         self.sight = self.dds.writer(dds_topic("/nao", "other"), PointStamped)
         self.readers = {kind: self.subscribe(kind) for kind in kinds}
@@ -80,19 +84,19 @@ class Robot:
 
 @pytest.fixture
 def body() -> Iterator[Ros2Body]:
-    body = Ros2Body(Dds(0, tag=TAG), "/nao")
+    body = Ros2Body(DdsParticipant(0, tag=TAG), "/nao")
     yield body
     body.close()
 
 
-def heard(robot: Robot, body: Ros2Body) -> Report:
+def heard(robot: Robot, body: Ros2Body) -> VelocityReport:
     """The next report of a robot."""
 
-    def report() -> Report | None:
+    def report() -> VelocityReport | None:
         robot.tell()
         return body.listen(0.005)
 
-    found: Report = until(report)
+    found: VelocityReport = until(report)
     return found
 
 
@@ -153,9 +157,9 @@ def test_without_a_subscriber_nothing_walks_and_the_reason_is_said(
     body: Ros2Body,
 ) -> None:
     robot = Robot()
-    playing = VelocityPlaying(
+    playing = VelocityLoop(
         body,
-        lambda: TemplateMind(Pursuit(), GaitSettings()),
+        lambda: TemplateController(Pursuit(), GaitSettings()),
         VelocityLimits(),
         WatchSettings(silence=60.0, lead=10.0),
     )
@@ -166,11 +170,11 @@ def test_without_a_subscriber_nothing_walks_and_the_reason_is_said(
 
     why = "nothing subscribes to /nao/cmd_vel"
     waits = until(lambda: (t := tick()).reason == why and t)
-    assert waits.state is Driving.WAITING and waits.velocity == REST
+    assert waits.state is DrivingState.WAITING and waits.velocity == REST
     for _ in range(20):
-        assert tick().state is Driving.WAITING
+        assert tick().state is DrivingState.WAITING
     robot.readers[TwistStamped] = robot.subscribe(TwistStamped)
-    until(lambda: tick().state is Driving.WALKING)
+    until(lambda: tick().state is DrivingState.WALKING)
     del robot.readers[TwistStamped]
     until(lambda: (t := tick()).reason == why and t.velocity == REST)
     robot.close()
@@ -188,7 +192,7 @@ def test_a_subscriber_of_something_else_is_named(body: Ros2Body) -> None:
 
 
 def test_another_publisher_of_either_type_hinders(body: Ros2Body) -> None:
-    robot, other = Robot(Twist), Dds(0, tag=TAG)
+    robot, other = Robot(Twist), DdsParticipant(0, tag=TAG)
     until(lambda: not heard(robot, body).hindrance)
     writer = other.writer(TOPIC, TwistStamped)
     said = "1 others command this robot"
@@ -200,7 +204,7 @@ def test_another_publisher_of_either_type_hinders(body: Ros2Body) -> None:
 
 
 def test_one_that_only_reads_and_thinks_offers_no_commands() -> None:
-    body = Ros2Body(Dds(0, tag=TAG), "/nao", dry_run=True)
+    body = Ros2Body(DdsParticipant(0, tag=TAG), "/nao", dry_run=True)
     robot = Robot(Twist, TwistStamped)
     for _ in range(20):
         assert heard(robot, body).hindrance == ""
@@ -213,7 +217,7 @@ def test_one_that_only_reads_and_thinks_offers_no_commands() -> None:
 
 def test_rest_in_place_of_control_is_written_as_it_is_taken() -> None:
     robot = Robot(TwistStamped)
-    rest(Dds(0, tag=TAG), "/nao", 0.5)
+    rest(DdsParticipant(0, tag=TAG), "/nao", 0.5)
     found = taken(robot.readers[TwistStamped])
     assert found and all(m.twist.linear.x == 0.0 for m in found)
     robot.close()
@@ -221,7 +225,7 @@ def test_rest_in_place_of_control_is_written_as_it_is_taken() -> None:
 
 @pytest.mark.parametrize("kind", [Twist, TwistStamped])
 def test_a_served_robot_follows_either_type(kind: type[Any]) -> None:
-    dds, other = Dds(0, tag=TAG), Dds(0, tag=TAG)
+    dds, other = DdsParticipant(0, tag=TAG), DdsParticipant(0, tag=TAG)
     walker = MadeUpWalker()
     clock = WorldClock(dds)
     server = Ros2Server(dds, "/nao", walker, ["a"], clock, tick=0.012)
@@ -233,7 +237,7 @@ def test_a_served_robot_follows_either_type(kind: type[Any]) -> None:
     def obeys() -> bool:
         writers[0].write(message)
         server.speak()
-        return server.act() == Velocity(0.05, 0.1)
+        return server.act() == VelocityCommand(0.05, 0.1)
 
     until(obeys)
     assert server.connected and not server.refused
@@ -251,7 +255,7 @@ def test_a_served_robot_follows_either_type(kind: type[Any]) -> None:
 
 def test_a_served_robot_goes_from_one_type_to_the_other() -> None:
     """One type at a time: the second commander waits for the first."""
-    dds, other = Dds(0, tag=TAG), Dds(0, tag=TAG)
+    dds, other = DdsParticipant(0, tag=TAG), DdsParticipant(0, tag=TAG)
     server = Ros2Server(
         dds, "/nao", MadeUpWalker(), ["a"], WorldClock(dds), tick=0.012
     )

@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("cyclonedds")
 
 from stepaside.drivers.ros2 import dds_domain as domain  # noqa: E402
-from stepaside.drivers.ros2.dds_domain import Dds  # noqa: E402
+from stepaside.drivers.ros2.dds_domain import DdsParticipant  # noqa: E402
 
 FAST_DDS = "1.15"  # vendor's number of Fast DDS, ROS 2's own DDS
 OWN = "<CycloneDDS><Domain><General/></Domain></CycloneDDS>"
@@ -32,7 +32,7 @@ def told(monkeypatch: pytest.MonkeyPatch) -> Callable[..., str]:
             seen.append(os.environ.get("CYCLONEDDS_URI", ""))
 
         monkeypatch.setattr(domain, "DomainParticipant", participant)
-        Dds(0, **changes)
+        DdsParticipant(0, **changes)
         assert os.environ.get("CYCLONEDDS_URI") == before
         return seen[0]
 
@@ -73,4 +73,6 @@ def test_a_participant_begins_with_it(
         "</Interfaces></General></Domain></CycloneDDS>"
     )
     monkeypatch.setenv("CYCLONEDDS_URI", loopback)
-    Dds(73, beyond=beyond, tag="" if beyond else f"{os.getpid()}").close()
+    DdsParticipant(
+        73, beyond=beyond, tag="" if beyond else f"{os.getpid()}"
+    ).close()

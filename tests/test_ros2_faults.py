@@ -13,14 +13,14 @@ import pytest
 pytest.importorskip("cyclonedds")
 
 from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
-from stepaside.drivers.ros2.dds_domain import Dds  # noqa: E402
+from stepaside.drivers.ros2.dds_domain import DdsParticipant  # noqa: E402
 from stepaside.drivers.ros2.ros2_body import Ros2Body  # noqa: E402
-from stepaside.drivers.velocity.template_controller import TemplateMind  # noqa: E402
+from stepaside.drivers.velocity.template_controller import TemplateController  # noqa: E402
 from stepaside.drivers.velocity.velocity_body import REST  # noqa: E402
 from stepaside.drivers.velocity.velocity_limits import VelocityLimits  # noqa: E402
 from stepaside.drivers.velocity.velocity_loop import (
-    Driving,
-    VelocityPlaying,
+    DrivingState,
+    VelocityLoop,
     VelocityTick,
 )
 from stepaside.drivers.velocity.watchdog import WatchSettings  # noqa: E402
@@ -65,11 +65,11 @@ def world() -> Iterator[subprocess.Popen[bytes]]:
 
 
 @pytest.fixture
-def player() -> Iterator[VelocityPlaying]:
-    body = Ros2Body(Dds(0, tag=TAG), "/nao")
-    yield VelocityPlaying(
+def player() -> Iterator[VelocityLoop]:
+    body = Ros2Body(DdsParticipant(0, tag=TAG), "/nao")
+    yield VelocityLoop(
         body,
-        lambda: TemplateMind(Pursuit(), GaitSettings()),
+        lambda: TemplateController(Pursuit(), GaitSettings()),
         VelocityLimits(),
         WatchSettings(silence=0.25, lead=10.0, forsaken=1.0),
     )
@@ -77,7 +77,7 @@ def player() -> Iterator[VelocityPlaying]:
 
 
 def until(
-    player: VelocityPlaying, done: Callable[[VelocityTick], bool]
+    player: VelocityLoop, done: Callable[[VelocityTick], bool]
 ) -> VelocityTick:
     """Play until something is so."""
     end = monotonic() + LONGEST
@@ -93,23 +93,23 @@ def until(
 
 def walks(tick: VelocityTick) -> bool:
     """Whether the robot goes ahead."""
-    return tick.state is Driving.WALKING and tick.velocity.forward > 0.05
+    return tick.state is DrivingState.WALKING and tick.velocity.forward > 0.05
 
 
 def test_a_world_that_freezes_is_asked_for_rest_and_found_again(
-    world: subprocess.Popen[bytes], player: VelocityPlaying
+    world: subprocess.Popen[bytes], player: VelocityLoop
 ) -> None:
     until(player, walks)
     world.send_signal(signal.SIGSTOP)
     rests = until(player, lambda tick: tick.velocity == REST)
-    assert rests.state is Driving.WAITING
+    assert rests.state is DrivingState.WAITING
     assert rests.reason.startswith("no odometry for")
     world.send_signal(signal.SIGCONT)
     until(player, walks)
 
 
 def test_a_world_that_is_killed_ends_the_session(
-    world: subprocess.Popen[bytes], player: VelocityPlaying
+    world: subprocess.Popen[bytes], player: VelocityLoop
 ) -> None:
     until(player, walks)
     world.kill()
@@ -156,7 +156,7 @@ class Scene:
         from stepaside.drivers.ros2.ros2_server import Ros2Server, WorldClock
         from velocity_fakes import MadeUpWalker
 
-        self.dds, walker = Dds(0, tag=TAG), MadeUpWalker()
+        self.dds, walker = DdsParticipant(0, tag=TAG), MadeUpWalker()
         clock, names = WorldClock(self.dds), ["a", "b"]
         self.server = Ros2Server(
             self.dds, "/nao", walker, names, clock, tick=0.012

@@ -44,7 +44,7 @@ SAMPLES: dict[str, Any] = {
             m.TransformStamped(m.Header(STAMP, "odd"), "bcd", MOVED),
         ]
     ),
-    "rosgraph_msgs/msg/Clock": m.Clock(STAMP),
+    "rosgraph_msgs/msg/Clock": m.ClockMessage(STAMP),
     "sensor_msgs/msg/JointState": m.JointState(
         HEADER, ["LKneePitch", "R"], [0.5, -0.25], [], [1.0]
     ),

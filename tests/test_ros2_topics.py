@@ -16,9 +16,9 @@ pytest.importorskip("cyclonedds")
 from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.core.poses import Pose  # noqa: E402
 from stepaside.drivers.ros2 import dds_domain as domain  # noqa: E402
-from stepaside.drivers.ros2.dds_domain import Dds, taken  # noqa: E402
+from stepaside.drivers.ros2.dds_domain import DdsParticipant, taken  # noqa: E402
 from stepaside.drivers.ros2.messages import (  # noqa: E402
-    Clock,
+    ClockMessage,
     Header,
     JointState,
     Odometry,
@@ -39,7 +39,7 @@ from stepaside.drivers.ros2.topics import (  # noqa: E402
     pose_message,
     pose_of,
 )
-from stepaside.drivers.velocity.velocity_body import REST, Velocity  # noqa: E402
+from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand  # noqa: E402
 from stepaside.perception.measurement import Sighting  # noqa: E402
 
 from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
@@ -52,7 +52,7 @@ class Scene:
     """A served robot, and who listens to it."""
 
     def __init__(self, *, lock_step: bool = False) -> None:
-        self.dds = Dds(0, tag=TAG)
+        self.dds = DdsParticipant(0, tag=TAG)
         self.walker = MadeUpWalker()
         self.clock = WorldClock(self.dds)
         self.server = Ros2Server(
@@ -65,7 +65,7 @@ class Scene:
             lock_step=lock_step,
         )
 
-    def round(self) -> Velocity:
+    def round(self) -> VelocityCommand:
         """One tick of the world."""
         self.server.speak()
         self.server.hear()
@@ -88,12 +88,12 @@ def scene() -> Iterator[Scene]:
 
 @pytest.fixture
 def body() -> Iterator[Ros2Body]:
-    body = Ros2Body(Dds(0, tag=TAG), "/nao")
+    body = Ros2Body(DdsParticipant(0, tag=TAG), "/nao")
     yield body
     body.close()
 
 
-def met(scene: Scene, body: Ros2Body, velocity: Velocity) -> None:
+def met(scene: Scene, body: Ros2Body, velocity: VelocityCommand) -> None:
     """Wait until both ends have found each other."""
 
     def heard() -> bool:
@@ -108,7 +108,7 @@ def met(scene: Scene, body: Ros2Body, velocity: Velocity) -> None:
 def test_velocities_arrive_and_odometry_comes_back(
     scene: Scene, body: Ros2Body
 ) -> None:
-    met(scene, body, Velocity(-0.07, 0.2))
+    met(scene, body, VelocityCommand(-0.07, 0.2))
     scene.walker.pose = Pose(1.0, -2.0, 2.5)
     scene.walker.time = 77.25
 
@@ -145,7 +145,7 @@ def test_the_ideal_sight_is_what_the_robot_saw(
 def test_others_may_say_where_the_other_is_in_either_frame(
     scene: Scene, body: Ros2Body, kind: str, frame: str
 ) -> None:
-    dds = Dds(0, tag=TAG)
+    dds = DdsParticipant(0, tag=TAG)
     scene.walker.pose = own = Pose(1.0, 2.0, 0.5)
     met(scene, body, REST)
     ahead, left = 0.6, -0.3
@@ -175,11 +175,11 @@ def test_others_may_say_where_the_other_is_in_either_frame(
 
 
 def test_everybody_is_told_time_frames_and_joints(scene: Scene) -> None:
-    dds = Dds(0, tag=TAG)
+    dds = DdsParticipant(0, tag=TAG)
     readers = {
         kind: dds.reader(dds_topic(space, name), kind)
         for space, name, kind in (
-            ("", "clock", Clock),
+            ("", "clock", ClockMessage),
             ("", "tf", TFMessage),
             ("/nao", "joint_states", JointState),
         )
@@ -199,7 +199,7 @@ def test_everybody_is_told_time_frames_and_joints(scene: Scene) -> None:
     assert transform.child_frame_id == "nao/base_link"
     assert list(found[JointState].position) == [0.1, 0.2]
     assert list(found[JointState].name) == ["LKneePitch", "RKneePitch"]
-    clock = found[Clock].clock.seconds
+    clock = found[ClockMessage].clock.seconds
     assert clock % (EVERY * TICK) == pytest.approx(0.0, abs=1e-9)
     readers.clear()
     dds.close()
@@ -208,14 +208,14 @@ def test_everybody_is_told_time_frames_and_joints(scene: Scene) -> None:
 def test_a_commander_that_falls_silent_leaves_a_robot_at_rest(
     scene: Scene, body: Ros2Body
 ) -> None:
-    met(scene, body, Velocity(0.05, 0.1))
+    met(scene, body, VelocityCommand(0.05, 0.1))
     moving = [scene.round() for _ in range(60)]
-    assert moving[5] == Velocity(0.05, 0.1) and moving[-1] == REST
+    assert moving[5] == VelocityCommand(0.05, 0.1) and moving[-1] == REST
 
 
 def test_who_leaves_asks_for_rest_first(scene: Scene) -> None:
-    body = Ros2Body(Dds(0, tag=TAG), "/nao")
-    met(scene, body, Velocity(0.05, 0.1))
+    body = Ros2Body(DdsParticipant(0, tag=TAG), "/nao")
+    met(scene, body, VelocityCommand(0.05, 0.1))
     body.close()
     until(lambda: scene.round() == REST)
     until(lambda: scene.round() == REST and not scene.server.connected)
@@ -225,8 +225,8 @@ def test_who_leaves_asks_for_rest_first(scene: Scene) -> None:
 def test_a_velocity_that_is_no_number_is_rest(
     scene: Scene, body: Ros2Body, bad: float
 ) -> None:
-    met(scene, body, Velocity(0.05, 0.1))
-    body.command(Velocity(bad, 0.0))
+    met(scene, body, VelocityCommand(0.05, 0.1))
+    body.command(VelocityCommand(bad, 0.0))
     until(lambda: scene.round() == REST)
     assert scene.server.refused > 0
 
@@ -234,13 +234,13 @@ def test_a_velocity_that_is_no_number_is_rest(
 def test_a_second_commander_is_refused_and_the_first_stops_for_it(
     scene: Scene, body: Ros2Body
 ) -> None:
-    met(scene, body, Velocity(0.05, 0.1))
-    dds = Dds(0, tag=TAG)
+    met(scene, body, VelocityCommand(0.05, 0.1))
+    dds = DdsParticipant(0, tag=TAG)
     second = dds.writer(dds_topic("/nao", "cmd_vel"), Twist)
 
     def refused() -> bool:
         second.write(Twist(Vector3(-9.0), Vector3()))
-        body.command(Velocity(0.05, 0.1))
+        body.command(VelocityCommand(0.05, 0.1))
         assert scene.round().forward in (0.05, 0.0)
         return scene.server.refused > 0
 
@@ -257,14 +257,14 @@ def test_a_second_commander_is_refused_and_the_first_stops_for_it(
 
 def test_in_lock_step_each_report_waits_for_its_answer() -> None:
     scene = Scene(lock_step=True)
-    body = Ros2Body(Dds(0, tag=TAG), "/nao")
-    met(scene, body, Velocity(0.01, 0.0))
+    body = Ros2Body(DdsParticipant(0, tag=TAG), "/nao")
+    met(scene, body, VelocityCommand(0.01, 0.0))
     scene.server.press(False)
     scene.server.speak()
     assert not scene.server.hear()
-    body.command(Velocity(0.02, 0.0))
+    body.command(VelocityCommand(0.02, 0.0))
     until(scene.server.hear)
-    assert scene.server.act() == Velocity(0.02, 0.0)
+    assert scene.server.act() == VelocityCommand(0.02, 0.0)
     for _ in range(EVERY - 1):
         scene.server.speak()
         assert scene.server.hear()
@@ -275,7 +275,7 @@ def test_in_lock_step_each_report_waits_for_its_answer() -> None:
 def test_a_report_that_was_lost_in_lock_step_is_told_again() -> None:
     """Readers take what comes: on a busy machine something may not."""
     scene = Scene(lock_step=True)
-    dds = Dds(0, tag=TAG)
+    dds = DdsParticipant(0, tag=TAG)
     writer = dds.writer(dds_topic("/nao", "cmd_vel"), Twist)
     reader = dds.reader(dds_topic("/nao", "odom"), Odometry)
     try:
@@ -289,16 +289,18 @@ def test_a_report_that_was_lost_in_lock_step_is_told_again() -> None:
         assert again[0].header.stamp == first[-1].header.stamp
         writer.write(Twist(Vector3(0.05), Vector3()))
         until(scene.server.hear)
-        assert scene.server.act() == Velocity(0.05, 0.0)
+        assert scene.server.act() == VelocityCommand(0.05, 0.0)
     finally:
         dds.close()
         scene.close()
 
 
 def test_in_place_of_control_rest_is_written_for_a_while() -> None:
-    dds = Dds(0, tag=TAG)
+    dds = DdsParticipant(0, tag=TAG)
     reader = dds.reader(dds_topic("/nao", "cmd_vel"), Twist)
-    guardian = Thread(target=rest, args=(Dds(0, tag=TAG), "/nao", 1.0))
+    guardian = Thread(
+        target=rest, args=(DdsParticipant(0, tag=TAG), "/nao", 1.0)
+    )
     guardian.start()
     told = until(lambda: taken(reader))[0]
     assert (told.linear.x, told.angular.z) == (0.0, 0.0)
@@ -308,10 +310,10 @@ def test_in_place_of_control_rest_is_written_for_a_while() -> None:
 
 
 def test_who_joined_in_advance_commands_nobody_until_rest_is_asked() -> None:
-    body = Ros2Body(Dds(0, tag=TAG), "/nao")
-    reader_of = Dds(0, tag=TAG)
+    body = Ros2Body(DdsParticipant(0, tag=TAG), "/nao")
+    reader_of = DdsParticipant(0, tag=TAG)
     reader = reader_of.reader(dds_topic("/nao", "cmd_vel"), Twist)
-    let_go = rester_of(Dds(0, tag=TAG), "/nao")
+    let_go = rester_of(DdsParticipant(0, tag=TAG), "/nao")
     sleep(0.5)
     assert body.commanders == 0
     guardian = Thread(target=let_go)
@@ -344,7 +346,7 @@ def test_a_commander_that_is_killed_leaves_a_robot_at_rest(
     """From another process, which has no time to say anything."""
     process = subprocess.Popen([sys.executable, "-c", COMMANDER])
     try:
-        until(lambda: scene.round() == Velocity(0.03, -0.1))
+        until(lambda: scene.round() == VelocityCommand(0.03, -0.1))
         process.kill()
         process.wait(20.0)
         for _ in range(60):
@@ -383,14 +385,14 @@ def test_who_leaves_a_domain_is_gone_whatever_is_held() -> None:
     """Else its configuration is that of all who come later here."""
     from cyclonedds.core import DDSException
 
-    from stepaside.drivers.ros2.messages import Clock, Time
+    from stepaside.drivers.ros2.messages import ClockMessage, Time
 
-    dds = Dds(0, tag=TAG)
-    writer = dds.writer("rt/clock", Clock)
-    writer.write(Clock(Time.of(1.0)))
+    dds = DdsParticipant(0, tag=TAG)
+    writer = dds.writer("rt/clock", ClockMessage)
+    writer.write(ClockMessage(Time.of(1.0)))
     dds.close()
     with pytest.raises(DDSException):
-        writer.write(Clock(Time.of(2.0)))
+        writer.write(ClockMessage(Time.of(2.0)))
 
 
 def test_no_two_topics_are_made_at_once(
@@ -408,7 +410,7 @@ def test_no_two_topics_are_made_at_once(
 
     monkeypatch.setattr(domain, "Topic", Slow)
     monkeypatch.setattr(domain, "DataReader", lambda *given, **named: None)
-    everybody = [Dds(0, tag=TAG), Dds(0, tag=TAG)]
+    everybody = [DdsParticipant(0, tag=TAG), DdsParticipant(0, tag=TAG)]
     threads = [
         Thread(target=dds.reader, args=("rt/odom", Odometry))
         for dds in everybody
@@ -426,7 +428,7 @@ def test_a_domain_that_has_no_ports_is_refused(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     with pytest.raises(ConfigurationError, match=r"in \[0, 232\], got 233"):
-        Dds(233)
+        DdsParticipant(233)
     monkeypatch.setenv("ROS_DOMAIN_ID", "seven")
     with pytest.raises(ConfigurationError, match="ROS_DOMAIN_ID.*'seven'"):
-        Dds()
+        DdsParticipant()

@@ -21,10 +21,10 @@ from stepaside.games.outcome import Outcome
 from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run
 from stepaside.games.run_header import FORMAT
-from stepaside.games.trajectory import Track
+from stepaside.games.trajectory import Trajectory
 from stepaside.report import duel_figure, sight_figure
 from stepaside.report.run_folder import check_output, free_folder, write_run
-from stepaside.report.scene import Stage
+from stepaside.report.scene import RunScene
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import Evasion
 
@@ -229,7 +229,7 @@ def invented(**told: Any) -> DuelRun:
     pursuer, evader = middle + 0.6 * ring, middle - 0.6 * ring
     pursuer[:, 2], evader[:, 2] = angle, angle + 1.2
     tracks = {
-        name: Track(torso.copy(), torso)
+        name: Trajectory(torso.copy(), torso)
         for name, torso in (("pursuer", pursuer), ("evader", evader))
     }
     return run_of(TIMES, tracks, **told)
@@ -323,7 +323,7 @@ def test_the_stage_puts_the_bodies_where_they_were(
         moved[:, 0] += np.linspace(0.0, 1.0, len(moved))
         moved[:, 9] += np.linspace(0.0, 0.3, len(moved))
         tracks[name] = replace(track, qpos=moved)
-    stage = Stage(replace(result, tracks=tracks))
+    stage = RunScene(replace(result, tracks=tracks))
     torsos = [stage.model.body(f"{n}/torso").id for n in ("pursuer", "evader")]
     for index in (0, 7, len(result.times) - 1, 3):
         stage.put(index)
@@ -354,7 +354,7 @@ def test_a_person_is_put_where_it_walked() -> None:
     )
     person = replace(result.pursuer, torso=walked)
     tracks = {**result.tracks, "pursuer": person}
-    stage = Stage(replace(result, tracks=tracks))
+    stage = RunScene(replace(result, tracks=tracks))
     trunk = stage.model.body("pursuer/trunk").id
     legs = []
     for index in (0, count // 2, count - 1):
@@ -369,7 +369,7 @@ def test_a_person_is_put_where_it_walked() -> None:
     assert np.abs(legs[2] - legs[1]).max() > 0.02
 
 
-def _legs(stage: Stage, heading: float) -> Array:
+def _legs(stage: RunScene, heading: float) -> Array:
     """Axes of the person's parts, seen from its trunk. Shape (n, 3, 3)."""
     names = [stage.model.body(i).name for i in range(stage.model.nbody)]
     own = [i for i, name in enumerate(names) if name.startswith("pursuer/")]
@@ -381,7 +381,7 @@ def _legs(stage: Stage, heading: float) -> Array:
 
 def test_words_of_a_duel_with_a_person_speak_of_players() -> None:
     zero = np.zeros((2, 3))
-    tracks = {name: Track(zero, zero) for name in ("pursuer", "evader")}
+    tracks = {name: Trajectory(zero, zero) for name in ("pursuer", "evader")}
     for pursuer, who in (("robot", "robots"), ("person", "players")):
         run = run_of(
             np.arange(2.0),

@@ -10,7 +10,7 @@ import pytest
 from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run, measure
 from stepaside.control.phase import Phase
 from stepaside.control.scheme import PATIENCE, SETTLING
-from stepaside.control.sight_sources import GivenSight
+from stepaside.control.sight_sources import MeasuredSight
 from stepaside.core.poses import Pose
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction, Foot
@@ -37,7 +37,7 @@ def test_it_stands_midway_until_the_other_is_a_reason() -> None:
 
 
 def test_what_was_known_before_anything_is_seen_counts() -> None:
-    run = Run(senses=GivenSight(Sighting(0.0, 0.3, 1.0)))
+    run = Run(senses=MeasuredSight(Sighting(0.0, 0.3, 1.0)))
     run.until(TICK, distance=None)
     assert run.phase() is Phase.WALKING
     assert run.asked == pytest.approx([0.3])

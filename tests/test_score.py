@@ -6,10 +6,10 @@ import pytest
 
 pytest.importorskip("viser")
 
-from stepaside.report.viewer.scoreboard import KEPT, Score  # noqa: E402
+from stepaside.report.viewer.scoreboard import KEPT, Scoreboard  # noqa: E402
 
 
-def played(score: Score, *distances: float, began: float = 0.0) -> None:
+def played(score: Scoreboard, *distances: float, began: float = 0.0) -> None:
     """Play a round of a sample every tenth of a second."""
     score.begin(began)
     for number, distance in enumerate(distances, 1):
@@ -17,14 +17,14 @@ def played(score: Score, *distances: float, began: float = 0.0) -> None:
 
 
 def test_what_nobody_drives_is_no_round() -> None:
-    score = Score()
+    score = Scoreboard()
     score.watch(1.0, 0.3)
     score.end("fall")
     assert score.words() == "" and not score.is_close(0.8)
 
 
 def test_a_second_command_begins_no_second_round() -> None:
-    score = Score()
+    score = Scoreboard()
     played(score, 0.9, 0.7)
     score.begin(5.0)
     score.watch(6.0, 0.8)
@@ -33,7 +33,7 @@ def test_a_second_command_begins_no_second_round() -> None:
 
 
 def test_the_table_keeps_the_last_rounds_and_marks_the_closest() -> None:
-    score = Score()
+    score = Scoreboard()
     for number in range(KEPT + 2):
         played(score, 0.9, 0.5 + 0.01 * abs(number - 4), began=9.0 * number)
         score.end("let go")
@@ -49,7 +49,7 @@ def test_the_table_keeps_the_last_rounds_and_marks_the_closest() -> None:
 def test_an_approach_is_close_while_it_comes_nearer_than_ever(
     safety: float,
 ) -> None:
-    score = Score()
+    score = Scoreboard()
     played(score, 0.7, 0.61)
     assert not score.is_close(safety)
     score.watch(1.0, 0.59)
@@ -63,7 +63,7 @@ def test_an_approach_is_close_while_it_comes_nearer_than_ever(
 
 
 def test_a_small_safety_area_is_entered_before_time_slows() -> None:
-    score = Score()
+    score = Scoreboard()
     played(score, 0.5)
     assert not score.is_close(0.6)
     score.watch(1.0, 0.44)

@@ -27,8 +27,8 @@ from stepaside.sim.camera_settings import (
     CameraSettings,
     ColourSettings,
     DepthSettings,
-    RoomSettings,
-    Thing,
+    RoomObject,
+    SceneSettings,
 )
 from stepaside.sim.offscreen_rendering import BACKENDS, choose_renderer
 from stepaside.sim.person_settings import PersonSettings
@@ -200,7 +200,7 @@ def test_dropped_and_late_images_are_dropped_and_late() -> None:
 
 
 def test_depth_images_keep_to_their_limits() -> None:
-    duel = Duel(replace(SEEING, room=RoomSettings(things=list(CLUTTER))))
+    duel = Duel(replace(SEEING, room=SceneSettings(things=list(CLUTTER))))
     eyes = walkers(duel)[1].robot.eyes
     assert eyes is not None
     depth = DepthSettings()
@@ -220,15 +220,15 @@ def test_depth_images_keep_to_their_limits() -> None:
 
 
 def test_robots_run_into_things() -> None:
-    things = [Thing("red box", 0.15, 0.0)]
+    things = [RoomObject("red box", 0.15, 0.0)]
     start = StartSettings(1.3, 0.0, 0.0)
-    settings = replace(SEEING, start=start, room=RoomSettings(things=things))
+    settings = replace(SEEING, start=start, room=SceneSettings(things=things))
     result = run_duel(replace(settings, duration=12.0))
     assert result.outcome in (Outcome.CONTACT, Outcome.FALL)
 
 
 def test_a_room_is_a_configuration() -> None:
-    room = RoomSettings(things=list(CLUTTER))
+    room = SceneSettings(things=list(CLUTTER))
     settings = replace(SEEING, room=room)
     text = dump_configuration(settings)
     import tomllib
@@ -244,8 +244,8 @@ def test_a_room_is_a_configuration() -> None:
         lambda: CameraSettings(added_latency=float("nan")),
         lambda: ColourSettings(optics="v7"),
         lambda: DepthSettings(near=0.0),
-        lambda: Thing("green box", 0.0, 0.0),
-        lambda: RoomSettings(walls=0.5),
+        lambda: RoomObject("green box", 0.0, 0.0),
+        lambda: SceneSettings(walls=0.5),
         lambda: choose_renderer("glfw"),
     ],
 )

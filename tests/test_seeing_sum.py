@@ -14,22 +14,22 @@ from stepaside.control.clearance.map_settings import MapSettings
 from stepaside.control.sight_sources import CameraSight
 from stepaside.core.poses import Pose
 from stepaside.games import camera_duel as seeing
-from stepaside.games.camera_duel import Seeing, Witness
+from stepaside.games.camera_duel import CameraSenses, SightObserver
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import PLAYERS, DuelSettings, StartSettings
 from stepaside.games.initial_poses import frames_of, walls_of, with_start
 from stepaside.games.outcome import Outcome
-from stepaside.games.person_player import Pedestrian
-from stepaside.games.sight_evaluation import Tally
-from stepaside.games.sight_summary import SightFigures, Spread
+from stepaside.games.person_player import PersonPlayer
+from stepaside.games.sight_evaluation import FrameCounts
+from stepaside.games.sight_summary import ErrorSpread, SightSummary
 from stepaside.games.walker import Walker
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
 from stepaside.sim.camera_settings import (
     CameraSettings,
     ColourSettings,
-    RoomSettings,
-    Thing,
+    RoomObject,
+    SceneSettings,
 )
 from stepaside.sim.person_settings import PersonSettings
 
@@ -39,17 +39,17 @@ SETTINGS = DuelSettings(
     duration=20.0,
     sensing="cameras",
     cameras=RAYS,
-    room=RoomSettings(things=[Thing("red box", 1.0, 2.0)]),
+    room=SceneSettings(things=[RoomObject("red box", 1.0, 2.0)]),
 )
 
 
-def saw(lost: float) -> SightFigures:
+def saw(lost: float) -> SightSummary:
     """Figures of a robot that was lost for a time, in [s]."""
-    none = Spread(None, None)
-    return SightFigures(none, none, None, 0, 0.0, lost)
+    none = ErrorSpread(None, None)
+    return SightSummary(none, none, None, 0, 0.0, lost)
 
 
-def judged(colour: Tally, depth: Tally, lost: float) -> Any:
+def judged(colour: FrameCounts, depth: FrameCounts, lost: float) -> Any:
     """A judge of a robot that was lost for a time."""
     return SimpleNamespace(
         colour=colour,
@@ -60,9 +60,9 @@ def judged(colour: Tally, depth: Tally, lost: float) -> Any:
     )
 
 
-def prepared(*names: str, **changes: Any) -> Seeing:
+def prepared(*names: str, **changes: Any) -> CameraSenses:
     settings = SETTINGS if not changes else DuelSettings(**changes)
-    return Seeing(
+    return CameraSenses(
         with_start(settings), load_robot("nao"), names or PLAYERS, tick=0.004
     )
 
@@ -76,10 +76,10 @@ def at(ticks: int) -> Any:
 
 def test_figures_are_of_both_robots_and_both_cameras() -> None:
     judges = {
-        "pursuer": judged(Tally(10, 9, 1), Tally(), 0.5),
-        "evader": judged(Tally(20, 12, 3), Tally(10, 3, 5), 1.25),
+        "pursuer": judged(FrameCounts(10, 9, 1), FrameCounts(), 0.5),
+        "evader": judged(FrameCounts(20, 12, 3), FrameCounts(10, 3, 5), 1.25),
     }
-    both = Witness(judges, "raycast", every=5)
+    both = SightObserver(judges, "raycast", every=5)
     figures, each = both.figures()
     assert figures.camera == "raycast"
     assert figures.detection_rate == pytest.approx(24 / 40)
@@ -89,8 +89,8 @@ def test_figures_are_of_both_robots_and_both_cameras() -> None:
     assert set(both.sight()) == {"pursuer", "evader"}
     assert both.sight()["evader"][0, 0] == 1.25
     assert both.stills()["pursuer"] is judges["pursuer"].stills
-    blind = {"evader": judged(Tally(), Tally(), 0.0)}
-    nothing, each = Witness(blind, "raycast", every=5).figures()
+    blind = {"evader": judged(FrameCounts(), FrameCounts(), 0.0)}
+    nothing, each = SightObserver(blind, "raycast", every=5).figures()
     assert nothing.detection_rate is None and list(each) == ["evader"]
 
 
@@ -184,7 +184,7 @@ def test_a_person_opens_no_eyes() -> None:
     witness = duel.witness
     assert witness is not None and list(witness.judges) == ["evader"]
     person = duel.players[0]
-    assert isinstance(person, Pedestrian)
+    assert isinstance(person, PersonPlayer)
     assert witness.judges["evader"]._other is person.truth
     assert duel.tick() is None
     run = duel.run(Outcome.COMPLETED, 1.0)
@@ -203,7 +203,7 @@ def test_an_ideal_duel_has_no_witness() -> None:
 def test_both_judges_sample_at_one_instant_when_it_is_due() -> None:
     times: list[float] = []
     one: Any = SimpleNamespace(sample=times.append)
-    both = Witness({"pursuer": one, "evader": one}, "raycast", every=5)
+    both = SightObserver({"pursuer": one, "evader": one}, "raycast", every=5)
     for ticks in range(11):
         both.before(at(ticks))
     assert times == pytest.approx([0.0, 0.0, 0.02, 0.02, 0.04, 0.04])
@@ -215,7 +215,7 @@ def test_both_judges_look_at_every_tick() -> None:
         name: SimpleNamespace(look=lambda name=name: looked.append(name))
         for name in PLAYERS
     }
-    both = Witness(judges, "raycast", every=5)
+    both = SightObserver(judges, "raycast", every=5)
     for ticks in range(3):
         both.acted(at(ticks))
     both.ended(at(3), Outcome.COMPLETED)
@@ -238,7 +238,7 @@ def test_everybody_begins_well_inside_the_walls(
     asked: float, distance: float, there: float
 ) -> None:
     settings = DuelSettings(
-        room=RoomSettings(walls=asked),
+        room=SceneSettings(walls=asked),
         start=StartSettings(distance, 0.0, 0.0),
     )
     assert walls_of(settings) == pytest.approx(there)
@@ -255,7 +255,7 @@ def test_the_walls_of_a_room_stand_beyond_every_start(
     far = side * 4.5
     starts[who] = Pose(far, 0.0, 0.0) if axis == 0 else Pose(0.0, far, 0.0)
     plan = Room(10.0, 10.0, starts=(starts[0], starts[1]))
-    settings = with_start(DuelSettings(room=RoomSettings(plan=plan)))
+    settings = with_start(DuelSettings(room=SceneSettings(plan=plan)))
     assert walls_of(settings) == pytest.approx(8.0)
 
 
@@ -268,7 +268,7 @@ def test_no_wall_stands_between_a_robot_and_who_comes_fast() -> None:
             cameras=CameraSettings(colour=ColourSettings(renderer="raycast")),
         )
     )
-    seeing = Seeing(settings, load_robot("nao"), ("evader",), tick=0.004)
+    seeing = CameraSenses(settings, load_robot("nao"), ("evader",), tick=0.004)
     spec = mujoco.MjSpec()
     head = load_head(load_robot("nao")).body
     spec.worldbody.add_body(name=f"evader/{head}")
@@ -279,7 +279,7 @@ def test_no_wall_stands_between_a_robot_and_who_comes_fast() -> None:
 
 
 def test_who_maps_a_room_begins_when_the_evader_has_looked_behind() -> None:
-    room = RoomSettings(plan=make_room(RoomRecipe(discs=1), 3))
+    room = SceneSettings(plan=make_room(RoomRecipe(discs=1), 3))
     mapping = prepared(
         seed=3,
         sensing="cameras",

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from made_up_robot import FakePerception, measure
-from stepaside.control.sight_sources import BELIEF, CameraSight, GivenSight
+from stepaside.control.sight_sources import BELIEF, CameraSight, MeasuredSight
 from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Array, Pose
-from stepaside.locomotion.zmp.current_step import Step, resting_step
+from stepaside.locomotion.zmp.current_step import CurrentStep, resting_step
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Foot
 from stepaside.robots.head import rotation
@@ -19,7 +19,7 @@ TICK = 0.004
 FRAME = Pose(1.0, -2.0, 0.7)
 
 
-def resting(now: float, foot: Foot = Foot.LEFT) -> Step:
+def resting(now: float, foot: Foot = Foot.LEFT) -> CurrentStep:
     return resting_step(FRAME, foot)
 
 
@@ -35,7 +35,7 @@ def seeing() -> tuple[CameraSight, FakePerception]:
 
 
 def test_a_given_sighting_is_kept_until_the_next() -> None:
-    sight = GivenSight()
+    sight = MeasuredSight()
     found = [
         sight.see(measure(time, distance), resting, None)
         for time, distance in ((0.0, None), (0.1, 1.0), (0.2, None))
@@ -48,7 +48,7 @@ def test_a_given_sighting_is_kept_until_the_next() -> None:
 
 def test_what_was_known_first_counts_until_something_is_seen() -> None:
     known = Sighting(0.0, 0.3, 1.0)
-    sight = GivenSight(known)
+    sight = MeasuredSight(known)
     assert sight.see(measure(0.5, None), resting, None) is known
     seen = sight.see(measure(0.6, 2.0), resting, None)
     assert seen == Sighting(0.6, 0.0, 2.0)
@@ -57,7 +57,7 @@ def test_what_was_known_first_counts_until_something_is_seen() -> None:
 
 def test_given_sightings_leave_the_head_where_it_is() -> None:
     targets = np.arange(5.0)
-    GivenSight().aim(targets)
+    MeasuredSight().aim(targets)
     np.testing.assert_array_equal(targets, np.arange(5.0))
 
 
@@ -80,7 +80,7 @@ def test_cameras_see_over_the_foot_that_stands_at_that_time(
     sight, eyes = seeing()
     asked: list[float] = []
 
-    def step_at(now: float) -> Step:
+    def step_at(now: float) -> CurrentStep:
         asked.append(now)
         return resting(now, swing)
 

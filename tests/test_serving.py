@@ -11,12 +11,12 @@ import pytest
 from invented_run import check_same
 from stepaside.core.errors import ConfigurationError
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint.joint_body import LolaBody
-from stepaside.drivers.joint.joint_loop import Playing, Tick
-from stepaside.drivers.joint.safety import State
-from stepaside.drivers.joint.session_options import Handling
+from stepaside.drivers.joint.joint_body import JointBody
+from stepaside.drivers.joint.joint_loop import JointLoop, JointTick
+from stepaside.drivers.joint.safety import RobotState
+from stepaside.drivers.joint.session_options import SessionOptions
 from stepaside.drivers.lola.camera_channel import CameraChannel
-from stepaside.drivers.lola.lola_address import Address
+from stepaside.drivers.lola.lola_address import LolaAddress
 from stepaside.drivers.lola.lola_connection import open_lola
 from stepaside.drivers.scheme_factory import mind_maker
 from stepaside.games.duel import run_duel
@@ -28,7 +28,7 @@ from stepaside.games.served_duel import serve_duel
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import GaitSettings
 from stepaside.report.run_folder import write_run
-from stepaside.report.scene import Stage
+from stepaside.report.scene import RunScene
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.camera_settings import CameraSettings, ColourSettings
@@ -38,9 +38,9 @@ FEEDBACK = ControlSettings(method="measured", feedback=True)
 
 
 def client(
-    address: Address,
+    address: LolaAddress,
     strategy: Strategy,
-    ticks: list[Tick],
+    ticks: list[JointTick],
     sees_as: str | None,
 ) -> None:
     """One player, until its robot is gone."""
@@ -49,14 +49,14 @@ def client(
         assert address.cameras is not None
         return CameraChannel(address.cameras)
 
-    def open_body(scheme: object) -> LolaBody:
+    def open_body(scheme: object) -> JointBody:
         kinematics = scheme.kinematics  # type: ignore[attr-defined]
         targets = scheme.joint_targets  # type: ignore[attr-defined]
         return open_lola(
             address,
             kinematics.joint_names,
             targets,
-            Handling(open_eyes=None if sees_as is None else open_eyes),
+            SessionOptions(open_eyes=None if sees_as is None else open_eyes),
         )
 
     make = mind_maker(
@@ -68,7 +68,7 @@ def client(
     )
     while not Path(address.path).exists():
         pass  # the world is being built
-    playing = Playing(open_body, strategy, make)
+    playing = JointLoop(open_body, strategy, make)
     try:
         while True:
             ticks.append(playing.tick())
@@ -79,13 +79,13 @@ def client(
 @contextmanager
 def clients(
     folder: Path, *, see: bool = False
-) -> Iterator[tuple[dict[str, Address], list[Tick]]]:
+) -> Iterator[tuple[dict[str, LolaAddress], list[JointTick]]]:
     addresses = {
-        name: Address(path=str(folder / name))
+        name: LolaAddress(path=str(folder / name))
         for name in ("pursuer", "evader")
     }
     roles = {"pursuer": Pursuit(), "evader": Evasion()}
-    ticks: list[Tick] = []
+    ticks: list[JointTick] = []
     threads = [
         Thread(
             target=client,
@@ -128,7 +128,7 @@ def test_in_lock_step_the_duel_is_the_one_played_in_one_process(
     late = served["triggered_at_s"] - alone["triggered_at_s"]
     assert 0.0 <= late < 1.0
     assert served["late_ticks"] == 0
-    walked = [t for t in ticks if t.state is State.WALKING]
+    walked = [t for t in ticks if t.state is RobotState.WALKING]
     assert max(t.measurement.time for t in walked) >= 249 * 0.012 - 1e-9
     assert not any(Path(a.path).exists() for a in addresses.values())
 
@@ -171,13 +171,13 @@ def check_record(served: DuelRun, played: DuelRun, folder: Path) -> None:
         assert track.zmp is not None and track.com_reference is None
     write_run(folder, served)
     check_same(load_run(folder), served)
-    Stage(served).put(len(served.times) - 1)
+    RunScene(served).put(len(served.times) - 1)
 
 
 def test_a_world_waits_for_clients_no_longer_than_it_is_told(
     tmp_path: Path,
 ) -> None:
-    offers = {"evader": LolaOffer(Address(path=str(tmp_path / "e")))}
+    offers = {"evader": LolaOffer(LolaAddress(path=str(tmp_path / "e")))}
     settings = DuelSettings(body=BODIES["delayed"])
     with pytest.raises(ConfigurationError, match="1 of 1 robots had no"):
         serve_duel(settings, offers, patience=0.02)

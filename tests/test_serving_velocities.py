@@ -7,22 +7,22 @@ from threading import Event, Thread
 
 import pytest
 
-from stepaside.drivers.velocity.template_controller import TemplateMind
+from stepaside.drivers.velocity.template_controller import TemplateController
 from stepaside.drivers.velocity.velocity_body import (
     REST,
-    Report,
-    Velocity,
     VelocityBody,
+    VelocityCommand,
+    VelocityReport,
 )
 from stepaside.drivers.velocity.velocity_limits import VelocityLimits
-from stepaside.drivers.velocity.velocity_loop import Driving, VelocityPlaying
+from stepaside.drivers.velocity.velocity_loop import DrivingState, VelocityLoop
 from stepaside.drivers.velocity.watchdog import WatchSettings
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.match import Match, play
 from stepaside.games.robot_offers import Offer
 from stepaside.games.served_duel import serve_duel
-from stepaside.games.velocity_walker import DrivenWalker
+from stepaside.games.velocity_walker import VelocityWalker
 from stepaside.games.walker import Walker
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.planning import GaitSettings
@@ -40,10 +40,10 @@ TAG = f"stepaside-duel-{os.getpid()}"
 ROLES: dict[str, Strategy] = {"pursuer": Pursuit(), "evader": Evasion()}
 
 
-def playing_of(body: VelocityBody, strategy: Strategy) -> VelocityPlaying:
-    return VelocityPlaying(
+def playing_of(body: VelocityBody, strategy: Strategy) -> VelocityLoop:
+    return VelocityLoop(
         body,
-        lambda: TemplateMind(strategy, GaitSettings()),
+        lambda: TemplateController(strategy, GaitSettings()),
         VelocityLimits(),
         WatchSettings(paced=False, forsaken=60.0),
     )
@@ -52,22 +52,22 @@ def playing_of(body: VelocityBody, strategy: Strategy) -> VelocityPlaying:
 class NoWire:
     """Player and robot in one process: every fourth tick a report."""
 
-    def __init__(self, robot: DrivenWalker, strategy: Strategy) -> None:
+    def __init__(self, robot: VelocityWalker, strategy: Strategy) -> None:
         self._robot, self._ticks, self._velocity = robot, 0, REST
         self._playing = playing_of(self, strategy)
         for _ in range(3):  # what a gathering world tells again and again
             self._playing.tick()
 
-    def listen(self, patience: float) -> Report | None:
+    def listen(self, patience: float) -> VelocityReport | None:
         """What the robot says."""
         state = self._robot.state()
-        return Report(state.time, state.pose, state.sighting)
+        return VelocityReport(state.time, state.pose, state.sighting)
 
-    def command(self, velocity: Velocity) -> None:
+    def command(self, velocity: VelocityCommand) -> None:
         """Take what is asked for."""
         self._velocity = velocity
 
-    def act(self) -> Velocity:
+    def act(self) -> VelocityCommand:
         """What the robot is to do at this tick."""
         if self._ticks % 4 == 0:
             self._playing.tick()
@@ -85,7 +85,7 @@ def distance_without_a_wire() -> float:
     players = []
     for player in duel.players:
         assert isinstance(player, Walker)
-        robot = DrivenWalker(player)
+        robot = VelocityWalker(player)
         robot.commander = NoWire(robot, ROLES[player.name])
         players.append(robot)
     match = Match(duel.world, players)
@@ -97,7 +97,7 @@ def distance_without_a_wire() -> float:
 def client(
     open_body: Callable[[], VelocityBody],
     strategy: Strategy,
-    states: list[Driving],
+    states: list[DrivingState],
     over: Event,
 ) -> None:
     """One player, until the duel is over."""
@@ -111,9 +111,9 @@ def client(
 def served(
     offers: dict[str, Offer],
     bodies: dict[str, Callable[[], VelocityBody]],
-) -> tuple[float, list[Driving]]:
+) -> tuple[float, list[DrivingState]]:
     """Least distance of a served duel, and what its players did."""
-    states: list[Driving] = []
+    states: list[DrivingState] = []
     over = Event()
     threads = [
         Thread(target=client, args=(bodies[name], ROLES[name], states, over))
@@ -137,21 +137,21 @@ def test_over_ros2_in_lock_step_the_duel_is_the_one_without_a_wire(
 ) -> None:
     """Topics carry doubles: nothing is lost on the way."""
     pytest.importorskip("cyclonedds")
-    from stepaside.drivers.ros2.dds_domain import Dds
+    from stepaside.drivers.ros2.dds_domain import DdsParticipant
     from stepaside.drivers.ros2.ros2_body import Ros2Body
     from stepaside.drivers.ros2.ros2_server import WorldClock
     from stepaside.games.ros2_offers import Ros2Offer
 
-    dds = Dds(0, tag=TAG)
+    dds = DdsParticipant(0, tag=TAG)
     clock = WorldClock(dds)
     offers: dict[str, Offer] = {
         name: Ros2Offer(dds, clock, f"/{name}") for name in ROLES
     }
 
     def opener(name: str) -> Callable[[], VelocityBody]:
-        return lambda: Ros2Body(Dds(0, tag=TAG), f"/{name}")
+        return lambda: Ros2Body(DdsParticipant(0, tag=TAG), f"/{name}")
 
     least, states = served(offers, {name: opener(name) for name in ROLES})
     assert least == pytest.approx(distance_without_a_wire, abs=1e-6)
-    assert Driving.WALKING in states
+    assert DrivingState.WALKING in states
     dds.close()

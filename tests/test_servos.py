@@ -8,7 +8,7 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.sim.body_settings import BodySettings
-from stepaside.sim.servos import HonestServos, IdealServos
+from stepaside.sim.servos import IdealServos, RealisticServos
 
 KP, KV, STALL = 20.0, 0.5, 1.5
 STEP, CYCLE = 0.002, 0.012
@@ -50,10 +50,10 @@ def ideal() -> tuple[IdealServos, mujoco.MjModel, mujoco.MjData]:
 
 def honest(
     play: tuple[float, float] = (0.0, 0.0), **effects: Any
-) -> tuple[HonestServos, mujoco.MjModel, mujoco.MjData]:
+) -> tuple[RealisticServos, mujoco.MjModel, mujoco.MjData]:
     model, data = bench()
     body = BodySettings(**effects)
-    servos = HonestServos(
+    servos = RealisticServos(
         model, data, ACTUATORS, SPEEDS, CYCLE, body, np.array(play)
     )
     servos.reset(np.zeros(2))
@@ -255,7 +255,7 @@ def test_a_soft_joint_pushes_with_its_share_and_no_other_is_touched(
     data.qvel[DOFS] = 0.0
     np.testing.assert_allclose(torques(model, data), [share * full, full])
     np.testing.assert_allclose(model.actuator_forcerange[0], [-9.0, 9.0])
-    if isinstance(servos, HonestServos):
+    if isinstance(servos, RealisticServos):
         data.qvel[DOFS] = 0.5 * SPEEDS
         servos.before_step(0.0)
         data.ctrl[ACTUATORS] = 30.0

@@ -13,7 +13,7 @@ import pytest
 from onlooker import look_away, look_on
 from stepaside.control import Phase
 from stepaside.core.errors import ConfigurationError, StepAsideError
-from stepaside.games.approach_forecast import Approach
+from stepaside.games.approach_forecast import CourseApproach
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.run_archive import load_run
@@ -21,9 +21,9 @@ from stepaside.games.walker import Walker
 from stepaside.report.viewer import live_session as live
 from stepaside.report.viewer import plot_history as trails
 from stepaside.report.viewer import run_saving as saving
-from stepaside.report.viewer.live_session import Session
+from stepaside.report.viewer.live_session import LiveSession
 from stepaside.report.viewer.status_text import outlook, words_of
-from stepaside.strategies.teleoperation import TURN, Driven
+from stepaside.strategies.teleoperation import TURN, TeleoperatedPursuit
 
 START = StartSettings(distance=1.0, pursuer_offset=0.0, evader_offset=0.0)
 SETTINGS = DuelSettings(start=START)
@@ -31,14 +31,14 @@ LONG = 60.0  # [s]; no event of a loop that runs comes as late as this
 
 
 @pytest.fixture
-def session() -> Iterator[Session]:
-    made = Session(SETTINGS)
+def session() -> Iterator[LiveSession]:
+    made = LiveSession(SETTINGS)
     made.speed = inf
     yield made
     made.close()
 
 
-def settle(session: Session, rounds: int = 1) -> None:
+def settle(session: LiveSession, rounds: int = 1) -> None:
     """Wait until the loop has done what was asked, and begins a round."""
     for _ in range(rounds):
         served = Event()
@@ -50,7 +50,7 @@ def _setter(event: Event) -> Callable[[Duel], None]:
     return lambda duel: event.set()
 
 
-def run_until(session: Session, time: float) -> None:
+def run_until(session: LiveSession, time: float) -> None:
     """Let time pass up to a tick, and stop there."""
     reached, duel = Event(), session.duel
     tick = duel.world.physics.tick
@@ -67,14 +67,14 @@ def run_until(session: Session, time: float) -> None:
     look_away(duel, looking)
 
 
-def walker(session: Session, number: int = 0) -> Walker:
+def walker(session: LiveSession, number: int = 0) -> Walker:
     """Player who is a robot."""
     player = session.duel.players[number]
     assert isinstance(player, Walker)
     return player
 
 
-def test_time_passes_only_while_it_runs(session: Session) -> None:
+def test_time_passes_only_while_it_runs(session: LiveSession) -> None:
     settle(session, rounds=5)
     assert session.duel.world.time == 0.0
     run_until(session, 1.0)
@@ -83,7 +83,7 @@ def test_time_passes_only_while_it_runs(session: Session) -> None:
     assert session.duel.world.time == pytest.approx(1.0)
 
 
-def test_a_pause_from_outside_holds_at_once(session: Session) -> None:
+def test_a_pause_from_outside_holds_at_once(session: LiveSession) -> None:
     ticked = Event()
     look_on(session.duel, lambda duel: ticked.set())
     session.running = True
@@ -95,7 +95,7 @@ def test_a_pause_from_outside_holds_at_once(session: Session) -> None:
     assert session.duel.world.time == stopped > 0.0
 
 
-def test_a_step_is_as_long_as_asked(session: Session) -> None:
+def test_a_step_is_as_long_as_asked(session: LiveSession) -> None:
     session.step(0.1)
     settle(session, rounds=3)
     assert session.duel.world.time == pytest.approx(0.1)
@@ -131,9 +131,9 @@ def time_for(
     clock: Clock,
     speed: float,
     cost: Callable[[float], float] = lambda time: 0.0,
-) -> tuple[float, Session]:
+) -> tuple[float, LiveSession]:
     """Time of the clock that 1.5 s of a duel take."""
-    made = Session(SETTINGS)
+    made = LiveSession(SETTINGS)
     clock.sleeper = made._thread
     made.speed = speed
     times = []
@@ -176,7 +176,7 @@ def test_a_slow_machine_is_told_by_the_factor(clock: Clock) -> None:
 def test_a_push_changes_the_run() -> None:
     ways = []
     for impulse in (0.0, 0.8):
-        made = Session(SETTINGS)
+        made = LiveSession(SETTINGS)
         made.speed = inf
         way: list[float] = []
 
@@ -193,7 +193,9 @@ def test_a_push_changes_the_run() -> None:
     assert off > 1e-3
 
 
-def test_nonsense_is_refused_and_the_duel_goes_on(session: Session) -> None:
+def test_nonsense_is_refused_and_the_duel_goes_on(
+    session: LiveSession,
+) -> None:
     with pytest.raises(ConfigurationError, match="push impulse"):
         session.push(0, -1.0, 0.0)
     before = session.duel
@@ -202,7 +204,7 @@ def test_nonsense_is_refused_and_the_duel_goes_on(session: Session) -> None:
     assert session.duel is before
 
 
-def test_a_reset_begins_again(session: Session) -> None:
+def test_a_reset_begins_again(session: LiveSession) -> None:
     run_until(session, 0.5)
     session.reset()
     assert session.duel.world.time == 0.0
@@ -211,7 +213,7 @@ def test_a_reset_begins_again(session: Session) -> None:
 
 def test_a_duel_is_let_go_by_the_thread_that_drew_for_it() -> None:
     """When another one has begun, and at the end; each of them once."""
-    made = Session(SETTINGS)
+    made = LiveSession(SETTINGS)
     closed: list[tuple[Duel, Thread]] = []
 
     def watch() -> Duel:
@@ -233,7 +235,7 @@ def test_a_duel_is_let_go_by_the_thread_that_drew_for_it() -> None:
     assert {thread for _, thread in closed} == {made._thread}
 
 
-def test_errors_in_the_loop_are_told(session: Session) -> None:
+def test_errors_in_the_loop_are_told(session: LiveSession) -> None:
     def fail(duel: object) -> None:
         raise RuntimeError("a bolt came loose")
 
@@ -243,27 +245,27 @@ def test_errors_in_the_loop_are_told(session: Session) -> None:
     assert "a bolt came loose" in session.error
 
 
-def test_the_hand_steers_the_same_planner(session: Session) -> None:
+def test_the_hand_steers_the_same_planner(session: LiveSession) -> None:
     scheme = walker(session).scheme
 
-    def hold(hand: Driven) -> None:
+    def hold(hand: TeleoperatedPursuit) -> None:
         session.change(lambda duel: scheme.decisions.adopt(hand))
 
-    hold(Driven(turn=1.0, going=True))
+    hold(TeleoperatedPursuit(turn=1.0, going=True))
     run_until(session, 3.0)
     plan = scheme.plan
     assert plan is not None and plan.bearing == pytest.approx(TURN)
-    hold(Driven(turn=-0.5, going=True))
+    hold(TeleoperatedPursuit(turn=-0.5, going=True))
     run_until(session, 4.5)
     plan = scheme.plan
     assert plan is not None and plan.bearing == pytest.approx(-0.5 * TURN)
-    hold(Driven(turn=-0.5, going=False))
+    hold(TeleoperatedPursuit(turn=-0.5, going=False))
     run_until(session, 8.0)
     assert scheme.phase is Phase.STANDING
 
 
 def test_history_is_bounded(
-    session: Session, monkeypatch: pytest.MonkeyPatch
+    session: LiveSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """What is full forgets its oldest, so that a page can stay open."""
     assert session.trail.history.maxlen == trails.HISTORY
@@ -298,7 +300,7 @@ def test_words_say_what_goes_on(
 
 
 def test_of_a_live_duel_the_first_minutes_are_kept(
-    session: Session, monkeypatch: pytest.MonkeyPatch
+    session: LiveSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """What would grow for ever is cut."""
     monkeypatch.setattr(saving, "KEPT", 1.0)
@@ -311,9 +313,9 @@ def test_of_a_live_duel_the_first_minutes_are_kept(
 
 
 def test_what_was_played_is_saved_with_pushes_and_commands(
-    session: Session, tmp_path: Path
+    session: LiveSession, tmp_path: Path
 ) -> None:
-    kept = saving.Saving(tmp_path)
+    kept = saving.RunSaver(tmp_path)
     with pytest.raises(StepAsideError, match="nothing has been played"):
         session.save(kept)
     run_until(session, 0.6)
@@ -331,11 +333,11 @@ def test_what_was_played_is_saved_with_pushes_and_commands(
 
 
 def test_a_page_saves_a_few_runs_at_most(
-    session: Session, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    session: LiveSession, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(saving, "MOST", 0)
     with pytest.raises(StepAsideError, match="must be at most 0"):
-        session.save(saving.Saving(tmp_path))
+        session.save(saving.RunSaver(tmp_path))
     assert list(tmp_path.iterdir()) == []
 
 
@@ -360,7 +362,7 @@ def test_the_outlook_says_what_comes_next_and_when(
         distance,
         phase,
         safety=0.8,
-        approach=Approach((distance, 0.0), (-0.073, 0.0)),
+        approach=CourseApproach((distance, 0.0), (-0.073, 0.0)),
         theory=theory,
         settling=settling,
     )

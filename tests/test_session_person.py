@@ -12,12 +12,12 @@ from fake_page import Gui
 from stepaside.control import Phase
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.person_player import Pedestrian
+from stepaside.games.person_player import PersonPlayer
 from stepaside.games.walker import Walker
 from stepaside.report.viewer.drive_panel import DrivePanel, add_push
 from stepaside.report.viewer.live_drawing import draw_session
-from stepaside.report.viewer.live_session import Session
-from stepaside.report.viewer.scene_layers import Layers
+from stepaside.report.viewer.live_session import LiveSession
+from stepaside.report.viewer.scene_layers import SceneLayers
 from stepaside.report.viewer.status_text import phases_of
 
 START = StartSettings(distance=2.0, pursuer_offset=0.3, evader_offset=0.0)
@@ -25,13 +25,13 @@ LONG = 60.0  # [s]; no event of a loop that runs comes as late as this
 
 
 @pytest.fixture
-def session() -> Iterator[Session]:
-    made = Session(DuelSettings(pursuer="person", start=START))
+def session() -> Iterator[LiveSession]:
+    made = LiveSession(DuelSettings(pursuer="person", start=START))
     yield made
     made.close()
 
 
-def stepped(session: Session, duration: float) -> None:
+def stepped(session: LiveSession, duration: float) -> None:
     """Let a while pass, and wait until it has."""
     done = Event()
     session.step(duration)
@@ -39,9 +39,9 @@ def stepped(session: Session, duration: float) -> None:
     assert done.wait(LONG) and session.error is None, session.error
 
 
-def test_a_person_walks_on_in_a_step(session: Session) -> None:
+def test_a_person_walks_on_in_a_step(session: LiveSession) -> None:
     person, evader = session.duel.players
-    assert isinstance(person, Pedestrian) and isinstance(evader, Walker)
+    assert isinstance(person, PersonPlayer) and isinstance(evader, Walker)
     began = np.array(person.truth.position)
     stepped(session, 1.0)
     assert session.duel.world.time == pytest.approx(1.0)
@@ -54,7 +54,9 @@ def test_a_person_walks_on_in_a_step(session: Session) -> None:
     }
 
 
-def test_the_robot_is_pushed_and_the_person_is_not(session: Session) -> None:
+def test_the_robot_is_pushed_and_the_person_is_not(
+    session: LiveSession,
+) -> None:
     """Who is refused loses nothing: the duel goes on, and pushes too."""
     before = session.duel
     with pytest.raises(ConfigurationError, match="pursuer, who is a person"):
@@ -71,7 +73,7 @@ def test_the_robot_is_pushed_and_the_person_is_not(session: Session) -> None:
 
 
 def test_the_push_button_says_that_a_person_is_not_pushed(
-    session: Session,
+    session: LiveSession,
 ) -> None:
     gui: Any = Gui()
     said: list[str] = []
@@ -84,7 +86,7 @@ def test_the_push_button_says_that_a_person_is_not_pushed(
     assert said[1:] == ["pushed the evader left by 0.5 N s"]
 
 
-def test_nobody_drives_a_person(session: Session) -> None:
+def test_nobody_drives_a_person(session: LiveSession) -> None:
     """It walks as it would have, and no score is kept."""
     gui: Any = Gui()
     panel = DrivePanel(gui, session)
@@ -105,7 +107,7 @@ def test_nobody_drives_a_person(session: Session) -> None:
     assert ways[0] == ways[1]
 
 
-def test_of_a_person_only_its_way_is_drawn(session: Session) -> None:
+def test_of_a_person_only_its_way_is_drawn(session: LiveSession) -> None:
     """Plans, footsteps and a ZMP are the robot's."""
     stepped(session, 0.5)
     drawn: dict[tuple[str, str], Any] = {}
@@ -113,7 +115,7 @@ def test_of_a_person_only_its_way_is_drawn(session: Session) -> None:
     def draw(layer: str, owner: str, lines: Any, colour: str) -> None:
         drawn[layer, owner] = lines
 
-    layers: Any = Layers.__new__(Layers)
+    layers: Any = SceneLayers.__new__(SceneLayers)
     layers.draw = draw
     draw_session(layers, session)
     of_person = {layer for layer, owner in drawn if owner == "pursuer"}

@@ -10,11 +10,11 @@ from invented_run import changed, run_of
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.trajectory import Track
+from stepaside.games.trajectory import Trajectory
 from stepaside.report.settling_report import settling_time, settling_words
 
 TIMES = np.linspace(0.0, 60.0, 601)
-STANDING = Track(np.zeros((601, 3)), np.zeros((601, 3)))
+STANDING = Trajectory(np.zeros((601, 3)), np.zeros((601, 3)))
 
 
 def with_angle(angle: float) -> DuelSettings:

@@ -13,15 +13,15 @@ from click.testing import CliRunner
 import several_hinges
 from stepaside.cli.main import main
 from stepaside.core.errors import ModelError
-from stepaside.fitting.derivation import Derived, derive
+from stepaside.fitting.derivation import DerivedDescription, derive
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.gait_feasibility import torques_borne
 from stepaside.fitting.gait_search import GOOD
-from stepaside.fitting.joint_strain import Strain
+from stepaside.fitting.joint_strain import JointStrain
 from stepaside.fitting.model_analysis import survey
 from stepaside.fitting.requirements import findings_of
 from stepaside.fitting.robot_verification import check_robot
-from stepaside.fitting.walk_trials import Walked
+from stepaside.fitting.walk_trials import WalkTrialResult
 from stepaside.games.robot_settings import settings_of
 from stepaside.robots.description import FILE, load_robot
 from test_robot_tune import Here
@@ -30,7 +30,7 @@ from test_robot_tune import Here
 @pytest.fixture(scope="module")
 def both(
     tmp_path_factory: pytest.TempPathFactory,
-) -> tuple[Derived, Derived]:
+) -> tuple[DerivedDescription, DerivedDescription]:
     """The same robot with several hinges in a body, and with one in each."""
     found = []
     for split in (False, True):
@@ -43,7 +43,7 @@ def both(
 
 
 def test_several_hinges_in_a_body_are_one_joint_each(
-    both: tuple[Derived, Derived],
+    both: tuple[DerivedDescription, DerivedDescription],
 ) -> None:
     merged, split = both
     assert merged.survey.model.nbody < split.survey.model.nbody
@@ -52,7 +52,7 @@ def test_several_hinges_in_a_body_are_one_joint_each(
 
 
 def test_what_is_derived_depends_on_masses_and_not_on_bodies(
-    both: tuple[Derived, Derived],
+    both: tuple[DerivedDescription, DerivedDescription],
 ) -> None:
     """The limit of links that get ever lighter."""
     merged, split = (found.description for found in both)
@@ -64,7 +64,7 @@ def test_what_is_derived_depends_on_masses_and_not_on_bodies(
 
 
 def test_torques_of_a_step_stay_finite_without_a_mass(
-    both: tuple[Derived, Derived],
+    both: tuple[DerivedDescription, DerivedDescription],
 ) -> None:
     merged, split = (
         load_robot(Path(found.description.folder)) for found in both
@@ -159,17 +159,17 @@ def test_arms_and_heads_are_not_called_legs(
 def test_a_hint_names_tune_only_where_tune_searches(
     torque: float,
     off: float,
-    both: tuple[Derived, Derived],
+    both: tuple[DerivedDescription, DerivedDescription],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """The search ends at once where walks are steady enough."""
     from stepaside.fitting import robot_verification as checking
 
-    strain = Strain(0.1, "knee", torque, "hip", 0.0, 0.0)
+    strain = JointStrain(0.1, "knee", torque, "hip", 0.0, 0.0)
     monkeypatch.setattr(
         checking,
         "walk_trial",
-        lambda trial: Walked(
+        lambda trial: WalkTrialResult(
             *(trial.way.name, trial.control.feedback, "walked", True, 1.0),
             *(1.0, 0.01, 1.0 + 0.15 * off, 1.0, strain),
         ),

@@ -14,23 +14,25 @@ from invented_run import run_of
 from stepaside.core.poses import Array
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings
-from stepaside.games.sight_evaluation import Still
-from stepaside.games.trajectory import Track
+from stepaside.games.sight_evaluation import EvaluatedImage
+from stepaside.games.trajectory import Trajectory
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.images import ColourImage, DepthImage
 from stepaside.report.figure_style import COLOURS, THEORY, plt
 from stepaside.report.sight_figure import FOUND, TRUE, draw_sight, picture
-from stepaside.sim.camera_settings import RoomSettings, Thing
+from stepaside.sim.camera_settings import RoomObject, SceneSettings
 
 CAMERA = CameraModel(160, 120, 140.0, 140.0)
 
 
-def colour(azimuth: float, box: Any = None, time: float = 0.0) -> Still:
+def colour(
+    azimuth: float, box: Any = None, time: float = 0.0
+) -> EvaluatedImage:
     pixels = np.full((120, 160, 3), 9, dtype=np.uint8)
     report: Any = SimpleNamespace(
         image=ColourImage(time, CAMERA, pixels), colour=box, depth=None
     )
-    return Still(report, azimuth)
+    return EvaluatedImage(report, azimuth)
 
 
 def marked(canvas: Any, shade: tuple[int, int, int]) -> Array:
@@ -72,7 +74,9 @@ def depth(scene: Any, azimuth: float = 3.0) -> Any:
     return picture(depth_still(scene, azimuth))
 
 
-def depth_still(scene: Any, azimuth: float = 3.0, time: float = 0.0) -> Still:
+def depth_still(
+    scene: Any, azimuth: float = 3.0, time: float = 0.0
+) -> EvaluatedImage:
     camera = CameraModel(80, 60, 70.0, 70.0)
     depths = np.zeros((60, 80), dtype=np.float32)
     depths[:, 20:40], depths[:, 40:60], depths[:, 60:] = 1.0, 2.0, 9.0
@@ -81,7 +85,7 @@ def depth_still(scene: Any, azimuth: float = 3.0, time: float = 0.0) -> Still:
         colour=None,
         depth=scene,
     )
-    return Still(report, azimuth)
+    return EvaluatedImage(report, azimuth)
 
 
 def test_depth_is_brightness_three_times_as_large() -> None:
@@ -123,7 +127,7 @@ TIMES: Array = 0.1 * np.arange(101, dtype=float)
 
 
 SETTINGS = DuelSettings(
-    seed=7, room=RoomSettings(things=[Thing("red box", 3.0, -1.0)])
+    seed=7, room=SceneSettings(things=[RoomObject("red box", 3.0, -1.0)])
 )
 
 
@@ -135,7 +139,7 @@ def result(**changes: Any) -> DuelRun:
         belief = np.full_like(TIMES, 0.5)
         belief[TIMES < 2.0] = np.nan
         zero = 0.0 * TIMES
-        tracks[name] = Track(
+        tracks[name] = Trajectory(
             com=np.zeros((len(TIMES), 3)),
             torso=np.column_stack([x + 0.05 * TIMES, 0.1 * TIMES, turn]),
             sight=np.column_stack(
@@ -152,7 +156,7 @@ def result(**changes: Any) -> DuelRun:
     return run_of(TIMES, **values)
 
 
-def seen(*, depths: int = 0) -> dict[str, list[Still]]:
+def seen(*, depths: int = 0) -> dict[str, list[EvaluatedImage]]:
     """Images of one robot, by camera."""
     deep = [depth_still(None, time=time) for time in (1.0, 5.0, 10.0)[:depths]]
     shown = [colour(0.1, time=time) for time in (1.0, 5.0, 10.0)]
@@ -251,7 +255,7 @@ def test_of_a_duel_with_a_person_the_robots_sight_is_shown(
 ) -> None:
     """Both are seen from above, but only the robot believes something."""
     both = result().tracks
-    person = Track(both["pursuer"].com, both["pursuer"].torso)
+    person = Trajectory(both["pursuer"].com, both["pursuer"].torso)
     duel = result(
         tracks={**both, "pursuer": person}, stills={"evader": seen(depths=2)}
     )

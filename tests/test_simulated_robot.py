@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from stepaside.control import ControlScheme, Phase
-from stepaside.control.sight_sources import CameraSight, GivenSight
+from stepaside.control.sight_sources import CameraSight, MeasuredSight
 from stepaside.core.poses import Array, Pose
 from stepaside.core.random_streams import named_generator
 from stepaside.games.walker import Walker
@@ -23,11 +23,11 @@ from stepaside.robots.description import load_robot
 from stepaside.robots.description_types import FOOT_FORCES
 from stepaside.robots.leg_kinematics import LegKinematics
 from stepaside.sim.body_settings import BodySettings
-from stepaside.sim.ground_truth import TrueState, torsos_apart
+from stepaside.sim.ground_truth import TrueRobotState, torsos_apart
 from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.sim.push import Push
 from stepaside.sim.sensor_errors import SensorErrors
-from stepaside.sim.servos import HonestServos
+from stepaside.sim.servos import RealisticServos
 from stepaside.sim.simulated_robot import SimulatedRobot
 from stepaside.sim.world import World
 from stepaside.strategies import Pursuit
@@ -165,7 +165,7 @@ def test_a_robot_has_fallen_when_it_leans_by_45_degrees(
 def test_distance_is_level_and_the_same_from_both_sides() -> None:
     robot, _ = stand()
     world = robot.world
-    other = TrueState(world.model, world.data, "first/torso")
+    other = TrueRobotState(world.model, world.data, "first/torso")
     world.data.qpos[:3] = (-2.3, 1.7, 5.0)
     at = robot.qpos_slice.start
     world.data.qpos[at : at + 3] = (0.7, -2.3, 0.3)
@@ -192,11 +192,11 @@ def test_servos_are_honest_where_the_body_is_not_ideal(
     effect: str, value: float
 ) -> None:
     plain, _ = stand()
-    assert not isinstance(plain.servos, HonestServos)
+    assert not isinstance(plain.servos, RealisticServos)
     assert plain.world.before_step == []
     effects: dict[str, Any] = {effect: value}
     robot, scheme = stand(**effects)
-    assert isinstance(robot.servos, HonestServos)
+    assert isinstance(robot.servos, RealisticServos)
     assert robot.world.before_step == [robot.servos.before_step]
     legs = np.array([n in NAO.legs for n in scheme.kinematics.joint_names])
     assert 10 <= legs.sum() < legs.size
@@ -287,7 +287,7 @@ def test_a_scheme_starts_from_what_it_was_told() -> None:
     robot, scheme = stand()
     assert scheme.phase is Phase.STANDING
     assert isinstance(scheme.decisions.strategy, Pursuit)
-    assert isinstance(scheme.senses, GivenSight) and robot.eyes is None
+    assert isinstance(scheme.senses, MeasuredSight) and robot.eyes is None
     assert robot.sight is None
     scheme.update(robot.read())
     assert scheme.sighting == Sighting(0.0, 0.2, 2.0)

@@ -18,8 +18,8 @@ from stepaside.fitting.derivation import (
     spacing_of,
 )
 from stepaside.fitting.description_writer import write_description
-from stepaside.fitting.leg_detection import Leg
-from stepaside.fitting.model_analysis import Survey, survey
+from stepaside.fitting.leg_detection import DetectedLeg
+from stepaside.fitting.model_analysis import ModelAnalysis, survey
 from stepaside.fitting.standing_posture import knee_limits, standing_of
 from stepaside.robots.description import FILE, load_robot
 from stepaside.robots.tree_compiler import compile_tree
@@ -40,7 +40,7 @@ def edited(folder: Path, edit: Callable[[str], str]) -> Path:
     return file
 
 
-def feet(file: Path) -> tuple[Leg, Leg]:
+def feet(file: Path) -> tuple[DetectedLeg, DetectedLeg]:
     return survey(file, []).legs
 
 
@@ -104,7 +104,7 @@ def test_a_foot_on_balls_is_as_level_as_they_are(tmp_path: Path) -> None:
         assert leg.axes[0, 0] == pytest.approx(cos(0.25))
 
 
-def level_in(found: Survey) -> float:
+def level_in(found: ModelAnalysis) -> float:
     """How far from level soles are in the standing posture, in [rad]."""
     data = mujoco.MjData(found.model)
     data.qpos[:] = found.data.qpos

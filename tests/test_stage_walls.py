@@ -9,9 +9,9 @@ import pytest
 from fake_page import Scene
 from stepaside.arena import Disc, Door, Room
 from stepaside.core.poses import Array, Pose
-from stepaside.report.body_heights import Tops
-from stepaside.report.viewer.scene_bodies import Bodies
-from stepaside.report.visual_geoms import Part, parts_of
+from stepaside.report.body_heights import BodyHeights
+from stepaside.report.viewer.scene_bodies import SceneBodies
+from stepaside.report.visual_geoms import VisualGeom, parts_of
 from stepaside.robots.description import load_robot
 from stepaside.sim.obstacle_geoms import add_solids
 from stepaside.sim.pedestrian_models import FIGURES
@@ -31,7 +31,7 @@ def room_model(room: Room) -> mujoco.MjModel:
     return spec.compile()
 
 
-def triangles_of(part: Part, model: mujoco.MjModel) -> Array:
+def triangles_of(part: VisualGeom, model: mujoco.MjModel) -> Array:
     """Triangles of a part in the world. Shape (n, 3, 3)."""
     assert part.shell is not None
     frame = np.zeros(9)
@@ -134,7 +134,7 @@ def test_a_top_is_over_every_point_of_a_body_and_not_far(
 
     model = mujoco.MjModel.from_xml_string(BODY.format(kind=kind, size=size))
     (part,) = parts_of(model)
-    tops = Tops([part])
+    tops = BodyHeights([part])
     random = np.random.default_rng(1)
     for _ in range(20):
         quaternion = random.normal(size=4)
@@ -168,7 +168,7 @@ def test_a_name_stands_over_the_head_of_a_person_wherever_it_is(
     )
     mujoco.mj_kinematics(model, data)
     scene: Any = Scene()
-    bodies = Bodies(scene, model)
+    bodies = SceneBodies(scene, model)
     bodies.name(model, ("pursuer", "evader"))
     bodies.move(data.xpos, data.xquat)
     x, y, z = scene.items["/names/pursuer"].position

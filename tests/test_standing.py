@@ -8,7 +8,7 @@ import pytest
 from stepaside.arena import Disc, Room
 from stepaside.control.clearance.map_settings import MapSettings
 from stepaside.control.clearance.swept_outline import BodyOutline, sway_of
-from stepaside.control.scheme_builder import Clearance
+from stepaside.control.scheme_builder import ClearanceSetup
 from stepaside.core.poses import Pose
 from stepaside.games import walker_factory as standing
 from stepaside.games.walker_factory import clearance_in, fitting
@@ -38,7 +38,7 @@ def outline(monkeypatch: pytest.MonkeyPatch) -> Any:
     return made
 
 
-def known(room: Room | None = ROOM, **settings: Any) -> Clearance | None:
+def known(room: Room | None = ROOM, **settings: Any) -> ClearanceSetup | None:
     return clearance_in(
         room,
         MapSettings(**settings),

@@ -13,7 +13,7 @@ from stepaside.core.poses import Pose
 from stepaside.locomotion.zmp.control_settings import StabiliserSettings
 from stepaside.locomotion.zmp.current_step import (
     Box,
-    Step,
+    CurrentStep,
     adapted_landing,
     beyond,
     clip_to,
@@ -29,7 +29,7 @@ from stepaside.planning import (
     GaitSettings,
     ManeuverPlanner,
 )
-from stepaside.planning.gait_settings import Sole
+from stepaside.planning.gait_settings import SoleRectangle
 from stepaside.planning.swing import swing_progress
 from stepaside.robots.leg_kinematics import BodyReference
 
@@ -48,11 +48,11 @@ def step(
     ahead: float = 0.04,
     aside: float = 0.1,
     **changes: Any,
-) -> Step:
+) -> CurrentStep:
     """Step over a foot that stands somewhere, turned."""
     landing = SUPPORT.compose(Pose(ahead, swing.value * aside, 0.1))
     values: dict[str, Any] = {"remaining": 0.2, "progress": 0.5} | changes
-    return Step(SUPPORT, swing, landing, walking=True, **values)
+    return CurrentStep(SUPPORT, swing, landing, walking=True, **values)
 
 
 def test_a_quarter_turn_turns_vectors_by_hand() -> None:
@@ -103,7 +103,7 @@ def test_zmp_box_is_the_sole_about_the_anchor() -> None:
     """Standing on the left foot (the right swings): outside is left."""
     gait = replace(
         GAIT,
-        sole=Sole(back=-0.06, front=0.1, outer=0.05, inner=0.04),
+        sole=SoleRectangle(back=-0.06, front=0.1, outer=0.05, inner=0.04),
         zmp_forward=0.03,
     )
     on_left = zmp_box(Foot.RIGHT, gait, 0.01)
@@ -145,7 +145,9 @@ def test_nothing_beyond_no_radius_is_everything() -> None:
     assert beyond(0.0, 0.0, 0.0) == (0.0, 0.0)
 
 
-def shift(error: tuple[float, float], made: Step) -> tuple[float, float]:
+def shift(
+    error: tuple[float, float], made: CurrentStep
+) -> tuple[float, float]:
     """Shift of the landing in the support foot's axes."""
     moved = adapted_landing(error, made, BOX, GAIT, LIMITS)
     return made.to_support(*moved)

@@ -14,9 +14,9 @@ from stepaside.planning.path import UnicycleTrajectory
 from stepaside.strategies.bound_cache import value_table
 from stepaside.strategies.search import (
     NO_VALUE,
-    Aims,
-    Both,
-    Maneuvers,
+    CandidateManeuvers,
+    ManeuverObjective,
+    PlayerPair,
     StepRules,
 )
 from stepaside.strategies.search.maneuver_rollout import judge, law_turn
@@ -32,10 +32,10 @@ ROOM = make_room(RoomRecipe(discs=3, boxes=2, polygons=2, doors=1), 4)
 PACKED, NOTHING = obstacle_set(ROOM.solids).packed, NO_OBSTACLES.packed
 
 
-def place(evader: Pose, pursuer: Pose) -> Both:
+def place(evader: Pose, pursuer: Pose) -> PlayerPair:
     e, p = evader, pursuer
     heading = cos(e.theta), sin(e.theta), p.x, p.y, cos(p.theta), sin(p.theta)
-    return Both(e.x, e.y, *heading)
+    return PlayerPair(e.x, e.y, *heading)
 
 
 @pytest.mark.parametrize("turn", [0.0, 1e-9, 0.251, -0.251, 0.8])
@@ -109,9 +109,9 @@ def test_the_value_in_loops_is_that_of_the_table(bound: Bound) -> None:
 
 
 def brute(
-    both: Both,
-    maneuvers: Maneuvers,
-    aims: Aims,
+    both: PlayerPair,
+    maneuvers: CandidateManeuvers,
+    aims: ManeuverObjective,
     packed: Any,
     table: Any,
     *,
@@ -152,10 +152,10 @@ def test_the_search_leaves_nothing_out(
     evader = Pose(*random.uniform([-1, -1, -pi], [1, 1, pi]).tolist())
     pursuer = Pose(*random.uniform([-1, -1, -pi], [1, 1, pi]).tolist())
     both = place(evader, pursuer)
-    maneuvers = Maneuvers(
+    maneuvers = CandidateManeuvers(
         np.array([2, 3, 6]), np.array([0.0, -0.1, 0.1, -0.25, 0.25]), 20
     )
-    aims = Aims(0.7, 0.25, 5.0, 2.0, gain=0.0)
+    aims = ManeuverObjective(0.7, 0.25, 5.0, 2.0, gain=0.0)
     packed = NOTHING if valued else PACKED
     table = value_table(bound, 0.5) if valued else NO_VALUE
     found = look_ahead(both, (), maneuvers, RULES, aims, packed, table)
@@ -174,9 +174,9 @@ def test_a_branch_is_left_at_the_first_step_that_is_no_better() -> None:
     """Both walk away from each other: the first step is the nearest."""
     both = place(Pose(0.8, 0.0, pi), Pose(0.0, 0.0, pi))
     turns = np.array([0.0, -0.1, 0.1, -0.2, 0.2])
-    law = Maneuvers(np.array([], int), turns, 12)
-    every = Maneuvers(np.array([2, 3]), turns, 12, spots=4)
-    aims = Aims(2.0, gain=0.01, tight=inf)
+    law = CandidateManeuvers(np.array([], int), turns, 12)
+    every = CandidateManeuvers(np.array([2, 3]), turns, 12, spots=4)
+    aims = ManeuverObjective(2.0, gain=0.01, tight=inf)
     alone, found = (
         look_ahead(both, (), tried, RULES, aims, NOTHING, NO_VALUE)
         for tried in (law, every)
@@ -190,9 +190,9 @@ def test_on_equal_terms_the_plan_is_kept() -> None:
     """Far from everything any maneuver is good enough."""
     both = place(Pose(5.0, 0.0, 3.0), Pose(0.0, 0.0, 0.0))
     plan = (0.05, -0.1, 0.07)
-    maneuvers = Maneuvers(np.array([3]), np.array([0.0, 0.1]), 5)
+    maneuvers = CandidateManeuvers(np.array([3]), np.array([0.0, 0.1]), 5)
     found = look_ahead(
-        both, plan, maneuvers, RULES, Aims(0.9), NOTHING, NO_VALUE
+        both, plan, maneuvers, RULES, ManeuverObjective(0.9), NOTHING, NO_VALUE
     )
     assert tuple(found.turns[:3]) == plan
     assert found.steps == 5 + 5
@@ -205,10 +205,12 @@ def test_what_is_too_near_and_out_of_sight_costs() -> None:
     near = both._replace(
         ex=x + radius + 0.15, ey=y, px=x + radius + 1.15, py=y
     )
-    aims = Aims(0.9, 0.2, 3.0)
+    aims = ManeuverObjective(0.9, 0.2, 3.0)
     assert judge(near, 0.9, aims, packed) == pytest.approx(0.9 - 3.0 * 0.05)
     behind = both._replace(px=cos(2.5), py=sin(2.5))
-    blind = judge(behind, 0.9, Aims(0.9, sight=2.0, blindness=0.2), NOTHING)
+    blind = judge(
+        behind, 0.9, ManeuverObjective(0.9, sight=2.0, blindness=0.2), NOTHING
+    )
     assert blind == pytest.approx(0.9 - 0.2 * 0.5)
     assert atan2(behind.py, behind.px) == pytest.approx(2.5)
 
@@ -220,10 +222,10 @@ def test_it_turns_on_the_spot_first_only_if_that_is_better(seed: int) -> None:
     evader = Pose(1.2, 1.2, float(random.uniform(-pi, pi)))
     pursuer = Pose(*random.uniform([0.3, 0.3, -pi], [0.7, 0.7, pi]).tolist())
     both, packed = place(evader, pursuer), PACKED
-    maneuvers = Maneuvers(
+    maneuvers = CandidateManeuvers(
         np.array([2, 3]), np.array([0.0, -0.25, 0.25]), 9, spots=4
     )
-    aims = Aims(0.8, penalty=60.0, tight=inf)
+    aims = ManeuverObjective(0.8, penalty=60.0, tight=inf)
     best = brute(both, maneuvers, aims, packed, NO_VALUE)
     still = RULES._replace(evader_stride=0.05 * RULES.evader_stride)
     for side in (-0.25, 0.25):
@@ -259,8 +261,8 @@ def test_a_search_ends_when_it_has_rolled_out_enough() -> None:
         PACKED,
     )
     turns = np.linspace(-0.25, 0.25, 7)
-    maneuvers = Maneuvers(np.array([2, 4, 8]), turns, 20, spots=12)
-    aims = Aims(9.0, tight=inf)
+    maneuvers = CandidateManeuvers(np.array([2, 4, 8]), turns, 20, spots=12)
+    aims = ManeuverObjective(9.0, tight=inf)
     whole = look_ahead(both, (), maneuvers, RULES, aims, packed, NO_VALUE)
     assert whole.steps > 2000
     for most in (0, 100, 1000):

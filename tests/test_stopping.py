@@ -12,7 +12,7 @@ from stepaside.cli.interruption import kept_in
 from stepaside.cli.main import LazyGroup, all_commands, main
 from stepaside.cli.output_files import OutputFile, attempt, writes_files
 from stepaside.cli.reproduce import reproduce
-from stepaside.cli.run_output import Kept
+from stepaside.cli.run_output import SavedRun
 from stepaside.core.atomic_output import writing
 from stepaside.games.outcome import Outcome
 
@@ -59,17 +59,17 @@ def test_a_file_that_was_there_before_is_not_said_to_be_kept(
     assert (tmp_path / "b.png").read_text() == "old"
 
 
-def leave(kept: Kept, outcome: Outcome) -> Result:
+def leave(kept: SavedRun, outcome: Outcome) -> Result:
     command = click.Command("x", callback=lambda: kept.leave_if(outcome))
     return CliRunner().invoke(command, [])
 
 
 def test_a_game_that_was_stopped_says_where_it_lies() -> None:
-    assert leave(Kept(Path("a")), Outcome.COMPLETED).exit_code == 0
-    result = leave(Kept(Path("a")), Outcome.INTERRUPTED)
+    assert leave(SavedRun(Path("a")), Outcome.COMPLETED).exit_code == 0
+    result = leave(SavedRun(Path("a")), Outcome.INTERRUPTED)
     assert result.exit_code == 130
     assert result.stderr.endswith("what was played is kept in a\n")
-    result = leave(Kept(), Outcome.INTERRUPTED)
+    result = leave(SavedRun(), Outcome.INTERRUPTED)
     assert result.stderr.endswith("nothing is kept without --output\n")
 
 

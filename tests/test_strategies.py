@@ -12,15 +12,15 @@ from hypothesis import strategies as st
 from stepaside.core.errors import ConfigurationError, PlanError
 from stepaside.planning import Direction
 from stepaside.strategies import (
-    Driven,
     Evasion,
     EvasionMemory,
     Intent,
     Knowledge,
     Limits,
     Pursuit,
-    Stand,
+    StandStill,
     Strategy,
+    TeleoperatedPursuit,
     Walk,
 )
 from stepaside.strategies.teleoperation import TURN
@@ -31,8 +31,8 @@ ALL: list[Strategy] = [
     Evasion(),
     Evasion(angle=1.0, saturated=True, release_distance=1.1),
     Walk(0.3),
-    Stand(),
-    Driven(0.5, True),
+    StandStill(),
+    TeleoperatedPursuit(0.5, True),
 ]
 BEARINGS = st.floats(-pi, pi)
 DISTANCES = st.floats(0.1, 3.0)
@@ -53,7 +53,7 @@ def test_players_of_the_paper_drive_as_it_says() -> None:
     assert Pursuit().direction is Direction.FORWARD
     assert Evasion().direction is Direction.BACKWARD
     assert Walk().direction is Direction.FORWARD
-    assert Driven().direction is Direction.FORWARD
+    assert TeleoperatedPursuit().direction is Direction.FORWARD
     assert not any(s.saturated for s in (Pursuit(), Evasion(), Walk()))
     assert Pursuit(saturated=True).saturated and Evasion(saturated=True)
 
@@ -76,22 +76,26 @@ def test_a_walk_heads_where_it_was_told_whatever_is_seen() -> None:
 
 
 def test_who_stands_stands() -> None:
-    assert not Stand().decide(known(0.0, 0.01), None)[0].walks
+    assert not StandStill().decide(known(0.0, 0.01), None)[0].walks
 
 
 @pytest.mark.parametrize("turn", [-1.0, -0.4, 0.0, 1.0])
 def test_a_hand_points_a_share_of_its_full_turn(turn: float) -> None:
     for bearing in (-1.0, 0.0, 2.0):
-        intent, _ = Driven(turn, True).decide(known(bearing), None)
+        intent, _ = TeleoperatedPursuit(turn, True).decide(
+            known(bearing), None
+        )
         assert intent == Intent(turn * TURN)
     assert radians(50.0) == TURN
 
 
 def test_it_walks_while_the_hand_lets_it() -> None:
-    assert not Driven(1.0).decide(known(), None)[0].walks
-    assert Driven(1.0, True).decide(known(0.0, 10.0), None)[0].walks
+    assert not TeleoperatedPursuit(1.0).decide(known(), None)[0].walks
+    assert (
+        TeleoperatedPursuit(1.0, True).decide(known(0.0, 10.0), None)[0].walks
+    )
     with pytest.raises(ConfigurationError, match="turn"):
-        Driven(1.1)
+        TeleoperatedPursuit(1.1)
 
 
 def test_evader_of_the_paper_moves_aside_from_0_8_m_on() -> None:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from stepaside.arena import Disc, Polygon, Room, box
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
-    Deflected,
+    DeflectedEvasion,
     Evasion,
     Intent,
     Knowledge,
@@ -24,10 +24,10 @@ from stepaside.strategies import (
     Pursuit,
 )
 from stepaside.strategies.approach import Approach
-from stepaside.strategies.decider import Decider
+from stepaside.strategies.decider import TemplatePlayer
 from stepaside.strategies.look_ahead import moved_on
 from stepaside.strategies.opponent_track import Trace, heading_of_way, note
-from stepaside.strategies.search import Both
+from stepaside.strategies.search import PlayerPair
 from stepaside.strategies.step_game import StepGame, play_steps
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.7)
@@ -42,7 +42,7 @@ STRATEGIES: dict[str, Any] = {
     "optimal pursuit": OptimalPursuit(cells=16),
     "evasion": Evasion(angle=1.0, safety_radius=1e6),
     "evasion in time": Evasion(trigger="time", contact_time=20.0),
-    "deflected": Deflected(),
+    "deflected": DeflectedEvasion(),
     "look-ahead": LookAhead(cells=16),
     "optimal": Optimal(cells=16),
 }
@@ -215,7 +215,7 @@ def test_the_pursuer_went_on_since_it_was_seen(
     begins: Pose, other: Pose, heading: float, age: float
 ) -> None:
     """Half a step, until the body passes its foot, and the age."""
-    both = Both(
+    both = PlayerPair(
         *(9.0, 9.0, 1.0, 0.0, other.x, other.y, cos(heading), sin(heading))
     )
     knows = known(Pose(9.0, 9.0, 0.0), other, 5.0, age)
@@ -280,7 +280,9 @@ def test_a_player_is_told_the_velocity_in_its_own_frame(
 ) -> None:
     """Of the other on the floor, however the own body moves and turns."""
     strategy: Any = Noting()
-    decider = Decider(strategy, LIMITS, STEP, SOLIDS, sees_velocity=True)
+    decider = TemplatePlayer(
+        strategy, LIMITS, STEP, SOLIDS, sees_velocity=True
+    )
     for i in range(6):
         time = STEP * i
         here = own.compose(Pose(-0.03 * i, 0.0, 0.3 * i))

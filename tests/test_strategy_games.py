@@ -14,15 +14,19 @@ from stepaside.strategies import (
     Intent,
     Knowledge,
     Pursuit,
-    Stand,
+    StandStill,
     Walk,
 )
 from stepaside.strategies.unicycle_match import StrategyRun, play_strategies
-from stepaside.theory.unicycle import Start, make_game, simulate_sampled
+from stepaside.theory.unicycle import (
+    RelativeStart,
+    make_game,
+    simulate_sampled,
+)
 from stepaside.theory.unicycle.unicycle_game import Unicycle
 
 BODY = Unicycle(1.0, 0.5)  # Fig. 2
-START = Start(2.5, 0.3, -0.2)
+START = RelativeStart(2.5, 0.3, -0.2)
 ALWAYS = Evasion(safety_radius=1e9, side_hysteresis=0.0)
 
 
@@ -88,7 +92,9 @@ def test_an_evader_stands_until_the_other_is_in_its_safety_area() -> None:
 
 
 def test_one_that_stands_is_captured_and_the_game_ends() -> None:
-    run = play(evader=Stand(), start=Start(2.5), capture_distance=0.1)
+    run = play(
+        evader=StandStill(), start=RelativeStart(2.5), capture_distance=0.1
+    )
     assert run.captured and run.closest_distance == run.distances[-1] <= 0.1
     assert len(run.times) == len(run.pursuer) == len(run.evader)
     assert 2.3 < run.times[-1] < 3.0
@@ -112,7 +118,7 @@ def test_a_mirrored_game_is_the_mirror_image() -> None:
         play_strategies(
             Pursuit(),
             ALWAYS,
-            Start(2.5, sign * 0.3, sign * -0.2),
+            RelativeStart(2.5, sign * 0.3, sign * -0.2),
             bodies=(BODY, BODY),
             period=0.2,
             duration=10.0,
@@ -128,7 +134,7 @@ def test_a_mirrored_game_is_the_mirror_image() -> None:
 
 
 def test_players_know_how_fast_the_line_of_sight_moves() -> None:
-    class Noting(Stand):
+    class Noting(StandStill):
         """Remembers what it knew."""
 
         def begin(self):  # type: ignore[no-untyped-def]
@@ -139,7 +145,7 @@ def test_players_know_how_fast_the_line_of_sight_moves() -> None:
             return Intent(moving=False), memory
 
     seen: list[Knowledge] = []
-    play(Walk(), Noting(), start=Start(9.0), duration=4.0)
+    play(Walk(), Noting(), start=RelativeStart(9.0), duration=4.0)
     assert seen[0].closing_speed is None and seen[0].bearing_rate is None
     assert seen[-1].closing_speed is not None
     assert seen[-1].closing_speed > 0.5

@@ -26,7 +26,7 @@ from stepaside.games.configuration_file import dump_configuration
 from stepaside.planning import Direction
 from stepaside.strategies import STRATEGIES, EvasionMemory, LookAhead, Optimal
 from stepaside.studies.duel_campaign import digest_of, run_duels
-from stepaside.studies.record_store import RecordFile
+from stepaside.studies.record_store import RecordStore
 
 SHORT = DuelSettings(duration=1.2, start=StartSettings(distance=0.7))
 OWN = """
@@ -182,7 +182,7 @@ def test_an_object_that_does_not_answer_is_refused() -> None:
 
 
 def test_records_are_kept_of_named_strategies_alone(tmp_path: Path) -> None:
-    file = RecordFile(tmp_path / "records.jsonl")
+    file = RecordStore(tmp_path / "records.jsonl")
     own = replace(SHORT, evader_strategy=Own())
     with ThreadPoolExecutor(1) as pool:
         with pytest.raises(ConfigurationError, match="a Python object, Own"):

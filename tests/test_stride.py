@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose
-from stepaside.locomotion.zmp.current_step import Step, resting_step
+from stepaside.locomotion.zmp.current_step import CurrentStep, resting_step
 from stepaside.locomotion.zmp.stride_learning import (
     StrideLearning,
     measured_step,
@@ -41,12 +41,12 @@ def posture(
     )
 
 
-def step(swing: Foot, planned: Pose, **changes: float) -> Step:
+def step(swing: Foot, planned: Pose, **changes: float) -> CurrentStep:
     values: dict[str, Any] = {
         "remaining": -GAIT.double_support,
         "progress": 1.0,
     } | changes
-    return Step(
+    return CurrentStep(
         SUPPORT, swing, SUPPORT.compose(planned), walking=True, **values
     )
 

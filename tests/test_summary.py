@@ -24,20 +24,20 @@ from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.forecast import forecast
 from stepaside.games.outcome import Outcome
 from stepaside.games.sight_summary import (
-    SeeingFigures,
-    Seen,
-    SightFigures,
-    Spread,
+    ErrorSpread,
+    PerceptionSummary,
+    SightReport,
+    SightSummary,
 )
-from stepaside.games.trajectory import Planning
+from stepaside.games.trajectory import PlanningTimes
 from stepaside.strategies import Evasion
 
 
 def planned(
     times: Any = (), jump: float = 0.0, margin: float | None = None
-) -> Planning:
+) -> PlanningTimes:
     """How a player planned who began one step more than it planned."""
-    return Planning(len(times) + 1, np.array(times), jump, margin)
+    return PlanningTimes(len(times) + 1, np.array(times), jump, margin)
 
 
 PLANNED = {
@@ -52,8 +52,8 @@ def figures(
     settings: DuelSettings = SETTINGS,
     outcome: Outcome = Outcome.COMPLETED,
     duration: float = 60.0,
-    planning: dict[str, Planning] | None = None,
-    sight: Seen | None = None,
+    planning: dict[str, PlanningTimes] | None = None,
+    sight: SightReport | None = None,
     wall_time: float = 3.0,
     captured_at: float | None = None,
 ) -> dict[str, Any]:
@@ -207,10 +207,10 @@ def test_a_figure_that_does_not_exist_is_none() -> None:
 
 
 def test_what_was_seen_is_told_for_each_robot_and_both() -> None:
-    none = Spread(None, None)
-    eyes = SightFigures(none, none, 0.9, 0, 0.0, 2.0)
-    both = SeeingFigures("raycast", 0.8, 1, 2.0)
-    found = figures(Record(), sight=Seen(both, {"evader": eyes}))
+    none = ErrorSpread(None, None)
+    eyes = SightSummary(none, none, 0.9, 0, 0.0, 2.0)
+    both = PerceptionSummary("raycast", 0.8, 1, 2.0)
+    found = figures(Record(), sight=SightReport(both, {"evader": eyes}))
     assert found["evader"]["detection_rate"] == 0.9
     assert found["evader"]["radius_m"] == pytest.approx(0.4)
     assert found["pursuer"] == {"radius_m": pytest.approx(0.4)}

@@ -14,7 +14,11 @@ from stepaside.planning import GaitSettings
 from stepaside.studies.push_limits import push_cases
 from stepaside.studies.push_results import pushes_result
 from stepaside.studies.result_files import HEADER
-from stepaside.studies.robustness_campaign import DIRECTIONS, STRENGTHS, Trial
+from stepaside.studies.robustness_campaign import (
+    DIRECTIONS,
+    STRENGTHS,
+    RobustnessTrial,
+)
 from stepaside.studies.survival import (
     PUSH,
     bound_at,
@@ -25,7 +29,7 @@ from stepaside.studies.survival import (
     wilson,
 )
 
-TRIAL = Trial("backlash", 1.0, "", 0.0, 1, "mpc", "ideal")
+TRIAL = RobustnessTrial("backlash", 1.0, "", 0.0, 1, "mpc", "ideal")
 MIRRORED = {"left": "right", "right": "left"}
 
 

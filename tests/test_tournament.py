@@ -22,7 +22,7 @@ from stepaside.strategies import bound_cache as tables
 from stepaside.studies import tournament_campaign as studied
 from stepaside.studies.floor_used import floor_used
 from stepaside.studies.physics_game import outcome_of, players_touched
-from stepaside.studies.record_store import RecordFile
+from stepaside.studies.record_store import RecordStore
 from stepaside.studies.tournament_campaign import (
     play_record,
     play_tournament,
@@ -136,7 +136,7 @@ def test_the_bound_is_that_of_the_start() -> None:
 def test_what_is_kept_is_not_played_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    file = RecordFile(tmp_path / "games.jsonl")
+    file = RecordStore(tmp_path / "games.jsonl")
     numbers: list[int] = []
     first = play_tournament(SETTINGS, PAIRINGS, range(2), file)
     with ThreadPoolExecutor(2) as executor:
@@ -421,7 +421,7 @@ def test_a_duel_that_is_stopped_is_no_game_and_stops_the_others(
 
     monkeypatch.setattr("stepaside.games.duel.run_duel", cut_short)
     settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
-    file = RecordFile(tmp_path / "games.jsonl")
+    file = RecordStore(tmp_path / "games.jsonl")
     with pytest.raises(KeyboardInterrupt):
         play_tournament(settings, [("aside", "pure")], [3, 4], file)
     assert len(played) == 1 and not file.read()

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from stepaside.robots.expression_tracing import (
+    ExpressionTrace,
     Number,
-    Trace,
-    Traced,
+    TracedNumber,
     cosine,
     hint_of,
     sine,
@@ -32,7 +32,7 @@ def formula(x: Number, y: Number) -> list[Number]:
 
 
 def test_a_function_gives_what_its_formula_gives() -> None:
-    trace = Trace()
+    trace = ExpressionTrace()
     x, y = trace.variable("x", 0.3), trace.variable("y", 0.7)
     traced = formula(x, y)
     function = trace.function("formula", traced)
@@ -45,7 +45,7 @@ def test_a_function_gives_what_its_formula_gives() -> None:
 
 
 def test_what_is_constant_folds() -> None:
-    x = Trace().variable("x", 2.0)
+    x = ExpressionTrace().variable("x", 2.0)
     assert x * 0.0 == x - x == 0.0 * x == 0.0 / x == 0.0
     assert x / x == 1.0
     kept: list[Number] = [
@@ -53,11 +53,11 @@ def test_what_is_constant_folds() -> None:
         *(0.0 - (-x), -(0.0 - x), (-1.0 * x) * -1.0),
     ]
     assert all(number is x for number in kept)
-    assert isinstance(x - 1.0, Traced)
+    assert isinstance(x - 1.0, TracedNumber)
 
 
 def test_what_repeats_is_computed_once() -> None:
-    trace = Trace()
+    trace = ExpressionTrace()
     x, y = trace.variable("x"), trace.variable("y")
     assert x * y is y * x
     assert sine(x) is sine(x)
@@ -69,7 +69,7 @@ def test_what_repeats_is_computed_once() -> None:
 
 def test_a_name_is_used_again_when_its_number_is_not_needed() -> None:
     """Few names for a long chain; and the right number in each."""
-    trace = Trace()
+    trace = ExpressionTrace()
     number: Number = trace.variable("x")
     for _ in range(40):
         number = sine(number) + number

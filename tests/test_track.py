@@ -15,7 +15,7 @@ from stepaside.perception.track import (
     TRAIL,
     WALKER,
     Observation,
-    Track,
+    TargetTrack,
 )
 from stepaside.perception.tracker import PATIENCE, Tracker
 
@@ -93,7 +93,7 @@ def test_doubt_grows_unseen_until_memory_ends() -> None:
 
 def test_late_frames_count_for_when_they_were_taken() -> None:
     """A frame of the past, of a thing that moves, does not pull it back."""
-    prompt, late = Track(look(0.0, 2.0)), Track(look(0.0, 2.0))
+    prompt, late = TargetTrack(look(0.0, 2.0)), TargetTrack(look(0.0, 2.0))
     for i in range(1, 60):
         prompt.correct(look(i * FRAME, 2.0 - 0.3 * i * FRAME))
         late.correct(look(i * FRAME, 2.0 - 0.3 * i * FRAME))
@@ -148,14 +148,18 @@ def test_deviations_lie_along_and_across_the_line_of_sight() -> None:
 
 
 def test_a_track_begins_at_rest_where_it_was_seen() -> None:
-    track = Track(Observation(2.0, 1.0, -0.5, 0.7, 0.2, 0.05, False, False))
+    track = TargetTrack(
+        Observation(2.0, 1.0, -0.5, 0.7, 0.2, 0.05, False, False)
+    )
     assert track.place_at(2.0) == (1.0, -0.5)
     assert track.velocity == (0.0, 0.0)
     assert track.deviation_at(2.0) == pytest.approx(0.2)
     assert (track.time, track.begun_at, track.seen_at) == (2.0, 2.0, 2.0)
     assert (track.identified_at, track.ranged_at) == (-inf, -inf)
     assert not track.confirmed
-    known = Track(Observation(2.0, 1.0, -0.5, 0.7, 0.2, 0.05, True, True))
+    known = TargetTrack(
+        Observation(2.0, 1.0, -0.5, 0.7, 0.2, 0.05, True, True)
+    )
     assert (known.identified_at, known.ranged_at) == (2.0, 2.0)
 
 
@@ -171,7 +175,7 @@ def unseen_for(step: float) -> tuple[float, float, float]:
 @pytest.mark.parametrize("step", [0.1, 0.3, 0.39, 0.8, 2.0])
 def test_doubt_grows_by_speed_and_push(step: float) -> None:
     """HURRY of 0.25 m/s and pushes of 1 m/s^2, forgotten after 0.4 s."""
-    track = Track(look(1.0, 2.0))
+    track = TargetTrack(look(1.0, 2.0))
     ahead, _, share = unseen_for(step)
     variance = 0.03**2 + (0.25 * ahead) ** 2 + share * 0.25 * step**4
     assert track.deviation_at(1.0 + step) == pytest.approx(np.sqrt(variance))
@@ -207,7 +211,7 @@ def test_a_correction_is_the_best_linear_estimate(
     after = np.linalg.inv(information)
     x, y, vx, vy = after @ before
 
-    track = Track(first)
+    track = TargetTrack(first)
     gap = np.array([0.2, 0.1])
     misfit = gap @ np.linalg.inv(spread[:2, :2] + second.covariance) @ gap
     assert track.misfit(second) == pytest.approx(misfit)
@@ -225,7 +229,7 @@ def test_a_correction_is_the_best_linear_estimate(
 
 
 def test_a_speed_is_believed_for_a_while_and_then_forgotten() -> None:
-    track = Track(look(0.0, 2.0))
+    track = TargetTrack(look(0.0, 2.0))
     for i in range(1, 60):
         time = i * FRAME
         track.correct(look(time, 2.0 - 0.3 * time, 0.2 * time))
@@ -238,7 +242,7 @@ def test_a_speed_is_believed_for_a_while_and_then_forgotten() -> None:
 
 
 def test_the_past_neither_turns_back_time_nor_memory() -> None:
-    track = Track(look(1.0, 2.0))
+    track = TargetTrack(look(1.0, 2.0))
     track.correct(look(1.2, 2.0))
     track.correct(look(1.1, 2.0))
     assert (track.time, track.seen_at) == (1.2, 1.2)
@@ -249,7 +253,7 @@ def test_the_past_neither_turns_back_time_nor_memory() -> None:
 
 
 def test_a_late_frame_fits_where_the_thing_was() -> None:
-    track = Track(look(0.0, 2.0))
+    track = TargetTrack(look(0.0, 2.0))
     for i in range(1, 60):
         track.correct(look(i * FRAME, 2.0 - 0.3 * i * FRAME))
     now = 59 * FRAME
@@ -276,7 +280,7 @@ def test_three_of_five_frames_decide(
     frames: str, confirmed: bool, hopeless: bool
 ) -> None:
     """A track begins with a frame that found it."""
-    track = Track(look(0.0, 1.0))
+    track = TargetTrack(look(0.0, 1.0))
     for frame in frames:
         track.count(frame == "+")
     assert track.confirmed is confirmed
@@ -284,15 +288,15 @@ def test_three_of_five_frames_decide(
 
 
 def test_direction_and_distance_are_from_the_place_that_asks() -> None:
-    track = Track(look(0.0, 2.0, 1.0))
+    track = TargetTrack(look(0.0, 2.0, 1.0))
     assert track.turned_to(1.0, 3.0, 0.0) == pytest.approx(np.arctan2(-2, 1))
     assert track.away_from(1.0, 3.0, 0.0) == pytest.approx(hypot(1.0, 2.0))
 
 
 def test_what_takes_over_knows_what_both_knew() -> None:
-    def pair() -> tuple[Track, Track]:
-        old = Track(look(0.0, 2.0))
-        new = Track(look(1.0, 2.0))
+    def pair() -> tuple[TargetTrack, TargetTrack]:
+        old = TargetTrack(look(0.0, 2.0))
+        new = TargetTrack(look(1.0, 2.0))
         new.confirmed = True
         return old, new
 
@@ -304,18 +308,20 @@ def test_what_takes_over_knows_what_both_knew() -> None:
     new.take_over(old)
     assert (new.identified_at, new.seen_at, new.ranged_at) == (1.0, 1.0, 1.0)
     assert new.confirmed
-    unsure = Track(look(0.0, 2.0))
-    unsure.take_over(Track(look(0.1, 2.0)))
+    unsure = TargetTrack(look(0.0, 2.0))
+    unsure.take_over(TargetTrack(look(0.1, 2.0)))
     assert not unsure.confirmed
 
 
-def trailed(times: list[float], speed: float = 0.4, **changes: Any) -> Track:
+def trailed(
+    times: list[float], speed: float = 0.4, **changes: Any
+) -> TargetTrack:
     """Track of what is seen along x, at no place near nought."""
     first, *rest = (
         look(time, 3.0 + speed * time, -2.0)._replace(**changes)
         for time in times
     )
-    track = Track(first)
+    track = TargetTrack(first)
     for seen in rest:
         track.correct(seen)
     return track
@@ -349,7 +355,7 @@ def test_only_what_is_seen_sharply_tells_how_it_moves(
 
 def test_places_are_kept_apart_and_not_for_long() -> None:
     """Two kinds of speed, one long before the other: the late one counts."""
-    track = Track(look(0.0, 1.0, 0.0))
+    track = TargetTrack(look(0.0, 1.0, 0.0))
     for i in range(1, 200):
         time = 0.02 * i
         x = 1.0 + 0.5 * time if time < 2.0 else 2.0 - 0.3 * (time - 2.0)
@@ -362,8 +368,8 @@ def test_places_are_kept_apart_and_not_for_long() -> None:
 
 def test_an_ear_sights_nobody() -> None:
     heard = look(1.0, 1.0)._replace(across=HEARD)
-    assert Track(heard).sighted_at == -inf
-    track = Track(look(1.0, 1.0))
+    assert TargetTrack(heard).sighted_at == -inf
+    track = TargetTrack(look(1.0, 1.0))
     assert track.sighted_at == 1.0
     track.correct(heard._replace(time=1.2))
     assert track.sighted_at == 1.0 and track.seen_at == 1.2
@@ -373,7 +379,7 @@ def test_a_robot_that_walks_is_not_thought_to_run() -> None:
     """Errors of where it is seen near by are of its place, not of its way."""
     away = []
     for motion in (ANYBODY, WALKER):
-        made = Track(look(0.0, 0.5), 1, motion)
+        made = TargetTrack(look(0.0, 0.5), 1, motion)
         for time, x in ((0.15, 0.62), (0.3, 0.75)):
             made.correct(look(time, x, along=0.15))
         away.append(made.place_at(1.3)[0] - made.place_at(0.3)[0])

@@ -2,7 +2,7 @@
 
 import pytest
 
-from stepaside.perception.track import Observation, Track
+from stepaside.perception.track import Observation, TargetTrack
 from stepaside.perception.tracker import Tracker
 
 
@@ -20,14 +20,14 @@ def look(
 
 def known(
     time: float, x: float, y: float = 0.0, *, identified: bool = False
-) -> Track:
+) -> TargetTrack:
     """A confirmed track."""
-    track = Track(look(time, x, y, identified=identified))
+    track = TargetTrack(look(time, x, y, identified=identified))
     track.confirmed = True
     return track
 
 
-def tracker_of(*tracks: Track) -> Tracker:
+def tracker_of(*tracks: TargetTrack) -> Tracker:
     tracker = Tracker()
     tracker.tracks = list(tracks)
     return tracker
@@ -177,7 +177,7 @@ def test_of_two_recognised_the_one_longer_known_counts(
 
 
 def test_what_is_not_confirmed_counts_for_nothing() -> None:
-    unsure = Track(look(0.0, 1.0, identified=True))
+    unsure = TargetTrack(look(0.0, 1.0, identified=True))
     sure = known(0.0, 2.0)
     assert tracker_of(unsure, sure).main(0.1, 0.0, 0.0) is sure
 
@@ -186,7 +186,7 @@ def test_what_is_not_confirmed_counts_for_nothing() -> None:
 def test_what_is_not_confirmed_is_forgotten_in_a_second(
     age: float, kept: bool
 ) -> None:
-    tracker = tracker_of(Track(look(9.0, 1.0)))
+    tracker = tracker_of(TargetTrack(look(9.0, 1.0)))
     tracker.main(9.0 + age, 0.0, 0.0)
     assert (len(tracker.tracks) == 1) is kept
     tracker = tracker_of(known(9.0, 1.0))
@@ -197,7 +197,7 @@ def test_what_is_not_confirmed_is_forgotten_in_a_second(
 def test_a_vague_sighting_counts_while_it_is_fresh(
     age: float, kept: bool
 ) -> None:
-    vague = Track(look(9.0, 1.0, along=0.7))
+    vague = TargetTrack(look(9.0, 1.0, along=0.7))
     vague.confirmed = True
     main = tracker_of(vague).main(9.0 + age, 0.0, 0.0)
     assert (main is vague) is kept
@@ -207,13 +207,13 @@ def test_a_vague_sighting_counts_while_it_is_fresh(
 def test_memory_ends_where_doubt_is_as_large_as_a_step_aside(
     along: float, kept: bool
 ) -> None:
-    vague = Track(look(0.0, 1.0, along=along))
+    vague = TargetTrack(look(0.0, 1.0, along=along))
     vague.confirmed = True
     assert (tracker_of(vague).main(0.31, 0.0, 0.0) is vague) is kept
 
 
 def test_hopeless_tracks_are_dropped() -> None:
-    track = Track(look(0.0, 1.0))
+    track = TargetTrack(look(0.0, 1.0))
     for _ in range(3):
         track.count(False)
     tracker = tracker_of(track)

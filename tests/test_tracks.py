@@ -11,7 +11,7 @@ import pytest
 from by_hand import plan_of
 from invented_run import run_of
 from stepaside.core.poses import Array
-from stepaside.games.trajectory import Track, margin_of, tracks_in
+from stepaside.games.trajectory import Trajectory, margin_of, tracks_in
 
 SHAPES = {
     "com": (5, 3),
@@ -40,8 +40,8 @@ def arrays_of(*names: str) -> dict[str, Array]:
 
 
 def test_arrays_of_a_track_cannot_be_written_to() -> None:
-    track = Track(**arrays_of(*SHAPES))
-    assert set(SHAPES) == {field.name for field in fields(Track)}
+    track = Trajectory(**arrays_of(*SHAPES))
+    assert set(SHAPES) == {field.name for field in fields(Trajectory)}
     for name in SHAPES:
         values = getattr(track, name)
         before = values.copy()
@@ -51,9 +51,9 @@ def test_arrays_of_a_track_cannot_be_written_to() -> None:
 
 
 def test_the_place_stands_for_a_player_and_the_torso_if_none_is_kept() -> None:
-    track = Track(**arrays_of(*SHAPES))
+    track = Trajectory(**arrays_of(*SHAPES))
     assert track.unicycle is track.place
-    older = Track(**arrays_of("com", "torso"))
+    older = Trajectory(**arrays_of("com", "torso"))
     assert older.unicycle is older.torso
 
 
@@ -67,10 +67,10 @@ def test_a_run_is_judged_by_the_places() -> None:
     np.testing.assert_allclose(run.circle[:2], [1.5, 2.0])
 
 
-def track_at(x: float, y: float, heading: float) -> Track:
+def track_at(x: float, y: float, heading: float) -> Trajectory:
     """Somebody who stays at a place, with the torso elsewhere."""
     rows = np.tile([x, y, heading], (2, 1))
-    return Track(rows + 0.7, rows + [0.3, 0.1, 0.5] + x, rows)
+    return Trajectory(rows + 0.7, rows + [0.3, 0.1, 0.5] + x, rows)
 
 
 @pytest.mark.parametrize(
@@ -81,10 +81,10 @@ def test_a_track_is_told_by_name_and_found_again(
     names: tuple[str, ...],
 ) -> None:
     """What it lacks has no name, and is None again."""
-    track = Track(**arrays_of(*names))
+    track = Trajectory(**arrays_of(*names))
     told = track.arrays("evader")
     assert set(told) == {f"evader_{name}" for name in names}
-    other = Track(**arrays_of("com", "torso")).arrays("pursuer")
+    other = Trajectory(**arrays_of("com", "torso")).arrays("pursuer")
     found = tracks_in(told | other | {"times_s": np.zeros(5)}, ("evader",))
     assert set(found) == {"evader"}
     for name in SHAPES:
@@ -97,7 +97,7 @@ def test_a_track_is_told_by_name_and_found_again(
 
 @pytest.mark.parametrize("name", ["com", "torso"])
 def test_a_track_without_what_everybody_has_is_none(name: str) -> None:
-    arrays = Track(**arrays_of(*SHAPES)).arrays("evader")
+    arrays = Trajectory(**arrays_of(*SHAPES)).arrays("evader")
     del arrays[f"evader_{name}"]
     with pytest.raises(KeyError, match=f"evader_{name}"):
         tracks_in(arrays, ("evader",))

@@ -8,7 +8,7 @@ import pytest
 
 from stepaside.core.poses import Pose
 from stepaside.robots.head import rotation
-from stepaside.sim.ground_truth import TrueState, torsos_apart
+from stepaside.sim.ground_truth import TrueRobotState, torsos_apart
 
 
 def put(
@@ -18,7 +18,7 @@ def put(
     pitch: float,
     yaw: float,
     com_forward: float = 0.0,
-) -> TrueState:
+) -> TrueRobotState:
     """A box with its CoM above its origin, its angles in degrees."""
     model = mujoco.MjModel.from_xml_string(
         '<mujoco><worldbody><body name="box"><freejoint/>'
@@ -30,7 +30,7 @@ def put(
     axes = rotation(radians(roll), radians(pitch), radians(yaw))
     mujoco.mju_mat2Quat(data.qpos[3:7], axes.reshape(-1))
     mujoco.mj_forward(model, data)
-    return TrueState(model, data, "box", com_forward=com_forward)
+    return TrueRobotState(model, data, "box", com_forward=com_forward)
 
 
 def test_place_heading_and_com_are_those_of_the_torso() -> None:

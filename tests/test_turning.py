@@ -7,7 +7,12 @@ import pytest
 
 from made_up_robot import TICK as FAKE_TICK
 from made_up_robot import FakeStrategy, Run, measure
-from stepaside.control.turn_calibration import LEAST, MOST, RESTED, TurnShare
+from stepaside.control.turn_calibration import (
+    LEAST,
+    MOST,
+    RESTED,
+    TurnCalibration,
+)
 from stepaside.perception.measurement import Measurement
 
 TICK = 0.012
@@ -16,7 +21,7 @@ RATE = 0.16  # that is believed, in [rad/s]
 
 
 def walked(
-    turns: TurnShare,
+    turns: TurnCalibration,
     made: float,
     *,
     duration: float = 40.0,
@@ -33,8 +38,8 @@ def walked(
     return shares
 
 
-def stood() -> TurnShare:
-    turns = TurnShare(TICK)
+def stood() -> TurnCalibration:
+    turns = TurnCalibration(TICK)
     generator = np.random.default_rng(2)
     for _ in range(100):
         read = BIAS + generator.normal(0.0, 0.002)
@@ -69,7 +74,7 @@ def test_what_is_asked_for_is_made() -> None:
 
 
 def test_nothing_is_believed_without_a_bias_a_turn_or_a_reason() -> None:
-    assert set(walked(TurnShare(TICK), 0.9)) == {1.0}
+    assert set(walked(TurnCalibration(TICK), 0.9)) == {1.0}
     assert set(walked(stood(), 0.9, rate=0.01)) == {1.0}
     assert walked(stood(), 0.2)[-1] == LEAST
     assert walked(stood(), 3.0)[-1] == MOST
@@ -79,7 +84,7 @@ def turn_of_a_step(made: float, *, learns: bool) -> float:
     """Turn that is asked of the last step of one that walks a circle."""
     run = Run(FakeStrategy(heading=0.4))
     decisions = run.scheme.decisions
-    decisions.turns = TurnShare(FAKE_TICK) if learns else None
+    decisions.turns = TurnCalibration(FAKE_TICK) if learns else None
     believed = 0.0
     for tick in range(round(40.0 / FAKE_TICK)):
         now = tick * FAKE_TICK
@@ -105,7 +110,7 @@ def test_a_reading_that_is_no_number_tells_nothing() -> None:
 def test_a_robot_without_a_gyro_about_the_vertical_turns_as_it_is_told() -> (
     None
 ):
-    turns = TurnShare(FAKE_TICK)
+    turns = TurnCalibration(FAKE_TICK)
     for i in range(round(2.0 * RESTED / FAKE_TICK)):
         assert turns.rested == (i * FAKE_TICK >= RESTED)
         turns.note(nan, 0.0, stands=True)
@@ -116,7 +121,7 @@ def test_a_robot_without_a_gyro_about_the_vertical_turns_as_it_is_told() -> (
 
 def test_who_learns_stands_until_the_bias_of_the_gyro_is_known() -> None:
     run = Run()
-    run.scheme.decisions.turns = turns = TurnShare(FAKE_TICK)
+    run.scheme.decisions.turns = turns = TurnCalibration(FAKE_TICK)
     run.until(RESTED - 2 * FAKE_TICK)
     assert run.replans == 0 and not turns.rested
     run.until(RESTED + 2 * FAKE_TICK)

@@ -17,7 +17,7 @@ from stepaside.theory.unicycle.basins import (
     shares_of,
 )
 from stepaside.theory.unicycle.kernel import Outcomes, play_games
-from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.remedies import Remedy, alternatives
 from stepaside.theory.unicycle.unicycle_game import Game, TurningLaw, make_game
 
@@ -62,7 +62,7 @@ def test_shares_count_games_per_circle() -> None:
 def test_mean_closest_approach_is_that_of_the_games() -> None:
     starts = np.array(STARTS)
     found = find_basins(FAST, starts, duration=5.0)
-    runs = [simulate(FAST, Start(*start), 5.0) for start in STARTS]
+    runs = [simulate(FAST, RelativeStart(*start), 5.0) for start in STARTS]
     expected = sum(run.closest_distance for run in runs) / 2.0
     assert found.closest_distance == pytest.approx(expected, abs=1e-5)
 

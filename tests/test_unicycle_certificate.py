@@ -14,8 +14,8 @@ from stepaside.theory.unicycle.certificate import (
 from stepaside.theory.unicycle.circle_equations import circle_of
 from stepaside.theory.unicycle.game_parameters import rules_of
 from stepaside.theory.unicycle.kernel import play_games
-from stepaside.theory.unicycle.relative_coordinates import Start
-from stepaside.theory.unicycle.relative_motion import State, look
+from stepaside.theory.unicycle.relative_coordinates import RelativeStart
+from stepaside.theory.unicycle.relative_motion import RelativeState, look
 from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 ASIDE = make_game(1.0, 1.0, 1.0, 1.0)
@@ -34,7 +34,7 @@ def random_starts(game: Game, count: int, spread: float = pi) -> np.ndarray:
 @pytest.mark.parametrize("game", [ASIDE, LATCHED, WIDE])
 def test_no_game_comes_closer_than_certified(game: Game) -> None:
     starts = random_starts(game, 350, 2.0)
-    proofs = [certify(game, Start(*start)) for start in starts]
+    proofs = [certify(game, RelativeStart(*start)) for start in starts]
     held = np.array([proof.holds for proof in proofs])
     bound = np.array([p.distance_m for p in proofs if p.holds])
     duration = 30.0 / game.evader.gain
@@ -47,7 +47,7 @@ def test_no_game_comes_closer_than_certified(game: Game) -> None:
 
 def test_nothing_is_shown_as_a_bound_where_it_does_not_hold() -> None:
     starts = random_starts(ASIDE, 200)
-    proofs = [certify(ASIDE, Start(*start)) for start in starts]
+    proofs = [certify(ASIDE, RelativeStart(*start)) for start in starts]
     assert 0 < sum(p.holds for p in proofs) < 200
     for proof in proofs:
         shown = proof.distance_m is not None
@@ -57,7 +57,7 @@ def test_nothing_is_shown_as_a_bound_where_it_does_not_hold() -> None:
 
 def test_sharpened_bound_certifies_more_than_the_plain_one() -> None:
     starts = random_starts(LATCHED, 500)
-    proofs = [certify(LATCHED, Start(*start)) for start in starts]
+    proofs = [certify(LATCHED, RelativeStart(*start)) for start in starts]
     held = [p for p in proofs if p.holds]
     sharp = np.array([p.distance_m for p in held])
     plain = np.array([p.plain_distance_m for p in held])
@@ -116,12 +116,12 @@ def test_certificate_needs_unwrapped_errors_and_a_kept_side(
 ) -> None:
     for sign in (1.0, -1.0):
         r, a, psi = start
-        proof = certify(game, Start(r, sign * a, sign * psi))
+        proof = certify(game, RelativeStart(r, sign * a, sign * psi))
         assert proof.holds == holds
 
 
 def test_no_certificate_where_the_side_may_change_otherwise() -> None:
-    start = Start(1.57, 0.31, -1.05)
+    start = RelativeStart(1.57, 0.31, -1.05)
     assert certify(ASIDE, start, side=1).holds
     assert not certify(ASIDE, start, side=-1).holds
     loose = make_game(1.0, 1.0, 1.0, 1.0, hysteresis=0.1)
@@ -131,7 +131,7 @@ def test_no_certificate_where_the_side_may_change_otherwise() -> None:
 
 def test_bound_is_tight_on_the_circle() -> None:
     circle = circle_of(ASIDE)
-    proof = certify(ASIDE, Start(circle.distance_m, pi / 4, -pi / 4))
+    proof = certify(ASIDE, RelativeStart(circle.distance_m, pi / 4, -pi / 4))
     assert proof.holds
     assert proof.distance_m == pytest.approx(circle.distance_m, abs=1e-5)
 
@@ -144,7 +144,7 @@ def test_lyapunov_rate_is_the_one_of_the_proof() -> None:
     radius, rules = circle_of(game).distance_m, rules_of(game, 1e-6)
     for r, a, b in rng.uniform([0.2, -2, -2], [3, 2, 2], (100, 3)):
         psi = b - alpha
-        *_, r_dot, omega = look(State(r, a, psi), rules)
+        *_, r_dot, omega = look(RelativeState(r, a, psi), rules)
         a_dot, b_dot = omega - k * a, omega - k * b
         d, x = a - b, 0.5 * (a + b - alpha)
         z = r * np.exp(1j * x)
@@ -165,7 +165,7 @@ def test_dulac_function_has_a_divergence_of_one_sign() -> None:
     def field(r: float, x: float) -> np.ndarray:
         a = x + alpha / 2
         psi = a - alpha
-        *_, rate, omega = look(State(r, a, psi), rules)
+        *_, rate, omega = look(RelativeState(r, a, psi), rules)
         return r * np.array([rate, omega - k * a])
 
     for r, x in [(0.5, 0.3), (2.0, -1.0), (4.0, 2.0)]:
@@ -176,7 +176,7 @@ def test_dulac_function_has_a_divergence_of_one_sign() -> None:
 
 def test_other_games_are_refused() -> None:
     with pytest.raises(PlanError, match="equal speeds and gains"):
-        certify(make_game(1.0, 1.1, 1.0, 1.0), Start(1.0))
+        certify(make_game(1.0, 1.1, 1.0, 1.0), RelativeStart(1.0))
 
 
 def test_tail_of_the_upper_sum_is_speed_times_error_over_gain() -> None:
@@ -187,9 +187,9 @@ def test_tail_of_the_upper_sum_is_speed_times_error_over_gain() -> None:
 
 def test_plain_bound_has_the_units_of_the_game() -> None:
     """Speed v and gain k scale lengths by v / k."""
-    unit, start = 0.7 / 0.4, Start(1.57, 0.31, -1.05)
+    unit, start = 0.7 / 0.4, RelativeStart(1.57, 0.31, -1.05)
     scaled = make_game(0.7, 0.7, 0.4, 0.4)
-    big = Start(1.57 * unit, 0.31, -1.05)
+    big = RelativeStart(1.57 * unit, 0.31, -1.05)
     one, other = certify(ASIDE, start), certify(scaled, big)
     assert one.distance_m is not None and other.distance_m is not None
     assert one.plain_distance_m is not None

@@ -20,13 +20,13 @@ from stepaside.theory.unicycle.circle_fit import (
     settling_time,
 )
 from stepaside.theory.unicycle.equilibria import (
-    Games,
+    GameParameters,
     find_rests,
     growth_rates,
 )
 from stepaside.theory.unicycle.kernel import play_games
 from stepaside.theory.unicycle.ratio_map import map_ratios
-from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.remedies import alternatives, try_remedies
 from stepaside.theory.unicycle.unicycle_game import Game, TurningLaw, make_game
 
@@ -185,7 +185,10 @@ def test_eigenvalues_are_those_of_the_printed_law(law: TurningLaw) -> None:
     """Finite differences of the rates, of the sliding motion if it slides."""
     h = 1e-6
     values = random_games(25)
-    games, saturated = Games.of(*values.T), law is TurningLaw.SATURATED
+    games, saturated = (
+        GameParameters.of(*values.T),
+        law is TurningLaw.SATURATED,
+    )
     rests = find_rests(games, saturated=saturated)
     growth = growth_rates(rests, games, saturated=saturated)
     assert set(np.unique(rests.game)) <= set(range(25))
@@ -282,7 +285,7 @@ def test_captured_starts_settle_on_nothing() -> None:
 
 def test_measured_game_names_its_circle() -> None:
     main, other = circles_of(FAST)
-    start = Start(0.6, -1.7, -2.1)
+    start = RelativeStart(0.6, -1.7, -2.1)
     run = simulate(FAST, start, settling_time(FAST))
     last = run.states([run.end_time])[0, :3]
     assert circle_at((main, other), last, run.sides[-1]) == other

@@ -11,7 +11,7 @@ from stepaside.theory.unicycle.all_circles import circles_of
 from stepaside.theory.unicycle.circle_fit import circle_at
 from stepaside.theory.unicycle.diamond import least_distance, stays_unwrapped
 from stepaside.theory.unicycle.kernel import play_games
-from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 KEPT = make_game(1.0, 1.0, 1.0, 1.0, side_rule="latched")
@@ -37,7 +37,9 @@ def test_no_game_leaves_the_diamond_whatever_its_sides(
     starts = diamond(120, 3, 0.5, 6.0)
     r, a, psi = starts.T.copy()
     game = make_game(v, v, k, k, angle)
-    bounds = np.array([least_distance(game, Start(*s), 8.0) for s in starts])
+    bounds = np.array(
+        [least_distance(game, RelativeStart(*s), 8.0) for s in starts]
+    )
     x = np.stack([r, a, psi])
     side = np.where(psi > 0.0, -1.0, 1.0)
 
@@ -75,7 +77,7 @@ def test_kept_side_ends_on_the_main_circle_from_all_of_the_diamond(
 def test_unwrapped_motion_can_end_on_the_reversed_circle() -> None:
     """|x| < pi is no invariant set: x = -3.14, d = 0 leaves it."""
     error = -3.14 + pi / 4
-    start = Start(0.656, error, error - pi / 2 + 2.0 * pi)
+    start = RelativeStart(0.656, error, error - pi / 2 + 2.0 * pi)
     run = simulate(KEPT, start, 80.0, side=1)
     assert run.switches == ()  # nothing wraps
     last = run.states([run.end_time])[0, :3]
@@ -88,7 +90,7 @@ def test_unwrapped_motion_can_end_on_the_reversed_circle() -> None:
 def test_wide_angle_spirals_inward_where_the_side_keeps_changing() -> None:
     """Convergence does not go through changes of side at any angle."""
     game = make_game(1.0, 1.0, 1.0, 1.0, 2.2)
-    start = Start(0.051, 1.107, 0.932)
+    start = RelativeStart(0.051, 1.107, 0.932)
     assert stays_unwrapped(game, -start.pursuer_error, -start.bearing)
     run = simulate(game, start, 6.0, tolerance=1e-8)
     assert len(run.switches) > 5 and not run.captured
@@ -102,7 +104,7 @@ def test_wide_angle_spirals_inward_where_the_side_keeps_changing() -> None:
 
 
 def test_the_bound_is_refused_outside_its_reach() -> None:
-    inside = Start(1.0, 0.3, -0.3)
+    inside = RelativeStart(1.0, 0.3, -0.3)
     for game in (
         make_game(1.0, 1.1, 1.0, 1.0),
         make_game(1.0, 1.0, 1.0, 1.0, law="saturated"),
@@ -111,11 +113,11 @@ def test_the_bound_is_refused_outside_its_reach() -> None:
         with pytest.raises(PlanError, match="equal speeds and gains"):
             least_distance(game, inside, 1.0)
     with pytest.raises(PlanError, match="< pi"):
-        least_distance(KEPT, Start(1.0, 2.0, -1.2), 1.0)
+        least_distance(KEPT, RelativeStart(1.0, 2.0, -1.2), 1.0)
     assert least_distance(KEPT, inside, 0.0) == 1.0
-    assert least_distance(KEPT, Start(2.0, 1.0, -0.2), 1.0) == pytest.approx(
-        2.0 * np.cos(0.4) * np.exp(-1.0)
-    )
+    assert least_distance(
+        KEPT, RelativeStart(2.0, 1.0, -0.2), 1.0
+    ) == pytest.approx(2.0 * np.cos(0.4) * np.exp(-1.0))
 
 
 @pytest.mark.parametrize(

@@ -7,17 +7,17 @@ import pytest
 
 from stepaside.theory.unicycle.event_location import (
     Event,
-    Moment,
+    StateView,
     event_located_step,
     margin,
     time_of,
 )
-from stepaside.theory.unicycle.game_parameters import Rules, rules_of
-from stepaside.theory.unicycle.relative_motion import State, look
+from stepaside.theory.unicycle.game_parameters import FlatParameters, rules_of
+from stepaside.theory.unicycle.relative_motion import RelativeState, look
 from stepaside.theory.unicycle.smooth_pieces import (
     Branch,
     Mode,
-    Piece,
+    SmoothPiece,
     piece_of,
 )
 from stepaside.theory.unicycle.unicycle_game import make_game
@@ -25,7 +25,7 @@ from stepaside.theory.unicycle.unicycle_game import make_game
 ONWARD = Mode(1, Branch.PROPORTIONAL)
 
 
-def driving_past(capture_distance: float) -> Rules:
+def driving_past(capture_distance: float) -> FlatParameters:
     """A pursuer drives straight on, and the evader stands still."""
     made = rules_of(make_game(1.0, 1.0, 1.0, 1.0, 0.0), capture_distance)
     return made._replace(evader_speed=0.0, pursuer_gain=0.0, evader_gain=0.0)
@@ -33,7 +33,10 @@ def driving_past(capture_distance: float) -> Rules:
 
 def test_margins_fall_to_zero_at_their_events() -> None:
     rules = rules_of(make_game(1.2, 0.9, 0.5, 0.6), 0.7)
-    state, piece = State(2.0, -0.4, -0.3), Piece(-1.0, 0.5, 0.0, 0.6, 1.0)
+    state, piece = (
+        RelativeState(2.0, -0.4, -0.3),
+        SmoothPiece(-1.0, 0.5, 0.0, 0.6, 1.0),
+    )
     rate = (1.2 * sin(-0.4) - 0.9 * sin(-0.3)) / 2.0
     closing = 1.2 * np.cos(0.4) - 0.9 * np.cos(-0.3)
     expected = {
@@ -44,7 +47,7 @@ def test_margins_fall_to_zero_at_their_events() -> None:
         Event.CLOSEST: closing,
         Event.CAPTURE: 1.3,
     }
-    now = Moment(state, look(state, rules))
+    now = StateView(state, look(state, rules))
     got = {event: margin(event, now, piece, rules) for event in expected}
     assert got == pytest.approx(expected)
 
@@ -52,7 +55,7 @@ def test_margins_fall_to_zero_at_their_events() -> None:
 def test_step_tells_the_closest_approach_and_its_time() -> None:
     """A pursuer drives straight past an evader that stands still."""
     a, r = np.arctan2(0.3, 0.5), np.hypot(0.3, 0.5)
-    past, apart = State(r, a, -a), State(r, pi - a, -a)
+    past, apart = RelativeState(r, a, -a), RelativeState(r, pi - a, -a)
     step = event_located_step(past, ONWARD, 2.0, driving_past(0.01))
     assert step[2:] == pytest.approx((0.3, 0.5, -1.0))
     assert step.state.r == pytest.approx(np.hypot(0.3, 1.5))
@@ -66,11 +69,11 @@ def test_step_tells_the_closest_approach_and_its_time() -> None:
 def test_edge_that_a_game_stands_on_is_met_when_it_comes_back() -> None:
     """The line of sight outruns the evader for some milliseconds only."""
     rules = rules_of(make_game(1.0, 1.0, 0.5, 0.5, law="saturated"), 0.2)
-    state = State(1.2787314540990418, -2.7776696801482905, -0.5 * pi)
+    state = RelativeState(1.2787314540990418, -2.7776696801482905, -0.5 * pi)
     left = Mode(1, Branch.LEFT)
     assert 0.5 < look(state, rules).sight < 0.51
     piece = piece_of(left, rules)
-    now = Moment(state, look(state, rules))
+    now = StateView(state, look(state, rules))
     for length in (0.007, 0.03, 0.1):
         time = time_of(Event.LOW, now, length, piece, rules)
         assert 0.003 < time < 0.005

@@ -12,7 +12,7 @@ from stepaside.theory.unicycle.adaptive_simulation import simulate
 from stepaside.theory.unicycle.compilation import load_numba
 from stepaside.theory.unicycle.compiled_batch import sine_cosine
 from stepaside.theory.unicycle.kernel import play_games
-from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 GAMES = [
@@ -36,7 +36,9 @@ def test_every_game_agrees_with_the_adaptive_integrator(game: Game) -> None:
     starts = random_starts(40)
     many = play_games(game, starts, 60.0, capture_distance=0.05)
     for i, start in enumerate(starts):
-        one = simulate(game, Start(*start), 60.0, capture_distance=0.05)
+        one = simulate(
+            game, RelativeStart(*start), 60.0, capture_distance=0.05
+        )
         assert one.captured == many.captured[i]
         assert many.closest_distance[i] == pytest.approx(
             one.closest_distance, abs=1e-6
@@ -95,7 +97,7 @@ def test_branchless_sine_and_cosine_are_exact() -> None:
 
 def test_settled_time_is_when_the_circle_is_reached_for_good() -> None:
     out = play_games(GAMES[0], [[5.0, 0.2, 0.4], [3.6, 0.0, 0.0]], 60.0)
-    run = simulate(GAMES[0], Start(5.0, 0.2, 0.4), 60.0)
+    run = simulate(GAMES[0], RelativeStart(5.0, 0.2, 0.4), 60.0)
     before, after = run.states(out.settled_time[0] + [-0.05, 0.05])
     target = np.array([3.6012652646, -np.pi / 4, np.pi / 4])
     scale = np.array([3.6012652646, 1.0, 1.0])

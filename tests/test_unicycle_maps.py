@@ -10,7 +10,7 @@ import pytest
 from stepaside.core.errors import PlanError
 from stepaside.theory.unicycle.adaptive_simulation import simulate
 from stepaside.theory.unicycle.kernel import play_games
-from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.start_maps import (
     StartBox,
     find_worst_start,
@@ -74,7 +74,7 @@ def test_evader_looking_away_can_walk_into_its_pursuer() -> None:
     worst = find_worst_start(NAO, found, box, 40.0, **options)
     assert worst.captured
     run = simulate(NAO, worst.start, 40.0, capture_distance=0.3)
-    assert run.captured and isinstance(worst.start, Start)
+    assert run.captured and isinstance(worst.start, RelativeStart)
 
 
 def test_bad_boxes_are_refused() -> None:
@@ -111,7 +111,7 @@ def test_map_covers_its_box_from_corner_to_corner() -> None:
     assert found.pursuer_errors == pytest.approx([-0.4, 0.0, 0.4])
     assert found.bearings == pytest.approx([-1.5, -0.75, 0.0, 0.75, 1.5])
     values = found.grid("closest_distance")
-    one = simulate(FAST, Start(2.0, -0.4, 0.75), 0.1)
+    one = simulate(FAST, RelativeStart(2.0, -0.4, 0.75), 0.1)
     assert values[1, 0, 3] == pytest.approx(one.closest_distance, abs=1e-6)
 
 

@@ -13,7 +13,7 @@ from stepaside.theory.unicycle.circle_fit import (
     measure,
     settling_time,
 )
-from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.unicycle_game import make_game
 
 FAST = make_game(2.0, 1.0, 1.0, 4.0)
@@ -53,7 +53,7 @@ def test_circle_is_named_within_two_percent_on_either_side() -> None:
 
 
 def test_game_that_reaches_no_circle_is_measured_over_its_last_tenth() -> None:
-    run = simulate(NO_CIRCLE, Start(3.0, 0.4, 0.3), 20.0)
+    run = simulate(NO_CIRCLE, RelativeStart(3.0, 0.4, 0.3), 20.0)
     seen = measure(run)
     (before, after), _ = run.poses([18.0, 20.0])
     rate = (after[2] - before[2]) / 2.0
@@ -71,7 +71,7 @@ def test_one_turn_is_measured_where_the_game_is_long_enough() -> None:
     turn = 2.0 * pi / abs(main.turning_rate_rad_s)
     for duration in (2.5 * turn, 1.8 * turn):
         state = (1.01 * main.distance_m, main.pursuer_error_rad)
-        run = simulate(FAST, Start(*state, main.bearing_rad), duration)
+        run = simulate(FAST, RelativeStart(*state, main.bearing_rad), duration)
         span = min(turn, 0.5 * duration)
         times = np.linspace(duration - span, duration, 361)
         _, radius = fit_circle(run.poses(times)[0][:, :2])

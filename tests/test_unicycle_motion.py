@@ -5,9 +5,9 @@ import pytest
 
 from stepaside.core.poses import Pose
 from stepaside.theory.unicycle.game_parameters import rules_of
-from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.relative_motion import (
-    State,
+    RelativeState,
     derivative,
     look,
     look_anew,
@@ -18,13 +18,13 @@ from stepaside.theory.unicycle.sampled_game import walk_arc
 from stepaside.theory.unicycle.smooth_pieces import (
     Branch,
     Mode,
-    Piece,
+    SmoothPiece,
     piece_of,
 )
 from stepaside.theory.unicycle.unicycle_game import make_game
 
 RULES = rules_of(make_game(1.2, 0.9, 0.5, 0.7, 1.1), 0.1)
-HERE = State(1.4, 0.6, -0.8)
+HERE = RelativeState(1.4, 0.6, -0.8)
 
 
 @pytest.mark.parametrize(
@@ -35,13 +35,13 @@ def test_rates_are_those_of_two_unicycles_on_a_floor(
 ) -> None:
     """One drives forward, one backward; both turn as their laws say."""
     state, short = HERE, 1e-5
-    piece = Piece(-9.0, 9.0, constant, slope, 1.0)
+    piece = SmoothPiece(-9.0, 9.0, constant, slope, 1.0)
     found = derivative(state, look(state, RULES), piece, RULES)
     pursuer = Pose(0.3, -0.2, 0.9)
-    evader = Start(*state).evader_pose(pursuer)
+    evader = RelativeStart(*state).evader_pose(pursuer)
     turns = 0.5 * state.a, constant + slope * state.psi
     ends = [
-        Start.from_world(
+        RelativeStart.from_world(
             walk_arc(pursuer, 1.2, turns[0], time),
             walk_arc(evader, -0.9, turns[1], time),
         ).wrapped()
@@ -81,6 +81,6 @@ def test_error_of_a_step_falls_by_the_fifth_power_of_its_length() -> None:
 
 def test_arrays_are_seen_as_numbers_are() -> None:
     states = np.random.default_rng(3).uniform(0.2, 3.0, (3, 7))
-    many = np.array(look_many(State(*states), RULES))
-    ones = [look(State(*one), RULES) for one in states.T.tolist()]
+    many = np.array(look_many(RelativeState(*states), RULES))
+    ones = [look(RelativeState(*one), RULES) for one in states.T.tolist()]
     np.testing.assert_allclose(many.T, ones, rtol=0.0, atol=1e-14)

@@ -7,7 +7,7 @@ from stepaside.core.errors import PlanError
 from stepaside.core.poses import Pose
 from stepaside.theory.unicycle.adaptive_simulation import simulate
 from stepaside.theory.unicycle.circle_equations import circle_of
-from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.sampled_game import (
     choose_turning,
     simulate_sampled,
@@ -37,9 +37,9 @@ def on_circle(game: Game = NAO) -> np.ndarray:
 def test_sampling_and_delay_leave_the_circle_as_it_is(
     game: Game, delay: float
 ) -> None:
-    run = simulate_sampled(game, Start(*on_circle(game)), 0.4, 0.4)
+    run = simulate_sampled(game, RelativeStart(*on_circle(game)), 0.4, 0.4)
     np.testing.assert_allclose(run.states[-1], on_circle(game), atol=1e-12)
-    far = Start(1.3 * on_circle(game)[0], -0.5, 0.6)
+    far = RelativeStart(1.3 * on_circle(game)[0], -0.5, 0.6)
     run = simulate_sampled(game, far, 200.0, 0.4, delay=delay)
     np.testing.assert_allclose(
         np.abs(run.states[-1]), np.abs(on_circle(game)), atol=1e-5
@@ -54,7 +54,7 @@ def test_step_map_foretells_the_next_sample_of_a_game(delay: float) -> None:
     rate = circle_of(UNEVEN).turning_rate_rad_s
     matrix = step_map(UNEVEN, period, delay)
     depth = (len(matrix) - 3) // 2
-    start = Start(*(rest + [0.02, -0.01, 0.015]))
+    start = RelativeStart(*(rest + [0.02, -0.01, 0.015]))
     run = simulate_sampled(UNEVEN, start, 60.0, period, delay=delay)
     seen = 0
     for n in range(depth, len(run.turning_rates)):
@@ -90,7 +90,7 @@ def test_short_periods_tend_to_the_continuous_law() -> None:
 @pytest.mark.parametrize("delay", [0.0, 0.6])
 def test_largest_sample_time_parts_decay_from_growth(delay: float) -> None:
     limit = largest_stable_sample_time(UNEVEN, delay)
-    start = Start(*(on_circle(UNEVEN) + [0.0, 1e-4, 0.0]))
+    start = RelativeStart(*(on_circle(UNEVEN) + [0.0, 1e-4, 0.0]))
     spreads = []
     for factor in (0.93, 1.07):
         run = simulate_sampled(
@@ -114,7 +114,7 @@ def largest_stable_delay_unit() -> float:
 
 
 def test_sampled_game_tends_to_the_continuous_one() -> None:
-    start = Start(2.0, 0.4, -0.3)
+    start = RelativeStart(2.0, 0.4, -0.3)
     exact = simulate(UNEVEN, start, 10.0)
     state = exact.states([10.0])[0, :3]
     errors = []
@@ -127,12 +127,12 @@ def test_sampled_game_tends_to_the_continuous_one() -> None:
 
 def test_side_follows_the_rule_with_its_hysteresis() -> None:
     game = make_game(1, 1, 1, 1, hysteresis=0.2)
-    assert choose_turning(game, Start(1.0, 0.0, 0.1), 1)[2] == 1
-    assert choose_turning(game, Start(1.0, 0.0, 0.3), 1)[2] == -1
-    assert choose_turning(game, Start(1.0, 0.0, -0.3), -1)[2] == 1
-    assert choose_turning(game, Start(1.0, 0.0, 0.1), 0)[2] == -1
+    assert choose_turning(game, RelativeStart(1.0, 0.0, 0.1), 1)[2] == 1
+    assert choose_turning(game, RelativeStart(1.0, 0.0, 0.3), 1)[2] == -1
+    assert choose_turning(game, RelativeStart(1.0, 0.0, -0.3), -1)[2] == 1
+    assert choose_turning(game, RelativeStart(1.0, 0.0, 0.1), 0)[2] == -1
     kept = make_game(1, 1, 1, 1, side_rule="latched")
-    assert choose_turning(kept, Start(1.0, 0.0, 2.0), 1)[2] == 1
+    assert choose_turning(kept, RelativeStart(1.0, 0.0, 2.0), 1)[2] == 1
 
 
 def test_no_linearisation_where_the_evader_slides_or_nothing_circles() -> None:
@@ -180,27 +180,31 @@ def test_step_map_is_on_the_edge_at_the_largest_sample_time(
 
 
 def test_samples_are_evenly_spaced_and_fill_the_duration() -> None:
-    run = simulate_sampled(NAO, Start(2.0, 0.1, 0.2), 1.1, 0.4)
+    run = simulate_sampled(NAO, RelativeStart(2.0, 0.1, 0.2), 1.1, 0.4)
     assert run.times.tolist() == pytest.approx([0.0, 0.4, 0.8, 1.2])
     assert run.turning_rates.shape == (3, 2) and run.sides.shape == (3,)
-    exact = simulate_sampled(NAO, Start(2.0, 0.1, 0.2), 1.2, 0.4)
+    exact = simulate_sampled(NAO, RelativeStart(2.0, 0.1, 0.2), 1.2, 0.4)
     assert len(exact.times) == 4
 
 
 def test_game_ends_with_the_period_of_its_capture() -> None:
     """They drive head on: at speeds of 2 and 1 forward and away."""
     game = make_game(2.0, 1.0, 0.5, 0.5, 0.0)
-    run = simulate_sampled(game, Start(1.0), 10.0, 0.32, capture_distance=0.5)
+    run = simulate_sampled(
+        game, RelativeStart(1.0), 10.0, 0.32, capture_distance=0.5
+    )
     assert run.captured and len(run.times) == 3
     assert run.closest_distance == pytest.approx(0.36)
-    at_once = simulate_sampled(game, Start(0.5), 1.0, 0.1, capture_distance=1)
+    at_once = simulate_sampled(
+        game, RelativeStart(0.5), 1.0, 0.1, capture_distance=1
+    )
     assert at_once.captured and at_once.times.tolist() == [0.0]
     assert at_once.turning_rates.shape == (0, 2)
 
 
 def test_perception_takes_effect_when_its_delay_is_over() -> None:
     """Until then both drive straight on, and so does a late first rate."""
-    start = Start(3.0, 0.5, -0.2)
+    start = RelativeStart(3.0, 0.5, -0.2)
     for delay in (0.3, 0.4, 1.1):
         run = simulate_sampled(NAO, start, 4.0, 0.4, delay=delay)
         rate_p, rate_e = run.turning_rates[0]
@@ -225,13 +229,13 @@ def test_arc_has_the_radius_speed_over_turning_rate() -> None:
 
 def test_held_rates_are_those_of_the_laws() -> None:
     game = make_game(1.0, 1.0, 0.5, 0.7, 1.1)
-    got = choose_turning(game, Start(1.0, 0.3, -0.4), 0)
+    got = choose_turning(game, RelativeStart(1.0, 0.3, -0.4), 0)
     assert got == pytest.approx((0.15, 0.7 * 0.7, 1))
     hard = make_game(1.0, 1.0, 0.5, 0.7, 1.1, "saturated")
-    got = choose_turning(hard, Start(1.0, -0.3, 1.2), 0)
+    got = choose_turning(hard, RelativeStart(1.0, -0.3, 1.2), 0)
     assert got == pytest.approx((-0.15, 0.7, -1))
     wide = make_game(1.0, 1.0, 0.5, 0.7, 2.0, side_rule="latched")
-    rate = choose_turning(wide, Start(1.0, 0.0, 3.0), 1)[1]
+    rate = choose_turning(wide, RelativeStart(1.0, 0.0, 3.0), 1)[1]
     assert rate == pytest.approx(0.7 * (5.0 - 2.0 * np.pi))
 
 
@@ -249,7 +253,7 @@ def test_values_out_of_range_are_refused_by_name(
 ) -> None:
     values = {"duration": 1.0, "sample_time": 0.1} | options
     with pytest.raises(PlanError, match=f"^{name} must"):
-        simulate_sampled(NAO, Start(1.0), **values)  # type: ignore[arg-type]
+        simulate_sampled(NAO, RelativeStart(1.0), **values)  # type: ignore[arg-type]
     if name in ("sample_time", "delay"):
         with pytest.raises(PlanError, match=f"^{name} must"):
             step_map(NAO, values["sample_time"], values.get("delay", 0.0))

@@ -10,7 +10,7 @@ from stepaside.theory.unicycle.adaptive_simulation import simulate
 from stepaside.theory.unicycle.all_circles import circles_of
 from stepaside.theory.unicycle.basins import random_starts
 from stepaside.theory.unicycle.kernel import play_games
-from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 State = tuple[float, float, float]
@@ -114,7 +114,7 @@ def test_a_faster_pursuer_may_keep_the_side_changing_for_ever(
     assert len(gaps) > 15 and gaps.max() < 6.0
     out = play_games(game, [start], 120.0, step=0.02, capture_distance=1e-6)
     assert not out.captured[0] and out.circle[0] == -1
-    run = simulate(game, Start(*start), 30.0)
+    run = simulate(game, RelativeStart(*start), 30.0)
     first = integrate(game, start, 30.0)
     np.testing.assert_allclose(
         run.states([30.0])[0, 0], first.state[0], atol=1e-5

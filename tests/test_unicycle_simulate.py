@@ -9,7 +9,7 @@ from stepaside.core.errors import PlanError
 from stepaside.core.poses import Pose
 from stepaside.theory.unicycle.adaptive_simulation import PlayedGame, simulate
 from stepaside.theory.unicycle.circle_equations import circle_of
-from stepaside.theory.unicycle.relative_coordinates import Start
+from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 GAMES = [
@@ -32,7 +32,7 @@ def last_state(run: PlayedGame) -> np.ndarray:
 def test_game_ends_on_the_circle_in_closed_form(game: Game) -> None:
     circle = circle_of(game)
     duration = 60.0 + 14.0 * circle.time_constant_s
-    run = simulate(game, Start(5.0, 0.2, -0.4), duration)
+    run = simulate(game, RelativeStart(5.0, 0.2, -0.4), duration)
     r, a, psi, *_ = last_state(run)
     assert r == pytest.approx(circle.distance_m, abs=2e-5)
     assert a == pytest.approx(circle.pursuer_error_rad, abs=2e-5)
@@ -42,8 +42,8 @@ def test_game_ends_on_the_circle_in_closed_form(game: Game) -> None:
 @pytest.mark.parametrize("game", GAMES)
 def test_mirrored_start_mirrors_the_game(game: Game) -> None:
     times = np.linspace(0.0, 20.0, 30)
-    left = simulate(game, Start(3.0, 0.5, 1.1), 20.0).states(times)
-    right = simulate(game, Start(3.0, -0.5, -1.1), 20.0).states(times)
+    left = simulate(game, RelativeStart(3.0, 0.5, 1.1), 20.0).states(times)
+    right = simulate(game, RelativeStart(3.0, -0.5, -1.1), 20.0).states(times)
     np.testing.assert_allclose(right * [1, -1, -1, -1, 1, -1], left, atol=1e-7)
 
 
@@ -73,7 +73,7 @@ def test_game_agrees_with_the_printed_equations_on_the_floor(
 ) -> None:
     """Also where the saturated law slides: Euler chatters to the same."""
     pursuer, evader = Pose(0.3, -0.2, 0.4), Pose(2.5, 1.0, 3.3)
-    start = Start.from_world(pursuer, evader)
+    start = RelativeStart.from_world(pursuer, evader)
     run = simulate(game, start, 6.0, pursuer=pursuer)
     p, e = plain_world_game(game, pursuer, evader, 6.0, 12000)
     ours_p, ours_e = run.poses([6.0])
@@ -83,7 +83,7 @@ def test_game_agrees_with_the_printed_equations_on_the_floor(
 
 def test_start_and_poses_are_inverse() -> None:
     pursuer, evader = Pose(0.3, -0.2, 0.4), Pose(2.5, 1.0, -2.3)
-    start = Start.from_world(pursuer, evader)
+    start = RelativeStart.from_world(pursuer, evader)
     np.testing.assert_allclose(start.evader_pose(pursuer)[:2], evader[:2])
     run = simulate(GAMES[0], start, 1.0, pursuer=pursuer)
     first_p, first_e = run.poses([0.0])
@@ -93,7 +93,7 @@ def test_start_and_poses_are_inverse() -> None:
 
 def test_sliding_evader_keeps_the_angle_exactly() -> None:
     game = GAMES[2]
-    run = simulate(game, Start(5.0, 0.2, 0.4), 40.0)
+    run = simulate(game, RelativeStart(5.0, 0.2, 0.4), 40.0)
     assert len(run.switches) == 1  # onto the line, and no chatter
     times = np.linspace(run.switches[0] + 1e-9, 40.0, 50)
     np.testing.assert_allclose(run.states(times)[:, 2], 0.3, atol=1e-12)
@@ -101,7 +101,7 @@ def test_sliding_evader_keeps_the_angle_exactly() -> None:
 
 def test_sliding_ends_where_the_line_of_sight_outruns_the_evader() -> None:
     game = make_game(1.0, 1.0, 5.0, 0.3, 0.5, "saturated")
-    run = simulate(game, Start(6.0, 0.0, -0.5), 40.0)
+    run = simulate(game, RelativeStart(6.0, 0.0, -0.5), 40.0)
     times = np.linspace(0.0, run.end_time, 4000)
     states = run.states(times)
     sliding = np.abs(states[:, 2] + 0.5) < 1e-12
@@ -112,20 +112,22 @@ def test_sliding_ends_where_the_line_of_sight_outruns_the_evader() -> None:
 
 def test_capture_is_an_event_at_the_asked_distance() -> None:
     game = make_game(1.0, 1.0, 0.5, 0.5, pi)
-    run = simulate(game, Start(3.0, 0.0, pi), 10.0, capture_distance=0.4)
+    run = simulate(
+        game, RelativeStart(3.0, 0.0, pi), 10.0, capture_distance=0.4
+    )
     assert run.captured
     assert run.end_time == pytest.approx(1.3, abs=1e-9)  # they walk head on
     assert last_state(run)[0] == pytest.approx(0.4)
 
 
 def test_start_within_the_capture_distance_is_captured_at_once() -> None:
-    run = simulate(GAMES[0], Start(0.3), 5.0, capture_distance=0.4)
+    run = simulate(GAMES[0], RelativeStart(0.3), 5.0, capture_distance=0.4)
     assert run.captured and run.end_time == 0.0
     assert run.states([0.0])[0, 0] == 0.3
 
 
 def test_closest_approach_is_the_minimum_of_the_dense_output() -> None:
-    run = simulate(GAMES[0], Start(2.0, 0.3, 2.2), 30.0)
+    run = simulate(GAMES[0], RelativeStart(2.0, 0.3, 2.2), 30.0)
     fine = run.states(np.linspace(0.0, run.end_time, 30001))[:, 0]
     assert run.closest_distance <= fine.min() + 1e-12
     assert run.closest_distance == pytest.approx(fine.min(), abs=1e-6)
@@ -134,7 +136,7 @@ def test_closest_approach_is_the_minimum_of_the_dense_output() -> None:
 def test_fixed_side_has_a_reversed_circle_that_the_side_rule_removes() -> None:
     """Errors wrap, so a kept side can circle the wrong way round."""
     error = pi / 4 - pi
-    start = Start(1.0, error + 0.05, error - pi / 2 + 0.03)
+    start = RelativeStart(1.0, error + 0.05, error - pi / 2 + 0.03)
     fixed = make_game(1, 1, 0.5, 0.5, side_rule="latched")
     run = simulate(fixed, start, 80.0, side=1)
     r, a, psi, *_ = last_state(run)
@@ -146,7 +148,7 @@ def test_fixed_side_has_a_reversed_circle_that_the_side_rule_removes() -> None:
 
 
 def test_hysteresis_delays_the_change_of_side() -> None:
-    start = Start(1.5, 1.4, 0.01)
+    start = RelativeStart(1.5, 1.4, 0.01)
     for width in (0.0, 0.2):
         game = make_game(1.0, 0.3, 0.2, 0.2, hysteresis=width)
         run = simulate(game, start, 20.0, side=-1)
@@ -159,41 +161,41 @@ def test_hysteresis_delays_the_change_of_side() -> None:
 @pytest.mark.parametrize("value", [0.0, -1.0, float("nan")])
 def test_bad_values_are_refused(value: float) -> None:
     with pytest.raises(PlanError, match="duration must"):
-        simulate(GAMES[0], Start(1.0), value)
+        simulate(GAMES[0], RelativeStart(1.0), value)
     with pytest.raises(PlanError, match="capture_distance must"):
-        simulate(GAMES[0], Start(1.0), 1.0, capture_distance=value)
+        simulate(GAMES[0], RelativeStart(1.0), 1.0, capture_distance=value)
     with pytest.raises(PlanError, match="^distance must"):
-        Start(value)
+        RelativeStart(value)
 
 
 def test_start_names_the_angle_that_it_refuses() -> None:
     for value in (float("nan"), float("inf")):
         with pytest.raises(PlanError, match="^pursuer_error must"):
-            Start(1.0, value)
+            RelativeStart(1.0, value)
         with pytest.raises(PlanError, match="^bearing must"):
-            Start(1.0, 0.0, value)
+            RelativeStart(1.0, 0.0, value)
 
 
 def test_whole_turns_of_a_start_change_nothing() -> None:
-    one = simulate(GAMES[0], Start(3.0, 0.5, -1.1), 5.0)
-    other = simulate(GAMES[0], Start(3.0, 0.5 - tau, tau - 1.1), 5.0)
+    one = simulate(GAMES[0], RelativeStart(3.0, 0.5, -1.1), 5.0)
+    other = simulate(GAMES[0], RelativeStart(3.0, 0.5 - tau, tau - 1.1), 5.0)
     np.testing.assert_allclose(
         last_state(other)[:3], last_state(one)[:3], atol=1e-9
     )
-    wrapped = Start(3.0, 0.5 - tau, tau - 1.1).wrapped()
+    wrapped = RelativeStart(3.0, 0.5 - tau, tau - 1.1).wrapped()
     assert wrapped == pytest.approx((3.0, 0.5, -1.1))
 
 
 def test_side_asked_for_is_the_first() -> None:
     for side in (1, -1):
-        run = simulate(LATCHED, Start(3.0, 0.5, -1.1), 1.0, side=side)
+        run = simulate(LATCHED, RelativeStart(3.0, 0.5, -1.1), 1.0, side=side)
         assert run.sides == (side,) and run.switches == ()
-    behind = simulate(LATCHED, Start(3.0, 0.5, 1.1), 1.0)
+    behind = simulate(LATCHED, RelativeStart(3.0, 0.5, 1.1), 1.0)
     assert behind.sides == (-1,)
 
 
 def test_distance_that_only_grows_is_least_at_the_start() -> None:
-    run = simulate(LATCHED, Start(2.0, pi - 0.1, 0.0), 0.5)
+    run = simulate(LATCHED, RelativeStart(2.0, pi - 0.1, 0.0), 0.5)
     assert (run.closest_distance, run.closest_time) == (2.0, 0.0)
     assert run.states([0.0, 0.5])[1, 0] > 2.5
 
@@ -204,7 +206,7 @@ def test_evader_that_crosses_behind_is_turned_to_from_the_other_side(
 ) -> None:
     """Its error wraps where it points straight away."""
     game = make_game(1.0, 1.0, 0.1, 1e-6, side_rule="latched")
-    run = simulate(game, Start(1.0, sign * 3.0, -sign * pi / 2), 0.5)
+    run = simulate(game, RelativeStart(1.0, sign * 3.0, -sign * pi / 2), 0.5)
     (switch,) = run.switches
     before, after = run.states([switch - 1e-9, switch + 1e-9])
     assert before[1] == pytest.approx(sign * pi, abs=1e-6)
@@ -215,8 +217,10 @@ def test_evader_that_crosses_behind_is_turned_to_from_the_other_side(
 
 def test_plan_of_the_world_is_carried_by_the_pursuers_pose() -> None:
     pursuer = Pose(0.3, -0.2, 0.4)
-    plain = simulate(GAMES[0], Start(2.0, 0.3, -0.4), 3.0)
-    moved = simulate(GAMES[0], Start(2.0, 0.3, -0.4), 3.0, pursuer=pursuer)
+    plain = simulate(GAMES[0], RelativeStart(2.0, 0.3, -0.4), 3.0)
+    moved = simulate(
+        GAMES[0], RelativeStart(2.0, 0.3, -0.4), 3.0, pursuer=pursuer
+    )
     for here, there in zip(
         plain.poses([3.0]), moved.poses([3.0]), strict=True
     ):
@@ -237,14 +241,14 @@ def test_circle_fit_finds_a_circle() -> None:
 
 def test_distance_that_only_falls_is_least_at_the_end() -> None:
     """Straight on, at a speed of 2 behind one of 1."""
-    run = simulate(make_game(2.0, 1.0, 0.5, 0.5, 0.0), Start(5.0), 3.0)
+    run = simulate(make_game(2.0, 1.0, 0.5, 0.5, 0.0), RelativeStart(5.0), 3.0)
     assert run.closest_distance == pytest.approx(2.0)
     assert run.closest_time == run.end_time == 3.0
 
 
 def test_evader_starts_with_the_heading_of_its_pose() -> None:
     """Not a turn away from it: headings are continuous, not wrapped."""
-    pursuer, start = Pose(0.3, -0.2, 0.4), Start(2.0, 0.3, -0.4)
+    pursuer, start = Pose(0.3, -0.2, 0.4), RelativeStart(2.0, 0.3, -0.4)
     run = simulate(GAMES[0], start, 0.1, pursuer=pursuer)
     np.testing.assert_allclose(
         run.poses([0.0])[1][0], start.evader_pose(pursuer), atol=1e-12
@@ -271,7 +275,7 @@ def test_side_that_the_rule_forbids_is_given_up_before_anything_moves() -> (
     None
 ):
     """Then the game is the one that asks for no side."""
-    game, start = make_game(1.0, 1.0, 0.5, 0.5), Start(3.0, 0.2, 0.8)
+    game, start = make_game(1.0, 1.0, 0.5, 0.5), RelativeStart(3.0, 0.2, 0.8)
     asked = simulate(game, start, 10.0, side=1)
     free = simulate(game, start, 10.0)
     assert asked.switches[0] == 0.0

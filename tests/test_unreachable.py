@@ -23,7 +23,7 @@ from stepaside.games.run_archive import load_run
 from stepaside.planning import GaitSettings
 from stepaside.report.replay_page import write_page
 from stepaside.report.run_folder import write_run
-from stepaside.report.viewer.live_session import Session
+from stepaside.report.viewer.live_session import LiveSession
 from stepaside.robots import leg_kinematics as kinematics
 from stepaside.strategies import Evasion
 
@@ -118,7 +118,7 @@ def test_the_command_line_tells_it_as_an_outcome(
 
 
 def test_a_live_duel_ends_with_it_and_can_begin_again() -> None:
-    session = Session(settings_of("robot"))
+    session = LiveSession(settings_of("robot"))
     try:
         done = Event()
         session.step(2.0)

@@ -12,7 +12,7 @@ from stepaside import (
     DuelSettings,
     GaitSettings,
     Push,
-    Start,
+    RelativeStart,
     WalkSettings,
     make_game,
 )
@@ -24,7 +24,7 @@ from test_door import a_bound, a_plan, a_run
 
 SHORT = 600  # characters of anything
 GAME = make_game(0.1, 0.1, 0.2, 0.2)
-START = Start(1.0, 0.3, 0.4)
+START = RelativeStart(1.0, 0.3, 0.4)
 
 
 @cache

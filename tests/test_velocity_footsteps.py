@@ -11,7 +11,7 @@ from stepaside.drivers.velocity.footstep_commands import (
     plan_footsteps,
     stride_of,
 )
-from stepaside.drivers.velocity.velocity_body import Velocity
+from stepaside.drivers.velocity.velocity_body import VelocityCommand
 from stepaside.planning import Direction, Foot, GaitSettings, ManeuverPlanner
 
 GAIT = GaitSettings()
@@ -28,7 +28,9 @@ def test_footsteps_are_those_of_the_papers_maneuver(
     maneuver = ManeuverPlanner(GAIT).plan(
         bearing, direction, first_foot=foot, standing=True
     )
-    velocity = Velocity(direction.value * GAIT.speed, GAIT.gain * bearing)
+    velocity = VelocityCommand(
+        direction.value * GAIT.speed, GAIT.gain * bearing
+    )
     steps = plan_footsteps(velocity, GAIT, WIDE, first_foot=foot, count=4)
     placed = Pose(0.0, 0.0, 0.0)
     for step, row in zip(steps, maneuver.placements[2:], strict=False):
@@ -43,7 +45,7 @@ def test_what_is_too_much_is_cut_on_its_path(
     foot: Foot, stride: float, turn: float
 ) -> None:
     """The circle keeps its radius: length over turn stays."""
-    velocity = Velocity(-0.1, 0.15)
+    velocity = VelocityCommand(-0.1, 0.15)
     limits = StepLimits(stride=stride, turn=turn)
     steps = plan_footsteps(velocity, GAIT, limits, first_foot=foot, count=3)
     for step in steps:
@@ -65,7 +67,11 @@ def test_steps_take_the_time_of_the_gait_as_far_as_the_robot_has_it(
     single, double = durations
     gait = GaitSettings(single_support=single, double_support=double)
     steps = plan_footsteps(
-        Velocity(0.1, 0.0), gait, StepLimits(), first_foot=FEET[0], count=3
+        VelocityCommand(0.1, 0.0),
+        gait,
+        StepLimits(),
+        first_foot=FEET[0],
+        count=3,
     )
     times = [step.time for step in steps]
     assert times == pytest.approx([period, 2 * period, 3 * period])
@@ -87,7 +93,11 @@ def test_a_stride_is_the_arc_beside_which_the_foot_lands(
 
 def test_who_turns_in_place_makes_no_way() -> None:
     steps = plan_footsteps(
-        Velocity(0.0, 0.2), GAIT, StepLimits(), first_foot=FEET[0], count=2
+        VelocityCommand(0.0, 0.2),
+        GAIT,
+        StepLimits(),
+        first_foot=FEET[0],
+        count=2,
     )
     length, turn, _ = stride_of(steps[0].pose, FEET[0], GAIT.foot_spacing)
     assert length == pytest.approx(0.0, abs=1e-6)

@@ -9,7 +9,7 @@ from time import monotonic, sleep
 
 import pytest
 
-from stepaside.drivers.velocity.velocity_body import REST, Velocity
+from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
 from stepaside.drivers.velocity.velocity_guardian import (
     GuardedBody,
     guardian_of,
@@ -134,11 +134,11 @@ def test_a_guarded_robot_is_asked_as_any_other(tmp_path: Path) -> None:
     robot = FakeWalker([])
     guardian = guardian_of(lambda: (tmp_path / "rest").touch)
     body = GuardedBody(robot, guardian)
-    body.command(Velocity(0.1, 0.2))
+    body.command(VelocityCommand(0.1, 0.2))
     assert body.listen(0.0) is None
     body.command(REST)
     body.close()
-    assert robot.asked == [Velocity(0.1, 0.2), REST]
+    assert robot.asked == [VelocityCommand(0.1, 0.2), REST]
     assert not (tmp_path / "rest").exists()
     with pytest.raises(ChildProcessError):
         os.waitpid(guardian._pid, os.WNOHANG)

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.drivers.velocity.velocity_body import REST, Velocity
+from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
 from stepaside.drivers.velocity.velocity_limits import Ramp, VelocityLimits
 
 TIGHT = VelocityLimits(0.2, 0.1, 0.5, 0.4, 2.0)
@@ -18,22 +18,22 @@ TIGHT = VelocityLimits(0.2, 0.1, 0.5, 0.4, 2.0)
 def test_what_is_cut_stays_on_its_path_and_within_the_limits(
     forward: float, turn: float
 ) -> None:
-    within = TIGHT.within(Velocity(forward, turn))
+    within = TIGHT.within(VelocityCommand(forward, turn))
     assert within.forward * turn == pytest.approx(within.turn * forward)
     assert -0.1 - 1e-12 <= within.forward <= 0.2 + 1e-12
     assert abs(within.turn) <= 0.5 + 1e-12
     assert within.forward * forward > 0.0
     fits = -0.1 <= forward <= 0.2 and abs(turn) <= 0.5
-    assert (within == Velocity(forward, turn)) == fits
+    assert (within == VelocityCommand(forward, turn)) == fits
 
 
 def test_without_limits_nothing_is_cut() -> None:
-    wanted = Velocity(3.0, -7.0)
+    wanted = VelocityCommand(3.0, -7.0)
     assert VelocityLimits().within(wanted) == wanted
 
 
 def test_the_ramp_climbs_at_its_accelerations_and_arrives() -> None:
-    ramp, wanted = Ramp(TIGHT), Velocity(0.2, -0.3)
+    ramp, wanted = Ramp(TIGHT), VelocityCommand(0.2, -0.3)
     speeds = [ramp.toward(wanted, 0.1) for _ in range(8)]
     assert speeds[0] == pytest.approx((0.04, -0.2))
     assert speeds[2] == pytest.approx((0.12, -0.3))
@@ -44,10 +44,10 @@ def test_the_ramp_climbs_at_its_accelerations_and_arrives() -> None:
 @pytest.mark.parametrize("bad", [nan, inf, -inf])
 def test_what_is_no_number_is_rest_at_once(bad: float) -> None:
     ramp = Ramp(TIGHT)
-    ramp.toward(Velocity(0.2, 0.3), 1.0)
-    assert ramp.toward(Velocity(0.1, bad), 0.1) == REST
-    ramp.toward(Velocity(0.2, 0.3), 1.0)
-    assert ramp.toward(Velocity(bad, 0.1), 0.1) == REST
+    ramp.toward(VelocityCommand(0.2, 0.3), 1.0)
+    assert ramp.toward(VelocityCommand(0.1, bad), 0.1) == REST
+    ramp.toward(VelocityCommand(0.2, 0.3), 1.0)
+    assert ramp.toward(VelocityCommand(bad, 0.1), 0.1) == REST
 
 
 @pytest.mark.parametrize(
@@ -62,13 +62,13 @@ def test_a_limit_that_lets_nothing_through_is_refused(
 
 
 SPEED = st.floats(-2.0, 2.0)
-WANTED = st.builds(Velocity, SPEED, SPEED)
+WANTED = st.builds(VelocityCommand, SPEED, SPEED)
 
 
 @settings(max_examples=60)
 @given(st.lists(st.tuples(WANTED, st.floats(0.0, 0.3)), max_size=12), WANTED)
 def test_whatever_is_wanted_no_change_is_faster_than_the_ramp(
-    wishes: list[tuple[Velocity, float]], last: Velocity
+    wishes: list[tuple[VelocityCommand, float]], last: VelocityCommand
 ) -> None:
     """And what is asked for in the end is the path that was wanted."""
     ramp = Ramp(TIGHT)

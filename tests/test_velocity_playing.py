@@ -13,12 +13,16 @@ from stepaside.drivers.guardian_process import SessionLost
 from stepaside.drivers.play_log import PlayLog
 from stepaside.drivers.row_file import read_rows
 from stepaside.drivers.status_line import words_of
-from stepaside.drivers.velocity.template_controller import TemplateMind
-from stepaside.drivers.velocity.velocity_body import REST, Report, Velocity
+from stepaside.drivers.velocity.template_controller import TemplateController
+from stepaside.drivers.velocity.velocity_body import (
+    REST,
+    VelocityCommand,
+    VelocityReport,
+)
 from stepaside.drivers.velocity.velocity_limits import VelocityLimits
 from stepaside.drivers.velocity.velocity_loop import (
-    Driving,
-    VelocityPlaying,
+    DrivingState,
+    VelocityLoop,
     VelocityTick,
 )
 from stepaside.drivers.velocity.watchdog import WatchSettings
@@ -34,10 +38,10 @@ REPORTS = [report(PERIOD * i) for i in range(40)]
 
 def playing_of(
     robot: FakeWalker, strategy: Any = None, **changes: bool
-) -> VelocityPlaying:
-    return VelocityPlaying(
+) -> VelocityLoop:
+    return VelocityLoop(
         robot,
-        lambda: TemplateMind(strategy or Pursuit(), GAIT),
+        lambda: TemplateController(strategy or Pursuit(), GAIT),
         VelocityLimits(),
         WatchSettings(),
         clock=robot.clock,
@@ -53,22 +57,25 @@ def played(robot: FakeWalker, ticks: int) -> list[VelocityTick]:
 @pytest.mark.parametrize(
     ("strategy", "wanted"),
     [
-        (Pursuit(), Velocity(0.1, 0.2 * 0.4)),
-        (Pursuit(saturated=True), Velocity(0.1, 0.2)),
-        (Evasion(safety_radius=2.0), Velocity(-0.1, 0.2 * (0.4 - pi / 2))),
+        (Pursuit(), VelocityCommand(0.1, 0.2 * 0.4)),
+        (Pursuit(saturated=True), VelocityCommand(0.1, 0.2)),
+        (
+            Evasion(safety_radius=2.0),
+            VelocityCommand(-0.1, 0.2 * (0.4 - pi / 2)),
+        ),
         (Evasion(safety_radius=0.5), REST),
     ],
 )
 def test_a_mind_wants_what_the_template_does(
-    strategy: Strategy, wanted: Velocity
+    strategy: Strategy, wanted: VelocityCommand
 ) -> None:
-    mind = TemplateMind(strategy, GAIT)
+    mind = TemplateController(strategy, GAIT)
     assert mind.decide(REPORTS[3]) == pytest.approx(wanted)
     assert mind.moving == (wanted != REST)
 
 
 def test_a_mind_without_a_sighting_rests() -> None:
-    mind = TemplateMind(Pursuit(), GAIT)
+    mind = TemplateController(Pursuit(), GAIT)
     mind.decide(REPORTS[0])
     assert mind.decide(report(0.1, sighting=None)) == REST and not mind.moving
 
@@ -76,13 +83,13 @@ def test_a_mind_without_a_sighting_rests() -> None:
 def test_two_templates_end_on_the_circle_of_theory() -> None:
     """Driven by what their reports say, without any robot between."""
     poses = [Pose(0.0, 0.0, 0.3), Pose(1.0, 0.0, pi)]
-    minds = [TemplateMind(s, GAIT) for s in (Pursuit(), Evasion())]
+    minds = [TemplateController(s, GAIT) for s in (Pursuit(), Evasion())]
     for i in range(3000):
         speeds = []
         for own, other, mind in zip(poses, poses[::-1], minds, strict=True):
             x, y, _ = own.inverse().compose(other)
             seen = Sighting(0.05 * i, float(np.arctan2(y, x)), hypot(x, y))
-            speeds.append(mind.decide(Report(0.05 * i, own, seen)))
+            speeds.append(mind.decide(VelocityReport(0.05 * i, own, seen)))
         for k, (forward, turn) in enumerate(speeds):
             half = Pose(0.0, 0.0, 0.025 * turn)
             way = Pose(0.05 * forward, 0.0, 0.0)
@@ -94,8 +101,8 @@ def test_two_templates_end_on_the_circle_of_theory() -> None:
 def test_the_robot_is_led_to_the_template_by_the_ramp() -> None:
     robot = FakeWalker(REPORTS)
     ticks = played(robot, 30)
-    assert [t.state for t in ticks[:2]] == 2 * [Driving.WAITING]
-    assert ticks[-1].state is Driving.WALKING
+    assert [t.state for t in ticks[:2]] == 2 * [DrivingState.WAITING]
+    assert ticks[-1].state is DrivingState.WALKING
     assert ticks[-1].velocity == pytest.approx((0.1, 0.08))
     steps = np.abs(np.diff(np.array(robot.asked), axis=0))
     assert steps.max(axis=0) == pytest.approx((0.025, 0.08), rel=0.3)
@@ -113,12 +120,12 @@ def test_the_robot_is_led_to_the_template_by_the_ramp() -> None:
     ],
     ids="nobody stale nan future past hindered".split(),
 )
-def test_whatever_is_amiss_asks_for_rest_at_once(sick: Report) -> None:
+def test_whatever_is_amiss_asks_for_rest_at_once(sick: VelocityReport) -> None:
     robot = FakeWalker([*REPORTS[:20], sick])
     ticks = played(robot, 21)
     assert ticks[-2].velocity.forward == pytest.approx(0.1)
     assert robot.asked[-1] == REST
-    assert ticks[-1].state is Driving.WAITING and ticks[-1].reason
+    assert ticks[-1].state is DrivingState.WAITING and ticks[-1].reason
 
 
 def test_a_robot_that_falls_silent_is_asked_to_rest_and_goes_on_later() -> (
@@ -130,7 +137,7 @@ def test_a_robot_that_falls_silent_is_asked_to_rest_and_goes_on_later() -> (
     assert robot.asked[20] == robot.asked[19]  # borne for a while
     assert robot.asked[27] == REST
     assert ticks[27].reason.startswith("no odometry for")
-    assert ticks[-1].state is Driving.WALKING
+    assert ticks[-1].state is DrivingState.WALKING
 
 
 def test_a_robot_that_stays_silent_ends_the_session() -> None:
@@ -149,7 +156,10 @@ def test_leaving_slows_down_and_then_rests() -> None:
         playing.tick()
     playing.leave("asked")
     states = [playing.tick().state for _ in range(10)]
-    assert states[0] is Driving.STOPPING and states[-1] is Driving.RESTING
+    assert (
+        states[0] is DrivingState.STOPPING
+        and states[-1] is DrivingState.RESTING
+    )
     forward = [v.forward for v in robot.asked[20:]]
     assert forward == sorted(forward, reverse=True) and forward[-1] == 0.0
 
@@ -166,7 +176,7 @@ def test_a_strategy_that_fails_ends_in_rest() -> None:
     playing = playing_of(robot, Broken())
     for _ in range(6):
         tick = playing.tick()
-    assert tick.state is Driving.RESTING and "side" in tick.reason
+    assert tick.state is DrivingState.RESTING and "side" in tick.reason
     assert set(robot.asked) == {REST}
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
-from stepaside.drivers.velocity.velocity_body import Report
+from stepaside.drivers.velocity.velocity_body import VelocityReport
 from stepaside.drivers.velocity.watchdog import Watchdog, WatchSettings
 from stepaside.perception.measurement import Sighting
 
@@ -54,7 +54,7 @@ def test_odometry_that_is_no_number_stops_the_robot(
     dog = settled()
     values = {"time": STAMP + 0.25, "x": 0.0, "theta": 0.0} | {place: bad}
     pose = Pose(values["x"], 0.0, values["theta"])
-    sick = Report(values["time"], pose, Sighting(STAMP, 0.0, 1.0))
+    sick = VelocityReport(values["time"], pose, Sighting(STAMP, 0.0, 1.0))
     assert "no number" in dog.look(sick, 0.25)
     assert "only just" in dog.look(report(STAMP + 0.3), 0.3)
 

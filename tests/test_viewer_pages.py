@@ -14,7 +14,7 @@ import pytest
 from fake_page import Client, Gui, open_fake
 from invented_run import changed, drifted
 from onlooker import look_on
-from stepaside.control.strategy_runner import Decisions
+from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.errors import ConfigurationError, StepAsideError
 from stepaside.core.poses import Array, wrap_angle
 from stepaside.games.duel import Duel, run_duel
@@ -27,43 +27,48 @@ from stepaside.perception.images import ColourImage, DepthImage
 from stepaside.planning import GaitSettings
 from stepaside.report.figure_style import EVADER, PURSUER
 from stepaside.report.palette import FOR_BOTH
-from stepaside.report.scene import Stage
+from stepaside.report.scene import RunScene
 from stepaside.report.viewer import live_page as pages
 from stepaside.report.viewer import plot_history as trails
 from stepaside.report.viewer import replay_viewer as replaying
 from stepaside.report.viewer.drive_panel import DrivePanel, add_push
 from stepaside.report.viewer.live_page import Page
-from stepaside.report.viewer.live_session import Session
-from stepaside.report.viewer.plot_history import Trail
+from stepaside.report.viewer.live_session import LiveSession
+from stepaside.report.viewer.plot_history import PlotHistory
 from stepaside.report.viewer.plots import Plots
 from stepaside.report.viewer.replay_viewer import ReplayPage
 from stepaside.sim.body_settings import BODIES
-from stepaside.strategies import Driven, Evasion, EvasionMemory, Pursuit
+from stepaside.strategies import (
+    Evasion,
+    EvasionMemory,
+    Pursuit,
+    TeleoperatedPursuit,
+)
 
 START = StartSettings(distance=1.0, pursuer_offset=0.3, evader_offset=-0.2)
 SETTINGS = DuelSettings(start=START)
 
 
 @pytest.fixture
-def session() -> Iterator[Session]:
-    made = Session(SETTINGS)
+def session() -> Iterator[LiveSession]:
+    made = LiveSession(SETTINGS)
     yield made
     made.close()
 
 
-def played(session: Session, ticks: int) -> None:
+def played(session: LiveSession, ticks: int) -> None:
     """Let the loop play, and wait until it has."""
     session._in_loop(lambda: session._advance(ticks))
 
 
-def walker(session: Session, number: int) -> Walker:
+def walker(session: LiveSession, number: int) -> Walker:
     """Player who is a robot."""
     player = session.duel.players[number]
     assert isinstance(player, Walker)
     return player
 
 
-def test_a_session_notes_every_tenth_of_a_second(session: Session) -> None:
+def test_a_session_notes_every_tenth_of_a_second(session: LiveSession) -> None:
     """Of each, what is true then; the tick that begins then notes it."""
     duel, trail = session.duel, session.trail
     played(session, 125)
@@ -86,7 +91,7 @@ def test_a_session_notes_every_tenth_of_a_second(session: Session) -> None:
         assert trail.traces[f"{robot.name}/ZMP"][-1] == pytest.approx(zmp)
 
 
-def test_a_zmp_in_flight_is_left_out(session: Session) -> None:
+def test_a_zmp_in_flight_is_left_out(session: LiveSession) -> None:
     nowhere: Any = lambda: (np.nan, np.nan)  # noqa: E731
     for number in (0, 1):
         walker(session, number).robot.measured_zmp = nowhere  # type: ignore[method-assign]
@@ -97,7 +102,7 @@ def test_a_zmp_in_flight_is_left_out(session: Session) -> None:
 
 def test_what_grows_is_cut() -> None:
     """Steps, plots and traces: the newest stay, of each player its own."""
-    trail = Trail()
+    trail = PlotHistory()
     assert trail.history.maxlen == trails.HISTORY
     now = SimpleNamespace(time=0.0, ticks=0, physics=SimpleNamespace(tick=0.1))
     for number in range(130):
@@ -126,7 +131,7 @@ def _seen() -> Any:
     )
 
 
-def test_a_step_is_kept_only_when_it_begins(session: Session) -> None:
+def test_a_step_is_kept_only_when_it_begins(session: LiveSession) -> None:
     """With its maneuver and landing, as the scheme said at that tick."""
     begun: list[Any] = []
     look_on(session.duel, lambda duel: begun.append(duel.players[0].begun))
@@ -139,7 +144,7 @@ def test_a_step_is_kept_only_when_it_begins(session: Session) -> None:
 
 
 def test_the_newest_image_of_each_camera_is_handed_out_once(
-    session: Session,
+    session: LiveSession,
 ) -> None:
     trail = session.trail
 
@@ -174,7 +179,7 @@ def test_the_newest_image_of_each_camera_is_handed_out_once(
     assert session.new_frames() == {"pursuer, colour": old}
 
 
-def test_a_session_knows_its_theory(session: Session) -> None:
+def test_a_session_knows_its_theory(session: LiveSession) -> None:
     radius = 2.0 / pi
     assert session.theory is not None
     assert session.theory[0] == pytest.approx(2**0.5 * radius)
@@ -188,7 +193,7 @@ def test_a_session_knows_its_theory(session: Session) -> None:
     assert session.settings is back
 
 
-def test_a_step_has_whole_ticks_and_at_least_one(session: Session) -> None:
+def test_a_step_has_whole_ticks_and_at_least_one(session: LiveSession) -> None:
     for duration, ticks in ((0.1, 25), (0.001, 1), (0.0099, 2)):
         before = session.duel.world.ticks
         session.step(duration)
@@ -196,7 +201,7 @@ def test_a_step_has_whole_ticks_and_at_least_one(session: Session) -> None:
         assert session.duel.world.ticks == before + ticks
 
 
-def test_a_duel_that_is_over_stays_over(session: Session) -> None:
+def test_a_duel_that_is_over_stays_over(session: LiveSession) -> None:
     duel = session.duel
     ticked: list[Duel] = []
 
@@ -213,7 +218,9 @@ def test_a_duel_that_is_over_stays_over(session: Session) -> None:
     assert session.outcome is None and session.error is None
 
 
-def test_a_push_acts_now_on_the_robot_that_is_meant(session: Session) -> None:
+def test_a_push_acts_now_on_the_robot_that_is_meant(
+    session: LiveSession,
+) -> None:
     played(session, 30)
     session.push(1, 0.4, pi / 2)
     played(session, 40)
@@ -227,7 +234,7 @@ def test_a_push_acts_now_on_the_robot_that_is_meant(session: Session) -> None:
     )
 
 
-def test_a_change_and_a_moment_are_of_the_duel(session: Session) -> None:
+def test_a_change_and_a_moment_are_of_the_duel(session: LiveSession) -> None:
     changed: list[Duel] = []
     session.change(changed.append)
     played(session, 10)
@@ -244,7 +251,7 @@ def test_a_change_and_a_moment_are_of_the_duel(session: Session) -> None:
 
 def test_settings_that_cannot_be_end_the_session_at_once() -> None:
     with pytest.raises(StepAsideError):
-        Session(replace(SETTINGS, robot="table"))
+        LiveSession(replace(SETTINGS, robot="table"))
 
 
 class FakeSession:
@@ -252,7 +259,7 @@ class FakeSession:
 
     def __init__(self) -> None:
         """Begin with a duel of which only the time is known."""
-        decisions = Decisions(Pursuit(), GaitSettings(), 0.004)
+        decisions = StrategyRunner(Pursuit(), GaitSettings(), 0.004)
         self.lock = RLock()
         self.scheme: Any = SimpleNamespace(decisions=decisions)
         pursuer: Any = Walker.__new__(Walker)
@@ -320,23 +327,23 @@ def test_a_hand_takes_the_pursuer_over_and_gives_it_back() -> None:
     def hand() -> Any:
         return session.scheme.decisions.strategy
 
-    assert hand() == Driven(turn=-1.0, going=True)
+    assert hand() == TeleoperatedPursuit(turn=-1.0, going=True)
     for label, turn in (
         ("Drive left", 1.0),
         ("Drive right", -1.0),
         ("Drive straight", 0.0),
     ):
         gui[label].press()
-        assert hand() == Driven(turn, going=True)
+        assert hand() == TeleoperatedPursuit(turn, going=True)
     for label, going in (("Drive: halt", False), ("Drive: go", True)):
         gui[label].press()
-        assert hand() == Driven(0.0, going)
+        assert hand() == TeleoperatedPursuit(0.0, going)
     gui["Walk"].press("stop")
-    assert hand() == Driven(0.0, going=False)
+    assert hand() == TeleoperatedPursuit(0.0, going=False)
     gui["Walk"].press("go")
-    assert hand() == Driven(0.0, going=True)
+    assert hand() == TeleoperatedPursuit(0.0, going=True)
     gui["Turn"].press("left")
-    assert hand() == Driven(1.0, going=True)
+    assert hand() == TeleoperatedPursuit(1.0, going=True)
     for time, distance, closest in ((6.0, 0.9, 0.9), (7.5, 0.5, 0.5)):
         panel.show(time, distance)
         assert score.content == (
@@ -369,7 +376,7 @@ def test_a_stick_is_held_to_any_side_and_a_fall_ends_the_round() -> None:
     gui, session = panels()
     panel = DrivePanel(gui, session)
     panel.steer(0.3, True)
-    assert session.scheme.decisions.strategy == Driven(0.3, True)
+    assert session.scheme.decisions.strategy == TeleoperatedPursuit(0.3, True)
     panel.show(7.0, 0.9)
     session.outcome = Outcome.FALL
     panel.show(9.0, 0.8)
@@ -719,7 +726,7 @@ def test_a_replay_shows_the_sample_of_its_time(
     """Bodies, lines and words are those of that moment."""
     page, server = replay
     page._show(time)
-    stage = Stage(run)
+    stage = RunScene(run)
     stage.put(index)
     frames = [
         (int(name.split("/")[-1]), item)

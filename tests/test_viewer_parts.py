@@ -11,26 +11,26 @@ import pytest
 
 from fake_page import Gui, Scene
 from stepaside.control import Phase
-from stepaside.control.walk_snapshots import StepBegun, WalkState
+from stepaside.control.walk_snapshots import StepStarted, WalkState
 from stepaside.core.poses import Array, Pose
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.walker import Walker
 from stepaside.perception.images import ColourImage
-from stepaside.planning import Foot, Sole
+from stepaside.planning import Foot, SoleRectangle
 from stepaside.planning.support_polygon import sole_corners
 from stepaside.report.figure_style import COLOURS, EVADER, THEORY
 from stepaside.report.palette import FOR_BOTH
 from stepaside.report.viewer import live_drawing as drawing
 from stepaside.report.viewer.camera_panel import FOUND, CameraPanel, picture
 from stepaside.report.viewer.live_drawing import ZMP_COLOURS, draw_session
-from stepaside.report.viewer.plot_history import Trail
-from stepaside.report.viewer.scene_bodies import Bodies, joined, shape_of
+from stepaside.report.viewer.plot_history import PlotHistory
+from stepaside.report.viewer.scene_bodies import SceneBodies, joined, shape_of
 from stepaside.report.viewer.scene_layers import (
     HEIGHTS,
     LAYERS,
     PRINTS,
-    Layers,
+    SceneLayers,
     chain,
     path_of,
     prints_of,
@@ -86,7 +86,7 @@ def test_colours_are_those_of_the_material_or_the_geom() -> None:
 def test_every_visible_body_is_on_the_page_once_for_each_colour() -> None:
     model = mujoco.MjModel.from_xml_string(SHAPES)
     scene: Any = Scene()
-    bodies = Bodies(scene, model)
+    bodies = SceneBodies(scene, model)
     assert set(scene.items) == {"/bodies/1"} | {
         f"/bodies/1/{number}" for number in range(4)
     }
@@ -154,7 +154,7 @@ def test_the_safety_area_is_a_ring_or_nothing() -> None:
 
 def test_lines_are_drawn_when_they_change_and_go_when_hidden() -> None:
     scene: Any = Scene()
-    layers = Layers(scene)
+    layers = SceneLayers(scene)
     name = "/layers/footsteps/evader"
     lines = ring(0.0, 0.0, 1.0, 0.0)
     layers.draw("footsteps", "evader", lines, "#1f5fbf")
@@ -188,8 +188,8 @@ def test_layers_lie_above_each_other() -> None:
     assert rgb("#0a141e") == (10, 20, 30)
 
 
-def playing(time: float, **changes: Any) -> tuple[Duel, Trail]:
-    start, trail = StartSettings(0.75, 0.3, -0.2), Trail()
+def playing(time: float, **changes: Any) -> tuple[Duel, PlotHistory]:
+    start, trail = StartSettings(0.75, 0.3, -0.2), PlotHistory()
     duel = Duel(DuelSettings(start=start, **changes), (trail,))
     while duel.world.time < time:
         assert duel.tick() is None
@@ -197,7 +197,7 @@ def playing(time: float, **changes: Any) -> tuple[Duel, Trail]:
 
 
 @pytest.fixture(scope="module")
-def played() -> tuple[Duel, Trail]:
+def played() -> tuple[Duel, PlotHistory]:
     return playing(2.0)
 
 
@@ -210,7 +210,9 @@ def walks(duel: Duel) -> list[tuple[str, WalkState, Pose]]:
     return found
 
 
-def test_a_plan_is_drawn_in_the_world(played: tuple[Duel, Trail]) -> None:
+def test_a_plan_is_drawn_in_the_world(
+    played: tuple[Duel, PlotHistory],
+) -> None:
     """Its path runs midway between the footsteps, on the floor's frame."""
     duel, trail = played
     for (name, walk, frame), wanted_frame in zip(
@@ -247,12 +249,12 @@ def test_nothing_is_planned_before_anybody_walks() -> None:
         assert name not in trail.steps
 
 
-def test_old_footsteps_are_left_out(played: tuple[Duel, Trail]) -> None:
+def test_old_footsteps_are_left_out(played: tuple[Duel, PlotHistory]) -> None:
     """The last ones are drawn, however many are kept."""
     duel, trail = played
     name, walk, frame = walks(duel)[0]
     step = trail.steps[name][-1]
-    many: list[StepBegun] = [
+    many: list[StepStarted] = [
         step._replace(landing=Pose(100.0 + i, 0.0, 0.0)) for i in range(80)
     ]
     session = told(duel, trail)
@@ -291,7 +293,7 @@ def test_the_support_polygon_is_of_the_feet_that_stand(
         remaining=remaining,
         walking=walking,
     )
-    sole = Sole()
+    sole = SoleRectangle()
     walk: Any = SimpleNamespace(
         step=lambda now: step,
         gait=SimpleNamespace(sole=sole),
@@ -322,7 +324,7 @@ def test_the_support_polygon_is_of_the_feet_that_stand(
     assert outline[0, 0, 2] == HEIGHTS["support polygon"]
 
 
-def told(duel: Duel, trail: Trail, **changes: Any) -> Any:
+def told(duel: Duel, trail: PlotHistory, **changes: Any) -> Any:
     """A session as the layers need it."""
     traces = {
         f"{player.name}/{what}": [(0.1 * i, 0.2) for i in range(4)]
@@ -353,7 +355,7 @@ def drawn(session: Any) -> dict[tuple[str, str], tuple[Array, str]]:
 
 
 def test_every_layer_of_the_present_moment_is_drawn(
-    played: tuple[Duel, Trail],
+    played: tuple[Duel, PlotHistory],
 ) -> None:
     duel, trail = played
     found = drawn(told(duel, trail))

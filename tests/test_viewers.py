@@ -11,22 +11,24 @@ from stepaside.core.poses import Array
 from stepaside.report.palette import FLOORS, FOR_BOTH, contrast
 from stepaside.report.viewer.page_layout import arrange
 from stepaside.report.viewer.scene_layers import rgb
-from stepaside.report.viewer.viewer_clients import CAMERAS, Viewers
+from stepaside.report.viewer.viewer_clients import CAMERAS, ViewerClients
 
 PLACES = [np.array([0.0, 0.0]), np.array([1.0, 2.0])]
 HEIGHTS = [0.27, 0.28]
 
 
 @pytest.fixture
-def looked() -> tuple[Viewers, Any]:
+def looked() -> tuple[ViewerClients, Any]:
     server: Any = Server()
-    viewers = Viewers(server)
+    viewers = ViewerClients(server)
     for number in (1, 2):
         server.welcome(Client(number))
     return viewers, server
 
 
-def test_a_light_is_of_one_viewer_alone(looked: tuple[Viewers, Any]) -> None:
+def test_a_light_is_of_one_viewer_alone(
+    looked: tuple[ViewerClients, Any],
+) -> None:
     viewers, server = looked
     one, other = server.clients[1], server.clients[2]
     viewers.turn_light(one)
@@ -44,7 +46,7 @@ def test_a_light_is_of_one_viewer_alone(looked: tuple[Viewers, Any]) -> None:
 
 
 def test_cameras_go_along_until_somebody_takes_them(
-    looked: tuple[Viewers, Any],
+    looked: tuple[ViewerClients, Any],
 ) -> None:
     viewers, server = looked
     one, other = server.clients[1], server.clients[2]
@@ -87,7 +89,7 @@ def test_both_robots_are_in_the_picture_over_the_sheet_of_a_phone(
 ) -> None:
     """A sheet covers the lower 45 % where the page is held upright."""
     server: Any = Server()
-    viewers = Viewers(server)
+    viewers = ViewerClients(server)
     server.welcome(Client(1, aspect=aspect))
     way = apart * np.array([np.cos(bearing), np.sin(bearing)])
     places = [np.array([1.0, 2.0]), np.array([1.0, 2.0]) + way]
@@ -109,7 +111,7 @@ def test_all_of_a_room_is_seen_from_above(
 ) -> None:
     server: Any = Server()
     room = Room(width=shape[0], depth=shape[1])
-    viewers = Viewers(server, room)
+    viewers = ViewerClients(server, room)
     server.welcome(Client(1, aspect=aspect))
     viewers.choose(server.clients[1], "top")
     viewers.aim([np.array([0.4, 0.3]), np.array([-0.2, 0.1])], HEIGHTS)
@@ -122,7 +124,7 @@ def test_all_of_a_room_is_seen_from_above(
                 assert (-0.1 if aspect < 0.8 else -1.0) < y < 1.0
 
 
-def test_who_goes_is_forgotten(looked: tuple[Viewers, Any]) -> None:
+def test_who_goes_is_forgotten(looked: tuple[ViewerClients, Any]) -> None:
     viewers, server = looked
     for call in server.going:
         call(server.clients[1])

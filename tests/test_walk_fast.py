@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from stepaside.games.outcome import Outcome
-from stepaside.games.walk_game import Walking, run_walk
+from stepaside.games.walk_game import WalkGame, run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS, GaitSettings
@@ -78,7 +78,7 @@ def test_without_the_reaction_of_the_leg_the_torso_rocks() -> None:
 
 def test_the_first_foot_lands_within_half_a_second() -> None:
     """From the instant at which the robot begins, by the force it feels."""
-    walking = Walking(
+    walking = WalkGame(
         WalkSettings(gait=FAST, control=CONTROL, backward=True),
         recorded=False,
     )

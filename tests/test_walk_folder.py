@@ -26,7 +26,7 @@ from stepaside.games.walk_run import WalkRun
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.report.figure_style import PUSHED
 from stepaside.report.run_folder import write_run
-from stepaside.report.scene import Stage
+from stepaside.report.scene import RunScene
 from stepaside.report.walk_figure import draw_walk
 from stepaside.report.walks_figure import speed_over
 from stepaside.sim.push import Push
@@ -58,7 +58,7 @@ def test_a_walk_comes_back_from_its_folder(
     assert loaded.pair is None and loaded.distance is None
     assert loaded.theory is None and loaded.safety is None
     assert loaded.settings.pushes == PUSHES
-    stage = Stage(loaded)
+    stage = RunScene(loaded)
     stage.put(40)
     qpos = loaded.walker.qpos
     assert qpos is not None

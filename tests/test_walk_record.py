@@ -16,7 +16,7 @@ from stepaside.games.support_foot_view import (
     on_its_feet,
     seen_from_foot,
 )
-from stepaside.games.walk_game import Walking
+from stepaside.games.walk_game import WalkGame
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop
@@ -26,15 +26,15 @@ from stepaside.sim.physics_settings import PhysicsSettings
 
 
 @pytest.fixture(scope="module")
-def walking() -> Walking:
+def walking() -> WalkGame:
     """A robot that has walked a few steps in a circle, with feedback."""
-    made = Walking(WalkSettings(bearing=0.6, control=STABILISED))
+    made = WalkGame(WalkSettings(bearing=0.6, control=STABILISED))
     for _ in range(1100):
         assert made.tick() is None
     return made
 
 
-def recorder(walking: Walking) -> Recorder:
+def recorder(walking: WalkGame) -> Recorder:
     """One more recorder of a walk."""
     tick = walking.world.physics.tick
     return Recorder([walking.walker], tick=tick, closely=True)
@@ -44,7 +44,7 @@ def columns(made: Recorder) -> dict[str, Array]:
     return seen_from_foot(made.times, made.tracks()["walker"])
 
 
-def last(walking: Walking) -> dict[str, float]:
+def last(walking: WalkGame) -> dict[str, float]:
     made = recorder(walking)
     made.every = 1
     made.before(walking)
@@ -53,7 +53,7 @@ def last(walking: Walking) -> dict[str, float]:
     return {name: float(values[0]) for name, values in arrays.items()}
 
 
-def test_a_walk_is_seen_from_the_foot_that_stands(walking: Walking) -> None:
+def test_a_walk_is_seen_from_the_foot_that_stands(walking: WalkGame) -> None:
     """Truth, wish and estimate agree in a frame that all three share."""
     walker = walking.walker
     seen = last(walking)
@@ -86,7 +86,7 @@ def test_a_walk_is_seen_from_the_foot_that_stands(walking: Walking) -> None:
 
 
 def test_vectors_turn_with_the_foot_and_points_move_too(
-    walking: Walking,
+    walking: WalkGame,
 ) -> None:
     """The foot's place and heading, found again from the columns."""
     walker = walking.walker
@@ -130,7 +130,7 @@ def test_vectors_turn_with_the_foot_and_points_move_too(
         )
 
 
-def test_the_torsos_lean_is_roll_and_pitch(walking: Walking) -> None:
+def test_the_torsos_lean_is_roll_and_pitch(walking: WalkGame) -> None:
     data = walking.world.data
     before = data.qpos.copy()
     for roll, pitch in ((0.2, 0.1), (-0.3, 0.05)):
@@ -146,7 +146,7 @@ def test_the_torsos_lean_is_roll_and_pitch(walking: Walking) -> None:
 
 
 def test_what_was_estimated_is_seen_from_the_foot_too(
-    walking: Walking,
+    walking: WalkGame,
 ) -> None:
     walker = walking.walker
     assert isinstance(walker.scheme.balance, ClosedLoop)
@@ -176,7 +176,7 @@ def test_what_was_estimated_is_seen_from_the_foot_too(
 
 def test_single_support_lasts_while_a_foot_swings() -> None:
     """Not before the walk, and not while both feet stand."""
-    walking = Walking(WalkSettings())
+    walking = WalkGame(WalkSettings())
     assert last(walking)["single"] == 0.0
     gait = walking.settings.gait
     singles, heights = [], []
@@ -198,14 +198,14 @@ def test_single_support_lasts_while_a_foot_swings() -> None:
 def test_samples_of_a_walk_are_about_20_ms_apart(
     tick: float, every: int
 ) -> None:
-    walking = Walking(WalkSettings(physics=PhysicsSettings(tick=tick)))
+    walking = WalkGame(WalkSettings(physics=PhysicsSettings(tick=tick)))
     assert walking.recorder.every == every
     assert walking.recorder.times.shape == (0,)
 
 
 def test_what_is_asked_and_believed_is_placed_with_the_odometry() -> None:
     """Seen from the foot, it is the same wherever odometry began."""
-    walking = Walking(WalkSettings(bearing=0.6, control=STABILISED))
+    walking = WalkGame(WalkSettings(bearing=0.6, control=STABILISED))
     for _ in range(700):
         assert walking.tick() is None
     here = last(walking)
@@ -232,7 +232,7 @@ def test_what_is_asked_and_believed_is_placed_with_the_odometry() -> None:
 
 def test_a_duel_is_not_looked_at_closely() -> None:
     """Nor is anybody who believes nothing said to believe something."""
-    walking = Walking(WalkSettings())
+    walking = WalkGame(WalkSettings())
     tick = walking.world.physics.tick
     plain = Recorder([walking.walker], tick=tick)
     for made in (plain, walking.recorder):
@@ -262,7 +262,7 @@ def test_the_last_sample_counts_if_it_is_one_more_of_those_on_its_feet() -> (
 
 def test_what_a_walk_begins_and_a_solver_answers_is_noted() -> None:
     for keeps in (True, False):
-        walking = Walking(WalkSettings(), recorded=keeps)
+        walking = WalkGame(WalkSettings(), recorded=keeps)
         scheme: Any = walking.walker.scheme
         answers: list[Any] = ["one", None, "two"]
         step = begun()

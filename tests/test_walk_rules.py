@@ -12,7 +12,7 @@ from stepaside.control import Phase
 from stepaside.core.errors import ConfigurationError, ReachError
 from stepaside.games.outcome import Outcome
 from stepaside.games.support_foot_view import on_its_feet
-from stepaside.games.walk_game import Walking, run_walk
+from stepaside.games.walk_game import WalkGame, run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.locomotion.zmp.mpc import MpcResult
@@ -24,7 +24,7 @@ from stepaside.strategies import Walk
 
 def way(bearing: float, *, backward: bool = False) -> tuple[float, float]:
     """How far forward and leftward a robot walks in 3.5 s, in [m]."""
-    walking = Walking(WalkSettings(bearing=bearing, backward=backward))
+    walking = WalkGame(WalkSettings(bearing=bearing, backward=backward))
     x, y = walking.walker.truth.position
     while walking.world.time < 3.5:
         assert walking.tick() is None
@@ -45,19 +45,19 @@ def test_a_robot_walks_where_its_bearing_points() -> None:
 def test_the_settings_decide_the_role() -> None:
     for backward in (False, True):
         settings = WalkSettings(bearing=0.3, backward=backward)
-        walker = Walking(settings).walker
+        walker = WalkGame(settings).walker
         strategy: Any = walker.scheme.decisions.strategy
         wanted = Direction.BACKWARD if backward else Direction.FORWARD
         assert strategy == Walk(0.3, wanted)
-    walking = Walking(WalkSettings())
+    walking = WalkGame(WalkSettings())
     assert abs(walking.walker.truth.heading) < 1e-9
     walking.tick()
     sighting = walking.walker.scheme.sighting
     assert sighting is not None and sighting.distance == inf
     assert walking.walker.is_moving
-    hardware = Walking(WalkSettings(body=BODIES["hardware"], seed=3))
+    hardware = WalkGame(WalkSettings(body=BODIES["hardware"], seed=3))
     assert hardware.world.physics.tick == 0.012
-    other = Walking(WalkSettings(body=BODIES["hardware"], seed=4))
+    other = WalkGame(WalkSettings(body=BODIES["hardware"], seed=4))
     masses = [w.world.model.body_mass for w in (hardware, other)]
     assert np.abs(masses[0] - masses[1]).max() > 1e-4
 
@@ -69,7 +69,7 @@ def test_by_default_a_robot_walks_straight_ahead() -> None:
 
 
 def test_a_fall_is_noticed_by_truth_reach_or_the_robot_itself() -> None:
-    walking = Walking(WalkSettings())
+    walking = WalkGame(WalkSettings())
     assert walking.tick() is None
     scheme: Any = walking.walker.scheme
     scheme.phase = Phase.FALLEN
@@ -86,7 +86,7 @@ def test_a_fall_is_noticed_by_truth_reach_or_the_robot_itself() -> None:
     def out_of_reach(measured: object) -> Any:
         raise ReachError("too far")
 
-    other = Walking(WalkSettings())
+    other = WalkGame(WalkSettings())
     scheme = other.walker.scheme
     scheme.update = out_of_reach
     assert other.tick() is Outcome.UNREACHABLE and other.world.ticks == 0
@@ -94,13 +94,13 @@ def test_a_fall_is_noticed_by_truth_reach_or_the_robot_itself() -> None:
 
 
 def test_a_walk_that_falls_ends_there(monkeypatch: pytest.MonkeyPatch) -> None:
-    tick = Walking.tick
+    tick = WalkGame.tick
 
-    def clumsy(walking: Walking) -> Outcome | None:
+    def clumsy(walking: WalkGame) -> Outcome | None:
         tick(walking)
         return None if walking.world.ticks < 40 else Outcome.FALL
 
-    monkeypatch.setattr(Walking, "tick", clumsy)
+    monkeypatch.setattr(WalkGame, "tick", clumsy)
     result = run_walk(WalkSettings(duration=3.0))
     assert result.outcome is Outcome.FALL
     assert result.duration == pytest.approx(0.16)
@@ -139,7 +139,7 @@ def test_without_a_record_nothing_is_kept() -> None:
     assert result.outcome is Outcome.COMPLETED
     assert result.summary.tracking.com_x_m is None
     assert result.summary.steps == 1  # counted, though nothing is kept
-    walking = Walking(WalkSettings(), recorded=False)
+    walking = WalkGame(WalkSettings(), recorded=False)
     assert walking.observers == (walking.tally,)
 
 
@@ -172,16 +172,16 @@ def solved(iterations: int) -> MpcResult:
 
 
 def test_what_feedback_did_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    tick = Walking.tick
+    tick = WalkGame.tick
 
-    def adapted(walking: Walking) -> Outcome | None:
+    def adapted(walking: WalkGame) -> Outcome | None:
         balance: Any = walking.walker.scheme.balance
         balance.stabiliser.adapted = 7
         answer = solved(walking.world.ticks)
         balance.stabiliser.zmp_feedback.solved = answer
         return tick(walking)
 
-    monkeypatch.setattr(Walking, "tick", adapted)
+    monkeypatch.setattr(WalkGame, "tick", adapted)
     result = run_walk(WalkSettings(duration=0.012, control=STABILISED))
     assert result.summary.adapted_steps == 7
     assert result.summary.qp is not None and result.summary.qp.solves == 3

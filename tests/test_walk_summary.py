@@ -9,7 +9,7 @@ import pytest
 from stepaside.core.poses import Array
 from stepaside.games.outcome import Outcome
 from stepaside.games.support_foot_view import COLUMNS
-from stepaside.games.walk_evaluation import Counted, figures_of
+from stepaside.games.walk_evaluation import StepCounts, figures_of
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.games.walk_summary import WalkSummary
 from stepaside.locomotion.zmp.mpc import MpcResult
@@ -33,7 +33,7 @@ def record(times: Array = TIMES) -> dict[str, Array]:
 
 def figures(arrays: dict[str, Array], **changes: Any) -> dict[str, Any]:
     duration = changes.pop("duration", 12.0)
-    counted = Counted(20, 3, (0.1, 0.2), 0.02, (), 3.0)._replace(**changes)
+    counted = StepCounts(20, 3, (0.1, 0.2), 0.02, (), 3.0)._replace(**changes)
     found = figures_of(
         SETTINGS,
         Outcome.COMPLETED,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stepaside.games.walk_game import Walking
+from stepaside.games.walk_game import WalkGame
 from stepaside.games.walk_settings import WalkSettings
 
 CYCLES = 12
@@ -19,7 +19,7 @@ def test_an_ideal_body_walks_its_plan(backward: bool, bearing: float) -> None:
     settings = WalkSettings(duration=20.0, bearing=bearing, backward=backward)
     gait = settings.gait
     cycle = 2.0 * gait.step_duration
-    walking = Walking(settings, recorded=False)
+    walking = WalkGame(settings, recorded=False)
     been: list[tuple[float, ...]] = []
     while walking.world.time < settings.duration - 1e-9:
         assert walking.tick() is None, walking.message

@@ -6,7 +6,7 @@ import pytest
 
 from stepaside.control.velocity_walk import accepted, fastest, walk_at
 from stepaside.planning import Direction, GaitSettings
-from stepaside.strategies import Stand, Walk
+from stepaside.strategies import StandStill, Walk
 
 GAIT = GaitSettings()
 PACE = 0.4 / 0.547  # path time over walked time
@@ -53,6 +53,6 @@ def test_turning_in_place_makes_no_way_and_keeps_the_direction() -> None:
 
 
 def test_rest_stands_and_reversal_comes_to_rest_first() -> None:
-    assert isinstance(walk_at(0.0, 0.0, GAIT, under_way=None), Stand)
-    assert isinstance(walk_at(0.05, 0.0, GAIT, under_way=BACKWARD), Stand)
+    assert isinstance(walk_at(0.0, 0.0, GAIT, under_way=None), StandStill)
+    assert isinstance(walk_at(0.05, 0.0, GAIT, under_way=BACKWARD), StandStill)
     assert isinstance(walk_at(0.05, 0.0, GAIT, under_way=FORWARD), Walk)

@@ -9,23 +9,23 @@ from hypothesis import strategies as st
 
 pytest.importorskip("cv2")
 
-from stepaside.games.camera_duel import Witness  # noqa: E402
-from stepaside.games.sight_evaluation import Tally  # noqa: E402
+from stepaside.games.camera_duel import SightObserver  # noqa: E402
+from stepaside.games.sight_evaluation import FrameCounts  # noqa: E402
 
 COUNT = st.integers(0, 50)
 
 
 @st.composite
-def tallies(draw: st.DrawFn) -> Tally:
+def tallies(draw: st.DrawFn) -> FrameCounts:
     """Frames of a camera, of which some found what they showed."""
     shown = draw(COUNT)
-    return Tally(shown, draw(st.integers(0, shown)), draw(COUNT))
+    return FrameCounts(shown, draw(st.integers(0, shown)), draw(COUNT))
 
 
 @settings(max_examples=40)
 @given(st.lists(st.tuples(tallies(), tallies(), st.floats(0, 9)), max_size=3))
 def test_rates_are_of_all_frames_and_times_are_added(
-    robots: list[tuple[Tally, Tally, float]],
+    robots: list[tuple[FrameCounts, FrameCounts, float]],
 ) -> None:
     judges: Any = {
         f"robot {i}": SimpleNamespace(
@@ -35,7 +35,7 @@ def test_rates_are_of_all_frames_and_times_are_added(
         )
         for i, (colour, depth, lost) in enumerate(robots)
     }
-    found = Witness(judges, "rays", every=1).figures().all
+    found = SightObserver(judges, "rays", every=1).figures().all
     each = [tally for robot in robots for tally in robot[:2]]
     shown = sum(tally.shown for tally in each)
     assert (found.detection_rate is None) == (shown == 0)

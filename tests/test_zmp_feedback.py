@@ -11,7 +11,11 @@ from stepaside.locomotion.zmp.control_settings import (
     ControlSettings,
     StabiliserSettings,
 )
-from stepaside.locomotion.zmp.current_step import Step, resting_step, zmp_box
+from stepaside.locomotion.zmp.current_step import (
+    CurrentStep,
+    resting_step,
+    zmp_box,
+)
 from stepaside.locomotion.zmp.mpc import IntrinsicallyStableMpc
 from stepaside.locomotion.zmp.zmp_feedback import (
     MpcFeedback,
@@ -26,11 +30,11 @@ SUPPORT = Pose(1.0, -2.0, 0.7)
 RULE = ProportionalFeedback(GAIT, gain=4.0, edge=EDGE)
 
 
-def walking(swing: Foot = Foot.LEFT) -> Step:
+def walking(swing: Foot = Foot.LEFT) -> CurrentStep:
     plan = ManeuverPlanner(GAIT).plan(
         0.0, Direction.FORWARD, first_foot=swing, standing=True
     )
-    return Step(SUPPORT, swing, SUPPORT, 0.2, 0.5, True, plan, 1.25)
+    return CurrentStep(SUPPORT, swing, SUPPORT, 0.2, 0.5, True, plan, 1.25)
 
 
 class FakeMpc:

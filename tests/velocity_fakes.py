@@ -7,8 +7,12 @@ from typing import Any
 
 from stepaside.core.poses import Pose
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.velocity.footstep_commands import FootMove
-from stepaside.drivers.velocity.velocity_body import REST, Report, Velocity
+from stepaside.drivers.velocity.footstep_commands import FootCommand
+from stepaside.drivers.velocity.velocity_body import (
+    REST,
+    VelocityCommand,
+    VelocityReport,
+)
 from stepaside.drivers.velocity.walking_robot import WalkerState
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Foot
@@ -29,10 +33,10 @@ def until(done: Callable[[], Any]) -> Any:
     raise AssertionError("nothing came")
 
 
-def report(time: float, **changes: object) -> Report:
+def report(time: float, **changes: object) -> VelocityReport:
     """Report of a robot that stands and sees somebody now."""
     seen = AHEAD._replace(time=time)
-    return Report(time, Pose(0.0, 0.0, 0.0), seen)._replace(**changes)  # type: ignore[arg-type]
+    return VelocityReport(time, Pose(0.0, 0.0, 0.0), seen)._replace(**changes)  # type: ignore[arg-type]
 
 
 class FakeWalker:
@@ -41,22 +45,22 @@ class FakeWalker:
     Each look of its player takes the time of one report.
     """
 
-    def __init__(self, script: Iterable[Report | None]) -> None:
+    def __init__(self, script: Iterable[VelocityReport | None]) -> None:
         self.script = iter(script)
         self.now = 500.0
-        self.asked: list[Velocity] = []
+        self.asked: list[VelocityCommand] = []
         self.breaks = False
 
     def clock(self) -> float:
         """Time of this computer, in [s]."""
         return self.now
 
-    def listen(self, patience: float) -> Report | None:
+    def listen(self, patience: float) -> VelocityReport | None:
         """What the script says."""
         self.now += PERIOD
         return next(self.script, None)
 
-    def command(self, velocity: Velocity) -> None:
+    def command(self, velocity: VelocityCommand) -> None:
         """Note what is asked for."""
         if self.breaks:
             raise SessionLost("broken")
@@ -76,7 +80,7 @@ class MadeUpWalker:
         self.sighting: Sighting | None = None
         self.head: dict[str, float] = {}
         self.leads: list[Foot] = []
-        self.step: FootMove | None = None
+        self.step: FootCommand | None = None
         self.steps = 0
 
     def look(self, angles: Mapping[str, float]) -> None:
@@ -99,7 +103,7 @@ class MadeUpWalker:
             steps=self.steps,
         )
 
-    def move(self, velocity: Velocity, passed: float) -> None:
+    def move(self, velocity: VelocityCommand, passed: float) -> None:
         """Go on for some time, in [s]."""
         x, y, heading = self.pose
         way = velocity.forward * passed

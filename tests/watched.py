@@ -9,8 +9,8 @@ import numpy as np
 from stepaside.core.poses import Array
 from stepaside.games.duel_settings import PLAYERS, DuelSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.trajectory import Track
-from stepaside.studies.watched_duel import WalkedPlan, Watched
+from stepaside.games.trajectory import Trajectory
+from stepaside.studies.watched_duel import WalkedPlan, WatchedDuel
 
 RADIUS = 4.0 * 0.1 / (pi * 0.2)
 WEIGHT = 52.0  # of a robot, in [N]
@@ -25,7 +25,7 @@ def walked_duel(
     slide: float = 0.002,
     tilt: float = radians(1.0),
     outcome: Outcome = Outcome.COMPLETED,
-) -> Watched:
+) -> WatchedDuel:
     """Duel on the circle from its first moment on.
 
     Args:
@@ -39,7 +39,7 @@ def walked_duel(
     settings = DuelSettings(duration=duration)
     times = np.arange(0.0, duration + 1e-9, 0.02)
     ticks = np.arange(round(duration / 0.004), dtype=np.float64) * 0.004
-    tracks: dict[str, Track] = {}
+    tracks: dict[str, Trajectory] = {}
     quaternion = np.tile([1.0, 0.0, 0.0, 0.0], (len(times), 1))
     quaternion[-1, 1] = sin(0.5 * tilt)
     plans = _plans(settings, duration)
@@ -52,13 +52,13 @@ def walked_duel(
         angle = along + ahead
         place = radius * np.column_stack([np.cos(angle), np.sin(angle)])
         level = 0.0 * along
-        tracks[name] = Track(
+        tracks[name] = Trajectory(
             com=np.column_stack([place, 0.268 + level]),
             torso=np.column_stack([place, along + heading]),
             qpos=np.column_stack([place, 0.33 + level, quaternion]),
         )
     sway = np.column_stack([0.07 * ticks, 0.03 * np.sin(5.0 * ticks)])
-    return Watched(
+    return WatchedDuel(
         settings=settings,
         outcome=outcome,
         duration=duration,
@@ -100,7 +100,7 @@ def _feet(
     return loads, feet
 
 
-def changed(duel: Watched, **arrays: Any) -> Watched:
+def changed(duel: WatchedDuel, **arrays: Any) -> WatchedDuel:
     """Duel with other arrays of its record; a function maps the old one.
 
     Args:
@@ -116,7 +116,7 @@ def changed(duel: Watched, **arrays: Any) -> Watched:
     return replace(duel, tracks=tracks)
 
 
-def standing_duel() -> Watched:
+def standing_duel() -> WatchedDuel:
     """Two robots that never move a foot."""
     still = walked_duel(speed=0.0)
     loads = np.full_like(still.loads["pursuer"], 0.5 * WEIGHT)

@@ -14,7 +14,7 @@ from stepaside.cli.value_types import NumberType
 from stepaside.core.ranges import ranges_of
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.sim.camera_settings import Thing
+from stepaside.sim.camera_settings import RoomObject
 from stepaside.sim.passer_settings import Passer
 from stepaside.sim.push import Push
 
@@ -22,7 +22,7 @@ from .markdown import table
 
 KINDS = (DuelSettings, WalkSettings, PlanSettings)
 LISTS: Mapping[str, type[Any]] = {
-    "room.things": Thing,
+    "room.things": RoomObject,
     "pushes": Push,
     "passers": Passer,
 }

@@ -39,7 +39,7 @@ from .strategies import Knowledge as Knowledge
 from .strategies import Pursuit as Pursuit
 from .strategies import Strategy as Strategy
 from .strategies import load_strategy as load_strategy
-from .theory.unicycle import Start as Start
+from .theory.unicycle import RelativeStart as RelativeStart
 from .theory.unicycle import find_circle as find_circle
 from .theory.unicycle import make_game as make_game
 from .theory.unicycle import play_games as play_games
@@ -73,7 +73,7 @@ __all__ = [
     "Push",
     "Run",
     "Sighting",
-    "Start",
+    "RelativeStart",
     "StartSettings",
     "StepAsideError",
     "Strategy",

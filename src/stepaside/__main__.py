@@ -6,9 +6,9 @@ import os
 def main() -> None:
     """Run the command line; Ctrl-C is no traceback even while it loads."""
     try:
-        from .core.interrupts import stoppable
+        from .core.interrupts import interruptible
 
-        with stoppable():
+        with interruptible():
             from .cli.main import main as run
 
             run()

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 import stepaside
-from stepaside import Direction, Foot, GaitSettings, Start
+from stepaside import Direction, Foot, GaitSettings, RelativeStart
 from stepaside.core.errors import StepAsideError
 from stepaside.core.ranges import Range, ranges_of
 
@@ -43,7 +43,7 @@ def _sample(times: Any) -> Any:
 
 def _simulate(duration: Any, capture_distance: Any) -> Any:
     game: Any = stepaside.make_game(**GAME)
-    start = Start(2.0, 0.2, -0.1)
+    start = RelativeStart(2.0, 0.2, -0.1)
     run = stepaside.simulate(
         game, start, duration, capture_distance=capture_distance
     )
@@ -66,11 +66,11 @@ CALLS: Mapping[str, tuple[Callable[..., Any], Mapping[str, Any]]] = {
         lambda **given: stepaside.find_circle(**given).exists,
         GAME,
     ),
-    "Start": (lambda **given: Start(**given), START),
+    "RelativeStart": (lambda **given: RelativeStart(**given), START),
     "certify": (
         lambda **given: stepaside.certify(
             stepaside.make_game(**GAME, side_rule="latched"),
-            Start(**given),
+            RelativeStart(**given),
         ),
         START,
     ),

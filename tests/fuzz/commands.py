@@ -12,7 +12,7 @@ import click
 from documents.tables.settings import all_settings
 from stepaside.cli.main import all_commands
 from stepaside.cli.options.declaration import DeclaredOption
-from stepaside.cli.options.value_kinds import NameType, WordedType
+from stepaside.cli.options.value_kinds import NameType, WordOrValueType
 from stepaside.cli.value_types import UNITS, AngleType, NumberType
 from stepaside.core.ranges import Range, ranges_of
 
@@ -117,7 +117,7 @@ def texts_for(option: click.Option) -> tuple[str, ...]:
     """Values to try for an option."""
     kind: Any = option.type
     more: list[str] = []
-    if isinstance(kind, WordedType):
+    if isinstance(kind, WordOrValueType):
         more, kind = [*kind.words], kind.kind
     allowed = range_of(option)
     if option.is_flag:
@@ -137,7 +137,7 @@ def texts_for(option: click.Option) -> tuple[str, ...]:
 def range_of(option: click.Option) -> Range | None:
     """Range of an option's number; None if it takes none."""
     kind: Any = option.type
-    if isinstance(kind, WordedType):
+    if isinstance(kind, WordOrValueType):
         kind = kind.kind
     if isinstance(option, DeclaredOption) and option.sets_settings:
         setting = all_settings().get(option.declaration.path)
@@ -159,7 +159,7 @@ def must_be_refused(option: click.Option, text: str) -> bool:
     kind: Any = option.type
     if option.is_flag:
         return True
-    if isinstance(kind, WordedType):
+    if isinstance(kind, WordOrValueType):
         if text in kind.words:
             return False
         kind = kind.kind

@@ -12,8 +12,8 @@ import click
 from published_humanoid import mjcf
 from stepaside.cli.main import all_commands
 from stepaside.cli.options.value_kinds import OutputFile
-from stepaside.fitting.requirements import Finding
-from stepaside.fitting.robot_verification import Checked
+from stepaside.fitting.requirements import RequirementCheck
+from stepaside.fitting.robot_verification import VerificationReport
 
 from .commands import base_of, options_of
 from .short_reproduce import few_claims
@@ -23,7 +23,7 @@ LITTLE = {
     "bound": ["--json"],
     "replay": ["--width=64", "--height=64", "--duration=0.1", "--json"],
 }
-FOUND = Finding("height", "pass", "0.3 m")
+FOUND = RequirementCheck("height", "pass", "0.3 m")
 # What they read that read no run, made in a folder.
 READ: dict[str, Callable[[Path], Path]] = {
     "robot check": lambda _: Path("nao"),
@@ -112,7 +112,7 @@ def quickly() -> Iterator[None]:
             (
                 robot_check.__name__,
                 "_check",
-                lambda *_: Checked((FOUND,), (), feedback=False),
+                lambda *_: VerificationReport((FOUND,), (), feedback=False),
             ),
         ):
             stack.enter_context(patch(f"{place}.{name}", instead))

@@ -6,7 +6,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from stepaside.studies.record_store import RecordFile
+from stepaside.studies.record_store import RecordStore
 
 from .again import survivors_of, write_noticed
 from .campaign import record_reach, try_faults
@@ -59,7 +59,7 @@ def main() -> None:
     if options.tests:
         own = sha256(" ".join(chosen).encode()).hexdigest()[:12]
         name += f"-{own}"
-    records = RecordFile(root / WORK / f"{name}.jsonl")
+    records = RecordStore(root / WORK / f"{name}.jsonl")
     # Of the code that is tried, not of what it may be when that has ended.
     where_from = head(
         sample=options.sample, seed=options.seed, cap=options.cap
@@ -134,7 +134,7 @@ def _drawn(
 
 def _try(
     root: Path,
-    records: RecordFile,
+    records: RecordStore,
     faults: list[Fault],
     texts: dict[str, str],
     tests: list[str],

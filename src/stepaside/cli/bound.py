@@ -13,27 +13,27 @@ from .bound_tables import (
 )
 from .effort_estimate import CELLS, tell_effort
 from .options.common_options import FIGURE, figure_width, json_option
-from .options.declaration import Declaration
+from .options.declaration import OptionDeclaration
 from .options.value_kinds import NameType, OutputFile
 from .output_files import attempt, writes_files
 from .progress import show_progress
 from .value_types import METERS, SECONDS, NumberType, print_json
 
 if TYPE_CHECKING:
-    from ..theory.bound import Bound, BoundGame, Grid, Scheme
+    from ..theory.bound import Bound, BoundGame, DiscretisationScheme, Grid
     from ..theory.bound.grid_refinement import Refinement
 
 SPEED, RATE = NumberType("m/s"), NumberType("rad/s")
-TABLE = Declaration(
+TABLE = OptionDeclaration(
     "--output", "Write the table (.npz).", kind=OutputFile(".npz")
 )
 AGAINST = ("pursuit", "any")
 
 
 def _schemes() -> tuple[str, ...]:
-    from ..theory.bound import Scheme
+    from ..theory.bound import DiscretisationScheme
 
-    return tuple(scheme.value for scheme in Scheme)
+    return tuple(scheme.value for scheme in DiscretisationScheme)
 
 
 @click.command("bound")
@@ -148,7 +148,7 @@ def bound(
     as_json: bool,
 ) -> None:
     """Compute how close the pursuer comes to the best evader."""
-    from ..theory.bound import Scheme
+    from ..theory.bound import DiscretisationScheme
 
     turn = pi * pursuer_gain if pursuer_turn is None else pursuer_turn
     asked = _Asked(
@@ -158,7 +158,7 @@ def bound(
             (pursuer_gain, turn, evader_turn),
         ),
         0.7 * evader_speed / pursuer_gain if capture is None else capture,
-        Scheme(scheme),
+        DiscretisationScheme(scheme),
         horizon,
     )
     grid = asked.grid(nearest, farthest, cells)
@@ -205,7 +205,7 @@ class _Asked(NamedTuple):
 
     game: "BoundGame"
     capture: float
-    scheme: "Scheme"
+    scheme: "DiscretisationScheme"
     horizon: float | None
 
     def grid(

@@ -7,8 +7,8 @@ import click
 from .naoqi_options import mover_of
 
 if TYPE_CHECKING:
-    from ..drivers.cameras.image_source import PerceptSource
-    from ..drivers.lola.lola_address import Address
+    from ..drivers.cameras.image_source import ImageSource
+    from ..drivers.lola.lola_address import LolaAddress
     from ..drivers.velocity.velocity_body import VelocityBody
     from ..games.duel_settings import DuelSettings
 
@@ -16,8 +16,10 @@ V4L2, NAOQI, ROS2 = "v4l2:", "naoqi:", "ros2:"
 
 
 def open_cameras(
-    settings: "DuelSettings", robot: "Address | None", options: dict[str, Any]
-) -> "PerceptSource":
+    settings: "DuelSettings",
+    robot: "LolaAddress | None",
+    options: dict[str, Any],
+) -> "ImageSource":
     """Open the cameras that a robot is played with.
 
     Args:
@@ -73,7 +75,7 @@ def open_looking(
     """
     from ..drivers.naoqi.naoqi_body import NaoqiBody
     from ..drivers.scheme_factory import level_perception
-    from ..drivers.velocity.head_control import PERIOD, LookingBody
+    from ..drivers.velocity.head_control import PERIOD, CameraBody
     from ..robots.description import load_robot
     from ..robots.head import load_head
 
@@ -94,10 +96,10 @@ def open_looking(
     except BaseException:
         body.close()
         raise
-    return LookingBody(body, eyes, perception, turns_head=not dry_run)
+    return CameraBody(body, eyes, perception, turns_head=not dry_run)
 
 
-def _beside(robot: "Address | None") -> "PerceptSource":
+def _beside(robot: "LolaAddress | None") -> "ImageSource":
     """What a simulated robot shows beside its socket."""
     from ..drivers.lola.camera_channel import CameraChannel
 

@@ -14,7 +14,7 @@ WALK = 20.0  # of a trial, in [s]
 PUSHES = 8  # walks in which a limit is found
 
 
-class Ended(NamedTuple):
+class CampaignOutcome(NamedTuple):
     """How the work of a campaign ended.
 
     Attributes:
@@ -35,7 +35,7 @@ def gather(
     work: Callable[[], object],
     file: Path | None,
     records: Callable[[], Mapping[str, dict[str, Any]]],
-) -> Ended:
+) -> CampaignOutcome:
     """Work until all is done, or until it cannot go on.
 
     Where a result cannot be recorded, as on a full disk, no other could:
@@ -52,21 +52,21 @@ def gather(
     try:
         work()
     except KeyboardInterrupt:
-        return Ended(stopped=True)
+        return CampaignOutcome(stopped=True)
     except OutputError as error:
         if file is not None:
             _keep_elsewhere(file, records())
-        return Ended(failed=error)
-    return Ended()
+        return CampaignOutcome(failed=error)
+    return CampaignOutcome()
 
 
 def _keep_elsewhere(file: Path, done: Mapping[str, dict[str, Any]]) -> None:
-    from ..studies.record_store import RecordFile
+    from ..studies.record_store import RecordStore
 
     place = file.parent
     spare = free_file(Path(tempfile.gettempdir()) / f"stepaside-{place.name}")
     try:
-        RecordFile(spare / file.name).write(dict(done))
+        RecordStore(spare / file.name).write(dict(done))
     except OutputError:
         return
     echo(f"stepaside: not in {place}; what is done is in {spare}", err=True)
@@ -83,10 +83,10 @@ def tell_aside(file: Path) -> None:
 
 def check_records(file: Path | None) -> None:
     """Set aside what is no whole record of a file, and say so."""
-    from ..studies.record_store import RecordFile
+    from ..studies.record_store import RecordStore
 
     if file is not None:
-        records = RecordFile(file)
+        records = RecordStore(file)
         records.read()
         if records.aside:
             tell_aside(file.with_name(file.name + ".aside"))

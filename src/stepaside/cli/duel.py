@@ -70,11 +70,11 @@ def duel(
 
 def _say_what_is_expected(settings: "DuelSettings") -> None:
     """Say before a duel of two robots if it is not to end on a circle."""
-    from ..games.forecast import Expected, forecast
+    from ..games.forecast import ExpectedEnd, forecast
     from ..games.initial_poses import with_start
 
     told = forecast(with_start(settings))
-    if told and told.expected in (Expected.CONTACT, Expected.NO_CIRCLE):
+    if told and told.expected in (ExpectedEnd.CONTACT, ExpectedEnd.NO_CIRCLE):
         echo(f"stepaside: expected is {told.words}", err=True)
 
 

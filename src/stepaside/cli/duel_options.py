@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .options.body_options import BODY, CONTROL, PHYSICS
-from .options.declaration import Declaration, Group
+from .options.declaration import OptionDeclaration, OptionGroup
 from .options.gait_options import GAIT
 from .options.game_options import (
     CAMERAS,
@@ -33,13 +33,13 @@ GROUPS = (
     SIGHT,
     CAMERAS,
     PERSON,
-    Group("Who passes", (PASSERS,)),
-    Group("Pushes", (PUSHES,)),
+    OptionGroup("Who passes", (PASSERS,)),
+    OptionGroup("Pushes", (PUSHES,)),
 )
 
 
 def duel_options(
-    *without: Declaration,
+    *without: OptionDeclaration,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Give a command the ``settings`` of a duel, and the options for them.
 

@@ -8,7 +8,7 @@ import click
 
 from ..core.atomic_output import check_folder
 from ..core.errors import OutputError
-from .campaign_reports import Ended, gather, tell_aside
+from .campaign_reports import CampaignOutcome, gather, tell_aside
 from .duel_options import duel_options
 from .effort_estimate import SIMULATED, tell_effort
 from .interruption import kept_in, leave_stopped
@@ -19,7 +19,7 @@ from .options.common_options import (
     figure_width,
     json_option,
 )
-from .options.declaration import Declaration
+from .options.declaration import OptionDeclaration
 from .options.game_options import SEED
 from .options.settings_command import SettingsCommand
 from .output_files import attempt, writes_files
@@ -68,7 +68,7 @@ class SeedsType(click.ParamType[range]):
         return range(first, end)
 
 
-SEEDS = Declaration(
+SEEDS = OptionDeclaration(
     "--seeds", "One duel each; the end is not among them.", kind=SeedsType()
 )
 
@@ -157,9 +157,9 @@ def _draw(
 
 
 def _file(output: Path | None) -> Any:
-    from ..studies.record_store import RecordFile
+    from ..studies.record_store import RecordStore
 
-    return None if output is None else RecordFile(output / RECORDS)
+    return None if output is None else RecordStore(output / RECORDS)
 
 
 def _verify(
@@ -196,7 +196,7 @@ def _play(
     seeds: range,
     output: Path | None,
     workers: int | None,
-) -> tuple[list[dict[str, Any]], Ended]:
+) -> tuple[list[dict[str, Any]], CampaignOutcome]:
     """Play with a progress bar, and say how it ended."""
     from ..core.worker_pool import worker_pool
     from ..studies.duel_campaign import run_duels

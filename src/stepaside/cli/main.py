@@ -10,7 +10,7 @@ import click
 from .. import __version__
 from ..core.errors import StepAsideError, shortened
 from ..core.extras import remedy
-from ..core.interrupts import stoppable, was_interrupted
+from ..core.interrupts import interruptible, was_interrupted
 
 INTERRUPTED = 130  # exit status
 COMMANDS = {
@@ -63,7 +63,7 @@ class LazyGroup(click.Group):
         """Turn every refusal into one line and exit status 2."""
         extra["standalone_mode"] = False
         try:
-            with stoppable():
+            with interruptible():
                 status = super().main(*args, **extra)
         except click.ClickException as error:
             _refuse(error.format_message())

@@ -14,10 +14,10 @@ from ..core.atomic_output import check_file
 from ..core.errors import ConfigurationError, OutputError, StepAsideError
 from ..core.interrupts import was_interrupted
 from .interruption import NOTHING, leave_stopped
-from .options.declaration import Declaration
+from .options.declaration import OptionDeclaration
 from .options.value_kinds import OutputFile
 
-OVERWRITE = Declaration(
+OVERWRITE = OptionDeclaration(
     "--overwrite/--no-overwrite", "Replace files that are there already."
 )
 FAILED = "stepaside.core.atomic_output.failed"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from .options.common_options import FIGURE, figure_width, json_option
-from .options.declaration import Declaration, Group
+from .options.declaration import OptionDeclaration, OptionGroup
 from .options.gait_options import BEARING, GAIT, HORIZON
 from .options.settings_command import SettingsCommand, takes_settings
 from .output_files import attempt, writes_files
@@ -42,24 +42,24 @@ def _others() -> Collection[str]:
     return entries_of_others()
 
 
-MANEUVER = Group(
+MANEUVER = OptionGroup(
     "Maneuver",
     (
-        Declaration(
+        OptionDeclaration(
             "--role",
             "The pursuer walks forward, the evader backward.",
             "role",
             registry=_roles,
         ),
         BEARING,
-        Declaration("--steps", "Footsteps.", "steps", kind=click.INT),
-        Declaration(
+        OptionDeclaration("--steps", "Footsteps.", "steps", kind=click.INT),
+        OptionDeclaration(
             "--first-foot",
             "Foot that lands first.",
             "first_foot",
             registry=_feet,
         ),
-        Declaration(
+        OptionDeclaration(
             "--saturated/--no-saturated",
             "Turn by (6) instead of (8).",
             "saturated",

@@ -26,8 +26,8 @@ from .options.value_kinds import NameType
 from .value_types import SECONDS, NumberType
 
 if TYPE_CHECKING:
-    from ..drivers.joint.joint_loop import Playing
-    from ..drivers.velocity.velocity_loop import VelocityPlaying
+    from ..drivers.joint.joint_loop import JointLoop
+    from ..drivers.velocity.velocity_loop import VelocityLoop
     from ..games.duel_settings import DuelSettings
 
 ROLES = ("pursuer", "evader")
@@ -203,13 +203,13 @@ def _again_and_again(
 
 
 def _play(
-    playing: "Playing", onlookers: list[Any], duration: float | None
+    playing: "JointLoop", onlookers: list[Any], duration: float | None
 ) -> str:
     """Play until the session ends, or the robot rests when asked to; why."""
     import gc
 
     from ..drivers.guardian_process import SessionLost
-    from ..drivers.joint.safety import State
+    from ..drivers.joint.safety import RobotState
 
     gc.collect()
     gc.freeze()  # what is loaded stays: collections stay short
@@ -220,15 +220,15 @@ def _play(
             tick = playing.tick()
             for onlooker in onlookers:
                 onlooker.note(tick)
-            if leaving and tick.state is State.LIMP:
+            if leaving and tick.state is RobotState.LIMP:
                 return leaving
             walked = tick.measurement.time
-            if duration is not None and tick.state is State.WALKING:
+            if duration is not None and tick.state is RobotState.WALKING:
                 if walked >= duration - 1e-9:
                     leaving = LONG_ENOUGH
                     body.rest(leaving)
         except KeyboardInterrupt:
-            if leaving or tick.state is State.LIMP:
+            if leaving or tick.state is RobotState.LIMP:
                 raise
             leaving = INTERRUPTED
             body.rest(leaving)
@@ -239,10 +239,10 @@ def _play(
 
 
 def _drive(
-    driving: "VelocityPlaying", onlookers: list[Any], duration: float | None
+    driving: "VelocityLoop", onlookers: list[Any], duration: float | None
 ) -> str:
     """Drive until the session ends, or the robot rests when asked to; why."""
-    from ..drivers.velocity.velocity_loop import Driving
+    from ..drivers.velocity.velocity_loop import DrivingState
 
     began: float | None = None
     leaving = False
@@ -251,9 +251,9 @@ def _drive(
             tick = driving.tick()
             for onlooker in onlookers:
                 onlooker.note(tick)
-            if tick.state is Driving.RESTING:
+            if tick.state is DrivingState.RESTING:
                 return tick.reason
-            if began is None and tick.state is Driving.WALKING:
+            if began is None and tick.state is DrivingState.WALKING:
                 began = tick.time
             if duration is not None and began is not None:
                 if tick.time - began >= duration - 1e-9:

@@ -19,7 +19,7 @@ from ..games.run_archive import CONFIGURATION
 from ..strategies.registry import describe_strategy
 
 if TYPE_CHECKING:
-    from ..drivers.joint.joint_loop import Tick
+    from ..drivers.joint.joint_loop import JointTick
     from ..drivers.velocity.velocity_loop import VelocityTick
     from ..games.duel_settings import DuelSettings
 
@@ -56,7 +56,7 @@ class PlayRecord:
         self.ended = ""
         self._failed: OutputError | None = None
 
-    def note(self, tick: "Tick | VelocityTick") -> None:
+    def note(self, tick: "JointTick | VelocityTick") -> None:
         """Keep a tick, if it can be kept."""
         if self._failed is None:
             try:

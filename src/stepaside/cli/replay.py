@@ -26,7 +26,7 @@ from .value_types import POSITIVE, SECONDS, NumberType, print_json
 
 if TYPE_CHECKING:
     from ..games.run import Run
-    from ..report.film import Shot
+    from ..report.film import FilmSettings
 
 FORMER = {"following": "follow"}  # names of today by former ones
 
@@ -167,10 +167,10 @@ def _shot(
     width: int,
     height: int,
 ) -> Any:
-    from ..report.film import Shot
+    from ..report.film import FilmSettings
 
     wide, high = options["width"] or width, options["height"] or height
-    return Shot(
+    return FilmSettings(
         # H.264 stores colour for two by two pixels.
         width=wide - wide % 2,
         height=high - high % 2,
@@ -186,7 +186,7 @@ def _shot(
     )
 
 
-def _tell(shot: "Shot", run: "Run") -> None:
+def _tell(shot: "FilmSettings", run: "Run") -> None:
     """Say how long a film takes."""
     from ..report.film_shot import AROUND, SLOWEST
 

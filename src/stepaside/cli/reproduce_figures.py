@@ -22,7 +22,7 @@ def draw_figures(
         Caption and file name of each.
     """
     from ..studies.code_version import code_version, library_versions
-    from ..studies.reading_store import Kept
+    from ..studies.reading_store import ReadingStore
     from ..studies.unicycle_claims import FIG_2, START
     from .campaign_reports import tell_aside
 
@@ -51,7 +51,7 @@ def draw_figures(
             ("games/duel", "report/duel_figure"),
         ),
     ]
-    kept = Kept(folder / "rows", tell_aside)
+    kept = ReadingStore(folder / "rows", tell_aside)
     for name, _, draw, settings, rooms in figures:
         key = {
             "figure": name,

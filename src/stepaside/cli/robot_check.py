@@ -12,7 +12,7 @@ from .terminal import echo
 from .value_types import print_json, print_table
 
 if TYPE_CHECKING:
-    from ..fitting.robot_verification import Checked
+    from ..fitting.robot_verification import VerificationReport
     from ..robots.description import RobotDescription
 
 
@@ -47,7 +47,9 @@ def check(
         raise SystemExit(1)
 
 
-def _check(description: "RobotDescription", workers: int | None) -> "Checked":
+def _check(
+    description: "RobotDescription", workers: int | None
+) -> "VerificationReport":
     """Check with a progress bar on standard error."""
     from ..core.worker_pool import worker_pool
     from ..fitting.robot_verification import check_robot
@@ -64,7 +66,7 @@ def _check(description: "RobotDescription", workers: int | None) -> "Checked":
         return check_robot(description, executor, report)
 
 
-def _print(checked: "Checked") -> None:
+def _print(checked: "VerificationReport") -> None:
     print_table(
         [(f.name, f"{f.verdict:<4}  {f.value}") for f in checked.findings]
     )

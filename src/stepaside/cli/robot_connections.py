@@ -11,10 +11,10 @@ if TYPE_CHECKING:
 
     from ..control import ControlScheme
     from ..core.poses import Array
-    from ..drivers.joint.joint_body import LolaBody
-    from ..drivers.joint.joint_loop import Playing
+    from ..drivers.joint.joint_body import JointBody
+    from ..drivers.joint.joint_loop import JointLoop
     from ..drivers.velocity.velocity_body import VelocityBody
-    from ..drivers.velocity.velocity_loop import VelocityPlaying
+    from ..drivers.velocity.velocity_loop import VelocityLoop
     from ..games.duel_settings import DuelSettings
     from ..strategies import Strategy
 
@@ -34,10 +34,10 @@ def strategy_of(settings: "DuelSettings", role: str) -> "Strategy":
 
 def open_joints(
     settings: "DuelSettings", options: dict[str, Any]
-) -> "Playing":
+) -> "JointLoop":
     """Connect to a robot whose joints are moved."""
-    from ..drivers.joint.joint_body import LolaBody
-    from ..drivers.joint.joint_loop import Playing
+    from ..drivers.joint.joint_body import JointBody
+    from ..drivers.joint.joint_loop import JointLoop
     from ..drivers.scheme_factory import mind_maker
     from ..robots.description import load_robot
     from .feedback_default import with_feedback
@@ -48,7 +48,7 @@ def open_joints(
     sees = settings.sensing == "cameras"
     open_robot = _joints_of(settings, options, sees=sees)
 
-    def open_body(scheme: "ControlScheme") -> "LolaBody":
+    def open_body(scheme: "ControlScheme") -> "JointBody":
         kinematics = scheme.kinematics
         return open_robot(kinematics.joint_names, scheme.joint_targets)
 
@@ -56,20 +56,20 @@ def open_joints(
         load_robot(options["description"]),
         settings.gait,
         settings.control,
-        tick=LolaBody.tick,
+        tick=JointBody.tick,
         delay_ticks=options["delay_ticks"],
         sees_as=role if sees else None,
     )
-    return Playing(open_body, strategy, make, dry_run=dry_run)
+    return JointLoop(open_body, strategy, make, dry_run=dry_run)
 
 
 def _joints_of(
     settings: "DuelSettings", options: dict[str, Any], *, sees: bool
-) -> "Callable[[Sequence[str], Array], LolaBody]":
+) -> "Callable[[Sequence[str], Array], JointBody]":
     """What opens the joints of a robot, given their names and its stance."""
     from functools import partial
 
-    from ..drivers.joint.session_options import Handling
+    from ..drivers.joint.session_options import SessionOptions
     from .camera_connections import open_cameras
 
     robot = options["robot"]
@@ -85,35 +85,35 @@ def _joints_of(
         url = parse_url(robot)
         own = options | {"images": options["images"] or f"{NAOQI}{url}"}
         eyes = partial(open_cameras, settings, None, own) if sees else None
-        how = Handling(**asked, open_eyes=eyes)
+        how = SessionOptions(**asked, open_eyes=eyes)
         return partial(open_naoqi, url, how=how)
     from ..drivers.lola.lola_address import parse_address
     from ..drivers.lola.lola_connection import open_lola
 
     address = parse_address(robot)
     eyes = partial(open_cameras, settings, address, options) if sees else None
-    how = Handling(**asked, open_eyes=eyes)
+    how = SessionOptions(**asked, open_eyes=eyes)
     return partial(open_lola, address, how=how)
 
 
 def open_velocity(
     settings: "DuelSettings", options: dict[str, Any]
-) -> "VelocityPlaying":
+) -> "VelocityLoop":
     """Connect to a robot that walks by itself."""
     from math import inf
 
-    from ..drivers.velocity.template_controller import TemplateMind
+    from ..drivers.velocity.template_controller import TemplateController
     from ..drivers.velocity.velocity_limits import VelocityLimits
-    from ..drivers.velocity.velocity_loop import VelocityPlaying
+    from ..drivers.velocity.velocity_loop import VelocityLoop
     from ..drivers.velocity.watchdog import WatchSettings
 
     strategy = strategy_of(settings, options["role"])
     speed = options["max_speed"] or inf
     limits = VelocityLimits(speed, speed, options["max_turn"] or inf)
     watch = WatchSettings(paced=not options["sim_time"])
-    return VelocityPlaying(
+    return VelocityLoop(
         _guarded(settings, options),
-        lambda: TemplateMind(strategy, settings.gait),
+        lambda: TemplateController(strategy, settings.gait),
         limits,
         watch,
         dry_run=options["dry_run"],
@@ -169,10 +169,10 @@ def _line_to(
             return Ros2Body(dds, namespace, dry_run=dry_run)
 
         def join_ros2() -> "Callable[[], None]":
-            from ..drivers.ros2.dds_domain import Dds
+            from ..drivers.ros2.dds_domain import DdsParticipant
             from ..drivers.ros2.ros2_body import rester_of
 
-            return rester_of(Dds(domain, beyond=beyond), namespace)
+            return rester_of(DdsParticipant(domain, beyond=beyond), namespace)
 
         return open_ros2, join_ros2
     if robot.startswith(NAOQI):

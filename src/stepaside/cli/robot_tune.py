@@ -13,7 +13,7 @@ from .terminal import echo
 from .value_types import print_json, print_table
 
 if TYPE_CHECKING:
-    from ..fitting.gait_search import Judged, Tuned
+    from ..fitting.gait_search import RatedCandidate, SearchResult
     from ..robots.description import RobotDescription
 
 KEPT = "tune.jsonl"
@@ -66,10 +66,10 @@ def tune(folder: Path, workers: int | None, as_json: bool) -> None:
 
 def _search(
     description: "RobotDescription", kept: Path, workers: int | None
-) -> "Tuned":
+) -> "SearchResult":
     """Search with a progress bar on standard error."""
     from ..core.worker_pool import worker_pool
-    from ..fitting.gait_search import Search
+    from ..fitting.gait_search import GaitSearch
 
     with (
         worker_pool(workers) as executor,
@@ -81,12 +81,12 @@ def _search(
             bar.set_postfix_str(f"unsteadiness {least:.2f}")
 
         try:
-            return Search(description, executor, kept, report).run()
+            return GaitSearch(description, executor, kept, report).run()
         except KeyboardInterrupt:
             leave_stopped(kept_in(f"{bar.n} gaits", kept))
 
 
-def _plain(judged: "Judged") -> dict[str, Any]:
+def _plain(judged: "RatedCandidate") -> dict[str, Any]:
     return {
         "changes": judged.candidate.to_json(),
         "unsteadiness": judged.unsteadiness,
@@ -94,7 +94,7 @@ def _plain(judged: "Judged") -> dict[str, Any]:
     }
 
 
-def _words(tuned: "Tuned") -> list[str]:
+def _words(tuned: "SearchResult") -> list[str]:
     """What was measured, line by line."""
     before, best = tuned.before, tuned.best
     changes = [
@@ -117,7 +117,7 @@ def _words(tuned: "Tuned") -> list[str]:
     return lines
 
 
-def _print(tuned: "Tuned", folder: Path, changed: bool) -> None:
+def _print(tuned: "SearchResult", folder: Path, changed: bool) -> None:
     rows = [
         ("gaits tried", str(tuned.tried)),
         ("unsteadiness before", f"{tuned.before.unsteadiness:.2f} of 1"),

@@ -8,7 +8,7 @@ import click
 
 from ..core.atomic_output import check_folder
 from ..core.errors import OutputError
-from .campaign_reports import Ended
+from .campaign_reports import CampaignOutcome
 from .interruption import kept_in, leave_stopped
 from .options.body_options import BODY, CONTROL, FEEDBACK, METHOD, PHYSICS
 from .options.common_options import (
@@ -26,7 +26,7 @@ from .options.value_kinds import NameType
 from .output_files import attempt, writes_files
 from .robustness_people import meet_people, print_people, write_people
 from .robustness_walks import (
-    Asked,
+    CampaignRequest,
     answer_walks,
     plan_walks,
     run_walks,
@@ -212,7 +212,7 @@ def robustness(
         output = Path("runs") / f"robustness-{body}"
     if output is not None:
         check_folder(output, new=False)
-    asked = Asked(
+    asked = CampaignRequest(
         tuple(kind for kind in kinds if kind != PERSON),
         *(_once(methods), body, phases, seeds, settings.seed, changes),
     )
@@ -235,7 +235,7 @@ def robustness(
             try:
                 write_people(output, people, found)
             except OutputError as error:
-                ended = Ended(failed=error)
+                ended = CampaignOutcome(failed=error)
     if figure is not None and not ended.stopped and "survival" in answer:
         from ..report.robustness_figure import draw_survival
         from ..studies.robustness_campaign import UNITS
@@ -250,10 +250,10 @@ def robustness(
 
 def _walk_on(
     settings: "WalkSettings",
-    asked: Asked,
+    asked: CampaignRequest,
     output: Path | None,
     workers: int | None,
-) -> tuple[dict[str, Any], Ended]:
+) -> tuple[dict[str, Any], CampaignOutcome]:
     """Walk under disturbances, if any are asked for.
 
     Returns:
@@ -261,7 +261,7 @@ def _walk_on(
         written.
     """
     if not asked.kinds:
-        return {}, Ended()
+        return {}, CampaignOutcome()
     grid, cases = plan_walks(asked)
     file = None if output is None else output / "trials.jsonl"
     results, ended = run_walks(grid, cases, file, workers)
@@ -270,7 +270,7 @@ def _walk_on(
         try:
             write_walks(output, settings, asked, answer)
         except OutputError as error:
-            return answer, Ended(failed=error)
+            return answer, CampaignOutcome(failed=error)
     return answer, ended
 
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .campaign_reports import Ended, gather
+from .campaign_reports import CampaignOutcome, gather
 from .progress import show_progress
 from .terminal import echo
 
@@ -17,7 +17,7 @@ def meet_people(
     seeds: int,
     file: Path | None,
     workers: int | None,
-) -> tuple[dict[str, Any], Ended]:
+) -> tuple[dict[str, Any], CampaignOutcome]:
     """Let people come, with a progress bar.
 
     Args:

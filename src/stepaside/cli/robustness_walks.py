@@ -3,14 +3,19 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .campaign_reports import Ended, check_records, gather, tell_campaign
+from .campaign_reports import (
+    CampaignOutcome,
+    check_records,
+    gather,
+    tell_campaign,
+)
 from .progress import show_progress
 
 if TYPE_CHECKING:
     from ..games.walk_settings import WalkSettings
 
 
-class Asked(NamedTuple):
+class CampaignRequest(NamedTuple):
     """What a campaign is asked for; see the options for each."""
 
     kinds: tuple[str, ...]
@@ -26,7 +31,7 @@ class Asked(NamedTuple):
         return {k: v for k, v in self._asdict().items() if v != ""}
 
 
-def plan_walks(asked: Asked) -> tuple[list[Any], list[Any]]:
+def plan_walks(asked: CampaignRequest) -> tuple[list[Any], list[Any]]:
     """Trials of a grid, and pushes whose limit is to be searched."""
     from ..studies.push_limits import push_cases
     from ..studies.robustness_campaign import trials
@@ -89,7 +94,7 @@ def answer_walks(
 def write_walks(
     output: Path,
     settings: "WalkSettings",
-    asked: Asked,
+    asked: CampaignRequest,
     answer: dict[str, Any],
 ) -> None:
     """Write the results of a whole campaign, each file at one stroke."""
@@ -115,7 +120,7 @@ def write_walks(
 
 def run_walks(
     grid: list[Any], cases: list[Any], file: Path | None, workers: int | None
-) -> tuple[dict[str, bool], Ended]:
+) -> tuple[dict[str, bool], CampaignOutcome]:
     """Run with a progress bar, and say how it ended."""
     from ..core.worker_pool import worker_pool
     from ..studies.push_limits import search_limits

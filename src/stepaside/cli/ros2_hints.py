@@ -6,18 +6,18 @@ from typing import TYPE_CHECKING, Any
 from .terminal import echo
 
 if TYPE_CHECKING:
-    from ..drivers.ros2.dds_domain import Dds
+    from ..drivers.ros2.dds_domain import DdsParticipant
 
 
-def join_domain(options: Mapping[str, Any]) -> "Dds":
+def join_domain(options: Mapping[str, Any]) -> "DdsParticipant":
     """Join, and say on stderr what ROS 2 needs to be met there.
 
     Args:
         options: Of the command: ``domain`` and ``network``.
     """
-    from ..drivers.ros2.dds_domain import LOCAL, Dds
+    from ..drivers.ros2.dds_domain import LOCAL, DdsParticipant
 
-    dds = Dds(options["domain"], beyond=options["network"])
+    dds = DdsParticipant(options["domain"], beyond=options["network"])
     if not options["network"]:
         echo(f"stepaside: {LOCAL}", err=True)
     return dds

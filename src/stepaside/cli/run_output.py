@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 R = TypeVar("R", bound="Run")
 
 
-class Kept(NamedTuple):
+class SavedRun(NamedTuple):
     """Where a run lies.
 
     Attributes:
@@ -66,7 +66,7 @@ def check_kept(output: Path | None) -> None:
         check_output(output)
 
 
-def keep(output: Path | None, run: R) -> tuple[R, Kept]:
+def keep(output: Path | None, run: R) -> tuple[R, SavedRun]:
     """Write a run where it was asked for, or beside.
 
     Args:
@@ -77,7 +77,7 @@ def keep(output: Path | None, run: R) -> tuple[R, Kept]:
         The run, whose figures say where it lies, and where that is.
     """
     if output is None:
-        return run, Kept()
+        return run, SavedRun()
     from ..report.run_folder import keep_run
 
     folder, failed = keep_run(output, run)
@@ -86,4 +86,4 @@ def keep(output: Path | None, run: R) -> tuple[R, Kept]:
     summary: Any = run.summary
     where = None if folder is None else str(folder)
     told = replace(run, summary=replace(summary, run_folder=where))
-    return told, Kept(folder, failed)
+    return told, SavedRun(folder, failed)

@@ -8,7 +8,7 @@ import click
 
 from ..core.atomic_output import check_folder
 from ..core.errors import ConfigurationError, OutputError
-from .campaign_reports import Ended, gather
+from .campaign_reports import CampaignOutcome, gather
 from .duels import SEEDS
 from .effort_estimate import DECISIONS, SIMULATED, tell_effort
 from .interruption import kept_in, leave_stopped
@@ -20,7 +20,7 @@ from .options.common_options import (
     WORKERS,
     json_option,
 )
-from .options.declaration import Declaration
+from .options.declaration import OptionDeclaration
 from .options.room_options import MAP
 from .options.value_kinds import NameType, OutputFile
 from .output_files import attempt, writes_files
@@ -72,7 +72,7 @@ SOLVES = (
     "about half a minute"
 )
 RECORDS, SUMMARY = "games.jsonl", "summary.json"
-PATHS = Declaration(
+PATHS = OptionDeclaration(
     "--paths",
     "Draw the worst game of each pairing (.png, .svg or .pdf).",
     kind=OutputFile(".png", ".svg", ".pdf"),
@@ -254,18 +254,18 @@ def _play(
     seeds: range,
     output: Path | None,
     workers: int | None,
-) -> tuple[list[dict[str, Any]], Ended]:
+) -> tuple[list[dict[str, Any]], CampaignOutcome]:
     """Play with a progress bar, and say how it ended."""
     from contextlib import nullcontext
 
     from ..core.worker_pool import worker_pool
     from ..strategies.bound_cache import has_pursuit_bound
-    from ..studies.record_store import RecordFile
+    from ..studies.record_store import RecordStore
     from ..studies.tournament_campaign import CELLS, play_tournament
 
     if not has_pursuit_bound(CELLS):
         echo(SOLVES, err=True)
-    file = None if output is None else RecordFile(output / RECORDS)
+    file = None if output is None else RecordStore(output / RECORDS)
     total = len(seeds) * len(pairings)
     # A pool takes longer to begin than a few games.
     alone = workers == 1 or total <= 2 * settings.block

@@ -13,15 +13,15 @@ from ..theory.unicycle.unicycle_game import (
     TurningLaw,
     make_game,
 )
-from .options.declaration import Declaration
+from .options.declaration import OptionDeclaration
 from .options.value_kinds import NameType
 from .value_types import NumberType
 
 STRATEGIES = {"move-aside": pi / 2, "move-back": 0.0}
 
 
-def _number(name: str, help_text: str, unit: str) -> Declaration:
-    return Declaration(name, help_text, unit=unit, kind=NumberType(unit))
+def _number(name: str, help_text: str, unit: str) -> OptionDeclaration:
+    return OptionDeclaration(name, help_text, unit=unit, kind=NumberType(unit))
 
 
 _OPTIONS = [
@@ -35,27 +35,27 @@ _OPTIONS = [
     _number("--evader-speed", "Instead of --speed", "m/s").option(),
     _number("--pursuer-gain", "Instead of --gain", "1/s").option(),
     _number("--evader-gain", "Instead of --gain", "1/s").option(),
-    Declaration(
+    OptionDeclaration(
         "--angle",
         "Evasion angle {unit}, like 1.2, 1.2rad or 70deg. [default: 90deg]",
         unit="rad",
     ).option(),
-    Declaration(
+    OptionDeclaration(
         "--strategy",
         "Evasion angle by name: 90deg or 0.",
         kind=NameType(lambda: tuple(STRATEGIES)),
     ).option(),
-    Declaration(
+    OptionDeclaration(
         "--law",
         "Turning law of the evader: eq. (4) or eq. (6).",
         kind=NameType(lambda: [law.value for law in TurningLaw]),
     ).option(default=TurningLaw.PROPORTIONAL.value, show_default=True),
-    Declaration(
+    OptionDeclaration(
         "--side-rule",
         "Side behind the evader at every instant, or kept.",
         kind=NameType(lambda: [rule.value for rule in SideRule]),
     ).option(default=SideRule.BEHIND.value, show_default=True),
-    Declaration(
+    OptionDeclaration(
         "--hysteresis",
         "Angle {unit} beyond its axis at which the evader changes side.",
         unit="rad",

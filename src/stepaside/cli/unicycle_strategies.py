@@ -10,7 +10,7 @@ from .value_labels import rows_of
 from .value_types import print_table
 
 if TYPE_CHECKING:
-    from ..theory.unicycle.relative_coordinates import Start
+    from ..theory.unicycle.relative_coordinates import RelativeStart
     from ..theory.unicycle.unicycle_game import Game
 
 # Options of an evader of the paper, by their parameter.
@@ -47,7 +47,7 @@ def check_used(names: tuple[str, str]) -> None:
 
 def play_named(
     game: "Game",
-    start: "Start",
+    start: "RelativeStart",
     names: tuple[str, str],
     times: tuple[float, float],
     capture: float,

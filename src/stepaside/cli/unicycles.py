@@ -79,7 +79,7 @@ def unicycles(
 ) -> None:
     """Play one game of two unicycles until it has settled."""
     from ..theory.unicycle.circle_fit import settling_time
-    from ..theory.unicycle.relative_coordinates import Start
+    from ..theory.unicycle.relative_coordinates import RelativeStart
 
     if distance is None:
         distance = 2.5 * game.evader.speed / game.evader.gain
@@ -89,7 +89,7 @@ def unicycles(
         raise click.UsageError("--delay needs --sample-time > 0 [s] here")
     named = bool(evader_strategy or pursuer_strategy)
     _tell(game, duration, sample_time, named=named)
-    start = Start(distance, aim, bearing)
+    start = RelativeStart(distance, aim, bearing)
     result: dict[str, Any] = {
         "start": asdict(start),
         "capture_distance_m": capture_distance,

@@ -8,7 +8,7 @@ import click
 
 from .duel_options import duel_options
 from .options.common_options import BROWSER, PORT, SERVE_FOR
-from .options.declaration import Declaration
+from .options.declaration import OptionDeclaration
 from .options.game_options import DURATION
 from .options.settings_command import SettingsCommand
 from .terminal import echo
@@ -16,12 +16,12 @@ from .terminal import echo
 if TYPE_CHECKING:
     from ..games.duel_settings import DuelSettings
 
-HOST = Declaration(
+HOST = OptionDeclaration(
     "--host",
     "Address to serve at; where other machines reach it, the link holds a "
     "secret.",
 )
-RUNNING = Declaration("--run/--no-run", "Let time pass at once.")
+RUNNING = OptionDeclaration("--run/--no-run", "Let time pass at once.")
 
 
 @click.command("view", cls=SettingsCommand)

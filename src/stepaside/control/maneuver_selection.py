@@ -14,10 +14,10 @@ from ..planning import (
 )
 from ..strategies.knowledge import Intent
 from ..strategies.strategy import Strategy
-from .clearance.guard import Choice, Guard
+from .clearance.guard import Guard, GuardDecision
 
 
-class Maneuvers:
+class ManeuverSelection:
     """Plans the maneuvers and halts of one robot.
 
     Attributes:
@@ -80,7 +80,7 @@ class Maneuvers:
         support = feet[0]
         swing_start = support.inverse().compose(feet[1])
 
-        def plan_of(choice: Choice, state: CenterState) -> ManeuverPlan:
+        def plan_of(choice: GuardDecision, state: CenterState) -> ManeuverPlan:
             direction, wanted = strategy.direction, choice.intent
             if choice.back:
                 direction = Direction(-direction.value)
@@ -99,10 +99,10 @@ class Maneuvers:
                 return plan
             return self.guard.fit(plan, support)
 
-        chosen: Choice | None = Choice(intent)
+        chosen: GuardDecision | None = GuardDecision(intent)
         if self.guard is not None:
             # Fitting moves no foot, so it can wait until the choice is made.
-            def planned(choice: Choice) -> ManeuverPlan:
+            def planned(choice: GuardDecision) -> ManeuverPlan:
                 return plan_of(choice, state)
 
             if self._loosely:

@@ -3,7 +3,7 @@
 from time import process_time
 
 from ..core.poses import Array, Pose
-from ..locomotion.zmp.current_step import Step, resting_step, step_of
+from ..locomotion.zmp.current_step import CurrentStep, resting_step, step_of
 from ..locomotion.zmp.feedback_loop import Balance, OpenLoop
 from ..locomotion.zmp.reference_table import (
     ReferenceSample,
@@ -16,11 +16,11 @@ from ..planning.steady_gait import landing_state
 from ..robots.leg_kinematics import BodyReference, LegKinematics
 from ..strategies.strategy import Strategy
 from .clearance.guard import Guard
-from .maneuver_selection import Maneuvers
+from .maneuver_selection import ManeuverSelection
 from .phase import Phase
-from .sight_sources import GivenSight, Senses
-from .strategy_runner import Decisions
-from .walk_snapshots import StepBegun, WalkState
+from .sight_sources import MeasuredSight, SightSource
+from .strategy_runner import StrategyRunner
+from .walk_snapshots import StepStarted, WalkState
 
 SETTLING = 1.0  # how long a halted robot takes to come to rest, in [s]
 PATIENCE = 0.2  # until one that cannot move asks again, in [s]
@@ -62,7 +62,7 @@ class ControlScheme:
         delay: float = 0.0,
         first_foot: Foot = Foot.LEFT,
         balance: Balance | None = None,
-        senses: Senses | None = None,
+        senses: SightSource | None = None,
         guard: Guard | None = None,
     ) -> None:
         """Take the standing posture.
@@ -84,11 +84,13 @@ class ControlScheme:
             ReachError: If the robot cannot stand as the gait asks.
         """
         around = None if guard is None else guard.surroundings
-        self.decisions = Decisions(strategy, settings, tick, around)
+        self.decisions = StrategyRunner(strategy, settings, tick, around)
         self.settings = settings
         self.kinematics = kinematics
         self.balance: Balance = OpenLoop() if balance is None else balance
-        self.senses: Senses = GivenSight() if senses is None else senses
+        self.senses: SightSource = (
+            MeasuredSight() if senses is None else senses
+        )
         self.sighting: Sighting | None = None
         self.phase = Phase.STANDING
         self.reference: BodyReference
@@ -99,9 +101,9 @@ class ControlScheme:
         half = 0.5 * settings.foot_spacing
         self.left_foot = Pose(0.0, half, 0.0)
         self.right_foot = Pose(0.0, -half, 0.0)
-        self.begun: StepBegun | None = None
+        self.begun: StepStarted | None = None
         self._delay, self._late = delay, delay + tick
-        self._maneuvers = Maneuvers(settings, self.balance, guard)
+        self._maneuvers = ManeuverSelection(settings, self.balance, guard)
         self._first_foot = first_foot
         self._table = ReferenceTable(tick)
         self._stand()
@@ -288,11 +290,11 @@ class ControlScheme:
         landed = frame.compose(Pose(*plan.placements[2].tolist()))
         vx, vy = plan.start_velocity.tolist()
         jump = max(abs(vx - state.velocity[0]), abs(vy - state.velocity[1]))
-        self.begun = StepBegun(
+        self.begun = StepStarted(
             plan, started, landing, plan.first_foot, landed, spent, jump
         )
 
-    def step(self, now: float) -> Step:
+    def step(self, now: float) -> CurrentStep:
         """Step being made at a time, in [s]."""
         if self.plan is None:
             foot = self._first_foot

@@ -18,8 +18,8 @@ from .clearance.guard import Guard
 from .clearance.surroundings import Surroundings
 from .clearance.swept_outline import BodyOutline, sway_of
 from .scheme import ControlScheme
-from .sight_sources import CameraSight, GivenSight
-from .turn_calibration import TurnShare
+from .sight_sources import CameraSight, MeasuredSight
+from .turn_calibration import TurnCalibration
 
 if TYPE_CHECKING:
     from ..perception.perception import Perception
@@ -68,7 +68,7 @@ def build_balance(
     )
 
 
-class Clearance(NamedTuple):
+class ClearanceSetup(NamedTuple):
     """What a robot knows of a room, and how clear it keeps.
 
     Attributes:
@@ -92,7 +92,7 @@ def build_scheme(
     delay: float = 0.0,
     sighting: Sighting | None = None,
     perception: "Perception | None" = None,
-    clearance: Clearance | None = None,
+    clearance: ClearanceSetup | None = None,
 ) -> ControlScheme:
     """Control of one robot, whatever body it will move.
 
@@ -128,7 +128,7 @@ def build_scheme(
             kinematics=kinematics,
             forward=None if perception is None else perception.forward,
         ),
-        senses=GivenSight(sighting)
+        senses=MeasuredSight(sighting)
         if perception is None
         else CameraSight(perception, tick=tick),
         guard=None
@@ -136,12 +136,12 @@ def build_scheme(
         else guard_of(clearance, gait, control),
     )
     if control.learn_turns:
-        scheme.decisions.turns = TurnShare(tick)
+        scheme.decisions.turns = TurnCalibration(tick)
     return scheme
 
 
 def guard_of(
-    clearance: Clearance, gait: GaitSettings, control: ControlSettings
+    clearance: ClearanceSetup, gait: GaitSettings, control: ControlSettings
 ) -> Guard:
     """What keeps a robot clear; with the MPC it also moves footsteps."""
     planner = ManeuverPlanner(gait)

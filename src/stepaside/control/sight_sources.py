@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
 
 from ..core.poses import Array
-from ..locomotion.zmp.current_step import Step
+from ..locomotion.zmp.current_step import CurrentStep
 from ..perception.attitude import AttitudeFilter
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Foot
@@ -12,11 +12,11 @@ from ..planning import Foot
 if TYPE_CHECKING:
     from ..perception.perception import Perception
 
-StepAt = Callable[[float], Step]
+StepAt = Callable[[float], CurrentStep]
 BELIEF = 0.5  # rate at which the accelerometer is believed, in [1/s]
 
 
-class Senses(Protocol):
+class SightSource(Protocol):
     """What tells a robot of the other, and moves its head.
 
     Attributes:
@@ -47,7 +47,7 @@ class Senses(Protocol):
         """Write where the head turns into joint targets, in [rad]."""
 
 
-class GivenSight:
+class MeasuredSight:
     """Sightings that come with the measurements; the last one counts.
 
     Attributes:

@@ -8,7 +8,7 @@ KEPT = 2.0  # how long values are kept, in [s]
 Value = TypeVar("Value")
 
 
-class Memory(Generic[Value]):
+class StateHistory(Generic[Value]):
     """Values of the last control ticks."""
 
     def __init__(self, tick: float) -> None:

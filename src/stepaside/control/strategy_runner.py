@@ -13,8 +13,8 @@ from ..strategies.knowledge import ON_THE_SPOT, Intent, Knowledge, Limits
 from ..strategies.opponent_rates import FloorVelocity, SightRates
 from ..strategies.strategy import Strategy
 from .clearance.surroundings import OpenFloor, Surroundings
-from .state_history import Memory
-from .turn_calibration import TurnShare
+from .state_history import StateHistory
+from .turn_calibration import TurnCalibration
 
 QUICKENING = 0.25  # most that the pace changes from step to step
 
@@ -36,7 +36,7 @@ def next_pace(before: float, wanted: float, *, standing: bool) -> float:
     return min(max(wanted, before - QUICKENING), before + QUICKENING)
 
 
-class Decisions:
+class StrategyRunner:
     """The strategy of a robot and its memory, from decision to decision.
 
     Attributes:
@@ -68,9 +68,9 @@ class Decisions:
         self.strategy = strategy
         self.memory: Any = strategy.begin()
         self.pace = 1.0
-        self.headings: Memory[float] = Memory(tick)
-        self.templates: Memory[Pose] = Memory(tick)
-        self.turns: TurnShare | None = None
+        self.headings: StateHistory[float] = StateHistory(tick)
+        self.templates: StateHistory[Pose] = StateHistory(tick)
+        self.turns: TurnCalibration | None = None
         self._step_duration = gait.step_duration
         self._spacing = gait.foot_spacing
         self._whom = 0

@@ -10,7 +10,7 @@ ENOUGH = 0.3  # turn that tells something, in [rad]
 LEAST, MOST = 0.8, 1.25  # share of a turn that is believed
 
 
-class TurnShare:
+class TurnCalibration:
     """Share of the turn that a robot believes to walk which it makes.
 
     Feet twist on the floor, and joints give: what odometry made of the

@@ -3,7 +3,7 @@
 from math import pi
 
 from ..planning import Direction, GaitSettings
-from ..strategies import Stand, Strategy, Walk
+from ..strategies import StandStill, Strategy, Walk
 
 STILL = 1e-3  # speed [m/s] or turning rate [rad/s] that is rest
 IN_PLACE = 1e-3  # share of a stride of who turns where it stands
@@ -55,11 +55,11 @@ def walk_at(
     forward, turn = accepted(forward, turn, gait)
     speed, rate = fastest(gait)
     if abs(forward) < STILL and abs(turn) < STILL:
-        return Stand()
+        return StandStill()
     direction = Direction.FORWARD if forward >= 0.0 else Direction.BACKWARD
     if abs(forward) < STILL:
         direction = under_way or Direction.FORWARD
     if under_way is not None and direction is not under_way:
-        return Stand()
+        return StandStill()
     share = max(IN_PLACE, min(1.0, abs(forward) / speed))
     return Walk(pi * turn / rate, direction, False, share)

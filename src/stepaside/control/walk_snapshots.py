@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from ..core.poses import Pose
-from ..locomotion.zmp.current_step import Step, resting_step, step_of
+from ..locomotion.zmp.current_step import CurrentStep, resting_step, step_of
 from ..locomotion.zmp.mpc import MpcResult
 from ..locomotion.zmp.state_estimator import BodyState
 from ..perception.measurement import Sighting
@@ -13,7 +13,7 @@ from ..robots.leg_kinematics import BodyReference
 from .phase import Phase
 
 
-class StepBegun(NamedTuple):
+class StepStarted(NamedTuple):
     """A step that a robot has begun.
 
     Attributes:
@@ -74,7 +74,7 @@ class WalkState:
     solved: MpcResult | None
     adapted: int
 
-    def step(self, now: float) -> Step:
+    def step(self, now: float) -> CurrentStep:
         """Step being made at a time, in [s]."""
         foot = self.first_foot
         if self.plan is None:

@@ -30,7 +30,7 @@ _raised: set[int] = set()  # signals that were told to what runs
 
 
 @contextmanager
-def stoppable() -> Iterator[None]:
+def interruptible() -> Iterator[None]:
     """Let SIGTERM and SIGHUP end what runs as Ctrl-C does.
 
     What is done is kept. A handler of one's own for Ctrl-C stays, and a
@@ -55,7 +55,7 @@ def stoppable() -> Iterator[None]:
             signal.signal(number, handler)
 
 
-class Held:
+class DeferredInterrupt:
     """Keeps what ends a command back until what is being done is whole.
 
     Within it, whoever handles them is called where the work says that it is
@@ -68,7 +68,7 @@ class Held:
         self._waits: int | None = None
         self._timer: threading.Timer | None = None
 
-    def __enter__(self) -> "Held":
+    def __enter__(self) -> "DeferredInterrupt":
         """Keep back what somebody handles."""
         if threading.current_thread() is threading.main_thread():
             for number in ENDINGS:

@@ -8,17 +8,17 @@ from pathlib import Path
 import numpy as np
 
 from ..control import Phase
-from ..control.walk_snapshots import StepBegun, WalkState
+from ..control.walk_snapshots import StepStarted, WalkState
 from ..core.atomic_output import check_folder, writing
 from ..core.poses import Array
-from .joint.joint_loop import Tick
-from .joint.safety import State
+from .joint.joint_loop import JointTick
+from .joint.safety import RobotState
 from .row_file import RowWriter
-from .velocity.velocity_loop import Driving, VelocityTick
+from .velocity.velocity_loop import DrivingState, VelocityTick
 
 WORDS = "play.json"
 STATES: dict[type[Enum], list[Enum]] = {
-    kind: list(kind) for kind in (State, Driving)
+    kind: list(kind) for kind in (RobotState, DrivingState)
 }
 PHASES = list(Phase)
 UNSEEN = np.full(3, np.nan)
@@ -74,7 +74,7 @@ class PlayLog:
         """Ticks kept so far."""
         return 0 if self._rows is None else self._rows.count
 
-    def note(self, tick: Tick | VelocityTick) -> None:
+    def note(self, tick: JointTick | VelocityTick) -> None:
         """Keep a tick."""
         seen, state = tick.sighting, tick.state
         row: dict[str, Array | float] = {
@@ -82,7 +82,7 @@ class PlayLog:
             "sighting": UNSEEN if seen is None else np.array(seen[:3]),
             "state": float(STATES[type(state)].index(state)),
         }
-        row |= _moved(tick) if isinstance(tick, Tick) else _driven(tick)
+        row |= _moved(tick) if isinstance(tick, JointTick) else _driven(tick)
         rows = self._rows = self._rows or self._begin()
         rows.add(row)
         if state is not self._state:
@@ -132,7 +132,7 @@ class PlayLog:
             self._write_words(self.folder)
 
     def _write_words(self, folder: Path) -> None:
-        kind = type(self._state) if self._state is not None else State
+        kind = type(self._state) if self._state is not None else RobotState
         words = self._about | {
             "states": [state.value for state in STATES[kind]],
             "phases": [phase.value for phase in PHASES],
@@ -144,7 +144,7 @@ class PlayLog:
             draft.write_text(text + "\n", encoding="utf-8")
 
 
-def _moved(tick: Tick) -> dict[str, Array | float]:
+def _moved(tick: JointTick) -> dict[str, Array | float]:
     """What is known of a robot whose joints are moved."""
     m = tick.measurement
     return {
@@ -168,7 +168,7 @@ def _support(walk: WalkState, now: float) -> Array:
     return np.array([*made.support, -float(made.swing.value)])
 
 
-def _begun(step: StepBegun) -> Array:
+def _begun(step: StepStarted) -> Array:
     """Step that began."""
     spent = np.nan if step.planning_time is None else step.planning_time
     side = float(step.foot.value)

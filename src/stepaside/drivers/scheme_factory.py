@@ -13,7 +13,7 @@ from ..strategies import Strategy
 
 if TYPE_CHECKING:
     from ..perception.perception import Perception
-    from ..perception.planar_perception import LevelPerception
+    from ..perception.planar_perception import PlanarPerception
 
 REQUEST_TO_MOTION = 3  # ticks, as three teams measured on NAO
 
@@ -85,7 +85,7 @@ def perception_of(
 
 def level_perception(
     role: str, description: RobotDescription, tick: float
-) -> "LevelPerception":
+) -> "PlanarPerception":
     """Perception of a role at a robot that walks by itself.
 
     Args:
@@ -99,11 +99,11 @@ def level_perception(
     """
     _one_thread()
     from ..perception.colour_detector import LOOKS
-    from ..perception.planar_perception import LevelPerception
+    from ..perception.planar_perception import PlanarPerception
     from ..robots.head import load_head
 
     head = load_head(description)
-    return LevelPerception(description, head, LOOKS[role], tick=tick)
+    return PlanarPerception(description, head, LOOKS[role], tick=tick)
 
 
 def _one_thread() -> None:

@@ -14,7 +14,7 @@ PERIOD = 0.2  # between two looks of the line, in [s]
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?")
 
 
-class Shown(Protocol):
+class TickStatus(Protocol):
     """What a tick says of itself."""
 
     @property
@@ -38,7 +38,7 @@ class Shown(Protocol):
         """The other, as far as is known."""
 
 
-def words_of(tick: Shown) -> str:
+def words_of(tick: TickStatus) -> str:
     """What one tick was, in one line."""
     seen = tick.sighting
     other = "sees nobody"
@@ -65,7 +65,7 @@ class StatusLine:
         self._said = -PERIOD
         self._last: tuple[Enum, str] | None = None
 
-    def note(self, tick: Shown) -> None:
+    def note(self, tick: TickStatus) -> None:
         """Say what a tick was, if it is time to."""
         now = self._clock()
         kind = tick.state, _NUMBER.sub("", tick.reason)

@@ -8,7 +8,7 @@ from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.leg_kinematics import BodyReference, LegKinematics
 from .gait_feasibility import lengths_share
-from .gait_scaling import Size, gait_of
+from .gait_scaling import RobotSize, gait_of
 
 # Of the greatest height that is reached, by which steps are tried: the less,
 # the farther a knee is from being straight at the end of a step.
@@ -18,8 +18,8 @@ TICK = 0.004  # of the kinematics that tries heights, in [s]
 
 
 def stature_of(
-    description: RobotDescription, size: Size, lowest: float
-) -> tuple[Size, float]:
+    description: RobotDescription, size: RobotSize, lowest: float
+) -> tuple[RobotSize, float]:
     """Size of a robot at the height where it walks, and share of its steps.
 
     Knees that get straight in a step are fast without end. Where the joints
@@ -30,7 +30,7 @@ def stature_of(
         size: Its size at the greatest height that it reaches.
         lowest: Least height that it reaches, in [m].
     """
-    best: tuple[Size, float] | None = None
+    best: tuple[RobotSize, float] | None = None
     for part in HEIGHTS:
         height = part * size.com_height
         if best is not None and height < lowest:

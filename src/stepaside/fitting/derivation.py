@@ -11,12 +11,17 @@ import numpy as np
 from ..core.errors import ModelError
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
-from ..robots.description_types import Overlay, Place, ServoGains, SolePlace
+from ..robots.description_types import (
+    Overlay,
+    ReferencePoint,
+    ServoGains,
+    SoleFrame,
+)
 from ..robots.model_reader import read_model
 from .com_height import heights_of, rehearsed, stature_of
-from .gait_feasibility import BEARABLE, Borne, torques_borne, zmp_share
-from .gait_scaling import Size, gait_of, game_of_size, stabiliser_of
-from .model_analysis import Survey, survey
+from .gait_feasibility import BEARABLE, TorqueShares, torques_borne, zmp_share
+from .gait_scaling import RobotSize, gait_of, game_of_size, stabiliser_of
+from .model_analysis import ModelAnalysis, survey
 from .motor_data import (
     SPEED,
     WEAK,
@@ -37,7 +42,7 @@ def least_lean(
     description: RobotDescription,
     gait: GaitSettings,
     torques: Mapping[str, float],
-) -> tuple[float, Borne]:
+) -> tuple[float, TorqueShares]:
     """Least lean at which a step leaves something of each torque.
 
     To be asked for a robot whose joints bear too much without.
@@ -51,7 +56,7 @@ def least_lean(
         The lean, in [rad], and what is borne then; where none of those
         tried is enough, the least that none betters by much.
     """
-    best: tuple[float, Borne] | None = None
+    best: tuple[float, TorqueShares] | None = None
     for lean in LEANS:
         leaning = replace(description, lean=lean)
         found = torques_borne(leaning, gait, torques)
@@ -72,7 +77,7 @@ FEET = ("stepaside_left_sole", "stepaside_right_sole")
 
 
 @dataclass(frozen=True, eq=False)
-class Derived:
+class DerivedDescription:
     """A description, and what it was derived from.
 
     Attributes:
@@ -92,19 +97,21 @@ class Derived:
     """
 
     description: RobotDescription
-    survey: Survey
-    size: Size
+    survey: ModelAnalysis
+    size: RobotSize
     lowest: float
     highest: float
     told_torques: frozenset[str]
     told_speeds: frozenset[str]
     share: float
     ahead: float
-    borne: Borne
+    borne: TorqueShares
     is_weak: bool
 
 
-def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
+def derive(
+    model: Path, folder: Path, meshes: list[Path]
+) -> DerivedDescription:
     """Derive the description of a robot.
 
     Args:
@@ -136,7 +143,9 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
     if spacing > narrow:  # which lifts the CoM: a second time is enough
         spacing = narrow
         lowest, highest = heights_of(description, spacing, sole, stiff)
-    guess = Size(highest, found.mass, spacing, sole, description.place.reach)
+    guess = RobotSize(
+        highest, found.mass, spacing, sole, description.place.reach
+    )
     size, share = stature_of(description, guess, lowest)
     height = size.com_height
     description = replace(
@@ -168,7 +177,7 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
         },
         game=game_of_size(size, gait),
     )
-    return Derived(
+    return DerivedDescription(
         description,
         found,
         size,
@@ -183,7 +192,7 @@ def derive(model: Path, folder: Path, meshes: list[Path]) -> Derived:
     )
 
 
-def _check_legs(found: Survey) -> None:
+def _check_legs(found: ModelAnalysis) -> None:
     """Refuse legs of which one is not like the other."""
     left, right = found.legs
     if len(left.joints) != len(right.joints):
@@ -193,7 +202,7 @@ def _check_legs(found: Survey) -> None:
         )
 
 
-def shared_sole(found: Survey) -> tuple[float, float, float, float]:
+def shared_sole(found: ModelAnalysis) -> tuple[float, float, float, float]:
     """Back, front, outer and inner edge: what both feet have, in [m]."""
     left, right = (leg.outline for leg in found.legs)
     edges = (
@@ -213,7 +222,7 @@ def shared_sole(found: Survey) -> tuple[float, float, float, float]:
     return back, front, outer, inner
 
 
-def spacing_of(found: Survey, inner: float) -> float:
+def spacing_of(found: ModelAnalysis, inner: float) -> float:
     """Distance between ankles in the zero posture, or what soles need.
 
     Legs that are spread in the zero posture do not stand so.
@@ -225,7 +234,7 @@ def spacing_of(found: Survey, inner: float) -> float:
 
 
 def _structure(
-    found: Survey,
+    found: ModelAnalysis,
     folder: Path,
     meshes: list[Path],
     sole: tuple[float, float, float, float],
@@ -250,7 +259,7 @@ def _structure(
         speed_limits={name: speeds.get(name, SPEED) for name in servos},
         working_limits=knees,
         sole=dict(zip(("back", "front", "outer", "inner"), sole, strict=True)),
-        place=Place(round(forward, 4), reach),
+        place=ReferencePoint(round(forward, 4), reach),
         overlay=Overlay(
             tuple(_sole_place(found, i) for i in (0, 1)),
             servos,
@@ -260,7 +269,7 @@ def _structure(
     )
 
 
-def _sole_place(found: Survey, side: int) -> SolePlace:
+def _sole_place(found: ModelAnalysis, side: int) -> SoleFrame:
     leg = found.legs[side]
     under = leg.ankle - (leg.ankle[2] - leg.sole) * leg.axes[:, 2]
     x, y, z = (found.place_in(leg.foot, under).round(5) + 0.0).tolist()
@@ -268,10 +277,10 @@ def _sole_place(found: Survey, side: int) -> SolePlace:
     mujoco.mju_mat2Quat(turn, leg.axes.ravel())
     mujoco.mju_mulQuat(turn, found.turn_of(leg.foot), turn.copy())
     w, a, b, c = (turn.round(7) + 0.0).tolist()
-    return SolePlace(leg.foot, (x, y, z), (w, a, b, c))
+    return SoleFrame(leg.foot, (x, y, z), (w, a, b, c))
 
 
-def name_of(found: Survey) -> str:
+def name_of(found: ModelAnalysis) -> str:
     """Name of the file, or of a folder where files have all one name."""
     path = found.path.resolve()
     names = (path.stem, *(folder.name for folder in path.parents))
@@ -284,6 +293,6 @@ def _path_from(folder: Path, path: Path) -> str:
     return Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()
 
 
-def coupled_of(found: Survey) -> set[str]:
+def coupled_of(found: ModelAnalysis) -> set[str]:
     """Joints that follow others."""
     return followers_of(found.model)

@@ -5,7 +5,7 @@ from typing import Any
 
 from ..robots.description import RobotDescription
 from ..robots.description_types import NO_OVERLAY, ServoGains
-from .derivation import Derived, coupled_of
+from .derivation import DerivedDescription, coupled_of
 from .motor_data import GIVES
 
 ASK = "ASK: the model does not say;"
@@ -53,7 +53,7 @@ GAME_WHY = {
 }
 
 
-def write_description(derived: Derived) -> str:
+def write_description(derived: DerivedDescription) -> str:
     """Text of a robot.toml."""
     own, found = derived.description, derived.survey
     left, right = found.legs
@@ -116,7 +116,7 @@ def write_description(derived: Derived) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _missing(derived: Derived) -> list[str]:
+def _missing(derived: DerivedDescription) -> list[str]:
     missing = derived.survey.missing
     if not missing:
         return []
@@ -126,7 +126,7 @@ def _missing(derived: Derived) -> list[str]:
     ]
 
 
-def _lean(derived: Derived) -> list[str]:
+def _lean(derived: DerivedDescription) -> list[str]:
     lean = derived.description.lean
     if lean == 0.0:
         return []
@@ -134,7 +134,7 @@ def _lean(derived: Derived) -> list[str]:
     return [_line("lean", lean, why)]
 
 
-def _gait(derived: Derived) -> list[str]:
+def _gait(derived: DerivedDescription) -> list[str]:
     own = derived.description
     why = dict(GAIT_WHY)
     low, high = derived.lowest, derived.highest
@@ -152,7 +152,7 @@ def _gait(derived: Derived) -> list[str]:
     return _table("gait", own.gait, why)
 
 
-def _speeds(derived: Derived) -> list[str]:
+def _speeds(derived: DerivedDescription) -> list[str]:
     told = derived.told_speeds
     limits = derived.description.speed_limits
     unlimited = [name for name in limits if name not in told]
@@ -163,7 +163,7 @@ def _speeds(derived: Derived) -> list[str]:
     return [*_comment(why), *_table("speed_limits", limits)]
 
 
-def _overlay(derived: Derived) -> list[str]:
+def _overlay(derived: DerivedDescription) -> list[str]:
     own: RobotDescription = derived.description
     untold = [n for n in own.overlay.servos if n not in derived.told_torques]
     why = "Torques as the model tells; stiffness and damping of the legs and "

@@ -8,7 +8,7 @@ from ..games.robot_settings import settings_of
 from ..robots.description import RobotDescription
 from ..robots.description_file import LEANS
 from .derivation import SPACE
-from .walk_trials import WAYS, Trial, control_with
+from .walk_trials import WAYS, WalkTrial, control_with
 
 # What each change may be, beside what it is; what helped strangers most often
 # first.
@@ -116,14 +116,14 @@ class Candidate:
             else own.overlay,
         )
 
-    def trials(self, own: RobotDescription) -> tuple[Trial, ...]:
+    def trials(self, own: RobotDescription) -> tuple[WalkTrial, ...]:
         """Walks that judge it, the hardest first; none if it is too much."""
         made = self.applied(own)
         if made is None:
             return ()
         settings = settings_of(made)
         return tuple(
-            Trial(made, settings.gait, settings.control, way)
+            WalkTrial(made, settings.gait, settings.control, way)
             for way in reversed(WAYS)
         )
 

@@ -42,7 +42,7 @@ def speed_share(description: RobotDescription, gait: GaitSettings) -> float:
     return max(_asked(description, gait, way) for way in Direction)
 
 
-class Borne(NamedTuple):
+class TorqueShares(NamedTuple):
     """Greatest shares of their torque that joints bear in a step.
 
     Attributes:
@@ -63,7 +63,7 @@ def torques_borne(
     description: RobotDescription,
     gait: GaitSettings,
     torques: Mapping[str, float],
-) -> Borne:
+) -> TorqueShares:
     """Shares of their torque that joints bear in a step.
 
     Args:
@@ -94,14 +94,14 @@ def torques_borne(
         shares = np.max(steps, axis=0) / limits
         joint = int(shares.argmax())
         found += [float(shares[joint]), names[joint]]
-    return Borne(*found)  # type: ignore[arg-type]
+    return TorqueShares(*found)  # type: ignore[arg-type]
 
 
 def zmp_share(
     description: RobotDescription,
     gait: GaitSettings,
     torques: Mapping[str, float],
-) -> tuple[float, Borne]:
+) -> tuple[float, TorqueShares]:
     """Share of the ZMP's place ahead of the ankles that these can bear.
 
     The farther ahead it is, the more an ankle bears; nothing else of a gait

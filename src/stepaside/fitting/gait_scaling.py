@@ -39,7 +39,7 @@ NEAREST, NEAR, FAR = 0.45, 0.67, 1.67
 
 
 @dataclass(frozen=True, slots=True)
-class Size:
+class RobotSize:
     """What a gait is scaled by.
 
     Attributes:
@@ -68,7 +68,7 @@ class Size:
         return sqrt(self.com_height * GRAVITY)
 
 
-def gait_of(size: Size, share: float = 1.0) -> dict[str, float]:
+def gait_of(size: RobotSize, share: float = 1.0) -> dict[str, float]:
     """Entries of a gait, as a description has them, in SI units.
 
     Args:
@@ -92,7 +92,7 @@ def gait_of(size: Size, share: float = 1.0) -> dict[str, float]:
     }
 
 
-def stabiliser_of(size: Size) -> dict[str, float]:
+def stabiliser_of(size: RobotSize) -> dict[str, float]:
     """Entries of the feedback, likewise."""
     z, time = size.com_height, size.time
     stride = STRIDE * z
@@ -114,7 +114,7 @@ def stabiliser_of(size: Size) -> dict[str, float]:
     }
 
 
-def game_of_size(size: Size, gait: dict[str, float]) -> dict[str, float]:
+def game_of_size(size: RobotSize, gait: dict[str, float]) -> dict[str, float]:
     """Entries of a game, by the circle that equal robots end on."""
     circle = 4.0 * sqrt(0.5) * gait["speed"] / (pi / 2 * gait["gain"])
     least = max(NEAREST * circle, 2.0 * size.reach)
@@ -129,7 +129,7 @@ def game_of_size(size: Size, gait: dict[str, float]) -> dict[str, float]:
     }
 
 
-def spare(size: Size) -> float:
+def spare(size: RobotSize) -> float:
     """Gap between soles that stand abreast, in [m]."""
     return size.foot_spacing - 2.0 * size.sole[3]
 

@@ -17,9 +17,9 @@ from typing import Any, NamedTuple
 from ..robots.description import RobotDescription
 from ..robots.tree_cache import digest_of
 from ..studies.code_version import code_version, library_versions
-from ..studies.record_store import RecordFile
+from ..studies.record_store import RecordStore
 from .gait_candidates import Candidate
-from .walk_trials import FALLEN, WAYS, Walked, walk_trial
+from .walk_trials import FALLEN, WAYS, WalkTrialResult, walk_trial
 
 ROUNDS = 6
 GOOD = 0.2  # unsteadiness that is not worth bettering
@@ -31,7 +31,7 @@ ROOMS = ("fitting/trials", "fitting/candidates")
 IMPOSSIBLE = FALLEN + 2.0  # of changes that are too much
 
 
-class Judged(NamedTuple):
+class RatedCandidate(NamedTuple):
     """A candidate and how it walks.
 
     Attributes:
@@ -52,7 +52,7 @@ class Judged(NamedTuple):
         return self.unsteadiness + self.candidate.cost
 
 
-class Tuned(NamedTuple):
+class SearchResult(NamedTuple):
     """What a search found.
 
     Attributes:
@@ -61,12 +61,12 @@ class Tuned(NamedTuple):
         tried: Candidates that were walked.
     """
 
-    before: Judged
-    best: Judged
+    before: RatedCandidate
+    best: RatedCandidate
     tried: int
 
 
-class Search:
+class GaitSearch:
     """A search for one robot, whose results are kept."""
 
     def __init__(
@@ -88,13 +88,13 @@ class Search:
         """
         self._own, self._executor = description, executor
         self._report = report
-        self._file = None if kept is None else RecordFile(kept)
+        self._file = None if kept is None else RecordStore(kept)
         self._stamp = _stamp_of(description)
         self._known = {} if self._file is None else self._file.read(["walks"])
-        self._judged: dict[Candidate, Judged] = {}
+        self._judged: dict[Candidate, RatedCandidate] = {}
         self._goal = 1
 
-    def run(self) -> Tuned:
+    def run(self) -> SearchResult:
         """Search to the end."""
         feedback = float(bool(self._own.control.get("feedback", False)))
         start = Candidate(feedback)
@@ -107,9 +107,9 @@ class Search:
             if found.score > best.score - BETTER:
                 break
             best = found
-        return Tuned(before, best, len(self._judged))
+        return SearchResult(before, best, len(self._judged))
 
-    def _best_around(self, best: Judged) -> Judged:
+    def _best_around(self, best: RatedCandidate) -> RatedCandidate:
         """The best of a candidate and its neighbours.
 
         Where the candidate falls, the first neighbours that get on by a walk
@@ -150,7 +150,7 @@ class Search:
             self._note(candidate, walks)
 
     def _note(self, candidate: Candidate, walks: list[dict[str, Any]]) -> None:
-        judged = Judged(candidate, _unsteadiness(walks), tuple(walks))
+        judged = RatedCandidate(candidate, _unsteadiness(walks), tuple(walks))
         self._judged[candidate] = judged
         if self._report is not None:
             least = min(j.unsteadiness for j in self._judged.values())
@@ -186,7 +186,7 @@ def _unsteadiness(walks: list[dict[str, Any]]) -> float:
     return FALLEN + 1.0 - walked
 
 
-def _plain(walked: Walked) -> dict[str, Any]:
+def _plain(walked: WalkTrialResult) -> dict[str, Any]:
     plain = walked._asdict()
     strain = walked.strain
     plain["strain"] = None if strain is None else strain._asdict()

@@ -12,7 +12,7 @@ SETTLED = 0.3  # after which a robot stands as it will, in [s]
 STANDS = 0.6  # until which it surely does, in [s]
 
 
-class Strain(NamedTuple):
+class JointStrain(NamedTuple):
     """What the joints of a robot bore.
 
     Attributes:
@@ -74,12 +74,12 @@ class StrainGauge:
     def ended(self, match: Match, outcome: Outcome) -> None:
         """Look at nothing."""
 
-    def strain(self) -> Strain:
+    def strain(self) -> JointStrain:
         """What was borne so far."""
         if not self._names:
-            return Strain(0.0, "", 0.0, "", 0.0, 0.0)
+            return JointStrain(0.0, "", 0.0, "", 0.0, 0.0)
         stood, walked = self._standing, self._walking
-        return Strain(
+        return JointStrain(
             float(stood.max()),
             self._names[int(stood.argmax())],
             float(walked.max()),

@@ -20,7 +20,7 @@ class NoLegsError(ModelError):
     """There are no two legs."""
 
 
-class Leg(NamedTuple):
+class DetectedLeg(NamedTuple):
     """One leg in the zero posture, seen from the torso.
 
     Attributes:
@@ -55,7 +55,7 @@ class Leg(NamedTuple):
 
 def find_legs(
     model: mujoco.MjModel, data: mujoco.MjData, path: Path
-) -> tuple[Leg, Leg]:
+) -> tuple[DetectedLeg, DetectedLeg]:
     """Left and right leg of a robot that stands as it is seen.
 
     Raises:
@@ -190,7 +190,7 @@ def _leg(
     body: int,
     chain: list[int],
     side: str,
-) -> Leg:
+) -> DetectedLeg:
     """Joints that a leg has to itself, and its sole."""
     pitches = [j for j in chain if abs(data.xaxis[j, 1]) > LEVEL]
     if len(pitches) == 4 and pitches[3] == chain[-1] and len(chain) > 6:
@@ -217,7 +217,7 @@ def _leg(
     hip = data.xanchor[chain[:3]].mean(axis=0)
     ankle = _ankle(data, chain, pitches[2], hip)
     sole = sole_of(model, data, body, hip, ankle)
-    return Leg(
+    return DetectedLeg(
         tuple(model.joint(j).name for j in chain),
         tuple(model.joint(j).name for j in pitches),
         tuple(float(np.sign(data.xaxis[j, 1])) for j in pitches),

@@ -12,7 +12,7 @@ from ..core.errors import ModelError
 from ..core.poses import Array
 from ..robots.model_overlay import odd_couplings, strip
 from ..robots.model_reader import read_model
-from .leg_detection import MOVES, Leg, NoLegsError, find_legs
+from .leg_detection import MOVES, DetectedLeg, NoLegsError, find_legs
 
 TOES = 0.1  # of a foot's length: more ahead of the ankle than behind
 KNEES = 0.3  # what a knee that bends one way counts by the foot's length
@@ -20,7 +20,7 @@ Turn = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
-class Survey:
+class ModelAnalysis:
     """A published model without what stands around it, and its legs.
 
     Attributes:
@@ -38,7 +38,7 @@ class Survey:
     model: mujoco.MjModel
     data: mujoco.MjData
     torso: str
-    legs: tuple[Leg, Leg]
+    legs: tuple[DetectedLeg, DetectedLeg]
     missing: tuple[str, ...]
     turn: Turn = (1.0, 0.0, 0.0, 0.0)
 
@@ -75,7 +75,7 @@ class Survey:
         return place
 
 
-def survey(path: Path, folders: Sequence[Path]) -> Survey:
+def survey(path: Path, folders: Sequence[Path]) -> ModelAnalysis:
     """Look for legs and feet in a published model.
 
     Args:
@@ -105,12 +105,12 @@ def survey(path: Path, folders: Sequence[Path]) -> Survey:
                 "than polycoef 0 1 0 0 0, which the legs' kinematics does "
                 "not know"
             )
-    return Survey(path, model, data, torso, legs, tuple(missing), turn)
+    return ModelAnalysis(path, model, data, torso, legs, tuple(missing), turn)
 
 
 def _legs(
     model: mujoco.MjModel, path: Path
-) -> tuple[mujoco.MjData, Turn, tuple[Leg, Leg]]:
+) -> tuple[mujoco.MjData, Turn, tuple[DetectedLeg, DetectedLeg]]:
     """Legs of a robot that is turned until it looks ahead.
 
     Raises:
@@ -140,7 +140,7 @@ def _legs(
     raise refused
 
 
-def _looks_ahead(model: mujoco.MjModel, leg: Leg) -> float:
+def _looks_ahead(model: mujoco.MjModel, leg: DetectedLeg) -> float:
     """How much toes and knees say that forward is ahead; below 0 if not.
 
     Some feet are longer behind the ankle, some knees bend backward, none

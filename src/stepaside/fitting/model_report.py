@@ -4,15 +4,15 @@ from typing import Any
 
 import numpy as np
 
-from .derivation import Derived, coupled_of
+from .derivation import DerivedDescription, coupled_of
 from .leg_detection import LEVEL, MOVES
-from .model_analysis import Survey
+from .model_analysis import ModelAnalysis
 
 LIGHT = 0.2  # of the mass: whatever carries more is no head
 MIDDLE = 0.05  # of a leg's length: from the plane between left and right
 
 
-def head_of(found: Survey) -> dict[str, Any]:
+def head_of(found: ModelAnalysis) -> dict[str, Any]:
     """What turns a head aside and nods it, and what looks out of it.
 
     The head is the lightest part over the hips that hangs on a joint with a
@@ -47,13 +47,13 @@ def head_of(found: Survey) -> dict[str, Any]:
     }
 
 
-def _carries(found: Survey, joint: int) -> float:
+def _carries(found: ModelAnalysis, joint: int) -> float:
     """Mass that a joint carries, in [kg]."""
     body = int(found.model.jnt_bodyid[joint])
     return float(found.model.body_subtreemass[body])
 
 
-def facts_of(derived: Derived) -> dict[str, Any]:
+def facts_of(derived: DerivedDescription) -> dict[str, Any]:
     """What was found and chosen, for a report."""
     found, size = derived.survey, derived.size
     own = derived.description

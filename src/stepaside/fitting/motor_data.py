@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.constants import GRAVITY
 from ..robots.description_types import ServoGains
-from .model_analysis import Survey
+from .model_analysis import ModelAnalysis
 
 # Gains and inertia of leg joints by what tips a robot: its weight times the
 # length of its legs, and the pendulum's time; those of NAO's model.
@@ -84,7 +84,7 @@ def published_speeds(path: Path) -> dict[str, float]:
 
 
 def gains_of(
-    found: Survey,
+    found: ModelAnalysis,
     torques: dict[str, float],
     com_height: float,
     *,
@@ -130,7 +130,7 @@ def gains_of(
     return gains
 
 
-def joint_of(found: Survey, name: str) -> int:
+def joint_of(found: ModelAnalysis, name: str) -> int:
     """Number of the velocity of a joint."""
     return int(found.model.joint(name).dofadr[0])
 
@@ -154,7 +154,7 @@ class _Held:
         self.inertia = inertia + mass * lever**2
 
 
-def _held_by(found: Survey, name: str) -> _Held:
+def _held_by(found: ModelAnalysis, name: str) -> _Held:
     model, data = found.model, found.data
     joint = model.joint(name)
     body = int(joint.bodyid[0])

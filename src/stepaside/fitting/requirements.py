@@ -23,7 +23,7 @@ SPENT = 0.95  # share of a torque that a step needs and leaves nothing
 TICK = 0.004  # of the kinematics that stands, in [s]
 
 
-class Finding(NamedTuple):
+class RequirementCheck(NamedTuple):
     """One thing that was looked at.
 
     Attributes:
@@ -39,30 +39,34 @@ class Finding(NamedTuple):
     hint: str = ""
 
 
-def findings_of(description: RobotDescription) -> list[Finding]:
+def findings_of(description: RobotDescription) -> list[RequirementCheck]:
     """Look at everything that can be seen while a robot stands still.
 
     What cannot even be read ends the list, with a failure that says why.
     """
-    found: list[Finding] = []
+    found: list[RequirementCheck] = []
     for name, look in LOOKS.items():
         try:
             found += look(description)
         except StepAsideError as error:
-            found.append(Finding(name, "fail", str(error), HINTS[name]))
+            found.append(
+                RequirementCheck(name, "fail", str(error), HINTS[name])
+            )
             break
     return found
 
 
-def _kinematics(description: RobotDescription) -> Iterator[Finding]:
+def _kinematics(description: RobotDescription) -> Iterator[RequirementCheck]:
     tree = compile_tree(description)
     description.check(tree.bodies, tree.sites, tree.joints, tree.motors)
-    yield Finding("free joint", "pass", f"at {description.torso}")
+    yield RequirementCheck("free joint", "pass", f"at {description.torso}")
     legs = len(description.legs)
-    yield Finding("joints", "pass", f"{len(tree.joints)}, {legs} of the legs")
+    yield RequirementCheck(
+        "joints", "pass", f"{len(tree.joints)}, {legs} of the legs"
+    )
 
 
-def _masses(description: RobotDescription) -> Iterator[Finding]:
+def _masses(description: RobotDescription) -> Iterator[RequirementCheck]:
     model = description.compile()
     total = float(model.body_mass.sum())
     names = [model.body(b).name for b in range(model.nbody)]
@@ -71,7 +75,7 @@ def _masses(description: RobotDescription) -> Iterator[Finding]:
         for b in range(1, model.nbody)
         if model.body_jntnum[b] and model.body_subtreemass[b] <= 0.0
     ]
-    yield Finding(
+    yield RequirementCheck(
         "masses",
         "fail" if empty else "pass",
         f"{total:.2f} kg" + (f", none for {empty[0]}" if empty else ""),
@@ -87,7 +91,7 @@ def _masses(description: RobotDescription) -> Iterator[Finding]:
     sides = posture.feet[0] + posture.feet[1] - 2.0 * posture.feet.mean(axis=0)
     uneven = abs(float(posture.feet[0, 2] - posture.feet[1, 2])) / high
     mirrored = aside < ASIDE * high and uneven < UNEVEN and not sides.any()
-    yield Finding(
+    yield RequirementCheck(
         "mirror symmetry",
         "pass" if mirrored else "warn",
         f"CoM {1e3 * aside:.1f} mm aside of the feet, which differ by "
@@ -96,13 +100,13 @@ def _masses(description: RobotDescription) -> Iterator[Finding]:
     )
 
 
-def _sensors(description: RobotDescription) -> Iterator[Finding]:
+def _sensors(description: RobotDescription) -> Iterator[RequirementCheck]:
     model = description.compile()
     names = {model.sensor(i).name for i in range(model.nsensor)}
     own = description.sensors
     wanted = (own.gyro, own.accelerometer, *own.feet)
     missing = [name for name in wanted if name not in names]
-    yield Finding(
+    yield RequirementCheck(
         "sensors",
         "fail" if missing else "pass",
         f"no {', '.join(missing)}" if missing else "IMU, 4 under each foot",
@@ -110,7 +114,7 @@ def _sensors(description: RobotDescription) -> Iterator[Finding]:
     )
 
 
-def _actuators(description: RobotDescription) -> Iterator[Finding]:
+def _actuators(description: RobotDescription) -> Iterator[RequirementCheck]:
     model = description.compile()
     free = [n for n in description.legs if n in description.speed_limits]
     by_joint = {
@@ -134,7 +138,7 @@ def _actuators(description: RobotDescription) -> Iterator[Finding]:
         "no position servo for": soft,
     }
     said = [f"{why} {names[0]}" for why, names in wrong.items() if names]
-    yield Finding(
+    yield RequirementCheck(
         "actuators",
         "fail" if said else "pass",
         "; ".join(said) or f"{model.nu} servos with a force range",
@@ -142,14 +146,14 @@ def _actuators(description: RobotDescription) -> Iterator[Finding]:
     )
 
 
-def _reach(description: RobotDescription) -> Iterator[Finding]:
+def _reach(description: RobotDescription) -> Iterator[RequirementCheck]:
     gait = settings_of(description).gait
     half = 0.5 * gait.foot_spacing
     feet = Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0)
     stance = standing_reference(*feet, gait)
     legs = LegKinematics(description, tick=TICK)
     plain = legs.legs.is_plain
-    yield Finding(
+    yield RequirementCheck(
         "legs",
         "pass" if plain else "warn",
         "six hinges each" if plain else "not six hinges each",
@@ -159,7 +163,7 @@ def _reach(description: RobotDescription) -> Iterator[Finding]:
     highest = legs.highest_com(stance)
     room = highest - gait.com_height
     near = room < CLOSE * highest
-    yield Finding(
+    yield RequirementCheck(
         "reach",
         "warn" if near else "pass",
         f"CoM at {gait.com_height:.3f} of {highest:.3f} m",
@@ -167,7 +171,7 @@ def _reach(description: RobotDescription) -> Iterator[Finding]:
     )
 
 
-def _strength(description: RobotDescription) -> Iterator[Finding]:
+def _strength(description: RobotDescription) -> Iterator[RequirementCheck]:
     gait = settings_of(description).gait
     model = description.compile()
     torques = {
@@ -177,7 +181,7 @@ def _strength(description: RobotDescription) -> Iterator[Finding]:
     borne = torques_borne(description, gait, torques)
     share, joint = borne.usual, borne.joint
     weak = share > SPENT
-    yield Finding(
+    yield RequirementCheck(
         "torque of a step",
         "warn" if weak else "pass",
         f"{100.0 * share:.0f} % of the limit of {joint}",
@@ -187,7 +191,7 @@ def _strength(description: RobotDescription) -> Iterator[Finding]:
     )
 
 
-LOOKS: dict[str, Callable[[RobotDescription], Iterator[Finding]]] = {
+LOOKS: dict[str, Callable[[RobotDescription], Iterator[RequirementCheck]]] = {
     "kinematics": _kinematics,
     "masses": _masses,
     "sensors": _sensors,

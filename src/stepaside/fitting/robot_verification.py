@@ -5,16 +5,16 @@ from concurrent.futures import Executor
 from typing import Any, NamedTuple
 
 from ..robots.description import RobotDescription
-from .joint_strain import Strain
-from .requirements import Finding, findings_of
-from .walk_trials import Walked, trials_of, walk_trial
+from .joint_strain import JointStrain
+from .requirements import RequirementCheck, findings_of
+from .walk_trials import WalkTrialResult, trials_of, walk_trial
 
 SAGS = 0.02  # of the CoM's height that is much
 NARROW = 0.35  # unsteadiness of a walk whose circle is within 5 % of theory's
 TORQUE = 0.9  # share of a torque limit that leaves little
 
 
-class Checked(NamedTuple):
+class VerificationReport(NamedTuple):
     """What a check found.
 
     Attributes:
@@ -24,8 +24,8 @@ class Checked(NamedTuple):
         feedback: Whether its description asks for feedback.
     """
 
-    findings: tuple[Finding, ...]
-    walks: tuple[Walked, ...]
+    findings: tuple[RequirementCheck, ...]
+    walks: tuple[WalkTrialResult, ...]
     feedback: bool
 
     @property
@@ -62,7 +62,7 @@ def check_robot(
     description: RobotDescription,
     executor: Executor,
     report: Callable[[int, int], None] | None = None,
-) -> Checked:
+) -> VerificationReport:
     """Look at a robot, and let it walk.
 
     Args:
@@ -72,10 +72,10 @@ def check_robot(
     """
     found = findings_of(description)
     if any(finding.verdict == "fail" for finding in found):
-        return Checked(tuple(found), (), False)
+        return VerificationReport(tuple(found), (), False)
     own = trials_of(description, feedback=False)
     trials = (*own, *trials_of(description, feedback=True))
-    walks: list[Walked] = []
+    walks: list[WalkTrialResult] = []
     for walk in executor.map(walk_trial, trials):
         walks.append(walk)
         if report is not None:
@@ -83,10 +83,10 @@ def check_robot(
     feedback = bool(description.control.get("feedback", False))
     found += _strains([w for w in walks if w.feedback == feedback])
     found += _walks(walks, feedback)
-    return Checked(tuple(found), tuple(walks), feedback)
+    return VerificationReport(tuple(found), tuple(walks), feedback)
 
 
-def _strains(walks: Iterable[Walked]) -> list[Finding]:
+def _strains(walks: Iterable[WalkTrialResult]) -> list[RequirementCheck]:
     """Torques while standing and walking, and what the joints sag."""
     strains = [walk.strain for walk in walks if walk.strain is not None]
     if not strains:
@@ -100,9 +100,9 @@ def _strains(walks: Iterable[Walked]) -> list[Finding]:
     ]
 
 
-def _torque(name: str, share: float, joint: str) -> Finding:
+def _torque(name: str, share: float, joint: str) -> RequirementCheck:
     much = share > TORQUE
-    return Finding(
+    return RequirementCheck(
         name,
         "warn" if much else "pass",
         f"{100.0 * share:.0f} % of the limit of {joint}",
@@ -112,9 +112,9 @@ def _torque(name: str, share: float, joint: str) -> Finding:
     )
 
 
-def _sag(strain: Strain) -> Finding:
+def _sag(strain: JointStrain) -> RequirementCheck:
     much = strain.sag > SAGS
-    return Finding(
+    return RequirementCheck(
         "sag",
         "warn" if much else "pass",
         f"{1e3 * strain.sag:.1f} mm",
@@ -122,7 +122,9 @@ def _sag(strain: Strain) -> Finding:
     )
 
 
-def _walks(walks: Iterable[Walked], feedback: bool) -> list[Finding]:
+def _walks(
+    walks: Iterable[WalkTrialResult], feedback: bool
+) -> list[RequirementCheck]:
     """One finding for each way of control, the described one first."""
     found = []
     for way in (feedback, not feedback):
@@ -135,7 +137,9 @@ def _walks(walks: Iterable[Walked], feedback: bool) -> list[Finding]:
             wide = way is feedback and worst.unsteadiness > NARROW
             hint = "`stepaside robot tune` looks for what keeps to the plan"
             verdict = "warn" if wide else "pass"
-            found.append(Finding(name, verdict, text, hint if wide else ""))
+            found.append(
+                RequirementCheck(name, verdict, text, hint if wide else "")
+            )
             continue
         worst = max(failed, key=lambda walk: walk.unsteadiness)
         verdict = "fail" if way is feedback else "warn"
@@ -147,5 +151,5 @@ def _walks(walks: Iterable[Walked], feedback: bool) -> list[Finding]:
             said += f"{worst.unsteadiness:.2f} of 1"
         else:
             said += worst.message
-        found.append(Finding(name, verdict, said, hint))
+        found.append(RequirementCheck(name, verdict, said, hint))
     return found

@@ -30,7 +30,7 @@ WIDTHS = (0.03, 0.6)
 GUESS = (0.12, -0.12, 0.22, -0.09, 0.09)
 
 
-class Sole(NamedTuple):
+class DetectedSole(NamedTuple):
     """What a foot stands on, in the zero posture.
 
     Attributes:
@@ -54,7 +54,7 @@ def sole_of(
     body: int,
     hip: Array,
     ankle: Array,
-) -> Sole:
+) -> DetectedSole:
     """Find what a foot stands on.
 
     Args:
@@ -71,7 +71,9 @@ def sole_of(
     if len(points) == 1:
         length = float(hip[2] - ankle[2])
         height, back, front, right, left = (x * length for x in GUESS)
-        return Sole(np.eye(3), height, (back, front, right, left), True)
+        return DetectedSole(
+            np.eye(3), height, (back, front, right, left), True
+        )
     axes = np.eye(3)
     for _ in range(TRIES):
         down = _downward(points)
@@ -89,7 +91,7 @@ def sole_of(
     )
     _check(model.body(body).name, (back, front, right, left), length)
     height = float(where[2]) - low
-    return Sole(axes, height, (back, front, right, left))
+    return DetectedSole(axes, height, (back, front, right, left))
 
 
 def foot_points(

@@ -9,14 +9,14 @@ the foot level; where it is not, their angles say so.
 
 from math import atan2, cos, sin
 
-from .leg_detection import Leg
+from .leg_detection import DetectedLeg
 
 BENT = (-0.3, 0.6, -0.3)  # of hip, knee and ankle of a straight leg, [rad]
 STRAIGHT = 0.05  # that a knee keeps from being straight, in [rad]
 CROOKED = 0.25  # of a knee whose leg does not count as straight, in [rad]
 
 
-def bend_of(leg: Leg, knee_range: tuple[float, float]) -> list[float]:
+def bend_of(leg: DetectedLeg, knee_range: tuple[float, float]) -> list[float]:
     """Angles of hip, knee and ankle of a leg that stands, in [rad].
 
     Args:
@@ -42,7 +42,7 @@ def bend_of(leg: Leg, knee_range: tuple[float, float]) -> list[float]:
     return [s * angle for s, angle in zip(leg.signs, angles, strict=True)]
 
 
-def straight_of(leg: Leg) -> float:
+def straight_of(leg: DetectedLeg) -> float:
     """Angle about the axis left at which a knee is straight, in [rad].
 
     Returns:
@@ -53,7 +53,7 @@ def straight_of(leg: Leg) -> float:
     return straight if abs(straight) > CROOKED else 0.0
 
 
-def tilt_of(leg: Leg) -> float:
+def tilt_of(leg: DetectedLeg) -> float:
     """Pitch of a foot that stands against the zero posture, in [rad].
 
     Returns:
@@ -64,7 +64,7 @@ def tilt_of(leg: Leg) -> float:
     return atan2(-z, x) if z else 0.0
 
 
-def _rods(leg: Leg) -> list[tuple[float, float]]:
+def _rods(leg: DetectedLeg) -> list[tuple[float, float]]:
     """Thigh and shank, forward and up, in [m]."""
     hip, knee, ankle = leg.pivots
     spans = (knee - hip, ankle - knee)

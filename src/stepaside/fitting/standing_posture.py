@@ -4,8 +4,8 @@ import mujoco
 import numpy as np
 
 from ..sim.geom_points import points_of
-from .leg_detection import LEVEL, MOVES, Leg
-from .model_analysis import Survey
+from .leg_detection import LEVEL, MOVES, DetectedLeg
+from .model_analysis import ModelAnalysis
 from .standing_angles import STRAIGHT, bend_of, straight_of
 
 ROOM = 0.02  # from the end of a joint's range, in [rad]
@@ -14,7 +14,7 @@ AWAY = 0.2  # that hanging arms stand off, in [rad]
 SPARE = 1.15  # on the reach that is measured
 
 
-def standing_of(found: Survey) -> dict[str, float]:
+def standing_of(found: ModelAnalysis) -> dict[str, float]:
     """Angles of a stance that are not zero, by joint, in [rad]."""
     model = found.model
     angles = {
@@ -32,7 +32,7 @@ def standing_of(found: Survey) -> dict[str, float]:
     return {name: round(angle, 3) for name, angle in angles.items()}
 
 
-def stiff_joints(found: Survey) -> list[str]:
+def stiff_joints(found: ModelAnalysis) -> list[str]:
     """Pitch joints of the legs that cannot bend as standing asks."""
     return [
         name
@@ -42,19 +42,19 @@ def stiff_joints(found: Survey) -> list[str]:
     ]
 
 
-def _bends(found: Survey, leg: Leg) -> dict[str, float]:
+def _bends(found: ModelAnalysis, leg: DetectedLeg) -> dict[str, float]:
     """Angles of the pitch joints of a leg that stands, in [rad]."""
     bends = bend_of(leg, _range_of(found, leg.pitches[1]))
     return dict(zip(leg.pitches, bends, strict=True))
 
 
-def _range_of(found: Survey, name: str) -> tuple[float, float]:
+def _range_of(found: ModelAnalysis, name: str) -> tuple[float, float]:
     """Range of a joint, a half turn each way if it has none, in [rad]."""
     low, high = found.model.joint(name).range.tolist()
     return (low, high) if low < high else (-np.pi, np.pi)
 
 
-def knee_limits(found: Survey, leg: Leg) -> tuple[float, float]:
+def knee_limits(found: ModelAnalysis, leg: DetectedLeg) -> tuple[float, float]:
     """Range in which a knee does not get straight, in [rad]."""
     name, sign = leg.pitches[1], leg.signs[1]
     low, high = _range_of(found, name)
@@ -69,7 +69,7 @@ def knee_limits(found: Survey, leg: Leg) -> tuple[float, float]:
 
 
 def reach_of(
-    found: Survey, standing: dict[str, float], forward: float
+    found: ModelAnalysis, standing: dict[str, float], forward: float
 ) -> float:
     """Distance within which all of a standing robot lies, in [m].
 
@@ -105,7 +105,7 @@ def _inside(model: mujoco.MjModel, name: str, angle: float) -> float:
     return float(min(max(angle, min(low + ROOM, 0.0)), max(high - ROOM, 0.0)))
 
 
-def _shoulders(found: Survey) -> list[str]:
+def _shoulders(found: ModelAnalysis) -> list[str]:
     """Joints that swing the arms out to the side, or to the front."""
     model, data = found.model, found.data
     legs = {name for leg in found.legs for name in leg.joints}
@@ -124,7 +124,9 @@ def _shoulders(found: Survey) -> list[str]:
     return list(arms.values())
 
 
-def _hanging(found: Survey, name: str, known: dict[str, float]) -> float:
+def _hanging(
+    found: ModelAnalysis, name: str, known: dict[str, float]
+) -> float:
     """Angle at which what a shoulder carries hangs, a little off the body."""
     model, data = found.model, mujoco.MjData(found.model)
     joint = model.joint(name)

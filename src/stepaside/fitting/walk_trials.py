@@ -8,12 +8,12 @@ from ..core.errors import StepAsideError
 from ..games.match import play
 from ..games.outcome import Outcome
 from ..games.robot_settings import settings_of
-from ..games.walk_game import Walking
+from ..games.walk_game import WalkGame
 from ..games.walk_settings import WalkSettings
 from ..locomotion.zmp.control_settings import ControlSettings, Method
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
-from .joint_strain import Strain, StrainGauge
+from .joint_strain import JointStrain, StrainGauge
 
 CYCLES = 8  # gait cycles of a walk after its first step
 READY = 2.5  # time until a walk is judged, with feedback's pause, in [s]
@@ -23,7 +23,7 @@ MISSES = 0.15  # of speed and turning against what is planned
 FALLEN = 10.0  # unsteadiness of a walk that ends in a fall
 
 
-class Way(NamedTuple):
+class TrialPath(NamedTuple):
     """Where a robot walks.
 
     Attributes:
@@ -38,16 +38,16 @@ class Way(NamedTuple):
 
 
 WAYS = (
-    Way("forward", False, 0.0),
-    Way("backward", True, 0.0),
-    Way("turning left", False, radians(45.0)),
-    Way("backward, sharply left", True, radians(90.0)),
-    Way("backward, sharply right", True, radians(-90.0)),
+    TrialPath("forward", False, 0.0),
+    TrialPath("backward", True, 0.0),
+    TrialPath("turning left", False, radians(45.0)),
+    TrialPath("backward, sharply left", True, radians(90.0)),
+    TrialPath("backward, sharply right", True, radians(-90.0)),
 )
 
 
 @dataclass(frozen=True, slots=True)
-class Trial:
+class WalkTrial:
     """A robot, how it walks, and where.
 
     Attributes:
@@ -60,10 +60,10 @@ class Trial:
     description: RobotDescription
     gait: GaitSettings
     control: ControlSettings
-    way: Way
+    way: TrialPath
 
 
-class Walked(NamedTuple):
+class WalkTrialResult(NamedTuple):
     """How a walk went.
 
     Attributes:
@@ -89,7 +89,7 @@ class Walked(NamedTuple):
     strays: float | None
     speed: float | None
     turning: float | None
-    strain: Strain | None
+    strain: JointStrain | None
     lean: float = 0.0
 
     @property
@@ -126,7 +126,7 @@ def control_with(control: ControlSettings, feedback: bool) -> ControlSettings:
 
 def trials_of(
     description: RobotDescription, *, feedback: bool
-) -> tuple[Trial, ...]:
+) -> tuple[WalkTrial, ...]:
     """Walks of a robot to all sides.
 
     Args:
@@ -138,10 +138,12 @@ def trials_of(
     """
     own = settings_of(description)
     control = control_with(own.control, feedback)
-    return tuple(Trial(description, own.gait, control, way) for way in WAYS)
+    return tuple(
+        WalkTrial(description, own.gait, control, way) for way in WAYS
+    )
 
 
-def walk_trial(trial: Trial) -> Walked:
+def walk_trial(trial: WalkTrial) -> WalkTrialResult:
     """Walk one walk; what cannot begin is told in its message."""
     gait, way = trial.gait, trial.way
     feedback = trial.control.feedback
@@ -156,16 +158,18 @@ def walk_trial(trial: Trial) -> Walked:
     )
     gauge = StrainGauge()
     try:
-        walking = Walking(
+        walking = WalkGame(
             settings, description=trial.description, observers=(gauge,)
         )
     except StepAsideError as error:
         nothing = (None,) * 5
-        return Walked(way.name, feedback, str(error), False, 0.0, *nothing)
+        return WalkTrialResult(
+            way.name, feedback, str(error), False, 0.0, *nothing
+        )
     outcome, wall = play(walking, duration)
     run = walking.run(outcome, wall)
     summary = run.summary.to_json()
-    return Walked(
+    return WalkTrialResult(
         way.name,
         feedback,
         run.message,

@@ -6,7 +6,7 @@ from typing import NamedTuple
 SLOWEST = 0.01  # below, a distance counts as constant, in [m/s]
 
 
-class Approach(NamedTuple):
+class CourseApproach(NamedTuple):
     """Motion of one player relative to another, at constant velocity.
 
     Attributes:
@@ -63,7 +63,7 @@ class Approach(NamedTuple):
         return x * vx + y * vy
 
 
-def motion_words(approach: Approach | None) -> str:
+def motion_words(approach: CourseApproach | None) -> str:
     """Say how a pursuer moves: "comes", "moves away" or "walks"."""
     if approach is not None and approach.is_approaching:
         return "comes"
@@ -74,7 +74,7 @@ def motion_words(approach: Approach | None) -> str:
 
 def approach_between(
     before: tuple[float, float], now: tuple[float, float], elapsed: float
-) -> Approach | None:
+) -> CourseApproach | None:
     """Estimate an approach from two offsets, best a gait cycle apart.
 
     Args:
@@ -97,4 +97,4 @@ def approach_between(
     across = (x * (y - was_y) - y * (x - was_x)) / (away * elapsed)
     ahead, aside = (x / away, y / away), (-y / away, x / away)
     vx, vy = (rate * a + across * b for a, b in zip(ahead, aside, strict=True))
-    return Approach((x, y), (vx, vy))
+    return CourseApproach((x, y), (vx, vy))

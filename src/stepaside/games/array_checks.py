@@ -7,12 +7,12 @@ import numpy as np
 
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
-from .trajectory import Track
+from .trajectory import Trajectory
 
 FARTHEST = 1e6  # of any number in a run, in [m], [rad] or [s]
 
 
-class Kind(NamedTuple):
+class ArraySpec(NamedTuple):
     """What an array of a player is like.
 
     Attributes:
@@ -27,23 +27,23 @@ class Kind(NamedTuple):
 
 
 KINDS = {
-    "com": Kind(3),
-    "torso": Kind(3),
-    "place": Kind(3),
-    "com_reference": Kind(2),
-    "zmp_reference": Kind(2),
-    "zmp": Kind(2, may_lack=True),
-    "qpos": Kind(None),
-    "landings": Kind(5, per_sample=False),
-    "sight": Kind(6, per_sample=False, may_lack=True),
-    "pushes": Kind(6, per_sample=False),
-    "velocity": Kind(2),
-    "tilt": Kind(2),
-    "sole": Kind(3),
-    "support": Kind(5),
-    "heading_reference": Kind(1),
-    "estimate": Kind(8, may_lack=True),
-    "command": Kind(4),
+    "com": ArraySpec(3),
+    "torso": ArraySpec(3),
+    "place": ArraySpec(3),
+    "com_reference": ArraySpec(2),
+    "zmp_reference": ArraySpec(2),
+    "zmp": ArraySpec(2, may_lack=True),
+    "qpos": ArraySpec(None),
+    "landings": ArraySpec(5, per_sample=False),
+    "sight": ArraySpec(6, per_sample=False, may_lack=True),
+    "pushes": ArraySpec(6, per_sample=False),
+    "velocity": ArraySpec(2),
+    "tilt": ArraySpec(2),
+    "sole": ArraySpec(3),
+    "support": ArraySpec(5),
+    "heading_reference": ArraySpec(1),
+    "estimate": ArraySpec(8, may_lack=True),
+    "command": ArraySpec(4),
 }
 
 
@@ -69,7 +69,9 @@ def check_times(times: Array, run: str) -> None:
         )
 
 
-def check_tracks(tracks: Mapping[str, Track], samples: int, run: str) -> None:
+def check_tracks(
+    tracks: Mapping[str, Trajectory], samples: int, run: str
+) -> None:
     """Refuse tracks that are not as tracks are.
 
     Args:
@@ -89,7 +91,7 @@ def check_tracks(tracks: Mapping[str, Track], samples: int, run: str) -> None:
 
 
 def _check(
-    array: Array, name: str, kind: Kind, samples: int, run: str
+    array: Array, name: str, kind: ArraySpec, samples: int, run: str
 ) -> None:
     wide = array.shape[1] if array.ndim == 2 else 0
     fits = wide >= 7 if kind.columns is None else wide == kind.columns

@@ -18,24 +18,24 @@ from ..perception.gaze import OFTEN, SELDOM
 from ..perception.perception import Perception
 from ..robots.description import RobotDescription
 from ..robots.head import load_head
-from ..sim.ground_truth import Truth
+from ..sim.ground_truth import GroundTruth
 from ..sim.offscreen_rendering import choose_renderer
 from ..sim.room_furnishing import furnisher
-from ..sim.sensor_suite import Eyes
+from ..sim.sensor_suite import SensorSuite
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
 from .duel_settings import DuelSettings
 from .initial_poses import walls_of
 from .match import Match
 from .outcome import Outcome
-from .sight_evaluation import Judge, Still
-from .sight_summary import SeeingFigures, Seen
+from .sight_evaluation import EvaluatedImage, SightEvaluator
+from .sight_summary import PerceptionSummary, SightReport
 
 GLANCES = {"pursuer": SELDOM, "evader": OFTEN}  # around, to map
 STILLS = 5  # images that a duel keeps of each camera
 
 
-class Seeing:
+class CameraSenses:
     """Everything that a duel with cameras has and an ideal one has not.
 
     Attributes:
@@ -98,9 +98,9 @@ class Seeing:
             if self._maps and name == "pursuer":
                 perception.around.company.append(self.perceptions["evader"])
 
-    def eyes(self, world: World, name: str) -> Eyes:
+    def eyes(self, world: World, name: str) -> SensorSuite:
         """Open the eyes of a robot of a world."""
-        return Eyes(
+        return SensorSuite(
             world,
             name,
             self._description.torso,
@@ -115,8 +115,8 @@ class Seeing:
         )
 
     def judge(
-        self, robot: SimulatedRobot, other: Truth, *, wears_trim: bool
-    ) -> Judge:
+        self, robot: SimulatedRobot, other: GroundTruth, *, wears_trim: bool
+    ) -> SightEvaluator:
         """Judge of what a robot sees of another, who may wear its trim."""
         settings = self._settings
         # Early on more happens: the times grow as squares.
@@ -126,7 +126,7 @@ class Seeing:
         )
         places = [(thing.x, thing.y) for thing in settings.room.things]
         perception = self.perceptions[robot.name]
-        return Judge(
+        return SightEvaluator(
             robot,
             other,
             perception,
@@ -137,7 +137,7 @@ class Seeing:
         )
 
 
-class Witness:
+class SightObserver:
     """Lets the judges look on while a game is played.
 
     Attributes:
@@ -145,7 +145,11 @@ class Witness:
     """
 
     def __init__(
-        self, judges: Mapping[str, Judge], renderer: str, *, every: int
+        self,
+        judges: Mapping[str, SightEvaluator],
+        renderer: str,
+        *,
+        every: int,
     ) -> None:
         """Look on.
 
@@ -175,11 +179,11 @@ class Witness:
         """Beliefs beside the truth, by name of the robot."""
         return {name: judge.array() for name, judge in self.judges.items()}
 
-    def stills(self) -> dict[str, dict[str, list[Still]]]:
+    def stills(self) -> dict[str, dict[str, list[EvaluatedImage]]]:
         """Images kept to be looked at, by robot and camera."""
         return {name: judge.stills for name, judge in self.judges.items()}
 
-    def figures(self) -> Seen:
+    def figures(self) -> SightReport:
         """Errors and rates."""
         tallies = [
             tally
@@ -189,10 +193,10 @@ class Witness:
         shown = sum(t.shown for t in tallies)
         each = {name: j.figures() for name, j in self.judges.items()}
         found = sum(t.found for t in tallies)
-        together = SeeingFigures(
+        together = PerceptionSummary(
             camera=self._renderer,
             detection_rate=found / shown if shown else None,
             false_detections=sum(t.false for t in tallies),
             lost_s=sum(f.lost_s for f in each.values()),
         )
-        return Seen(together, each)
+        return SightReport(together, each)

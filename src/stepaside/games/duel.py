@@ -11,13 +11,13 @@ from ..core.random_streams import named_generator
 from ..robots.description import RobotDescription, load_robot
 from ..robots.jit import prefer_for
 from ..sim.body_settings import with_cycle
-from ..sim.ground_truth import Truth
+from ..sim.ground_truth import GroundTruth
 from ..sim.ideal_sensors import IdealLineOfSight
 from ..sim.obstacle_geoms import add_solids, mover_of
 from ..sim.passer_bodies import add_passers, passer_mover
 from ..sim.pedestrian_models import FIGURES
-from ..sim.person_body import Person, add_person
-from ..sim.person_motion import Motion
+from ..sim.person_body import PersonBody, add_person
+from ..sim.person_motion import PersonMotion
 from ..sim.push import pushes_of
 from ..sim.world import World
 from ..strategies import Strategy, load_strategy
@@ -25,16 +25,16 @@ from .duel_end import ended_duel
 from .duel_run import DuelRun
 from .duel_settings import EVADER, PLAYERS, PURSUER, DuelSettings
 from .initial_poses import frames_of, with_start
-from .match import Match, Observer, Progress, play
+from .match import Match, MatchObserver, Progress, play
 from .outcome import Outcome
-from .person_player import Pedestrian
+from .person_player import PersonPlayer
 from .player import Player
 from .recorder import Recorder
 from .walker import Walker
 from .walker_factory import clearance_in, stand_walker, watch
 
 if TYPE_CHECKING:
-    from .camera_duel import Seeing, Witness
+    from .camera_duel import CameraSenses, SightObserver
 
 
 class Duel(Match):
@@ -50,7 +50,7 @@ class Duel(Match):
     def __init__(
         self,
         settings: DuelSettings,
-        observers: tuple[Observer, ...] = (),
+        observers: tuple[MatchObserver, ...] = (),
         *,
         recorded: bool = True,
     ) -> None:
@@ -78,7 +78,7 @@ class Duel(Match):
         self.witness = (
             setting.witness(every=self.recorder.every) if recorded else None
         )
-        kept: list[Observer] = [self.recorder]
+        kept: list[MatchObserver] = [self.recorder]
         if self.witness is not None:
             kept.append(self.witness)
         super().__init__(
@@ -146,21 +146,21 @@ class _Setting:
             self.world.before_step.append(walk)
         person = None
         if PURSUER not in walkers:
-            motion = Motion(settings.person, frames[0], frames[1][:2])
+            motion = PersonMotion(settings.person, frames[0], frames[1][:2])
             figure = FIGURES[settings.person.figure]
-            person = Person(self.world, PURSUER, motion, figure)
+            person = PersonBody(self.world, PURSUER, motion, figure)
         # Each must know the other before it stands: truths come first.
         self._watched = {
             name: watch(self.world, name, description, self._robots[name].gait)
             for name, description in self._descriptions.items()
         }
-        self._truths: dict[str, Truth] = {**self._watched}
+        self._truths: dict[str, GroundTruth] = {**self._watched}
         if person is not None:
             self._truths[PURSUER] = person.truth
         pursuer: Player = (
             self._walker(PURSUER, settings.pursuer_strategy)
             if person is None
-            else Pedestrian(person, self._truths[EVADER])
+            else PersonPlayer(person, self._truths[EVADER])
         )
         evader = self._walker(EVADER, settings.evader_strategy)
         self.players = (pursuer, evader)
@@ -203,11 +203,11 @@ class _Setting:
             ),
         )
 
-    def witness(self, *, every: int) -> "Witness | None":
+    def witness(self, *, every: int) -> "SightObserver | None":
         """Judges of what the robots see, if they see with cameras."""
         if self._seeing is None:
             return None
-        from .camera_duel import Witness
+        from .camera_duel import SightObserver
 
         judges = {}
         for own, other in (self.players, self.players[::-1]):
@@ -215,9 +215,9 @@ class _Setting:
                 judges[own.name] = self._seeing.judge(
                     own.robot,
                     self._truths[other.name],
-                    wears_trim=not isinstance(other, Pedestrian),
+                    wears_trim=not isinstance(other, PersonPlayer),
                 )
-        return Witness(judges, self._seeing.renderer, every=every)
+        return SightObserver(judges, self._seeing.renderer, every=every)
 
 
 def furnisher_of(
@@ -274,15 +274,15 @@ def _seeing(
     descriptions: Mapping[str, RobotDescription],
     names: tuple[str, ...],
     tick: float,
-) -> "Seeing | None":
+) -> "CameraSenses | None":
     """Senses of a duel with cameras; an ideal one loads none of it."""
     if settings.sensing != "cameras":
         return None
-    from .camera_duel import Seeing
+    from .camera_duel import CameraSenses
 
     if len({d.folder for d in descriptions.values()}) > 1:
         raise ConfigurationError(
             "sensing must be ideal for different robots, got 'cameras' for "
             f"{', '.join(d.name for d in descriptions.values())}"
         )
-    return Seeing(settings, descriptions[names[0]], names, tick=tick)
+    return CameraSenses(settings, descriptions[names[0]], names, tick=tick)

@@ -11,7 +11,7 @@ from .outcome import Outcome
 from .recorder import Recorder
 
 if TYPE_CHECKING:
-    from .camera_duel import Witness
+    from .camera_duel import SightObserver
 
 
 def ended_duel(
@@ -19,7 +19,7 @@ def ended_duel(
     match: Match,
     outcome: Outcome,
     recorder: Recorder,
-    witness: "Witness | None",
+    witness: "SightObserver | None",
     wall_time: float,
 ) -> DuelRun:
     """What was played, as a value.

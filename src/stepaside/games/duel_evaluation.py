@@ -6,7 +6,7 @@ from math import degrees, isfinite, pi
 import numpy as np
 
 from ..core.poses import Array, Pose
-from ..sim.person_motion import Motion, template_approach
+from ..sim.person_motion import PersonMotion, template_approach
 from ..theory.unicycle.circle_equations import Circle
 from ..theory.unicycle.circle_fit import fit_circle
 from .duel_circle import (
@@ -21,16 +21,16 @@ from .duel_settings import EVADER, PLAYERS, DuelSettings
 from .duel_summary import (
     DuelSummary,
     PlanTimes,
-    PlayerFigures,
-    StartFigures,
-    TheoryFigures,
+    PlayerSummary,
+    StartSummary,
+    TheorySummary,
 )
-from .forecast import Expected, forecast
+from .forecast import ExpectedEnd, forecast
 from .match import Match
 from .outcome import Outcome
-from .sight_summary import Seen
+from .sight_summary import SightReport
 from .template_approach import template_meeting
-from .trajectory import Planning, Track
+from .trajectory import PlanningTimes, Trajectory
 
 
 def summarise(
@@ -38,9 +38,9 @@ def summarise(
     match: Match,
     outcome: Outcome,
     times: Array,
-    tracks: Mapping[str, Track],
-    planning: Mapping[str, Planning],
-    seen: Seen | None,
+    tracks: Mapping[str, Trajectory],
+    planning: Mapping[str, PlanningTimes],
+    seen: SightReport | None,
     wall_time: float,
 ) -> DuelSummary:
     """Figures of a duel that is over.
@@ -67,7 +67,7 @@ def summarise(
         message=match.message,
         seed=settings.seed,
         duration_s=round(now, 9),
-        start=StartFigures(
+        start=StartSummary(
             start.distance, start.pursuer_offset, start.evader_offset
         ),
         triggered_at_s=match.triggered_at,
@@ -100,14 +100,14 @@ def summarise(
     )
 
 
-def _theory(settings: DuelSettings, converged: float | None) -> TheoryFigures:
+def _theory(settings: DuelSettings, converged: float | None) -> TheorySummary:
     """What theory says; no circle where contact was to come before it."""
     circle, told = theory_of(settings), forecast(settings)
     words = None if circle.exists else no_circle_because(settings)
-    if told is not None and told.expected is Expected.CONTACT:
+    if told is not None and told.expected is ExpectedEnd.CONTACT:
         if converged is None:
             circle = Circle(exists=False)
-    return TheoryFigures(
+    return TheorySummary(
         _closest_approach(settings) if told is None else told.closest_m,
         circle.exists,
         _number(circle.radius_evader_m),
@@ -120,7 +120,7 @@ def _theory(settings: DuelSettings, converged: float | None) -> TheoryFigures:
     )
 
 
-def _plan_times(planning: Mapping[str, Planning]) -> PlanTimes:
+def _plan_times(planning: Mapping[str, PlanningTimes]) -> PlanTimes:
     plans = 1e6 * np.concatenate([p.times for p in planning.values()])
     if not len(plans):
         return PlanTimes(None, None)
@@ -131,11 +131,14 @@ def _plan_times(planning: Mapping[str, Planning]) -> PlanTimes:
 
 
 def _player(
-    name: str, tracks: Mapping[str, Track], tail: Array, seen: Seen | None
-) -> PlayerFigures:
+    name: str,
+    tracks: Mapping[str, Trajectory],
+    tail: Array,
+    seen: SightReport | None,
+) -> PlayerSummary:
     radius = fit_circle(tracks[name].unicycle[tail, :2])[1]
     sight = None if seen is None else seen.each.get(name)
-    return PlayerFigures(_number(radius), sight)
+    return PlayerSummary(_number(radius), sight)
 
 
 def _closest_approach(settings: DuelSettings) -> float | None:
@@ -146,7 +149,7 @@ def _closest_approach(settings: DuelSettings) -> float | None:
     if not settings.is_of_the_paper or settings.person.path == "visits":
         return None
     places = (
-        lambda pose, evader: Motion(settings.person, pose, evader),
+        lambda pose, evader: PersonMotion(settings.person, pose, evader),
         Pose(0.0, 0.0, start.pursuer_offset or 0.0),
         Pose(start.distance, 0.0, pi + (start.evader_offset or 0.0)),
     )

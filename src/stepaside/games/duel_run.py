@@ -8,13 +8,13 @@ import numpy as np
 
 from ..arena import Room
 from ..core.poses import Array
-from ..sim.camera_settings import Thing
-from .approach_forecast import Approach, approach_between, motion_words
+from ..sim.camera_settings import RoomObject
+from .approach_forecast import CourseApproach, approach_between, motion_words
 from .duel_circle import angle_between, distance_between, theory_of
 from .duel_settings import EVADER, PURSUER, DuelSettings
 from .duel_summary import DuelSummary
-from .run import Area, Run
-from .trajectory import Track
+from .run import Run, SafetyArea
+from .trajectory import Trajectory
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -39,12 +39,12 @@ class DuelRun(Run):
         return self.settings.robots
 
     @property
-    def pursuer(self) -> Track:
+    def pursuer(self) -> Trajectory:
         """Record of the pursuer."""
         return self.tracks[PURSUER]
 
     @property
-    def evader(self) -> Track:
+    def evader(self) -> Trajectory:
         """Record of the evader."""
         return self.tracks[EVADER]
 
@@ -93,10 +93,10 @@ class DuelRun(Run):
         return x, y, theory[0]
 
     @property
-    def safety(self) -> Area | None:
+    def safety(self) -> SafetyArea | None:
         """Area that the evader keeps free; None if it always evades."""
         radius = self.settings.strategy.area
-        return Area(EVADER, radius) if isfinite(radius) else None
+        return SafetyArea(EVADER, radius) if isfinite(radius) else None
 
     @property
     def plan(self) -> Room | None:
@@ -104,7 +104,7 @@ class DuelRun(Run):
         return self.settings.room.plan
 
     @property
-    def things(self) -> tuple[Thing, ...]:
+    def things(self) -> tuple[RoomObject, ...]:
         """What stands about."""
         return tuple(self.settings.room.things)
 
@@ -127,7 +127,7 @@ class DuelRun(Run):
             return f"{self.settings.both} are on the circle"
         return "the evader is evading"
 
-    def _approach_at(self, index: int) -> Approach | None:
+    def _approach_at(self, index: int) -> CourseApproach | None:
         """Approach at a sample, over the gait cycle before it."""
         if len(self.times) < 2:
             return None

@@ -18,7 +18,7 @@ from ..core.ranges import (
 from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..sim.body_settings import BodySettings
-from ..sim.camera_settings import CameraSettings, RoomSettings
+from ..sim.camera_settings import CameraSettings, SceneSettings
 from ..sim.passer_settings import MOST_PASSERS, Passer
 from ..sim.person_settings import PersonSettings, check_pursuer
 from ..sim.physics_settings import PhysicsSettings, SightSettings
@@ -151,7 +151,7 @@ class DuelSettings:
     control: ControlSettings = field(default_factory=ControlSettings)
     sensing: str = "ideal"
     cameras: CameraSettings = field(default_factory=CameraSettings)
-    room: RoomSettings = field(default_factory=RoomSettings)
+    room: SceneSettings = field(default_factory=SceneSettings)
     map: MapSettings = field(default_factory=MapSettings)
     pursuer: str = "robot"
     person: PersonSettings = field(default_factory=PersonSettings)

@@ -3,12 +3,12 @@
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from .sight_summary import SEEING, SIGHT, SeeingFigures, SightFigures, lift
+from .sight_summary import SEEING, SIGHT, PerceptionSummary, SightSummary, lift
 from .summary_parsing import check_object, read_figures
 
 
 @dataclass(frozen=True, slots=True)
-class StartFigures:
+class StartSummary:
     """Where the players stood at first; see ``StartSettings``."""
 
     distance_m: float | None
@@ -17,7 +17,7 @@ class StartFigures:
 
 
 @dataclass(frozen=True, slots=True)
-class TheoryFigures:
+class TheorySummary:
     """What theory says of the same game.
 
     Attributes:
@@ -55,7 +55,7 @@ class PlanTimes:
 
 
 @dataclass(frozen=True, slots=True)
-class PlayerFigures:
+class PlayerSummary:
     """Figures of one player.
 
     Attributes:
@@ -64,7 +64,7 @@ class PlayerFigures:
     """
 
     radius_m: float | None
-    sight: SightFigures | None = None
+    sight: SightSummary | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +110,7 @@ class DuelSummary:
     message: str
     seed: int
     duration_s: float
-    start: StartFigures
+    start: StartSummary
     triggered_at_s: float | None
     triggered_at_distance_m: float | None
     distance_m: float
@@ -120,12 +120,12 @@ class DuelSummary:
     replans: int
     max_com_velocity_jump_m_s: float
     min_zmp_margin_m: float | None
-    theory: TheoryFigures
+    theory: TheorySummary
     plan_time_us: PlanTimes
     real_time_factor: float
-    pursuer: PlayerFigures
-    evader: PlayerFigures
-    sight: SeeingFigures | None = None
+    pursuer: PlayerSummary
+    evader: PlayerSummary
+    sight: PerceptionSummary | None = None
     touched: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     captured_at_s: float | None = None

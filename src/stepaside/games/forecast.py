@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from ..core.poses import Pose
-from ..sim.person_motion import Motion, Place
+from ..sim.person_motion import PersonMotion, Place
 from ..sim.person_settings import PersonSettings
 from .duel_circle import converged_at, no_circle_because, pace_of, theory_of
 from .duel_settings import EVADER, PURSUER, DuelSettings
@@ -15,7 +15,7 @@ LONGEST = 600.0  # of a game of templates, in [s]
 STEP = 0.05  # of its integration, in [s]
 
 
-class Expected(StrEnum):
+class ExpectedEnd(StrEnum):
     """How the template's game ends, as far as it is played."""
 
     CIRCLE = "circle"
@@ -35,7 +35,7 @@ class Forecast:
         words: The same, as a summary says it.
     """
 
-    expected: Expected
+    expected: ExpectedEnd
     closest_m: float
     circle_since_s: float | None
     words: str
@@ -68,8 +68,8 @@ def forecast(settings: DuelSettings) -> Forecast | None:
         "steer", chasing.speed * pace, chasing.gain * pace
     )
 
-    def motion(pose: Pose, evader: Place) -> Motion:
-        return Motion(steering, pose, evader)
+    def motion(pose: Pose, evader: Place) -> PersonMotion:
+        return PersonMotion(steering, pose, evader)
 
     duration = min(settings.duration, LONGEST)
     played = play_template(
@@ -86,14 +86,20 @@ def forecast(settings: DuelSettings) -> Forecast | None:
     )
     if closest < start.least:
         expected, words = (
-            Expected.CONTACT,
+            ExpectedEnd.CONTACT,
             f"contact likely: the template comes to {closest:.2f} m, bodies "
             f"are clear of each other from {start.least:.2f} m on",
         )
     elif not circle.exists:
-        expected, words = Expected.NO_CIRCLE, no_circle_because(settings)
+        expected, words = ExpectedEnd.NO_CIRCLE, no_circle_because(settings)
     elif since is None:
-        expected, words = Expected.LATER, f"the circle, after {duration:.0f} s"
+        expected, words = (
+            ExpectedEnd.LATER,
+            f"the circle, after {duration:.0f} s",
+        )
     else:
-        expected, words = Expected.CIRCLE, f"the circle, from {since:.1f} s on"
+        expected, words = (
+            ExpectedEnd.CIRCLE,
+            f"the circle, from {since:.1f} s on",
+        )
     return Forecast(expected, closest, since, words)

@@ -21,7 +21,7 @@ PRESSED = 5  # ticks for which the chest buttons are pressed
 POLL = 0.0005  # between looks at who has no descriptor to wait on, in [s]
 
 
-class Server(Protocol):
+class RobotServer(Protocol):
     """What speaks for one robot that is played elsewhere."""
 
     @property
@@ -54,7 +54,7 @@ class Server(Protocol):
         """Stop speaking."""
 
 
-class Exchange:
+class Lockstep:
     """Lets a match and its clients keep time with each other.
 
     Attributes:
@@ -65,7 +65,7 @@ class Exchange:
 
     def __init__(
         self,
-        servers: Sequence[Server],
+        servers: Sequence[RobotServer],
         *,
         lock_step: bool = False,
         clock: Callable[[], float] = monotonic,

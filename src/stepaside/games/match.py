@@ -8,7 +8,7 @@ from typing import NamedTuple, Protocol
 
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import ReachError, StrategyError
-from ..core.interrupts import Held
+from ..core.interrupts import DeferredInterrupt
 from ..sim.ground_truth import torsos_apart
 from ..sim.world import World
 from .outcome import Outcome
@@ -32,7 +32,7 @@ class Progress(NamedTuple):
     real_time_factor: float
 
 
-class Observer(Protocol):
+class MatchObserver(Protocol):
     """Whoever looks on: a recorder, a judge of sight, a page."""
 
     def before(self, match: "Match") -> None:
@@ -66,7 +66,7 @@ class Match:
         self,
         world: World,
         players: Sequence[Player],
-        observers: Sequence[Observer] = (),
+        observers: Sequence[MatchObserver] = (),
         *,
         has_things: bool = False,
     ) -> None:
@@ -198,7 +198,7 @@ def play(
     outcome = Outcome.COMPLETED
     began = perf_counter()
     try:
-        with Held() as held:
+        with DeferredInterrupt() as held:
             outcome = _play_on(match, ticks, held, began, report)
     except KeyboardInterrupt:
         outcome = Outcome.INTERRUPTED
@@ -216,7 +216,7 @@ def play(
 def _play_on(
     match: Match,
     ticks: int,
-    held: Held,
+    held: DeferredInterrupt,
     began: float,
     report: Callable[[Progress], None] | None,
 ) -> Outcome:

@@ -7,10 +7,10 @@ from ..core.errors import ConfigurationError
 from ..drivers.joint.frame_clock import TICK
 from ..drivers.naoqi.joint_server import NaoqiJointServer
 from ..drivers.naoqi.naoqi_server import NaoqiServer
-from ..drivers.velocity.velocity_body import Velocity
-from .robot_offers import Offered
+from ..drivers.velocity.velocity_body import VelocityCommand
+from .robot_offers import OfferedPlayer
 from .served_player import ServedBody, ServedPlayer
-from .velocity_walker import DrivenWalker
+from .velocity_walker import VelocityWalker
 from .walker import Walker
 
 
@@ -25,24 +25,24 @@ class NaoqiOffer(NamedTuple):
     url: str
     ideal_sight: bool = True
 
-    def serve(self, walker: Walker, *, lock_step: bool) -> Offered:
+    def serve(self, walker: Walker, *, lock_step: bool) -> OfferedPlayer:
         """Offer a robot that keeps itself up."""
         if lock_step:
             raise ConfigurationError(
                 "a robot on NAOqi cannot be played in lock step: its calls "
                 "carry no time"
             )
-        player = DrivenWalker(walker, offers_sight=self.ideal_sight)
+        player = VelocityWalker(walker, offers_sight=self.ideal_sight)
         server = NaoqiServer(
             self.url,
             player,
             walker.scheme.kinematics.joint_names,
-            Velocity(*fastest(walker.scheme.settings)),
+            VelocityCommand(*fastest(walker.scheme.settings)),
             tick=TICK,
             gait=walker.scheme.settings,
         )
         player.commander = server
-        return Offered(player, server)
+        return OfferedPlayer(player, server)
 
 
 class NaoqiJointsOffer(NamedTuple):
@@ -56,7 +56,7 @@ class NaoqiJointsOffer(NamedTuple):
     url: str
     ideal_sight: bool = True
 
-    def serve(self, walker: Walker, *, lock_step: bool) -> Offered:
+    def serve(self, walker: Walker, *, lock_step: bool) -> OfferedPlayer:
         """Offer a robot's joints."""
         body = ServedBody(walker.robot)
         server = NaoqiJointServer(
@@ -66,4 +66,4 @@ class NaoqiJointsOffer(NamedTuple):
             lock_step=lock_step,
             ideal_sight=self.ideal_sight,
         )
-        return Offered(ServedPlayer(walker.robot, body, server), server)
+        return OfferedPlayer(ServedPlayer(walker.robot, body, server), server)

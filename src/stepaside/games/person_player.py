@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ..control.walk_snapshots import StepBegun
+from ..control.walk_snapshots import StepStarted
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
-from ..sim.ground_truth import Truth
-from ..sim.person_body import Person
+from ..sim.ground_truth import GroundTruth
+from ..sim.person_body import PersonBody
 from ..sim.push import Push
 from .player import Snapshot
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ..perception.frame_report import FrameReport
 
 
-class Pedestrian:
+class PersonPlayer:
     """A person who walks, whatever the robots do about it.
 
     Attributes:
@@ -28,15 +28,15 @@ class Pedestrian:
         has_fallen: False: this person does not fall.
     """
 
-    begun: StepBegun | None = None
+    begun: StepStarted | None = None
     reports: "Sequence[FrameReport]" = ()
     is_moving = True
     has_fallen = False
 
-    def __init__(self, person: Person, other: Truth) -> None:
+    def __init__(self, person: PersonBody, other: GroundTruth) -> None:
         """Let a person know where the other is: people see."""
         self.name, self.person = person.name, person
-        self.truth: Truth = person.truth
+        self.truth: GroundTruth = person.truth
         self._other = other
 
     def tick(self) -> None:

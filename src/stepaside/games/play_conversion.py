@@ -7,9 +7,9 @@ import numpy as np
 
 from ..core.atomic_output import writing
 from ..core.poses import Array
-from ..drivers.joint.safety import State
+from ..drivers.joint.safety import RobotState
 from ..drivers.row_file import HEADER, ROWS
-from ..drivers.velocity.velocity_loop import Driving
+from ..drivers.velocity.velocity_loop import DrivingState
 from ..robots.description import load_robot
 from ..theory.unicycle.circle_fit import fit_circle
 from .array_checks import check_times, check_tracks
@@ -17,14 +17,14 @@ from .checksums import seal
 from .duel_circle import cycle_mean, distance_between
 from .duel_settings import PLAYERS
 from .outcome import Outcome
-from .play_joint_path import Believed
+from .play_joint_path import OdometryPath
 from .play_rows import WORDS, PlayedRows, read_played
 from .play_run import PlayRun
 from .play_settings import PlaySettings
 from .play_sightings import sight_table, sightings_in, track_of_other
 from .play_summary import Change, PlaySummary
-from .run_header import FORMAT, Head
-from .trajectory import Track
+from .run_header import FORMAT, RunHeader
+from .trajectory import Trajectory
 
 MOST_CHANGES = 2000  # of what a robot did, that a summary tells
 LEAST_TURN = 0.5  # of a walk that a circle can be fitted to, in [rad]
@@ -101,7 +101,7 @@ def seal_play(
     run = run_of_play(folder, settings, outcome, message)
     with writing(folder / TRAJECTORIES) as draft:
         np.savez_compressed(draft, allow_pickle=False, **run.arrays())
-    head = Head(FORMAT, run.game, run.players)
+    head = RunHeader(FORMAT, run.game, run.players)
     summary = {**head.to_json(), **run.summary.to_json()}
     text = json.dumps(summary, indent=2, allow_nan=False) + "\n"
     with writing(folder / SUMMARY) as draft:
@@ -110,10 +110,10 @@ def seal_play(
     return run
 
 
-def _own(rows: PlayedRows, settings: PlaySettings, sight: Array) -> Track:
+def _own(rows: PlayedRows, settings: PlaySettings, sight: Array) -> Trajectory:
     """Record of who played."""
     if rows.moves_joints:
-        believed = Believed(rows, load_robot(settings.robot))
+        believed = OdometryPath(rows, load_robot(settings.robot))
         return believed.track(settings.gait, sight)
     sampled = rows.sampled
     torso = rows.columns["pose"][sampled].copy()
@@ -121,18 +121,20 @@ def _own(rows: PlayedRows, settings: PlaySettings, sight: Array) -> Track:
     com = torso.copy()
     com[:, 2] = 0.0
     asked = [rows.columns[name][sampled] for name in ("wanted", "velocity")]
-    return Track(com=com, torso=torso, sight=sight, command=np.hstack(asked))
+    return Trajectory(
+        com=com, torso=torso, sight=sight, command=np.hstack(asked)
+    )
 
 
 def _summary(
     rows: PlayedRows,
     settings: PlaySettings,
     times: Array,
-    tracks: dict[str, Track],
+    tracks: dict[str, Trajectory],
     outcome: Outcome,
     message: str,
 ) -> PlaySummary:
-    kind = State if rows.moves_joints else Driving
+    kind = RobotState if rows.moves_joints else DrivingState
     walks = list(kind).index(kind.WALKING)
     walking = rows.columns["state"] == walks
     passed = np.diff(rows.times, prepend=0.0)

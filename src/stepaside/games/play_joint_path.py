@@ -12,13 +12,13 @@ from ..robots.body_pose import StandingBody, stand_on
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics, MeasuredPosture
 from .play_rows import PlayedRows
-from .trajectory import Track
+from .trajectory import Trajectory
 
 BELIEF = 0.5  # rate at which the accelerometer is believed, in [1/s]
 PRESSED = 1.0  # force on the feet below which they say nothing, in [N]
 
 
-class Believed:
+class OdometryPath:
     """Puts a robot where it believed to be, row by row.
 
     It stands on the foot that control believed to stand, leans as its IMU
@@ -52,7 +52,7 @@ class Believed:
         self._sensors = self._forward.force_sensors()
         self._tilts = _tilts(rows)
 
-    def track(self, gait: GaitSettings, sight: Array) -> Track:
+    def track(self, gait: GaitSettings, sight: Array) -> Trajectory:
         """Its way, at the samples of the run.
 
         Args:
@@ -90,7 +90,9 @@ class Believed:
         for name in ("place", "torso"):
             arrays[name][:, 2] = np.unwrap(arrays[name][:, 2])
         arrays["qpos"] = arrays["qpos"].astype(np.float32)
-        return Track(**arrays, landings=self._landings(frames), sight=sight)
+        return Trajectory(
+            **arrays, landings=self._landings(frames), sight=sight
+        )
 
     def _frames(self) -> dict[float, Pose]:
         """Odometry of each mind in that of the first."""

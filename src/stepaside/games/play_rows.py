@@ -35,7 +35,7 @@ DRIVEN = {"pose": 3, "wanted": 2, "velocity": 2}
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class StateChange:
     """A change of state, as a player wrote it down.
 
     Attributes:
@@ -50,14 +50,14 @@ class Told:
 
 
 @dataclass(frozen=True, slots=True)
-class Words:
+class PlayNotes:
     """What a player wrote down beside its rows.
 
     Attributes:
         changes: Of its state.
     """
 
-    changes: tuple[Told, ...]
+    changes: tuple[StateChange, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,7 +72,7 @@ class PlayedRows:
 
     columns: Mapping[str, Array]
     times: Array
-    changes: tuple[Told, ...]
+    changes: tuple[StateChange, ...]
 
     @property
     def moves_joints(self) -> bool:
@@ -114,7 +114,7 @@ def read_played(folder: Path) -> PlayedRows:
     if not len(found["times_s"]):
         raise ConfigurationError(f"{ROWS} of {name} has no rows")
     words = read_figures(
-        Words, read_json(folder / WORDS), f"{WORDS} of {name}"
+        PlayNotes, read_json(folder / WORDS), f"{WORDS} of {name}"
     )
     return PlayedRows(found, one_clock(found["times_s"]), words.changes)
 

@@ -8,8 +8,8 @@ from ..core.poses import Array
 from .duel_settings import EVADER
 from .play_settings import PlaySettings
 from .play_summary import PlaySummary
-from .run import Area, Run
-from .trajectory import Track
+from .run import Run, SafetyArea
+from .trajectory import Trajectory
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -39,7 +39,7 @@ class PlayRun(Run):
         return f"Play of the {settings.role} over {settings.language}"
 
     @property
-    def player(self) -> Track:
+    def player(self) -> Trajectory:
         """Record of who played."""
         return self.tracks[self.settings.role]
 
@@ -54,11 +54,11 @@ class PlayRun(Run):
         return None
 
     @property
-    def safety(self) -> Area | None:
+    def safety(self) -> SafetyArea | None:
         """Area that an evader keeps free, if there is one."""
         radius = self.settings.strategy.area
         evades = self.settings.role == EVADER and isfinite(radius)
-        return Area(EVADER, radius) if evades else None
+        return SafetyArea(EVADER, radius) if evades else None
 
     def words(self, index: int) -> str:
         """What goes on at a sample."""

@@ -4,7 +4,7 @@ import numpy as np
 
 from ..core.poses import Array
 from .play_rows import PlayedRows
-from .trajectory import Track
+from .trajectory import Trajectory
 
 SAME = 1e-6  # between two times of one sighting, in [s]
 
@@ -40,7 +40,9 @@ def sight_table(found: Array) -> Array:
     return np.column_stack([found[:, 0], found[:, 2:], unknown, lost])
 
 
-def track_of_other(found: Array, times: Array, own: Array) -> Track | None:
+def track_of_other(
+    found: Array, times: Array, own: Array
+) -> Trajectory | None:
     """Where the other was seen last; None if it never was.
 
     Args:
@@ -66,4 +68,4 @@ def track_of_other(found: Array, times: Array, own: Array) -> Track | None:
     torso = rows[np.maximum(newest, 0)]
     com = torso.copy()
     com[:, 2] = 0.0
-    return Track(com=com, torso=torso)
+    return Trajectory(com=com, torso=torso)

@@ -4,11 +4,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
-from ..control.walk_snapshots import StepBegun, WalkState
+from ..control.walk_snapshots import StepStarted, WalkState
 from ..core.poses import Array, Pose
-from ..sim.ground_truth import Truth
-from ..sim.push import GivenPush, Push
-from ..sim.true_stance import Stance
+from ..sim.ground_truth import GroundTruth
+from ..sim.push import Push, ScheduledPush
+from ..sim.true_stance import TrueStance
 
 if TYPE_CHECKING:
     from ..perception.frame_report import FrameReport
@@ -48,8 +48,8 @@ class Snapshot:
     walk: WalkState | None = None
     zmp: tuple[float, float] | None = None
     posture: Array | None = None
-    stance: Stance | None = None
-    pushes: tuple[GivenPush, ...] = ()
+    stance: TrueStance | None = None
+    pushes: tuple[ScheduledPush, ...] = ()
 
 
 def snapshot_of(
@@ -95,11 +95,11 @@ class Player(Protocol):
     name: str
 
     @property
-    def truth(self) -> Truth:
+    def truth(self) -> GroundTruth:
         """Where it really is."""
 
     @property
-    def begun(self) -> StepBegun | None:
+    def begun(self) -> StepStarted | None:
         """Step that it began at the last tick, if it did."""
 
     @property

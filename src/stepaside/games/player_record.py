@@ -4,12 +4,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..control.walk_snapshots import StepBegun
+from ..control.walk_snapshots import StepStarted
 from ..core.poses import Array, Pose
 from ..planning import Foot, ManeuverPlan
-from ..sim.push import GivenPush
+from ..sim.push import ScheduledPush
 from .player import Snapshot
-from .trajectory import Planning, Track, margin_of
+from .trajectory import PlanningTimes, Trajectory, margin_of
 
 UNKNOWN = (np.nan,) * 8
 
@@ -63,7 +63,7 @@ def place_near(arrays: dict[str, Array], frame: Pose) -> None:
     estimate[:, 4:6] = frame.transform_points(estimate[:, 4:6])
 
 
-class Record:
+class PlayerRecord:
     """What is known of one player, by name of what it becomes."""
 
     def __init__(self, closely: bool = False) -> None:
@@ -73,9 +73,9 @@ class Record:
             closely: Whether to keep how its feet stand, and what it believes
                 of itself.
         """
-        self.begun: list[StepBegun] = []
+        self.begun: list[StepStarted] = []
         self._closely = closely
-        self._pushes: tuple[GivenPush, ...] = ()
+        self._pushes: tuple[ScheduledPush, ...] = ()
         self._rows: dict[str, list[Sequence[float] | Array]] = {}
         self._frame: Pose | None = None
 
@@ -104,7 +104,7 @@ class Record:
         for rows in self._rows.values():
             del rows[number:]
 
-    def track(self) -> Track:
+    def track(self) -> Trajectory:
         """Rows as arrays."""
         arrays = {name: np.array(rows) for name, rows in self._rows.items()}
         for name in ("com", "torso"):
@@ -121,7 +121,7 @@ class Record:
             place_near(arrays, self._frame)
         if self._pushes:
             arrays["pushes"] = np.array(self._pushes)
-        return Track(**arrays)
+        return Trajectory(**arrays)
 
     def _landings(self, frame: Pose) -> Array:
         rows = [
@@ -134,11 +134,11 @@ class Record:
         ]
         return np.array(rows, dtype=np.float64).reshape(-1, 5)
 
-    def planning(self) -> Planning:
+    def planning(self) -> PlanningTimes:
         """How the player planned."""
         times = [s.planning_time for s in self.begun]
         plans: list[ManeuverPlan] = [step.plan for step in self.begun]
-        return Planning(
+        return PlanningTimes(
             len(self.begun),
             np.array([t for t in times if t is not None], dtype=np.float64),
             max((s.velocity_jump for s in self.begun), default=0.0),

@@ -8,8 +8,8 @@ from ..core.poses import Array
 from .match import Match
 from .outcome import Outcome
 from .player import Player
-from .player_record import Record
-from .trajectory import Planning, Track
+from .player_record import PlayerRecord
+from .trajectory import PlanningTimes, Trajectory
 
 PERIOD = 0.02  # between samples, in [s]
 
@@ -34,7 +34,9 @@ class Recorder:
         """
         self.every = max(1, round(PERIOD / tick))
         self._times: list[float] = []
-        self._records = {player.name: Record(closely) for player in players}
+        self._records = {
+            player.name: PlayerRecord(closely) for player in players
+        }
 
     @property
     def times(self) -> Array:
@@ -64,10 +66,10 @@ class Recorder:
             self._records[player.name].add(player.snapshot())
         self._times.append(match.world.time)
 
-    def tracks(self) -> dict[str, Track]:
+    def tracks(self) -> dict[str, Trajectory]:
         """Everything recorded so far, by name of the player."""
         return {name: rec.track() for name, rec in self._records.items()}
 
-    def planning(self) -> dict[str, Planning]:
+    def planning(self) -> dict[str, PlanningTimes]:
         """How everybody planned, by name of the player."""
         return {name: rec.planning() for name, rec in self._records.items()}

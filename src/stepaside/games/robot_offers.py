@@ -3,25 +3,25 @@
 from typing import NamedTuple, Protocol
 
 from ..control.sight_sources import CameraSight
-from ..drivers.lola.lola_address import Address
+from ..drivers.lola.lola_address import LolaAddress
 from ..drivers.lola.lola_server import LolaServer
-from .lockstep import Server
+from .lockstep import RobotServer
 from .player import Player
 from .served_player import ServedBody, ServedPlayer
 from .walker import Walker
 
 
-class Offered(NamedTuple):
+class OfferedPlayer(NamedTuple):
     """A player whose control is elsewhere, and what speaks for it."""
 
     player: Player
-    server: Server
+    server: RobotServer
 
 
 class Offer(Protocol):
     """A language, and the place where it is spoken."""
 
-    def serve(self, walker: Walker, *, lock_step: bool) -> Offered:
+    def serve(self, walker: Walker, *, lock_step: bool) -> OfferedPlayer:
         """Offer a robot.
 
         Args:
@@ -43,10 +43,10 @@ class LolaOffer(NamedTuple):
     What the cameras of a robot that has some see is always offered.
     """
 
-    address: Address
+    address: LolaAddress
     ideal_sight: bool = True
 
-    def serve(self, walker: Walker, *, lock_step: bool) -> Offered:
+    def serve(self, walker: Walker, *, lock_step: bool) -> OfferedPlayer:
         """Offer a robot's joints; who plays it has to keep it up."""
         senses = walker.scheme.senses
         head: tuple[int, ...] = ()
@@ -61,4 +61,4 @@ class LolaOffer(NamedTuple):
             ideal_sight=self.ideal_sight,
             cameras=walker.robot.eyes is not None,
         )
-        return Offered(ServedPlayer(walker.robot, body, server), server)
+        return OfferedPlayer(ServedPlayer(walker.robot, body, server), server)

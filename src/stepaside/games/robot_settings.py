@@ -16,7 +16,7 @@ UNITS = {"push_unit": "N s", "force_unit": "N"}  # of what is no length
 
 
 @dataclass(frozen=True, slots=True)
-class GameOfRobot:
+class RobotGameSettings:
     """Distances of a robot's games, and its unit of pushes.
 
     Attributes:
@@ -78,12 +78,12 @@ def settings_of(description: RobotDescription) -> RobotSettings:
     )
 
 
-def game_of(description: RobotDescription) -> GameOfRobot | None:
+def game_of(description: RobotDescription) -> RobotGameSettings | None:
     """Distances of a robot's games; None if its file does not say."""
     if not description.game:
         return None
     source = f"{description.folder / FILE}, game"
-    return parse_settings(GameOfRobot, dict(description.game), source)
+    return parse_settings(RobotGameSettings, dict(description.game), source)
 
 
 def with_robot(settings: S, robot: str) -> S:
@@ -133,7 +133,7 @@ def with_players(
         if game is None:
             continue
         start, strategy = settings.start, settings.strategy
-        wide = GameOfRobot(
+        wide = RobotGameSettings(
             max(game.safety_radius, strategy.safety_radius),
             max(game.start_least, start.least),
             max(game.start_near, start.near),
@@ -148,11 +148,13 @@ def with_players(
     return settings
 
 
-def _widened(strategy: Any, game: GameOfRobot) -> Any:
+def _widened(strategy: Any, game: RobotGameSettings) -> Any:
     return replace(strategy, safety_radius=game.safety_radius)
 
 
-def _drawn_from(start: StartSettings, game: GameOfRobot) -> StartSettings:
+def _drawn_from(
+    start: StartSettings, game: RobotGameSettings
+) -> StartSettings:
     return replace(
         start,
         least=game.start_least,

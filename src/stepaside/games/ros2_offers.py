@@ -1,10 +1,10 @@
 """Robots of our world on ROS 2 topics."""
 
 from ..drivers.joint.frame_clock import TICK
-from ..drivers.ros2.dds_domain import Dds
+from ..drivers.ros2.dds_domain import DdsParticipant
 from ..drivers.ros2.ros2_server import Ros2Server, WorldClock
-from .robot_offers import Offered
-from .velocity_walker import DrivenWalker
+from .robot_offers import OfferedPlayer
+from .velocity_walker import VelocityWalker
 from .walker import Walker
 
 
@@ -13,7 +13,7 @@ class Ros2Offer:
 
     def __init__(
         self,
-        dds: Dds,
+        dds: DdsParticipant,
         clock: WorldClock,
         namespace: str,
         *,
@@ -30,9 +30,9 @@ class Ros2Offer:
         self._dds, self._clock = dds, clock
         self._namespace, self._ideal_sight = namespace, ideal_sight
 
-    def serve(self, walker: Walker, *, lock_step: bool) -> Offered:
+    def serve(self, walker: Walker, *, lock_step: bool) -> OfferedPlayer:
         """Offer a robot that keeps itself up."""
-        player = DrivenWalker(walker, offers_sight=self._ideal_sight)
+        player = VelocityWalker(walker, offers_sight=self._ideal_sight)
         server = Ros2Server(
             self._dds,
             self._namespace,
@@ -43,4 +43,4 @@ class Ros2Offer:
             lock_step=lock_step,
         )
         player.commander = server
-        return Offered(player, server)
+        return OfferedPlayer(player, server)

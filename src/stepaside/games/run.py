@@ -10,15 +10,15 @@ from ..arena import Room
 from ..core.poses import Array
 from ..planning import GaitSettings
 from ..sim.body_settings import BodySettings
-from ..sim.camera_settings import Thing
+from ..sim.camera_settings import RoomObject
 from ..sim.physics_settings import PhysicsSettings
 from .duel_circle import angle_between, distance_between
 from .duel_settings import RobotSettings
 from .outcome import Outcome
-from .trajectory import Track
+from .trajectory import Trajectory
 
 if TYPE_CHECKING:
-    from .sight_evaluation import Still
+    from .sight_evaluation import EvaluatedImage
 
 
 class GameSettings(Protocol):
@@ -52,7 +52,7 @@ class GameSettings(Protocol):
         """How far its bodies are from ideal ones."""
 
 
-class Figures(Protocol):
+class GameSummary(Protocol):
     """What is said of a game in numbers."""
 
     @property
@@ -71,7 +71,7 @@ class Figures(Protocol):
         """Plain values by name."""
 
 
-class Area(NamedTuple):
+class SafetyArea(NamedTuple):
     """A round area that a player keeps free.
 
     Attributes:
@@ -109,9 +109,9 @@ class Run:
     message: str
     duration: float
     times: Array
-    tracks: Mapping[str, Track]
-    summary: Figures
-    stills: "Mapping[str, Mapping[str, list[Still]]]" = field(
+    tracks: Mapping[str, Trajectory]
+    summary: GameSummary
+    stills: "Mapping[str, Mapping[str, list[EvaluatedImage]]]" = field(
         default_factory=dict
     )
 
@@ -148,7 +148,7 @@ class Run:
         return tuple(n for n in self.players if n not in self.robots)
 
     @property
-    def pair(self) -> tuple[Track, Track] | None:
+    def pair(self) -> tuple[Trajectory, Trajectory] | None:
         """Records of the first two; None if one played alone."""
         if len(self.tracks) < 2:
             return None
@@ -185,12 +185,12 @@ class Run:
         return None
 
     @property
-    def safety(self) -> Area | None:
+    def safety(self) -> SafetyArea | None:
         """Area that somebody keeps free, if there is one."""
         return None
 
     @property
-    def things(self) -> tuple[Thing, ...]:
+    def things(self) -> tuple[RoomObject, ...]:
         """What stands about."""
         return ()
 

@@ -21,9 +21,9 @@ from .play_conversion import is_play, run_of_play
 from .play_run import PlayRun
 from .play_settings import PlaySettings
 from .run import Run
-from .run_header import FORMAT, Head, read_head
+from .run_header import FORMAT, RunHeader, read_head
 from .summary_parsing import check_object
-from .trajectory import FIELDS, Track, tracks_in
+from .trajectory import FIELDS, Trajectory, tracks_in
 from .walk_run import WalkRun
 
 R = TypeVar("R", bound=Run)
@@ -49,7 +49,7 @@ def write_record(folder: Path, run: Run) -> None:
     (folder / CONFIGURATION).write_text(
         dump_configuration(run.settings), encoding="utf-8"
     )
-    head = Head(FORMAT, run.game, run.players)
+    head = RunHeader(FORMAT, run.game, run.players)
     summary = {**head.to_json(), **run.summary.to_json()}
     (folder / SUMMARY).write_text(
         json.dumps(summary, indent=2) + "\n", encoding="utf-8"
@@ -187,8 +187,8 @@ def _times(arrays: dict[str, Array], name: str) -> Array:
 
 
 def _tracks(
-    arrays: dict[str, Array], name: str, head: Head
-) -> dict[str, Track]:
+    arrays: dict[str, Array], name: str, head: RunHeader
+) -> dict[str, Trajectory]:
     """Tracks of all players."""
     if head.version == 1:
         arrays = without_fillers(arrays, head.players)

@@ -14,7 +14,7 @@ MOST_PLAYERS = 6
 NAME = re.compile(r"[a-z][a-z0-9-]{0,31}")
 
 
-class Head(NamedTuple):
+class RunHeader(NamedTuple):
     """What stands above the figures of a run.
 
     Attributes:
@@ -40,7 +40,7 @@ class Head(NamedTuple):
         return {k: v for k, v in plain.items() if k not in self.to_json()}
 
 
-def read_head(plain: Any, run: str, games: tuple[str, ...]) -> Head:
+def read_head(plain: Any, run: str, games: tuple[str, ...]) -> RunHeader:
     """Read what a summary says of its folder.
 
     Args:
@@ -60,7 +60,7 @@ def read_head(plain: Any, run: str, games: tuple[str, ...]) -> Head:
             f"{FORMAT}: a later stepaside wrote it"
         )
     if version < 3:
-        return Head(version, OLDEST_GAME, PLAYERS)
+        return RunHeader(version, OLDEST_GAME, PLAYERS)
     game, players = told.get("game"), told.get("players")
     if game not in games:
         raise ConfigurationError(
@@ -72,7 +72,7 @@ def read_head(plain: Any, run: str, games: tuple[str, ...]) -> Head:
             f"players of run {run} must be 1 to {MOST_PLAYERS} names of "
             f"small letters, each once, got {players!r:.80}"
         )
-    return Head(version, game, tuple(players))
+    return RunHeader(version, game, tuple(players))
 
 
 def _are_names(players: list[Any]) -> bool:

@@ -10,7 +10,7 @@ from .duel import Duel
 from .duel_end import ended_duel
 from .duel_run import DuelRun
 from .duel_settings import DuelSettings
-from .lockstep import Exchange, Server
+from .lockstep import Lockstep, RobotServer
 from .match import Match, Progress, play
 from .player import Player
 from .recorder import Recorder
@@ -19,7 +19,7 @@ from .served_player import ServedPlayer
 from .walker import Walker
 
 
-class Served(NamedTuple):
+class ServedDuel(NamedTuple):
     """A served duel that is over.
 
     Attributes:
@@ -50,7 +50,7 @@ def serve_duel(
     lock_step: bool = False,
     patience: float = 60.0,
     report: Callable[[Progress], None] | None = None,
-) -> Served:
+) -> ServedDuel:
     """Let other processes play a duel in our world.
 
     Who is not offered is played here, by its own control.
@@ -76,7 +76,7 @@ def serve_duel(
         )
     with ExitStack() as stack:
         players: list[Player] = []
-        servers: list[Server] = []
+        servers: list[RobotServer] = []
         for player in duel.players:
             if player.name in offers and isinstance(player, Walker):
                 offer = offers[player.name]
@@ -84,7 +84,7 @@ def serve_duel(
                 stack.callback(server.close)
                 servers.append(server)
             players.append(player)
-        exchange = Exchange(servers, lock_step=lock_step)
+        exchange = Lockstep(servers, lock_step=lock_step)
         recorder = Recorder(players, tick=TICK)
         exchange.gather(patience)
         for player in players:
@@ -92,7 +92,7 @@ def serve_duel(
                 player.body.let_go()
         match = Match(duel.world, players, (exchange, recorder))
         outcome, wall = play(match, settings.duration, report)
-    return Served(
+    return ServedDuel(
         ended_duel(duel.settings, match, outcome, recorder, None, wall),
         exchange.late,
         exchange.histogram(),

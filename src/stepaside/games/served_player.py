@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from ..control.walk_snapshots import StepBegun
+from ..control.walk_snapshots import StepStarted
 from ..core.constants import GRAVITY
 from ..core.poses import Array
 from ..perception.measurement import Measurement
-from ..sim.ground_truth import Truth
+from ..sim.ground_truth import GroundTruth
 from ..sim.push import Push
 from ..sim.simulated_robot import SimulatedRobot
 from .player import Snapshot, snapshot_of
@@ -106,7 +106,7 @@ class ServedPlayer:
         reports: None: what it sees is not known here.
     """
 
-    begun: StepBegun | None = None
+    begun: StepStarted | None = None
     reports: "Sequence[FrameReport]" = ()
 
     def __init__(
@@ -115,7 +115,7 @@ class ServedPlayer:
         """Join a robot and what speaks for it."""
         self.name = robot.name
         self.robot, self.body, self.server = robot, body, server
-        self.truth: Truth = robot.truth
+        self.truth: GroundTruth = robot.truth
 
     @property
     def is_moving(self) -> bool:

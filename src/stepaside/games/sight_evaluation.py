@@ -10,9 +10,9 @@ from ..perception.frame_report import FrameReport
 from ..perception.images import ColourImage, DepthImage, Percept, SonarEcho
 from ..perception.perception import Perception
 from ..robots.head import HeadDescription, Mount
-from ..sim.ground_truth import Truth, torsos_apart
+from ..sim.ground_truth import GroundTruth, torsos_apart
 from ..sim.simulated_robot import SimulatedRobot
-from .sight_summary import SightFigures, Spread
+from .sight_summary import ErrorSpread, SightSummary
 
 AGREES = radians(10.0)  # within which a detection is of what it should be
 ASTRAY = radians(20.0)  # error of a belief that misleads
@@ -20,7 +20,7 @@ MARGIN = 0.15  # beyond the near limit at which a body is in range, in [m]
 
 
 @dataclass(slots=True)
-class Tally:
+class FrameCounts:
     """Frames of one camera.
 
     Attributes:
@@ -40,7 +40,7 @@ class Tally:
 
 
 @dataclass(slots=True)
-class Still:
+class EvaluatedImage:
     """One image with what was found in it.
 
     Attributes:
@@ -53,7 +53,7 @@ class Still:
     azimuth: float
 
 
-class Judge:
+class SightEvaluator:
     """Compares what a robot believes with what is.
 
     Attributes:
@@ -65,7 +65,7 @@ class Judge:
     def __init__(
         self,
         robot: SimulatedRobot,
-        other: Truth,
+        other: GroundTruth,
         perception: Perception,
         head: HeadDescription,
         things: list[tuple[float, float]],
@@ -92,8 +92,11 @@ class Judge:
         model = robot.world.model
         self._body = model.body(f"{robot.name}/{head.body}").id
         self._true: dict[Percept, tuple[float, bool, list[float]]] = {}
-        self.colour, self.depth = Tally(), Tally()
-        self.stills: dict[str, list[Still]] = {"colour": [], "depth": []}
+        self.colour, self.depth = FrameCounts(), FrameCounts()
+        self.stills: dict[str, list[EvaluatedImage]] = {
+            "colour": [],
+            "depth": [],
+        }
         self._rows: list[tuple[float, ...]] = []
         self._still_times = still_times
 
@@ -151,7 +154,7 @@ class Judge:
         kept = self.stills[kind]
         if len(kept) < len(self._still_times):
             if report.image.time >= self._still_times[len(kept)]:
-                kept.append(Still(report, azimuth))
+                kept.append(EvaluatedImage(report, azimuth))
 
     def sample(self, now: float) -> None:
         """Compare the belief of this instant with the truth."""
@@ -174,14 +177,14 @@ class Judge:
         """
         return np.array(self._rows, dtype=np.float64).reshape(-1, 6)
 
-    def figures(self) -> SightFigures:
+    def figures(self) -> SightSummary:
         """Errors and rates."""
         rows = self.array()
         off = np.abs(wrap_angles(rows[:, 1] - rows[:, 3]))
         away = np.abs(rows[:, 2] - rows[:, 4])
         period = float(np.diff(rows[:2, 0])[0]) if len(rows) > 1 else 0.0
         known = np.isfinite(off)
-        return SightFigures(
+        return SightSummary(
             bearing_error_deg=_spread(np.degrees(off[known])),
             distance_error_m=_spread(away[known]),
             detection_rate=self.colour.rate,
@@ -205,7 +208,9 @@ class Judge:
         return atan2(float(point[1]), float(point[0]))
 
 
-def _spread(errors: Array) -> Spread:
+def _spread(errors: Array) -> ErrorSpread:
     if not errors.size:
-        return Spread(None, None)
-    return Spread(float(np.median(errors)), float(np.quantile(errors, 0.95)))
+        return ErrorSpread(None, None)
+    return ErrorSpread(
+        float(np.median(errors)), float(np.quantile(errors, 0.95))
+    )

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 
 @dataclass(frozen=True, slots=True)
-class Spread:
+class ErrorSpread:
     """Sizes of errors; None where there are none.
 
     Attributes:
@@ -19,7 +19,7 @@ class Spread:
 
 
 @dataclass(frozen=True, slots=True)
-class SightFigures:
+class SightSummary:
     """How well one robot saw.
 
     Attributes:
@@ -34,8 +34,8 @@ class SightFigures:
             None if the other was never in its view.
     """
 
-    bearing_error_deg: Spread
-    distance_error_m: Spread
+    bearing_error_deg: ErrorSpread
+    distance_error_m: ErrorSpread
     detection_rate: float | None
     false_detections: int
     misled_s: float
@@ -51,12 +51,12 @@ class SightFigures:
 
 
 @dataclass(frozen=True, slots=True)
-class SeeingFigures:
+class PerceptionSummary:
     """How well all robots of a game saw.
 
     Attributes:
         camera: What drew the colour images.
-        detection_rate: Of all cameras; see :class:`SightFigures`.
+        detection_rate: Of all cameras; see :class:`SightSummary`.
         false_detections: Likewise.
         lost_s: Of all robots, added, in [s].
     """
@@ -67,7 +67,7 @@ class SeeingFigures:
     lost_s: float
 
 
-class Seen(NamedTuple):
+class SightReport(NamedTuple):
     """Figures of what was seen in a game.
 
     Attributes:
@@ -75,12 +75,12 @@ class Seen(NamedTuple):
         each: Of each that has cameras, by name.
     """
 
-    all: SeeingFigures
-    each: Mapping[str, SightFigures]
+    all: PerceptionSummary
+    each: Mapping[str, SightSummary]
 
 
-SEEING = frozenset(field.name for field in fields(SeeingFigures))
-SIGHT = frozenset(field.name for field in fields(SightFigures))
+SEEING = frozenset(field.name for field in fields(PerceptionSummary))
+SIGHT = frozenset(field.name for field in fields(SightSummary))
 
 
 def lift(plain: dict[str, Any], names: frozenset[str]) -> dict[str, Any]:

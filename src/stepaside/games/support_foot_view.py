@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..core.poses import Array
 from .outcome import Outcome
-from .trajectory import Track
+from .trajectory import Trajectory
 
 COLUMNS = (
     *("time", "support", "single", "com_x", "com_y", "velocity_x"),
@@ -23,7 +23,7 @@ COLUMNS = (
 )
 
 
-def seen_from_foot(times: Array, track: Track) -> dict[str, Array]:
+def seen_from_foot(times: Array, track: Trajectory) -> dict[str, Array]:
     """Columns of a walk, by the names of ``COLUMNS``. Shape (n,) each.
 
     What is true is seen from the true sole, what is asked or estimated from

@@ -9,7 +9,7 @@ import numpy as np
 from ..core.poses import Array, Pose, wrap_angle
 from ..planning import GaitSettings
 from ..planning.path import UnicycleTrajectory
-from ..sim.person_motion import Motion, Place
+from ..sim.person_motion import PersonMotion, Place
 from ..strategies.knowledge import Intent, Knowledge, Limits
 from ..strategies.strategy import Strategy
 
@@ -38,7 +38,7 @@ class TemplateGame:
 
 
 def template_meeting(
-    motion: Callable[[Pose, Place], Motion],
+    motion: Callable[[Pose, Place], PersonMotion],
     start: Pose,
     evader: Pose,
     strategy: Strategy,
@@ -60,7 +60,7 @@ def template_meeting(
 
 
 def play_template(
-    motion: Callable[[Pose, Place], Motion],
+    motion: Callable[[Pose, Place], PersonMotion],
     start: Pose,
     evader: Pose,
     strategy: Strategy,

@@ -10,7 +10,7 @@ from ..planning import ManeuverPlan
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Track:
+class Trajectory:
     """Record of one player, one row per sample; what it lacks is None.
 
     Positions are in the world, in [m], angles in [rad].
@@ -91,11 +91,11 @@ class Track:
         return found
 
 
-FIELDS = tuple(field.name for field in fields(Track))
+FIELDS = tuple(field.name for field in fields(Trajectory))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Planning:
+class PlanningTimes:
     """How one player planned.
 
     Attributes:
@@ -122,7 +122,7 @@ def margin_of(plans: list[ManeuverPlan]) -> float | None:
 
 def tracks_in(
     arrays: dict[str, Array], names: tuple[str, ...]
-) -> dict[str, Track]:
+) -> dict[str, Trajectory]:
     """Tracks of players from arrays by name.
 
     Raises:
@@ -130,7 +130,7 @@ def tracks_in(
     """
     needed = ("com", "torso")
     return {
-        name: Track(
+        name: Trajectory(
             **{
                 key: np.asarray(arrays[f"{name}_{key}"])
                 for key in FIELDS

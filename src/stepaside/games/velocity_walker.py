@@ -4,34 +4,34 @@ from collections.abc import Mapping
 from typing import Protocol
 
 from ..control import Phase
-from ..control.sight_sources import GivenSight
-from ..control.turn_calibration import TurnShare
+from ..control.sight_sources import MeasuredSight
+from ..control.turn_calibration import TurnCalibration
 from ..control.velocity_walk import accepted, walk_at
 from ..core.poses import Array, Pose, wrap_angle
-from ..drivers.velocity.footstep_commands import FootMove
-from ..drivers.velocity.velocity_body import REST, Velocity
+from ..drivers.velocity.footstep_commands import FootCommand
+from ..drivers.velocity.velocity_body import REST, VelocityCommand
 from ..drivers.velocity.walking_robot import WalkerState
 from ..perception.images import ColourImage, SonarEcho
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Direction, Foot
-from ..strategies import Stand
+from ..strategies import StandStill
 from .walker import Walker
 
 HEAD_SPEED = 3.0  # of a head that is turned from outside, in [rad/s]
 SOMEBODY = Sighting(0.0, 0.0, 1.0)  # who is driven looks for nobody
 
 
-class Commander(Protocol):
+class VelocitySource(Protocol):
     """Where velocities come from."""
 
-    def act(self) -> Velocity:
+    def act(self) -> VelocityCommand:
         """What the robot is to do at this tick."""
 
     def close(self) -> None:
         """Let go of whoever commands."""
 
 
-class DrivenWalker(Walker):
+class VelocityWalker(Walker):
     """A robot with its own control, which walks as it is told.
 
     Attributes:
@@ -46,9 +46,9 @@ class DrivenWalker(Walker):
             offers_sight: Whether it tells where the other is.
         """
         super().__init__(walker.robot, walker.scheme, walker.frame)
-        self.commander: Commander | None = None
-        self.scheme.senses = GivenSight(SOMEBODY)
-        self.scheme.decisions.adopt(Stand())
+        self.commander: VelocitySource | None = None
+        self.scheme.senses = MeasuredSight(SOMEBODY)
+        self.scheme.decisions.adopt(StandStill())
         self.scheme.decisions.turns = None  # learnt here, by what was told
         self._offers_sight = offers_sight
         self._under_way: Direction | None = None
@@ -61,7 +61,7 @@ class DrivenWalker(Walker):
         self._ticks = -1
         self._steps = 0
         self._updated = False
-        self._turns = TurnShare(walker.robot.world.physics.tick)
+        self._turns = TurnCalibration(walker.robot.world.physics.tick)
 
     def tick(self) -> None:
         """Walk on, as it was told."""
@@ -102,7 +102,7 @@ class DrivenWalker(Walker):
         return WalkerState(
             now,
             scheme.decisions.templates.at(now),
-            Velocity(*pace),
+            VelocityCommand(*pace),
             measurement.joint_positions.tolist(),
             self._sighting(measurement),
             self._image,
@@ -116,7 +116,7 @@ class DrivenWalker(Walker):
         """Make the next first step with a foot, if it stands."""
         self.scheme.lead_with(foot)
 
-    def _making(self, now: float) -> FootMove | None:
+    def _making(self, now: float) -> FootCommand | None:
         """Step that is being made, its time what is left of it."""
         walk = self.scheme.state
         plan = walk.plan
@@ -124,7 +124,7 @@ class DrivenWalker(Walker):
             return None
         ends = walk.plan_started + plan.schedule.first_step_duration
         placed = Pose(*plan.placements[2].tolist())
-        return FootMove(plan.first_foot, placed, max(0.0, ends - now))
+        return FootCommand(plan.first_foot, placed, max(0.0, ends - now))
 
     def look(self, angles: Mapping[str, float]) -> None:
         """Turn the head to angles of its joints, in [rad], by name.

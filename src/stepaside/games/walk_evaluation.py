@@ -9,12 +9,12 @@ from ..core.poses import Array
 from ..locomotion.zmp.mpc import MpcResult
 from .outcome import Outcome
 from .support_foot_view import COLUMNS, on_its_feet, seen_from_foot
-from .trajectory import Track
+from .trajectory import Trajectory
 from .walk_settings import WalkSettings
 from .walk_summary import (
-    Errors,
+    ErrorStatistics,
     EstimationErrors,
-    SolverFigures,
+    SolverSummary,
     TrackingErrors,
     WalkSummary,
 )
@@ -32,7 +32,7 @@ ESTIMATED = {
 }
 
 
-class Pace(NamedTuple):
+class WalkingPace(NamedTuple):
     """How fast a robot walked and turned; None where nothing tells.
 
     Attributes:
@@ -48,7 +48,7 @@ class Pace(NamedTuple):
     turn: float | None = None
 
 
-class Counted(NamedTuple):
+class StepCounts(NamedTuple):
     """What a record has no samples of.
 
     Attributes:
@@ -74,8 +74,8 @@ def summarise_walk(
     message: str,
     duration: float,
     times: Array,
-    track: Track,
-    counted: Counted,
+    track: Trajectory,
+    counted: StepCounts,
 ) -> WalkSummary:
     """Figures of a walk that is over.
 
@@ -103,7 +103,7 @@ def figures_of(
     message: str,
     duration: float,
     columns: dict[str, Array],
-    counted: Counted,
+    counted: StepCounts,
 ) -> WalkSummary:
     """Figures of a walk that was seen from its feet.
 
@@ -152,12 +152,12 @@ def figures_of(
     )
 
 
-def _solver(answers: tuple[MpcResult, ...]) -> SolverFigures | None:
+def _solver(answers: tuple[MpcResult, ...]) -> SolverSummary | None:
     """Figures of the MPC's solver; None without one."""
     if not answers:
         return None
     times = 1e6 * np.array([a.time for a in answers])
-    return SolverFigures(
+    return SolverSummary(
         solves=len(answers),
         infeasible=sum(not a.feasible for a in answers),
         median_us=float(np.median(times)),
@@ -167,11 +167,11 @@ def _solver(answers: tuple[MpcResult, ...]) -> SolverFigures | None:
     )
 
 
-def _pace(a: dict[str, Array], cycle: float) -> Pace:
+def _pace(a: dict[str, Array], cycle: float) -> WalkingPace:
     """Speed and rate of turn, true and asked for."""
     time = a["time"]
     if len(time) < 3 or time[-1] - time[0] < 2.0 * cycle:
-        return Pace()
+        return WalkingPace()
     stride = round(cycle / float(time[1] - time[0]))
     turns = (len(time) - 1) // stride
     rows = np.arange(turns + 1) * stride
@@ -188,7 +188,7 @@ def _pace(a: dict[str, Array], cycle: float) -> Pace:
     wanted = np.unwrap(a["asked_heading"])[rows]
     yaw = float(wanted[-1] - wanted[0])
     gone = float(turned[-1] - turned[0])
-    return Pace(
+    return WalkingPace(
         true / lasted,
         true / asked if asked > 0.01 else None,
         degrees(gone) / lasted,
@@ -213,12 +213,12 @@ def _slip(a: dict[str, Array]) -> float | None:
     return float(np.mean(slips)) if slips else None
 
 
-def _error(value: Array, wanted: Array) -> Errors | None:
+def _error(value: Array, wanted: Array) -> ErrorStatistics | None:
     off = value - wanted
     off = off[np.isfinite(off)]
     if off.size == 0:
         return None
-    return Errors(
+    return ErrorStatistics(
         rms=float(np.sqrt(np.mean(off**2))),
         mean=float(np.mean(off)),
         max=float(np.abs(off).max()),

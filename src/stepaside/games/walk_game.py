@@ -14,10 +14,10 @@ from ..robots.jit import prefer_for
 from ..sim.body_settings import with_cycle
 from ..sim.world import World
 from ..strategies import Walk
-from .match import Match, Observer, play
+from .match import Match, MatchObserver, play
 from .outcome import Outcome
 from .recorder import Recorder
-from .walk_evaluation import Counted, summarise_walk
+from .walk_evaluation import StepCounts, summarise_walk
 from .walk_run import WalkRun
 from .walk_settings import WALKER, WalkSettings
 from .walker import Walker
@@ -54,7 +54,7 @@ class WalkTally:
         """Nothing to do."""
 
 
-class Walking(Match):
+class WalkGame(Match):
     """One robot in a world, ready to walk.
 
     Attributes:
@@ -70,7 +70,7 @@ class Walking(Match):
         *,
         recorded: bool = True,
         description: RobotDescription | None = None,
-        observers: tuple[Observer, ...] = (),
+        observers: tuple[MatchObserver, ...] = (),
     ) -> None:
         """Build the world and stand the robot in it.
 
@@ -112,7 +112,7 @@ class Walking(Match):
             [self.walker], tick=world.physics.tick, closely=True
         )
         self.tally = WalkTally(self.walker, keeps_answers=recorded)
-        kept: list[Observer] = [self.tally]
+        kept: list[MatchObserver] = [self.tally]
         if recorded:
             kept.append(self.recorder)
         super().__init__(world, [self.walker], [*kept, *observers])
@@ -134,7 +134,7 @@ class Walking(Match):
             self.world.time,
             times,
             tracks[WALKER],
-            Counted(
+            StepCounts(
                 self.tally.steps,
                 walker.scheme.balance.adapted,
                 (0.0, 0.0) if pusher is None else pusher.impulse,
@@ -173,7 +173,7 @@ def run_walk(
         StepAsideError: If the settings ask for what cannot be.
     """
     prefer_for(settings.duration)
-    walking = Walking(settings, recorded=record)
+    walking = WalkGame(settings, recorded=record)
     told = report
     outcome, wall_time = play(
         walking,

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from .run import Run
-from .trajectory import Track
+from .trajectory import Trajectory
 from .walk_settings import WalkSettings
 from .walk_summary import WalkSummary
 
@@ -26,7 +26,7 @@ class WalkRun(Run):
     summary: WalkSummary
 
     @property
-    def walker(self) -> Track:
+    def walker(self) -> Trajectory:
         """Record of who walked."""
         return next(iter(self.tracks.values()))
 

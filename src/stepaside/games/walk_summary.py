@@ -7,7 +7,7 @@ from .summary_parsing import read_figures
 
 
 @dataclass(frozen=True, slots=True)
-class Errors:
+class ErrorStatistics:
     """How far one quantity was from another, in the unit of both."""
 
     rms: float
@@ -19,28 +19,28 @@ class Errors:
 class TrackingErrors:
     """What was done, from what was asked, seen from the foot that stands."""
 
-    com_x_m: Errors | None
-    com_y_m: Errors | None
-    zmp_x_m: Errors | None
-    zmp_y_m: Errors | None
+    com_x_m: ErrorStatistics | None
+    com_y_m: ErrorStatistics | None
+    zmp_x_m: ErrorStatistics | None
+    zmp_y_m: ErrorStatistics | None
 
 
 @dataclass(frozen=True, slots=True)
 class EstimationErrors:
     """What was believed, from what was, seen from the foot that stands."""
 
-    com_x_m: Errors | None
-    com_y_m: Errors | None
-    velocity_x_m_s: Errors | None
-    velocity_y_m_s: Errors | None
-    zmp_x_m: Errors | None
-    zmp_y_m: Errors | None
-    roll_rad: Errors | None
-    pitch_rad: Errors | None
+    com_x_m: ErrorStatistics | None
+    com_y_m: ErrorStatistics | None
+    velocity_x_m_s: ErrorStatistics | None
+    velocity_y_m_s: ErrorStatistics | None
+    zmp_x_m: ErrorStatistics | None
+    zmp_y_m: ErrorStatistics | None
+    roll_rad: ErrorStatistics | None
+    pitch_rad: ErrorStatistics | None
 
 
 @dataclass(frozen=True, slots=True)
-class SolverFigures:
+class SolverSummary:
     """How the solver of the MPC did.
 
     Attributes:
@@ -110,7 +110,7 @@ class WalkSummary:
     estimation: EstimationErrors
     tilt_max_deg: float | None
     min_zmp_margin_m: float | None
-    qp: SolverFigures | None
+    qp: SolverSummary | None
     real_time_factor: float
     run_folder: str | None = None
 

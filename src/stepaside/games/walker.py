@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING
 
 from ..control import ControlScheme, Phase
 from ..control.sight_sources import CameraSight
-from ..control.walk_snapshots import StepBegun
+from ..control.walk_snapshots import StepStarted
 from ..core.poses import Pose
-from ..sim.ground_truth import Truth
+from ..sim.ground_truth import GroundTruth
 from ..sim.push import Push
 from ..sim.simulated_robot import SimulatedRobot
 from .player import Snapshot, snapshot_of
@@ -33,10 +33,10 @@ class Walker:
         """Join body and mind."""
         self.name = robot.name
         self.robot, self.scheme, self.frame = robot, scheme, frame
-        self.truth: Truth = robot.truth
+        self.truth: GroundTruth = robot.truth
 
     @property
-    def begun(self) -> StepBegun | None:
+    def begun(self) -> StepStarted | None:
         """Step that it began at the last tick, if it did."""
         return self.scheme.begun
 

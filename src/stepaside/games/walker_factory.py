@@ -5,9 +5,13 @@ from typing import TYPE_CHECKING
 
 from ..arena import Room
 from ..control.clearance.map_settings import MapSettings
-from ..control.clearance.surroundings import GivenRoom, SeenRoom, Surroundings
+from ..control.clearance.surroundings import (
+    KnownRoom,
+    MappedRoom,
+    Surroundings,
+)
 from ..control.clearance.swept_outline import sway_of
-from ..control.scheme_builder import Clearance, build_scheme
+from ..control.scheme_builder import ClearanceSetup, build_scheme
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..locomotion.zmp.control_settings import ControlSettings
@@ -15,7 +19,7 @@ from ..perception.measurement import Sighting
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..sim.body_settings import BodySettings
-from ..sim.ground_truth import TrueState
+from ..sim.ground_truth import TrueRobotState
 from ..sim.ideal_sensors import IdealLineOfSight
 from ..sim.outline_measurement import measure_outline
 from ..sim.simulated_robot import SimulatedRobot
@@ -25,14 +29,14 @@ from .walker import Walker
 
 if TYPE_CHECKING:
     from ..perception.perception import Perception
-    from ..sim.sensor_suite import Eyes
+    from ..sim.sensor_suite import SensorSuite
 
 
 def watch(
     world: World, name: str, description: RobotDescription, gait: GaitSettings
-) -> TrueState:
+) -> TrueRobotState:
     """True state of a robot of a world, which walks with a gait."""
-    return TrueState(
+    return TrueRobotState(
         world.model,
         world.data,
         f"{name}/{description.torso}",
@@ -54,10 +58,10 @@ def stand_walker(
     seed: int,
     sighting: Sighting | None = None,
     sight: IdealLineOfSight | None = None,
-    eyes: "Eyes | None" = None,
+    eyes: "SensorSuite | None" = None,
     perception: "Perception | None" = None,
-    truth: TrueState | None = None,
-    clearance: Clearance | None = None,
+    truth: TrueRobotState | None = None,
+    clearance: ClearanceSetup | None = None,
 ) -> Walker:
     """Stand one robot in a world, and give it a mind.
 
@@ -106,7 +110,7 @@ def stand_walker(
         averages_imu=control.feedback,
         truth=truth or watch(world, name, description, gait),
         knows_place=clearance is not None
-        and isinstance(clearance.surroundings, GivenRoom),
+        and isinstance(clearance.surroundings, KnownRoom),
     )
     return Walker(robot, scheme, frame)
 
@@ -118,7 +122,7 @@ def clearance_in(
     gait: GaitSettings,
     frame: Pose,
     perception: "Perception | None" = None,
-) -> Clearance | None:
+) -> ClearanceSetup | None:
     """What a robot knows of the room that it plays in, if anything.
 
     Args:
@@ -131,18 +135,18 @@ def clearance_in(
     """
     if room is None or known.source == "none":
         return None
-    surroundings: Surroundings = GivenRoom(room, frame)
+    surroundings: Surroundings = KnownRoom(room, frame)
     if known.source == "seen":
         assert perception is not None and perception.floor is not None
-        surroundings = SeenRoom(
+        surroundings = MappedRoom(
             perception.floor, unseen_is_free=known.unseen == "free"
         )
     outline = measure_outline(description, gait)
-    return Clearance(surroundings, outline, known.margin)
+    return ClearanceSetup(surroundings, outline, known.margin)
 
 
 def fitting(
-    strategy: Strategy, clearance: Clearance | None, gait: GaitSettings
+    strategy: Strategy, clearance: ClearanceSetup | None, gait: GaitSettings
 ) -> Strategy:
     """A strategy that reckons with as much room as the body needs.
 

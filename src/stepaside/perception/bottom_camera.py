@@ -7,17 +7,17 @@ from ..core.poses import Array, wrap_angle
 from ..robots.body_pose import BodyPose
 from ..robots.head import Mount
 from .floor_map import FloorMap
-from .foot_tracking import Feet
+from .foot_tracking import FootDetector
 from .frame_report import FrameReport
 from .images import ColourImage
-from .near_floor import NearFloor
+from .near_floor import NearFloorMapper
 from .observations import camera_of
-from .track import Observation, Track
+from .track import Observation, TargetTrack
 
 Own = tuple[float, float]  # axis of the robot in odometry, in [m]
 
 
-class LowerCamera:
+class BottomCamera:
     """The second camera of a head, which looks down.
 
     It takes turns with the upper one. It finds the feet of people who are
@@ -36,11 +36,13 @@ class LowerCamera:
         """
         self._mount = mount
         there = mount is not None
-        self.feet = Feet() if people and there else None
-        self.near = NearFloor(floor) if floor is not None and there else None
+        self.feet = FootDetector() if people and there else None
+        self.near = (
+            NearFloorMapper(floor) if floor is not None and there else None
+        )
 
     def wanted(
-        self, body: BodyPose, main: Track | None, *, lost: bool
+        self, body: BodyPose, main: TargetTrack | None, *, lost: bool
     ) -> bool:
         """Whether the next image is to be its own.
 
@@ -63,8 +65,8 @@ class LowerCamera:
         place: Array,
         axes: Array,
         own: Own,
-        tracks: Sequence[Track],
-        main: Track | None,
+        tracks: Sequence[TargetTrack],
+        main: TargetTrack | None,
     ) -> None:
         """Learn what the floor looks like, from an upper image.
 

@@ -70,7 +70,7 @@ GAP = 0.25  # between parts of one near thing, legs for one, in [rad]
 BLIND = 24  # pixels without return that something near must hide
 
 
-class Part(NamedTuple):
+class DepthComponent(NamedTuple):
     """A part of something near.
 
     Attributes:
@@ -194,23 +194,23 @@ def detect_obstacles(
         # What hides the floor without an echo may be a nearer part of it.
         hidden = any(p.low - GAP < high and low - GAP < p.high for p in dark)
         if thing.nearest < image.near + TRUNCATED and hidden:
-            near.append(Part(low, high, thing.nearest, thing.whole))
+            near.append(DepthComponent(low, high, thing.nearest, thing.whole))
         else:
             whole.append(thing)
     ahead = atan2(axes[1, 0], axes[0, 0])
     return DepthScene(tuple(whole), _join(near, ahead))
 
 
-def _join(parts: list[Part], ahead: float) -> tuple[Shadow, ...]:
+def _join(parts: list[DepthComponent], ahead: float) -> tuple[Shadow, ...]:
     """Join parts into near things, whose middle is that of their ends."""
-    joined: list[Part] = []
+    joined: list[DepthComponent] = []
     for part in sorted(parts, key=lambda part: part[:2]):
         if not joined or part.low >= joined[-1].high + GAP:
             joined.append(part)
             continue
         low, high, known, whole = joined[-1]
         told = [n for n in (known, part.nearest) if n is not None]
-        joined[-1] = Part(
+        joined[-1] = DepthComponent(
             low,
             max(part.high, high),
             min(told, default=None),
@@ -306,7 +306,7 @@ def _measure(
 
 def _shadows(
     image: DepthImage, depths: Array, rays: Array, place: Array, axes: Array
-) -> list[Part]:
+) -> list[DepthComponent]:
     """Where the floor should answer and does not: something too near."""
     down = -rays[..., 2]
     with np.errstate(divide="ignore"):
@@ -332,5 +332,5 @@ def _shadows(
         low, high = float(azimuths.min()), float(azimuths.max())
         left, wide = stats[label, [cv2.CC_STAT_LEFT, cv2.CC_STAT_WIDTH]]
         whole = bool(left > 0 and left + wide < depths.shape[1])
-        shadows.append(Part(low, high, None, whole))
+        shadows.append(DepthComponent(low, high, None, whole))
     return shadows

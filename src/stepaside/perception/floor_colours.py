@@ -20,7 +20,7 @@ STRADDLE = 0.45  # between the feet of one person, at most, in [m]
 FRONT = 0.02  # share of a thing's pixels nearer than where it begins
 
 
-class Footing(NamedTuple):
+class FloorContact(NamedTuple):
     """Where something stands on the floor.
 
     Attributes:
@@ -100,7 +100,7 @@ def find_footings(
     place: Array,
     axes: Array,
     own: tuple[float, float],
-) -> tuple[Footing, ...]:
+) -> tuple[FloorContact, ...]:
     """Find what stands on the floor close by, by where its image begins.
 
     What has not the colours of the floor stands on it where it is seen
@@ -134,11 +134,11 @@ def find_footings(
         begin = float(np.quantile(away[part], FRONT))
         edge = part & (away < begin + 0.05)
         x, y = points[edge].mean(axis=0).tolist()
-        found.append(Footing(x, y, begin))
+        found.append(FloorContact(x, y, begin))
     return _together(sorted(found, key=lambda footing: footing.distance))
 
 
-def _together(feet: list[Footing]) -> tuple[Footing, ...]:
+def _together(feet: list[FloorContact]) -> tuple[FloorContact, ...]:
     """Take two feet beside each other for one person's."""
     rest, found = list(feet), []
     while rest:
@@ -146,7 +146,7 @@ def _together(feet: list[Footing]) -> tuple[Footing, ...]:
         for other in rest:
             if np.hypot(foot.x - other.x, foot.y - other.y) < STRADDLE:
                 rest.remove(other)
-                foot = Footing(
+                foot = FloorContact(
                     0.5 * (foot.x + other.x),
                     0.5 * (foot.y + other.y),
                     0.5 * (foot.distance + other.distance),

@@ -8,7 +8,7 @@ import numpy as np
 from ..core.poses import Array
 from .floor_colours import FloorColours, find_footings, floor_points
 from .images import ColourImage
-from .track import Observation, Track
+from .track import Observation, TargetTrack
 
 CLOSE = 1.2  # distance of somebody whose feet are looked at, in [m]
 ASIDE = 1.0  # yaw of the head up to which no arm is in view, in [rad]
@@ -18,7 +18,7 @@ TOES = 0.1  # from where feet begin to the axis above them, in [m]
 ALONG, ACROSS = 0.12, 0.06  # deviations of that axis, in [m]
 
 
-class Feet:
+class FootDetector:
     """Learns the floor from far, and finds who stands on it close by.
 
     Within the near limit of the depth camera its image shows the bearing of
@@ -32,7 +32,12 @@ class Feet:
         self.colours = FloorColours()
 
     def wanted(
-        self, track: Track | None, now: float, x: float, y: float, yaw: float
+        self,
+        track: TargetTrack | None,
+        now: float,
+        x: float,
+        y: float,
+        yaw: float,
     ) -> bool:
         """Whether the lower camera is of more use than the upper one.
 
@@ -53,7 +58,7 @@ class Feet:
         place: Array,
         axes: Array,
         own: tuple[float, float],
-        tracks: Sequence[Track],
+        tracks: Sequence[TargetTrack],
     ) -> None:
         """Learn the floor in an image of the upper camera.
 

@@ -18,7 +18,7 @@ APART = 0.4  # from floor that is learnt to the other player, in [m]
 RARE = 0.05
 
 
-class NearFloor:
+class NearFloorMapper:
     """Shows a map the floor that its depth camera is too near to measure.
 
     Within the near limit of that camera a thing hides the floor before it,

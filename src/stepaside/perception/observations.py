@@ -11,7 +11,7 @@ from .depth_detector import Obstacle, Shadow
 from .floor_map import FloorMap
 from .images import ColourImage, DepthImage
 from .ranging import BREADTH, range_of_breadth, range_of_trim
-from .track import Observation, Track
+from .track import Observation, TargetTrack
 
 SURE = 0.8  # confidence from which the size of the trim tells distance
 GUESS = 1.2  # distance of a thing whose distance is unknown, in [m]
@@ -33,7 +33,7 @@ def observe_trim(
     place: Array,
     axes: Array,
     appearance: Appearance,
-    tracks: Sequence[Track],
+    tracks: Sequence[TargetTrack],
     *,
     near: bool = False,
 ) -> Observation:
@@ -171,7 +171,10 @@ def observe_obstacles(
 
 
 def observe_shadow(
-    image: DepthImage, shadow: Shadow, place: Array, tracks: Sequence[Track]
+    image: DepthImage,
+    shadow: Shadow,
+    place: Array,
+    tracks: Sequence[TargetTrack],
 ) -> Observation:
     """Place by its bearing what is too near for its distance.
 
@@ -222,7 +225,7 @@ def angle_of(image: ColourImage | DepthImage, column: float) -> float:
 
 
 def _remembered(
-    tracks: Sequence[Track], time: float, bearing: float, place: Array
+    tracks: Sequence[TargetTrack], time: float, bearing: float, place: Array
 ) -> float:
     """Distance of what was seen in a direction, from a place, in [m]."""
     x, y = float(place[0]), float(place[1])

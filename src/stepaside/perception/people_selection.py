@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from math import hypot
 
 from .target_selection import STARE, UNSEEN, lately_seen
-from .track import LAPSE, Track
+from .track import LAPSE, TargetTrack
 from .tracker import Tracker
 
 AHEAD = 4.0  # for which somebody is taken to walk on, in [s]
@@ -21,7 +21,7 @@ SOON = 1.6  # time in which somebody new would be near, in [s]
 NEAR = 0.7  # in [m]
 
 
-class People:
+class PeopleSelection:
     """Watches who comes, and no more than glances at what rests.
 
     A wall is nearer than any person, and would hold the gaze for ever. So
@@ -33,12 +33,14 @@ class People:
 
     def __init__(self) -> None:
         """Know nobody."""
-        self._main: Track | None = None
-        self._glanced: dict[Track, float] = {}  # begin of the last, in [s]
+        self._main: TargetTrack | None = None
+        self._glanced: dict[
+            TargetTrack, float
+        ] = {}  # begin of the last, in [s]
 
     def main(
         self, tracker: Tracker, now: float, x: float, y: float
-    ) -> Track | None:
+    ) -> TargetTrack | None:
         """Who walks and will be nearest; else what is nearest."""
         tracker.tidy(now)
         known = [track for track in tracker.tracks if track.confirmed]
@@ -52,12 +54,12 @@ class People:
 
     def look(
         self,
-        tracks: Sequence[Track],
-        main: Track | None,
+        tracks: Sequence[TargetTrack],
+        main: TargetTrack | None,
         now: float,
         x: float,
         y: float,
-    ) -> Track | None:
+    ) -> TargetTrack | None:
         """Who comes; else what was not looked at for a while."""
         candidates = lately_seen(tracks, main, now)
         for track in candidates:
@@ -81,7 +83,9 @@ class People:
                 return track
         return None
 
-    def settled(self, track: Track, now: float, x: float, y: float) -> bool:
+    def settled(
+        self, track: TargetTrack, now: float, x: float, y: float
+    ) -> bool:
         """Whether it was watched for a while, or there is no time for that.
 
         Of whom the head only sweeps by, parts are seen, and their middles
@@ -102,7 +106,7 @@ class People:
         return now - track.begun_at < NEW and soon and least < NEAR
 
 
-def nearest(track: Track, now: float, x: float, y: float) -> float:
+def nearest(track: TargetTrack, now: float, x: float, y: float) -> float:
     """Least distance from a place if somebody walks on for a while, in [m].
 
     Args:

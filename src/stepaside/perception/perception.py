@@ -9,7 +9,7 @@ from ..robots.body_pose import BodyKinematics, BodyPose
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics
 from ..robots.head import HeadDescription
-from .bottom_camera import LowerCamera
+from .bottom_camera import BottomCamera
 from .colour_detector import Appearance, ColourDetector
 from .depth_detector import detect_obstacles
 from .floor_map import FloorMap
@@ -24,11 +24,11 @@ from .observations import (
     observe_shadow,
     observe_trim,
 )
-from .people_selection import People
-from .room_scan import LookAround
+from .people_selection import PeopleSelection
+from .room_scan import RoomScan
 from .sonar import is_heard, observe_echo
-from .target_selection import UNSEEN, Attention, OneRobot
-from .track import ANYBODY, WALKER, Observation, Track
+from .target_selection import UNSEEN, RobotSelection, TargetSelection
+from .track import ANYBODY, WALKER, Observation, TargetTrack
 from .tracker import Tracker
 
 MEMORY = 1.0  # how long past poses are kept, in [s]
@@ -74,11 +74,13 @@ class Perception:
                 floor that it walks backward onto, in [s]; None for none.
             people: Whether people come, who wear no trim.
         """
-        self._attention: Attention = People() if people else OneRobot()
+        self._attention: TargetSelection = (
+            PeopleSelection() if people else RobotSelection()
+        )
         self._people = people
         self.floor = floor
-        self.around = LookAround()
-        self._lower = LowerCamera(head.bottom, people=people, floor=floor)
+        self.around = RoomScan()
+        self._lower = BottomCamera(head.bottom, people=people, floor=floor)
         self._glances = None if glances is None else Glances(tick, glances)
         self._head = head
         self.forward = ForwardKinematics(description, head.body)
@@ -170,7 +172,9 @@ class Perception:
         joint_targets[self._kinematics.yaw] = self._gaze.yaw
         joint_targets[self._kinematics.pitch] = self._gaze.pitch
 
-    def _look(self, now: float, body: BodyPose, track: Track | None) -> None:
+    def _look(
+        self, now: float, body: BodyPose, track: TargetTrack | None
+    ) -> None:
         """Look at what counts, at what may come to count, or about."""
         x, y, heading = body.torso
         tracks = self._tracker.tracks

@@ -7,7 +7,7 @@ from .measurement import Measurement, Sighting
 from .perception import Perception
 
 
-class LevelPerception(Perception):
+class PlanarPerception(Perception):
     """Sees from a body that stays level, midway between its feet."""
 
     def see_level(

@@ -15,7 +15,7 @@ FACING = 0.15  # from where it faced first, it faces there again, in [rad]
 LONGEST = 10.0  # that turns, or somebody else, are waited for, in [s]
 
 
-class Looker(Protocol):
+class ScanGroup(Protocol):
     """Who may look around."""
 
     @property
@@ -23,7 +23,7 @@ class Looker(Protocol):
         """Whether it still does."""
 
 
-class LookAround:
+class RoomScan:
     """One look to either end of the head's reach, and behind.
 
     Who walks backward turns on the spot meanwhile, away from where it looks
@@ -41,7 +41,7 @@ class LookAround:
 
     def __init__(self) -> None:
         """Have seen nothing yet."""
-        self.company: list[Looker] = []
+        self.company: list[ScanGroup] = []
         self.behind = False
         self.turning = 0.0
         self._began: tuple[float, float] | None = None

@@ -7,7 +7,7 @@ from ..robots.body_pose import BodyPose
 from ..robots.head import Mount
 from .floor_map import FloorMap
 from .images import SonarEcho
-from .track import Observation, Track
+from .track import Observation, TargetTrack
 
 FRESH = 0.25  # age at which a distance is worth hearing again, in [s]
 CHEST = 0.10  # from a sonar to the own axis and into the other, in [m]
@@ -26,7 +26,7 @@ def observe_echo(
     echo: SonarEcho,
     mount: Mount,
     body: BodyPose,
-    track: Track | None,
+    track: TargetTrack | None,
     floor: FloorMap | None,
     now: float,
 ) -> Observation | None:

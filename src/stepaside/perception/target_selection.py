@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from math import hypot
 from typing import Protocol
 
-from .track import Track
+from .track import TargetTrack
 from .tracker import Tracker
 
 UNSEEN = 1.0  # after which nobody is looked at any more, in [s]
@@ -12,12 +12,12 @@ STARE = 1.2  # unknown things that rest are looked at up to here, in [m]
 MOVING = 0.08  # speed from which a thing moves, in [m/s]
 
 
-class Attention(Protocol):
+class TargetSelection(Protocol):
     """What a robot makes of the tracks that it follows."""
 
     def main(
         self, tracker: Tracker, now: float, x: float, y: float
-    ) -> Track | None:
+    ) -> TargetTrack | None:
         """The track that counts, if any.
 
         Args:
@@ -29,12 +29,12 @@ class Attention(Protocol):
 
     def look(
         self,
-        tracks: Sequence[Track],
-        main: Track | None,
+        tracks: Sequence[TargetTrack],
+        main: TargetTrack | None,
         now: float,
         x: float,
         y: float,
-    ) -> Track | None:
+    ) -> TargetTrack | None:
         """The track to look at; None to look about.
 
         Args:
@@ -45,7 +45,9 @@ class Attention(Protocol):
             y: Likewise.
         """
 
-    def settled(self, track: Track, now: float, x: float, y: float) -> bool:
+    def settled(
+        self, track: TargetTrack, now: float, x: float, y: float
+    ) -> bool:
         """Whether it is known well enough to begin to move.
 
         Args:
@@ -57,8 +59,8 @@ class Attention(Protocol):
 
 
 def lately_seen(
-    tracks: Sequence[Track], main: Track | None, now: float
-) -> list[Track]:
+    tracks: Sequence[TargetTrack], main: TargetTrack | None, now: float
+) -> list[TargetTrack]:
     """Tracks that may be looked at, what counts before all others.
 
     Args:
@@ -71,23 +73,23 @@ def lately_seen(
     return [track for track in ordered if now - track.seen_at <= UNSEEN]
 
 
-class OneRobot:
+class RobotSelection:
     """Looks for a robot that is known by its trim."""
 
     def main(
         self, tracker: Tracker, now: float, x: float, y: float
-    ) -> Track | None:
+    ) -> TargetTrack | None:
         """Who was recognised lately, and else the nearest."""
         return tracker.main(now, x, y)
 
     def look(
         self,
-        tracks: Sequence[Track],
-        main: Track | None,
+        tracks: Sequence[TargetTrack],
+        main: TargetTrack | None,
         now: float,
         x: float,
         y: float,
-    ) -> Track | None:
+    ) -> TargetTrack | None:
         """What counts, and else what is near or moves."""
         for track in lately_seen(tracks, main, now):
             named = now - track.identified_at < UNSEEN
@@ -96,6 +98,8 @@ class OneRobot:
                 return track
         return None
 
-    def settled(self, track: Track, now: float, x: float, y: float) -> bool:
+    def settled(
+        self, track: TargetTrack, now: float, x: float, y: float
+    ) -> bool:
         """Always: where a robot is that is near decides."""
         return True

@@ -22,7 +22,7 @@ HEARD = 0.2  # deviation across that only an ear has, in [m]
 WALKED = 0.2  # way from where it was first seen sharply that is none, in [m]
 
 
-class Motion(NamedTuple):
+class MotionModel(NamedTuple):
     """How things move that are followed.
 
     Attributes:
@@ -34,8 +34,8 @@ class Motion(NamedTuple):
     hurry: float
 
 
-ANYBODY = Motion(1.0, 0.25)
-WALKER = Motion(0.3, 0.1)  # a humanoid robot among things that rest
+ANYBODY = MotionModel(1.0, 0.25)
+WALKER = MotionModel(0.3, 0.1)  # a humanoid robot among things that rest
 
 
 class Observation(NamedTuple):
@@ -73,7 +73,7 @@ class Observation(NamedTuple):
         return covariance
 
 
-class Track:
+class TargetTrack:
     """Kalman filter of place and velocity, with a memory of its frames.
 
     Attributes:
@@ -91,7 +91,10 @@ class Track:
     """
 
     def __init__(
-        self, first: Observation, number: int = 0, motion: Motion = ANYBODY
+        self,
+        first: Observation,
+        number: int = 0,
+        motion: MotionModel = ANYBODY,
     ) -> None:
         """Begin with a first observation."""
         self.number, self._push = number, motion.push
@@ -208,7 +211,7 @@ class Track:
         if sum(self._hits) >= ENOUGH:
             self.confirmed = True
 
-    def take_over(self, other: "Track") -> None:
+    def take_over(self, other: "TargetTrack") -> None:
         """Take over what is known of another track of the same thing."""
         self.identified_at = max(self.identified_at, other.identified_at)
         self.seen_at = max(self.seen_at, other.seen_at)

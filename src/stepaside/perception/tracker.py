@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from itertools import count
 
-from .track import ANYBODY, GATE, Motion, Observation, Track
+from .track import ANYBODY, GATE, MotionModel, Observation, TargetTrack
 
 IDENTITY = 5.0  # how long a thing stays the other robot unseen, in [s]
 PATIENCE = 4.0  # how long a confirmed thing is remembered, in [s]
@@ -26,14 +26,14 @@ class Tracker:
         tracks: Everything followed.
     """
 
-    def __init__(self, motion: Motion = ANYBODY) -> None:
+    def __init__(self, motion: MotionModel = ANYBODY) -> None:
         """Follow nothing yet.
 
         Args:
             motion: How what is followed moves.
         """
         self._motion = motion
-        self.tracks: list[Track] = []
+        self.tracks: list[TargetTrack] = []
         self._numbers = count(1)
 
     def observe(
@@ -42,7 +42,7 @@ class Tracker:
         *,
         founds: bool = True,
         walkers: bool = False,
-    ) -> list[Track]:
+    ) -> list[TargetTrack]:
         """Take in everything that one frame shows.
 
         Args:
@@ -68,14 +68,14 @@ class Tracker:
                 updated.append(track)
         if founds:
             begun = [
-                Track(each, next(self._numbers), self._motion)
+                TargetTrack(each, next(self._numbers), self._motion)
                 for each in fresh
             ]
             self.tracks += begun
             updated += begun
         return updated
 
-    def main(self, now: float, x: float, y: float) -> Track | None:
+    def main(self, now: float, x: float, y: float) -> TargetTrack | None:
         """The track that counts at a time, for a robot at a place."""
         self.tidy(now)
         known = [track for track in self.tracks if track.confirmed]
@@ -104,7 +104,7 @@ class Tracker:
 
     def _merge(self, now: float) -> None:
         """Drop the younger of two tracks of the same thing."""
-        kept: list[Track] = []
+        kept: list[TargetTrack] = []
         for track in sorted(self.tracks, key=lambda t: t.begun_at):
             x, y = track.place_at(now)
             for older in kept:

@@ -3,7 +3,7 @@ from .footsteps import Footstep as Footstep
 from .gait_settings import PRESETS as PRESETS
 from .gait_settings import STABILISED as STABILISED
 from .gait_settings import GaitSettings as GaitSettings
-from .gait_settings import Sole as Sole
+from .gait_settings import SoleRectangle as SoleRectangle
 from .maneuver import CenterState as CenterState
 from .maneuver import ManeuverPlanner as ManeuverPlanner
 from .path import Direction as Direction
@@ -22,6 +22,6 @@ __all__ = [
     "ManeuverPlan",
     "ManeuverPlanner",
     "PlanSamples",
-    "Sole",
+    "SoleRectangle",
     "UnicycleTrajectory",
 ]

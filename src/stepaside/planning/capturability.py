@@ -42,7 +42,7 @@ from .support_polygon import sole_corners
 MOST_STEPS = 20  # more change nothing: each counts by exp(-eta T)
 
 
-class Reach(NamedTuple):
+class FootReach(NamedTuple):
     """Where a footstep may land, in the axes of the support foot.
 
     Attributes:
@@ -63,7 +63,7 @@ def push_bound(
     time: float,
     direction: float,
     mass: float,
-    reach: Reach,
+    reach: FootReach,
     *,
     lasts: float = 0.0,
     steps: int = 1,
@@ -118,7 +118,7 @@ def push_bound(
 
 
 def held_regions(
-    plan: ManeuverPlan, time: float, reach: Reach, steps: int
+    plan: ManeuverPlan, time: float, reach: FootReach, steps: int
 ) -> list[Array]:
     """DCMs that can be held; each region is convex, their union need not be.
 
@@ -178,7 +178,7 @@ def ray_interval(
 
 
 def _caught(
-    gait: GaitSettings, reach: Reach, support: Foot, steps: int
+    gait: GaitSettings, reach: FootReach, support: Foot, steps: int
 ) -> list[Array]:
     """DCMs at a landing that this footstep and later ones hold.
 

@@ -15,7 +15,7 @@ WIDE = "beyond, exponentials of a gait leave a computer's numbers"
 
 
 @dataclass(frozen=True, slots=True)
-class Sole:
+class SoleRectangle:
     """Rectangle that a left sole can press on; the right one mirrors it.
 
     Attributes:
@@ -99,7 +99,7 @@ class GaitSettings:
     swing_reaction: float = 0.0
     horizon: int = 5
     gravity: float = GRAVITY
-    sole: Sole = field(default_factory=Sole)
+    sole: SoleRectangle = field(default_factory=SoleRectangle)
 
     ranges: ClassVar[Ranges] = {
         "speed": Range(1e-4, 10.0, "m/s", WIDE),

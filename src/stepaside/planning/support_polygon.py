@@ -13,7 +13,7 @@ import numpy as np
 from ..core.convex import convex_hull, half_planes
 from ..core.poses import Array
 from .footsteps import Foot
-from .gait_settings import Sole
+from .gait_settings import SoleRectangle
 from .schedule import Schedule
 
 
@@ -95,7 +95,7 @@ def _step_rows(step: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
     return (step + 1,), (step + 1, step + 2)
 
 
-def sole_corners(pose: Array, foot: Foot, sole: Sole) -> Array:
+def sole_corners(pose: Array, foot: Foot, sole: SoleRectangle) -> Array:
     """Corners of a sole in the frame of its pose.
 
     Args:

@@ -5,13 +5,13 @@ from collections.abc import Iterable
 import numpy as np
 
 from ..core.poses import Array
-from .visual_geoms import Part
+from .visual_geoms import VisualGeom
 
 
-class Tops:
+class BodyHeights:
     """Boxes around the parts of each body, to find the highest point."""
 
-    def __init__(self, parts: Iterable[Part]) -> None:
+    def __init__(self, parts: Iterable[VisualGeom]) -> None:
         """Keep the corners of the boxes, in their bodies."""
         found: dict[int, list[Array]] = {}
         for part in parts:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from ..core.errors import ConfigurationError
 
 
-class Sheet(NamedTuple):
+class FigureSheet(NamedTuple):
     """How wide a figure is, and how its words are set.
 
     Attributes:
@@ -27,20 +27,22 @@ class Sheet(NamedTuple):
 SANS, SERIF = ("DejaVu Sans",), ("STIXGeneral", "DejaVu Serif")
 # Widths of the two-column format of IEEE's transactions.
 SHEETS = {
-    "screen": Sheet(None, 9.0, SANS, narrow=False),
-    "page": Sheet(7.16, 8.0, SERIF, narrow=False),
-    "column": Sheet(3.5, 7.0, SERIF, narrow=True),
+    "screen": FigureSheet(None, 9.0, SANS, narrow=False),
+    "page": FigureSheet(7.16, 8.0, SERIF, narrow=False),
+    "column": FigureSheet(3.5, 7.0, SERIF, narrow=True),
 }
-_chosen: ContextVar[Sheet] = ContextVar("sheet", default=SHEETS["screen"])
+_chosen: ContextVar[FigureSheet] = ContextVar(
+    "sheet", default=SHEETS["screen"]
+)
 
 
-def sheet() -> Sheet:
+def sheet() -> FigureSheet:
     """What figures are drawn on at present."""
     return _chosen.get()
 
 
 @contextmanager
-def figures_on(name: str) -> Iterator[Sheet]:
+def figures_on(name: str) -> Iterator[FigureSheet]:
     """Draw figures on a sheet of one of ``SHEETS`` meanwhile.
 
     Args:

@@ -15,30 +15,35 @@ from ..core.worker_pool import worker_pool
 from ..games.run import Run
 from ..games.run_archive import load_run
 from ..perception.images import Pixels
-from ..sim.offscreen_rendering import RAYCAST, Look, Screen, choose_renderer
-from .film_camera import CameraMan
+from ..sim.offscreen_rendering import (
+    RAYCAST,
+    OffscreenRenderer,
+    RenderQuality,
+    choose_renderer,
+)
+from .film_camera import FilmCamera
 from .film_captions import caption, title_of
-from .film_insets import Insets, room_beside
+from .film_insets import FilmInsets, room_beside
 from .film_layers import decorate, light_up
-from .film_shot import Shot
+from .film_shot import FilmSettings
 from .film_walls import see_through
-from .scene import Stage
+from .scene import RunScene
 
 CHUNK = 15  # pictures that one worker draws at a time
 TRAIL = 20.0  # how long traces are, in [s]
-FINE = Look(samples=4, shadow=2048, slices=18, stacks=10)
+FINE = RenderQuality(samples=4, shadow=2048, slices=18, stacks=10)
 # Beyond, nothing has shadows; who looks far must not see where that is.
 REACH = {"eyes": 12.0}
 NEARBY = 4.0  # for all other cameras
 
 
-class Cinema:
+class FilmRenderer:
     """Draws pictures of one run."""
 
-    def __init__(self, run: Run, shot: Shot, backend: str) -> None:
+    def __init__(self, run: Run, shot: FilmSettings, backend: str) -> None:
         """Set up graphics."""
         self._run, self._shot = run, shot
-        self._stage = Stage(run)
+        self._stage = RunScene(run)
         model = self._stage.model
         _dim(model)
         self._fovy = float(model.vis.global_.fovy)
@@ -47,10 +52,10 @@ class Cinema:
             beside = room_beside(shot.width, shot.height)
             wide -= beside
             size = beside, shot.height
-            self._insets = Insets(run, self._stage, backend, size)
+            self._insets = FilmInsets(run, self._stage, backend, size)
         aspect = wide / shot.height
-        self._man = CameraMan(run, shot.camera, self._fovy, aspect)
-        self._screen = Screen(
+        self._man = FilmCamera(run, shot.camera, self._fovy, aspect)
+        self._screen = OffscreenRenderer(
             model,
             wide,
             shot.height,
@@ -113,26 +118,26 @@ def closest_time(run: Run) -> float | None:
     return float(run.times[int(np.argmin(run.distance))])
 
 
-def instants_of(run: Run, shot: Shot) -> list[float]:
+def instants_of(run: Run, shot: FilmSettings) -> list[float]:
     """Times of the pictures of a film of a run, in [s]."""
     return shot.instants(float(run.times[-1]), closest_time(run))
 
 
-_cinemas: dict[tuple[Path, Shot, str], Cinema] = {}
+_cinemas: dict[tuple[Path, FilmSettings, str], FilmRenderer] = {}
 
 
 def _draw(
-    folder: Path, shot: Shot, backend: str, times: list[float]
+    folder: Path, shot: FilmSettings, backend: str, times: list[float]
 ) -> list[Pixels]:
     """Draw some pictures in a process that keeps its graphics."""
     key = (folder, shot, backend)
     if key not in _cinemas:
-        _cinemas[key] = Cinema(load_run(folder), shot, backend)
+        _cinemas[key] = FilmRenderer(load_run(folder), shot, backend)
     return [_cinemas[key].picture(time) for time in times]
 
 
 def pictures(
-    folder: Path, shot: Shot, *, workers: int | None = None
+    folder: Path, shot: FilmSettings, *, workers: int | None = None
 ) -> Iterator[Pixels]:
     """Draw the pictures of a film in order, on all cores.
 
@@ -174,7 +179,7 @@ def pictures(
 def write_video(
     folder: Path,
     file: Path,
-    shot: Shot,
+    shot: FilmSettings,
     report: Callable[[int, int], None] | None = None,
 ) -> int:
     """Write a film as H.264, which browsers play.
@@ -219,7 +224,7 @@ def write_video(
 def write_gif(
     folder: Path,
     file: Path,
-    shot: Shot,
+    shot: FilmSettings,
     report: Callable[[int, int], None] | None = None,
 ) -> int:
     """Write a short film as GIF; see :func:`write_video`."""
@@ -245,4 +250,4 @@ def write_gif(
     return len(frames)
 
 
-__all__ = ["Shot", "pictures", "write_gif", "write_video"]
+__all__ = ["FilmSettings", "pictures", "write_gif", "write_video"]

@@ -27,7 +27,7 @@ EVERY = 0.1  # between the views from which one that follows is made, in [s]
 CALM = 1.5  # standard deviation over which they are averaged, in [s]
 
 
-class View(NamedTuple):
+class CameraView(NamedTuple):
     """A camera that looks at a point.
 
     Attributes:
@@ -85,7 +85,7 @@ class View(NamedTuple):
 
 def framing(
     points: Array, azimuth: float, elevation: float, fovy: float, aspect: float
-) -> View:
+) -> CameraView:
     """View from which all points are in the picture, from as near as can be.
 
     Args:
@@ -96,7 +96,7 @@ def framing(
         aspect: Width over height of the picture.
     """
     target = 0.5 * (points.min(axis=0) + points.max(axis=0))
-    view = View(target, 0.0, azimuth, elevation)
+    view = CameraView(target, 0.0, azimuth, elevation)
     high = MARGIN * tan(0.5 * radians(fovy))
     for _ in range(CENTRED):
         right, up, ahead = view.axes @ (points - view.target).T
@@ -112,7 +112,7 @@ def framing(
     return view._replace(distance=float((away - ahead).max()))
 
 
-class CameraMan:
+class FilmCamera:
     """Chooses the view of every moment of a film."""
 
     def __init__(self, run: Run, name: str, fovy: float, aspect: float):
@@ -147,7 +147,7 @@ class CameraMan:
             return 1.3 * float(self._views[:, 3].max())
         return (1.6 if self._name == "top" else 1.3) * self._whole.distance
 
-    def view(self, index: int) -> View:
+    def view(self, index: int) -> CameraView:
         """View of a sample of the run."""
         if self._name == "follow":
             now = self._run.times[index]
@@ -155,10 +155,10 @@ class CameraMan:
                 float(np.interp(now, self._times, column))
                 for column in self._views.T
             )
-            return View(np.array([x, y, z]), away, AZIMUTH, ELEVATION)
+            return CameraView(np.array([x, y, z]), away, AZIMUTH, ELEVATION)
         return self._eyes(index) if self._name == "eyes" else self._whole
 
-    def _frame(self, chosen: slice, *, with_circle: bool) -> View:
+    def _frame(self, chosen: slice, *, with_circle: bool) -> CameraView:
         """View of the players over some samples."""
         corners = np.array(
             [
@@ -212,7 +212,7 @@ class CameraMan:
             column[:] = np.convolve(wide, kernel, mode="valid")
         return times[chosen], rows
 
-    def _eyes(self, index: int) -> View:
+    def _eyes(self, index: int) -> CameraView:
         """From the head of the second player to the first."""
         over, before = EYES
         assert self._run.pair is not None
@@ -226,7 +226,7 @@ class CameraMan:
         target = np.array([*pursuer, seen])
         ahead = target - eye
         flat = float(hypot(ahead[0], ahead[1]))
-        return View(
+        return CameraView(
             target,
             float(np.linalg.norm(ahead)),
             degrees(atan2(ahead[1], ahead[0])),

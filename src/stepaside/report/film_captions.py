@@ -9,7 +9,7 @@ import numpy as np
 from ..core.poses import Array
 from ..games.run import Run
 from ..perception.images import Pixels
-from .film_camera import HEIGHT, View
+from .film_camera import HEIGHT, CameraView
 from .palette import PALETTES, colours_in
 from .text_escaping import visible
 
@@ -34,7 +34,7 @@ def caption(
     run: Run,
     index: int,
     *,
-    view: View,
+    view: CameraView,
     fovy: float,
     pace: float,
 ) -> Pixels:

@@ -11,11 +11,11 @@ from ..games.run import Run
 from ..perception.images import Pixels
 from ..robots.description import load_robot
 from ..robots.head import load_head
-from ..sim.offscreen_rendering import PLAIN, Screen
+from ..sim.offscreen_rendering import PLAIN, OffscreenRenderer
 from ..sim.room_furnishing import HIDDEN
 from .film_captions import chip
 from .palette import colours_in
-from .scene import Stage
+from .scene import RunScene
 
 BELIEVED = (30, 170, 60)  # red, green and blue of where it takes the other
 MOST = 2  # pictures beside the scene
@@ -27,14 +27,14 @@ def room_beside(width: int, height: int) -> int:
     return min(2 * round(height / 3), 2 * (width // 4))
 
 
-class Insets:
+class FilmInsets:
     """Draws what robots see, with the tick of where they take the other.
 
     As the sensors draw, without shadows: a film shows what a robot had.
     """
 
     def __init__(
-        self, run: Run, stage: Stage, backend: str, size: tuple[int, int]
+        self, run: Run, stage: RunScene, backend: str, size: tuple[int, int]
     ) -> None:
         """Open the eyes of the robots of a run.
 
@@ -62,7 +62,7 @@ class Insets:
             number = stage.model.camera(f"{name}/{camera}").id
             self._cameras[name] = number
             stage.model.cam_fovy[number] = degrees(vertical)
-        self._screen = Screen(
+        self._screen = OffscreenRenderer(
             stage.model, seen.width, seen.height, backend, WITH_WALLS
         )
 

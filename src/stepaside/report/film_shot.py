@@ -7,7 +7,7 @@ SLOWEST = 0.25  # pace about the closest approach, of the film's own
 AROUND = 2.0  # time before and after it that is slower, in [s]
 
 
-class Shot(NamedTuple):
+class FilmSettings(NamedTuple):
     """How a film is taken.
 
     Attributes:

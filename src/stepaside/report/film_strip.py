@@ -10,12 +10,12 @@ from ..games.run_archive import load_run
 from .duel_figure import draw_top
 from .figure_sizes import sheet
 from .figure_style import THEORY, colours_of, new_figure, save
-from .film import Shot, instants_of, pictures
+from .film import FilmSettings, instants_of, pictures
 
 FRAMES = 4
 
 
-def spread(shot: Shot, last: float) -> Shot:
+def spread(shot: FilmSettings, last: float) -> FilmSettings:
     """The same shot with a few pictures, evenly from begin to end.
 
     Args:
@@ -30,7 +30,7 @@ def spread(shot: Shot, last: float) -> Shot:
 def write_strip(
     folder: Path,
     file: Path,
-    shot: Shot,
+    shot: FilmSettings,
     report: Callable[[int, int], None] | None = None,
 ) -> int:
     """Write the strip of a run.
@@ -80,7 +80,7 @@ def write_strip(
     return len(drawn)
 
 
-def line_names(run: Run, shot: Shot) -> tuple[list[Line2D], list[str]]:
+def line_names(run: Run, shot: FilmSettings) -> tuple[list[Line2D], list[str]]:
     """Return a sample and the name of every line of the pictures.
 
     Args:

@@ -16,7 +16,7 @@ MOST = 800  # triangles of one mesh on a page
 COARSE, FINE = 2, 64  # cells along the longest side of a mesh
 
 
-class Shell(NamedTuple):
+class TriangleMesh(NamedTuple):
     """A surface of triangles.
 
     Attributes:
@@ -28,17 +28,17 @@ class Shell(NamedTuple):
     faces: NDArray[np.int64]
 
 
-def shell_of(model: mujoco.MjModel, geom: int) -> Shell:
+def shell_of(model: mujoco.MjModel, geom: int) -> TriangleMesh:
     """Surface of a mesh geom, as fine as a page can bear."""
     mesh = int(model.geom_dataid[geom])
     first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
     corners = model.mesh_vert[first : first + count].astype(np.float64)
     first, count = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
     faces = model.mesh_face[first : first + count].astype(np.int64)
-    return thinned(Shell(corners, faces))
+    return thinned(TriangleMesh(corners, faces))
 
 
-def thinned(shell: Shell, most: int = MOST) -> Shell:
+def thinned(shell: TriangleMesh, most: int = MOST) -> TriangleMesh:
     """The finest shell of at most some triangles.
 
     Args:
@@ -57,7 +57,7 @@ def thinned(shell: Shell, most: int = MOST) -> Shell:
     return thin
 
 
-def _clustered(shell: Shell, cells: int) -> Shell:
+def _clustered(shell: TriangleMesh, cells: int) -> TriangleMesh:
     """Shell whose corners are the means of those in a cell of a grid."""
     low = shell.corners.min(axis=0)
     side = float((shell.corners.max(axis=0) - low).max()) / cells
@@ -74,4 +74,4 @@ def _clustered(shell: Shell, cells: int) -> Shell:
     a, b, c = faces.T
     faces = faces[(a != b) & (b != c) & (c != a)]
     _, kept = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
-    return Shell(corners, faces[np.sort(kept)])
+    return TriangleMesh(corners, faces[np.sort(kept)])

@@ -84,7 +84,7 @@ PALETTES = {
 }
 
 
-class Floor(NamedTuple):
+class FloorColour(NamedTuple):
     """Floor of a page that is served.
 
     Attributes:
@@ -99,8 +99,8 @@ class Floor(NamedTuple):
 
 
 FLOORS = {
-    "light": Floor("#f0efec", "#dad9d4", 0.30),
-    "dark": Floor("#1b1e21", "#32373c", 0.55),
+    "light": FloorColour("#f0efec", "#dad9d4", 0.30),
+    "dark": FloorColour("#1b1e21", "#32373c", 0.55),
 }
 # What is drawn for all viewers at once is seen on both floors.
 FOR_BOTH = {

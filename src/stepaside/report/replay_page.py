@@ -14,11 +14,11 @@ from ..core.errors import AnyPath, ConfigurationError, as_path
 from ..core.poses import Array
 from ..games.run import Run
 from ..robots.description import load_robot
-from .body_heights import Tops
+from .body_heights import BodyHeights
 from .cycle_means import whole_cycles
 from .palette import PALETTES, colours_in
 from .room_extent import wall_corners
-from .scene import Stage
+from .scene import RunScene
 from .text_escaping import fill_page, visible
 from .visual_geoms import parts_of
 
@@ -91,7 +91,7 @@ def write_page(run: Run, file: AnyPath) -> None:
 
 def _content(run: Run) -> dict[str, Any]:
     """What the page's scripts are given."""
-    stage = Stage(run)
+    stage = RunScene(run)
     parts = parts_of(stage.model)
     # Only what moves and is seen is told over time.
     bodies = sorted({part.body for part in parts} - {0})
@@ -105,7 +105,7 @@ def _content(run: Run) -> dict[str, Any]:
     words = [visible(run.words(int(index))) for index in chosen]
     known = list(dict.fromkeys(words))
     low, high = _extent(run)
-    tops = Tops(parts)
+    tops = BodyHeights(parts)
     sole = run.settings.gait.sole
     return {
         "times": np.round(run.times[chosen], 3).tolist(),
@@ -147,7 +147,7 @@ def _means(
 
 
 def _robot(
-    run: Run, stage: Stage, name: str, chosen: np.ndarray, tops: Tops
+    run: Run, stage: RunScene, name: str, chosen: np.ndarray, tops: BodyHeights
 ) -> dict[str, Any]:
     """What the page shows of one player."""
     torso = "trunk"

@@ -20,7 +20,7 @@ from ..sim.template_body import add_template, pose_template
 from ..sim.world import build_model
 
 
-class Stage:
+class RunScene:
     """Bodies of a run, put where they were.
 
     Attributes:

@@ -10,8 +10,8 @@ import numpy as np
 from ..core.poses import Array, wrap_angles
 from ..games.duel_run import DuelRun
 from ..games.run import Run
-from ..games.sight_evaluation import Still
-from ..games.trajectory import Track
+from ..games.sight_evaluation import EvaluatedImage
+from ..games.trajectory import Trajectory
 from ..perception.images import ColourImage, DepthImage, Pixels
 from .figure_sizes import sheet
 from .figure_style import THEORY, colours_of, new_figure, save
@@ -69,7 +69,7 @@ def _rows(run: Run) -> list[tuple[str, str, str]]:
     return rows
 
 
-def picture(still: Still) -> Pixels:
+def picture(still: EvaluatedImage) -> Pixels:
     """Image with what was detected drawn in. Shape (height, width, 3)."""
     image = still.report.image
     if isinstance(image, ColourImage):
@@ -93,7 +93,7 @@ def picture(still: Still) -> Pixels:
     return canvas
 
 
-def _depth_picture(still: Still, image: DepthImage) -> Pixels:
+def _depth_picture(still: EvaluatedImage, image: DepthImage) -> Pixels:
     """Depth as brightness, what came back not at all in black."""
     share = np.clip(image.depths / image.far, 0.0, 1.0)
     grey = np.where(image.depths > 0.0, 255.0 - 190.0 * share, 0.0)
@@ -147,7 +147,7 @@ def _draw_top(axes: Any, run: Run, time: float) -> None:
 
 
 def _draw_belief(
-    axes: Any, track: Track, colour: str, time: float, torso: Array
+    axes: Any, track: Trajectory, colour: str, time: float, torso: Array
 ) -> None:
     """Line from a robot to where it believes the other is."""
     rows = track.sight

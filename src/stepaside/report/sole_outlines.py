@@ -6,12 +6,12 @@ import numpy as np
 from matplotlib.patches import Polygon
 
 from ..core.poses import Array
-from ..planning import Foot, Sole
+from ..planning import Foot, SoleRectangle
 from ..planning.support_polygon import sole_corners
 
 
 def draw_soles(
-    axes: Any, landings: Array, sole: Sole, colour: str, **style: Any
+    axes: Any, landings: Array, sole: SoleRectangle, colour: str, **style: Any
 ) -> None:
     """Draw footsteps as outlines.
 

@@ -13,7 +13,7 @@ MARKS = "osD^vP*X"
 COLUMNS = 3
 
 
-class Ways(Protocol):
+class GamePaths(Protocol):
     """Where two players went: poses (x [m], y [m], theta [rad])."""
 
     @property
@@ -66,7 +66,9 @@ def draw_front(rows: Sequence[dict[str, Any]], path: str) -> None:
     save(figure, path)
 
 
-def draw_worst(games: Sequence[tuple[str, Room, Ways]], path: str) -> None:
+def draw_worst(
+    games: Sequence[tuple[str, Room, GamePaths]], path: str
+) -> None:
     """Draw games in their rooms, from the start to the end.
 
     Args:

@@ -8,8 +8,8 @@ import numpy as np
 
 from ..theory.unicycle.adaptive_simulation import simulate
 from ..theory.unicycle.circle_equations import circle_of
-from ..theory.unicycle.circle_fit import Measured, measure, settling_time
-from ..theory.unicycle.relative_coordinates import Start
+from ..theory.unicycle.circle_fit import FittedCircle, measure, settling_time
+from ..theory.unicycle.relative_coordinates import RelativeStart
 from ..theory.unicycle.unicycle_game import Game, SideRule, TurningLaw
 from .figure_sizes import sheet
 from .figure_style import LEFT, RIGHT, THEORY, new_figure, save
@@ -20,7 +20,7 @@ _STYLES = {
 }
 
 
-class Sweep(NamedTuple):
+class ParameterSweep(NamedTuple):
     """One thing that is varied.
 
     Attributes:
@@ -49,9 +49,13 @@ def _with_speed(game: Game, ratio: float) -> Game:
 
 
 _SWEEPS = (
-    Sweep("evasion angle [rad]", 0.15, 3.0, lambda g, x: replace(g, angle=x)),
-    Sweep("evader's gain / pursuer's gain [1]", 0.4, 2.5, _with_gain),
-    Sweep("pursuer's speed / evader's speed [1]", 0.4, 1.6, _with_speed),
+    ParameterSweep(
+        "evasion angle [rad]", 0.15, 3.0, lambda g, x: replace(g, angle=x)
+    ),
+    ParameterSweep("evader's gain / pursuer's gain [1]", 0.4, 2.5, _with_gain),
+    ParameterSweep(
+        "pursuer's speed / evader's speed [1]", 0.4, 1.6, _with_speed
+    ),
 )
 
 
@@ -86,7 +90,9 @@ def draw_sweep(game: Game, path: str, *, marks: int = 7) -> None:
     save(figure, path)
 
 
-def _draw_lines(axes: Any, game: Game, sweep: Sweep, law: TurningLaw) -> None:
+def _draw_lines(
+    axes: Any, game: Game, sweep: ParameterSweep, law: TurningLaw
+) -> None:
     """Draw what the equations say into a column of two axes."""
     line, _, colour = _STYLES[law]
     xs = np.linspace(sweep.low, sweep.high, 200)
@@ -99,7 +105,7 @@ def _draw_lines(axes: Any, game: Game, sweep: Sweep, law: TurningLaw) -> None:
 
 
 def _draw_marks(
-    axes: Any, game: Game, sweep: Sweep, law: TurningLaw, count: int
+    axes: Any, game: Game, sweep: ParameterSweep, law: TurningLaw, count: int
 ) -> None:
     """Draw what simulated games end on, where a stable circle exists."""
     _, mark, colour = _STYLES[law]
@@ -116,7 +122,7 @@ def _draw_marks(
     axes[1].plot(xs, distances, mark, **look)
 
 
-def _simulated(game: Game) -> Measured | None:
+def _simulated(game: Game) -> FittedCircle | None:
     """What a game that starts near its circle ends on, if that is stable.
 
     A circle as small as the distance of a capture is none to end on.
@@ -124,7 +130,7 @@ def _simulated(game: Game) -> Measured | None:
     circle = circle_of(game)
     if not (circle.exists and circle.stable):
         return None
-    start = Start(
+    start = RelativeStart(
         1.2 * circle.distance_m,
         circle.pursuer_error_rad,
         circle.evader_error_rad - game.angle,

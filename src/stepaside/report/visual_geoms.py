@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.poses import Array
 from ..sim.obstacle_geoms import is_room_wall
-from .mesh_simplification import Shell, shell_of
+from .mesh_simplification import TriangleMesh, shell_of
 
 VISIBLE = 2  # last geom group that is seen
 TALL = 1.5  # height from which on what stands is a wall, in [m]
@@ -23,7 +23,7 @@ KINDS = {
 }
 
 
-class Part(NamedTuple):
+class VisualGeom(NamedTuple):
     """A thing of simple shape, at rest in one body.
 
     Attributes:
@@ -46,7 +46,7 @@ class Part(NamedTuple):
     place: Array
     turn: Array
     colour: tuple[int, int, int]
-    shell: Shell | None = None
+    shell: TriangleMesh | None = None
     shades: bool = True
 
     @property
@@ -89,7 +89,7 @@ class Part(NamedTuple):
         return told
 
 
-def parts_of(model: mujoco.MjModel) -> list[Part]:
+def parts_of(model: mujoco.MjModel) -> list[VisualGeom]:
     """Parts of all that is seen, but the floor, which every page lays."""
     parts = []
     for geom in range(model.ngeom):
@@ -111,7 +111,7 @@ def parts_of(model: mujoco.MjModel) -> list[Part]:
             mujoco.mju_rotVecQuat(away, middle, turn)
             place = place + away
         parts.append(
-            Part(
+            VisualGeom(
                 int(model.geom_bodyid[geom]),
                 name,
                 np.array(size, dtype=np.float64),
@@ -125,7 +125,7 @@ def parts_of(model: mujoco.MjModel) -> list[Part]:
     return parts
 
 
-def inside_of_wall(model: mujoco.MjModel, geom: int) -> Shell:
+def inside_of_wall(model: mujoco.MjModel, geom: int) -> TriangleMesh:
     """Return the face of a wall towards its room, and its footprint.
 
     Pages draw the front of a face alone: from outside, the nearest wall hides
@@ -156,7 +156,7 @@ def inside_of_wall(model: mujoco.MjModel, geom: int) -> Shell:
     floor[:, 2] = FOOTPRINT - half[2]
     triangles = np.array([[0, 1, 2], [0, 2, 3]])
     corners = np.concatenate([face, floor])
-    return Shell(corners, np.concatenate([triangles, triangles + 4]))
+    return TriangleMesh(corners, np.concatenate([triangles, triangles + 4]))
 
 
 def colour_of(model: mujoco.MjModel, geom: int) -> tuple[int, int, int]:

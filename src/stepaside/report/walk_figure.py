@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..games.run import Run
 from ..games.support_foot_view import seen_from_foot
-from ..games.trajectory import Track
+from ..games.trajectory import Trajectory
 from .duel_figure import draw_paths
 from .figure_style import LEFT, MEAN, RIGHT, THEORY, new_figure, save
 from .push_marks import mark_pushes
@@ -45,7 +45,9 @@ def draw_walk(run: Run, path: Path) -> None:
     save(figure, path)
 
 
-def _draw_over_time(figure: Any, grid: Any, run: Run, track: Track) -> None:
+def _draw_over_time(
+    figure: Any, grid: Any, run: Run, track: Trajectory
+) -> None:
     """Lean of the torso, and how far the CoM is from where it should be."""
     times, seen = run.times, seen_from_foot(run.times, track)
     upper = figure.add_subplot(grid[1, :])
@@ -66,7 +68,7 @@ def _draw_over_time(figure: Any, grid: Any, run: Run, track: Track) -> None:
         axes.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 0.94))
 
 
-def _while_shown(run: Run, track: Track) -> tuple[NDArray[np.bool_], str]:
+def _while_shown(run: Run, track: Trajectory) -> tuple[NDArray[np.bool_], str]:
     """Samples round the first push, or those of the last steps."""
     pushes, times = track.pushes, run.times
     if pushes is None:
@@ -77,7 +79,7 @@ def _while_shown(run: Run, track: Track) -> tuple[NDArray[np.bool_], str]:
     return shown, f"the push at {first:.1f} s"
 
 
-def _cut(track: Track, show: NDArray[np.bool_]) -> dict[str, Any]:
+def _cut(track: Trajectory, show: NDArray[np.bool_]) -> dict[str, Any]:
     """What balance is made of, at some samples; headings first."""
     assert track.com_reference is not None
     assert track.zmp_reference is not None and track.zmp is not None

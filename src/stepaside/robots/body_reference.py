@@ -46,7 +46,7 @@ class BodyReference(NamedTuple):
         return -2.0 * lean * aside / apart
 
 
-class Stance(NamedTuple):
+class Posture(NamedTuple):
     """A posture by what joint motion moves.
 
     Attributes:

@@ -7,7 +7,7 @@ STRIDE = 0.05  # relative step from one height to the next that is tried
 CLOSE = 2e-4  # within which the ends are found, in [m]
 
 
-class Heights:
+class ReachableHeights:
     """Heights in reach with the feet in one place."""
 
     def __init__(

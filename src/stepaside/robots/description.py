@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ..core.brief_repr import brief_repr
 from ..core.errors import AnyPath, ModelError, as_path
 from .description_file import read_entries
-from .description_types import NO_OVERLAY, Overlay, Place, Sensors
+from .description_types import NO_OVERLAY, Overlay, ReferencePoint, SensorNames
 
 if TYPE_CHECKING:
     import mujoco
@@ -44,7 +44,7 @@ class RobotDescription:
         sole: Outline of its soles, likewise.
         control: How it is controlled, likewise.
         game: Distances of its games, and its unit of pushes; see
-            :class:`stepaside.games.robot_settings.GameOfRobot`.
+            :class:`stepaside.games.robot_settings.RobotGameSettings`.
         sensors: Its sensors, by the names in the model.
         place: The point that stands for it, and how far it reaches.
         overlay: What is put on the model when it is read.
@@ -71,8 +71,8 @@ class RobotDescription:
     sole: dict[str, float] = field(default_factory=dict)
     control: dict[str, Any] = field(default_factory=dict)
     game: dict[str, float] = field(default_factory=dict)
-    sensors: Sensors = Sensors()
-    place: Place = Place()
+    sensors: SensorNames = SensorNames()
+    place: ReferencePoint = ReferencePoint()
     overlay: Overlay = NO_OVERLAY
     lean: float = 0.0
 

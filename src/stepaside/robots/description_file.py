@@ -7,7 +7,13 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import ModelError
-from .description_types import Overlay, Place, Sensors, ServoGains, SolePlace
+from .description_types import (
+    Overlay,
+    ReferencePoint,
+    SensorNames,
+    ServoGains,
+    SoleFrame,
+)
 
 Entries = dict[str, Any]
 LEANS = 0.3  # a torso at most, in [rad]
@@ -151,7 +157,7 @@ _SERVO = _fields(
     {"armature": _not_negative},
 )
 _SOLE = _fields(
-    SolePlace,
+    SoleFrame,
     {
         "body": _text,
         "place": _row(_number, 3),
@@ -177,12 +183,14 @@ OPTIONAL: dict[str, Callable[[str, object], Any]] = {
     "control": _table,
     "game": _by_name(_number),
     "sensors": _fields(
-        Sensors,
+        SensorNames,
         {},
         {"gyro": _text, "accelerometer": _text, "feet": _row(_text, 8)},
     ),
     "lean": _lean,
-    "place": _fields(Place, {}, {"forward": _number, "reach": _positive}),
+    "place": _fields(
+        ReferencePoint, {}, {"forward": _number, "reach": _positive}
+    ),
     "overlay": _fields(
         Overlay,
         {"soles": _row(_SOLE, 2), "servos": _by_name(_SERVO)},

@@ -12,7 +12,7 @@ FOOT_FORCES = tuple(
 
 
 @dataclass(frozen=True, slots=True)
-class Sensors:
+class SensorNames:
     """Sensors of a robot, by the names that its model has for them.
 
     Attributes:
@@ -29,7 +29,7 @@ class Sensors:
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class ReferencePoint:
     """Where a robot is, and how far it reaches.
 
     Attributes:
@@ -62,7 +62,7 @@ class ServoGains(NamedTuple):
     armature: float = 0.0
 
 
-class SolePlace(NamedTuple):
+class SoleFrame(NamedTuple):
     """Where a foot frame is: at the sole, under the ankle.
 
     Attributes:
@@ -89,7 +89,7 @@ class Overlay:
             (forward, left, up), for a model whose torso looks elsewhere.
     """
 
-    soles: tuple[SolePlace, ...] = ()
+    soles: tuple[SoleFrame, ...] = ()
     servos: Mapping[str, ServoGains] = field(default_factory=dict)
     meshes: tuple[str, ...] = ()
     turn: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)

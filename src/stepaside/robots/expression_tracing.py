@@ -18,7 +18,7 @@ from .jit import function_of
 DEPTH = 12  # of an expression before it gets a name
 
 
-class Traced:
+class TracedNumber:
     """A number that depends on variables.
 
     Attributes:
@@ -31,12 +31,12 @@ class Traced:
 
     def __init__(
         self,
-        trace: Trace,
+        trace: ExpressionTrace,
         operation: str,
-        operands: tuple[Traced | float, ...],
+        operands: tuple[TracedNumber | float, ...],
         hint: float,
     ) -> None:
-        """Take part in a trace; made by :class:`Trace` alone."""
+        """Take part in a trace; made by :class:`ExpressionTrace` alone."""
         self._trace = trace
         self.operation, self.operands = operation, operands
         self.hint = hint
@@ -44,15 +44,15 @@ class Traced:
     def _is(self, operation: str) -> bool:
         return self.operation == operation
 
-    def __neg__(self) -> Traced | float:
+    def __neg__(self) -> TracedNumber | float:
         if self._is("neg"):
             return self.operands[0]
         if self._is("-"):
             return self.operands[1] - self.operands[0]
         return self._trace.make("neg", (self,), -self.hint)
 
-    def __add__(self, other: Traced | float) -> Traced | float:
-        if isinstance(other, Traced):
+    def __add__(self, other: TracedNumber | float) -> TracedNumber | float:
+        if isinstance(other, TracedNumber):
             if other._is("neg"):
                 return self - other.operands[0]
             if self._is("neg"):
@@ -68,8 +68,8 @@ class Traced:
 
     __radd__ = __add__
 
-    def __sub__(self, other: Traced | float) -> Traced | float:
-        if isinstance(other, Traced):
+    def __sub__(self, other: TracedNumber | float) -> TracedNumber | float:
+        if isinstance(other, TracedNumber):
             if other is self:
                 return 0.0
             if other._is("neg"):
@@ -81,17 +81,17 @@ class Traced:
         hint = self.hint - hint_of(other)
         return self._trace.make("-", (self, other), hint)
 
-    def __rsub__(self, other: float) -> Traced | float:
+    def __rsub__(self, other: float) -> TracedNumber | float:
         if other == 0.0:
             return -self
         if self._is("neg"):
             return self.operands[0] + other
         return self._trace.make("-", (other, self), other - self.hint)
 
-    def __mul__(self, other: Traced | float) -> Traced | float:
+    def __mul__(self, other: TracedNumber | float) -> TracedNumber | float:
         if self._is("neg"):
             return -(self.operands[0] * other)
-        if isinstance(other, Traced):
+        if isinstance(other, TracedNumber):
             if other._is("neg"):
                 return -(self * other.operands[0])
         elif other == 0.0:
@@ -105,8 +105,8 @@ class Traced:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Traced | float) -> Traced | float:
-        if not isinstance(other, Traced):
+    def __truediv__(self, other: TracedNumber | float) -> TracedNumber | float:
+        if not isinstance(other, TracedNumber):
             return self * (1.0 / other)
         if other is self:
             return 1.0
@@ -118,41 +118,43 @@ class Traced:
             "/", (self, other), self.hint / (other.hint or 1.0)
         )
 
-    def __rtruediv__(self, other: float) -> Traced | float:
+    def __rtruediv__(self, other: float) -> TracedNumber | float:
         if other == 0.0:
             return 0.0
         if self._is("neg"):
             return -(other / self.operands[0])
         return self._trace.make("/", (other, self), other / (self.hint or 1.0))
 
-    def apply(self, name: str, function: Callable[[float], float]) -> Traced:
+    def apply(
+        self, name: str, function: Callable[[float], float]
+    ) -> TracedNumber:
         """Value of a function of one number, by its name."""
         return self._trace.make(name, (self,), function(self.hint))
 
 
-class Trace:
+class ExpressionTrace:
     """Variables and what was computed from them."""
 
     def __init__(self) -> None:
         """Begin with no variables."""
-        self._known: dict[tuple[object, ...], Traced] = {}
+        self._known: dict[tuple[object, ...], TracedNumber] = {}
         self._names: list[str] = []
 
-    def variable(self, name: str, hint: float = 0.0) -> Traced:
+    def variable(self, name: str, hint: float = 0.0) -> TracedNumber:
         """Add an argument of the function; ``hint`` is a usual value."""
         self._names.append(name)
-        return Traced(self, name, (), hint)
+        return TracedNumber(self, name, (), hint)
 
     def make(
         self, operation: str, operands: tuple[Number, ...], hint: float
-    ) -> Traced:
+    ) -> TracedNumber:
         """Number by its operation; equal ones are the same object."""
         keys = [x if isinstance(x, float) else id(x) for x in operands]
         if operation in "+*":
             keys.sort(key=str)
         found = self._known.get((operation, *keys))
         if found is None:
-            found = Traced(self, operation, operands, hint)
+            found = TracedNumber(self, operation, operands, hint)
             self._known[(operation, *keys)] = found
         return found
 
@@ -164,7 +166,7 @@ class Trace:
 
         def write(number: Number) -> tuple[str, int]:
             """Text of a number and how deep it is nested."""
-            if not isinstance(number, Traced):
+            if not isinstance(number, TracedNumber):
                 return repr(float(number)), 0
             if not number.operands:
                 return number.operation, 0
@@ -191,32 +193,42 @@ class Trace:
         return function_of(name, self.source(name, results))
 
 
-Number = Traced | float
+Number = TracedNumber | float
 
 
 def hint_of(number: Number) -> float:
     """Value of a number where it was traced."""
-    return number.hint if isinstance(number, Traced) else number
+    return number.hint if isinstance(number, TracedNumber) else number
 
 
 def sine(angle: Number) -> Number:
     """Sine of an angle, in [rad]."""
-    return angle.apply("sin", sin) if isinstance(angle, Traced) else sin(angle)
+    return (
+        angle.apply("sin", sin)
+        if isinstance(angle, TracedNumber)
+        else sin(angle)
+    )
 
 
 def cosine(angle: Number) -> Number:
     """Cosine of an angle, in [rad]."""
-    return angle.apply("cos", cos) if isinstance(angle, Traced) else cos(angle)
+    return (
+        angle.apply("cos", cos)
+        if isinstance(angle, TracedNumber)
+        else cos(angle)
+    )
 
 
 def _count_uses(results: Sequence[Number]) -> Counter[int]:
     uses: Counter[int] = Counter()
-    waiting = [r for r in results if isinstance(r, Traced)]
+    waiting = [r for r in results if isinstance(r, TracedNumber)]
     while waiting:
         number = waiting.pop()
         uses[id(number)] += 1
         if uses[id(number)] == 1:
-            waiting += [x for x in number.operands if isinstance(x, Traced)]
+            waiting += [
+                x for x in number.operands if isinstance(x, TracedNumber)
+            ]
     return uses
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from ..core.errors import ModelError
 from ..core.poses import Array
 from .description import REMEDY, RobotDescription
-from .expression_tracing import Number, Trace
+from .expression_tracing import ExpressionTrace, Number
 from .jit import Function
 from .link_poses import gather_moments, place_links
 from .robot_tree import RobotTree
@@ -125,7 +125,7 @@ def _written(
     standing: tuple[tuple[str, float], ...],
 ) -> Function:
     """Write out CoM, and place and axes of feet and head."""
-    trace = Trace()
+    trace = ExpressionTrace()
     known: dict[str, Number] = dict(standing)
     for i, name in enumerate(tree.motors):
         known[name] = trace.variable(f"q{i}")

@@ -9,11 +9,11 @@ for the CoM.
 from collections.abc import Callable
 from typing import NamedTuple
 
-from .expression_tracing import Number, Trace, cosine, sine
-from .leg_joints import BASE, FIXED_ROWS, Legs
+from .expression_tracing import ExpressionTrace, Number, cosine, sine
+from .leg_joints import BASE, FIXED_ROWS, LegJoints
 from .link_poses import (
-    Moments,
-    PlacedLinks,
+    LinkPoses,
+    MassMoments,
     gather_moments,
     motion_of,
     place_links,
@@ -34,7 +34,7 @@ HEADING = (0.0, 0.0, 0.0, 1.0)  # of the torso, by its unknowns
 SIDES = ("left", "right")
 
 
-class Asked(NamedTuple):
+class PostureTargets(NamedTuple):
     """What is asked for, in the torso frame; positions from its origin.
 
     Attributes:
@@ -50,7 +50,7 @@ class Asked(NamedTuple):
     leans: tuple[Vector, Vector]
 
 
-class Torso(NamedTuple):
+class TorsoPose(NamedTuple):
     """Where a level torso is.
 
     Attributes:
@@ -75,7 +75,7 @@ class Torso(NamedTuple):
         return [*place, self.heading + turn]
 
 
-def trace_asked(trace: Trace, torso: Torso) -> Asked:
+def trace_asked(trace: ExpressionTrace, torso: TorsoPose) -> PostureTargets:
     """Arguments of a traced function, as :class:`.BodyReference` has them."""
 
     def numbers(name: str, axes: str) -> list[Number]:
@@ -91,7 +91,7 @@ def trace_asked(trace: Trace, torso: Torso) -> Asked:
         c, s = cosine(yaw), sine(yaw)
         yaws.append((c, s))
         leans.append((c * roll - s * pitch, s * roll + c * pitch, 0.0))
-    return Asked(
+    return PostureTargets(
         torso.seen(subtract(com, torso.place)),
         (places[0], places[1]),
         (yaws[0], yaws[1]),
@@ -129,24 +129,24 @@ class TracedLegs(NamedTuple):
         asked: What is asked for.
     """
 
-    legs: Legs
-    trace: Trace
+    legs: LegJoints
+    trace: ExpressionTrace
     free: list[Number]
-    torso: Torso
-    placed: PlacedLinks
-    moments: Moments
-    asked: Asked
+    torso: TorsoPose
+    placed: LinkPoses
+    moments: MassMoments
+    asked: PostureTargets
 
     @classmethod
-    def of(cls, legs: Legs, hints: dict[str, float]) -> "TracedLegs":
+    def of(cls, legs: LegJoints, hints: dict[str, float]) -> "TracedLegs":
         """Trace where the links are, near a posture."""
-        trace = Trace()
+        trace = ExpressionTrace()
         free: list[Number] = [
             trace.variable(f"q{i}", hints.get(name, 0.0))
             for i, name in enumerate(legs.free)
         ]
         place = [trace.variable(f"torso_{axis}") for axis in "xyz"]
-        torso = Torso(place, trace.variable("torso_t"))
+        torso = TorsoPose(place, trace.variable("torso_t"))
         asked = trace_asked(trace, torso)
         axes = legs.torso_axes(trace)
         placed = place_links(legs.tree, legs.angles(free), axes)
@@ -197,7 +197,7 @@ def _turn(axes: Matrix, yaw: Vector) -> list[Number]:
 
 
 def trace_rows(
-    legs: Legs, hints: dict[str, float]
+    legs: LegJoints, hints: dict[str, float]
 ) -> Callable[..., tuple[float, ...]]:
     """Write out errors and Jacobian.
 
@@ -251,7 +251,7 @@ def trace_rows(
     return traced.trace.function("leg_rows", [*errors, *entries])
 
 
-def _column(legs: Legs, link: int) -> int:
+def _column(legs: LegJoints, link: int) -> int:
     column = legs.columns[link]
     assert column is not None
     return column

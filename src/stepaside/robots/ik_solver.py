@@ -9,7 +9,7 @@ from .description import RobotDescription
 from .ik_residuals import trace_rows
 from .ik_step import trace_step
 from .jit import Function, preferred
-from .leg_joints import BASE, FIXED_ROWS, Legs
+from .leg_joints import BASE, FIXED_ROWS, LegJoints
 from .robot_tree import RobotTree
 
 DAMPING = 1e-4  # squared, of the pseudo-inverse; rows in [m] and [rad]
@@ -25,7 +25,7 @@ class LegSolver(NamedTuple):
             None for legs that are not plain.
     """
 
-    legs: Legs
+    legs: LegJoints
     rows: Function
     quick: Function | None
 
@@ -52,7 +52,7 @@ KEPT = 16  # robots whose formulas are kept
 
 def solver_of(description: RobotDescription, tree: RobotTree) -> LegSolver:
     """Solver of a robot's legs; formulas are written once for each tree."""
-    legs = Legs.of(description, tree)
+    legs = LegJoints.of(description, tree)
     hints = description.standing
     legs_key = (tree, legs.columns, legs.fixed, legs.sites, legs.lean > 0.0)
     key = (*legs_key, tuple(hints.items()), preferred())

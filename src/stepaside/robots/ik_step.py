@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 from .expression_tracing import Number
 from .ik_residuals import HEADING, UP, TracedLegs
-from .leg_joints import Legs
+from .leg_joints import LegJoints
 from .link_poses import motion_of
 from .scalar_algebra import (
-    Factors,
+    LuFactors,
     Matrix,
     Vector,
     add,
@@ -37,14 +37,14 @@ class _Leg(NamedTuple):
             joint that it shares. Shape (4, 6).
     """
 
-    jacobian: Factors
+    jacobian: LuFactors
     asked: Vector
     hip: Vector
     rows: Matrix
 
 
 def trace_step(
-    legs: Legs, hints: dict[str, float]
+    legs: LegJoints, hints: dict[str, float]
 ) -> Callable[..., tuple[float, ...]]:
     """Write out the step.
 
@@ -81,7 +81,7 @@ def trace_step(
         matrix.append(subtract(_by_torso(left, 3), _by_torso(right, 3)))
         shares = [dot(leg.rows[3], leg.asked) for leg in (left, right)]
         wanted.append(shares[0] - shares[1])
-    torso = Factors(matrix).solve(wanted)
+    torso = LuFactors(matrix).solve(wanted)
     moves: list[Number] = [0.0] * len(legs.free)
     for side, leg in enumerate((left, right)):
         twist = subtract(leg.asked, _twist(leg.hip, torso))
@@ -103,7 +103,7 @@ def _solve_leg(traced: TracedLegs, side: int) -> _Leg:
     lever = subtract(hip, error.place)
     move = add(error.move, cross(error.turn, lever))
     motions = [motion_of(placed, traced.moments, i, hip) for i in chain]
-    jacobian = Factors([[*m.linear, *m.angular] for m in motions])
+    jacobian = LuFactors([[*m.linear, *m.angular] for m in motions])
     rows = [
         jacobian.solve([m.moment[axis] for m in motions]) for axis in range(3)
     ]
@@ -113,7 +113,7 @@ def _solve_leg(traced: TracedLegs, side: int) -> _Leg:
     return _Leg(jacobian, [*move, *error.turn], hip, rows)
 
 
-def _shared(legs: Legs) -> int | None:
+def _shared(legs: LegJoints) -> int | None:
     """Number of the free joint that both legs have, if they share one."""
     columns = [{legs.columns[i] for i in legs.chain(side)} for side in (0, 1)]
     both = columns[0] & columns[1]

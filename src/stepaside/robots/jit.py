@@ -21,7 +21,7 @@ from typing import Any
 Function = Callable[..., tuple[float, ...]]
 
 
-class Machine(IntEnum):
+class JitPreference(IntEnum):
     """How formulas that are traced from now on shall run."""
 
     PLAIN = 0  # as Python
@@ -30,10 +30,10 @@ class Machine(IntEnum):
 
 
 LONG = 60.0  # simulated time that is worth loading machine code for, in [s]
-_used = Machine.PLAIN
+_used = JitPreference.PLAIN
 
 
-def prefer(machine: Machine) -> None:
+def prefer(machine: JitPreference) -> None:
     """Let this process run new formulas that way, or a swifter one."""
     global _used
     _used = max(_used, machine)
@@ -48,10 +48,10 @@ def prefer_for(duration: float, *, many: bool = False) -> None:
         many: Whether so many are played that compiling pays, too.
     """
     if duration >= LONG:
-        prefer(Machine.COMPILED if many else Machine.STORED)
+        prefer(JitPreference.COMPILED if many else JitPreference.STORED)
 
 
-def preferred() -> Machine:
+def preferred() -> JitPreference:
     """How new formulas run in this process."""
     return _used
 
@@ -66,7 +66,7 @@ def function_of(name: str, text: str) -> Function:
     Returns:
         The function, as machine code if that is preferred and can be had.
     """
-    if _used is not Machine.PLAIN:
+    if _used is not JitPreference.PLAIN:
         # Whatever is wrong with stored code: the text itself runs, too.
         with suppress(Exception):
             made = _machine_code(name, text)
@@ -91,7 +91,7 @@ def _machine_code(name: str, text: str) -> Function | None:
     path = folder() / f"{name}_{digest}.py"
     stored = path.is_file() and path.read_text(encoding="utf-8") == content
     if not stored:
-        if _used is not Machine.COMPILED:
+        if _used is not JitPreference.COMPILED:
             return None
         _write(path, content)
     import numba  # takes longer than all the rest

@@ -8,13 +8,13 @@ import numpy as np
 from ..core.errors import ModelError
 from ..core.poses import Array
 from .link_poses import (
-    Moments,
-    PlacedLinks,
+    LinkPoses,
+    MassMoments,
     gather_moments,
     motion_of,
     place_links,
 )
-from .robot_tree import Frame, RobotTree
+from .robot_tree import LinkFrame, RobotTree
 
 
 class Configuration:
@@ -76,11 +76,11 @@ class Configuration:
         return cls(tree, np.array(joints))
 
     @cached_property
-    def _links(self) -> PlacedLinks:
+    def _links(self) -> LinkPoses:
         return place_links(self.tree, self.joints.tolist())
 
     @cached_property
-    def _moments(self) -> Moments:
+    def _moments(self) -> MassMoments:
         return gather_moments(self._links)
 
     @property
@@ -145,7 +145,7 @@ class Configuration:
             rows[:, 5 + link] = self.axes @ np.array(found.moment) / mass
         return rows
 
-    def _find(self, kind: str, name: str) -> Frame:
+    def _find(self, kind: str, name: str) -> LinkFrame:
         known = self.tree.bodies if kind == "body" else self.tree.sites
         if name not in known:
             raise ModelError(
@@ -158,11 +158,11 @@ class Configuration:
         seen: Array = self.place + self.axes @ place
         return seen
 
-    def _place_of(self, frame: Frame) -> Array:
+    def _place_of(self, frame: LinkFrame) -> Array:
         place = self._links.place_of(frame)
         return self._seen(np.array(place, dtype=np.float64))
 
-    def _axes_of(self, frame: Frame) -> Array:
+    def _axes_of(self, frame: LinkFrame) -> Array:
         axes = np.array(self._links.axes_of(frame), dtype=np.float64)
         seen: Array = self.axes @ axes
         return seen

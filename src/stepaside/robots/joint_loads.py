@@ -13,9 +13,9 @@ import numpy as np
 from ..core.constants import GRAVITY
 from ..core.poses import Array
 from .body_reference import BodyReference
-from .expression_tracing import Number, Trace
+from .expression_tracing import ExpressionTrace, Number
 from .jit import Function, preferred
-from .leg_joints import Legs
+from .leg_joints import LegJoints
 from .leg_kinematics import LegKinematics
 from .link_poses import place_links
 from .scalar_algebra import Vector, add, cross, dot, scale, subtract, turn
@@ -103,7 +103,7 @@ class LegLoads:
         return x, y, z, u, v, w, share
 
 
-def _motors(legs: Legs) -> list[str]:
+def _motors(legs: LegJoints) -> list[str]:
     """Motors that move the legs."""
     tree = legs.tree
     names = [tree.links[link].joint for link in _carried(legs)[0]]
@@ -111,7 +111,7 @@ def _motors(legs: Legs) -> list[str]:
     return [name for name in tree.motors if name in leaders]
 
 
-def _carried(legs: Legs) -> tuple[list[int], list[float]]:
+def _carried(legs: LegJoints) -> tuple[list[int], list[float]]:
     """Links of both legs, and the mass that each carries; last the torso's.
 
     What hangs on a link and does not move by itself is carried by it.
@@ -123,7 +123,7 @@ def _carried(legs: Legs) -> tuple[list[int], list[float]]:
     return joints, masses
 
 
-def _carrier(legs: Legs, joints: list[int], link: int) -> int:
+def _carrier(legs: LegJoints, joints: list[int], link: int) -> int:
     above = [x for x in legs.tree.chain(link) if x in joints]
     return joints.index(above[-1]) if above else len(joints)
 
@@ -132,7 +132,7 @@ _KNOWN: dict[tuple[object, ...], Function] = {}
 KEPT = 16  # robots whose formulas are kept
 
 
-def _written(legs: Legs) -> Function:
+def _written(legs: LegJoints) -> Function:
     """Torques of a robot's legs; formulas are written once for each tree."""
     key = (
         *(legs.tree, legs.columns, legs.fixed, legs.sites),
@@ -145,7 +145,7 @@ def _written(legs: Legs) -> Function:
     return _KNOWN[key]
 
 
-def _trace_loads(legs: Legs) -> Function:
+def _trace_loads(legs: LegJoints) -> Function:
     """Write out the torques of the motors, and where the masses are.
 
     Arguments: free joints; place of the torso, cosine and sine of its
@@ -153,7 +153,7 @@ def _trace_loads(legs: Legs) -> Function:
     second difference counts; anchors of both feet; share of the left one;
     roll of a torso that leans.
     """
-    trace, tree = Trace(), legs.tree
+    trace, tree = ExpressionTrace(), legs.tree
 
     def variables(name: str, count: int) -> list[Number]:
         return [trace.variable(f"{name}{i}") for i in range(count)]

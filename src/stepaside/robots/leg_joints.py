@@ -12,7 +12,7 @@ import numpy as np
 from ..core.errors import ModelError
 from ..core.poses import Array
 from .description import RobotDescription
-from .expression_tracing import Number, Trace
+from .expression_tracing import ExpressionTrace, Number
 from .link_poses import LEVEL
 from .robot_tree import HINGE, RobotTree
 from .scalar_algebra import Matrix, rotation_about
@@ -22,7 +22,7 @@ BASE = 4  # unknowns of a torso that stays level
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Legs:
+class LegJoints:
     """Legs of one robot, as joint motion sees them.
 
     Attributes:
@@ -55,7 +55,7 @@ class Legs:
     lean: float = 0.0
 
     @classmethod
-    def of(cls, description: RobotDescription, tree: RobotTree) -> "Legs":
+    def of(cls, description: RobotDescription, tree: RobotTree) -> "LegJoints":
         """Find the legs of a robot in its tree.
 
         Raises:
@@ -107,7 +107,7 @@ class Legs:
             for column, fixed in zip(self.columns[1:], self.fixed, strict=True)
         ]
 
-    def torso_axes(self, trace: Trace) -> Matrix:
+    def torso_axes(self, trace: ExpressionTrace) -> Matrix:
         """Axes of the torso in a level frame that heads as it does.
 
         Takes an argument of the trace where the torso leans: its roll.

@@ -14,8 +14,8 @@ import numpy as np
 
 from ..core.errors import ReachError
 from ..core.poses import Array
-from .body_reference import BodyReference, Stance
-from .com_reach import Heights
+from .body_reference import BodyReference, Posture
+from .com_reach import ReachableHeights
 from .description import RobotDescription
 from .ik_solver import move_within, solver_of
 from .joint_configuration import Configuration
@@ -109,10 +109,10 @@ class LegKinematics:
         return np.array([*self._place, *turned, *joints], dtype=np.float64)
 
     @property
-    def stance(self) -> Stance:
+    def stance(self) -> Posture:
         """Torso and free joints as they are asked for now."""
         x, y, z = self._place
-        return Stance((x, y, z), self._heading, self._free, self._roll)
+        return Posture((x, y, z), self._heading, self._free, self._roll)
 
     @property
     def torso_heading(self) -> float:
@@ -169,8 +169,8 @@ class LegKinematics:
         soles = [stance.place_of_site(name)[2] for name in self.legs.sites]
         return float(stance.com[2] - max(soles))
 
-    def _heights(self, reference: BodyReference) -> Heights:
-        return Heights(
+    def _heights(self, reference: BodyReference) -> ReachableHeights:
+        return ReachableHeights(
             lambda height: self._reaches(reference, height),
             self._natural_height,
         )

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from .expression_tracing import Number
-from .robot_tree import HINGE, Frame, RobotTree
+from .robot_tree import HINGE, LinkFrame, RobotTree
 from .scalar_algebra import (
     Matrix,
     Vector,
@@ -22,7 +22,7 @@ from .scalar_algebra import (
 LEVEL: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
-class PlacedLinks(NamedTuple):
+class LinkPoses(NamedTuple):
     """Links of a tree in the torso frame, or in a level one at the torso.
 
     Attributes:
@@ -39,19 +39,19 @@ class PlacedLinks(NamedTuple):
     turns: list[Matrix]
     offsets: list[Vector]
 
-    def place_of(self, frame: Frame) -> list[Number]:
+    def place_of(self, frame: LinkFrame) -> list[Number]:
         """Origin of a frame in the torso frame, in [m]."""
         lever = turn(self.axes[frame.link], frame.place)
         return add(self.places[frame.link], lever)
 
-    def axes_of(self, frame: Frame) -> list[list[Number]]:
+    def axes_of(self, frame: LinkFrame) -> list[list[Number]]:
         """Axes of a frame in the torso frame, as columns."""
         return multiply(self.axes[frame.link], frame.axes)
 
 
 def place_links(
     tree: RobotTree, angles: Sequence[Number], torso: Matrix = LEVEL
-) -> PlacedLinks:
+) -> LinkPoses:
     """Place every link of a tree.
 
     Args:
@@ -75,10 +75,10 @@ def place_links(
         places.append(add(places[link.parent], turn(above, offset)))
         turns.append(turned)
         offsets.append(offset)
-    return PlacedLinks(tree, axes, places, turns, offsets)
+    return LinkPoses(tree, axes, places, turns, offsets)
 
 
-class Moments(NamedTuple):
+class MassMoments(NamedTuple):
     """Mass that hangs on each joint.
 
     Attributes:
@@ -91,7 +91,7 @@ class Moments(NamedTuple):
     masses: list[float]
 
 
-def gather_moments(placed: PlacedLinks) -> Moments:
+def gather_moments(placed: LinkPoses) -> MassMoments:
     """First moments, from the last links to the torso.
 
     Each is turned once, into its parent's frame: for an axis of the frame
@@ -108,10 +108,10 @@ def gather_moments(placed: PlacedLinks) -> Moments:
         )
         firsts[parent] = add(firsts[parent], hung)
         masses[parent] += masses[i]
-    return Moments(firsts, masses)
+    return MassMoments(firsts, masses)
 
 
-class Motion(NamedTuple):
+class JointMotionAxis(NamedTuple):
     """What one joint does at unit speed, in the torso frame.
 
     Attributes:
@@ -126,8 +126,8 @@ class Motion(NamedTuple):
 
 
 def motion_of(
-    placed: PlacedLinks, moments: Moments, link: int, point: Vector
-) -> Motion:
+    placed: LinkPoses, moments: MassMoments, link: int, point: Vector
+) -> JointMotionAxis:
     """What the joint of a link does to a point and to the masses.
 
     Args:
@@ -141,7 +141,7 @@ def motion_of(
     along = turn(axes, axis)
     if described.kind != HINGE:
         mass = moments.masses[link]
-        return Motion((0.0, 0.0, 0.0), along, scale(mass, along))
+        return JointMotionAxis((0.0, 0.0, 0.0), along, scale(mass, along))
     lever = [p - q for p, q in zip(point, placed.places[link], strict=True)]
     moment = turn(axes, cross(axis, moments.firsts[link]))
-    return Motion(along, cross(along, lever), moment)
+    return JointMotionAxis(along, cross(along, lever), moment)

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..core.errors import ModelError
 from ..core.poses import Array
-from .description_types import ServoGains, SolePlace
+from .description_types import ServoGains, SoleFrame
 from .inertia_repair import mend_inertias
 from .mesh_files import place_meshes
 from .torso_frame import face, matrix_of
@@ -183,7 +183,7 @@ def _outline(sole: dict[str, float], *, left: bool) -> Array:
 def _add_sole(
     spec: mujoco.MjSpec,
     name: str,
-    sole: SolePlace,
+    sole: SoleFrame,
     outline: Array,
     feet: tuple[str, ...],
 ) -> None:

@@ -57,7 +57,7 @@ class Servo(NamedTuple):
     damping: float
 
 
-class Frame(NamedTuple):
+class LinkFrame(NamedTuple):
     """A frame that is fixed to a link.
 
     Attributes:
@@ -87,8 +87,8 @@ class RobotTree:
     __repr__ = brief_repr
 
     links: tuple[Link, ...]
-    bodies: dict[str, Frame]
-    sites: dict[str, Frame]
+    bodies: dict[str, LinkFrame]
+    sites: dict[str, LinkFrame]
     motors: tuple[str, ...]
     servos: tuple[Servo, ...]
     followers: dict[str, str]
@@ -157,9 +157,11 @@ def _triple(numbers: Any) -> Triple:
     return x, y, z
 
 
-def _frame(entries: Any) -> Frame:
+def _frame(entries: Any) -> LinkFrame:
     x, y, z = (_triple(row) for row in entries["axes"])
-    return Frame(int(entries["link"]), _triple(entries["place"]), (x, y, z))
+    return LinkFrame(
+        int(entries["link"]), _triple(entries["place"]), (x, y, z)
+    )
 
 
 def write_tree(tree: RobotTree, digest: str, version: int) -> str:

@@ -75,7 +75,7 @@ def rotation_about(axis: Sequence[float], angle: Number) -> list[list[Number]]:
     ]
 
 
-class Factors:
+class LuFactors:
     """A square matrix, taken apart once by elimination.
 
     Where numbers are traced, pivots are chosen by their hints and by what

@@ -8,7 +8,7 @@ import numpy as np
 from ..core.errors import ModelError
 from ..core.poses import Array
 from .description import RobotDescription
-from .robot_tree import HINGE, SLIDE, Frame, Link, RobotTree, Servo, Triple
+from .robot_tree import HINGE, SLIDE, Link, LinkFrame, RobotTree, Servo, Triple
 
 KINDS = {
     int(mujoco.mjtJoint.mjJNT_HINGE): HINGE,
@@ -155,9 +155,9 @@ class _Reader:
             com = (old.mass * np.array(old.com) + mass * com) / total
             self._links[link] = old._replace(mass=total, com=_clean(com))
 
-    def _frame(self, link: int, place: Array, axes: Array) -> Frame:
+    def _frame(self, link: int, place: Array, axes: Array) -> LinkFrame:
         x, y, z = self._axes.T @ axes.reshape(3, 3)
-        return Frame(
+        return LinkFrame(
             link,
             _clean(self._seen(place) - self._anchors[link]),
             (_clean(x), _clean(y), _clean(z)),

@@ -187,7 +187,7 @@ class CameraSettings:
 
 
 @dataclass(frozen=True, slots=True)
-class Thing:
+class RoomObject:
     """Something that stands in the room.
 
     Attributes:
@@ -215,7 +215,7 @@ class Thing:
 
 
 @dataclass(frozen=True, slots=True)
-class RoomSettings:
+class SceneSettings:
     """What stands around the robots.
 
     Attributes:
@@ -228,7 +228,7 @@ class RoomSettings:
     """
 
     walls: float = 5.0
-    things: list[Thing] = field(default_factory=list)
+    things: list[RoomObject] = field(default_factory=list)
     plan: Room | None = None
 
     ranges: ClassVar[Ranges] = {
@@ -247,7 +247,7 @@ class RoomSettings:
 
 # In the way of nobody, but in view of both.
 CLUTTER = (
-    Thing("red box", 3.4, 1.6),
-    Thing("blue box", -1.6, -2.0),
-    Thing("white figure", 3.2, -1.8),
+    RoomObject("red box", 3.4, 1.6),
+    RoomObject("blue box", -1.6, -2.0),
+    RoomObject("white figure", 3.2, -1.8),
 )

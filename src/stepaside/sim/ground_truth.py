@@ -6,12 +6,12 @@ from typing import Protocol
 import mujoco
 
 from ..core.poses import Array
-from ..robots.description_types import Place
+from ..robots.description_types import ReferencePoint
 
 FALLEN = cos(radians(45.0))  # upward component of the torso's axis
 
 
-class Truth(Protocol):
+class GroundTruth(Protocol):
     """Where a player really is, whatever it is."""
 
     @property
@@ -39,13 +39,13 @@ class Truth(Protocol):
         """Whether it lies."""
 
 
-def torsos_apart(one: Truth, other: Truth) -> float:
+def torsos_apart(one: GroundTruth, other: GroundTruth) -> float:
     """Horizontal distance between two torsos, in [m]."""
     (x, y), (u, v) = one.position, other.position
     return hypot(u - x, v - y)
 
 
-class TrueState:
+class TrueRobotState:
     """True state of one robot in its world.
 
     Its place stands for it in the game: midway between the feet of one that
@@ -64,7 +64,7 @@ class TrueState:
         torso: str,
         *,
         com_forward: float = 0.0,
-        place: Place | None = None,
+        place: ReferencePoint | None = None,
     ) -> None:
         """Watch a robot.
 
@@ -78,7 +78,7 @@ class TrueState:
                 robot reaches.
         """
         self._com_forward = com_forward
-        place = place or Place()
+        place = place or ReferencePoint()
         self._forward, self.reach = place.forward, place.reach
         root = model.body(torso).id
         self._position: Array = data.xpos[root]

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..core.poses import Pose, wrap_angle
 from ..perception.measurement import Sighting
-from .ground_truth import Truth
+from .ground_truth import GroundTruth
 from .physics_settings import SightSettings
 
 
@@ -21,8 +21,8 @@ class IdealLineOfSight:
 
     def __init__(
         self,
-        own: Truth,
-        other: Truth,
+        own: GroundTruth,
+        other: GroundTruth,
         settings: SightSettings,
         generator: np.random.Generator,
     ) -> None:
@@ -60,14 +60,14 @@ class IdealLineOfSight:
         return Sighting(now, wrap_angle(bearing), max(distance, 0.0))
 
 
-class IdealPlace:
+class IdealPose:
     """CoM and heading of a robot in its room, by the truth.
 
     It stands in for whatever tells a robot where it is on a map that it was
     given.
     """
 
-    def __init__(self, own: Truth) -> None:
+    def __init__(self, own: GroundTruth) -> None:
         """Tell the place of a robot."""
         self._own = own
 

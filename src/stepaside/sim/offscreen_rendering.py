@@ -26,7 +26,7 @@ GEOMS = 2000  # that a scene can hold
 GRID = 10.0  # spacing of the vertices of a plane, in [m]
 
 
-class Look(NamedTuple):
+class RenderQuality(NamedTuple):
     """How much trouble is taken over a picture.
 
     Attributes:
@@ -46,7 +46,7 @@ class Look(NamedTuple):
     groups: int = 3
 
 
-PLAIN = Look()  # quick, for sensors
+PLAIN = RenderQuality()  # quick, for sensors
 
 
 def choose_renderer(wanted: str = "auto") -> str:
@@ -105,7 +105,7 @@ def _environment(backend: str) -> dict[str, str]:
     return {"MUJOCO_GL": backend, "PYOPENGL_PLATFORM": backend}
 
 
-class Screen:
+class OffscreenRenderer:
     """An off-screen picture of one size, that any camera can draw on."""
 
     def __init__(
@@ -114,7 +114,7 @@ class Screen:
         width: int,
         height: int,
         backend: str,
-        look: Look = PLAIN,
+        look: RenderQuality = PLAIN,
     ) -> None:
         """Set up graphics; only ever one backend in a process."""
         os.environ.update(_environment(backend))

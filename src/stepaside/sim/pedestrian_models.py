@@ -7,7 +7,7 @@ HIP = 0.9  # height of an adult's hips, in [m]
 
 
 @dataclass(frozen=True, slots=True)
-class Figure:
+class PedestrianModel:
     """One person's look.
 
     Attributes:
@@ -26,10 +26,10 @@ class Figure:
 
 
 FIGURES = {
-    "adult": Figure(
+    "adult": PedestrianModel(
         1.0, 0.25, 0.14, (0.80, 0.16, 0.14, 1.0), (0.25, 0.27, 0.32, 1.0)
     ),
-    "child": Figure(
+    "child": PedestrianModel(
         0.7, 0.3, 0.24, (0.92, 0.78, 0.16, 1.0), (0.16, 0.30, 0.52, 1.0)
     ),
 }

@@ -6,9 +6,9 @@ import mujoco
 import numpy as np
 
 from ..core.poses import Array, Pose
-from .pedestrian_models import FIGURES, HIP, Colour, Figure
-from .person_motion import Motion
-from .person_visits import Visits
+from .pedestrian_models import FIGURES, HIP, Colour, PedestrianModel
+from .person_motion import PersonMotion
+from .person_visits import RepeatedVisits
 from .world import FLOOR_BIT, World
 
 SKIN = (0.85, 0.68, 0.56, 1.0)
@@ -18,7 +18,9 @@ SHOULDER = 1.42  # height of an adult's, in [m]
 TRUNK = 0.15  # half depth of the trunk, in [m]
 
 
-def add_person(spec: mujoco.MjSpec, name: str, figure: Figure = ADULT) -> None:
+def add_person(
+    spec: mujoco.MjSpec, name: str, figure: PedestrianModel = ADULT
+) -> None:
     """Put a figure into a world, as bodies that are moved, not pushed.
 
     Args:
@@ -70,7 +72,7 @@ def pose_figure(
     parts: dict[str, int],
     frame: Pose,
     way: float,
-    figure: Figure = ADULT,
+    figure: PedestrianModel = ADULT,
 ) -> None:
     """Put a figure somewhere, in the middle of a step.
 
@@ -103,7 +105,9 @@ REACH = 0.4  # arms of an adult, who keeps them down, [m]
 class PersonTruth:
     """True state of a person: the axis of the trunk."""
 
-    def __init__(self, motion: Motion, figure: Figure = ADULT) -> None:
+    def __init__(
+        self, motion: PersonMotion, figure: PedestrianModel = ADULT
+    ) -> None:
         """Watch the walk of somebody."""
         self._motion, self._size = motion, figure.size
         self.reach = REACH * figure.size
@@ -134,7 +138,7 @@ class PersonTruth:
         return False
 
 
-class Person:
+class PersonBody:
     """The figure of a person in a world, where a walk has it.
 
     Attributes:
@@ -147,8 +151,8 @@ class Person:
         self,
         world: World,
         name: str,
-        motion: Motion,
-        figure: Figure = ADULT,
+        motion: PersonMotion,
+        figure: PedestrianModel = ADULT,
     ) -> None:
         """Stand a figure where its walk begins."""
         self.world, self.name = world, name
@@ -160,7 +164,7 @@ class Person:
         self._place()
 
     @property
-    def visits(self) -> Visits:
+    def visits(self) -> RepeatedVisits:
         """Its visits, if it comes and goes."""
         return self._motion.visits
 

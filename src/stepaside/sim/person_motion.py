@@ -11,12 +11,12 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose, wrap_angle
 from ..theory import laws
 from .person_settings import PATHS, PersonSettings
-from .person_visits import Visits
+from .person_visits import RepeatedVisits
 
 Place = tuple[float, float]
 
 
-class Motion:
+class PersonMotion:
     """A walk, step by step.
 
     Attributes:
@@ -49,7 +49,7 @@ class Motion:
             )
             heading = atan2(aim[1] - start.y, aim[0] - start.x)
         self._course = heading
-        self.visits = Visits(settings.miss)
+        self.visits = RepeatedVisits(settings.miss)
         self._way, self._turned = 0.0, False
         self.pose = self._facing(start.x, start.y)
         if settings.path not in PATHS:
@@ -139,7 +139,7 @@ def read_path(file: Path) -> Array:
 
 
 def template_approach(
-    motion: Callable[[Pose, Place], Motion],
+    motion: Callable[[Pose, Place], PersonMotion],
     start: Pose,
     evader: Pose,
     *,

@@ -13,7 +13,7 @@ SLOPE = 0.5  # of the way around to the circle, at most, in [rad]
 Place = tuple[float, float]
 
 
-class Visits:
+class RepeatedVisits:
     """Where somebody walks who crosses the room once and again.
 
     Each crossing aims past the evader, where it is by then, at up to 1.5 m;

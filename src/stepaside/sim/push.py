@@ -42,7 +42,7 @@ class Push:
         check_settings(self, prefix="push ")
 
 
-class GivenPush(NamedTuple):
+class ScheduledPush(NamedTuple):
     """A push as it was given, in the world.
 
     Attributes:

@@ -5,12 +5,12 @@ from math import cos, sin
 
 import mujoco
 
-from .push import GivenPush, Push
+from .push import Push, ScheduledPush
 
 KEPT = 1000  # pushes that are remembered; a live game has no end
 
 
-class Pusher:
+class PushApplier:
     """Applies pushes to one body of a world.
 
     Attributes:
@@ -31,7 +31,7 @@ class Pusher:
         self._waiting: list[Push] = []
         self._active: list[tuple[float, float, float]] = []
         self.impulse = (0.0, 0.0)
-        self.given: deque[GivenPush] = deque(maxlen=KEPT)
+        self.given: deque[ScheduledPush] = deque(maxlen=KEPT)
 
     def add(self, push: Push) -> None:
         """Take one more push."""
@@ -63,5 +63,5 @@ class Pusher:
         self._active.append((time + push.duration, fx, fy))
         at, lasts = self._place.tolist(), push.duration
         self.given.append(
-            GivenPush(time, lasts, at[0], at[1], fx * lasts, fy * lasts)
+            ScheduledPush(time, lasts, at[0], at[1], fx * lasts, fy * lasts)
         )

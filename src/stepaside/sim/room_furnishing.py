@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 
 from ..robots.head import HeadDescription, Mount
-from .camera_settings import RoomSettings
+from .camera_settings import SceneSettings
 
 FLOOR_BIT = 1  # as of the floor: robots run into it
 LOWER = "lower_camera"  # of a head, as the world calls it
@@ -32,7 +32,7 @@ Furnish = Callable[[mujoco.MjSpec], None]
 
 
 def furnisher(
-    room: RoomSettings,
+    room: SceneSettings,
     wearer: str,
     head: HeadDescription,
     *,

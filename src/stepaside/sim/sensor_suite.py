@@ -18,7 +18,7 @@ from ..perception.images import (
 )
 from ..robots.head import HeadDescription, Mount
 from .camera_settings import CameraSettings
-from .offscreen_rendering import RAYCAST, Screen
+from .offscreen_rendering import RAYCAST, OffscreenRenderer
 from .ray_casting import (
     ColourCaster,
     DepthCaster,
@@ -34,7 +34,7 @@ Take = Callable[[float], Percept]
 
 
 @dataclass(slots=True, eq=False)
-class Stream:
+class SensorStream:
     """A sensor with its clock.
 
     Attributes:
@@ -74,7 +74,7 @@ class Stream:
         return arrived
 
 
-class Eyes:
+class SensorSuite:
     """Everything that one robot perceives with.
 
     Attributes:
@@ -115,7 +115,7 @@ class Eyes:
         self._world, self._name = world, name
         self._settings, self._seed = settings, seed
         self._head = head
-        self._screen: Screen | None = None
+        self._screen: OffscreenRenderer | None = None
         self.exposed: list[Percept] = []
         self.camera = _size_for(renderer, settings.colour.model())
         body = f"{name}/{head.body}"
@@ -143,10 +143,10 @@ class Eyes:
 
     def _stream(
         self, purpose: str, take: Take, rate: float, latency: float
-    ) -> Stream:
+    ) -> SensorStream:
         settings = self._settings
         tick = self._world.physics.tick
-        return Stream(
+        return SensorStream(
             take,
             max(1, round(1.0 / rate / tick)) * tick,
             latency + settings.added_latency,
@@ -156,18 +156,18 @@ class Eyes:
             deque(),
         )
 
-    def _colour(self, body: str, renderer: str) -> Stream:
+    def _colour(self, body: str, renderer: str) -> SensorStream:
         settings, camera = self._settings.colour, self.camera
         head, low = self._head, self._looks_low
         if renderer != RAYCAST:
-            self._screen = Screen(
+            self._screen = OffscreenRenderer(
                 self._world.model, camera.width, camera.height, renderer
             )
         upper = self._pixels(body, renderer, head.top, head.camera)
         lower = None
         if low is not None and head.bottom is not None:
             lower = self._pixels(body, renderer, head.bottom, LOWER)
-        grain = Grain(camera, settings.noise, self._generator("grain"))
+        grain = ImageNoise(camera, settings.noise, self._generator("grain"))
 
         def take(now: float) -> Percept:
             if lower is not None and low is not None and low():
@@ -198,7 +198,7 @@ class Eyes:
         model.cam_fovy[number] = np.degrees(vertical)
         return lambda: screen.draw(data, number)
 
-    def _depth(self, body: str) -> Stream:
+    def _depth(self, body: str) -> SensorStream:
         world, settings = self._world, self._settings.depth
         camera = settings.model()
         rays = camera.rays().reshape(-1, 3)
@@ -214,7 +214,7 @@ class Eyes:
 
         return self._stream("depth", take, settings.rate, settings.latency)
 
-    def _sonars(self, torso: str) -> list[Stream]:
+    def _sonars(self, torso: str) -> list[SensorStream]:
         world, settings = self._world, self._settings.sonar
         streams = []
         for key, mount in self._head.sonars.items():
@@ -234,7 +234,7 @@ class Eyes:
         return streams
 
 
-class Grain:
+class ImageNoise:
     """Noise of pixels: one tile of it, shifted at random for each image."""
 
     def __init__(

@@ -68,7 +68,7 @@ class IdealServos:
         return change
 
 
-class HonestServos(IdealServos):
+class RealisticServos(IdealServos):
     """Servos with delay, backlash and motors that tire with speed.
 
     A request arrives some cycles late, and the servo ramps to it in one

@@ -15,17 +15,17 @@ from ..perception.measurement import Measurement
 from ..robots.description import REMEDY, RobotDescription
 from ..robots.leg_kinematics import LegKinematics
 from .body_settings import BodySettings
-from .ground_truth import TrueState
-from .ideal_sensors import IdealLineOfSight, IdealPlace
-from .push import GivenPush, Push
-from .push_forces import Pusher
+from .ground_truth import TrueRobotState
+from .ideal_sensors import IdealLineOfSight, IdealPose
+from .push import Push, ScheduledPush
+from .push_forces import PushApplier
 from .sensor_errors import AveragedImu, SensorErrors
-from .servos import HonestServos, IdealServos
-from .true_stance import Stance, StanceWatch
+from .servos import IdealServos, RealisticServos
+from .true_stance import StanceWatch, TrueStance
 from .world import World, place_free_body
 
 if TYPE_CHECKING:
-    from .sensor_suite import Eyes
+    from .sensor_suite import SensorSuite
 
 
 def motor_of(model: mujoco.MjModel, joint: int) -> int:
@@ -69,9 +69,9 @@ class SimulatedRobot:
         generator: np.random.Generator | None = None,
         *,
         sight: IdealLineOfSight | None = None,
-        eyes: Eyes | None = None,
+        eyes: SensorSuite | None = None,
         averages_imu: bool = False,
-        truth: TrueState | None = None,
+        truth: TrueRobotState | None = None,
         knows_place: bool = False,
     ) -> None:
         """Stand a robot in the posture of its kinematics.
@@ -108,7 +108,7 @@ class SimulatedRobot:
             self.servos = IdealServos(model, data, ids, speeds, self.tick)
         else:
             legs = np.array([n in description.legs for n in names])
-            servos = HonestServos(
+            servos = RealisticServos(
                 model, data, ids, speeds, self.tick, body, body.backlash * legs
             )
             world.before_step.append(servos.before_step)
@@ -134,10 +134,10 @@ class SimulatedRobot:
         self._place(kinematics, pose, int(model.jnt_qposadr[root.jntadr[0]]))
         self.servos.reset(kinematics.joint_targets)
         self._torso = root.id
-        self.pusher: Pusher | None = None
-        self.truth = truth or TrueState(model, data, root.name)
+        self.pusher: PushApplier | None = None
+        self.truth = truth or TrueRobotState(model, data, root.name)
         self._stance = StanceWatch(model, data, name, description)
-        self.place = IdealPlace(self.truth) if knows_place else None
+        self.place = IdealPose(self.truth) if knows_place else None
         if averages_imu:
             self._imu = AveragedImu(data, self._gyro, self._accelerometer)
             world.before_step.append(self._imu.before_step)
@@ -192,18 +192,18 @@ class SimulatedRobot:
         """Let somebody push the torso, now or later."""
         if self.pusher is None:
             world = self.world
-            self.pusher = Pusher(world.model, world.data, self._torso)
+            self.pusher = PushApplier(world.model, world.data, self._torso)
             world.before_step.append(self.pusher.before_step)
         for push in pushes:
             self.pusher.add(push)
 
     @property
-    def stance(self) -> Stance:
+    def stance(self) -> TrueStance:
         """How it truly stands at this instant."""
         return self._stance.read()
 
     @property
-    def pushes(self) -> tuple[GivenPush, ...]:
+    def pushes(self) -> tuple[ScheduledPush, ...]:
         """Last pushes that began."""
         return () if self.pusher is None else tuple(self.pusher.given)
 

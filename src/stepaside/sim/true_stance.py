@@ -9,7 +9,7 @@ from ..core.poses import Pose
 from ..robots.description import RobotDescription
 
 
-class Stance(NamedTuple):
+class TrueStance(NamedTuple):
     """Torso, feet and velocity of a robot in its world.
 
     Attributes:
@@ -41,7 +41,7 @@ class StanceWatch:
         feet = description.left_foot, description.right_foot
         self._soles = [model.site(f"{name}/{foot}").id for foot in feet]
 
-    def read(self) -> Stance:
+    def read(self) -> TrueStance:
         """How it stands at this instant."""
         data, torso = self._data, self._torso
         mujoco.mj_subtreeVel(self._model, data)
@@ -49,7 +49,7 @@ class StanceWatch:
         frame = data.xmat[torso].tolist()
         left, right = (self._pose(sole) for sole in self._soles)
         tilt = atan2(frame[7], frame[8]), -asin(max(-1.0, min(1.0, frame[6])))
-        return Stance((vx, vy), tilt, left, right)
+        return TrueStance((vx, vy), tilt, left, right)
 
     def _pose(self, site: int) -> Pose:
         x, y, _ = self._data.site_xpos[site].tolist()

@@ -1,7 +1,7 @@
 """From what a player knows to what it wants (paper, Sec. II)."""
 
-from .constant_walk import Stand, Walk
-from .deflected_evasion import Deflected
+from .constant_walk import StandStill, Walk
+from .deflected_evasion import DeflectedEvasion
 from .evasion import Evasion, EvasionMemory
 from .herding import HerdingPursuit
 from .knowledge import STAND, Intent, Knowledge, Limits
@@ -13,14 +13,14 @@ from .pursuit import Pursuit
 from .registry import STRATEGIES, load_strategy
 from .step_game import StepGame, StepOutcome, StepTrack, play_steps
 from .strategy import Strategy
-from .teleoperation import Driven
+from .teleoperation import TeleoperatedPursuit
 from .unicycle_match import StrategyRun, play_strategies
 
 __all__ = [
     "STAND",
     "STRATEGIES",
-    "Deflected",
-    "Driven",
+    "DeflectedEvasion",
+    "TeleoperatedPursuit",
     "Evasion",
     "EvasionMemory",
     "HerdingPursuit",
@@ -32,7 +32,7 @@ __all__ = [
     "Optimal",
     "OptimalPursuit",
     "Pursuit",
-    "Stand",
+    "StandStill",
     "StepGame",
     "StepOutcome",
     "StepTrack",

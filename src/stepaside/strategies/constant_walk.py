@@ -39,7 +39,7 @@ class Walk:
 
 
 @dataclass(frozen=True, slots=True)
-class Stand:
+class StandStill:
     """Stay where it is: what happens to an evader that does nothing.
 
     Attributes:

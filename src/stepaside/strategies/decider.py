@@ -12,7 +12,7 @@ from .opponent_rates import FloorVelocity, SightRates
 from .strategy import Strategy
 
 
-class Decider:
+class TemplatePlayer:
     """A player of a game of templates, by a strategy.
 
     Attributes:

@@ -16,7 +16,7 @@ ALWAYS = Evasion(safety_radius=1e6)  # evades from the first sight on
 
 
 @dataclass(frozen=True, slots=True)
-class Deflected:
+class DeflectedEvasion:
     """Walk where the paper's evader would, pushed off by a repulsive field.
 
     Each solid pushes along the way out of it with

@@ -6,11 +6,11 @@ from math import atan2, cos, sin
 from ..core.errors import ConfigurationError, check_not_negative
 from ..core.poses import wrap_angle
 from .knowledge import Knowledge
-from .opponent_track import PursuitByWay, Seen
+from .opponent_track import OpponentSighting, PathPursuit
 
 
 @dataclass(frozen=True, slots=True)
-class LeadPursuit(PursuitByWay):
+class LeadPursuit(PathPursuit):
     """Point ahead of the other, along the way that it takes.
 
     Attributes:
@@ -24,7 +24,9 @@ class LeadPursuit(PursuitByWay):
         """Refuse to lag behind."""
         check_not_negative(self.lead, "lead", "1", ConfigurationError)
 
-    def heading(self, knowledge: Knowledge, seen: Seen, way: float) -> float:
+    def heading(
+        self, knowledge: Knowledge, seen: OpponentSighting, way: float
+    ) -> float:
         """Heading for a point ahead of the other."""
         reach = self.lead * knowledge.distance
         x = seen.x + reach * cos(way) - seen.own_x

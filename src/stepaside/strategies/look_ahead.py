@@ -19,13 +19,19 @@ from ..planning import Direction
 from .bound_cache import pursuit_table
 from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge, Limits
 from .opponent_track import Trace, note, pursuer_heading
-from .search import NO_VALUE, Aims, Both, Maneuvers, StepRules
+from .search import (
+    NO_VALUE,
+    CandidateManeuvers,
+    ManeuverObjective,
+    PlayerPair,
+    StepRules,
+)
 from .search.candidate_maneuvers import DEEPEST
 from .search.packed_obstacles import clearance_at
 from .search.step_motion import half_turn, step_both
 
 
-def place_both(trace: Trace, heading: float) -> Both:
+def place_both(trace: Trace, heading: float) -> PlayerPair:
     """Where both are, in the own odometry.
 
     Args:
@@ -33,7 +39,7 @@ def place_both(trace: Trace, heading: float) -> Both:
         heading: Of the pursuer there, in [rad].
     """
     seen = trace[-1]
-    return Both(
+    return PlayerPair(
         seen.own_x,
         seen.own_y,
         cos(seen.own_theta),
@@ -45,7 +51,9 @@ def place_both(trace: Trace, heading: float) -> Both:
     )
 
 
-def moved_on(both: Both, knowledge: Knowledge, begins: Pose) -> Both:
+def moved_on(
+    both: PlayerPair, knowledge: Knowledge, begins: Pose
+) -> PlayerPair:
     """Where both are when the step begins that is decided.
 
     A body passes the foot that landed half a step after it did, and the
@@ -59,7 +67,7 @@ def moved_on(both: Both, knowledge: Knowledge, begins: Pose) -> Both:
     limits = knowledge.limits
     steps = 0.5 + knowledge.age / limits.step_duration
     way = limits.stride * steps
-    return Both(
+    return PlayerPair(
         begins.x,
         begins.y,
         cos(begins.theta),
@@ -217,7 +225,7 @@ class LookAhead:
         if not bounded and self.cells and self.pieces:
             table = pursuit_table(self.cells, limits.speed / limits.gain)
         blur = max(knowledge.blur, GAIN)
-        aims = Aims(
+        aims = ManeuverObjective(
             self.enough if bounded else inf,
             self.body_radius + MARGIN,
             min(PENALTY, WORTH / blur),
@@ -250,7 +258,9 @@ class LookAhead:
             True, trace, tuple(ahead.tolist()), knowledge.time, found.spot
         )
 
-    def _maneuvers(self, limits: Limits, *, valued: bool) -> Maneuvers:
+    def _maneuvers(
+        self, limits: Limits, *, valued: bool
+    ) -> CandidateManeuvers:
         """Maneuvers that are tried; fewer where a table is their end."""
         share = rules_of(limits).evader_share
         return maneuvers_of(
@@ -264,7 +274,7 @@ class LookAhead:
 
     def _touches(
         self,
-        both: Both,
+        both: PlayerPair,
         turn: float,
         rules: StepRules,
         knowledge: Knowledge,
@@ -292,10 +302,12 @@ def maneuvers_of(
     angle: float,
     largest: float,
     spots: int,
-) -> Maneuvers:
+) -> CandidateManeuvers:
     """Maneuvers whose turns are even, the smallest first."""
     even = np.linspace(-largest, largest, turns) if turns > 1 else np.zeros(1)
     ordered = np.array(sorted(even.tolist(), key=abs))
     steps = np.array(pieces, dtype=np.int64)
     horizon = sum(pieces) + tail
-    return Maneuvers(steps, ordered, horizon, angle, spots, ON_THE_SPOT)
+    return CandidateManeuvers(
+        steps, ordered, horizon, angle, spots, ON_THE_SPOT
+    )

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from ..core.poses import wrap_angle
 
 
-class Rates(NamedTuple):
+class SightRateEstimate(NamedTuple):
     """Rates of the line of sight; None where they are not known.
 
     Attributes:
@@ -30,7 +30,9 @@ class SightRates:
         self._step = step_duration
         self._seen: deque[tuple[float, float, float]] = deque()
 
-    def note(self, time: float, direction: float, distance: float) -> Rates:
+    def note(
+        self, time: float, direction: float, distance: float
+    ) -> SightRateEstimate:
         """Take a sighting in.
 
         Sightings that are much closer than a step are thinned out, so that
@@ -48,12 +50,12 @@ class SightRates:
         seen, step = self._seen, self._step
         while seen and time - seen[0][0] > 2.25 * step:
             seen.popleft()
-        rates = Rates(None, None)
+        rates = SightRateEstimate(None, None)
         if seen:
             passed = time - seen[0][0]
             if passed > 0.75 * step:
                 turned = wrap_angle(direction - seen[0][1])
-                rates = Rates(
+                rates = SightRateEstimate(
                     turned / passed, (seen[0][2] - distance) / passed
                 )
         if not seen or time - seen[-1][0] >= 0.125 * step:

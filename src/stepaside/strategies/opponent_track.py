@@ -7,7 +7,7 @@ from typing import NamedTuple
 from ..core.poses import wrap_angle
 from ..planning import Direction
 from .knowledge import Intent, Knowledge, Limits
-from .search.step_motion import Both, StepRules, pursue
+from .search.step_motion import PlayerPair, StepRules, pursue
 
 KEPT = 3  # sightings, a step apart: over two steps no body sways
 APART = 0.75  # of a step between them
@@ -15,7 +15,7 @@ STEPS_OFF = 0.05  # of a step of another from what was thought, in [m]
 MOVED = 0.3  # of a stride: who moves less may look anywhere
 
 
-class Seen(NamedTuple):
+class OpponentSighting(NamedTuple):
     """One sighting, all in the own odometry.
 
     Attributes:
@@ -35,7 +35,7 @@ class Seen(NamedTuple):
     own_theta: float
 
 
-Trace = tuple[Seen, ...]
+Trace = tuple[OpponentSighting, ...]
 """The last sightings, the oldest first, the last one always the newest."""
 
 
@@ -54,7 +54,7 @@ def note(trace: Trace, knowledge: Knowledge) -> Trace:
         u, v = _gone_on(trace, time, knowledge.limits)
         trust = STEPS_OFF**2 / (STEPS_OFF**2 + knowledge.spread**2)
         x, y = u + trust * (x - u), v + trust * (y - v)
-    seen = Seen(time, x, y, pose.x, pose.y, pose.theta)
+    seen = OpponentSighting(time, x, y, pose.x, pose.y, pose.theta)
     step = knowledge.limits.step_duration
     kept = [s for s in trace if 0.0 < seen.time - s.time < 2 * KEPT * step]
     # The newest makes way if it came too soon after the one before.
@@ -109,7 +109,8 @@ def pursuer_heading(trace: Trace, rules: StepRules) -> float:
         for seen in trace[:-1]:
             own_c, own_s = cos(seen.own_theta), sin(seen.own_theta)
             x, y, c, s = pursue(
-                Both(seen.own_x, seen.own_y, own_c, own_s, x, y, c, s), rules
+                PlayerPair(seen.own_x, seen.own_y, own_c, own_s, x, y, c, s),
+                rules,
             )
         end = atan2(s, c)
         begin += wrap_angle(way - atan2(y - first.y, x - first.x))
@@ -135,7 +136,7 @@ def heading_of_way(trace: Trace) -> float | None:
     return way + 0.5 * wrap_angle(way - earlier)
 
 
-class PursuitByWay(ABC):
+class PathPursuit(ABC):
     """A pursuer that points at the other until its way is known."""
 
     __slots__ = ()
@@ -165,7 +166,9 @@ class PursuitByWay(ABC):
         return Intent(self.heading(knowledge, trace[-1], way)), trace
 
     @abstractmethod
-    def heading(self, knowledge: Knowledge, seen: Seen, way: float) -> float:
+    def heading(
+        self, knowledge: Knowledge, seen: OpponentSighting, way: float
+    ) -> float:
         """Heading to ask for, from the own one, in [rad].
 
         Args:

@@ -7,11 +7,11 @@ from ..core.errors import ConfigurationError, check_within
 from ..core.poses import wrap_angle
 from .bound_cache import cars_bound
 from .knowledge import Knowledge
-from .opponent_track import PursuitByWay, Seen
+from .opponent_track import OpponentSighting, PathPursuit
 
 
 @dataclass(frozen=True, slots=True)
-class OptimalPursuit(PursuitByWay):
+class OptimalPursuit(PathPursuit):
     """Turn as the table says that comes nearest to the best evader.
 
     The evader may turn as fast as the pursuer, and the floor is open.
@@ -26,7 +26,9 @@ class OptimalPursuit(PursuitByWay):
         """Refuse tables that nobody solves."""
         check_within(self.cells, 16, 200, "cells", "1", ConfigurationError)
 
-    def heading(self, knowledge: Knowledge, seen: Seen, way: float) -> float:
+    def heading(
+        self, knowledge: Knowledge, seen: OpponentSighting, way: float
+    ) -> float:
         """What turns as fast as the table says, as a share of the fastest."""
         limits = knowledge.limits
         unit = limits.speed / (pi * limits.gain)  # tightest radius, in [m]

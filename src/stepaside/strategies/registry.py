@@ -12,8 +12,8 @@ from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
 from ..core.errors import ConfigurationError
-from .constant_walk import Stand, Walk
-from .deflected_evasion import Deflected
+from .constant_walk import StandStill, Walk
+from .deflected_evasion import DeflectedEvasion
 from .evasion import Evasion
 from .foreign_code import FAILURES
 from .herding import HerdingPursuit
@@ -27,7 +27,7 @@ from .strategy_validation import try_strategy
 
 STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "evasion": lambda evasion: evasion,
-    "deflected": lambda evasion: Deflected(evasion),
+    "deflected": lambda evasion: DeflectedEvasion(evasion),
     "look-ahead": lambda evasion: LookAhead(),
     "optimal": lambda evasion: Optimal(),
     "pursuit": lambda evasion: Pursuit(),
@@ -35,7 +35,7 @@ STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "herding": lambda evasion: HerdingPursuit(),
     "lead": lambda evasion: LeadPursuit(),
     "optimal-pursuit": lambda evasion: OptimalPursuit(),
-    "stand": lambda evasion: Stand(),
+    "stand": lambda evasion: StandStill(),
     "walk": lambda evasion: Walk(),
 }
 """Makes a strategy of each name, given how an evader of the paper evades."""

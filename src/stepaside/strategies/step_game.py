@@ -14,7 +14,7 @@ from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import check_bearing, check_positive, check_within
 from ..core.poses import Array, Pose, wrap_angle
 from ..planning import Direction
-from .decider import Decider
+from .decider import TemplatePlayer
 from .knowledge import Intent, Limits
 from .search.packed_obstacles import clearance_at
 from .strategy import Strategy
@@ -146,7 +146,9 @@ class _Player:
         solids: tuple[Obstacle, ...],
     ) -> None:
         self.strategy, self.pose, self.game = strategy, pose, game
-        self._decider = Decider(strategy, game.limits, game.period, solids)
+        self._decider = TemplatePlayer(
+            strategy, game.limits, game.period, solids
+        )
 
     def bearing_of(self, other: Pose) -> float:
         """Direction of the other in the own frame, in [rad]."""

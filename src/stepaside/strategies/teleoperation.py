@@ -11,7 +11,7 @@ TURN = radians(50.0)  # bearing of a full turn of the hand, in [rad]
 
 
 @dataclass(frozen=True, slots=True)
-class Driven:
+class TeleoperatedPursuit:
     """Heads where a hand points; another hold of the hand is another value.
 
     Attributes:

@@ -8,9 +8,9 @@ import numpy as np
 from ..core.errors import check_positive
 from ..core.poses import Array, Pose
 from ..planning.path import UnicycleTrajectory
-from ..theory.unicycle.relative_coordinates import Start
+from ..theory.unicycle.relative_coordinates import RelativeStart
 from ..theory.unicycle.unicycle_game import Unicycle
-from .decider import Decider
+from .decider import TemplatePlayer
 from .knowledge import Intent, Limits
 from .strategy import Strategy
 
@@ -55,7 +55,9 @@ class _Player:
     ) -> None:
         self.strategy, self.body, self.pose = strategy, body, pose
         limits = Limits(body.speed, body.gain, body.speed * period, period)
-        self._decider = Decider(strategy, limits, period, sees_velocity=True)
+        self._decider = TemplatePlayer(
+            strategy, limits, period, sees_velocity=True
+        )
 
     def decide(self, time: float, bearing: float, distance: float) -> Intent:
         """Ask the strategy."""
@@ -81,7 +83,7 @@ class _Player:
 def play_strategies(
     pursuer: Strategy,
     evader: Strategy,
-    start: Start,
+    start: RelativeStart,
     *,
     bodies: tuple[Unicycle, Unicycle],
     period: float,
@@ -129,7 +131,7 @@ def play_strategies(
         if captured:
             break
         poses = [player.pose for player in players]
-        distance, a, psi = Start.from_world(*poses).wrapped()
+        distance, a, psi = RelativeStart.from_world(*poses).wrapped()
         intents = [
             player.decide(step * period, bearing, distance)
             for player, bearing in zip(players, (a, psi), strict=True)

@@ -8,12 +8,12 @@ from typing import Any, NamedTuple
 from ..core.errors import OutputError
 from ..core.worker_pool import give_up
 from .claim_jobs import JOBS
-from .claims import Job, Readings, Row
+from .claims import ClaimJob, ClaimRow, Readings
 from .code_version import code_version, library_versions
-from .reading_store import Kept, Key
+from .reading_store import Key, ReadingStore
 
 
-class Trial(NamedTuple):
+class ClaimTrial(NamedTuple):
     """One run of a job.
 
     Attributes:
@@ -30,7 +30,7 @@ class Trial(NamedTuple):
         return f"{self.job}-seed{self.seed}"
 
 
-def key_of(trial: Trial, job: Job) -> Key:
+def key_of(trial: ClaimTrial, job: ClaimJob) -> Key:
     """All that the readings of a trial depend on."""
     return {
         "job": trial.job,
@@ -41,17 +41,19 @@ def key_of(trial: Trial, job: Job) -> Key:
     }
 
 
-def run_trial(trial: Trial) -> Readings:
+def run_trial(trial: ClaimTrial) -> Readings:
     """Measure the claims of a job once."""
     return JOBS[trial.job].measure(trial.seed)
 
 
 def trials(
-    seeds: Sequence[int], jobs: Mapping[str, Job]
-) -> dict[str, list[Trial]]:
+    seeds: Sequence[int], jobs: Mapping[str, ClaimJob]
+) -> dict[str, list[ClaimTrial]]:
     """Runs of each job: one for each seed where the seed matters, else one."""
     return {
-        name: [Trial(name, seed) for seed in (seeds if job.seeded else (0,))]
+        name: [
+            ClaimTrial(name, seed) for seed in (seeds if job.seeded else (0,))
+        ]
         for name, job in jobs.items()
     }
 
@@ -84,9 +86,9 @@ def reproduce(
     Raises:
         OutputError: If readings cannot be kept and nobody is told.
     """
-    kept, plan = Kept(folder, tell), trials(seeds, JOBS)
-    found: dict[Trial, Readings] = {}
-    missing: list[Trial] = []
+    kept, plan = ReadingStore(folder, tell), trials(seeds, JOBS)
+    found: dict[ClaimTrial, Readings] = {}
+    missing: list[ClaimTrial] = []
     total = sum(len(runs) for runs in plan.values())
     for name, runs in plan.items():
         wanted = [claim.key for claim in JOBS[name].claims]
@@ -100,7 +102,7 @@ def reproduce(
     if report is not None:
         report(len(found), total)
 
-    def done(trial: Trial, readings: Readings) -> None:
+    def done(trial: ClaimTrial, readings: Readings) -> None:
         found[trial] = readings
         try:
             kept.store(trial.file, key_of(trial, JOBS[trial.job]), readings)
@@ -113,7 +115,7 @@ def reproduce(
 
     # Seed by seed, so that a run that is stopped has whole seeds.
     _run(sorted(missing, key=lambda trial: trial.seed), executor, done)
-    rows: list[Row] = []
+    rows: list[ClaimRow] = []
     for name, runs in plan.items():
         job = JOBS[name]
         readings_of_runs = [found[trial] for trial in runs]
@@ -122,16 +124,16 @@ def reproduce(
 
 
 def _run(
-    missing: Sequence[Trial],
+    missing: Sequence[ClaimTrial],
     executor: Executor | None,
-    done: Callable[[Trial, Readings], None],
+    done: Callable[[ClaimTrial, Readings], None],
 ) -> None:
     """Run trials, and tell of each as it comes."""
     if executor is None:
         for trial in missing:
             done(trial, run_trial(trial))
         return
-    futures: dict[Future[Readings], Trial] = {
+    futures: dict[Future[Readings], ClaimTrial] = {
         executor.submit(run_trial, trial): trial for trial in missing
     }
     try:

@@ -10,7 +10,7 @@ from . import physics_claims as physics
 from . import physics_readings as read
 from . import planner_claims as planner
 from . import unicycle_claims as unicycle
-from .claims import Claim, Job, Readings
+from .claims import Claim, ClaimJob, Readings
 from .code_version import LIBRARIES
 from .evading_readings import (
     WORLDS,
@@ -27,19 +27,21 @@ DUELS = ("studies/physics_readings",)
 EVADING = ("studies/evading_readings",)
 
 
-def _game(claims: tuple[Claim, ...], measure: Callable[[], Readings]) -> Job:
+def _game(
+    claims: tuple[Claim, ...], measure: Callable[[], Readings]
+) -> ClaimJob:
     """Job on unicycles; its settings are in the code."""
-    return Job(claims, lambda _: measure(), GAMES, ("numpy", "scipy"))
+    return ClaimJob(claims, lambda _: measure(), GAMES, ("numpy", "scipy"))
 
 
 def _plan(
     claims: tuple[Claim, ...],
     measure: Callable[[], Readings],
     rooms: tuple[str, ...],
-) -> Job:
+) -> ClaimJob:
     """Job on the planner, with the gait of Sec. IV."""
     settings = repr(planner.GAIT)
-    return Job(
+    return ClaimJob(
         claims, lambda _: measure(), rooms, ("numpy",), lambda _: settings
     )
 
@@ -48,16 +50,16 @@ def _duel(
     claims: tuple[Claim, ...],
     measure: Callable[[int], Readings],
     *settings: Callable[[int], DuelSettings],
-) -> Job:
+) -> ClaimJob:
     """Job on two NAOs in physics, from the random starts of its seeds."""
 
     def in_words(seed: int) -> str:
         return "; ".join(dump_configuration(each(seed)) for each in settings)
 
-    return Job(claims, measure, DUELS, LIBRARIES, in_words, seeded=True)
+    return ClaimJob(claims, measure, DUELS, LIBRARIES, in_words, seeded=True)
 
 
-JOBS: dict[str, Job] = {
+JOBS: dict[str, ClaimJob] = {
     "circle": _game(unicycle.CIRCLE, unicycle.read_circle),
     "saturated": _game(unicycle.SATURATED, unicycle.read_saturated),
     "strategies": _game(unicycle.STRATEGIES, unicycle.read_strategies),
@@ -81,7 +83,7 @@ JOBS: dict[str, Job] = {
         lambda seed: read.slip_settings(seed, slippery=False),
         lambda seed: read.slip_settings(seed, slippery=True),
     ),
-    "evading": Job(
+    "evading": ClaimJob(
         evading.EVADING,
         measure_evading,
         EVADING,
@@ -89,7 +91,7 @@ JOBS: dict[str, Job] = {
         lambda _: repr(WORLDS),
         seeded=True,
     ),
-    "rooms": Job(
+    "rooms": ClaimJob(
         evading.ROOM,
         measure_room,
         EVADING,

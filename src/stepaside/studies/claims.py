@@ -80,7 +80,7 @@ class Claim:
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class ClaimRow:
     """A claim and what was measured of it.
 
     Attributes:
@@ -139,7 +139,7 @@ class Row:
 
 
 @dataclass(frozen=True, slots=True)
-class Job:
+class ClaimJob:
     """What measures some claims in one go.
 
     Attributes:
@@ -162,10 +162,10 @@ class Job:
 
     def rows(
         self, name: str, runs: Sequence[Mapping[str, float]], version: str
-    ) -> list[Row]:
+    ) -> list[ClaimRow]:
         """Rows of the readings of some runs."""
         return [
-            Row(
+            ClaimRow(
                 f"{name}.{claim.key}",
                 claim,
                 tuple(run[claim.key] for run in runs),

@@ -23,12 +23,12 @@ from ..games.strategy_objects import check_named
 from ..robots.jit import prefer_for
 from ..strategies.registry import file_of
 from ..theory.unicycle.certificate import certify
-from ..theory.unicycle.relative_coordinates import Start
+from ..theory.unicycle.relative_coordinates import RelativeStart
 from ..theory.unicycle.unicycle_game import make_game
 from .code_version import code_version, library_versions
 from .duel_statistics import FIELDS
 from .later import LATER
-from .record_store import RecordFile
+from .record_store import RecordStore
 
 Record = dict[str, Any]
 # Modules that play a duel and make its record.
@@ -130,7 +130,7 @@ def _evasion(run: DuelRun) -> Record:
     apart = run.distance[since]
     found["evading_min_distance_m"] = float(apart.min())
     first = int(np.argmax(since))
-    start = Start.from_world(
+    start = RelativeStart.from_world(
         Pose(*run.pursuer.unicycle[first].tolist()),
         Pose(*run.evader.unicycle[first].tolist()),
     )
@@ -165,7 +165,7 @@ def digest_of(run: DuelRun) -> str:
 def run_duels(
     settings: DuelSettings,
     seeds: Sequence[int],
-    file: RecordFile | None,
+    file: RecordStore | None,
     executor: Executor,
     report: Callable[[int], None] | None = None,
     done: dict[str, Record] | None = None,
@@ -230,7 +230,7 @@ def is_current(record: Record) -> bool:
 
 def verify_duels(
     settings: DuelSettings,
-    file: RecordFile,
+    file: RecordStore,
     number: int,
     executor: Executor,
 ) -> tuple[list[int], list[int]]:

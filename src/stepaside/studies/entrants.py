@@ -6,7 +6,7 @@ from math import pi, radians
 
 from ..core.errors import ConfigurationError
 from ..strategies import (
-    Deflected,
+    DeflectedEvasion,
     Evasion,
     LookAhead,
     Optimal,
@@ -22,7 +22,7 @@ EVADERS: Mapping[str, Callable[[float], Strategy]] = {
     "aside": lambda angle: Evasion(safety_radius=ALWAYS),
     "saturated": lambda angle: Evasion(saturated=True, safety_radius=ALWAYS),
     "alpha": lambda angle: Evasion(angle, safety_radius=ALWAYS),
-    "deflected": lambda angle: Deflected(),
+    "deflected": lambda angle: DeflectedEvasion(),
     "optimal": lambda angle: Optimal(),
 }
 """Makes an evader of each name, given the angle of "alpha"."""

@@ -11,7 +11,7 @@ from ..games.duel import run_duel
 from ..games.duel_run import DuelRun
 from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.outcome import Outcome
-from ..sim.camera_settings import RoomSettings
+from ..sim.camera_settings import SceneSettings
 from ..strategies.step_game import StepGame, StepOutcome, StepTrack
 from .claims import Readings
 from .evading_claims import DURATION
@@ -29,7 +29,7 @@ EVADERS = ("aside", "deflected", "look-ahead")
 
 
 @dataclass(frozen=True, slots=True)
-class Played:
+class PlayedGames:
     """Games of one seed in steps, of each evader in each world.
 
     Attributes:
@@ -57,10 +57,10 @@ class Played:
         )
 
 
-def play(seed: int) -> Played:
+def play(seed: int) -> PlayedGames:
     """Play what one seed stands for."""
     seeds = range(EACH * seed, EACH * (seed + 1))
-    return Played(
+    return PlayedGames(
         {
             name: {
                 evader: tuple(
@@ -74,7 +74,7 @@ def play(seed: int) -> Played:
     )
 
 
-def read_evading(played: Played) -> Readings:
+def read_evading(played: PlayedGames) -> Readings:
     """Better strategies, and what stands around, in steps."""
     ahead = played.games["room"]["look-ahead"]
     clear = min(float(g.clearances.min()) for g in ahead)
@@ -98,7 +98,7 @@ def room_settings(seed: int, duration: float = DURATION) -> DuelSettings:
         seed=seed,
         duration=duration,
         evader_strategy="look-ahead",
-        room=RoomSettings(plan=make_room(RoomRecipe(discs=3), seed)),
+        room=SceneSettings(plan=make_room(RoomRecipe(discs=3), seed)),
     )
 
 

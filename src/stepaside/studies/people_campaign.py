@@ -17,7 +17,7 @@ from ..games.duel_settings import DuelSettings, StartSettings
 from ..games.walk_settings import WalkSettings
 from ..sim.person_settings import PersonSettings
 from ..strategies import Evasion
-from .record_store import RecordFile
+from .record_store import RecordStore
 from .robustness_campaign import stamp
 
 SPEEDS = (0.3, 0.6, 1.0, 1.4)  # of people, in [m/s]
@@ -172,7 +172,7 @@ def run_encounters(
         What happened in each, by key.
     """
     results: dict[str, Record] = {} if done is None else done
-    now, store = stamp(), None if file is None else RecordFile(file)
+    now, store = stamp(), None if file is None else RecordStore(file)
     wanted = {encounter.key for encounter in grid}
     known = {} if store is None else store.read(FIELDS)
     for key, record in known.items():

@@ -13,9 +13,9 @@ from ..core.poses import Array, Pose, wrap_angles
 from ..games.duel_run import DuelRun
 from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.outcome import Outcome
-from ..games.trajectory import Track
+from ..games.trajectory import Trajectory
 from ..robots.description import load_robot
-from ..sim.camera_settings import RoomSettings
+from ..sim.camera_settings import SceneSettings
 from ..sim.outline_measurement import measure_outline
 from ..strategies import Evasion
 from .entrants import ALWAYS, SIGHT, pursuer_strategy
@@ -62,12 +62,12 @@ def duel_settings(
         evader_strategy=evader if own is None else "evasion",
         pursuer_strategy=pursuer_strategy(pursuer),
         sensing="cameras" if source == SEEN else "ideal",
-        room=RoomSettings(plan=replace(room, starts=starts)),
+        room=SceneSettings(plan=replace(room, starts=starts)),
         map=MapSettings(source=source),
     )
 
 
-class DuelWays(NamedTuple):
+class DuelPaths(NamedTuple):
     """Where two humanoids went.
 
     Attributes:
@@ -81,10 +81,10 @@ class DuelWays(NamedTuple):
     evader: Array
 
 
-def ways_of(run: DuelRun) -> DuelWays:
+def ways_of(run: DuelRun) -> DuelPaths:
     """Where the players of a duel went."""
     pursuer, evader = (run.tracks[name].unicycle for name in PLAYERS)
-    return DuelWays(outcome_of(run), pursuer, evader)
+    return DuelPaths(outcome_of(run), pursuer, evader)
 
 
 def figures_of(run: DuelRun, radius: float) -> dict[str, Any]:
@@ -167,7 +167,7 @@ def clearance(run: DuelRun, name: str) -> float | None:
     return found if isfinite(found) else None
 
 
-def _corners(trunk: Array, track: Track) -> Array:
+def _corners(trunk: Array, track: Trajectory) -> Array:
     """Corners of a trunk at all samples. Shape (n, corners, 2)."""
     places, headings = track.com[:, :2].tolist(), track.torso[:, 2].tolist()
     found: Array = np.array(

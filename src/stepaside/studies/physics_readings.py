@@ -26,7 +26,7 @@ from .walk_measures import (
     steps_of,
     walking_speed,
 )
-from .watched_duel import Watched, watch
+from .watched_duel import WatchedDuel, watch
 
 SLIPPERY = 0.05  # sliding friction of a floor on which feet slip
 SLOWEST = 0.5  # of the gait's speed: who is slower does not walk
@@ -60,7 +60,7 @@ def slip_settings(
     return replace(settings, physics=physics)
 
 
-def read_circle(duel: Watched) -> Readings:
+def read_circle(duel: WatchedDuel) -> Readings:
     """The circle of Sec. IV and the replanning of Sec. III-E."""
     landings = [step for name in PLAYERS for step in steps_of(duel, name)]
     gait = duel.settings.gait
@@ -77,7 +77,7 @@ def read_circle(duel: Watched) -> Readings:
     }
 
 
-def last_circle(duel: Watched) -> Readings:
+def last_circle(duel: WatchedDuel) -> Readings:
     """Circle of the last third; NaN of a duel that ended before its time."""
     keys = (
         *("settled", "pursuer_radius", "evader_radius", "one_circle"),
@@ -105,7 +105,7 @@ def last_circle(duel: Watched) -> Readings:
     return dict(zip(keys, values, strict=True))
 
 
-def read_durations(printed: Watched, walked: Watched) -> Readings:
+def read_durations(printed: WatchedDuel, walked: WatchedDuel) -> Readings:
     """The durations as printed, and exchanged."""
     gait = walked.settings.gait
     speeds = [walking_speed(walked, name) for name in PLAYERS]
@@ -120,7 +120,7 @@ def read_durations(printed: Watched, walked: Watched) -> Readings:
     }
 
 
-def read_slip(grip: Watched, slip: Watched) -> Readings:
+def read_slip(grip: WatchedDuel, slip: WatchedDuel) -> Readings:
     """A slippery floor beside one with grip; NaN unless both are walked."""
     keys = ("slide", "slower", "smaller")
     if not (_is_walked(grip) and _is_walked(slip)):
@@ -133,7 +133,7 @@ def read_slip(grip: Watched, slip: Watched) -> Readings:
     return dict(zip(keys, ratios, strict=True))
 
 
-def _is_walked(duel: Watched) -> bool:
+def _is_walked(duel: WatchedDuel) -> bool:
     """Whether a duel came to its end and both got on until then."""
     gait = duel.settings.gait
     least = SLOWEST * gait.stride / gait.step_duration
@@ -141,11 +141,11 @@ def _is_walked(duel: Watched) -> bool:
     return ended and all(walking_speed(duel, name) > least for name in PLAYERS)
 
 
-def _mean_speed(duel: Watched) -> float:
+def _mean_speed(duel: WatchedDuel) -> float:
     return float(np.mean([walking_speed(duel, name) for name in PLAYERS]))
 
 
-def _mean_radius(duel: Watched) -> float:
+def _mean_radius(duel: WatchedDuel) -> float:
     found = last_circle(duel)
     return 0.5 * (found["pursuer_radius"] + found["evader_radius"])
 

@@ -101,7 +101,7 @@ PATH = (
 )
 
 
-class Foothold(NamedTuple):
+class FootstepOffset(NamedTuple):
     """Where a footstep stands beside the path.
 
     Attributes:
@@ -115,7 +115,7 @@ class Foothold(NamedTuple):
     turned: float
 
 
-def footholds(bearing: float, direction: Direction) -> list[Foothold]:
+def footholds(bearing: float, direction: Direction) -> list[FootstepOffset]:
     """Footsteps of a plan beside its path, found from their positions."""
     plan = ManeuverPlanner(GAIT).plan(
         bearing,
@@ -140,7 +140,7 @@ def footholds(bearing: float, direction: Direction) -> list[Foothold]:
         aside = place - path.poses([time])[0, :2]
         heading = float(np.arctan2(tangent[1], tangent[0]))
         found.append(
-            Foothold(
+            FootstepOffset(
                 float(np.interp(time, times, ways)),
                 float(tangent[0] * aside[1] - tangent[1] * aside[0]),
                 wrap_angle(theta - heading),

@@ -9,7 +9,7 @@ from pathlib import Path
 from ..core.worker_pool import give_up
 from .robustness_campaign import (
     DIRECTIONS,
-    Trial,
+    RobustnessTrial,
     note_result,
     read_results,
     run_trial,
@@ -28,12 +28,12 @@ def push_cases(
     phases: int,
     seed: int = 1,
     changes: str = "",
-) -> Iterator[Trial]:
+) -> Iterator[RobustnessTrial]:
     """One trial of no strength for each method, direction and phase."""
     for method in methods:
         for direction in DIRECTIONS:
             for i in range(phases):
-                yield Trial(
+                yield RobustnessTrial(
                     *("push", 0.0, direction, i / phases, seed, method, body),
                     changes,
                 )
@@ -70,10 +70,12 @@ def next_strength(outcomes: Mapping[float, bool]) -> float | None:
 
 
 def outcomes_of(
-    cases: Sequence[Trial], results: Mapping[str, bool]
-) -> dict[Trial, dict[float, bool]]:
+    cases: Sequence[RobustnessTrial], results: Mapping[str, bool]
+) -> dict[RobustnessTrial, dict[float, bool]]:
     """Whether each strength that was tried was survived, by case."""
-    outcomes: dict[Trial, dict[float, bool]] = {case: {} for case in cases}
+    outcomes: dict[RobustnessTrial, dict[float, bool]] = {
+        case: {} for case in cases
+    }
     for key, survived in results.items():
         case, strength = _case_of(key)
         if case in outcomes:
@@ -81,14 +83,14 @@ def outcomes_of(
     return outcomes
 
 
-def _case_of(key: str) -> tuple[Trial, float]:
+def _case_of(key: str) -> tuple[RobustnessTrial, float]:
     """Trial of no strength that a key belongs to, and its strength."""
-    trial = Trial(*json.loads(key))
+    trial = RobustnessTrial(*json.loads(key))
     return replace(trial, strength=0.0), trial.strength
 
 
 def search_limits(
-    cases: Sequence[Trial],
+    cases: Sequence[RobustnessTrial],
     file: Path | None,
     executor: Executor,
     report: Callable[[int], None] | None = None,
@@ -116,9 +118,9 @@ def search_limits(
         if _case_of(key)[0] in asked
     )
     outcomes = outcomes_of(cases, results)
-    running: dict[Future[tuple[str, bool]], tuple[Trial, float]] = {}
+    running: dict[Future[tuple[str, bool]], tuple[RobustnessTrial, float]] = {}
 
-    def start(case: Trial) -> None:
+    def start(case: RobustnessTrial) -> None:
         strength = next_strength(outcomes[case])
         if strength is not None:
             trial = replace(case, strength=strength)

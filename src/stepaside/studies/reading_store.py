@@ -13,7 +13,7 @@ from .claims import Readings
 Key = dict[str, Any]
 
 
-class Kept:
+class ReadingStore:
     """Readings by name in a folder; one file each, written at one stroke.
 
     A file that was made from another key is not used, and is replaced. One

@@ -19,7 +19,7 @@ except ImportError:  # Windows
 DIGITS = 12
 
 
-class RecordFile:
+class RecordStore:
     """Records by key; what was cut off or altered is done again.
 
     A line holds a key, a record and a checksum of both. Lines that are torn

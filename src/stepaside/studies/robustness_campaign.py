@@ -22,7 +22,7 @@ from ..robots.forward_kinematics import ForwardKinematics
 from ..sim.body_settings import BODIES, BodySettings
 from ..sim.push import Push
 from .code_version import code_version, library_versions
-from .record_store import RecordFile
+from .record_store import RecordStore
 from .settings_diff import OWN, changed_walk
 
 # Modules that play a trial and judge it.
@@ -33,7 +33,7 @@ def read_results(file: Path | None) -> dict[str, bool]:
     """Results of this version of the code and libraries, by key of the trial.
 
     Args:
-        file: Of :class:`RecordFile`; those of another version, and lines
+        file: Of :class:`RecordStore`; those of another version, and lines
             that are not whole, are left out. None holds nothing.
     """
     if file is None:
@@ -41,7 +41,7 @@ def read_results(file: Path | None) -> dict[str, bool]:
     now = stamp()
     return {
         key: bool(record["survived"])
-        for key, record in RecordFile(file).read(["survived"]).items()
+        for key, record in RecordStore(file).read(["survived"]).items()
         if all(record.get(name) == now[name] for name in now)
     }
 
@@ -49,7 +49,7 @@ def read_results(file: Path | None) -> dict[str, bool]:
 def note_result(file: Path | None, key: str, survived: bool) -> None:
     """Add a result, at once, so that a campaign can be stopped any time."""
     if file is not None:
-        RecordFile(file).append(key, record_of(survived))
+        RecordStore(file).append(key, record_of(survived))
 
 
 def record_of(survived: bool) -> dict[str, Any]:
@@ -88,7 +88,7 @@ REFERENCE = "nao"  # robot that the strengths of pushes are made for
 
 
 @dataclass(frozen=True, slots=True)
-class Trial:
+class RobustnessTrial:
     """One walk of a campaign.
 
     Attributes:
@@ -150,7 +150,7 @@ def push_time(
     return begins + (BEFORE + 2.0 * phase) * gait.step_duration
 
 
-def walk_of(trial: Trial) -> WalkSettings:
+def walk_of(trial: RobustnessTrial) -> WalkSettings:
     """Walk of a trial, not disturbed yet."""
     walk = changed_walk(trial.changes)
     return replace(
@@ -180,7 +180,7 @@ def push_scale(robot: str) -> float:
     return own.push_unit / nao.push_unit
 
 
-def settings_of(trial: Trial) -> WalkSettings:
+def settings_of(trial: RobustnessTrial) -> WalkSettings:
     """Walk of a trial.
 
     Raises:
@@ -233,7 +233,7 @@ def louder(body: BodySettings, factor: float) -> BodySettings:
     )
 
 
-def run_trial(trial: Trial) -> tuple[str, bool]:
+def run_trial(trial: RobustnessTrial) -> tuple[str, bool]:
     """Key of a trial, and whether the robot stood to the end."""
     result = run_walk(settings_of(trial), record=False)
     return trial.key, result.outcome is Outcome.COMPLETED
@@ -247,7 +247,7 @@ def trials(
     seeds: int,
     first_seed: int = 1,
     changes: str = "",
-) -> Iterator[Trial]:
+) -> Iterator[RobustnessTrial]:
     """Grid of strengths and seeds; for pushes see :mod:`.limits`."""
     for method in methods:
         for kind in kinds:
@@ -255,14 +255,14 @@ def trials(
                 continue
             for strength in STRENGTHS[kind]:
                 for seed in range(first_seed, first_seed + seeds):
-                    yield Trial(
+                    yield RobustnessTrial(
                         *(kind, strength, "", 0.0, seed, method, body),
                         changes,
                     )
 
 
 def run_campaign(
-    grid: Sequence[Trial],
+    grid: Sequence[RobustnessTrial],
     file: Path | None,
     executor: Executor,
     report: Callable[[int], None] | None = None,

@@ -10,13 +10,13 @@ import numpy as np
 
 from ..games.walk_settings import WalkSettings
 from ..planning import Direction, Foot, ManeuverPlanner
-from ..planning.capturability import Reach, push_bound
+from ..planning.capturability import FootReach, push_bound
 from ..planning.steady_gait import steady_plan
 from .push_limits import limit_of, next_strength, outcomes_of
 from .robustness_campaign import (
     DIRECTIONS,
     STRENGTHS,
-    Trial,
+    RobustnessTrial,
     mass_of,
     push_scale,
     walk_of,
@@ -40,7 +40,7 @@ def wilson(survived: int, number: int) -> tuple[float, float]:
 
 
 def survival_rows(
-    grid: Sequence[Trial], results: Mapping[str, bool]
+    grid: Sequence[RobustnessTrial], results: Mapping[str, bool]
 ) -> list[dict[str, Any]]:
     """Share of survivors for each method, kind and strength of a grid."""
     groups: dict[tuple[str, str, str, float], list[bool]] = defaultdict(list)
@@ -96,7 +96,7 @@ def _survival_row(
 
 
 def limit_rows(
-    cases: Sequence[Trial], results: Mapping[str, bool]
+    cases: Sequence[RobustnessTrial], results: Mapping[str, bool]
 ) -> list[dict[str, Any]]:
     """Largest push survived with all smaller ones, beside the bounds.
 
@@ -163,10 +163,10 @@ def bound_at(
     return push_bound(plan, passed, angle, mass, reach, lasts=lasts)
 
 
-def walking_reach(walk: WalkSettings = DEFAULT) -> Reach:
+def walking_reach(walk: WalkSettings = DEFAULT) -> FootReach:
     """Where the feedback of a walk may set a foot."""
     gains = walk.control.stabiliser
-    return Reach(
+    return FootReach(
         gains.reach_forward,
         gains.reach_backward,
         gains.reach_outward,

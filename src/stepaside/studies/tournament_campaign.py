@@ -17,12 +17,12 @@ from ..strategies.step_game import StepGame, StepTrack, play_steps
 from .code_version import code_version, library_versions
 from .entrants import SIGHT, evader_of, pursuer_of
 from .floor_used import floor_used
-from .record_store import RecordFile
+from .record_store import RecordStore
 from .tournament_settings import HUMANOIDS, TournamentSettings
 
 if TYPE_CHECKING:
     from ..games.duel_run import DuelRun
-    from .physics_game import DuelWays
+    from .physics_game import DuelPaths
 
 Record = dict[str, Any]
 FIELDS = (  # of every record
@@ -40,7 +40,7 @@ Pairing = tuple[str, str]
 
 def play_ways(
     settings: TournamentSettings, pairing: Pairing, seed: int
-) -> "tuple[Room, StepTrack | DuelWays]":
+) -> "tuple[Room, StepTrack | DuelPaths]":
     """Play one game of a tournament, and keep where both went."""
     if settings.level != HUMANOIDS:
         return play_track(settings, pairing, seed)
@@ -176,7 +176,7 @@ def play_tournament(
     settings: TournamentSettings,
     pairings: Sequence[Pairing],
     seeds: Sequence[int],
-    file: RecordFile | None = None,
+    file: RecordStore | None = None,
     executor: Executor | None = None,
     report: Callable[[int], None] | None = None,
     done: dict[str, Record] | None = None,

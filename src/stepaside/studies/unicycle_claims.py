@@ -8,22 +8,22 @@ import numpy as np
 from ..core.poses import Array, wrap_angle
 from ..theory.unicycle.adaptive_simulation import PlayedGame, simulate
 from ..theory.unicycle.circle_fit import (
-    Measured,
+    FittedCircle,
     fit_circle,
     measure,
     settling_time,
 )
-from ..theory.unicycle.relative_coordinates import Start
+from ..theory.unicycle.relative_coordinates import RelativeStart
 from ..theory.unicycle.sampled_game import SampledRun, simulate_sampled
 from ..theory.unicycle.unicycle_game import Game, TurningLaw, Unicycle
 from .claims import Claim, Readings
 
 FIG_2 = Game(Unicycle(1.0, 0.5), Unicycle(1.0, 0.5))
-START = Start(5.0, 0.4, -0.2)
+START = RelativeStart(5.0, 0.4, -0.2)
 ANGLES = tuple(np.radians([15.0, 30.0, 45.0, 60.0, 75.0, 90.0]).tolist())
 SMALL = 0.1  # evasion angle near "move back", in [rad]
 NAO = Game(Unicycle(0.1, 0.2), Unicycle(0.1, 0.2))
-NAO_START = Start(1.0, 0.3, -0.1)
+NAO_START = RelativeStart(1.0, 0.3, -0.1)
 STEP = 0.4  # path time of a step, in [s]
 RADIUS = 4.0 / (pi * 0.5)  # of Fig. 2, in [m]
 NAO_RADIUS = 4.0 * 0.1 / (pi * 0.2)
@@ -130,7 +130,7 @@ SATURATED = (
 
 def read_strategies() -> Readings:
     """The family of strategies between moving back and moving aside."""
-    seen: list[Measured] = [
+    seen: list[FittedCircle] = [
         measure(play(replace(FIG_2, angle=angle))) for angle in ANGLES
     ]
     radii = [circle.radius_evader_m for circle in seen]

@@ -8,7 +8,7 @@ import numpy as np
 from ..core.poses import Array
 from ..games.duel_settings import PLAYERS
 from ..planning import GaitSettings
-from .watched_duel import WalkedPlan, Watched
+from .watched_duel import WalkedPlan, WatchedDuel
 
 BEARS = 1.0  # load from which a foot counts as on the floor, in [N]
 SWING = 0.35  # of a single support: a foot that is off it longer swings
@@ -39,7 +39,7 @@ def swings(ticks: Array, load: Array, single_support: float) -> Array:
     return np.array(rows, dtype=np.float64).reshape(-1, 2)
 
 
-def steps_of(duel: Watched, name: str) -> list[float]:
+def steps_of(duel: WatchedDuel, name: str) -> list[float]:
     """Times between landings, whichever foot's, in [s]; inf if none."""
     feet = duel.loads[name].T
     lasts = duel.settings.gait.single_support
@@ -49,7 +49,7 @@ def steps_of(duel: Watched, name: str) -> list[float]:
     return between or [inf]
 
 
-def both_feet(duel: Watched, name: str) -> tuple[float, float]:
+def both_feet(duel: WatchedDuel, name: str) -> tuple[float, float]:
     """Whether plans are replaced as the paper says, by the foot forces.
 
     At the end of a double support the plan leaves nothing on the foot that
@@ -97,14 +97,14 @@ def plan_share(plans: tuple[WalkedPlan, ...], gait: GaitSettings) -> float:
     return max(shares, default=nan)
 
 
-class Jump(NamedTuple):
+class ReferenceJump(NamedTuple):
     """Jump of a reference, in [m], and of its velocity, in [m/s]."""
 
     place: float
     velocity: float
 
 
-def reference_jumps(duel: Watched, name: str) -> Jump:
+def reference_jumps(duel: WatchedDuel, name: str) -> ReferenceJump:
     """Greatest jump of the CoM reference where a plan replaces another.
 
     Place and velocity at that instant are those of the polynomials through
@@ -120,9 +120,9 @@ def reference_jumps(duel: Watched, name: str) -> Jump:
             after = _at_instant(ticks, sent, plan.started, first)
             jumps.append(np.abs(after - before).max(axis=1))
     if not jumps:
-        return Jump(nan, nan)
+        return ReferenceJump(nan, nan)
     place, velocity = np.max(jumps, axis=0).tolist()
-    return Jump(place, velocity)
+    return ReferenceJump(place, velocity)
 
 
 def _at_instant(
@@ -137,7 +137,7 @@ def _at_instant(
     return found
 
 
-def walking_speed(duel: Watched, name: str) -> float:
+def walking_speed(duel: WatchedDuel, name: str) -> float:
     """Speed over the last third, in [m/s].
 
     Chords of a gait cycle, so that the sway does not count as way.
@@ -152,7 +152,7 @@ def walking_speed(duel: Watched, name: str) -> float:
     return float(way.mean() / (cycle * period))
 
 
-def distance_walked(duel: Watched, name: str) -> float:
+def distance_walked(duel: WatchedDuel, name: str) -> float:
     """Way of the torso in chords of a gait cycle, in [m]."""
     times = duel.times
     period = float(times[1] - times[0])
@@ -162,7 +162,7 @@ def distance_walked(duel: Watched, name: str) -> float:
     return float(np.hypot(*np.diff(corners, axis=0).T).sum())
 
 
-def greatest_tilt(duel: Watched) -> float:
+def greatest_tilt(duel: WatchedDuel) -> float:
     """Greatest angle of a torso from the vertical, in [deg]."""
     postures = [duel.tracks[name].qpos for name in PLAYERS]
     upward = [
@@ -173,7 +173,7 @@ def greatest_tilt(duel: Watched) -> float:
     return degrees(acos(max(-1.0, min(1.0, float(np.min(upward))))))
 
 
-def mean_slide(duel: Watched) -> float:
+def mean_slide(duel: WatchedDuel) -> float:
     """Mean way of a foot from its landing to its next lift-off, in [m]."""
     ways = []
     for name in PLAYERS:

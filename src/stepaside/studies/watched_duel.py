@@ -12,7 +12,7 @@ from ..core.poses import Array
 from ..games.duel import Duel
 from ..games.duel_settings import DuelSettings
 from ..games.outcome import Outcome
-from ..games.trajectory import Track
+from ..games.trajectory import Trajectory
 from ..games.walker import Walker
 from ..planning import ManeuverPlan
 from ..robots.description import load_robot
@@ -33,7 +33,7 @@ class WalkedPlan(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Watched:
+class WatchedDuel:
     """A duel and what it left behind.
 
     Attributes:
@@ -56,7 +56,7 @@ class Watched:
     outcome: Outcome
     duration: float
     times: Array
-    tracks: Mapping[str, Track]
+    tracks: Mapping[str, Trajectory]
     ticks: Array
     loads: Mapping[str, Array]
     feet: Mapping[str, Array]
@@ -64,7 +64,7 @@ class Watched:
     plans: Mapping[str, tuple[WalkedPlan, ...]]
 
 
-def watch(settings: DuelSettings) -> Watched:
+def watch(settings: DuelSettings) -> WatchedDuel:
     """Play a duel to its end, as ``run_duel`` does, and watch it.
 
     Raises:
@@ -89,7 +89,7 @@ def watch(settings: DuelSettings) -> Watched:
     outcome = outcome or Outcome.COMPLETED
     duel.recorder.ended(duel, outcome)
     done = world.ticks
-    return Watched(
+    return WatchedDuel(
         settings=duel.settings,
         outcome=outcome,
         duration=world.time,

@@ -5,16 +5,16 @@ from typing import Any
 
 import click
 
-from .declaration import Declaration
+from .declaration import OptionDeclaration
 from .value_kinds import SizeType
 
 COUNT = click.IntRange(0, 500)
-SIZE = Declaration(
+SIZE = OptionDeclaration(
     "--size", "Of the floor [m], or open for no walls.", kind=SizeType()
 )
-DISCS = Declaration("--discs", "Discs in a room.", kind=COUNT)
-BOXES = Declaration("--boxes", "Boxes in a room.", kind=COUNT)
-POLYGONS = Declaration(
+DISCS = OptionDeclaration("--discs", "Discs in a room.", kind=COUNT)
+BOXES = OptionDeclaration("--boxes", "Boxes in a room.", kind=COUNT)
+POLYGONS = OptionDeclaration(
     "--polygons", "Polygons of three to six corners in a room.", kind=COUNT
 )
 

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from .declaration import Declaration, Group
+from .declaration import OptionDeclaration, OptionGroup
 
 if TYPE_CHECKING:
     from ...sim.body_settings import BodySettings
@@ -29,111 +29,111 @@ def _tails() -> Collection[str]:
     return TAILS
 
 
-BODY_PRESET = Declaration(
+BODY_PRESET = OptionDeclaration(
     "--body",
     "How far the body is from an ideal one.",
     "body",
     registry=_bodies,
 )
-BODY = Group(
+BODY = OptionGroup(
     "Body (each changes the one that --body names)",
     (
         BODY_PRESET,
-        Declaration(
+        OptionDeclaration(
             "--cycle",
             "Control period {unit} of the body; 0 leaves it to --tick.",
             "body.cycle",
             "s",
         ),
-        Declaration(
+        OptionDeclaration(
             "--delay-cycles",
             "Control cycles from a request to the motion",
             "body.delay_cycles",
             "cycles",
             kind=click.INT,
         ),
-        Declaration(
+        OptionDeclaration(
             "--imu-delay-cycles",
             "Control cycles by which gyro and accelerometer lag",
             "body.imu_delay_cycles",
             "cycles",
             kind=click.INT,
         ),
-        Declaration(
+        OptionDeclaration(
             "--torque-speed/--no-torque-speed",
             "Whether a motor's torque falls with its speed.",
             "body.torque_speed",
         ),
-        Declaration(
+        OptionDeclaration(
             "--efficiency",
             "Share of the ideal stall torque at the joint",
             "body.efficiency",
             "1",
         ),
-        Declaration(
+        OptionDeclaration(
             "--stiffness",
             "Share of that torque that the robot allows",
             "body.stiffness",
             "1",
         ),
-        Declaration(
+        OptionDeclaration(
             "--servo-gain",
             "Factor on the servos' position gain",
             "body.servo_gain",
             "1",
         ),
-        Declaration(
+        OptionDeclaration(
             "--backlash", "Dead zone of each leg joint", "body.backlash", "rad"
         ),
-        Declaration(
+        OptionDeclaration(
             "--encoder-step",
             "Resolution of the encoders",
             "body.encoder_step",
             "rad",
         ),
-        Declaration(
+        OptionDeclaration(
             "--gyro-noise",
             "Standard deviation of the gyro",
             "body.gyro_noise",
             "rad/s",
         ),
-        Declaration(
+        OptionDeclaration(
             "--gyro-bias",
             "Greatest constant error of the gyro",
             "body.gyro_bias",
             "rad/s",
         ),
-        Declaration(
+        OptionDeclaration(
             "--accelerometer-noise",
             "Standard deviation of the accelerometer",
             "body.accelerometer_noise",
             "m/s^2",
         ),
-        Declaration(
+        OptionDeclaration(
             "--accelerometer-bias",
             "Greatest constant error of the accelerometer",
             "body.accelerometer_bias",
             "m/s^2",
         ),
-        Declaration(
+        OptionDeclaration(
             "--force-noise",
             "Standard deviation of a foot force",
             "body.force_noise",
             "N",
         ),
-        Declaration(
+        OptionDeclaration(
             "--force-gain-error",
             "Greatest relative error of a foot force",
             "body.force_gain_error",
             "1",
         ),
-        Declaration(
+        OptionDeclaration(
             "--mass-error",
             "Greatest relative error of a link's mass",
             "body.mass_error",
             "1",
         ),
-        Declaration(
+        OptionDeclaration(
             "--com-error",
             "Greatest shift of the torso's CoM on each axis",
             "body.com_error",
@@ -141,14 +141,14 @@ BODY = Group(
         ),
     ),
 )
-METHOD = Declaration(
+METHOD = OptionDeclaration(
     "--method",
     "Where the CoM comes from: the planned state, the measured one, or "
     "intrinsically stable MPC.",
     "control.method",
     registry=_methods,
 )
-FEEDBACK = Declaration(
+FEEDBACK = OptionDeclaration(
     "--feedback/--no-feedback",
     "Estimate the state and stabilise the walk, or replay the plans in open "
     "loop; feedback for all bodies but the ideal one by default.",
@@ -156,32 +156,32 @@ FEEDBACK = Declaration(
     tells_default=False,
     more_names=(" /--open-loop",),
 )
-CONTROL = Group(
+CONTROL = OptionGroup(
     "Control",
     (
         METHOD,
         FEEDBACK,
-        Declaration(
+        OptionDeclaration(
             "--learn-turns/--no-learn-turns",
             "Learn by the gyro how much of a turn the feet make, and ask for "
             "as much more.",
             "control.learn_turns",
         ),
-        Declaration(
+        OptionDeclaration(
             "--mpc-steps",
             "Steps in the horizon of the MPC",
             "control.mpc.steps",
             "steps",
             kind=click.INT,
         ),
-        Declaration(
+        OptionDeclaration(
             "--mpc-samples",
             "Samples of the MPC in a step",
             "control.mpc.samples",
             "1",
             kind=click.INT,
         ),
-        Declaration(
+        OptionDeclaration(
             "--mpc-tail",
             "What the MPC assumes beyond its horizon.",
             "control.mpc.tail",
@@ -189,32 +189,34 @@ CONTROL = Group(
         ),
     ),
 )
-PHYSICS = Group(
+PHYSICS = OptionGroup(
     "Floor and physics",
     (
-        Declaration(
+        OptionDeclaration(
             "--friction",
             "Friction of the soles {unit}; {default} by default.",
             "physics.friction",
             "1",
         ),
-        Declaration(
+        OptionDeclaration(
             "--unevenness",
             "Height {unit} of the floor's bumps.",
             "physics.unevenness",
             "m",
         ),
-        Declaration("--slope", "Slope of the floor", "physics.slope", "rad"),
-        Declaration(
+        OptionDeclaration(
+            "--slope", "Slope of the floor", "physics.slope", "rad"
+        ),
+        OptionDeclaration(
             "--slope-direction",
             "Where the floor descends to",
             "physics.slope_direction",
             "rad",
         ),
-        Declaration(
+        OptionDeclaration(
             "--time-step", "Step of the physics", "physics.time_step", "s"
         ),
-        Declaration(
+        OptionDeclaration(
             "--tick",
             "Control period {unit}, a whole multiple of the time step.",
             "physics.tick",

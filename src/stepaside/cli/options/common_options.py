@@ -11,11 +11,11 @@ import click
 from ...core.atomic_output import FIGURES
 from ...report.figure_sizes import SHEETS, figures_on
 from ..value_types import NumberType, json_alone
-from .declaration import Declaration
+from .declaration import OptionDeclaration
 from .value_kinds import NameType, OutputFile
 
 INTERRUPTED = 130  # exit status of a command that was stopped
-JSON = Declaration(
+JSON = OptionDeclaration(
     "--json/--no-json", "Print one JSON object.", more_names=("as_json",)
 )
 
@@ -31,63 +31,63 @@ def json_option(function: Callable[..., Any]) -> Callable[..., Any]:
     return JSON.option(default=False)(command)
 
 
-FOLDER = Declaration(
+FOLDER = OptionDeclaration(
     "--output",
     "Folder of results.",
     kind=click.Path(file_okay=False, path_type=Path),
 )
-FILE = Declaration(
+FILE = OptionDeclaration(
     "--output",
     "File to write.",
     kind=OutputFile(),
 )
-FIGURE = Declaration(
+FIGURE = OptionDeclaration(
     "--figure",
     "Write a figure (.png, .svg or .pdf).",
     kind=OutputFile(*FIGURES),
 )
-WIDTH = Declaration(
+WIDTH = OptionDeclaration(
     "--figure-width",
     "Of figures: as on a screen, or in the sizes and fonts of papers with "
     "two columns, across a page or in one column.",
     kind=NameType(lambda: SHEETS),
 )
-WORKERS = Declaration(
+WORKERS = OptionDeclaration(
     "--workers",
     "Processes; all cores by default.",
     kind=click.IntRange(1, 1024),  # more only wait for each other
 )
-FIRST_SEED = Declaration(
+FIRST_SEED = OptionDeclaration(
     "--seed", "Of every random draw.", kind=click.IntRange(0, 2**128 - 1)
 )
-PORT = Declaration(
+PORT = OptionDeclaration(
     "--port", "To serve the page at.", kind=click.IntRange(1, 65535)
 )
-BROWSER = Declaration(
+BROWSER = OptionDeclaration(
     "--open/--no-open", "Open the page in a browser.", more_names=("opens",)
 )
-SERVE_FOR = Declaration(
+SERVE_FOR = OptionDeclaration(
     "--serve-for",
     "Stop serving after this time",
     unit="s",
     kind=NumberType("s"),
 )
-CAPTURE = Declaration(
+CAPTURE = OptionDeclaration(
     "--body",
     "Distance {unit} that counts as capture.",
     unit="m",
     kind=NumberType("m"),
 )
-GAME_TIME = Declaration(
+GAME_TIME = OptionDeclaration(
     "--duration", "Length of a game", unit="s", kind=NumberType("s")
 )
-SAMPLE_TIME = Declaration(
+SAMPLE_TIME = OptionDeclaration(
     "--sample-time",
     "Time for which turning rates are held",
     unit="s",
     kind=NumberType("s", allow_zero=True),
 )
-DELAY = Declaration(
+DELAY = OptionDeclaration(
     "--delay",
     "Age of a perception when it takes effect",
     unit="s",

@@ -9,14 +9,14 @@ from typing import Any, NamedTuple
 import click
 
 from ..value_types import ANGLE, NumberType
-from .value_kinds import NameType, WordedType
+from .value_kinds import NameType, WordOrValueType
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 Kind = Callable[[], type[Any]]  # gives a class of settings when it is needed
 
 
 @dataclass(frozen=True, eq=False)
-class Declaration:
+class OptionDeclaration:
     """What an option is called, what it means, and what it sets.
 
     Defaults are not declared: they are those of the settings. Nor are
@@ -68,7 +68,9 @@ class Declaration:
             kind = NumberType(self.unit, bounded=False)
         elif kind is None and self.registry and not self.is_flag:
             kind = NameType(self.registry)
-        return WordedType(kind, self.words) if kind and self.words else kind
+        return (
+            WordOrValueType(kind, self.words) if kind and self.words else kind
+        )
 
     def option(self, settings: Kind | None = None, **extra: Any) -> Decorator:
         """Option of one command.
@@ -139,11 +141,11 @@ class DeclaredOption(click.Option):
     def __init__(
         self,
         *args: Any,
-        declaration: Declaration,
+        declaration: OptionDeclaration,
         settings: Kind | None,
         **extra: Any,
     ) -> None:
-        """Make it; see :meth:`Declaration.option`."""
+        """Make it; see :meth:`OptionDeclaration.option`."""
         self.declaration, self._settings = declaration, settings
         super().__init__(*args, **extra)
 
@@ -167,7 +169,7 @@ class DeclaredOption(click.Option):
             self.help = meaning
 
 
-class Group(NamedTuple):
+class OptionGroup(NamedTuple):
     """Options that stand together in the help.
 
     Attributes:
@@ -176,9 +178,9 @@ class Group(NamedTuple):
     """
 
     title: str
-    options: tuple[Declaration, ...]
+    options: tuple[OptionDeclaration, ...]
 
-    def without(self, *options: Declaration) -> "Group":
+    def without(self, *options: OptionDeclaration) -> "OptionGroup":
         """Group that lacks some options."""
         rest = tuple(o for o in self.options if o not in options)
-        return Group(self.title, rest)
+        return OptionGroup(self.title, rest)

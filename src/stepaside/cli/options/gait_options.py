@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, get_args, get_type_hints
 
 import click
 
-from .declaration import Declaration, Group
+from .declaration import OptionDeclaration, OptionGroup
 from .push_type import PUSHES
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ def _swings() -> tuple[str, ...]:
     return get_args(get_type_hints(GaitSettings)["swing_profile"])
 
 
-PRESET = Declaration(
+PRESET = OptionDeclaration(
     "--gait",
     "Gait: the paper's, its durations as printed, or a fast one, which is "
     "stabilised unless it is said not to be; other options of the gait "
@@ -38,25 +38,25 @@ PRESET = Declaration(
     registry=_gaits,
     more_names=("--preset",),
 )
-HORIZON = Declaration(
+HORIZON = OptionDeclaration(
     "--horizon",
     "Footsteps of a maneuver that is planned anew at each step",
     "gait.horizon",
     "steps",
     kind=click.INT,
 )
-GAIT = Group(
+GAIT = OptionGroup(
     "Gait",
     (
         PRESET,
-        Declaration(
+        OptionDeclaration(
             "--speed", "Driving speed of the template", "gait.speed", "m/s"
         ),
-        Declaration("--gain", "Steering gain k", "gait.gain", "1/s"),
-        Declaration(
+        OptionDeclaration("--gain", "Steering gain k", "gait.gain", "1/s"),
+        OptionDeclaration(
             "--stride", "Step size along the path", "gait.stride", "m"
         ),
-        Declaration(
+        OptionDeclaration(
             "--outer-stride",
             "Longest way {unit} of the outer foot in a step of a turn; "
             "sharper turns shorten the stride.",
@@ -64,62 +64,62 @@ GAIT = Group(
             "m",
             words={"none": None},
         ),
-        Declaration(
+        OptionDeclaration(
             "--foot-spacing",
             "Distance {unit} between the feet, side by side.",
             "gait.foot_spacing",
             "m",
         ),
-        Declaration(
+        OptionDeclaration(
             "--step-height",
             "Greatest height {unit} of a swinging foot.",
             "gait.step_height",
             "m",
         ),
-        Declaration(
+        OptionDeclaration(
             "--single-support",
             "Time on one foot",
             "gait.single_support",
             "s",
         ),
-        Declaration(
+        OptionDeclaration(
             "--double-support",
             "Time on both feet, between two steps",
             "gait.double_support",
             "s",
         ),
-        Declaration(
+        OptionDeclaration(
             "--start-support",
             "Time on both feet before the first step",
             "gait.start_support",
             "s",
         ),
-        Declaration(
+        OptionDeclaration(
             "--com-height",
             "Height {unit} of the CoM over the floor.",
             "gait.com_height",
             "m",
         ),
-        Declaration(
+        OptionDeclaration(
             "--zmp-forward",
             "How far {unit} the ZMP lies ahead of the ankle.",
             "gait.zmp_forward",
             "m",
         ),
-        Declaration(
+        OptionDeclaration(
             "--profile",
             "ZMP between the feet in double support.",
             "gait.zmp_profile",
             registry=_profiles,
             more_names=("--zmp-profile",),
         ),
-        Declaration(
+        OptionDeclaration(
             "--swing-profile",
             "Way of the swing foot over time.",
             "gait.swing_profile",
             registry=_swings,
         ),
-        Declaration(
+        OptionDeclaration(
             "--swing-reaction",
             "Shift {unit} of the ZMP by an acceleration of the swing foot.",
             "gait.swing_reaction",
@@ -128,18 +128,18 @@ GAIT = Group(
         HORIZON,
     ),
 )
-BEARING = Declaration(
+BEARING = OptionDeclaration(
     "--bearing",
     "Desired heading {unit} in the frame of the support foot; 0 goes "
     "straight.",
     "bearing",
     "rad",
 )
-WALK = Group(
+WALK = OptionGroup(
     "Walk",
     (
         BEARING,
-        Declaration(
+        OptionDeclaration(
             "--backward/--forward", "Where the robot walks.", "backward"
         ),
         PUSHES,

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .declaration import Declaration, Group
+from .declaration import OptionDeclaration, OptionGroup
 from .strategy_type import EVADER_STRATEGY, PURSUER_STRATEGY
 
 if TYPE_CHECKING:
-    from ...sim.camera_settings import Thing
+    from ...sim.camera_settings import RoomObject
 
 
 def _senses() -> Collection[str]:
@@ -49,27 +49,29 @@ def _renderers() -> Collection[str]:
     return RENDERERS
 
 
-def _things() -> "dict[bool, list[Thing]]":
+def _things() -> "dict[bool, list[RoomObject]]":
     from ...sim.camera_settings import CLUTTER
 
     return {True: list(CLUTTER), False: []}
 
 
-SEED = Declaration("--seed", "Of every random draw.", "seed", kind=click.INT)
-DURATION = Declaration("--duration", "Simulated time", "duration", "s")
-ROBOT = Declaration(
+SEED = OptionDeclaration(
+    "--seed", "Of every random draw.", "seed", kind=click.INT
+)
+DURATION = OptionDeclaration("--duration", "Simulated time", "duration", "s")
+ROBOT = OptionDeclaration(
     "--robot", "Robot, or the folder of its description.", "robot"
 )
-RUN = Group("Run", (SEED, DURATION, ROBOT))
-ROBOTS = Group(
+RUN = OptionGroup("Run", (SEED, DURATION, ROBOT))
+ROBOTS = OptionGroup(
     "Robots (each with the gait and the control of its description)",
     (
-        Declaration(
+        OptionDeclaration(
             "--pursuer-robot",
             "Robot of the pursuer, if it is another one than --robot.",
             "pursuer_robot",
         ),
-        Declaration(
+        OptionDeclaration(
             "--evader-robot",
             "Robot of the evader, likewise.",
             "evader_robot",
@@ -77,24 +79,24 @@ ROBOTS = Group(
     ),
 )
 DRAWN: dict[str, Any] = {"drawn": None}
-START = Group(
+START = OptionGroup(
     "Start (what is not given, the seed draws)",
     (
-        Declaration(
+        OptionDeclaration(
             "--distance",
             "Distance {unit} between the robots.",
             "start.distance",
             "m",
             words=DRAWN,
         ),
-        Declaration(
+        OptionDeclaration(
             "--pursuer-offset",
             "Heading of the pursuer from the evader",
             "start.pursuer_offset",
             "rad",
             words=DRAWN,
         ),
-        Declaration(
+        OptionDeclaration(
             "--evader-offset",
             "Heading of the evader from the pursuer",
             "start.evader_offset",
@@ -103,23 +105,23 @@ START = Group(
         ),
     ),
 )
-STRATEGY = Group(
+STRATEGY = OptionGroup(
     "Strategy",
     (
         EVADER_STRATEGY,
         PURSUER_STRATEGY,
-        Declaration(
+        OptionDeclaration(
             "--angle",
             "Angle {unit} of evasion: 90deg moves aside, 0 moves back.",
             "strategy.angle",
             "rad",
         ),
-        Declaration(
+        OptionDeclaration(
             "--saturated/--no-saturated",
             "Whether the evader turns by (6), or by (4).",
             "strategy.saturated",
         ),
-        Declaration(
+        OptionDeclaration(
             "--trigger",
             "What begins evasion: a distance, or the time until somebody who "
             "walks on would be near; time by default where a person comes "
@@ -128,41 +130,41 @@ STRATEGY = Group(
             registry=_triggers,
             tells_default=False,
         ),
-        Declaration(
+        OptionDeclaration(
             "--contact-time",
             "Time {unit} to contact at which evasion begins; {default} by "
             "default.",
             "strategy.contact_time",
             "s",
         ),
-        Declaration(
+        OptionDeclaration(
             "--clearance",
             "Distance {unit} that counts as contact then; {default} by "
             "default.",
             "strategy.clearance",
             "m",
         ),
-        Declaration(
+        OptionDeclaration(
             "--calmest",
             "Least share of the gait's step rate at which it walks while that "
             "leaves the other room; {default} by default.",
             "strategy.calmest",
             "1",
         ),
-        Declaration(
+        OptionDeclaration(
             "--safety-radius",
             "Distance {unit} at which evasion begins; {default} by default.",
             "strategy.safety_radius",
             "m",
         ),
-        Declaration(
+        OptionDeclaration(
             "--release-distance",
             "Distance {unit} at which evasion ends; {default} by default.",
             "strategy.release_distance",
             "m",
             words={"never": inf},
         ),
-        Declaration(
+        OptionDeclaration(
             "--side-hysteresis",
             "How far {unit} the pursuer's bearing must be past a change of "
             "sign for the evader's side to change.",
@@ -172,30 +174,32 @@ STRATEGY = Group(
         ),
     ),
 )
-SENSING = Declaration(
+SENSING = OptionDeclaration(
     "--sensing",
     "Whether they are told where the other is, or see it.",
     "sensing",
     registry=_senses,
 )
-SIGHT = Group(
+SIGHT = OptionGroup(
     "Sight (where they are told)",
     (
         SENSING,
-        Declaration(
+        OptionDeclaration(
             "--bearing-noise",
             "Standard deviation of the bearing",
             "sight.bearing_noise",
             "rad",
         ),
-        Declaration(
+        OptionDeclaration(
             "--distance-noise",
             "Standard deviation of the distance",
             "sight.distance_noise",
             "m",
         ),
-        Declaration("--delay", "From seeing to knowing", "sight.delay", "s"),
-        Declaration(
+        OptionDeclaration(
+            "--delay", "From seeing to knowing", "sight.delay", "s"
+        ),
+        OptionDeclaration(
             "--rate",
             "Sightings a second",
             "sight.rate",
@@ -204,23 +208,23 @@ SIGHT = Group(
         ),
     ),
 )
-LATENCY = Declaration(
+LATENCY = OptionDeclaration(
     "--camera-latency",
     "Added to that of the cameras",
     "cameras.added_latency",
     "s",
 )
-OPTICS = Declaration(
+OPTICS = OptionDeclaration(
     "--optics",
     "Which NAO's top camera.",
     "cameras.colour.optics",
     registry=_optics,
 )
-SENSES = Group("Senses", (SENSING, LATENCY, OPTICS))
-CAMERAS = Group(
+SENSES = OptionGroup("Senses", (SENSING, LATENCY, OPTICS))
+CAMERAS = OptionGroup(
     "Cameras and room (where they see)",
     (
-        Declaration(
+        OptionDeclaration(
             "--drop-frames",
             "Share of images that never arrive",
             "cameras.drop_frames",
@@ -228,19 +232,19 @@ CAMERAS = Group(
         ),
         LATENCY,
         OPTICS,
-        Declaration(
+        OptionDeclaration(
             "--renderer",
             "What draws the images.",
             "cameras.colour.renderer",
             registry=_renderers,
         ),
-        Declaration(
+        OptionDeclaration(
             "--clutter/--no-clutter",
             "Boxes and a white figure stand about.",
             "room.things",
             registry=_things,
         ),
-        Declaration(
+        OptionDeclaration(
             "--walls",
             "Distance {unit} of the walls from the middle; 0 for none.",
             "room.walls",
@@ -248,49 +252,55 @@ CAMERAS = Group(
         ),
     ),
 )
-PERSON = Group(
+PERSON = OptionGroup(
     "Who comes",
     (
-        Declaration(
+        OptionDeclaration(
             "--pursuer",
             "Another robot, or a person.",
             "pursuer",
             registry=_pursuers,
         ),
-        Declaration(
+        OptionDeclaration(
             "--person-path",
             "steer, straight, visits, or a CSV file of time,x,y.",
             "person.path",
         ),
-        Declaration("--person-speed", "Of the walk", "person.speed", "m/s"),
-        Declaration("--person-gain", "Of the steering", "person.gain", "1/s"),
-        Declaration(
+        OptionDeclaration(
+            "--person-speed", "Of the walk", "person.speed", "m/s"
+        ),
+        OptionDeclaration(
+            "--person-gain", "Of the steering", "person.gain", "1/s"
+        ),
+        OptionDeclaration(
             "--person-miss",
             "How far {unit} beside the evader a straight walk aims.",
             "person.miss",
             "m",
         ),
-        Declaration(
+        OptionDeclaration(
             "--person-halt-after",
             "Way {unit} after which the person stands; {default} by default.",
             "person.halt_after",
             "m",
             words={"never": inf},
         ),
-        Declaration(
+        OptionDeclaration(
             "--person-turn-after",
             "Way {unit} after which the person turns; {default} by default.",
             "person.turn_after",
             "m",
             words={"never": inf},
         ),
-        Declaration("--person-turn", "By how much", "person.turn", "rad"),
-        Declaration(
+        OptionDeclaration(
+            "--person-turn", "By how much", "person.turn", "rad"
+        ),
+        OptionDeclaration(
             "--person-backward/--no-person-backward",
             "Whether the person walks backward.",
             "person.backward",
         ),
-        Declaration(
+        OptionDeclaration(
             "--person-figure", "Who comes.", "person.figure", registry=_figures
         ),
     ),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..value_types import ANGLE
-from .declaration import Declaration
+from .declaration import OptionDeclaration
 from .push_type import NOBODY
 
 if TYPE_CHECKING:
@@ -80,7 +80,7 @@ def all_passers(given: "Sequence[Passer | None]") -> "tuple[Passer, ...]":
     return tuple(passer for passer in given if passer is not None)
 
 
-PASSERS = Declaration(
+PASSERS = OptionDeclaration(
     "--passer",
     "Let somebody else pass, any number of times: 0.8@3:90deg:1.5 walks "
     "0.8 m/s, is 3 m away to the left at first, and aims 1.5 m beside the "

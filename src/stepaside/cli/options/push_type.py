@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..value_types import ANGLE
-from .declaration import Declaration
+from .declaration import OptionDeclaration
 
 if TYPE_CHECKING:
     from ...sim.push import Push
@@ -76,7 +76,7 @@ def all_pushes(given: "Sequence[Push | None]") -> "tuple[Push, ...]":
     return tuple(push for push in given if push is not None)
 
 
-PUSHES = Declaration(
+PUSHES = OptionDeclaration(
     "--push",
     "Push a torso, any number of times: 1.2@5:90deg is 1.2 N s at 5 s to the "
     "left, and pursuer=1.2@5:90deg the pursuer instead of the evader; none "

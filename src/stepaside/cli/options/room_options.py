@@ -9,7 +9,7 @@ import click
 
 from ..value_types import METERS
 from .arena_options import BOXES, COUNT, DISCS, POLYGONS, SIZE
-from .declaration import Declaration, Group
+from .declaration import OptionDeclaration, OptionGroup
 
 RECIPE = "recipe."  # where the options that make a room put their values
 PLAN = "room.plan"
@@ -40,24 +40,26 @@ class RoomType(click.ParamType[int | Path]):
         return Path(value)
 
 
-DOORS = Declaration("--doors", "Doors in its walls.", kind=COUNT)
-SMALLEST = Declaration(
+DOORS = OptionDeclaration("--doors", "Doors in its walls.", kind=COUNT)
+SMALLEST = OptionDeclaration(
     "--smallest", "Least radius of an obstacle [m].", kind=METERS
 )
-LARGEST = Declaration(
+LARGEST = OptionDeclaration(
     "--largest", "Largest radius of an obstacle [m].", kind=METERS
 )
-DOOR_WIDTH = Declaration("--door-width", "Width of a door [m].", kind=METERS)
+DOOR_WIDTH = OptionDeclaration(
+    "--door-width", "Width of a door [m].", kind=METERS
+)
 
 
-def _of_recipe(declaration: Declaration, name: str) -> Declaration:
+def _of_recipe(declaration: OptionDeclaration, name: str) -> OptionDeclaration:
     """An option that makes a room, in a command whose settings hold it."""
     entry = name.removeprefix("--").replace("-", "_")
     path = RECIPE + entry.removeprefix("room_")
     return replace(declaration, name=name, path=path, tells_default=False)
 
 
-ROOM = Declaration(
+ROOM = OptionDeclaration(
     "--room",
     "The room of a seed, or of a file; an open floor by default.",
     PLAN,
@@ -78,7 +80,7 @@ def _unseen() -> Collection[str]:
     return UNSEEN
 
 
-MAP = Declaration(
+MAP = OptionDeclaration(
     "--map",
     "What they know of it: all of it and their own true pose in it, with "
     "cameras as well (given); what their depth cameras have seen, by odometry "
@@ -86,16 +88,16 @@ MAP = Declaration(
     "map.source",
     registry=_maps,
 )
-MARGIN = Declaration(
+MARGIN = OptionDeclaration(
     "--map-margin", "Distance that bodies keep from it", "map.margin", "m"
 )
-UNSEEN_FLOOR = Declaration(
+UNSEEN_FLOOR = OptionDeclaration(
     "--unseen",
     "Whether floor that nobody has seen counts as free.",
     "map.unseen",
     registry=_unseen,
 )
-PLAYED_IN = Group(
+PLAYED_IN = OptionGroup(
     "Room that they play in",
     (
         ROOM,

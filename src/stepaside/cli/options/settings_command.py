@@ -14,22 +14,22 @@ from click.core import ParameterSource
 
 from ..value_types import answer
 from .body_options import METHOD
-from .declaration import Declaration, DeclaredOption, Group, Kind
+from .declaration import DeclaredOption, Kind, OptionDeclaration, OptionGroup
 from .game_options import SENSING
 from .room_options import with_room
 from .settings_builder import changed, with_control, with_senses, with_trigger
 
-CONFIG = Declaration(
+CONFIG = OptionDeclaration(
     "--config",
     "Configuration file (TOML); options given beside it win.",
     kind=click.Path(exists=True, dir_okay=False, path_type=Path),
 )
-PRINT_CONFIG = Declaration(
+PRINT_CONFIG = OptionDeclaration(
     "--print-config/--no-print-config",
     "Print the configuration that would be used, with what each entry means, "
     "and do nothing else.",
 )
-CONFIGURATION = Group("Configuration", (CONFIG, PRINT_CONFIG))
+CONFIGURATION = OptionGroup("Configuration", (CONFIG, PRINT_CONFIG))
 
 
 class SettingsCommand(click.Command):
@@ -39,7 +39,7 @@ class SettingsCommand(click.Command):
         self, ctx: click.Context, formatter: click.HelpFormatter
     ) -> None:
         """Write those of the command first, then each group."""
-        titles: dict[Declaration, str] = {
+        titles: dict[OptionDeclaration, str] = {
             option: group.title
             for group in getattr(self.callback, "groups", ())
             for option in group.options
@@ -60,9 +60,9 @@ class SettingsCommand(click.Command):
 
 def takes_settings(
     kind: Kind,
-    *groups: Group,
+    *groups: OptionGroup,
     aside: Callable[[], Collection[str]] = tuple,
-    meanings: Mapping[Declaration, str] | None = None,
+    meanings: Mapping[OptionDeclaration, str] | None = None,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Give a command groups of options, ``--config`` and its ``settings``.
 
@@ -160,7 +160,7 @@ def _settings(
     """Take the options of settings out of a command's values, and build."""
     context = click.get_current_context()
     given: dict[str, Any] = {}
-    declarations: dict[str, Declaration] = {}
+    declarations: dict[str, OptionDeclaration] = {}
     for param in context.command.params:
         if not isinstance(param, DeclaredOption) or param.name is None:
             continue
@@ -195,7 +195,7 @@ def _settings(
 
 
 def _refuse_unused(
-    declarations: Mapping[str, Declaration], played: str
+    declarations: Mapping[str, OptionDeclaration], played: str
 ) -> None:
     """Refuse options of the paper's evader where no player plays it."""
     from ...strategies.registry import OF_EVASION

@@ -4,7 +4,7 @@ from typing import Any
 
 import click
 
-from .declaration import Declaration
+from .declaration import OptionDeclaration
 
 
 class StrategyType(click.ParamType[str]):
@@ -37,7 +37,7 @@ NAMED = (
 
 
 OF_EVADER = f"Of the evader: {NAMED} for one of your own; evasion by default."
-EVADER_STRATEGY = Declaration(
+EVADER_STRATEGY = OptionDeclaration(
     "--strategy",
     OF_EVADER,
     "evader_strategy",
@@ -46,14 +46,14 @@ EVADER_STRATEGY = Declaration(
     more_names=("--evader-strategy",),
 )
 # Games of unicycles know --strategy for the angle by name.
-UNICYCLE_STRATEGY = Declaration(
+UNICYCLE_STRATEGY = OptionDeclaration(
     "--evader-strategy",
     OF_EVADER,
     kind=StrategyType(),
     tells_default=False,
     more_names=("evader_strategy",),
 )
-PURSUER_STRATEGY = Declaration(
+PURSUER_STRATEGY = OptionDeclaration(
     "--pursuer-strategy",
     f"Of a pursuer that is a robot: {NAMED}; pursuit by default.",
     "pursuer_strategy",

@@ -46,7 +46,7 @@ class NameType(click.ParamType[str]):
         return click.Choice(self.choices).convert(name, param, ctx)
 
 
-class WordedType(click.ParamType[Any]):
+class WordOrValueType(click.ParamType[Any]):
     """A value of another kind, or a word for one that has no number."""
 
     def __init__(

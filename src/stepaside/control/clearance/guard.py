@@ -32,7 +32,7 @@ NEARER = 1e-6  # than this no robot comes that is too near already, in [m]
 GAINED = 0.004  # by a way out that comes nearer meanwhile, in [m]
 
 
-class Choice(NamedTuple):
+class GuardDecision(NamedTuple):
     """What a robot may do instead of what is wanted.
 
     Attributes:
@@ -46,14 +46,14 @@ class Choice(NamedTuple):
 
 
 WAYS_OUT = tuple(
-    Choice(Intent(heading), back)
+    GuardDecision(Intent(heading), back)
     for heading in (pi, -pi)
     for back in (False, True)
 )
-PlanFor = Callable[[Choice], ManeuverPlan]
+PlanFor = Callable[[GuardDecision], ManeuverPlan]
 
 
-class Passage(NamedTuple):
+class ManeuverClearance(NamedTuple):
     """How clear a maneuver is.
 
     Attributes:
@@ -119,7 +119,7 @@ class Guard:
         support: Pose,
         *,
         standing: bool,
-    ) -> Choice | None:
+    ) -> GuardDecision | None:
         """What comes nearest to what is wanted and keeps clear.
 
         Args:
@@ -142,7 +142,7 @@ class Guard:
 
     def way_out(
         self, intent: Intent, plan_for: PlanFor, support: Pose
-    ) -> Choice | None:
+    ) -> GuardDecision | None:
         """How who stands gets out of a place that a map calls too narrow.
 
         Args:
@@ -192,7 +192,7 @@ class Guard:
             return True
         return standing and passage.leaves(self.margin, 0.0)
 
-    def passage(self, plan: ManeuverPlan, support: Pose) -> Passage:
+    def passage(self, plan: ManeuverPlan, support: Pose) -> ManeuverClearance:
         """How clear the first step of a plan and the halt after it are."""
         frame = self.surroundings.frame.compose(support)
         landed = Pose(*plan.placements[2].tolist())
@@ -206,7 +206,7 @@ class Guard:
             float(solids.swept_clearances(end)[0])
             for end in (corners[:1], corners[-1:])
         )
-        return Passage(now, float(clear.min()), last)
+        return ManeuverClearance(now, float(clear.min()), last)
 
     def halt_after(self, plan: ManeuverPlan) -> ManeuverPlan:
         """Halt with which the robot can end the first step of a plan.
@@ -221,11 +221,15 @@ class Guard:
         )
 
 
-def _choices(intent: Intent, *, standing: bool) -> Iterator[Choice]:
+def _choices(intent: Intent, *, standing: bool) -> Iterator[GuardDecision]:
     """What comes nearest to an intent, the nearest first."""
     for share in SLOWER:
-        yield Choice(Intent(intent.heading, share * intent.speed_factor))
-    yield Choice(Intent(-intent.heading, SLOWER[-1] * intent.speed_factor))
+        yield GuardDecision(
+            Intent(intent.heading, share * intent.speed_factor)
+        )
+    yield GuardDecision(
+        Intent(-intent.heading, SLOWER[-1] * intent.speed_factor)
+    )
     if standing:
         for heading in (intent.heading, -intent.heading, SHARP, -SHARP):
-            yield Choice(Intent(heading), back=True)
+            yield GuardDecision(Intent(heading), back=True)

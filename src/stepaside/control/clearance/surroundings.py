@@ -52,7 +52,7 @@ class OpenFloor:
         """Learn nothing."""
 
 
-class GivenRoom:
+class KnownRoom:
     """A room that is known, and a sensor that tells the place in it.
 
     Odometry that only counts steps drifts: the place that the sensor tells
@@ -91,7 +91,7 @@ class GivenRoom:
             self.solids = obstacle_set(self._room.solids_at(now, AHEAD))
 
 
-class SeenRoom:
+class MappedRoom:
     """A room as far as the own depth camera has seen it, in odometry.
 
     Attributes:

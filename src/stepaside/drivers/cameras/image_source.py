@@ -14,7 +14,7 @@ STALE = 1.0  # age at which an image says nothing any more, in [s]
 log = logging.getLogger(__name__)
 
 
-class PerceptSource(Protocol):
+class ImageSource(Protocol):
     """Cameras of a robot."""
 
     def percepts(self, frame: int, now: float, tick: float) -> list[Percept]:
@@ -30,7 +30,7 @@ class PerceptSource(Protocol):
         """Stop looking."""
 
 
-class Grabbed(NamedTuple):
+class CameraFrame(NamedTuple):
     """An image as it came from a camera.
 
     Attributes:
@@ -74,7 +74,7 @@ class LiveCamera:
         """
         self._name, self._grab, self._let_go = name, grab, let_go
         self.model, self._latency, self._clock = model, latency, clock
-        self._newest: Grabbed | None = None
+        self._newest: CameraFrame | None = None
         self._ended = Event()
         self._thread = Thread(target=self._look, name=name, daemon=True)
         self._thread.start()
@@ -105,7 +105,7 @@ class LiveCamera:
                         "camera %s gives no image any more", self._name
                     )
                     return
-                self._newest = Grabbed(pixels, self._clock())
+                self._newest = CameraFrame(pixels, self._clock())
         except Exception as error:  # whatever a camera's library raises
             log.warning("camera %s is lost: %s", self._name, error)
         finally:

@@ -9,13 +9,13 @@ from ..lola.conventions import COUNTER, LOCK_STEP, REAL_TIME
 from ..lola.wire import WireError
 from .frame_clock import FrameClock, FrameOrderError
 from .frames import SensorFrame, unpack_sensors
-from .link import Link
+from .link import FrameLink
 
 PATIENCE = 10.0  # longest wait for the first frame or in lock step, in [s]
 log = logging.getLogger(__name__)
 
 
-class Hearing:
+class FrameReceiver:
     """Reads frames, drops bad ones, notices silence and lies.
 
     Attributes:
@@ -26,7 +26,7 @@ class Hearing:
 
     def __init__(
         self,
-        link: Link,
+        link: FrameLink,
         silence: float,
         clock: Callable[[], float],
         read: Callable[[Any], SensorFrame] = unpack_sensors,

@@ -8,26 +8,26 @@ import numpy as np
 
 from ...core.poses import Array
 from ...perception.measurement import Measurement, Sighting
-from ..cameras.image_source import PerceptSource
+from ..cameras.image_source import ImageSource
 from ..guardian_process import SessionLost
 from ..lola.conventions import measurement_of
 from ..lola.lights import lights_for
-from ..lola.sight_channel import Sights
+from ..lola.sight_channel import SightSubscription
 from .frame_clock import TICK
-from .frame_receiver import Hearing
+from .frame_receiver import FrameReceiver
 from .frames import ON_THE_WIRE, ActuatorFrame, Codec, SensorFrame
 from .joint_map import LEGS, JointMap
-from .link import Link
-from .motion_states import Motion
-from .safety import Safety, State
-from .safety_conditions import SafetySettings, Seen
+from .link import FrameLink
+from .motion_states import JointMotionState
+from .safety import RobotState, Safety
+from .safety_conditions import SafetyInputs, SafetySettings
 from .stiffness_guardian import StiffnessGuardian
 from .vitals import Vitals
 
 log = logging.getLogger(__name__)
 
 
-class LolaBody:
+class JointBody:
     """One robot at the other end of a LoLA session.
 
     Joint targets of control reach the joints only while the state says so;
@@ -45,12 +45,12 @@ class LolaBody:
 
     def __init__(
         self,
-        link: Link,
+        link: FrameLink,
         joint_names: Sequence[str],
         stance: Array,
         *,
-        sight: Sights | None = None,
-        eyes: PerceptSource | None = None,
+        sight: SightSubscription | None = None,
+        eyes: ImageSource | None = None,
         guardian: StiffnessGuardian | None = None,
         safety: SafetySettings | None = None,
         dry_run: bool = False,
@@ -81,21 +81,23 @@ class LolaBody:
         self._link, self._sight, self._guardian = link, sight, guardian
         self._eyes = eyes
         self._joints = JointMap(joint_names)
-        self._motion = Motion(self._joints, stance)
+        self._motion = JointMotionState(self._joints, stance)
         self._vitals = Vitals(settings.look_ahead)
         self._silence = settings.silence
         self._safety = Safety(settings)
-        self._hearing = Hearing(link, settings.silence, clock, codec.read)
+        self._hearing = FrameReceiver(
+            link, settings.silence, clock, codec.read
+        )
         self._codec = codec
         self._dry_run = dry_run
         self._clock, self._pause = clock, pause
         self._start = 0
-        self._state = State.LIMP
+        self._state = RobotState.LIMP
         self.frame: SensorFrame | None = None
         self.sighting: Sighting | None = None
 
     @property
-    def state(self) -> State:
+    def state(self) -> RobotState:
         """What the robot is doing."""
         return self._state
 
@@ -136,7 +138,7 @@ class LolaBody:
         self.frame = frame
         walked = self._state.moves_by_control
         self._change(self._safety.frame(self._seen(frame)))
-        if self._state is State.WALKING and not walked:
+        if self._state is RobotState.WALKING and not walked:
             self._start = count
         if self._sight is not None:
             self.sighting = self._sight.newest(count, self._start)
@@ -213,7 +215,7 @@ class LolaBody:
         """When the newest frame was, in [s]: some worlds wait for us."""
         return self._hearing.count * TICK
 
-    def _seen(self, frame: SensorFrame) -> Seen:
+    def _seen(self, frame: SensorFrame) -> SafetyInputs:
         state = self._state
         return self._vitals.seen(
             frame,
@@ -223,7 +225,7 @@ class LolaBody:
             or self._motion.reached(state, frame.position),
         )
 
-    def _change(self, state: State) -> None:
+    def _change(self, state: RobotState) -> None:
         if state is not self._state:
             log.info("%s: %s", state.value, self._safety.reason)
         self._state = state
@@ -248,7 +250,7 @@ class LolaBody:
             targets, stiffness = self._motion.fade()
             if self._guardian is not None:
                 self._guardian.tell(targets, stiffness)
-            lights = lights_for(State.LIMP, sees=False, charge=0.0)
+            lights = lights_for(RobotState.LIMP, sees=False, charge=0.0)
             try:
                 told = ActuatorFrame(targets, stiffness, lights)
                 self._link.send(self._codec.write(told))

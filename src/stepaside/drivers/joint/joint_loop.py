@@ -5,19 +5,19 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from ...control import ControlScheme, Phase
-from ...control.walk_snapshots import StepBegun, WalkState
+from ...control.walk_snapshots import StepStarted, WalkState
 from ...core.errors import ReachError, StrategyError
 from ...core.poses import Array
 from ...perception.measurement import Measurement, Sighting
-from ...strategies import Stand, Strategy
-from .joint_body import LolaBody
-from .safety import State
+from ...strategies import StandStill, Strategy
+from .joint_body import JointBody
+from .safety import RobotState
 
 MakeScheme = Callable[[Strategy], ControlScheme]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Tick:
+class JointTick:
     """What one tick was, for whoever looks on.
 
     Attributes:
@@ -33,7 +33,7 @@ class Tick:
         begun: Step that began at this tick; None if none did.
     """
 
-    state: State
+    state: RobotState
     reason: str
     phase: Phase
     measurement: Measurement
@@ -42,7 +42,7 @@ class Tick:
     refused: int
     mind: int
     walk: WalkState
-    begun: StepBegun | None
+    begun: StepStarted | None
 
     @property
     def time(self) -> float:
@@ -58,14 +58,14 @@ class Tick:
         return text
 
 
-class Onlooker(Protocol):
+class TickObserver(Protocol):
     """Whoever looks on: a status line, a log."""
 
-    def note(self, tick: Tick) -> None:
+    def note(self, tick: JointTick) -> None:
         """Look at one tick."""
 
 
-class Playing:
+class JointLoop:
     """Moves a robot by control while it may, tick by tick.
 
     A mind walks once: after it has come to rest, or was cut off, a new one
@@ -74,7 +74,7 @@ class Playing:
 
     def __init__(
         self,
-        open_body: Callable[[ControlScheme], LolaBody],
+        open_body: Callable[[ControlScheme], JointBody],
         strategy: Strategy,
         make_scheme: MakeScheme,
         *,
@@ -96,7 +96,7 @@ class Playing:
         self._dry_run = dry_run
         self.body = open_body(self._scheme)
 
-    def tick(self) -> Tick:
+    def tick(self) -> JointTick:
         """Read, decide, answer.
 
         Raises:
@@ -107,8 +107,12 @@ class Playing:
         state = body.state
         thinks = state.moves_by_control
         if self._dry_run:
-            thinks = state in (State.REACHING, State.READY, State.WALKING)
-        if self._used and not thinks and state is not State.RESTING:
+            thinks = state in (
+                RobotState.REACHING,
+                RobotState.READY,
+                RobotState.WALKING,
+            )
+        if self._used and not thinks and state is not RobotState.RESTING:
             self._think_anew()
         targets = self._scheme.joint_targets
         if thinks:
@@ -116,7 +120,7 @@ class Playing:
         body.write(targets)
         body.step()
         scheme = self._scheme
-        return Tick(
+        return JointTick(
             body.state,
             body.reason,
             scheme.phase,
@@ -129,12 +133,12 @@ class Playing:
             scheme.begun if thinks else None,
         )
 
-    def _think(self, measurement: Measurement, state: State) -> Array:
+    def _think(self, measurement: Measurement, state: RobotState) -> Array:
         """Let control decide, and see that it still can."""
         self._used = True
         scheme, body = self._scheme, self.body
-        if state is State.STOPPING:
-            scheme.decisions.adopt(Stand())  # comes to rest
+        if state is RobotState.STOPPING:
+            scheme.decisions.adopt(StandStill())  # comes to rest
             if scheme.phase is Phase.STANDING:
                 body.halted()
         try:

@@ -5,13 +5,13 @@ import socket
 from typing import Any, Protocol
 
 from ..guardian_process import SessionLost
-from ..lola.lola_address import Address
+from ..lola.lola_address import LolaAddress
 
 CONNECTING = 5.0  # longest time to connect, in [s]
 LONGEST_QUEUE = 1 << 20  # bytes of unread frames before it is hopeless
 
 
-class Link(Protocol):
+class FrameLink(Protocol):
     """What carries frames between a client and a robot."""
 
     def wait(self, timeout: float) -> bool:
@@ -106,7 +106,7 @@ class SocketLink:
 
 
 def connect(
-    address: Address, frame_bytes: int, timeout: float = CONNECTING
+    address: LolaAddress, frame_bytes: int, timeout: float = CONNECTING
 ) -> SocketLink:
     """Connect to a robot.
 

@@ -9,12 +9,12 @@ from contextlib import suppress
 from tempfile import TemporaryDirectory
 
 from ...core.errors import ConfigurationError
-from ..lola.lola_address import EARLY, Address
+from ..lola.lola_address import EARLY, LolaAddress
 
 log = logging.getLogger(__name__)
 
 
-class Listener:
+class ClientListener:
     """Accepts one client at a time; a second one is refused.
 
     Attributes:
@@ -23,7 +23,7 @@ class Listener:
         refused: Clients that came while there was one.
     """
 
-    def __init__(self, address: Address) -> None:
+    def __init__(self, address: LolaAddress) -> None:
         """Listen.
 
         A socket that nobody listens on any more is replaced.
@@ -141,7 +141,7 @@ def _inode(path: str) -> tuple[int, int]:
     return found.st_dev, found.st_ino
 
 
-def _remove_stale(address: Address) -> None:
+def _remove_stale(address: LolaAddress) -> None:
     """Remove a socket that is left over; refuse one that is in use."""
     path = address.path
     try:

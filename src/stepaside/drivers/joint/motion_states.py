@@ -6,7 +6,7 @@ from ...core.poses import Array
 from .frame_clock import TICK
 from .frames import SensorFrame
 from .joint_map import NAMES, JointMap
-from .safety import State
+from .safety import RobotState
 from .target_limits import StiffnessRamp, TargetLimiter, derated, legs_reached
 
 SLOWLY = 0.5  # speed of every joint on the way to a posture, in [rad/s]
@@ -21,7 +21,7 @@ CROUCH = {
 }
 
 
-class Motion:
+class JointMotionState:
     """Moves slowly to stance or crouch, or as control says, or not at all.
 
     Attributes:
@@ -42,16 +42,16 @@ class Motion:
         self._ramp = StiffnessRamp(TICK)
         self.targets: Array = np.zeros(len(NAMES))
 
-    def reached(self, state: State, measured: Array) -> bool:
+    def reached(self, state: RobotState, measured: Array) -> bool:
         """Whether a slow motion has arrived where it leads.
 
         Args:
             state: Reaching or resting; in others nothing is reached.
             measured: Joint angles, in [rad]. Shape (25,).
         """
-        if state not in (State.REACHING, State.RESTING):
+        if state not in (RobotState.REACHING, RobotState.RESTING):
             return False
-        if state is State.REACHING and self._ramp.share < 1.0:
+        if state is RobotState.REACHING and self._ramp.share < 1.0:
             return False
         return legs_reached(self.targets, self._goal(state), measured)
 
@@ -60,7 +60,7 @@ class Motion:
         self._ramp.share = min(self._ramp.share, share)
 
     def move(
-        self, state: State, frame: SensorFrame, wanted: Array
+        self, state: RobotState, frame: SensorFrame, wanted: Array
     ) -> tuple[Array, Array]:
         """Targets and stiffness of one tick.
 
@@ -73,16 +73,18 @@ class Motion:
             Targets, in [rad], and stiffness. Shapes (25,).
         """
         limiter = self._limiter
-        if limiter is None or (state is State.LIMP and self._ramp.share == 0):
+        if limiter is None or (
+            state is RobotState.LIMP and self._ramp.share == 0
+        ):
             # Stiffness grows from where the joints are.
             limiter = self._limiter = TargetLimiter(frame.position, TICK)
             self.targets = limiter.target
         if state.moves_by_control:
             goal = self._joints.to_lola(wanted, self.targets)
             self.targets = limiter.toward(goal)
-        elif state is not State.LIMP:
+        elif state is not RobotState.LIMP:
             self.targets = limiter.toward(self._goal(state), SLOWLY)
-        share = self._ramp.toward(0.0 if state is State.LIMP else 1.0)
+        share = self._ramp.toward(0.0 if state is RobotState.LIMP else 1.0)
         stiffness = np.full(len(NAMES), share)
         stiffness = derated(stiffness, frame.temperature, frame.status)
         return self.targets, stiffness
@@ -96,9 +98,9 @@ class Motion:
         """Whether all stiffness has gone."""
         return self._ramp.share == 0.0
 
-    def _goal(self, state: State) -> Array:
+    def _goal(self, state: RobotState) -> Array:
         goal = self._joints.to_lola(self._stance_targets, self.targets)
-        if state is State.RESTING:
+        if state is RobotState.RESTING:
             for at, name in enumerate(NAMES):
                 goal[at] = CROUCH.get(name[1:], goal[at])
         return goal

@@ -2,10 +2,15 @@
 
 from enum import Enum
 
-from .safety_conditions import Reaction, SafetySettings, Seen, Watch
+from .safety_conditions import (
+    ConditionWatch,
+    SafetyInputs,
+    SafetyReaction,
+    SafetySettings,
+)
 
 
-class State(Enum):
+class RobotState(Enum):
     """What the robot is doing."""
 
     LIMP = "limp"  # no stiffness
@@ -18,7 +23,7 @@ class State(Enum):
     @property
     def moves_by_control(self) -> bool:
         """Whether the targets of control reach the joints."""
-        return self in (State.WALKING, State.STOPPING)
+        return self in (RobotState.WALKING, RobotState.STOPPING)
 
 
 class Safety:
@@ -36,15 +41,15 @@ class Safety:
     def __init__(self, settings: SafetySettings) -> None:
         """Begin limp, before the first frame."""
         self._settings = settings
-        self._watch = Watch(settings)
-        self._afterwards = State.RESTING
-        self.state = State.LIMP
+        self._watch = ConditionWatch(settings)
+        self._afterwards = RobotState.RESTING
+        self.state = RobotState.LIMP
         self.reason = "no frame has come yet"
         self._frames = 0
         self._pressed = False
         self._since = 0.0
 
-    def frame(self, seen: Seen) -> State:
+    def frame(self, seen: SafetyInputs) -> RobotState:
         """Take what one good frame says.
 
         Args:
@@ -60,12 +65,12 @@ class Safety:
         if self._frames < warm:
             return self.state
         due = self._watch.look(seen)
-        if due is not None and due[0] > Reaction.STAND:
+        if due is not None and due[0] > SafetyReaction.STAND:
             self._endangered(*due, seen)
         elif self._frames == warm:
-            self._enter(State.REACHING, "connected", seen.time)
-        elif due is not None and self.state is State.WALKING:
-            self._stop(State.READY, due[1], seen.time)
+            self._enter(RobotState.REACHING, "connected", seen.time)
+        elif due is not None and self.state is RobotState.WALKING:
+            self._stop(RobotState.READY, due[1], seen.time)
         elif released:
             self._button(seen.time, due[1] if due else "")
         else:
@@ -74,81 +79,85 @@ class Safety:
 
     def halted(self, time: float) -> None:
         """Note that control has brought the robot to rest."""
-        if self.state is not State.STOPPING:
+        if self.state is not RobotState.STOPPING:
             return
-        if self._afterwards is State.READY:
-            self._enter(State.READY, self.reason, time)
+        if self._afterwards is RobotState.READY:
+            self._enter(RobotState.READY, self.reason, time)
         else:
-            self._enter(State.RESTING, f"stopped: {self.reason}", time)
+            self._enter(RobotState.RESTING, f"stopped: {self.reason}", time)
 
     def fail(self, reason: str, time: float) -> None:
         """Go limp for a reason that no frame says: it cannot be trusted."""
-        if self.state is not State.LIMP:
-            self._enter(State.LIMP, reason, time)
+        if self.state is not RobotState.LIMP:
+            self._enter(RobotState.LIMP, reason, time)
 
     def rest(self, reason: str, time: float) -> None:
         """Stop and rest, as someone asks for."""
-        if self.state is State.WALKING:
-            self._stop(State.RESTING, reason, time)
-        elif self.state is State.STOPPING:
-            self._afterwards = State.RESTING
-        elif self.state in (State.READY, State.REACHING):
-            self._enter(State.RESTING, reason, time)
+        if self.state is RobotState.WALKING:
+            self._stop(RobotState.RESTING, reason, time)
+        elif self.state is RobotState.STOPPING:
+            self._afterwards = RobotState.RESTING
+        elif self.state in (RobotState.READY, RobotState.REACHING):
+            self._enter(RobotState.RESTING, reason, time)
 
-    def _enter(self, state: State, reason: str, time: float) -> None:
+    def _enter(self, state: RobotState, reason: str, time: float) -> None:
         self.state, self.reason, self._since = state, reason, time
 
-    def _stop(self, afterwards: State, why: str, time: float) -> None:
+    def _stop(self, afterwards: RobotState, why: str, time: float) -> None:
         self._afterwards = afterwards
-        self._enter(State.STOPPING, why, time)
+        self._enter(RobotState.STOPPING, why, time)
 
-    def _endangered(self, reaction: Reaction, why: str, seen: Seen) -> None:
+    def _endangered(
+        self, reaction: SafetyReaction, why: str, seen: SafetyInputs
+    ) -> None:
         state, time = self.state, seen.time
-        if reaction is Reaction.LIMP and state is not State.LIMP:
-            self._enter(State.LIMP, why, time)
-        elif state is State.LIMP:
+        if reaction is SafetyReaction.LIMP and state is not RobotState.LIMP:
+            self._enter(RobotState.LIMP, why, time)
+        elif state is RobotState.LIMP:
             self.reason = why
-        elif state is State.WALKING:
-            self._stop(State.RESTING, why, time)
-        elif state in (State.REACHING, State.READY):
-            self._enter(State.RESTING, why, time)
+        elif state is RobotState.WALKING:
+            self._stop(RobotState.RESTING, why, time)
+        elif state in (RobotState.REACHING, RobotState.READY):
+            self._enter(RobotState.RESTING, why, time)
         else:
-            if self._afterwards is not State.RESTING:
-                self._afterwards, self.reason = State.RESTING, why
+            if self._afterwards is not RobotState.RESTING:
+                self._afterwards, self.reason = RobotState.RESTING, why
             self._go_on(seen)
 
     def _button(self, time: float, hindrance: str) -> None:
         """Follow the chest button, unless a robot that stands must stay."""
         after = {
-            State.LIMP: State.REACHING,
-            State.REACHING: State.RESTING,
-            State.READY: State.WALKING,
-            State.WALKING: State.STOPPING,
-            State.STOPPING: State.RESTING,
-            State.RESTING: State.RESTING,
+            RobotState.LIMP: RobotState.REACHING,
+            RobotState.REACHING: RobotState.RESTING,
+            RobotState.READY: RobotState.WALKING,
+            RobotState.WALKING: RobotState.STOPPING,
+            RobotState.STOPPING: RobotState.RESTING,
+            RobotState.RESTING: RobotState.RESTING,
         }[self.state]
-        if after is State.WALKING and hindrance:
+        if after is RobotState.WALKING and hindrance:
             self.reason = hindrance
-        elif after is State.STOPPING:
-            self._stop(State.RESTING, "chest button", time)
+        elif after is RobotState.STOPPING:
+            self._stop(RobotState.RESTING, "chest button", time)
         elif after is not self.state:
             self._enter(after, "chest button", time)
 
-    def _go_on(self, seen: Seen) -> None:
+    def _go_on(self, seen: SafetyInputs) -> None:
         state = self.state
-        if seen.reached and state is State.REACHING:
-            self._enter(State.READY, "stands", seen.time)
-        elif seen.reached and state is State.RESTING:
-            self._enter(State.LIMP, "rests", seen.time)
+        if seen.reached and state is RobotState.REACHING:
+            self._enter(RobotState.READY, "stands", seen.time)
+        elif seen.reached and state is RobotState.RESTING:
+            self._enter(RobotState.LIMP, "rests", seen.time)
         else:
             self._overdue(seen.time)
 
     def _overdue(self, time: float) -> None:
         """End what takes too long."""
         passed, limits = time - self._since, self._settings
-        if self.state is State.STOPPING and passed > limits.longest_stop:
-            self._enter(State.RESTING, "control did not stop in time", time)
-        elif self.state in (State.REACHING, State.RESTING):
+        if self.state is RobotState.STOPPING and passed > limits.longest_stop:
+            self._enter(
+                RobotState.RESTING, "control did not stop in time", time
+            )
+        elif self.state in (RobotState.REACHING, RobotState.RESTING):
             if passed > limits.longest_reach:
                 why = f"{self.state.value} took too long"
-                self._enter(State.LIMP, why, time)
+                self._enter(RobotState.LIMP, why, time)

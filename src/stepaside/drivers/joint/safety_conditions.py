@@ -17,7 +17,7 @@ LEANS = 1.0  # of the specific force from upright, in [rad]
 FROZEN = 0.2  # without a change of a digit while the legs move, in [s]
 
 
-class Reaction(IntEnum):
+class SafetyReaction(IntEnum):
     """Response of the robot to a condition; the greatest one counts."""
 
     STAND = 1  # a walk is stopped, and none begins while that lasts
@@ -25,7 +25,7 @@ class Reaction(IntEnum):
     LIMP = 3  # the stiffness fades at once
 
 
-class Seen(NamedTuple):
+class SafetyInputs(NamedTuple):
     """What the machine needs to know of one good frame.
 
     Attributes:
@@ -107,7 +107,7 @@ class SafetySettings:
         check_within(self.least_load, 0.0, 5.0, "least_load", "kg", error)
 
 
-class Condition(NamedTuple):
+class SafetyCondition(NamedTuple):
     """One row of the table of conditions.
 
     Attributes:
@@ -117,24 +117,24 @@ class Condition(NamedTuple):
             [s]. Landings are shorter, and so is a single bad reading.
     """
 
-    reason: Callable[[Seen, SafetySettings], str]
-    reaction: Reaction
+    reason: Callable[[SafetyInputs, SafetySettings], str]
+    reaction: SafetyReaction
     lasting: float = 0.0
 
 
-def _falls(seen: Seen, limits: SafetySettings) -> str:
+def _falls(seen: SafetyInputs, limits: SafetySettings) -> str:
     if seen.tilt <= limits.fall:
         return ""
     return f"torso tilts by {seen.tilt:.2f} rad: it falls"
 
 
-def _is_critical(seen: Seen, limits: SafetySettings) -> str:
+def _is_critical(seen: SafetyInputs, limits: SafetySettings) -> str:
     if seen.status < 3:
         return ""
     return "a motor of the legs reports critical heat"
 
 
-def _is_hot(seen: Seen, limits: SafetySettings) -> str:
+def _is_hot(seen: SafetyInputs, limits: SafetySettings) -> str:
     if seen.status == 2:
         return "a motor of the legs reports heat"
     if seen.temperature > limits.hottest:
@@ -142,13 +142,13 @@ def _is_hot(seen: Seen, limits: SafetySettings) -> str:
     return ""
 
 
-def _is_overloaded(seen: Seen, limits: SafetySettings) -> str:
+def _is_overloaded(seen: SafetyInputs, limits: SafetySettings) -> str:
     if seen.current <= 1.0:
         return ""
     return f"a motor draws {seen.current:.1f} times its stall current"
 
 
-def _has_bad_accelerometer(seen: Seen, limits: SafetySettings) -> str:
+def _has_bad_accelerometer(seen: SafetyInputs, limits: SafetySettings) -> str:
     x, y, z = seen.force
     size = hypot(x, y, z)
     if size < LEAST_FORCE or size > MOST_FORCE:
@@ -163,35 +163,35 @@ def _has_bad_accelerometer(seen: Seen, limits: SafetySettings) -> str:
     return ""
 
 
-def _is_empty(seen: Seen, limits: SafetySettings) -> str:
+def _is_empty(seen: SafetyInputs, limits: SafetySettings) -> str:
     if seen.charge >= limits.lowest_charge:
         return ""
     return f"battery is at {100.0 * seen.charge:.0f} %"
 
 
-def _is_lifted(seen: Seen, limits: SafetySettings) -> str:
+def _is_lifted(seen: SafetyInputs, limits: SafetySettings) -> str:
     if seen.load >= limits.least_load:
         return ""
     return f"both feet are in the air: they bear {seen.load:.1f} kg"
 
 
-def _touches(seen: Seen, limits: SafetySettings) -> str:
+def _touches(seen: SafetyInputs, limits: SafetySettings) -> str:
     return "a foot bumper is pressed" if seen.bumper else ""
 
 
 CONDITIONS = (
-    Condition(_falls, Reaction.LIMP),
-    Condition(_is_critical, Reaction.LIMP),
-    Condition(_is_hot, Reaction.REST),
-    Condition(_is_overloaded, Reaction.REST, lasting=0.5),
-    Condition(_is_empty, Reaction.REST, lasting=0.5),
-    Condition(_has_bad_accelerometer, Reaction.STAND, lasting=0.3),
-    Condition(_is_lifted, Reaction.STAND, lasting=0.3),
-    Condition(_touches, Reaction.STAND, lasting=0.05),
+    SafetyCondition(_falls, SafetyReaction.LIMP),
+    SafetyCondition(_is_critical, SafetyReaction.LIMP),
+    SafetyCondition(_is_hot, SafetyReaction.REST),
+    SafetyCondition(_is_overloaded, SafetyReaction.REST, lasting=0.5),
+    SafetyCondition(_is_empty, SafetyReaction.REST, lasting=0.5),
+    SafetyCondition(_has_bad_accelerometer, SafetyReaction.STAND, lasting=0.3),
+    SafetyCondition(_is_lifted, SafetyReaction.STAND, lasting=0.3),
+    SafetyCondition(_touches, SafetyReaction.STAND, lasting=0.05),
 )
 
 
-class Watch:
+class ConditionWatch:
     """Goes through the table of conditions, frame by frame."""
 
     def __init__(self, settings: SafetySettings) -> None:
@@ -199,13 +199,13 @@ class Watch:
         self._settings = settings
         self._since: dict[int, float] = {}
 
-    def look(self, seen: Seen) -> tuple[Reaction, str] | None:
+    def look(self, seen: SafetyInputs) -> tuple[SafetyReaction, str] | None:
         """Return the worst reaction that is due, and its reason, if any.
 
         Args:
             seen: What the newest frame says.
         """
-        due: tuple[Reaction, str] | None = None
+        due: tuple[SafetyReaction, str] | None = None
         for row, (reason, reaction, lasting) in enumerate(CONDITIONS):
             why = reason(seen, self._settings)
             if not why:

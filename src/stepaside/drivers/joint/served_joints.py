@@ -19,7 +19,7 @@ FADING = 0.5  # from full stiffness to none, in [s]
 SETTLED = 40  # ticks after which stiffness that stayed will grow no more
 
 
-class ServedRobot(Protocol):
+class ServedJointRobot(Protocol):
     """A robot that LoLA can be spoken for."""
 
     def sensors(self) -> Measurement:
@@ -41,7 +41,9 @@ class ServedJoints:
         stiffness: Of the motors now. Shape (25,).
     """
 
-    def __init__(self, robot: ServedRobot, joint_names: Sequence[str]) -> None:
+    def __init__(
+        self, robot: ServedJointRobot, joint_names: Sequence[str]
+    ) -> None:
         """Begin limp.
 
         Args:

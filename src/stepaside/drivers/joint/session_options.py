@@ -3,12 +3,12 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from ..cameras.image_source import PerceptSource
+from ..cameras.image_source import ImageSource
 from .safety_conditions import SafetySettings
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Handling:
+class SessionOptions:
     """What is asked of a session with a robot, beside where it is.
 
     Attributes:
@@ -25,7 +25,7 @@ class Handling:
     safety: SafetySettings = field(default_factory=SafetySettings)
     dry_run: bool = False
     guarded: bool = False
-    open_eyes: Callable[[], PerceptSource] | None = None
+    open_eyes: Callable[[], ImageSource] | None = None
     patience: float = 0.0
 
     @property
@@ -33,9 +33,9 @@ class Handling:
         """Whether there is something to guard, and somebody shall."""
         return self.guarded and not self.dry_run
 
-    def eyes(self) -> PerceptSource | None:
+    def eyes(self) -> ImageSource | None:
         """Open its cameras, if it is played with those."""
         return None if self.open_eyes is None else self.open_eyes()
 
 
-PLAIN = Handling()
+PLAIN = SessionOptions()

@@ -18,7 +18,7 @@ from ..lola.lights import lights_for
 from .frame_clock import TICK
 from .frames import ActuatorFrame, pack_actuators
 from .joint_map import JOINT_COUNT
-from .safety import State
+from .safety import RobotState
 
 SILENCE = 0.3  # of control before the guardian acts, in [s]
 FADING = 0.5  # from full stiffness to none, in [s]
@@ -60,7 +60,7 @@ def let_go(robot: socket.socket, targets: Array, stiffness: Array) -> None:
         frame = ActuatorFrame(
             targets,
             stiffness * (left / count),
-            lights_for(State.LIMP, sees=False, charge=0.0),
+            lights_for(RobotState.LIMP, sees=False, charge=0.0),
         )
         with suppress(BlockingIOError):
             while robot.recv(1 << 16):

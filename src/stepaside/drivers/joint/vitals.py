@@ -6,7 +6,7 @@ from ...core.poses import Array
 from ..lola.conventions import CHEST_BUTTON, FOOT_BUMPERS
 from .frames import SensorFrame
 from .joint_map import LEGS, STALL_CURRENT
-from .safety_conditions import Seen
+from .safety_conditions import SafetyInputs
 
 MOVED = 0.05  # of a leg's joint, in [rad]: a walk does that in 0.1 s
 
@@ -28,7 +28,7 @@ class Vitals:
 
     def seen(
         self, frame: SensorFrame, now: float, *, walks: bool, reached: bool
-    ) -> Seen:
+    ) -> SafetyInputs:
         """Return what the safety conditions need to know of a frame.
 
         Args:
@@ -41,7 +41,7 @@ class Vitals:
         """
         leans = zip(frame.angles, frame.gyroscope.tolist(), strict=False)
         x, y, z = (-frame.accelerometer).tolist()
-        return Seen(
+        return SafetyInputs(
             now,
             chest_pressed=frame.touch[CHEST_BUTTON] > 0.5,
             tilt=max(abs(a + self._look_ahead * rate) for a, rate in leans),

@@ -7,7 +7,7 @@ from dataclasses import replace
 from ...perception.images import Percept
 from ..cameras.image_wire import ImageError, ImageMessage, ImageReader
 from ..guardian_process import SessionLost
-from .lola_address import Address
+from .lola_address import LolaAddress
 
 AHEAD = 8  # frames by which an image may come before its frame
 CONNECTING = 5.0  # longest time to connect, in [s]
@@ -21,7 +21,7 @@ class CameraChannel:
     on, and the log says so.
     """
 
-    def __init__(self, address: Address) -> None:
+    def __init__(self, address: LolaAddress) -> None:
         """Connect.
 
         Raises:

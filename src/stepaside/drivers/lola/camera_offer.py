@@ -6,8 +6,8 @@ import socket
 from ...perception.images import ColourImage, DepthImage
 from ...perception.measurement import Measurement
 from ..cameras.image_wire import ImageMessage, pack_image
-from ..joint.listener import Listener
-from .lola_address import Address
+from ..joint.listener import ClientListener
+from .lola_address import LolaAddress
 
 ROOM = 1 << 22  # bytes that the system is asked to hold for a client
 log = logging.getLogger(__name__)
@@ -22,13 +22,13 @@ class CameraOffer:
         missed: Images that were dropped.
     """
 
-    def __init__(self, address: Address) -> None:
+    def __init__(self, address: LolaAddress) -> None:
         """Listen.
 
         Raises:
             ConfigurationError: If the address cannot be listened on.
         """
-        self._listener = Listener(address)
+        self._listener = ClientListener(address)
         self._left = b""
         self._told: Measurement | None = None
         self.missed = 0

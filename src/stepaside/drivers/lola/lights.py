@@ -2,23 +2,23 @@
 
 from collections.abc import Mapping
 
-from ..joint.safety import State
+from ..joint.safety import RobotState
 
 Colour = tuple[float, float, float]
 OFF: Colour = (0.0, 0.0, 0.0)
-COLOURS: Mapping[State, Colour] = {
-    State.LIMP: (1.0, 0.0, 0.0),
-    State.REACHING: (1.0, 0.5, 0.0),
-    State.READY: (0.0, 1.0, 0.0),
-    State.WALKING: (0.0, 0.0, 1.0),
-    State.STOPPING: (0.5, 0.0, 1.0),
-    State.RESTING: (1.0, 1.0, 0.0),
+COLOURS: Mapping[RobotState, Colour] = {
+    RobotState.LIMP: (1.0, 0.0, 0.0),
+    RobotState.REACHING: (1.0, 0.5, 0.0),
+    RobotState.READY: (0.0, 1.0, 0.0),
+    RobotState.WALKING: (0.0, 0.0, 1.0),
+    RobotState.STOPPING: (0.5, 0.0, 1.0),
+    RobotState.RESTING: (1.0, 1.0, 0.0),
 }
 EYE_LEDS, EAR_LEDS, SKULL_LEDS = 8, 10, 12
 
 
 def lights_for(
-    state: State, *, sees: bool, charge: float
+    state: RobotState, *, sees: bool, charge: float
 ) -> dict[str, tuple[float, ...]]:
     """Brightness of every light, by LoLA's keys.
 

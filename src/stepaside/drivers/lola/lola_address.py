@@ -14,7 +14,7 @@ LONGEST_PATH = 107 - len(SIGHT_SUFFIX) - len("/.12345678/s")  # in bytes
 
 
 @dataclass(frozen=True, slots=True)
-class Address:
+class LolaAddress:
     """A Unix path, or a host and a TCP port.
 
     Attributes:
@@ -31,14 +31,14 @@ class Address:
         return self.path or f"{self.host}:{self.port}"
 
     @property
-    def sight(self) -> "Address | None":
+    def sight(self) -> "LolaAddress | None":
         """Where the ideal line of sight is offered; Unix paths only."""
-        return Address(self.path + SIGHT_SUFFIX) if self.path else None
+        return LolaAddress(self.path + SIGHT_SUFFIX) if self.path else None
 
     @property
-    def cameras(self) -> "Address | None":
+    def cameras(self) -> "LolaAddress | None":
         """Where a simulated robot's images are offered; Unix paths only."""
-        return Address(self.path + CAMERAS_SUFFIX) if self.path else None
+        return LolaAddress(self.path + CAMERAS_SUFFIX) if self.path else None
 
     def open(self) -> socket.socket:
         """A socket of the right kind, not yet connected or bound."""
@@ -54,7 +54,7 @@ class Address:
         return self.path or (self.host, self.port)
 
 
-def parse_address(text: str) -> Address:
+def parse_address(text: str) -> LolaAddress:
     """Read ``PATH`` or ``HOST:PORT``, with or without ``lola:`` before it.
 
     Nothing but ``lola:`` means the path of the robot itself. What holds no
@@ -70,11 +70,11 @@ def parse_address(text: str) -> Address:
             raise ConfigurationError(
                 f"path of a socket must be shorter, got {place!r}"
             )
-        return Address(path=place)
+        return LolaAddress(path=place)
     if not host or not port.isascii() or not port.isdigit():
         raise ConfigurationError(
             f"robot must be lola:PATH or lola:HOST:PORT, got {text!r}"
         )
     if not 0 < int(port) < 65536:
         raise ConfigurationError(f"port must lie in [1, 65535], got {port}")
-    return Address(host=host, port=int(port))
+    return LolaAddress(host=host, port=int(port))

@@ -7,11 +7,11 @@ from functools import partial
 
 from ...core.poses import Array
 from ..guardian_process import SessionLost, open_within
-from ..joint.joint_body import LolaBody
+from ..joint.joint_body import JointBody
 from ..joint.link import SocketLink, connect
-from ..joint.session_options import PLAIN, Handling
+from ..joint.session_options import PLAIN, SessionOptions
 from ..joint.stiffness_guardian import StiffnessGuardian, let_go
-from .lola_address import Address
+from .lola_address import LolaAddress
 from .sight_channel import SightChannel
 from .sight_message import MESSAGE
 from .wire import SENSOR_BYTES
@@ -20,11 +20,11 @@ log = logging.getLogger(__name__)
 
 
 def open_lola(
-    address: Address,
+    address: LolaAddress,
     joint_names: Sequence[str],
     stance: Array,
-    how: Handling = PLAIN,
-) -> LolaBody:
+    how: SessionOptions = PLAIN,
+) -> JointBody:
     """Connect to a robot, and to the ideal line of sight if it offers one.
 
     Args:
@@ -52,7 +52,7 @@ def open_lola(
         if how.guards:
             guardian = StiffnessGuardian(partial(let_go, link.socket))
             stack.callback(guardian.dismiss)
-        body = LolaBody(
+        body = JointBody(
             link,
             joint_names,
             stance,
@@ -67,7 +67,7 @@ def open_lola(
 
 
 def _sight_and_link(
-    address: Address, *, sees: bool
+    address: LolaAddress, *, sees: bool
 ) -> tuple[SightChannel | None, SocketLink]:
     """Connect to what is beside the robot first, which it offers first."""
     sight = None if sees else _ideal_sight(address)
@@ -82,7 +82,7 @@ def _sight_and_link(
     return sight, link
 
 
-def _ideal_sight(address: Address) -> SightChannel | None:
+def _ideal_sight(address: LolaAddress) -> SightChannel | None:
     """The simulator's truth, where there is a simulator that offers it."""
     beside = address.sight
     if beside is None:

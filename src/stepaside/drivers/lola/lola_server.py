@@ -8,15 +8,15 @@ import msgpack
 
 from ...core.poses import Array
 from ..joint.frames import ActuatorFrame, pack_sensors, take_actuators
-from ..joint.listener import Listener
-from ..joint.served_joints import ServedJoints, ServedRobot
+from ..joint.listener import ClientListener
+from ..joint.served_joints import ServedJointRobot, ServedJoints
 from .camera_offer import CameraOffer
-from .lola_address import Address
+from .lola_address import LolaAddress
 from .sight_offer import SightOffer
 from .wire import LIMITS, LONGEST_ANSWER, WireError
 
 
-class AnswerReader:
+class ActuatorFrameReader:
     """Cuts a client's stream into frames.
 
     Answers have no fixed length: some peers write whole numbers as
@@ -69,8 +69,8 @@ class LolaServer:
 
     def __init__(
         self,
-        address: Address,
-        robot: ServedRobot,
+        address: LolaAddress,
+        robot: ServedJointRobot,
         joint_names: Sequence[str],
         *,
         lock_step: bool = False,
@@ -100,11 +100,11 @@ class LolaServer:
                 self._beside.append(SightOffer(address.sight))
             if cameras and address.cameras is not None:
                 self._beside.append(CameraOffer(address.cameras))
-            self._listener = Listener(address)
+            self._listener = ClientListener(address)
         except BaseException:
             self._close_beside()
             raise
-        self._reader = AnswerReader()
+        self._reader = ActuatorFrameReader()
         self._chest_pressed = False
         self.count = -1
         self.answered = False
@@ -147,7 +147,7 @@ class LolaServer:
         """Take a client that has come, and send it a frame."""
         self.hear()  # what comes too late is no answer to the next frame
         if self._listener.accept():
-            self._reader, self.count = AnswerReader(), -1
+            self._reader, self.count = ActuatorFrameReader(), -1
             for offer in self._beside:
                 offer.forget()
             log.info("%s: client connected", self._listener.address)

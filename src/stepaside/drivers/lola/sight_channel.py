@@ -7,14 +7,14 @@ from typing import Protocol
 from ...perception.measurement import Sighting
 from ..guardian_process import SessionLost
 from ..joint.frame_clock import TICK
-from ..joint.link import Link
+from ..joint.link import FrameLink
 from .sight_message import SightError, SightMessage, unpack_sight
 
 AHEAD = 8  # frames by which a sighting may come before its frame: 0.1 s
 log = logging.getLogger(__name__)
 
 
-class Sights(Protocol):
+class SightSubscription(Protocol):
     """Where a simulated robot tells its ideal line of sight."""
 
     def newest(self, frame: int, start: int) -> Sighting | None:
@@ -32,9 +32,9 @@ class Sights(Protocol):
 class SightChannel:
     """Hands over each sighting with the frame that it belongs to."""
 
-    def __init__(self, link: Link) -> None:
+    def __init__(self, link: FrameLink) -> None:
         """Listen on a link of messages."""
-        self._link: Link | None = link
+        self._link: FrameLink | None = link
         self._early: deque[SightMessage] = deque()
         self._newest: SightMessage | None = None
         self._last = -1

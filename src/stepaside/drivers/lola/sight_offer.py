@@ -1,21 +1,21 @@
 """The server's end of the ideal line of sight."""
 
 from ...perception.measurement import Measurement, Sighting
-from ..joint.listener import Listener
-from .lola_address import Address
+from ..joint.listener import ClientListener
+from .lola_address import LolaAddress
 from .sight_message import SightMessage, pack_sight
 
 
 class SightOffer:
     """Tells whoever listens where the other robot is."""
 
-    def __init__(self, address: Address) -> None:
+    def __init__(self, address: LolaAddress) -> None:
         """Listen.
 
         Raises:
             ConfigurationError: If the address cannot be listened on.
         """
-        self._listener = Listener(address)
+        self._listener = ClientListener(address)
         self._told: Sighting | None = None
 
     def tell(self, measurement: Measurement, frame: int) -> None:

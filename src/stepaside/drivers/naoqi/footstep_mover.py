@@ -6,10 +6,14 @@ from typing import Any
 
 from ...planning import Foot, GaitSettings
 from ..guardian_process import SessionLost
-from ..velocity.footstep_commands import FootMove, StepLimits, plan_footsteps
-from ..velocity.velocity_body import REST, Velocity
+from ..velocity.footstep_commands import (
+    FootCommand,
+    StepLimits,
+    plan_footsteps,
+)
+from ..velocity.velocity_body import REST, VelocityCommand
 from .qi_session import answer_of
-from .velocity_mover import Errand
+from .velocity_mover import PendingCall
 
 LEGS = {Foot.LEFT: "LLeg", Foot.RIGHT: "RLeg"}
 AHEAD = 3  # footsteps that are told at once
@@ -42,14 +46,14 @@ class FootstepMover:
         """
         self._motion, self._gait = motion, gait
         self._limits = limits or StepLimits()
-        self._errand = Errand(clock)
+        self._errand = PendingCall(clock)
         self._asked = REST
         self._look: Any = None
         self._tells = False  # whether the last call told footsteps
         self._after: object = None
         self._refused = 0
 
-    def command(self, velocity: Velocity) -> None:
+    def command(self, velocity: VelocityCommand) -> None:
         """Ask for footsteps along the path of a velocity.
 
         Raises:
@@ -111,7 +115,7 @@ class FootstepMover:
             ) from error
 
     def _plan(
-        self, velocity: Velocity, certain: list[Any], later: list[Any]
+        self, velocity: VelocityCommand, certain: list[Any], later: list[Any]
     ) -> None:
         """Tell the next footsteps, if the last ones told have begun."""
         last = _leg_and_place(certain[-1]) if certain else None
@@ -131,7 +135,7 @@ class FootstepMover:
 
 
 def words_of(
-    steps: tuple[FootMove, ...],
+    steps: tuple[FootCommand, ...],
 ) -> tuple[list[str], list[list[float]], list[float]]:
     """Footsteps as ``setFootSteps`` takes them: legs, places and times."""
     return (

@@ -6,8 +6,8 @@ from typing import Any
 
 from ...core.poses import Pose
 from ...planning import Foot, GaitSettings
-from ..velocity.footstep_commands import FootMove, stride_of
-from ..velocity.velocity_body import Velocity
+from ..velocity.footstep_commands import FootCommand, stride_of
+from ..velocity.velocity_body import VelocityCommand
 from .footstep_mover import LEGS
 
 FEET = {leg: foot for foot, leg in LEGS.items()}
@@ -19,7 +19,7 @@ CREEPING = 2e-3  # of a step on the spot, in [m/s]
 
 def read_steps(
     legs: Any, places: Any, times: Any, before: Foot | None
-) -> list[FootMove]:
+) -> list[FootCommand]:
     """Footsteps as they are told, checked.
 
     Args:
@@ -49,12 +49,12 @@ def read_steps(
         at = float(time)
         if not (isfinite(at) and at >= earlier + LEAST):
             raise ValueError(f"times must rise [s], got {times!r:.80}")
-        steps.append(FootMove(foot, _place(place), at))
+        steps.append(FootCommand(foot, _place(place), at))
         earlier, previous = at, foot
     return steps
 
 
-def velocity_of(step: FootMove, gait: GaitSettings) -> Velocity:
+def velocity_of(step: FootCommand, gait: GaitSettings) -> VelocityCommand:
     """Velocity of a gait that walks one footstep as one step.
 
     Raises:
@@ -74,10 +74,10 @@ def velocity_of(step: FootMove, gait: GaitSettings) -> Velocity:
     forward = length / gait.step_duration
     if abs(forward) < CREEPING:
         forward = CREEPING if forward >= 0.0 else -CREEPING
-    return Velocity(forward, turn / gait.step_duration)
+    return VelocityCommand(forward, turn / gait.step_duration)
 
 
-def told(step: FootMove) -> list[Any]:
+def told(step: FootCommand) -> list[Any]:
     """A footstep as ``getFootSteps`` tells it."""
     return [LEGS[step.foot], step.time, list(step.pose)]
 

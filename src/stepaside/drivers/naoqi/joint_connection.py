@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 from ...core.poses import Array
 from ..guardian_process import open_within
-from ..joint.joint_body import LolaBody
-from ..joint.session_options import PLAIN, Handling
+from ..joint.joint_body import JointBody
+from ..joint.session_options import PLAIN, SessionOptions
 from ..joint.stiffness_guardian import StiffnessGuardian
 
 if TYPE_CHECKING:
-    from .joint_transport import JointLine
+    from .joint_transport import JointTransport
 
 log = logging.getLogger(__name__)
 
@@ -22,8 +22,8 @@ def open_joints(
     url: str,
     joint_names: Sequence[str],
     stance: Array,
-    how: Handling = PLAIN,
-) -> LolaBody:
+    how: SessionOptions = PLAIN,
+) -> JointBody:
     """Connect to a robot, whose body is the one that LoLA's robots have.
 
     Args:
@@ -49,7 +49,7 @@ def open_joints(
         sight = MemorySight(line) if line.simulated and eyes is None else None
         if sight is not None:
             log.warning("sees by the ideal line of sight of the robot")
-        body = LolaBody(
+        body = JointBody(
             line,
             joint_names,
             stance,
@@ -64,10 +64,10 @@ def open_joints(
         return body
 
 
-def _line_to(url: str) -> "JointLine":
-    from .joint_transport import JointLine
+def _line_to(url: str) -> "JointTransport":
+    from .joint_transport import JointTransport
 
-    return JointLine(url)
+    return JointTransport(url)
 
 
 def _fade(url: str, targets: Array, stiffness: Array) -> None:

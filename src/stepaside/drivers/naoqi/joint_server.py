@@ -5,9 +5,13 @@ from collections.abc import Sequence
 
 from ...perception.measurement import Measurement
 from ..joint.frame_clock import TICK
-from ..joint.served_joints import ServedJoints, ServedRobot
+from ..joint.served_joints import ServedJointRobot, ServedJoints
 from ..lola.conventions import COUNTER_RANGE
-from .joint_services import JointMemory, JointMotion, JointRobot
+from .joint_services import (
+    JointMemoryService,
+    JointMotionService,
+    JointServiceState,
+)
 from .naoqi_url import IDEAL_SIGHT
 from .qi_session import listen
 from .sensor_keys import FRAME, values_of
@@ -27,7 +31,7 @@ class NaoqiJointServer:
     def __init__(
         self,
         url: str,
-        robot: ServedRobot,
+        robot: ServedJointRobot,
         joint_names: Sequence[str],
         *,
         lock_step: bool = False,
@@ -52,11 +56,11 @@ class NaoqiJointServer:
         self._lonely = round(SILENCE / TICK) + 1
         self._silent, self._count = self._lonely, 0
         self._closed = False
-        self.robot = JointRobot()
+        self.robot = JointServiceState()
         self._tell(self.joints.sense())
         services = {
-            "ALMotion": JointMotion(self.robot),
-            "ALMemory": JointMemory(self.robot),
+            "ALMotion": JointMotionService(self.robot),
+            "ALMemory": JointMemoryService(self.robot),
         }
         self._services = services
         self._session = listen(url, services)

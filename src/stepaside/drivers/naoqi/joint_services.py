@@ -18,7 +18,7 @@ SHARED = "RHipYawPitch"  # the motor of LHipYawPitch turns both
 KNOWN = (*NAMES, SHARED)
 
 
-class JointRobot:
+class JointServiceState:
     """What the services share, guarded by one lock.
 
     Attributes:
@@ -54,10 +54,10 @@ class JointRobot:
             return ActuatorFrame(self.targets.copy(), self.stiffness.copy())
 
 
-class JointMotion:
+class JointMotionService:
     """ALMotion: stiffness and joint angles."""
 
-    def __init__(self, robot: JointRobot) -> None:
+    def __init__(self, robot: JointServiceState) -> None:
         """Move a robot."""
         self._robot = robot
 
@@ -115,10 +115,10 @@ class JointMotion:
             return told
 
 
-class JointMemory:
+class JointMemoryService:
     """ALMemory: values by key."""
 
-    def __init__(self, robot: JointRobot) -> None:
+    def __init__(self, robot: JointServiceState) -> None:
         """Know the robot."""
         self._robot = robot
 

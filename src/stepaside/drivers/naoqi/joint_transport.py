@@ -42,7 +42,7 @@ FULL_SPEED = 1.0  # share of the motors' speed: who limits it is control
 log = logging.getLogger(__name__)
 
 
-class Heard(NamedTuple):
+class MemoryReading(NamedTuple):
     """What a robot told at one tick.
 
     Attributes:
@@ -56,7 +56,7 @@ class Heard(NamedTuple):
     lock_step: bool
 
 
-def read_heard(heard: Heard) -> SensorFrame:
+def read_heard(heard: MemoryReading) -> SensorFrame:
     """Frame of what a robot told.
 
     Raises:
@@ -69,7 +69,7 @@ def read_heard(heard: Heard) -> SensorFrame:
 CODEC = Codec(read_heard, lambda frame: frame)
 
 
-class JointLine:
+class JointTransport:
     """Carries frames between control and a robot on NAOqi.
 
     Attributes:
@@ -115,7 +115,7 @@ class JointLine:
             log.warning("the robot's gyro has two axes: it does not see turns")
         self.sight: tuple[float, float, float] | None = None
         self._began, self._number = clock(), -1
-        self._heard: Heard | None = None
+        self._heard: MemoryReading | None = None
         self._due = 0.0
         self._told: dict[str, Any] = {}
         self._reads, self._sights = 0, SightReader()
@@ -144,7 +144,7 @@ class JointLine:
                 self._pause(POLL)
         return True
 
-    def receive(self) -> list[Heard]:
+    def receive(self) -> list[MemoryReading]:
         """The frame that has arrived, if one has."""
         heard, self._heard = self._heard, None
         return [] if heard is None else [heard]
@@ -196,11 +196,13 @@ class JointLine:
         if not self.simulated:
             passed = int((self._clock() - self._began) / TICK)
             self._number = max(passed, self._number + 1)
-            self._heard = Heard(values, self._number % COUNTER_RANGE, False)
+            self._heard = MemoryReading(
+                values, self._number % COUNTER_RANGE, False
+            )
             return
         number, waits = read_frame(frame)
         self._number, self.sight = number, self._sights.read(sight)
-        self._heard = Heard(values, number, waits)
+        self._heard = MemoryReading(values, number, waits)
         self._due = 0.0 if waits else self._clock() + TICK - EARLY
 
     def _has_spoken(self, patience: float) -> bool:
@@ -231,7 +233,7 @@ class JointLine:
 class MemorySight:
     """Ideal line of sight of a simulated robot, as its frames bring it."""
 
-    def __init__(self, line: JointLine) -> None:
+    def __init__(self, line: JointTransport) -> None:
         """Listen on a line, which stays with the caller."""
         self._line = line
 

@@ -5,7 +5,7 @@ from typing import Any
 
 from ..velocity.walking_robot import WalkerState
 from .naoqi_url import IDEAL_SIGHT
-from .service_state import Robot
+from .service_state import WalkServiceState
 
 SUBDEVICES = "Device/SubDeviceList"
 SENSED = "Position/Sensor/Value"
@@ -19,7 +19,7 @@ SILENCE = 2.55  # what a sonar says that heard nothing, in [m]
 class ALSonar:
     """Sonars: while somebody subscribes their echoes are in ALMemory."""
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: WalkServiceState) -> None:
         """Know the robot."""
         self._robot = robot
 
@@ -39,7 +39,7 @@ class ALSonar:
 class ALMemory:
     """Values by key."""
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: WalkServiceState) -> None:
         """Know the robot."""
         self._robot = robot
 

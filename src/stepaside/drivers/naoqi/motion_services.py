@@ -10,10 +10,10 @@ from math import isfinite
 from typing import Any
 
 from ...planning import GaitSettings
-from ..velocity.velocity_body import REST, Velocity
+from ..velocity.velocity_body import REST, VelocityCommand
 from .footstep_requests import read_steps, told, velocity_of
 from .joint_chains import joints_of, shares_of, values_of
-from .service_state import Robot
+from .service_state import WalkServiceState
 
 HEAD = ("HeadYaw", "HeadPitch")
 POSTURES = ("Stand", "StandInit", "StandZero", "Crouch")
@@ -23,7 +23,10 @@ class ALMotion:
     """Motion: stiffness, walking, where the robot is."""
 
     def __init__(
-        self, robot: Robot, fastest: Velocity, gait: GaitSettings
+        self,
+        robot: WalkServiceState,
+        fastest: VelocityCommand,
+        gait: GaitSettings,
     ) -> None:
         """Move a robot, at most so fast, by the steps of its gait."""
         self._robot, self._fastest, self._gait = robot, fastest, gait
@@ -84,7 +87,7 @@ class ALMotion:
 
     def move(self, *values: Any) -> None:
         """Walk at x, y [m/s] and theta [rad/s]."""
-        self._walk(values, Velocity(1.0, 1.0))
+        self._walk(values, VelocityCommand(1.0, 1.0))
 
     def moveToward(self, *values: Any) -> None:
         """Walk at shares of the top speeds."""
@@ -167,11 +170,11 @@ class ALMotion:
             )
             return [where[name] for name in wanted]
 
-    def _walk(self, values: Sequence[Any], scale: Velocity) -> None:
+    def _walk(self, values: Sequence[Any], scale: VelocityCommand) -> None:
         if len(values) not in (3, 4):
             raise ValueError(f"x, y and theta are needed, got {values!r}")
         x, y, theta = (float(value) for value in values[:3])
-        velocity = Velocity(scale.forward * x, scale.turn * theta)
+        velocity = VelocityCommand(scale.forward * x, scale.turn * theta)
         with self._robot.lock:
             self._robot.calls += 1
             if not self._robot.awake:
@@ -189,7 +192,7 @@ class ALMotion:
 class ALRobotPosture:
     """Postures: it stands, or crouches."""
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: WalkServiceState) -> None:
         """Know the robot."""
         self._robot = robot
 

@@ -12,7 +12,7 @@ import numpy as np
 from ...core.poses import Array, Pose
 from ...perception.measurement import Sighting
 from ..guardian_process import SessionLost
-from ..velocity.velocity_body import Report, Velocity
+from ..velocity.velocity_body import VelocityCommand, VelocityReport
 from .naoqi_url import IDEAL_SIGHT
 from .qi_session import Call, answer_of, ask, connect
 from .velocity_mover import Mover, VelocityMover
@@ -94,7 +94,7 @@ class NaoqiBody:
         self._pressed = self._held = self._waits = False
         self._told_ideal = False
 
-    def listen(self, patience: float) -> Report | None:
+    def listen(self, patience: float) -> VelocityReport | None:
         """Where the robot is, and what it knows; None if it is too slow.
 
         All is asked at once. What is not answered in time is waited for at
@@ -133,9 +133,9 @@ class NaoqiBody:
             ) from error
         hindrance = self._hindrance(bool(fallen), bool(pressed))
         seen = self._sighting(sight, now)
-        return Report(now, Pose(x, y, theta), seen, hindrance)
+        return VelocityReport(now, Pose(x, y, theta), seen, hindrance)
 
-    def command(self, velocity: Velocity) -> None:
+    def command(self, velocity: VelocityCommand) -> None:
         """Ask for a velocity, without waiting for the robot.
 
         Raises:

@@ -4,12 +4,12 @@ import logging
 from collections.abc import Sequence
 
 from ...planning import GaitSettings
-from ..velocity.velocity_body import REST, Velocity
+from ..velocity.velocity_body import REST, VelocityCommand
 from ..velocity.walking_robot import WalkingRobot
 from .memory_service import ALMemory, ALSonar
 from .motion_services import ALMotion, ALRobotPosture
 from .qi_session import listen
-from .service_state import Robot
+from .service_state import WalkServiceState
 from .video_service import ALVideoDevice
 
 SILENCE = 0.5  # of everybody before the robot rests, in [s]
@@ -28,7 +28,7 @@ class NaoqiServer:
         url: str,
         robot: WalkingRobot,
         joint_names: Sequence[str],
-        fastest: Velocity,
+        fastest: VelocityCommand,
         *,
         tick: float,
         gait: GaitSettings | None = None,
@@ -47,7 +47,7 @@ class NaoqiServer:
             ConfigurationError: If nobody can listen there.
         """
         self._walker, self._tick = robot, tick
-        self.robot = Robot(robot.state(), joint_names)
+        self.robot = WalkServiceState(robot.state(), joint_names)
         services = {
             "ALMotion": ALMotion(self.robot, fastest, gait or GaitSettings()),
             "ALRobotPosture": ALRobotPosture(self.robot),
@@ -104,7 +104,7 @@ class NaoqiServer:
         """Nobody is waited for."""
         return True
 
-    def act(self) -> Velocity:
+    def act(self) -> VelocityCommand:
         """What the robot is to do at this tick."""
         with self.robot.lock:
             robot = self.robot

@@ -4,13 +4,13 @@ from collections import deque
 from collections.abc import Mapping, Sequence
 from threading import Lock
 
-from ..velocity.footstep_commands import FootMove
-from ..velocity.velocity_body import REST, Velocity
+from ..velocity.footstep_commands import FootCommand
+from ..velocity.velocity_body import REST, VelocityCommand
 from ..velocity.walking_robot import WalkerState
 from .joint_chains import LEGS
 
 
-class Robot:
+class WalkServiceState:
     """What the services share, guarded by one lock.
 
     Attributes:
@@ -29,7 +29,7 @@ class Robot:
     def __init__(self, state: WalkerState, names: Sequence[str]) -> None:
         """Begin at rest, asleep."""
         self.lock = Lock()
-        self.steps: deque[tuple[FootMove, Velocity]] = deque()
+        self.steps: deque[tuple[FootCommand, VelocityCommand]] = deque()
         self.state, self.names = state, list(names)
         self.asked = REST
         self.awake, self.fallen, self.pressed = False, False, False

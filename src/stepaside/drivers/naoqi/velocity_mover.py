@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from ..guardian_process import SessionLost
-from ..velocity.velocity_body import REST, Velocity
+from ..velocity.velocity_body import REST, VelocityCommand
 from .qi_session import answer_of, reason_of
 
 REPEATED = 0.25  # after which the same velocity is asked for again, in [s]
@@ -14,7 +14,7 @@ STUCK = 1.0  # for which a command may be on its way, in [s]
 class Mover(Protocol):
     """Takes what the template wants to ALMotion, without waiting for it."""
 
-    def command(self, velocity: Velocity) -> None:
+    def command(self, velocity: VelocityCommand) -> None:
         """Ask for a velocity.
 
         Raises:
@@ -22,7 +22,7 @@ class Mover(Protocol):
         """
 
 
-class Errand:
+class PendingCall:
     """One call that is on its way to the robot, or none.
 
     Attributes:
@@ -77,10 +77,10 @@ class VelocityMover:
     def __init__(self, motion: Any, clock: Callable[[], float]) -> None:
         """Know its ALMotion, and the time of this computer."""
         self._motion, self._clock = motion, clock
-        self._errand = Errand(clock)
+        self._errand = PendingCall(clock)
         self._asked = REST
 
-    def command(self, velocity: Velocity) -> None:
+    def command(self, velocity: VelocityCommand) -> None:
         """Ask for a velocity.
 
         Raises:

@@ -10,7 +10,7 @@ from typing import Any
 import qi
 
 from ...perception.images import ColourImage
-from .service_state import Robot
+from .service_state import WalkServiceState
 from .video_client import RGB, TOP
 
 IMAGE = "(iiiiiiriffff)"  # an image as NAOqi's messaging spells it
@@ -20,7 +20,7 @@ MICRO = 1_000_000  # microseconds in a second
 class ALVideoDevice:
     """The camera over the eyes: who subscribes asks for images."""
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: WalkServiceState) -> None:
         """Know the robot."""
         self._robot = robot
         self._handles: set[str] = set()

@@ -1,7 +1,7 @@
 """What the camera of a simulated robot shows, on topics."""
 
 from ...perception.images import ColourImage
-from .dds_domain import Dds
+from .dds_domain import DdsParticipant
 from .messages import CompressedImage, Header, Image, Time
 from .topics import COMPRESSED, IMAGE, dds_topic, frame
 
@@ -9,7 +9,7 @@ from .topics import COMPRESSED, IMAGE, dds_topic, frame
 class CameraTopics:
     """Writes images, whole and compressed, for those who read them."""
 
-    def __init__(self, dds: Dds, namespace: str) -> None:
+    def __init__(self, dds: DdsParticipant, namespace: str) -> None:
         """Take part in the topics of a robot's camera.
 
         Args:

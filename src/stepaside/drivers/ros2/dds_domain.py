@@ -50,7 +50,7 @@ HERE = """
 """
 
 
-class Dds:
+class DdsParticipant:
     """A participant, and what it reads and writes."""
 
     def __init__(
@@ -188,4 +188,4 @@ def _number() -> int:
     return int(text)
 
 
-__all__ = ["Dds", "messages", "taken"]
+__all__ = ["DdsParticipant", "messages", "taken"]

@@ -3,7 +3,7 @@
 from typing import Any
 from uuid import UUID
 
-from .dds_domain import Dds
+from .dds_domain import DdsParticipant
 
 from cyclonedds.builtin import (  # isort: skip
     BuiltinDataReader,
@@ -22,7 +22,9 @@ class Endpoints:
     match, and none of them sees it.
     """
 
-    def __init__(self, dds: Dds, topic: str, *, writers: bool) -> None:
+    def __init__(
+        self, dds: DdsParticipant, topic: str, *, writers: bool
+    ) -> None:
         """Listen to what DDS discovers.
 
         Args:

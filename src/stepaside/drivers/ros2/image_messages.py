@@ -7,7 +7,7 @@ import numpy as np
 from ...perception.camera_model import CameraModel
 from ...perception.images import ColourImage, Percept, Pixels
 from ..cameras.image_source import scaled
-from .dds_domain import Dds, taken
+from .dds_domain import DdsParticipant, taken
 from .messages import CompressedImage, Header, Image
 from .topics import dds_topic
 
@@ -88,7 +88,12 @@ class TopicCamera:
     """
 
     def __init__(
-        self, dds: Dds, topic: str, model: CameraModel, *, latency: float
+        self,
+        dds: DdsParticipant,
+        topic: str,
+        model: CameraModel,
+        *,
+        latency: float,
     ) -> None:
         """Take part in a topic.
 

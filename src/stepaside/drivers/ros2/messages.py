@@ -178,7 +178,7 @@ class TFMessage(IdlStruct, typename="tf2_msgs.msg.dds_.TFMessage_"):
 
 
 @dataclass
-class Clock(IdlStruct, typename="rosgraph_msgs.msg.dds_.Clock_"):
+class ClockMessage(IdlStruct, typename="rosgraph_msgs.msg.dds_.Clock_"):
     """Time of a simulated world."""
 
     clock: Time

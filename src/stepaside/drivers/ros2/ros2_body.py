@@ -7,12 +7,12 @@ from math import atan2, hypot
 from time import monotonic, sleep
 from typing import Any
 
-from ...control.state_history import Memory
+from ...control.state_history import StateHistory
 from ...core.poses import Pose
 from ...perception.measurement import Sighting
 from ..guardian_process import SessionLost
-from ..velocity.velocity_body import REST, Report, Velocity
-from .dds_domain import Dds, taken
+from ..velocity.velocity_body import REST, VelocityCommand, VelocityReport
+from .dds_domain import DdsParticipant, taken
 from .endpoint_discovery import Endpoints
 from .messages import Header, Odometry, PointStamped, PoseStamped, Time
 from .topics import (
@@ -48,7 +48,7 @@ class Ros2Body:
     """
 
     def __init__(
-        self, dds: Dds, namespace: str, *, dry_run: bool = False
+        self, dds: DdsParticipant, namespace: str, *, dry_run: bool = False
     ) -> None:
         """Take part in the topics of a robot.
 
@@ -74,7 +74,7 @@ class Ros2Body:
         if not dry_run:
             self._commands = CommandWriter(dds, namespace)
         self._header = UNSTAMPED
-        self._poses: Memory[Pose] = Memory(POSE_TICK)
+        self._poses: StateHistory[Pose] = StateHistory(POSE_TICK)
         self._sighting: Sighting | None = None
         self._told_ideal = False
 
@@ -83,7 +83,7 @@ class Ros2Body:
         """How many others command this robot."""
         return self._others.participants
 
-    def listen(self, patience: float) -> Report | None:
+    def listen(self, patience: float) -> VelocityReport | None:
         """Newest report since the last; None if none comes in time.
 
         Args:
@@ -98,7 +98,7 @@ class Ros2Body:
                 return None
             sleep(POLL)
 
-    def command(self, velocity: Velocity) -> None:
+    def command(self, velocity: VelocityCommand) -> None:
         """Ask for a velocity.
 
         Raises:
@@ -125,7 +125,7 @@ class Ros2Body:
             del self._odometry, self._sights, self._others, self._commands
             self._dds.close()
 
-    def _report(self, odometry: Odometry) -> Report:
+    def _report(self, odometry: Odometry) -> VelocityReport:
         pose = pose_of(odometry.pose.pose)
         stamp = odometry.header.stamp
         time = stamp.seconds
@@ -140,7 +140,7 @@ class Ros2Body:
                         self._namespace or "/",
                     )
                 self._note(message, odometry.header.frame_id)
-        return Report(time, pose, self._sighting, self._hindrance())
+        return VelocityReport(time, pose, self._sighting, self._hindrance())
 
     def _hindrance(self) -> str:
         """Why the robot must not be asked to move, if anything is."""
@@ -161,7 +161,7 @@ class Ros2Body:
         self._sighting = Sighting(time, atan2(y, x), hypot(x, y))
 
 
-def rester_of(dds: Dds, namespace: str) -> Callable[[], None]:
+def rester_of(dds: DdsParticipant, namespace: str) -> Callable[[], None]:
     """Join a robot's topics in advance, and return what asks it for rest.
 
     Nothing is written before: a second writer would be another commander.
@@ -175,7 +175,9 @@ def rester_of(dds: Dds, namespace: str) -> Callable[[], None]:
     return partial(rest, dds, namespace)
 
 
-def rest(dds: Dds, namespace: str, duration: float = LETTING_GO) -> None:
+def rest(
+    dds: DdsParticipant, namespace: str, duration: float = LETTING_GO
+) -> None:
     """Ask a robot for rest in place of control that is gone.
 
     Args:

@@ -6,12 +6,12 @@ from math import cos, isfinite, sin
 from typing import Any
 
 from ...perception.measurement import Sighting
-from ..velocity.velocity_body import REST, Velocity
+from ..velocity.velocity_body import REST, VelocityCommand
 from ..velocity.walking_robot import WalkerState, WalkingRobot
 from .camera_topics import CameraTopics
-from .dds_domain import Dds
+from .dds_domain import DdsParticipant
 from .messages import (
-    Clock,
+    ClockMessage,
     Header,
     JointState,
     Odometry,
@@ -47,16 +47,16 @@ log = logging.getLogger(__name__)
 class WorldClock:
     """Tells simulated time to everybody on one domain."""
 
-    def __init__(self, dds: Dds) -> None:
+    def __init__(self, dds: DdsParticipant) -> None:
         """Write ``/clock``."""
-        self._writer = dds.writer(dds_topic("", "clock"), Clock)
+        self._writer = dds.writer(dds_topic("", "clock"), ClockMessage)
         self._told = -1.0
 
     def tell(self, time: float) -> None:
         """Say what time it is, in [s], if that is new."""
         if time != self._told:
             self._told = time
-            self._writer.write(Clock(Time.of(time)))
+            self._writer.write(ClockMessage(Time.of(time)))
 
 
 class Ros2Server:
@@ -73,7 +73,7 @@ class Ros2Server:
 
     def __init__(
         self,
-        dds: Dds,
+        dds: DdsParticipant,
         namespace: str,
         robot: WalkingRobot,
         joint_names: Sequence[str],
@@ -177,7 +177,7 @@ class Ros2Server:
         if self._looks % LOOKS == 0 and self._state is not None:
             self._tell(self._state)
 
-    def act(self) -> Velocity:
+    def act(self) -> VelocityCommand:
         """What the robot is to do at this tick."""
         self._silent += 1
         if self._silent * self._tick > SILENCE and not self._lock_step:
@@ -204,7 +204,7 @@ class Ros2Server:
             self._velocity = REST
             return
         self.answered, self._silent = True, 0
-        self._velocity = Velocity(forward, turn)
+        self._velocity = VelocityCommand(forward, turn)
 
     def _tell(self, state: WalkerState) -> None:
         """Write everything; odometry last, as it is what is waited for."""

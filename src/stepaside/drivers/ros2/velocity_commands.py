@@ -7,8 +7,8 @@ type does not match a reader of the other, and no error says so.
 import logging
 from typing import Any
 
-from ..velocity.velocity_body import Velocity
-from .dds_domain import Dds, taken
+from ..velocity.velocity_body import VelocityCommand
+from .dds_domain import DdsParticipant, taken
 from .endpoint_discovery import Endpoints
 from .messages import Header, Twist, TwistStamped
 from .topics import COMMAND, dds_topic, vector
@@ -24,7 +24,7 @@ class CommandWriter:
     A writer is made when the first subscriber of its type is discovered.
     """
 
-    def __init__(self, dds: Dds, namespace: str) -> None:
+    def __init__(self, dds: DdsParticipant, namespace: str) -> None:
         """Look for subscribers.
 
         Args:
@@ -53,7 +53,7 @@ class CommandWriter:
             )
         return ""
 
-    def write(self, velocity: Velocity, header: Header) -> None:
+    def write(self, velocity: VelocityCommand, header: Header) -> None:
         """Ask for a velocity.
 
         Args:
@@ -84,7 +84,7 @@ class CommandReader:
     A commander that writes each type that has a subscriber writes one then.
     """
 
-    def __init__(self, dds: Dds, namespace: str) -> None:
+    def __init__(self, dds: DdsParticipant, namespace: str) -> None:
         """Subscribe to ``Twist``.
 
         Args:

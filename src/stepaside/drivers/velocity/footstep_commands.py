@@ -14,12 +14,12 @@ from ...core.poses import Pose
 from ...planning import Direction, Foot, GaitSettings, UnicycleTrajectory
 from ...planning.footsteps import place_footsteps
 from ...planning.template_path import path_samples
-from .velocity_body import Velocity
+from .velocity_body import VelocityCommand
 
 CREEPING = 1e-6  # speed of a template that turns in place, in [m/s]
 
 
-class FootMove(NamedTuple):
+class FootCommand(NamedTuple):
     """Placement of one foot.
 
     Attributes:
@@ -33,7 +33,7 @@ class FootMove(NamedTuple):
     time: float
 
 
-class Stride(NamedTuple):
+class PathSegment(NamedTuple):
     """Part of a path that one step walks.
 
     Attributes:
@@ -76,13 +76,13 @@ class StepLimits:
 
 
 def plan_footsteps(
-    velocity: Velocity,
+    velocity: VelocityCommand,
     gait: GaitSettings,
     limits: StepLimits,
     *,
     first_foot: Foot,
     count: int,
-) -> tuple[FootMove, ...]:
+) -> tuple[FootCommand, ...]:
     r"""Footsteps of a template, as the paper's maneuvers have them.
 
     The template begins beside the support foot, on the path of eqs. (9) to
@@ -126,12 +126,12 @@ def plan_footsteps(
     for number, row in enumerate(rows.tolist(), start=1):
         landed = Pose(*row)
         pose = support.inverse().compose(landed)
-        steps.append(FootMove(foot, pose, number * period))
+        steps.append(FootCommand(foot, pose, number * period))
         support, foot = landed, foot.other
     return tuple(steps)
 
 
-def stride_of(pose: Pose, foot: Foot, foot_spacing: float) -> Stride:
+def stride_of(pose: Pose, foot: Foot, foot_spacing: float) -> PathSegment:
     """Part of a path beside which a foot lands, an arc of a circle.
 
     Args:
@@ -146,4 +146,4 @@ def stride_of(pose: Pose, foot: Foot, foot_spacing: float) -> Stride:
     along = cos(half) * way.x + sin(half) * way.y
     aside = cos(half) * way.y - sin(half) * way.x
     # sin(a) / a, without dividing by a
-    return Stride(along / float(np.sinc(half / np.pi)), way.theta, aside)
+    return PathSegment(along / float(np.sinc(half / np.pi)), way.theta, aside)

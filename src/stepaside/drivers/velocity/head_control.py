@@ -8,15 +8,15 @@ import numpy as np
 
 from ...core.poses import Array, Pose, wrap_angle
 from ...perception.measurement import Measurement
-from ...perception.planar_perception import LevelPerception
-from ..cameras.image_source import PerceptSource
-from .velocity_body import Report, Velocity, VelocityBody
+from ...perception.planar_perception import PlanarPerception
+from ..cameras.image_source import ImageSource
+from .velocity_body import VelocityBody, VelocityCommand, VelocityReport
 
 PERIOD = 0.05  # between two looks, in [s]; the head is turned as often
 KEPT = 20  # reports between which an image may have been taken
 
 
-class HeadedBody(VelocityBody, Protocol):
+class HeadBody(VelocityBody, Protocol):
     """A robot that walks by itself and has a head."""
 
     @property
@@ -31,7 +31,7 @@ class HeadedBody(VelocityBody, Protocol):
         """
 
 
-class Told(NamedTuple):
+class PoseReport(NamedTuple):
     """Where a robot was at a report.
 
     Attributes:
@@ -45,14 +45,14 @@ class Told(NamedTuple):
     joints: Array
 
 
-class LookingBody:
+class CameraBody:
     """Sees the other by the robot's own camera, and keeps looking at it."""
 
     def __init__(
         self,
-        body: HeadedBody,
-        eyes: PerceptSource,
-        perception: LevelPerception,
+        body: HeadBody,
+        eyes: ImageSource,
+        perception: PlanarPerception,
         *,
         turns_head: bool = True,
     ) -> None:
@@ -67,9 +67,9 @@ class LookingBody:
         self._body, self._eyes = body, eyes
         self._perception, self._turns_head = perception, turns_head
         self._heard = 0
-        self._told: deque[Told] = deque(maxlen=KEPT)
+        self._told: deque[PoseReport] = deque(maxlen=KEPT)
 
-    def listen(self, patience: float) -> Report | None:
+    def listen(self, patience: float) -> VelocityReport | None:
         """Newest report, with what was seen until then."""
         report = self._body.listen(patience)
         if report is None:
@@ -82,7 +82,7 @@ class LookingBody:
             None,
             tuple(images),
         )
-        told = Told(report.time, report.pose, self._body.joints)
+        told = PoseReport(report.time, report.pose, self._body.joints)
         self._told.append(told)
         for image in images:
             self._recall(image.time)
@@ -112,7 +112,7 @@ class LookingBody:
         joints = earlier.joints + share * (later.joints - earlier.joints)
         self._perception.recall_level(time, joints, pose)
 
-    def command(self, velocity: Velocity) -> None:
+    def command(self, velocity: VelocityCommand) -> None:
         """Ask for a velocity."""
         self._body.command(velocity)
 

@@ -1,15 +1,15 @@
 """The template as it stands in the paper: a strategy drives a unicycle."""
 
-from ...control.strategy_runner import Decisions
+from ...control.strategy_runner import StrategyRunner
 from ...planning import GaitSettings
 from ...strategies import Strategy
 from ...theory import laws
-from .velocity_body import REST, Report, Velocity
+from .velocity_body import REST, VelocityCommand, VelocityReport
 
 MEMORY_TICK = 0.02  # of remembered poses, in [s]: some seconds are kept
 
 
-class TemplateMind:
+class TemplateController:
     r"""Velocities :math:`(\pm \bar{v}, k \theta^*)`, eqs. (1) to (6).
 
     Attributes:
@@ -24,11 +24,11 @@ class TemplateMind:
             gait: Gives speed and gain of the template, and the time that
                 rates are measured over.
         """
-        self._decisions = Decisions(strategy, gait, MEMORY_TICK)
+        self._decisions = StrategyRunner(strategy, gait, MEMORY_TICK)
         self._gait = gait
         self.moving = False
 
-    def decide(self, report: Report) -> Velocity:
+    def decide(self, report: VelocityReport) -> VelocityCommand:
         """What the template is told now.
 
         Args:
@@ -54,7 +54,7 @@ class TemplateMind:
             if strategy.saturated
             else laws.proportional_rate
         )
-        return Velocity(
+        return VelocityCommand(
             strategy.direction.value * gait.speed * intent.speed_factor,
             law(intent.heading, gait.gain),
         )

@@ -6,7 +6,7 @@ from ...core.poses import Pose
 from ...perception.measurement import Sighting
 
 
-class Velocity(NamedTuple):
+class VelocityCommand(NamedTuple):
     """What a unicycle is told.
 
     Attributes:
@@ -18,10 +18,10 @@ class Velocity(NamedTuple):
     turn: float
 
 
-REST = Velocity(0.0, 0.0)
+REST = VelocityCommand(0.0, 0.0)
 
 
-class Report(NamedTuple):
+class VelocityReport(NamedTuple):
     """What such a robot says of itself at one instant.
 
     Attributes:
@@ -41,7 +41,7 @@ class Report(NamedTuple):
 class VelocityBody(Protocol):
     """A robot at the other end of a line that carries velocities."""
 
-    def listen(self, patience: float) -> Report | None:
+    def listen(self, patience: float) -> VelocityReport | None:
         """Newest report since the last; None if none comes in time.
 
         Args:
@@ -51,7 +51,7 @@ class VelocityBody(Protocol):
             SessionLost: If there will be none any more.
         """
 
-    def command(self, velocity: Velocity) -> None:
+    def command(self, velocity: VelocityCommand) -> None:
         """Ask for a velocity.
 
         Raises:

@@ -5,7 +5,7 @@ from contextlib import suppress
 
 from ...core.errors import StepAsideError
 from ..guardian_process import Guardian
-from .velocity_body import REST, Report, Velocity, VelocityBody
+from .velocity_body import REST, VelocityBody, VelocityCommand, VelocityReport
 
 SILENCE = 0.5  # of control before the guardian acts, in [s]
 
@@ -40,11 +40,11 @@ class GuardedBody:
         """Join both."""
         self._body, self._guardian = body, guardian
 
-    def listen(self, patience: float) -> Report | None:
+    def listen(self, patience: float) -> VelocityReport | None:
         """Newest report since the last."""
         return self._body.listen(patience)
 
-    def command(self, velocity: Velocity) -> None:
+    def command(self, velocity: VelocityCommand) -> None:
         """Ask for a velocity, and say so."""
         if velocity == REST:
             self._guardian.leave()

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import inf, isfinite
 
 from ...core.errors import ConfigurationError, check_positive
-from .velocity_body import REST, Velocity
+from .velocity_body import REST, VelocityCommand
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +38,7 @@ class VelocityLimits:
             self.turn_acceleration, "turn_acceleration", "rad/s^2", error
         )
 
-    def within(self, wanted: Velocity) -> Velocity:
+    def within(self, wanted: VelocityCommand) -> VelocityCommand:
         """A velocity that the robot accepts.
 
         Who is too fast is slowed down on its path: speed and turning rate
@@ -55,7 +55,7 @@ class VelocityLimits:
             top / speed if speed > 0.0 else 1.0,
             self.turn / rate if rate > 0.0 else 1.0,
         )
-        return Velocity(share * wanted.forward, share * wanted.turn)
+        return VelocityCommand(share * wanted.forward, share * wanted.turn)
 
 
 class Ramp:
@@ -70,7 +70,9 @@ class Ramp:
         self._limits = limits
         self.velocity = REST
 
-    def toward(self, wanted: Velocity, passed: float) -> Velocity:
+    def toward(
+        self, wanted: VelocityCommand, passed: float
+    ) -> VelocityCommand:
         """Go toward a velocity.
 
         Args:
@@ -81,13 +83,13 @@ class Ramp:
             return self.stop()
         limits, now = self._limits, self.velocity
         goal = limits.within(wanted)
-        self.velocity = Velocity(
+        self.velocity = VelocityCommand(
             _step(now.forward, goal.forward, limits.acceleration * passed),
             _step(now.turn, goal.turn, limits.turn_acceleration * passed),
         )
         return self.velocity
 
-    def stop(self) -> Velocity:
+    def stop(self) -> VelocityCommand:
         """Rest at once: a robot that walks by itself ends its own step."""
         self.velocity = REST
         return REST

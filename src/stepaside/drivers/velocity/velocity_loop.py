@@ -9,8 +9,8 @@ from ...core.errors import StrategyError
 from ...core.poses import Pose
 from ...perception.measurement import Sighting
 from ..guardian_process import SessionLost
-from .template_controller import TemplateMind
-from .velocity_body import REST, Report, Velocity, VelocityBody
+from .template_controller import TemplateController
+from .velocity_body import REST, VelocityBody, VelocityCommand, VelocityReport
 from .velocity_limits import Ramp, VelocityLimits
 from .watchdog import Watchdog, WatchSettings
 
@@ -18,7 +18,7 @@ PATIENCE = 0.05  # for a report before the last command is repeated, in [s]
 STILL = 1e-6  # velocity below which a robot is asked for none
 
 
-class Driving(Enum):
+class DrivingState(Enum):
     """What the robot is doing."""
 
     WAITING = "waiting"  # must rest: the watchdog says why
@@ -42,13 +42,13 @@ class VelocityTick:
         velocity: What was asked for.
     """
 
-    state: Driving
+    state: DrivingState
     reason: str
     time: float
     pose: Pose
     sighting: Sighting | None
-    wanted: Velocity
-    velocity: Velocity
+    wanted: VelocityCommand
+    velocity: VelocityCommand
 
     @property
     def words(self) -> str:
@@ -60,7 +60,7 @@ class VelocityTick:
         )
 
 
-class VelocityPlaying:
+class VelocityLoop:
     """Drives a robot by the template's velocities, report by report.
 
     The robot rests unless everything speaks for motion: whatever is lost or
@@ -71,7 +71,7 @@ class VelocityPlaying:
     def __init__(
         self,
         body: VelocityBody,
-        make_mind: Callable[[], TemplateMind],
+        make_mind: Callable[[], TemplateController],
         limits: VelocityLimits,
         watch: WatchSettings,
         *,
@@ -95,7 +95,7 @@ class VelocityPlaying:
         self._watchdog = Watchdog(watch)
         self._paced, self._forsaken = watch.paced, watch.forsaken
         self._dry_run, self._clock = dry_run, clock
-        self._report: Report | None = None
+        self._report: VelocityReport | None = None
         self._wanted = REST
         self._why_leave = ""
         self._failure = ""
@@ -122,7 +122,9 @@ class VelocityPlaying:
             self.body.command(velocity)
         return self._told(why or self._failure, velocity)
 
-    def _decide(self, report: Report | None, why: str) -> Velocity:
+    def _decide(
+        self, report: VelocityReport | None, why: str
+    ) -> VelocityCommand:
         """What to ask for, given why not."""
         last = self._report
         if why:
@@ -141,7 +143,7 @@ class VelocityPlaying:
             self._wanted = self._ask(report)
         return self._ramp.toward(self._wanted, min(passed, 2.0 * PATIENCE))
 
-    def _ask(self, report: Report) -> Velocity:
+    def _ask(self, report: VelocityReport) -> VelocityCommand:
         try:
             return self._mind.decide(report)
         except StrategyError as error:
@@ -149,17 +151,17 @@ class VelocityPlaying:
             self.leave(self._failure)
             return REST
 
-    def _told(self, why: str, velocity: Velocity) -> VelocityTick:
+    def _told(self, why: str, velocity: VelocityCommand) -> VelocityTick:
         moves = max(abs(velocity.forward), abs(velocity.turn)) > STILL
         if self._why_leave:
-            state = Driving.STOPPING if moves else Driving.RESTING
+            state = DrivingState.STOPPING if moves else DrivingState.RESTING
             reason = self._why_leave
         elif why:
-            state, reason = Driving.WAITING, why
+            state, reason = DrivingState.WAITING, why
         elif moves or self._mind.moving:
-            state, reason = Driving.WALKING, "sees the other"
+            state, reason = DrivingState.WALKING, "sees the other"
         else:
-            state, reason = Driving.STANDING, "no reason to move"
+            state, reason = DrivingState.STANDING, "no reason to move"
         report = self._report
         return VelocityTick(
             state,

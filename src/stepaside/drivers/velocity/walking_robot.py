@@ -8,8 +8,8 @@ from ...core.poses import Pose
 from ...perception.images import ColourImage
 from ...perception.measurement import Sighting
 from ...planning import Foot
-from .footstep_commands import FootMove
-from .velocity_body import Velocity
+from .footstep_commands import FootCommand
+from .velocity_body import VelocityCommand
 
 STANDING = (Pose(0.0, 0.0, 0.0), Pose(0.0, 0.0, 0.0))
 
@@ -32,12 +32,12 @@ class WalkerState(NamedTuple):
 
     time: float
     pose: Pose
-    velocity: Velocity
+    velocity: VelocityCommand
     joints: Sequence[float]
     sighting: Sighting | None
     image: ColourImage | None = None
     feet: tuple[Pose, Pose] = STANDING
-    step: FootMove | None = None
+    step: FootCommand | None = None
     steps: int = 0
     echoes: Mapping[str, float | None] = MappingProxyType({})
 

@@ -6,7 +6,7 @@ from math import isfinite
 from ...core.errors import ConfigurationError, check_within
 from ...perception.measurement import Sighting
 from ..sighting_checks import fault_of
-from .velocity_body import Report
+from .velocity_body import VelocityReport
 
 DRIFT = 0.02  # by which two clocks may differ, relatively
 
@@ -65,7 +65,7 @@ class Watchdog:
         self._began: float | None = None
         self.silent = 0.0
 
-    def look(self, report: Report | None, now: float) -> str:
+    def look(self, report: VelocityReport | None, now: float) -> str:
         """Look at a report, or at its absence.
 
         Args:
@@ -103,7 +103,7 @@ class Watchdog:
                 self._verdict = f"no odometry for {self.silent:.2f} s"
         return self._verdict
 
-    def _fault(self, report: Report, now: float) -> str:
+    def _fault(self, report: VelocityReport, now: float) -> str:
         """What cannot be true of a report, if anything."""
         if not all(isfinite(v) for v in (report.time, *report.pose)):
             return "odometry holds what is no number"

@@ -12,7 +12,7 @@ from .control_settings import StabiliserSettings
 Box = tuple[tuple[float, float], tuple[float, float]]
 
 
-class Step(NamedTuple):
+class CurrentStep(NamedTuple):
     """A step that is being made, in odometry.
 
     Attributes:
@@ -46,12 +46,12 @@ class Step(NamedTuple):
         return turned.x, turned.y
 
 
-def resting_step(support: Pose, foot: Foot) -> Step:
+def resting_step(support: Pose, foot: Foot) -> CurrentStep:
     """No step at all, over a foot that stands beside ``foot``."""
-    return Step(support, foot, support, 0.0, 1.0, False)
+    return CurrentStep(support, foot, support, 0.0, 1.0, False)
 
 
-def step_of(plan: ManeuverPlan, frame: Pose, passed: float) -> Step:
+def step_of(plan: ManeuverPlan, frame: Pose, passed: float) -> CurrentStep:
     """First step of a plan.
 
     Args:
@@ -63,7 +63,7 @@ def step_of(plan: ManeuverPlan, frame: Pose, passed: float) -> Step:
     walked = passed
     if plan.schedule.standing:
         walked -= gait.start_support
-    return Step(
+    return CurrentStep(
         frame,
         plan.first_foot,
         frame.compose(Pose(*plan.placements[2].tolist())),
@@ -117,7 +117,7 @@ def beyond(x: float, y: float, radius: float) -> tuple[float, float]:
 
 def adapted_landing(
     error: tuple[float, float],
-    step: Step,
+    step: CurrentStep,
     box: Box,
     gait: GaitSettings,
     settings: StabiliserSettings,
@@ -157,7 +157,7 @@ def adapted_landing(
 
 
 def shifted_swing(
-    body: BodyReference, step: Step, shift: tuple[float, float]
+    body: BodyReference, step: CurrentStep, shift: tuple[float, float]
 ) -> BodyReference:
     """Let the swing foot head for a shifted landing.
 

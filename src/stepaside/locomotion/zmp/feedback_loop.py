@@ -7,7 +7,7 @@ from ...core.poses import Array, Pose
 from ...perception.measurement import Measurement
 from ...planning import CenterState, ManeuverPlan
 from ...robots.leg_kinematics import BodyReference
-from .current_step import Step
+from .current_step import CurrentStep
 from .feedforward import LoadFeedforward
 from .mpc import MpcResult
 from .reference_table import ReferenceSample
@@ -16,7 +16,7 @@ from .state_estimator import BodyState
 
 Vector = tuple[float, float]
 PlanFrom = Callable[[CenterState], ManeuverPlan]
-StepAt = Callable[[float], Step]
+StepAt = Callable[[float], CurrentStep]
 
 
 class Balance(Protocol):
@@ -71,7 +71,11 @@ class Balance(Protocol):
         """Joint targets with what the joints miss, in [rad]."""
 
     def land(
-        self, landed: Pose, position: Vector, velocity: Vector, step: Step
+        self,
+        landed: Pose,
+        position: Vector,
+        velocity: Vector,
+        step: CurrentStep,
     ) -> tuple[Pose, Vector, Vector]:
         """Foot, CoM and its velocity at the end of a step, as believed."""
 
@@ -122,7 +126,11 @@ class OpenLoop:
         return targets + self._feedforward.added(body, zmp)
 
     def land(
-        self, landed: Pose, position: Vector, velocity: Vector, step: Step
+        self,
+        landed: Pose,
+        position: Vector,
+        velocity: Vector,
+        step: CurrentStep,
     ) -> tuple[Pose, Vector, Vector]:
         """Believe that the plan was followed."""
         return landed, position, velocity
@@ -207,7 +215,11 @@ class ClosedLoop:
         return corrected + share * self._feedforward.added(*self._asked)
 
     def land(
-        self, landed: Pose, position: Vector, velocity: Vector, step: Step
+        self,
+        landed: Pose,
+        position: Vector,
+        velocity: Vector,
+        step: CurrentStep,
     ) -> tuple[Pose, Vector, Vector]:
         """Take the shifts over into the next plan."""
         return self.stabiliser.land(landed, position, velocity, step)

@@ -24,7 +24,7 @@ from ...planning import CenterState, GaitSettings, ManeuverPlan
 from ...robots.leg_kinematics import BodyReference
 from .control_settings import ControlSettings
 from .current_step import (
-    Step,
+    CurrentStep,
     adapted_landing,
     beyond,
     clip_to,
@@ -41,7 +41,7 @@ Vector = tuple[float, float]
 ZERO = (0.0, 0.0)
 
 
-class Asked(NamedTuple):
+class StabiliserTargets(NamedTuple):
     """What was asked of the body at one tick, in odometry.
 
     Attributes:
@@ -120,7 +120,7 @@ class Stabiliser:
         self._gait, self._tick, self._lean = gait, tick, lean
         self._grow = exp(gait.eta * tick)
         self._ankles = Ankles(gains, tick)
-        self._asked: deque[Asked] = deque(
+        self._asked: deque[StabiliserTargets] = deque(
             maxlen=max(1, round(delay / tick) + 1)
         )
 
@@ -130,7 +130,7 @@ class Stabiliser:
         return self.estimator.ready
 
     def update(
-        self, measurement: Measurement, row: ReferenceSample, step: Step
+        self, measurement: Measurement, row: ReferenceSample, step: CurrentStep
     ) -> BodyReference:
         """Run one control tick.
 
@@ -159,7 +159,7 @@ class Stabiliser:
         )
 
     def _observe(
-        self, measurement: Measurement, row: ReferenceSample, step: Step
+        self, measurement: Measurement, row: ReferenceSample, step: CurrentStep
     ) -> None:
         """Estimate the state and compare it with what was asked."""
         x, y, z = row.body.com
@@ -167,7 +167,7 @@ class Stabiliser:
         square = self._gait.eta**2
         u, v = row.reaction
         self._asked.append(
-            Asked(
+            StabiliserTargets(
                 shifted_swing(row.body, step, self.step_shift)._replace(
                     com=(x, y, z)
                 ),
@@ -197,7 +197,7 @@ class Stabiliser:
             0.5 * dead,
         )
 
-    def _react(self, step: Step) -> None:
+    def _react(self, step: CurrentStep) -> None:
         """Let the shifts give way, and bring them back."""
         gains, tick, eta = self.settings.stabiliser, self._tick, self._gait.eta
         rate = min(1.0, gains.yielding * tick)
@@ -220,7 +220,7 @@ class Stabiliser:
                 ex, ey = dx + rest * self.error[0], dy + rest * self.error[1]
                 self._adapt(step.to_support(ex, ey), step)
 
-    def _adapt(self, error: Vector, step: Step) -> None:
+    def _adapt(self, error: Vector, step: CurrentStep) -> None:
         """Move the landing, no faster than a swing foot can follow."""
         gains = self.settings.stabiliser
         box = zmp_box(step.swing, self._gait, gains.edge)
@@ -233,7 +233,11 @@ class Stabiliser:
         )
 
     def land(
-        self, landed: Pose, position: Vector, velocity: Vector, step: Step
+        self,
+        landed: Pose,
+        position: Vector,
+        velocity: Vector,
+        step: CurrentStep,
     ) -> tuple[Pose, Vector, Vector]:
         """Take the shifts over into the state that the next plan begins with.
 

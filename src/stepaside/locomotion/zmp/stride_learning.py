@@ -9,7 +9,7 @@ from ...planning import Foot, GaitSettings
 from ...planning.swing import swing_progress
 from ...robots.forward_kinematics import MeasuredPosture
 from ...robots.leg_kinematics import BodyReference
-from .current_step import Step
+from .current_step import CurrentStep
 
 TURNED = 0.08  # most that is learned of a turn, in [rad]
 
@@ -56,7 +56,7 @@ class StrideLearning:
         self._bounds = np.array([bound, bound, TURNED])
         self.aim = {Foot.LEFT: np.zeros(3), Foot.RIGHT: np.zeros(3)}
 
-    def learn(self, posture: MeasuredPosture, step: Step) -> None:
+    def learn(self, posture: MeasuredPosture, step: CurrentStep) -> None:
         """Learn from a step at its end.
 
         Args:
@@ -69,7 +69,7 @@ class StrideLearning:
         aim = self.aim[step.swing] + self._gain * short
         self.aim[step.swing] = np.clip(aim, -self._bounds, self._bounds)
 
-    def aimed(self, body: BodyReference, step: Step) -> BodyReference:
+    def aimed(self, body: BodyReference, step: CurrentStep) -> BodyReference:
         """Let the swing foot of a reference head beyond its landing."""
         if not step.walking:
             return body

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...planning import GaitSettings
 from .control_settings import ControlSettings
-from .current_step import Step, clip_to, zmp_box
+from .current_step import CurrentStep, clip_to, zmp_box
 from .mpc import IntrinsicallyStableMpc, MpcResult
 
 Vector = tuple[float, float]
@@ -21,7 +21,7 @@ class ZmpFeedback(Protocol):
 
     solved: MpcResult | None
 
-    def shift(self, step: Step, dcm: Vector, zmp: Vector) -> Vector:
+    def shift(self, step: CurrentStep, dcm: Vector, zmp: Vector) -> Vector:
         """Shift of the ZMP at the next tick.
 
         Args:
@@ -45,7 +45,7 @@ class ProportionalFeedback:
         self.solved: MpcResult | None = None
         self._gait, self._gain, self._edge = gait, gain, edge
 
-    def shift(self, step: Step, dcm: Vector, zmp: Vector) -> Vector:
+    def shift(self, step: CurrentStep, dcm: Vector, zmp: Vector) -> Vector:
         """Shift of the ZMP; see :class:`ZmpFeedback`."""
         box = zmp_box(step.swing, self._gait, self._edge)
         u, v = step.to_support(*dcm)
@@ -71,7 +71,7 @@ class MpcFeedback:
         self.solved: MpcResult | None = None
         self._mpc, self._standing, self._tick = mpc, standing, tick
 
-    def shift(self, step: Step, dcm: Vector, zmp: Vector) -> Vector:
+    def shift(self, step: CurrentStep, dcm: Vector, zmp: Vector) -> Vector:
         """Shift of the ZMP; see :class:`ZmpFeedback`."""
         self.solved = None
         if step.plan is None:

@@ -9,7 +9,7 @@ from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
-from .page_address import Address
+from .page_address import PageAddress
 
 CLIENTS = 16  # pages that are open at the same time
 Handler = Callable[[ServerConnection], Awaitable[None]]
@@ -22,7 +22,7 @@ HEADERS = {
 }
 
 
-class Gate:
+class AccessControl:
     """Lets in who asks for this place from this place.
 
     A browser lets any page of the web ask any address, and says in ``Host``
@@ -36,7 +36,7 @@ class Gate:
         connected: Pages that are open.
     """
 
-    def __init__(self, address: Address) -> None:
+    def __init__(self, address: PageAddress) -> None:
         """Stand before an address."""
         self.address = address
         self.secret = "" if address.is_local else token_urlsafe(24)

@@ -13,7 +13,7 @@ from ...games.duel import Duel
 from ...sim.push import Push
 from ..figure_style import PUSHED
 from ..palette import seen_by_all
-from .live_session import Session
+from .live_session import LiveSession
 from .scene_layers import PUSH_LENGTH, rgb
 
 LEAST, MOST = 0.05, 4.0  # impulse of a hand, in [N s]
@@ -42,13 +42,13 @@ def pulled(eye: Array, grabbed: Array, pointed: Array) -> Array:
     return impulse * min(1.0, MOST / max(strength, 1e-9))
 
 
-class Dragging:
+class PushDragging:
     """Lets all who look pull the robots of a page."""
 
     def __init__(
         self,
         scene: viser.SceneApi,
-        session: Session,
+        session: LiveSession,
         say: Callable[[str], None],
     ) -> None:
         """Watch nothing yet.

@@ -9,16 +9,16 @@ import viser
 from ...core.errors import StepAsideError
 from ...games.duel import Duel
 from ...games.walker import Walker
-from ...strategies import Driven, Pursuit, Strategy
-from .live_session import Session
-from .scoreboard import Score
+from ...strategies import Pursuit, Strategy, TeleoperatedPursuit
+from .live_session import LiveSession
+from .scoreboard import Scoreboard
 
 DIRECTIONS = {"left": 90, "right": -90, "forward": 0, "backward": 180}
 ROBOTS = ("pursuer", "evader")
 
 
 def add_push(
-    gui: viser.GuiApi, session: Session, say: Callable[[str], None]
+    gui: viser.GuiApi, session: LiveSession, say: Callable[[str], None]
 ) -> None:
     """Add the controls to a page.
 
@@ -54,11 +54,11 @@ SLOW = 0.25  # of the speed, while the closest approach is made
 class DrivePanel:
     """Takes the pursuer over, and keeps the score."""
 
-    def __init__(self, gui: viser.GuiApi, session: Session) -> None:
+    def __init__(self, gui: viser.GuiApi, session: LiveSession) -> None:
         """Add the controls to a page."""
         self._session = session
-        self._hand: Driven | None = None
-        self._score = Score()
+        self._hand: TeleoperatedPursuit | None = None
+        self._score = Scoreboard()
         with gui.add_folder("Drive the pursuer"):
             gui.add_markdown(
                 "Catch the evader with the buttons, a gamepad, the stick on "
@@ -138,7 +138,7 @@ class DrivePanel:
             return
         hand = self._hand
         if hand is None:
-            hand = Driven(going=True)
+            hand = TeleoperatedPursuit(going=True)
             self._score.begin(self._session.duel.world.time)
         if turn is not None:
             hand = replace(hand, turn=turn)
@@ -155,7 +155,7 @@ class DrivePanel:
         self._session.note(released=True)
         self._give(Pursuit())
 
-    def _take(self, hand: Driven | None) -> None:
+    def _take(self, hand: TeleoperatedPursuit | None) -> None:
         """Note how the pursuer is driven, and show it; None if by itself."""
         self._hand = hand
         self._session.driven = hand is not None

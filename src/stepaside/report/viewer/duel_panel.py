@@ -13,7 +13,7 @@ from ...games.strategy_objects import EVASION
 from ...games.walker import Walker
 from ...planning import GaitSettings
 from .body_choices import body_choices
-from .live_session import Session
+from .live_session import LiveSession
 
 LAWS = ("proportional (4)", "saturated (6)")
 
@@ -31,7 +31,10 @@ class DuelPanel:
     """Strategy, which acts at the next step, and start, at the next reset."""
 
     def __init__(
-        self, gui: viser.GuiApi, session: Session, say: Callable[[str], None]
+        self,
+        gui: viser.GuiApi,
+        session: LiveSession,
+        say: Callable[[str], None],
     ) -> None:
         """Add the controls to a page, with the values that it began with.
 

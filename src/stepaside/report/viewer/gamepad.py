@@ -13,17 +13,17 @@ from urllib.parse import parse_qs, urlsplit
 from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
 
-from .page_scripts import Answer, Scripts, respond
+from .page_scripts import Answer, PageScripts, respond
 
 Steer = Callable[[float, bool], None]
 ASKS = "X-Stepaside"  # a header that only a page of this place can send
 STICK = "stick.js"
 
 
-class Hand:
+class GamepadInput:
     """Answers the stick of a page, once somebody attends to it."""
 
-    def __init__(self, scripts: Scripts) -> None:
+    def __init__(self, scripts: PageScripts) -> None:
         """Begin with nobody who attends.
 
         Args:

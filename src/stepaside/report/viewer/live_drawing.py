@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from ...control.walk_snapshots import StepBegun, WalkState
+from ...control.walk_snapshots import StepStarted, WalkState
 from ...core.poses import Array, Pose
 from ..figure_style import COLOURS, EVADER, PUSHED, THEORY
-from .live_session import Session
+from .live_session import LiveSession
 from .scene_layers import (
     HEIGHTS,
     PRINTS,
-    Layers,
+    SceneLayers,
     chain,
     path_of,
     prints_of,
@@ -25,7 +25,7 @@ SUPPORT = "#2a9d55"
 ZMP_COLOURS = {"pursuer": "#e8a598", "evader": "#9bb8e8"}
 
 
-def draw_session(layers: Layers, session: Session) -> None:
+def draw_session(layers: SceneLayers, session: LiveSession) -> None:
     """Draw every layer of the present moment.
 
     Args:
@@ -67,7 +67,7 @@ def draw_session(layers: Layers, session: Session) -> None:
 
 def _walk_of(
     walk: WalkState,
-    steps: list[StepBegun],
+    steps: list[StepStarted],
     frame: Pose,
     now: float,
     name: str,
@@ -82,7 +82,7 @@ def _walk_of(
     ]
 
 
-def _traces(session: Session, name: str) -> list[Drawn]:
+def _traces(session: LiveSession, name: str) -> list[Drawn]:
     """Where CoM and ZMP of a player have been lately."""
     drawn = []
     for what, shade in (("CoM", COLOURS[name]), ("ZMP", ZMP_COLOURS[name])):
@@ -93,7 +93,7 @@ def _traces(session: Session, name: str) -> list[Drawn]:
     return drawn
 
 
-def _circle(session: Session, places: list[Array]) -> Array:
+def _circle(session: LiveSession, places: list[Array]) -> Array:
     """Circle of theory, laid through where the robots are.
 
     Its middle is the one from which both robots, a known distance apart,

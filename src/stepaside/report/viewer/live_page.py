@@ -15,20 +15,20 @@ from ...games.strategy_objects import EVASION
 from ..palette import LIGHTS
 from ..text_escaping import for_markdown
 from .camera_panel import CameraPanel
-from .dragging import Dragging
+from .dragging import PushDragging
 from .drive_panel import DrivePanel, add_push
 from .duel_panel import DuelPanel
 from .live_drawing import draw_session
-from .live_session import Moment, Session
+from .live_session import LiveFrame, LiveSession
 from .notices import Notices
 from .page_layout import arrange
 from .page_server import open_server
 from .plots import Plots
-from .run_saving import Saving
-from .scene_bodies import Bodies
-from .scene_layers import LAYERS, Layers, legend
+from .run_saving import RunSaver
+from .scene_bodies import SceneBodies
+from .scene_layers import LAYERS, SceneLayers, legend
 from .status_text import outlook, words_of
-from .viewer_clients import CAMERAS, Viewers
+from .viewer_clients import CAMERAS, ViewerClients
 
 LOG = logging.getLogger(__name__)
 RATE = 30.0  # updates of the scene a second
@@ -62,7 +62,7 @@ class Page:
         served = open_server(host, port)
         self.server, self.gate = served.server, served.gate
         try:
-            self.session = Session(settings)
+            self.session = LiveSession(settings)
         except BaseException:
             self.server.stop()
             raise
@@ -87,22 +87,22 @@ class Page:
         with layout.shown:
             self._add_layers()
         self._watch_cameras()
-        self._saving = Saving(Path("runs"))
+        self._saving = RunSaver(Path("runs"))
         self._publisher = threading.Thread(target=self._publish, daemon=True)
 
-    def _set_scene(self) -> tuple[Layers, Viewers]:
+    def _set_scene(self) -> tuple[SceneLayers, ViewerClients]:
         """Put the robots with their names into the scene, with light."""
         scene, model = self.server.scene, self.session.duel.world.model
         scene.set_up_direction("+z")
         scene.configure_default_lights(cast_shadow=True)
         self.server.initial_camera.position = (-0.5, -1.6, 1.3)
         self.server.initial_camera.look_at = (0.5, 0.0, 0.2)
-        self._bodies = Bodies(scene, model)
+        self._bodies = SceneBodies(scene, model)
         self._bodies.name(model, PLAYERS)
-        dragging = Dragging(scene, self.session, self._say)
+        dragging = PushDragging(scene, self.session, self._say)
         for number, player in enumerate(PLAYERS):
             dragging.attend(number, self._bodies.meshes_of(model, player))
-        return Layers(scene), Viewers(
+        return SceneLayers(scene), ViewerClients(
             self.server, self.session.settings.room.plan
         )
 
@@ -280,7 +280,7 @@ class Page:
         walked = settings.gait.stride / settings.gait.step_duration
         return settings.strategy.begins_at(walked)
 
-    def _outlook(self, moment: Moment) -> str:
+    def _outlook(self, moment: LiveFrame) -> str:
         """What is expected next."""
         session = self.session
         if session.driven:

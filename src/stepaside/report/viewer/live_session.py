@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING
 from ...control import Phase
 from ...core.errors import StepAsideError
 from ...core.poses import Array
-from ...games.approach_forecast import Approach
+from ...games.approach_forecast import CourseApproach
 from ...games.duel import Duel
 from ...games.duel_settings import DuelSettings
 from ...games.outcome import Outcome
 from ...games.player import Snapshot
 from ...sim.push import Push
 from .live_theory import expected_of
-from .plot_history import Trail
-from .run_saving import Keeping, Saving
+from .plot_history import PlotHistory
+from .run_saving import LiveRecording, RunSaver
 from .status_text import phases_of
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ BEHIND = 0.25  # delay after which lost time is given up, in [s]
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
+class LiveFrame:
     """What the page shows of one moment.
 
     Attributes:
@@ -56,11 +56,11 @@ class Moment:
     distance: float
     closest: float
     angle: float
-    approach: Approach | None
+    approach: CourseApproach | None
     message: str
 
 
-class Session:
+class LiveSession:
     """Runs a duel against the wall clock.
 
     The page never blocks it: requests go into a queue that the loop empties
@@ -127,8 +127,8 @@ class Session:
 
     def _begin(self, settings: DuelSettings) -> None:
         # A live duel has no end: of what grows with it, a part is kept.
-        trail = Trail()
-        duel = Duel(settings, (trail, Keeping()), recorded=False)
+        trail = PlotHistory()
+        duel = Duel(settings, (trail, LiveRecording()), recorded=False)
         self._let_go()
         self._open = duel
         self.settings = settings
@@ -198,7 +198,7 @@ class Session:
         duel = self.duel
         self._requests.append(lambda: request(duel))
 
-    def save(self, saving: Saving) -> Path:
+    def save(self, saving: RunSaver) -> Path:
         """Write what was played so far; time stands meanwhile.
 
         Args:
@@ -216,18 +216,18 @@ class Session:
             self.asked.append({"time_s": self.duel.world.time, **asked})
 
     def new_frames(self) -> "dict[str, FrameReport]":
-        """Newest images of all cameras, once; see :class:`Trail`."""
+        """Newest images of all cameras, once; see :class:`PlotHistory`."""
         with self.lock:
             frames = dict(self.trail.frames)
             self.trail.frames.clear()
         return frames
 
-    def moment(self) -> Moment:
+    def moment(self) -> LiveFrame:
         """Copy what the page shows."""
         with self.lock:  # the physics must not move what is worked out here
             duel, history = self.duel, self.trail.history
             data = duel.world.data
-            return Moment(
+            return LiveFrame(
                 duel.world.time,
                 data.xpos.copy(),
                 data.xquat.copy(),

@@ -8,7 +8,7 @@ from ...games.duel_settings import DuelSettings
 from ..settling_report import settling_time
 
 
-class Expected(NamedTuple):
+class LiveTheory(NamedTuple):
     """Circle of theory; None for each value that it does not have.
 
     Attributes:
@@ -22,10 +22,10 @@ class Expected(NamedTuple):
     settling: float | None
 
 
-def expected_of(settings: DuelSettings) -> Expected:
+def expected_of(settings: DuelSettings) -> LiveTheory:
     """Find the circle of theory for some settings."""
     circle, settling = theory_of(settings), settling_time(settings)
     if not circle.exists:
-        return Expected(None, None, settling)
+        return LiveTheory(None, None, settling)
     theory = circle.distance_m, degrees(circle.headings_apart_rad)
-    return Expected(theory, circle.radius_evader_m, settling)
+    return LiveTheory(theory, circle.radius_evader_m, settling)

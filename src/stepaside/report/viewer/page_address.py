@@ -15,7 +15,7 @@ LOCAL = frozenset({"127.0.0.1", "::1", "localhost"})
 
 
 @dataclass(frozen=True, slots=True)
-class Address:
+class PageAddress:
     """A place that listens.
 
     Attributes:
@@ -60,7 +60,7 @@ class Address:
         return name in known or (self.is_everywhere and _is_number(name))
 
 
-def listen(host: str, port: int) -> Address:
+def listen(host: str, port: int) -> PageAddress:
     """Listen at a port, or at the next that is free.
 
     Args:
@@ -78,7 +78,7 @@ def listen(host: str, port: int) -> Address:
             if error.errno != errno.EADDRINUSE:
                 raise _refused(host, error.strerror or str(error)) from error
         else:
-            return Address(sock, host, ip, sock.getsockname()[1])
+            return PageAddress(sock, host, ip, sock.getsockname()[1])
     raise _refused(host, f"ports {port} to {port + PORTS - 1} are taken")
 
 

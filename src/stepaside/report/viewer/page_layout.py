@@ -13,7 +13,7 @@ WATCH, ACT = 340.0, 290.0  # widths of the panels, in [pixels]
 BRAND = {"light": "#143d7b", "dark": PALETTES["light"].evader}
 
 
-class Layout(NamedTuple):
+class PageLayout(NamedTuple):
     """Places for controls, each to be filled in a ``with``.
 
     Attributes:
@@ -27,7 +27,7 @@ class Layout(NamedTuple):
     shown: Any
 
 
-def arrange(gui: viser.GuiApi) -> Layout:
+def arrange(gui: viser.GuiApi) -> PageLayout:
     """Dock what is watched to the right of the scene, what acts to its left.
 
     What is added without a place is watched. On a phone viser makes sheets
@@ -43,7 +43,7 @@ def arrange(gui: viser.GuiApi) -> Layout:
     tabs = [acting.add_tab(name) for name in ("Play", "Settings", "Shown")]
     acting.dock_left()
     acting.set_width(ACT)
-    return Layout(*tabs)
+    return PageLayout(*tabs)
 
 
 def dress(gui: viser.GuiApi, light: str) -> None:

@@ -23,7 +23,7 @@ CHOICES = viser.GuiDropdownHandle, viser.GuiButtonGroupHandle
 NUMBERS = viser.GuiNumberHandle, viser.GuiSliderHandle
 
 
-class Listener:
+class MessageFilter:
     """Hears what is a control's own value, and nothing else.
 
     viser takes whatever a page sends for whatever attribute it names; this

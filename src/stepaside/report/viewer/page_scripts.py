@@ -19,7 +19,7 @@ HEAD = b"</title>"  # after which the scripts are put
 PAGE = ("/", "/index.html")
 
 
-class Scripts:
+class PageScripts:
     """Puts scripts into a page, and answers who asks for them."""
 
     def __init__(self, *names: str) -> None:

@@ -18,12 +18,12 @@ import viser
 import websockets.asyncio.server as sockets
 
 from ...core.errors import ConfigurationError
-from .access_control import Gate
-from .gamepad import Hand
-from .page_address import Address, listen
+from .access_control import AccessControl
+from .gamepad import GamepadInput
+from .page_address import PageAddress, listen
 from .page_layout import dress
-from .page_messages import LARGEST, Listener
-from .page_scripts import Answer, Scripts
+from .page_messages import LARGEST, MessageFilter
+from .page_scripts import Answer, PageScripts
 
 STARTING = threading.Lock()
 READABLE = "readable.js"  # names, headings and contrast for those who need it
@@ -33,7 +33,7 @@ QUIET.addFilter(lambda record: record.msg != "opening handshake failed")
 
 
 @dataclass(frozen=True, slots=True)
-class Served:
+class PageServer:
     """A page's server and its door.
 
     Attributes:
@@ -44,12 +44,12 @@ class Served:
     """
 
     server: viser.ViserServer
-    gate: Gate
-    listener: Listener
-    hand: Hand
+    gate: AccessControl
+    listener: MessageFilter
+    hand: GamepadInput
 
 
-def open_server(host: str, port: int) -> Served:
+def open_server(host: str, port: int) -> PageServer:
     """Serve an empty page.
 
     Args:
@@ -60,9 +60,9 @@ def open_server(host: str, port: int) -> Served:
         ConfigurationError: If nothing can be served there.
     """
     address = listen(host, port)
-    gate, listener = Gate(address), Listener()
-    scripts = Scripts(READABLE)
-    hand = Hand(scripts)
+    gate, listener = AccessControl(address), MessageFilter()
+    scripts = PageScripts(READABLE)
+    hand = GamepadInput(scripts)
 
     def ours(answer: Answer) -> Answer:
         return gate.guarded(hand.answering(scripts.answering(answer)))
@@ -80,20 +80,20 @@ def open_server(host: str, port: int) -> Served:
         )
     listener.attend(server.gui, server.scene)
     dress(server.gui, "light")
-    return Served(server, gate, listener, hand)
+    return PageServer(server, gate, listener, hand)
 
 
 @contextmanager
 def _behind(
-    address: Address,
-    gate: Gate,
-    listener: Listener,
+    address: PageAddress,
+    gate: AccessControl,
+    listener: MessageFilter,
     ours: Callable[[Answer], Answer],
 ) -> Iterator[list[bool]]:
     """Let servers that start meanwhile start behind a door."""
     begin, started = sockets.serve, []
 
-    class Heard(sockets.ServerConnection):
+    class FilteredConnection(sockets.ServerConnection):
         """A connection on which only what may be said is heard."""
 
         async def recv(self, decode: bool | None = None) -> Any:
@@ -108,7 +108,7 @@ def _behind(
         answer = options.pop("process_request")
         options |= {
             "process_request": ours(answer),
-            "create_connection": Heard,
+            "create_connection": FilteredConnection,
             "logger": QUIET,
             "max_size": LARGEST,
             "sock": address.listening,

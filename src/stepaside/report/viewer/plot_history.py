@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...control.walk_snapshots import StepBegun
-from ...games.approach_forecast import Approach, approach_between
+from ...control.walk_snapshots import StepStarted
+from ...games.approach_forecast import CourseApproach, approach_between
 from ...games.duel_circle import angle_between
 from ...games.match import Match
 from ...games.outcome import Outcome
@@ -22,7 +22,7 @@ TRACE = 1500  # points of a trace that are kept
 KEPT = 100  # footsteps of each player that are kept
 
 
-class Trail:
+class PlotHistory:
     """Looks on while a game is played, and forgets what is long past.
 
     Attributes:
@@ -41,7 +41,7 @@ class Trail:
         self.history: deque[tuple[float, float, float]] = deque(maxlen=HISTORY)
         self.offsets: deque[tuple[float, float, float]] = deque(maxlen=OFFSETS)
         self.traces: dict[str, deque[tuple[float, float]]] = {}
-        self.steps: dict[str, deque[StepBegun]] = {}
+        self.steps: dict[str, deque[StepStarted]] = {}
         self.frames: dict[str, FrameReport] = {}
 
     def before(self, match: Match) -> None:
@@ -74,7 +74,7 @@ class Trail:
     def ended(self, match: Match, outcome: Outcome) -> None:
         """Keep what there is."""
 
-    def approach(self, cycle: float) -> Approach | None:
+    def approach(self, cycle: float) -> CourseApproach | None:
         """Approach of the pursuer over the last gait cycle.
 
         Args:

@@ -7,7 +7,7 @@ from viser import uplot
 from ...core.poses import Array
 from ..figure_style import EVADER, PURSUER, THEORY
 from ..palette import seen_by_all
-from .live_session import Session
+from .live_session import LiveSession
 
 # Room above and to the right of a plot for its last marks, in [pixels].
 PADDING = (12, 12, 0, 0)
@@ -86,7 +86,7 @@ class Plots:
         title, order = TITLES[number], LAST + number
         return add_plot(self._gui, title, label, colour, data, order=order)
 
-    def show(self, session: Session) -> None:
+    def show(self, session: LiveSession) -> None:
         """Show what a session has gone through."""
         with session.lock:
             rows = np.array(session.trail.history).reshape(-1, 3)

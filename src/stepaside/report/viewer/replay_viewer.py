@@ -12,15 +12,15 @@ from ...core.poses import Array
 from ...games.run import Run
 from ..figure_style import EVADER, PURSUER, PUSHED, THEORY, colours_of
 from ..palette import LIGHTS
-from ..scene import Stage
+from ..scene import RunScene
 from ..text_escaping import for_markdown
 from .page_layout import WATCH
 from .page_server import open_server
 from .plots import TITLES, add_plot, plot_data
-from .scene_bodies import Bodies
+from .scene_bodies import SceneBodies
 from .scene_layers import (
     HEIGHTS,
-    Layers,
+    SceneLayers,
     chain,
     legend,
     prints_at,
@@ -28,7 +28,7 @@ from .scene_layers import (
     ring,
     safety_of,
 )
-from .viewer_clients import CAMERAS, Viewers
+from .viewer_clients import CAMERAS, ViewerClients
 
 LOG = logging.getLogger(__name__)
 RATE = 30.0  # updates of the scene a second
@@ -49,13 +49,13 @@ class ReplayPage:
 
     def __init__(self, run: Run, *, port: int) -> None:
         """Serve a run on this machine alone."""
-        self._run, self._stage = run, Stage(run)
+        self._run, self._stage = run, RunScene(run)
         self.server = open_server("127.0.0.1", port).server
         self._closing = threading.Event()
         self._playing = False
         self._set_scene()
-        self._layers = Layers(self.server.scene)
-        self._viewers = Viewers(self.server, self._run.plan)
+        self._layers = SceneLayers(self.server.scene)
+        self._viewers = ViewerClients(self.server, self._run.plan)
         self._arrange()
         self._thread = threading.Thread(target=self._loop, daemon=True)
 
@@ -68,7 +68,7 @@ class ReplayPage:
         x, y = float(last[0]), float(last[1])
         camera.position = (x - 1.5, y - 1.6, 1.3)
         camera.look_at = (x, y, 0.2)
-        self._bodies = Bodies(scene, self._stage.model)
+        self._bodies = SceneBodies(scene, self._stage.model)
         self._bodies.name(self._stage.model, self._run.players)
 
     def _arrange(self) -> None:

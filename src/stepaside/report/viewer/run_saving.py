@@ -17,7 +17,7 @@ MOST = 20  # folders that one page may write
 HAND = "hand.json"
 
 
-class Keeping:
+class LiveRecording:
     """Lets the recorder of a live duel look on, for so long as it may."""
 
     def before(self, match: Match) -> None:
@@ -36,7 +36,7 @@ class Keeping:
             match.recorder.ended(match, outcome)
 
 
-class Saving:
+class RunSaver:
     """Writes run folders of a live duel, a few at most."""
 
     def __init__(self, parent: Path) -> None:

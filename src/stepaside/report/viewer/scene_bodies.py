@@ -11,14 +11,14 @@ import viser
 from numpy.typing import NDArray
 
 from ...core.poses import Array
-from ..body_heights import Tops
-from ..visual_geoms import Part, parts_of
+from ..body_heights import BodyHeights
+from ..visual_geoms import VisualGeom, parts_of
 
 RING = 20  # corners of a round shape
 LABEL = 0.04  # of a name over the highest point of its player, in [m]
 
 
-def shape_of(part: Part) -> trimesh.Trimesh:
+def shape_of(part: VisualGeom) -> trimesh.Trimesh:
     """Mesh of one part in the frame of its body."""
     mesh: trimesh.Trimesh
     a, b, _ = part.size
@@ -57,7 +57,7 @@ def joined(
     return corners.astype(np.float32), np.concatenate(faces).astype(np.uint32)
 
 
-class Bodies:
+class SceneBodies:
     """Bodies of one model; what moves is one frame for each body."""
 
     def __init__(self, scene: viser.SceneApi, model: mujoco.MjModel) -> None:
@@ -72,7 +72,7 @@ class Bodies:
                 looks[part.body][look].append(shape_of(part))
         self._frames: dict[int, viser.FrameHandle] = {}
         self._meshes = defaultdict[int, list[viser.MeshHandle]](list)
-        self._tops = Tops(parts)
+        self._tops = BodyHeights(parts)
         self._names: dict[tuple[int, ...], viser.LabelHandle] = {}
         for body, colours in looks.items():
             name = f"/bodies/{body}"

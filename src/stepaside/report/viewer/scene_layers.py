@@ -6,10 +6,10 @@ from math import inf
 import numpy as np
 import viser
 
-from ...control.walk_snapshots import StepBegun, WalkState
+from ...control.walk_snapshots import StepStarted, WalkState
 from ...core.convex import convex_hull
 from ...core.poses import Array, Pose
-from ...planning import Foot, Sole
+from ...planning import Foot, SoleRectangle
 from ...planning.support_polygon import sole_corners
 from ..figure_style import COLOURS, EVADER, THEORY
 from ..palette import seen_by_all
@@ -85,7 +85,7 @@ def ring(x: float, y: float, radius: float, height: float) -> Array:
     return chain(points, height, closed=True)
 
 
-class Layers:
+class SceneLayers:
     """The lines of one page; each layer can be switched.
 
     Attributes:
@@ -170,7 +170,7 @@ def path_of(walk: WalkState, frame: Pose) -> Array:
 
 
 def prints_of(
-    walk: WalkState, steps: Iterable[StepBegun], frame: Pose
+    walk: WalkState, steps: Iterable[StepStarted], frame: Pose
 ) -> Array:
     """Outlines of the last footsteps and the planned ones."""
     sole = walk.gait.sole
@@ -191,7 +191,9 @@ def prints_of(
     return np.concatenate(outlines) if outlines else np.zeros((0, 2, 3))
 
 
-def prints_at(landings: Array | None, sole: Sole, now: float) -> Array:
+def prints_at(
+    landings: Array | None, sole: SoleRectangle, now: float
+) -> Array:
     """Outlines of the last footsteps of a track. Shape (n, 2, 3).
 
     Args:
@@ -266,7 +268,7 @@ __all__ = [
     "LAYERS",
     "MEANINGS",
     "THEORY",
-    "Layers",
+    "SceneLayers",
     "chain",
     "legend",
     "path_of",

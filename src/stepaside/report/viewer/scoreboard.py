@@ -11,7 +11,7 @@ LASTING = 0.3  # how long an approach is the closest one, in [s]
 NOTICED = 1e-3  # by how much a closer one is closer, in [m]
 
 
-class Round(NamedTuple):
+class ScoreRound(NamedTuple):
     """One round of the game.
 
     Attributes:
@@ -27,13 +27,13 @@ class Round(NamedTuple):
     ended: str
 
 
-class Score:
+class Scoreboard:
     """Rounds of one visit; whoever drives begins one."""
 
     def __init__(self) -> None:
         """Begin without a round."""
         self._lock = Lock()
-        self._rounds: list[Round] = []
+        self._rounds: list[ScoreRound] = []
         self._number = 0
         self._clear()
 
@@ -68,7 +68,7 @@ class Score:
         with self._lock:
             if self._began is not None and self._closest < inf:
                 survived = self._now - self._began
-                ended = Round(self._number, survived, self._closest, how)
+                ended = ScoreRound(self._number, survived, self._closest, how)
                 self._rounds = [*self._rounds, ended][-KEPT:]
             self._clear()
 
@@ -95,7 +95,7 @@ class Score:
             return said + _table(self._rounds)
 
 
-def _table(rounds: list[Round]) -> str:
+def _table(rounds: list[ScoreRound]) -> str:
     """Rounds as markdown; the closest of all is bold."""
     if not rounds:
         return ""

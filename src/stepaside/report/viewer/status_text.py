@@ -3,7 +3,7 @@
 from math import inf, isfinite, log
 
 from ...control import Phase
-from ...games.approach_forecast import Approach, motion_words
+from ...games.approach_forecast import CourseApproach, motion_words
 from ...games.duel import Duel
 from ...games.player import Player
 
@@ -19,7 +19,7 @@ def words_of(
     safety_radius: float,
     theory: tuple[float, float] | None,
     *,
-    approach: Approach | None = None,
+    approach: CourseApproach | None = None,
 ) -> str:
     """Say what two robots are doing.
 
@@ -63,7 +63,7 @@ def outlook(
     phase: Phase,
     *,
     safety: float,
-    approach: Approach | None,
+    approach: CourseApproach | None,
     theory: tuple[float, float] | None,
     settling: float | None,
 ) -> str:

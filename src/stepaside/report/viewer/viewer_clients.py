@@ -26,7 +26,7 @@ TALL = 0.7  # height of what is to be seen from above, in [m]
 SMALL = 3e-3  # moves of a camera that are not worth a message, in [m]
 
 
-class Viewers:
+class ViewerClients:
     """Lights and cameras of all who look, by the number of each.
 
     Attributes:

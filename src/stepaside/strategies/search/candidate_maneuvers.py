@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 DEEPEST = 8  # pieces of a maneuver
 
 
-class Maneuvers(NamedTuple):
+class CandidateManeuvers(NamedTuple):
     """Which maneuvers are tried.
 
     Attributes:
@@ -32,7 +32,7 @@ class Maneuvers(NamedTuple):
     most: int = 40_000
 
 
-class Aims(NamedTuple):
+class ManeuverObjective(NamedTuple):
     """What makes a maneuver good.
 
     Attributes:
@@ -54,7 +54,7 @@ class Aims(NamedTuple):
     tight: float = -inf
 
 
-class Found(NamedTuple):
+class BestManeuver(NamedTuple):
     """The best maneuver.
 
     Attributes:

@@ -11,9 +11,9 @@ from ...theory.unicycle.compilation import (
     inlined,
     load_numba,
 )
-from .candidate_maneuvers import Aims
+from .candidate_maneuvers import ManeuverObjective
 from .packed_obstacles import clearance_at
-from .step_motion import Both, StepRules, half_turn, step_both
+from .step_motion import PlayerPair, StepRules, half_turn, step_both
 from .value_lookup import ValueTable, value_at
 
 if load_numba() is not None:
@@ -25,7 +25,10 @@ if load_numba() is not None:
 
 @inlined
 def judge(
-    both: Both, score: float, aims: Aims, packed: PackedObstacles
+    both: PlayerPair,
+    score: float,
+    aims: ManeuverObjective,
+    packed: PackedObstacles,
 ) -> float:
     """Score after one more step, given that before it."""
     dx, dy = both.px - both.ex, both.py - both.ey
@@ -47,7 +50,9 @@ def judge(
 
 
 @inlined
-def law_turn(both: Both, side: float, angle: float, share: float) -> float:
+def law_turn(
+    both: PlayerPair, side: float, angle: float, share: float
+) -> float:
     """Turn of a step by eqs. (4)-(5), in [rad]."""
     dx, dy = both.px - both.ex, both.py - both.ey
     psi = atan2(both.ec * dy - both.es * dx, both.ec * dx + both.es * dy)
@@ -61,9 +66,9 @@ def law_turn(both: Both, side: float, angle: float, share: float) -> float:
 
 @compiled
 def follow(
-    both: Both, score: float, turns: Any, count: int, spot: int,
+    both: PlayerPair, score: float, turns: Any, count: int, spot: int,
     still: StepRules, horizon: int, best: float, angle: float,
-    rules: StepRules, aims: Aims, packed: PackedObstacles, table: ValueTable,
+    rules: StepRules, aims: ManeuverObjective, packed: PackedObstacles, table: ValueTable,
 ) -> tuple[float, int]:  # fmt: skip
     """Roll a maneuver out that is given as turns, then the law.
 

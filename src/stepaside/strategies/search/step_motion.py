@@ -12,7 +12,7 @@ from typing import NamedTuple
 from ...theory.unicycle.compilation import inlined
 
 
-class Both(NamedTuple):
+class PlayerPair(NamedTuple):
     """Where both players are, in one frame.
 
     Attributes:
@@ -70,7 +70,9 @@ def half_turn(half: float) -> tuple[float, float, float]:
 
 
 @inlined
-def pursue(both: Both, rules: StepRules) -> tuple[float, float, float, float]:
+def pursue(
+    both: PlayerPair, rules: StepRules
+) -> tuple[float, float, float, float]:
     """Where the pursuer is a step later, and its heading as a unit vector."""
     dx, dy = both.ex - both.px, both.ey - both.py
     if rules.lead != 0.0:
@@ -92,8 +94,8 @@ def pursue(both: Both, rules: StepRules) -> tuple[float, float, float, float]:
 
 @inlined
 def step_both(
-    both: Both, c: float, s: float, ratio: float, rules: StepRules
-) -> Both:
+    both: PlayerPair, c: float, s: float, ratio: float, rules: StepRules
+) -> PlayerPair:
     """One step of both.
 
     Args:
@@ -106,7 +108,7 @@ def step_both(
     mc, ms = both.ec * c - both.es * s, both.es * c + both.ec * s
     way = rules.evader_stride * ratio
     px, py, pc, ps = pursue(both, rules)
-    return Both(
+    return PlayerPair(
         both.ex - way * mc,
         both.ey - way * ms,
         mc * c - ms * s,

@@ -16,16 +16,21 @@ import numpy as np
 
 from ...arena.obstacles import PackedObstacles
 from ...theory.unicycle.compilation import compiled
-from .candidate_maneuvers import DEEPEST, Aims, Found, Maneuvers
+from .candidate_maneuvers import (
+    DEEPEST,
+    BestManeuver,
+    CandidateManeuvers,
+    ManeuverObjective,
+)
 from .maneuver_rollout import follow, judge
-from .step_motion import Both, StepRules, half_turn, step_both
+from .step_motion import PlayerPair, StepRules, half_turn, step_both
 from .value_lookup import ValueTable
 
 
 @compiled
 def descend(
-    both: Both, start: float, first: int, made: int, best: float,
-    maneuvers: Maneuvers, rules: StepRules, aims: Aims,
+    both: PlayerPair, start: float, first: int, made: int, best: float,
+    maneuvers: CandidateManeuvers, rules: StepRules, aims: ManeuverObjective,
     packed: PackedObstacles, table: ValueTable, chosen: Any, work: Any,
 ) -> tuple[float, int]:  # fmt: skip
     """Go down the tree of pieces.
@@ -64,7 +69,7 @@ def descend(
         u = turns[index[level]]
         index[level] += 1
         p = places[level]
-        here = Both(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7])
+        here = PlayerPair(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7])
         score, at = scores[level], begins[level]
         c, s, ratio = half_turn(0.5 * u)
         for n in range(pieces[level]):
@@ -99,8 +104,8 @@ def descend(
 
 @compiled
 def search(
-    both: Both, plan: Any, planned: int, maneuvers: Maneuvers,
-    rules: StepRules, aims: Aims, packed: PackedObstacles, table: ValueTable,
+    both: PlayerPair, plan: Any, planned: int, maneuvers: CandidateManeuvers,
+    rules: StepRules, aims: ManeuverObjective, packed: PackedObstacles, table: ValueTable,
     chosen: Any, work: Any,
 ) -> tuple[float, int, int]:  # fmt: skip
     """Find the best maneuver; see :func:`look_ahead`.
@@ -177,16 +182,16 @@ def search(
 
 
 def look_ahead(
-    both: Both,
+    both: PlayerPair,
     plan: tuple[float, ...],
-    maneuvers: Maneuvers,
+    maneuvers: CandidateManeuvers,
     rules: StepRules,
-    aims: Aims,
+    aims: ManeuverObjective,
     packed: PackedObstacles,
     table: ValueTable,
     *,
     planned: int = 0,
-) -> Found:
+) -> BestManeuver:
     """Find the best maneuver.
 
     The law alone is tried first, then the rest of the plan, and then every
@@ -218,4 +223,4 @@ def look_ahead(
         chosen,
         np.zeros_like(chosen),
     )
-    return Found(score, chosen[: horizon + spot], steps, spot)
+    return BestManeuver(score, chosen[: horizon + spot], steps, spot)

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...theory.unicycle.compilation import inlined
-from .step_motion import Both
+from .step_motion import PlayerPair
 
 
 class ValueTable(NamedTuple):
@@ -32,7 +32,7 @@ NO_VALUE = ValueTable(np.zeros((0, 0, 0), dtype=np.float32), 0.0, 1.0, 1.0)
 
 
 @inlined
-def value_at(table: ValueTable, both: Both) -> float:
+def value_at(table: ValueTable, both: PlayerPair) -> float:
     """Best least distance from where both are, in [m], by a table."""
     values = table.values
     dx, dy = both.ex - both.px, both.ey - both.py

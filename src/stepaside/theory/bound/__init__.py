@@ -2,14 +2,14 @@
 
 from .relative_game import BoundGame, against_any, against_pursuit
 from .state_grid import Grid
-from .value_solver import Scheme, count_steps, solve_bound
+from .value_solver import DiscretisationScheme, count_steps, solve_bound
 from .value_table import Bound, load_bound
 
 __all__ = [
     "Bound",
     "BoundGame",
     "Grid",
-    "Scheme",
+    "DiscretisationScheme",
     "against_any",
     "against_pursuit",
     "count_steps",

@@ -191,7 +191,7 @@ def check_barrier(
 
 
 @dataclass(frozen=True, slots=True)
-class Played:
+class BoundComparison:
     """Games of one evader beside the table.
 
     Attributes:
@@ -215,7 +215,7 @@ class Played:
 
 def check_by_playing(
     bound: Bound, games: int, seed: int = 0, starts: Array | None = None
-) -> tuple[Played, ...]:
+) -> tuple[BoundComparison, ...]:
     """Play the best evader of a table, and others that must not beat it.
 
     Args:
@@ -235,7 +235,7 @@ def check_by_playing(
         kept = play_bound(bound, starts, evader)
         off = kept - promised
         rows.append(
-            Played(
+            BoundComparison(
                 name,
                 float(kept.mean()),
                 float(kept.mean() / promised.mean()),

@@ -16,7 +16,7 @@ FIRST, FIFTH = 1, 5
 prange = parallel_range()
 
 
-class Setting(NamedTuple):
+class StageParameters(NamedTuple):
     """What a game and a grid are to the loops.
 
     Attributes:
@@ -141,7 +141,7 @@ def confine(first: Any, out: Any, low: Any, high: Any, still: Any) -> bool:
 @compiled_parallel
 def stage_blocks(
     first: Any, now: Any, out: Any, keep: Any, step: Any, last: bool,
-    setting: Setting, awake: Any, moved: Any, still: Any,
+    setting: StageParameters, awake: Any, moved: Any, still: Any,
 ) -> None:  # fmt: skip
     """Do one stage of a step for the rows that are awake.
 

@@ -9,7 +9,7 @@ import numpy as np
 from ...core.errors import PlanError
 from .relative_game import BoundGame
 from .state_grid import Grid
-from .value_solver import Scheme, default_horizon, solve_bound
+from .value_solver import DiscretisationScheme, default_horizon, solve_bound
 from .value_table import Array, Bound
 
 Progress = Callable[[float], object]
@@ -46,7 +46,7 @@ def refine_bound(
     levels: int = 1,
     *,
     horizon: float | None = None,
-    scheme: Scheme = Scheme.WENO,
+    scheme: DiscretisationScheme = DiscretisationScheme.WENO,
     progress: Progress | None = None,
 ) -> tuple[Bound, tuple[Refinement, ...]]:
     """Solve a game on a grid and on coarser ones.

@@ -4,13 +4,13 @@ from typing import Any
 
 import numpy as np
 
-from .compiled_stage import FIFTH, Setting
+from .compiled_stage import FIFTH, StageParameters
 from .upwind_scheme import lax_friedrichs, upwind, weno5
 
 
 def stage_arrays(
     first: Any, now: Any, out: Any, keep: Any, step: Any, last: bool,
-    setting: Setting, awake: Any, moved: Any, still: Any,
+    setting: StageParameters, awake: Any, moved: Any, still: Any,
 ) -> None:  # fmt: skip
     """Do one stage of a step; see :func:`.blocks.stage_blocks`."""
     inner = (slice(3, -3),) * 3

@@ -13,7 +13,7 @@ from ..unicycle.compilation import load_numba
 from .compiled_stage import (
     FIFTH,
     FIRST,
-    Setting,
+    StageParameters,
     stage_blocks,
     wake_neighbours,
 )
@@ -29,7 +29,7 @@ STILL = 2e-3  # rate of the value that counts as none, in speeds
 INNER = (slice(PAD, -PAD),) * 3
 
 
-class Scheme(StrEnum):
+class DiscretisationScheme(StrEnum):
     """How the equation is discretised.
 
     ``WENO`` has slopes of fifth order, Godunov's flux and Runge-Kutta steps
@@ -45,12 +45,15 @@ class Scheme(StrEnum):
     @property
     def first_order(self) -> bool:
         """Whether slopes and steps are of first order."""
-        return self in (Scheme.FIRST, Scheme.FIRST_LAX)
+        return self in (
+            DiscretisationScheme.FIRST,
+            DiscretisationScheme.FIRST_LAX,
+        )
 
     @property
     def godunov(self) -> bool:
         """Whether the flux is Godunov's."""
-        return self in (Scheme.WENO, Scheme.FIRST)
+        return self in (DiscretisationScheme.WENO, DiscretisationScheme.FIRST)
 
 
 def solve_bound(
@@ -58,7 +61,7 @@ def solve_bound(
     grid: Grid,
     *,
     horizon: float | None = None,
-    scheme: Scheme = Scheme.WENO,
+    scheme: DiscretisationScheme = DiscretisationScheme.WENO,
     double: bool = False,
     progress: Callable[[float], object] | None = None,
 ) -> Bound:
@@ -114,7 +117,7 @@ def march(
     game: BoundGame,
     grid: Grid,
     horizon: float,
-    scheme: Scheme,
+    scheme: DiscretisationScheme,
     precision: type[Any] = np.float32,
 ) -> Iterator[tuple[float, Values]]:
     """Yield the time reached [s] and the values, step by step.
@@ -158,7 +161,7 @@ def count_steps(
     game: BoundGame,
     grid: Grid,
     horizon: float | None = None,
-    scheme: Scheme = Scheme.WENO,
+    scheme: DiscretisationScheme = DiscretisationScheme.WENO,
 ) -> int:
     """How many steps in time :func:`solve_bound` takes.
 
@@ -182,8 +185,11 @@ def _count(horizon: float, rate: float) -> int:
 
 
 def make_setting(
-    game: BoundGame, grid: Grid, scheme: Scheme, precision: type[Any]
-) -> tuple[Setting, float]:
+    game: BoundGame,
+    grid: Grid,
+    scheme: DiscretisationScheme,
+    precision: type[Any],
+) -> tuple[StageParameters, float]:
     """Put a game on a grid.
 
     Returns:
@@ -209,7 +215,7 @@ def make_setting(
     rate = rate + (np.abs(swing - turn) + freedom) / steps[1]
     rate = rate + (np.abs(swing) + game.evader_turn) / steps[2]
     lengths = np.array([1.0, game.unit, game.unit])  # of a slope of one
-    setting = Setting(
+    setting = StageParameters(
         pursuer.astype(precision),
         r.astype(precision),
         (1.0 / r).astype(precision),

@@ -4,7 +4,7 @@ from .adaptive_simulation import PlayedGame, simulate
 from .all_circles import circles_of, find_circles
 from .circle_equations import Circle, circle_of, find_circle
 from .kernel import Outcomes, play_games
-from .relative_coordinates import Start
+from .relative_coordinates import RelativeStart
 from .sampled_game import simulate_sampled
 from .unicycle_game import (
     MOVE_ASIDE,
@@ -23,7 +23,7 @@ __all__ = [
     "Outcomes",
     "PlayedGame",
     "SideRule",
-    "Start",
+    "RelativeStart",
     "TurningLaw",
     "circle_of",
     "circles_of",

@@ -18,11 +18,11 @@ from numpy.typing import ArrayLike, NDArray
 from ...core.brief_repr import brief_repr
 from ...core.errors import StepAsideError, check_positive
 from ...core.poses import Pose
-from .event_location import EDGES, Event, Moment, cross, margin
-from .game_parameters import Rules, rules_of
-from .relative_coordinates import Start, world_poses
-from .relative_motion import State, derivative, look, look_many
-from .smooth_pieces import Branch, Mode, Piece, enter, piece_of
+from .event_location import EDGES, Event, StateView, cross, margin
+from .game_parameters import FlatParameters, rules_of
+from .relative_coordinates import RelativeStart, world_poses
+from .relative_motion import RelativeState, derivative, look, look_many
+from .smooth_pieces import Branch, Mode, SmoothPiece, enter, piece_of
 from .unicycle_game import Game
 
 Array = NDArray[np.float64]
@@ -85,14 +85,14 @@ class PlayedGame:
 class _Play:
     """The piece that a game under way is on."""
 
-    rules: Rules
+    rules: FlatParameters
     mode: Mode
-    piece: Piece
+    piece: SmoothPiece
 
     def rates(self, _: float, state: Array) -> list[float]:
         """Rates of (r, a, psi, line of sight, x, y)."""
         r, a, psi, sight, _x, _y = state.tolist()
-        here = State(r, a, psi)
+        here = RelativeState(r, a, psi)
         view = look(here, self.rules)
         heading, speed = sight - a, self.rules.pursuer_speed
         return [
@@ -104,8 +104,8 @@ class _Play:
 
     def margins(self, states: Array) -> Array:
         """How far states are from each event, in the order of the events."""
-        here = State(*states[:3])
-        now = Moment(here, look_many(here, self.rules))
+        here = RelativeState(*states[:3])
+        now = StateView(here, look_many(here, self.rules))
         found = [margin(e, now, self.piece, self.rules) for e in _EVENTS]
         if self.mode.branch != Branch.SLIDING:
             found[_EVENTS.index(Event.RELEASE)] = np.full_like(here.r, np.inf)
@@ -147,7 +147,9 @@ class _Play:
         from scipy.optimize import brentq
 
         def opening(times: Any) -> Any:
-            return look_many(State(*dense(times)[:3]), self.rules).opening
+            return look_many(
+                RelativeState(*dense(times)[:3]), self.rules
+            ).opening
 
         probes = begin + (step_end - begin) * _PROBES
         times = np.append(probes[probes < end], end)
@@ -161,7 +163,7 @@ class _Play:
 
     def switch(self, state: Array, event: Event) -> Array:
         """Pass an edge; return the state on the other side."""
-        here = State(*state[:3].tolist())
+        here = RelativeState(*state[:3].tolist())
         here, self.mode = cross(event, here, self.mode, self.rules)
         self.piece = piece_of(self.mode, self.rules)
         return np.array([*here, *state[3:]])
@@ -197,7 +199,7 @@ class _Kept:
 
 def simulate(
     game: Game,
-    start: Start,
+    start: RelativeStart,
     duration: float,
     *,
     side: int | None = None,
@@ -228,7 +230,7 @@ def simulate(
     check_positive(capture_distance, "capture_distance", "m")
     rules = rules_of(game, capture_distance)
     r, a, psi = start.wrapped()
-    sight = look(State(r, a, psi), rules).sight
+    sight = look(RelativeState(r, a, psi), rules).sight
     psi, mode = enter(psi, sight, side or 0, rules)
     play = _Play(rules, mode, piece_of(mode, rules))
     state = np.array([r, a, psi, pursuer.theta + a, pursuer.x, pursuer.y])

@@ -3,7 +3,7 @@
 from math import pi
 
 from .circle_equations import Circle, circle_of, describe_circle
-from .equilibria import Games, find_rests
+from .equilibria import GameParameters, find_rests
 from .unicycle_game import Game, make_game, with_values
 
 _SAME = 1e-9  # relative difference of the rates of one and the same circle
@@ -26,7 +26,7 @@ def circles_of(game: Game) -> tuple[Circle, ...]:
         The main circle first, if there is one, then those that turn its way
         round, then the reversed ones, each group the slowest first.
     """
-    values = Games.of(
+    values = GameParameters.of(
         game.pursuer.speed,
         game.evader.speed,
         game.pursuer.gain,

@@ -6,9 +6,9 @@ import numpy as np
 
 from .compilation import compiled
 from .game_batch import Array, block_type
-from .game_parameters import Rules
-from .relative_motion import State, View, look, look_many
-from .smooth_pieces import Piece, enter, piece_of
+from .game_parameters import FlatParameters
+from .relative_motion import RelativeState, SightGeometry, look, look_many
+from .smooth_pieces import SmoothPiece, enter, piece_of
 
 
 @compiled
@@ -18,7 +18,7 @@ def enter_all(
     branches: Any,
     pieces: Any,
     side: int,
-    rules: Rules,
+    rules: FlatParameters,
 ) -> None:
     """Find the piece of each start; its bearing may turn round.
 
@@ -31,7 +31,7 @@ def enter_all(
         rules: Rules of the game.
     """
     for j in range(len(states)):
-        state = State(states[j, 0], states[j, 1], states[j, 2])
+        state = RelativeState(states[j, 0], states[j, 1], states[j, 2])
         sight = look(state, rules).sight
         states[j, 2], mode = enter(state.psi, sight, side, rules)
         sides[j], branches[j] = mode.side, mode.branch
@@ -42,7 +42,7 @@ def enter_all(
 
 
 def lay_blocks(
-    starts: Array, side: int, size: int, step: float, rules: Rules
+    starts: Array, side: int, size: int, step: float, rules: FlatParameters
 ) -> Any:
     """Lay games into blocks of one size; spare places hold games at rest.
 
@@ -59,16 +59,16 @@ def lay_blocks(
     spare = -len(starts) % size
     states = np.concatenate([starts, np.tile((1.0, 0.0, 0.0), (spare, 1))])
     sides, branches = np.empty((2, len(states)), dtype=np.int64)
-    pieces = np.empty((len(states), len(Piece._fields)))
+    pieces = np.empty((len(states), len(SmoothPiece._fields)))
     enter_all(states, sides, branches, pieces, side, rules)
     r = states[:, 0]
-    view = look_many(State(*states.T), rules)
+    view = look_many(RelativeState(*states.T), rules)
     caught = r <= rules.capture_distance
     over = caught | (np.arange(len(r)) >= len(starts))
     quantities = {
-        **dict(zip(State._fields, states.T, strict=True)),
-        **dict(zip(Piece._fields, pieces.T, strict=True)),
-        **dict(zip(View._fields, view, strict=True)),
+        **dict(zip(RelativeState._fields, states.T, strict=True)),
+        **dict(zip(SmoothPiece._fields, pieces.T, strict=True)),
+        **dict(zip(SightGeometry._fields, view, strict=True)),
         "side": sides,
         "branch": branches,
         "step": np.where(over, 0.0, step),

@@ -33,7 +33,7 @@ from ...core.errors import PlanError
 from ..laws import evasion_heading, side_behind
 from .circle_equations import circle_of
 from .diamond import stays_unwrapped
-from .relative_coordinates import Start
+from .relative_coordinates import RelativeStart
 from .unicycle_game import Game
 
 _FACTOR = 0.98  # of |d| from one interval of the integration to the next
@@ -60,7 +60,7 @@ class Certificate:
     plain_distance_m: float | None = None
 
 
-def certify(game: Game, start: Start, *, side: int = 0) -> Certificate:
+def certify(game: Game, start: RelativeStart, *, side: int = 0) -> Certificate:
     """Bound the closest approach of a game from below.
 
     Args:

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
-class Measured:
+class FittedCircle:
     """Circle that two paths end on; the fields are those of ``Circle``.
 
     Attributes:
@@ -83,7 +83,7 @@ def settling_time(game: Game, *, precision: float = 1e-6) -> float:
     return float(30.0 / gain + max(ends))
 
 
-def measure(run: PlayedGame, *, count: int = 361) -> Measured:
+def measure(run: PlayedGame, *, count: int = 361) -> FittedCircle:
     """Fit circles to the last turn of a game, or its last tenth if shorter.
 
     Args:
@@ -101,7 +101,7 @@ def measure(run: PlayedGame, *, count: int = 361) -> Measured:
     center_p, radius_p = fit_circle(pursuer[:, :2])
     center_e, radius_e = fit_circle(evader[:, :2])
     heading = float(pursuer[-1, 2] - evader[-1, 2])
-    return Measured(
+    return FittedCircle(
         radius_p,
         radius_e,
         float(np.hypot(*(evader[-1, :2] - pursuer[-1, :2]))),

@@ -9,15 +9,15 @@ from typing import Any
 from .compilation import compiled, compiled_parallel, inlined, parallel_range
 from .event_location import event_located_step
 from .game_batch import (
-    Clock,
+    BatchTiming,
     before_step,
     compare_games,
     settle_games,
     step_games,
     take_over,
 )
-from .game_parameters import Rules
-from .relative_motion import State, View, view_of
+from .game_parameters import FlatParameters
+from .relative_motion import RelativeState, SightGeometry, view_of
 
 SIZE = 128  # games in a block
 prange = parallel_range()
@@ -63,7 +63,7 @@ def turn(s: float, c: float, x: float) -> tuple[float, float]:
 
 
 @inlined
-def look(state: State, rules: Rules) -> View:
+def look(state: RelativeState, rules: FlatParameters) -> SightGeometry:
     """View of a state, without a branch."""
     sin_a, cos_a = sine_cosine(state.a)
     sin_psi, cos_psi = sine_cosine(state.psi)
@@ -71,7 +71,12 @@ def look(state: State, rules: Rules) -> View:
 
 
 @inlined
-def look_near(state: State, near: State, view: View, rules: Rules) -> View:
+def look_near(
+    state: RelativeState,
+    near: RelativeState,
+    view: SightGeometry,
+    rules: FlatParameters,
+) -> SightGeometry:
     """View of a state within a step of another."""
     sin_a, cos_a = turn(view.sin_a, view.cos_a, state.a - near.a)
     sin_psi, cos_psi = turn(view.sin_psi, view.cos_psi, state.psi - near.psi)
@@ -80,7 +85,7 @@ def look_near(state: State, near: State, view: View, rules: Rules) -> View:
 
 @compiled
 def step_block(
-    block: Any, circles: Any, begin: float, end: float, rules: Rules
+    block: Any, circles: Any, begin: float, end: float, rules: FlatParameters
 ) -> None:
     """Do one step of every game of a block."""
     flagged = 0
@@ -88,7 +93,7 @@ def step_block(
         care = step_games(look_near, look, block, i, rules)
         flagged += 1 if care else 0
     for c in range(len(circles)):
-        circle = State(circles[c, 0], circles[c, 1], circles[c, 2])
+        circle = RelativeState(circles[c, 0], circles[c, 1], circles[c, 2])
         for i in range(SIZE):
             compare_games(block, i, circle)
     for i in range(SIZE):
@@ -102,7 +107,9 @@ def step_block(
 
 
 @compiled_parallel
-def play_blocks(blocks: Any, circles: Any, clock: Clock, rules: Rules) -> None:
+def play_blocks(
+    blocks: Any, circles: Any, clock: BatchTiming, rules: FlatParameters
+) -> None:
     """Play all games to the end, blocks in parallel.
 
     Args:

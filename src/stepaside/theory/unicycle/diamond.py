@@ -17,7 +17,7 @@ from math import cos, exp, pi
 
 from ...core.errors import PlanError
 from ..laws import side_behind
-from .relative_coordinates import Start
+from .relative_coordinates import RelativeStart
 from .unicycle_game import Game
 
 
@@ -42,7 +42,7 @@ def stays_unwrapped(game: Game, pursuer_error: float, bearing: float) -> bool:
     return game.angle <= 0.5 * pi and bearing < pi - game.angle
 
 
-def least_distance(game: Game, start: Start, time: float) -> float:
+def least_distance(game: Game, start: RelativeStart, time: float) -> float:
     """Lower bound of the distance at a time; it is above zero.
 
     Args:

@@ -24,14 +24,14 @@ from .stability import loop_matrices
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
-Function = Callable[["Games", Array], Array]
+Function = Callable[["GameParameters", Array], Array]
 Found = tuple[Indices, Array, Array, Flags]  # game, rate, b, sliding
 _PIECES = 96  # of the range of turning rates, where roots are looked for
 _HALVINGS = 64  # of a bracket: down to rounding
 _TOUCH = 1e-12  # m/s per m/s: below it the two stand on one spot
 
 
-class Games(NamedTuple):
+class GameParameters(NamedTuple):
     """Parameters of many games; arrays of one shape.
 
     Attributes:
@@ -49,18 +49,18 @@ class Games(NamedTuple):
     angle: Array
 
     @classmethod
-    def of(cls, *values: ArrayLike) -> "Games":
+    def of(cls, *values: ArrayLike) -> "GameParameters":
         """Games of values that broadcast to shape (n,)."""
         arrays = [np.atleast_1d(np.asarray(v, np.float64)) for v in values]
         return cls(*np.broadcast_arrays(*arrays))
 
-    def pick(self, index: Any) -> "Games":
+    def pick(self, index: Any) -> "GameParameters":
         """Some of the games, or a view with another shape."""
-        return Games(*(values[index] for values in self))
+        return GameParameters(*(values[index] for values in self))
 
 
 @dataclass(frozen=True, slots=True)
-class Rests:
+class Equilibria:
     """Rests of many games, in no order; every array has shape (n,).
 
     Attributes:
@@ -80,7 +80,7 @@ class Rests:
     sliding: Flags
 
 
-def find_rests(games: Games, *, saturated: bool) -> Rests:
+def find_rests(games: GameParameters, *, saturated: bool) -> Equilibria:
     """Find every circle of games whose evader keeps its side.
 
     Args:
@@ -99,12 +99,12 @@ def find_rests(games: Games, *, saturated: bool) -> Rests:
     keep = apart & (across * rate > 0.0) & (a > -pi) & (a <= pi)
     keep &= (b > -pi) & (b <= pi)
     distance = across[keep] / rate[keep]
-    return Rests(
+    return Equilibria(
         index[keep], rate[keep], a[keep], b[keep], distance, sliding[keep]
     )
 
 
-def imbalance(games: Games, rate: Array) -> Array:
+def imbalance(games: GameParameters, rate: Array) -> Array:
     """Rate of the distance at given turning rates under (4), in [m/s].
 
     Written so that nothing cancels when the speeds are equal.
@@ -116,7 +116,7 @@ def imbalance(games: Games, rate: Array) -> Array:
     return found
 
 
-def _slope(games: Games, rate: Array) -> Array:
+def _slope(games: GameParameters, rate: Array) -> Array:
     """Derivative of the imbalance by the turning rate, in [m]."""
     vp, ve, kp, ke, alpha = games
     evader = ve / ke * np.sin(alpha - rate / ke)
@@ -124,7 +124,7 @@ def _slope(games: Games, rate: Array) -> Array:
     return found
 
 
-def _proportional(games: Games) -> Found:
+def _proportional(games: GameParameters) -> Found:
     """Roots of the balance over all rates that the errors allow.
 
     It is a sum of two sinusoids, and the range holds one period of the
@@ -158,7 +158,7 @@ def _proportional(games: Games) -> Found:
 
 def _bisect(
     function: Function,
-    games: Games,
+    games: GameParameters,
     low: Array,
     high: Array,
 ) -> Array:
@@ -172,7 +172,7 @@ def _bisect(
     return found
 
 
-def _saturated(games: Games) -> Found:
+def _saturated(games: GameParameters) -> Found:
     """Rests under (6): at full rate either way round, or sliding.
 
     Where the two meet, the rest counts as one at full rate.
@@ -202,7 +202,9 @@ def _saturated(games: Games) -> Found:
     return index[real], rate[real], b[real], sliding[real]
 
 
-def growth_rates(rests: Rests, games: Games, *, saturated: bool) -> Array:
+def growth_rates(
+    rests: Equilibria, games: GameParameters, *, saturated: bool
+) -> Array:
     """Largest real part of the eigenvalues about each rest, in [1/s].
 
     Args:

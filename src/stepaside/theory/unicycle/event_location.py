@@ -10,9 +10,9 @@ from math import pi
 from typing import Any, NamedTuple
 
 from .compilation import inlined, shared
-from .game_parameters import Rules
-from .relative_motion import State, View, look, look_anew, rk4
-from .smooth_pieces import Branch, Edge, Mode, Piece, leave, piece_of
+from .game_parameters import FlatParameters
+from .relative_motion import RelativeState, SightGeometry, look, look_anew, rk4
+from .smooth_pieces import Branch, Edge, Mode, SmoothPiece, leave, piece_of
 
 TURN_PER_STEP = 0.04  # longest step, in distances per sum of the speeds
 _SLACK = 1e-12  # how far beyond an edge counts as left
@@ -34,14 +34,14 @@ EDGES = (Event.WRAP, Event.LOW, Event.HIGH, Event.RELEASE)
 """Events that end a piece."""
 
 
-class Moment(NamedTuple):
+class StateView(NamedTuple):
     """A state and its view."""
 
-    state: State
-    seen: View
+    state: RelativeState
+    seen: SightGeometry
 
 
-class Located(NamedTuple):
+class LocatedStep(NamedTuple):
     """A game after one step.
 
     Attributes:
@@ -52,7 +52,7 @@ class Located(NamedTuple):
         capture_time: When the capture was, likewise; -1 for none.
     """
 
-    state: State
+    state: RelativeState
     mode: Mode
     closest: float
     closest_time: float
@@ -60,7 +60,9 @@ class Located(NamedTuple):
 
 
 @inlined
-def margin(event: Event, now: Moment, piece: Piece, rules: Rules) -> Any:
+def margin(
+    event: Event, now: StateView, piece: SmoothPiece, rules: FlatParameters
+) -> Any:
     """How far a state, or many, are from an event; zero there."""
     if event == Event.WRAP:
         return pi - abs(now.state.a)
@@ -76,15 +78,21 @@ def margin(event: Event, now: Moment, piece: Piece, rules: Rules) -> Any:
 
 
 @inlined
-def advance(now: Moment, time: float, piece: Piece, rules: Rules) -> Moment:
+def advance(
+    now: StateView, time: float, piece: SmoothPiece, rules: FlatParameters
+) -> StateView:
     """Advance on a piece by one step, with exact sines."""
     state = rk4(look_anew, now.state, now.seen, time, piece, rules)
-    return Moment(state, look(state, rules))
+    return StateView(state, look(state, rules))
 
 
 @shared
 def time_of(
-    event: Event, now: Moment, step: float, piece: Piece, rules: Rules
+    event: Event,
+    now: StateView,
+    step: float,
+    piece: SmoothPiece,
+    rules: FlatParameters,
 ) -> float:
     """Part of a step until an event's margin falls to zero, in [s].
 
@@ -124,8 +132,12 @@ def time_of(
 
 @shared
 def first_edge(
-    now: Moment, step: float, mode: Mode, piece: Piece, rules: Rules
-) -> tuple[Event, float, Moment]:
+    now: StateView,
+    step: float,
+    mode: Mode,
+    piece: SmoothPiece,
+    rules: FlatParameters,
+) -> tuple[Event, float, StateView]:
     """The first end of a piece within a step, its time, and what is then."""
     edge, part = Event.NONE, step
     then = advance(now, part, piece, rules)
@@ -140,7 +152,11 @@ def first_edge(
 
 @shared
 def nearest(
-    now: Moment, then: Moment, step: float, piece: Piece, rules: Rules
+    now: StateView,
+    then: StateView,
+    step: float,
+    piece: SmoothPiece,
+    rules: FlatParameters,
 ) -> tuple[float, float]:
     """Least distance of a step, but for its start, and its time."""
     if not now.seen.opening < 0.0 < then.seen.opening:
@@ -151,26 +167,28 @@ def nearest(
 
 @inlined
 def cross(
-    event: Event, state: State, mode: Mode, rules: Rules
-) -> tuple[State, Mode]:
+    event: Event, state: RelativeState, mode: Mode, rules: FlatParameters
+) -> tuple[RelativeState, Mode]:
     """Pass an edge: state and mode on its other side."""
     r, a, psi = state
     if event == Event.WRAP:
-        return State(r, a - 2.0 * pi if a > 0.0 else a + 2.0 * pi, psi), mode
+        return RelativeState(
+            r, a - 2.0 * pi if a > 0.0 else a + 2.0 * pi, psi
+        ), mode
     edge = Edge.LOW if event == Event.LOW else Edge.HIGH
     psi, mode = leave(psi, look(state, rules).sight, mode, edge, rules)
-    return State(r, a, psi), mode
+    return RelativeState(r, a, psi), mode
 
 
 @shared
 def event_located_step(
-    state: State, mode: Mode, step: float, rules: Rules
-) -> Located:
+    state: RelativeState, mode: Mode, step: float, rules: FlatParameters
+) -> LocatedStep:
     """Advance a game by one step, however many pieces it takes."""
     done = 0.0
     best, best_time = state.r, 0.0
     speeds = rules.pursuer_speed + rules.evader_speed
-    now = Moment(state, look(state, rules))
+    now = StateView(state, look(state, rules))
     while done < step:
         piece = piece_of(mode, rules)
         reach = min(step - done, TURN_PER_STEP * now.state.r / speeds)
@@ -180,13 +198,13 @@ def event_located_step(
             when = time_of(Event.CAPTURE, now, when, piece, rules)
             state = advance(now, when, piece, rules).state
             done += when
-            return Located(state, mode, state.r, done, done)
+            return LocatedStep(state, mode, state.r, done, done)
         if near < best:
             best, best_time = near, done + when
         last = edge == Event.NONE and reach == step - done
         done = step if last else done + part
         if edge != Event.NONE:
             state, mode = cross(edge, then.state, mode, rules)
-            then = Moment(state, look(state, rules))
+            then = StateView(state, look(state, rules))
         now = then
-    return Located(now.state, mode, best, best_time, -1.0)
+    return LocatedStep(now.state, mode, best, best_time, -1.0)

@@ -14,19 +14,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .compilation import inlined
-from .event_location import TURN_PER_STEP, Located
-from .game_parameters import Rules
-from .relative_motion import Look, LookNear, State, View, rk4
-from .smooth_pieces import Mode, Piece, branch_at, piece_of
+from .event_location import TURN_PER_STEP, LocatedStep
+from .game_parameters import FlatParameters
+from .relative_motion import Look, LookNear, RelativeState, SightGeometry, rk4
+from .smooth_pieces import Mode, SmoothPiece, branch_at, piece_of
 
 Array = NDArray[np.float64]
 NEAR = 0.02  # off a circle by less than 2 % and 0.02 rad is "on it"
 LOOSE = 2.0 * TURN_PER_STEP  # a step longer than this is done with care
 QUANTITIES = (
-    *State._fields,
-    *View._fields,
+    *RelativeState._fields,
+    *SightGeometry._fields,
     *("was_r", "was_a", "was_psi"),  # before the last step
-    *Piece._fields,
+    *SmoothPiece._fields,
     "step",  # its length, in [s]; 0 once the game is over
     "care",  # whether it is to be done again with care
     "side",
@@ -35,7 +35,7 @@ QUANTITIES = (
 )
 
 
-class Clock(NamedTuple):
+class BatchTiming(NamedTuple):
     """How long games are played.
 
     Attributes:
@@ -55,13 +55,13 @@ def block_type(size: int) -> np.dtype[Any]:
 
 @inlined
 def needs_care(
-    state: State,
-    after: State,
-    was: View,
-    now: View,
-    piece: Piece,
+    state: RelativeState,
+    after: RelativeState,
+    was: SightGeometry,
+    now: SightGeometry,
+    piece: SmoothPiece,
     step: Any,
-    rules: Rules,
+    rules: FlatParameters,
 ) -> Any:
     """Whether a step holds an event, or is long against the distance."""
     turned = (was.opening < 0.0) & (now.opening >= 0.0)
@@ -75,7 +75,9 @@ def needs_care(
 
 
 @inlined
-def put_state(block: Any, i: Any, state: State, view: View) -> None:
+def put_state(
+    block: Any, i: Any, state: RelativeState, view: SightGeometry
+) -> None:
     """Write states of games, and their views, into a block."""
     block.r[i], block.a[i], block.psi[i] = state
     block.sin_a[i], block.cos_a[i] = view.sin_a, view.cos_a
@@ -89,11 +91,11 @@ def step_games(
     look: Look,
     block: Any,
     i: Any,
-    rules: Rules,
+    rules: FlatParameters,
 ) -> Any:
     """Do one step of some games of a block; tell which need care."""
-    state = State(block.r[i], block.a[i], block.psi[i])
-    was = View(
+    state = RelativeState(block.r[i], block.a[i], block.psi[i])
+    was = SightGeometry(
         block.sin_a[i],
         block.cos_a[i],
         block.sin_psi[i],
@@ -101,7 +103,7 @@ def step_games(
         block.opening[i],
         block.sight[i],
     )
-    piece = Piece(
+    piece = SmoothPiece(
         block.low[i],
         block.high[i],
         block.constant[i],
@@ -120,7 +122,9 @@ def step_games(
 
 
 @inlined
-def deviations(state: State, side: Any, circle: State) -> State:
+def deviations(
+    state: RelativeState, side: Any, circle: RelativeState
+) -> RelativeState:
     """How far states are off a circle.
 
     Args:
@@ -132,7 +136,7 @@ def deviations(state: State, side: Any, circle: State) -> State:
         Deviations of r, as a share of the circle's, and of a, psi, in
         [rad]; none is negative.
     """
-    return State(
+    return RelativeState(
         abs(state.r * (1.0 / circle.r) - 1.0),
         abs(side * state.a - circle.a),
         abs(side * state.psi - circle.psi),
@@ -140,9 +144,9 @@ def deviations(state: State, side: Any, circle: State) -> State:
 
 
 @inlined
-def compare_games(block: Any, i: Any, circle: State) -> None:
+def compare_games(block: Any, i: Any, circle: RelativeState) -> None:
     """Tell games of a block that are off one more circle from those on it."""
-    state = State(block.r[i], block.a[i], block.psi[i])
+    state = RelativeState(block.r[i], block.a[i], block.psi[i])
     off = deviations(state, block.side[i], circle)
     apart = (off.r > NEAR) | (off.a > NEAR) | (off.psi > NEAR)
     block.apart[i] = (block.apart[i] > 0.0) & apart
@@ -155,11 +159,11 @@ def settle_games(block: Any, i: Any, time: float) -> None:
 
 
 @inlined
-def before_step(block: Any, i: int) -> tuple[State, Mode]:
+def before_step(block: Any, i: int) -> tuple[RelativeState, Mode]:
     """State and mode of one game before its last step."""
     r, a, psi = block.was_r[i], block.was_a[i], block.was_psi[i]
     mode = Mode(int(block.side[i]), branch_at(block.branch[i]))
-    return State(float(r), float(a), float(psi)), mode
+    return RelativeState(float(r), float(a), float(psi)), mode
 
 
 @inlined
@@ -168,8 +172,8 @@ def take_over(
     block: Any,
     i: int,
     begin: float,
-    done: Located,
-    rules: Rules,
+    done: LocatedStep,
+    rules: FlatParameters,
 ) -> None:
     """Put a step of one game that was done with care into its block.
 

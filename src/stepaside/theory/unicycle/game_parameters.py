@@ -5,7 +5,7 @@ from typing import NamedTuple
 from .unicycle_game import Game
 
 
-class Rules(NamedTuple):
+class FlatParameters(NamedTuple):
     """What stays the same during a game.
 
     Attributes:
@@ -32,9 +32,9 @@ class Rules(NamedTuple):
     capture_distance: float
 
 
-def rules_of(game: Game, capture_distance: float) -> Rules:
+def rules_of(game: Game, capture_distance: float) -> FlatParameters:
     """Write a game's parameters, and the distance that ends it, as numbers."""
-    return Rules(
+    return FlatParameters(
         pursuer_speed=float(game.pursuer.speed),
         evader_speed=float(game.evader.speed),
         pursuer_gain=float(game.pursuer.gain),

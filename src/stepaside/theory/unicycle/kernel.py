@@ -13,15 +13,15 @@ from ...core.poses import wrap_angles
 from .all_circles import circles_of
 from .circle_equations import Circle
 from .compilation import load_numba
-from .game_batch import Array, Clock, deviations
+from .game_batch import Array, BatchTiming, deviations
 from .game_parameters import rules_of
 from .relative_coordinates import check_bearings
-from .relative_motion import State
+from .relative_motion import RelativeState
 from .unicycle_game import Game
 
 MOST_STEPS = 1e8  # of one game: some seconds of a fast machine
 _RESULTS = (
-    *State._fields,
+    *RelativeState._fields,
     *("side", "closest", "closest_time", "capture_time", "settled"),
 )
 
@@ -103,7 +103,7 @@ def play_games(
     states = _wrapped(starts)
     circles = circles_of(game)
     rows = circle_states(circles)
-    clock = Clock(ceil(duration / step - 1e-9), float(step))
+    clock = BatchTiming(ceil(duration / step - 1e-9), float(step))
     rules = rules_of(game, capture_distance)
     played = np.empty((len(_RESULTS), len(states)))
     for first in range(0, len(states), chunk):
@@ -137,8 +137,8 @@ def circles_off(circles: Array, states: Array, sides: ArrayLike) -> Array:
     Returns:
         The largest of the three deviations. Shape (n, m).
     """
-    circle = State(*circles.T[..., None])
-    off = deviations(State(*states.T), np.asarray(sides), circle)
+    circle = RelativeState(*circles.T[..., None])
+    off = deviations(RelativeState(*states.T), np.asarray(sides), circle)
     largest: Array = np.max(off, axis=0)
     return largest
 
@@ -172,7 +172,7 @@ def _wrapped(starts: ArrayLike) -> Array:
     return states
 
 
-def _outcomes(played: Array, circles: Array, clock: Clock) -> Outcomes:
+def _outcomes(played: Array, circles: Array, clock: BatchTiming) -> Outcomes:
     """Outcomes of games from what their blocks hold at the end."""
     r, a, psi, side, closest, closest_time, capture_time, settled = played
     end = clock.steps * clock.step

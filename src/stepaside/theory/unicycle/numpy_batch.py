@@ -7,24 +7,29 @@ import numpy as np
 
 from .compilation import compiled
 from .compiled_batch import locate
-from .event_location import Located
+from .event_location import LocatedStep
 from .game_batch import (
     Array,
-    Clock,
+    BatchTiming,
     before_step,
     compare_games,
     settle_games,
     step_games,
     take_over,
 )
-from .game_parameters import Rules
-from .relative_motion import State, View, look, look_many
+from .game_parameters import FlatParameters
+from .relative_motion import RelativeState, SightGeometry, look, look_many
 from .smooth_pieces import Mode, branch_at
 
 _ALL = slice(None)
 
 
-def look_near(state: State, near: State, view: View, rules: Rules) -> View:
+def look_near(
+    state: RelativeState,
+    near: RelativeState,
+    view: SightGeometry,
+    rules: FlatParameters,
+) -> SightGeometry:
     """View of states, whatever is known nearby."""
     return look_many(state, rules)
 
@@ -43,7 +48,7 @@ def _plain_locate(
     ones.
     """
     mode = Mode(side, branch_at(code))
-    done = locate(State(*state), mode, step, Rules(*rules))
+    done = locate(RelativeState(*state), mode, step, FlatParameters(*rules))
     return (
         (done.state.r, done.state.a, done.state.psi),
         (done.mode.side, done.mode.branch.value),
@@ -53,23 +58,25 @@ def _plain_locate(
     )
 
 
-def step_again(block: Any, i: int, rules: Rules) -> Located:
+def step_again(block: Any, i: int, rules: FlatParameters) -> LocatedStep:
     """Do the last step of one game again, from event to event."""
     state, mode = before_step(block, i)
     step, code = float(block.step[i]), mode.branch.value
     numbers, (side, code), *times = _plain_locate(
         tuple(state), mode.side, code, step, tuple(rules)
     )
-    return Located(State(*numbers), Mode(side, branch_at(code)), *times)
+    return LocatedStep(
+        RelativeState(*numbers), Mode(side, branch_at(code)), *times
+    )
 
 
 def step_block(
-    block: Any, circles: Array, begin: float, end: float, rules: Rules
+    block: Any, circles: Array, begin: float, end: float, rules: FlatParameters
 ) -> None:
     """Do one step of every game of a block."""
     care = step_games(look_near, look_many, block, _ALL, rules)
     for circle in circles.tolist():
-        compare_games(block, _ALL, State(*circle))
+        compare_games(block, _ALL, RelativeState(*circle))
     settle_games(block, _ALL, end)
     for i in np.flatnonzero(care).tolist():
         done = step_again(block, i, rules)
@@ -77,7 +84,7 @@ def step_block(
 
 
 def play_blocks(
-    blocks: Any, circles: Array, clock: Clock, rules: Rules
+    blocks: Any, circles: Array, clock: BatchTiming, rules: FlatParameters
 ) -> None:
     """Play all games to the end; twin of the compiled ``play_blocks``."""
     names = blocks.dtype.names

@@ -6,7 +6,7 @@ from math import pi
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .equilibria import Games, find_rests, growth_rates
+from .equilibria import GameParameters, find_rests, growth_rates
 from .unicycle_game import TurningLaw
 
 Array = NDArray[np.float64]
@@ -56,7 +56,7 @@ def map_ratios(
     gains = np.asarray(gain_ratios, dtype=np.float64)
     grid = np.meshgrid(speeds, gains, indexing="ij")
     vp, ke = (axis.ravel() for axis in grid)
-    games = Games.of(vp, 1.0, 1.0, ke, angle)
+    games = GameParameters.of(vp, 1.0, 1.0, ke, angle)
     saturated = TurningLaw(law) is TurningLaw.SATURATED
     rests = find_rests(games, saturated=saturated)
     growth = growth_rates(rests, games, saturated=saturated)

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
-class Start:
+class RelativeStart:
     r"""Where two unicycles stand to each other.
 
     Attributes:
@@ -41,7 +41,7 @@ class Start:
         check_bearing(self.bearing, "bearing")
 
     @classmethod
-    def from_world(cls, pursuer: Pose, evader: Pose) -> "Start":
+    def from_world(cls, pursuer: Pose, evader: Pose) -> "RelativeStart":
         """Take relative coordinates of two poses in one frame."""
         dx, dy = evader.x - pursuer.x, evader.y - pursuer.y
         sight = atan2(dy, dx)

@@ -16,15 +16,15 @@ import numpy as np
 
 from .. import laws
 from .compilation import inlined
-from .game_parameters import Rules
-from .smooth_pieces import Piece, proportional_rate
+from .game_parameters import FlatParameters
+from .smooth_pieces import SmoothPiece, proportional_rate
 
 pursuit_heading = inlined(laws.pursuit_heading)
 
 SIXTH = 1.0 / 6.0
 
 
-class State(NamedTuple):
+class RelativeState(NamedTuple):
     """Relative coordinates of one game, or of many.
 
     Attributes:
@@ -38,7 +38,7 @@ class State(NamedTuple):
     psi: Any
 
 
-class View(NamedTuple):
+class SightGeometry(NamedTuple):
     """What is worked out of a state: sines, and how the line of sight moves.
 
     Attributes:
@@ -58,47 +58,65 @@ class View(NamedTuple):
     sight: Any
 
 
-Look = Callable[[State, Rules], View]
+Look = Callable[[RelativeState, FlatParameters], SightGeometry]
 """Gives the view of a state."""
-LookNear = Callable[[State, State, View, Rules], View]
+LookNear = Callable[
+    [RelativeState, RelativeState, SightGeometry, FlatParameters],
+    SightGeometry,
+]
 """Gives the view of a state near another one whose view is known."""
 
 
 @inlined
 def view_of(
-    r: Any, sin_a: Any, cos_a: Any, sin_psi: Any, cos_psi: Any, rules: Rules
-) -> View:
+    r: Any,
+    sin_a: Any,
+    cos_a: Any,
+    sin_psi: Any,
+    cos_psi: Any,
+    rules: FlatParameters,
+) -> SightGeometry:
     """View from a distance and the sines and cosines of both bearings."""
     vp, ve = rules.pursuer_speed, rules.evader_speed
     opening = ve * cos_psi - vp * cos_a
     sight = (vp * sin_a - ve * sin_psi) / r
-    return View(sin_a, cos_a, sin_psi, cos_psi, opening, sight)
+    return SightGeometry(sin_a, cos_a, sin_psi, cos_psi, opening, sight)
 
 
 @inlined
-def look(state: State, rules: Rules) -> View:
+def look(state: RelativeState, rules: FlatParameters) -> SightGeometry:
     """View of one state."""
     r, a, psi = state
     return view_of(r, sin(a), cos(a), sin(psi), cos(psi), rules)
 
 
-def look_many(state: State, rules: Rules) -> View:
+def look_many(state: RelativeState, rules: FlatParameters) -> SightGeometry:
     """View of states in arrays."""
     r, a, psi = state
     return view_of(r, np.sin(a), np.cos(a), np.sin(psi), np.cos(psi), rules)
 
 
 @inlined
-def look_anew(state: State, near: State, view: View, rules: Rules) -> View:
+def look_anew(
+    state: RelativeState,
+    near: RelativeState,
+    view: SightGeometry,
+    rules: FlatParameters,
+) -> SightGeometry:
     """View of one state, whatever is known nearby."""
     return look(state, rules)
 
 
 @inlined
-def derivative(state: State, view: View, piece: Piece, rules: Rules) -> State:
+def derivative(
+    state: RelativeState,
+    view: SightGeometry,
+    piece: SmoothPiece,
+    rules: FlatParameters,
+) -> RelativeState:
     """Rates of the three coordinates on a piece."""
     error = pursuit_heading(state.a)
-    return State(
+    return RelativeState(
         view.opening,
         view.sight - proportional_rate(error, rules.pursuer_gain),
         piece.free * view.sight - piece.slope * state.psi - piece.constant,
@@ -106,9 +124,11 @@ def derivative(state: State, view: View, piece: Piece, rules: Rules) -> State:
 
 
 @inlined
-def moved(state: State, slope: State, time: Any) -> State:
+def moved(
+    state: RelativeState, slope: RelativeState, time: Any
+) -> RelativeState:
     """State after a time at constant rates."""
-    return State(
+    return RelativeState(
         state.r + time * slope.r,
         state.a + time * slope.a,
         state.psi + time * slope.psi,
@@ -118,12 +138,12 @@ def moved(state: State, slope: State, time: Any) -> State:
 @inlined
 def rk4(
     look_near: LookNear,
-    state: State,
-    view: View,
+    state: RelativeState,
+    view: SightGeometry,
     step: Any,
-    piece: Piece,
-    rules: Rules,
-) -> State:
+    piece: SmoothPiece,
+    rules: FlatParameters,
+) -> RelativeState:
     """Advance by one step of Runge and Kutta's rule of fourth order.
 
     Args:
@@ -145,7 +165,7 @@ def rk4(
     there = moved(state, third, step)
     seen = look_near(there, state, view, rules)
     fourth = derivative(there, seen, piece, rules)
-    mean = State(
+    mean = RelativeState(
         first.r + 2.0 * (second.r + third.r) + fourth.r,
         first.a + 2.0 * (second.a + third.a) + fourth.a,
         first.psi + 2.0 * (second.psi + third.psi) + fourth.psi,

@@ -16,7 +16,7 @@ from ...core.brief_repr import brief_repr
 from ...core.errors import check_not_negative, check_positive
 from ...core.poses import Pose
 from .. import laws
-from .relative_coordinates import Start
+from .relative_coordinates import RelativeStart
 from .unicycle_game import Game
 
 Array = NDArray[np.float64]
@@ -61,7 +61,7 @@ def walk_arc(pose: Pose, speed: float, turning: float, time: float) -> Pose:
 
 
 def choose_turning(
-    game: Game, start: Start, side: int
+    game: Game, start: RelativeStart, side: int
 ) -> tuple[float, float, int]:
     """Turning rates of both players, in [rad/s], and the side.
 
@@ -101,7 +101,7 @@ def _drive(
 
 def simulate_sampled(
     game: Game,
-    start: Start,
+    start: RelativeStart,
     duration: float,
     sample_time: float,
     *,
@@ -146,7 +146,9 @@ def simulate_sampled(
     for _ in range(count):
         if captured:
             break
-        turn_p, turn_e, side = choose_turning(game, Start(*states[-1]), side)
+        turn_p, turn_e, side = choose_turning(
+            game, RelativeStart(*states[-1]), side
+        )
         queue.append((turn_p, turn_e))
         rates.append((turn_p, turn_e))
         sides.append(side)
@@ -160,7 +162,7 @@ def simulate_sampled(
         captured = closest <= capture_distance
         poses_p.append(pursuer)
         poses_e.append(evader)
-        states.append(Start.from_world(pursuer, evader).wrapped())
+        states.append(RelativeStart.from_world(pursuer, evader).wrapped())
     return SampledRun(
         sample_time * np.arange(len(states), dtype=np.float64),
         np.array(states),

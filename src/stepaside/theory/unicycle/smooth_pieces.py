@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 from .. import laws
 from .compilation import inlined
-from .game_parameters import Rules
+from .game_parameters import FlatParameters
 
 inlined(laws.wrap_once)  # the heading calls it
 evasion_heading = inlined(laws.evasion_heading)
@@ -54,7 +54,7 @@ class Mode(NamedTuple):
     branch: Branch
 
 
-class Piece(NamedTuple):
+class SmoothPiece(NamedTuple):
     """The numbers of a piece, or of the pieces of many games.
 
     Attributes:
@@ -101,12 +101,12 @@ def opposite(branch: Branch) -> Branch:
 
 
 @inlined
-def piece_of(mode: Mode, rules: Rules) -> Piece:
+def piece_of(mode: Mode, rules: FlatParameters) -> SmoothPiece:
     """Give the numbers of a piece."""
     gain, width = rules.evader_gain, rules.hysteresis
     zero = -mode.side * rules.angle  # bearing where the evader's error is zero
     if mode.branch == Branch.SLIDING:
-        return Piece(-inf, inf, 0.0, 0.0, 0.0)
+        return SmoothPiece(-inf, inf, 0.0, 0.0, 0.0)
     if rules.keeps_side:
         low, high = zero - pi, zero + pi
     elif mode.side < 0:
@@ -116,15 +116,15 @@ def piece_of(mode: Mode, rules: Rules) -> Piece:
     if mode.branch == Branch.PROPORTIONAL:
         constant = proportional_rate(-zero, gain)
         slope = proportional_rate(1.0, gain)
-        return Piece(low, high, constant, slope, 1.0)
+        return SmoothPiece(low, high, constant, slope, 1.0)
     if mode.branch == Branch.LEFT:
-        return Piece(zero, high, saturated_rate(1.0, gain), 0.0, 1.0)
-    return Piece(low, zero, saturated_rate(-1.0, gain), 0.0, 1.0)
+        return SmoothPiece(zero, high, saturated_rate(1.0, gain), 0.0, 1.0)
+    return SmoothPiece(low, zero, saturated_rate(-1.0, gain), 0.0, 1.0)
 
 
 @inlined
 def enter(
-    bearing: float, sight_rate: float, side: int, rules: Rules
+    bearing: float, sight_rate: float, side: int, rules: FlatParameters
 ) -> tuple[float, Mode]:
     """Find the piece that a game starts in.
 
@@ -155,7 +155,11 @@ def enter(
 
 @inlined
 def leave(
-    bearing: float, sight_rate: float, mode: Mode, edge: Edge, rules: Rules
+    bearing: float,
+    sight_rate: float,
+    mode: Mode,
+    edge: Edge,
+    rules: FlatParameters,
 ) -> tuple[float, Mode]:
     """Find the piece that follows when a game leaves its piece.
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...core.errors import PlanError, check_positive, check_within
 from .kernel import Outcomes, play_games
-from .relative_coordinates import Start
+from .relative_coordinates import RelativeStart
 from .unicycle_game import Game
 
 Array = NDArray[np.float64]
@@ -102,7 +102,7 @@ class WorstStart:
         games: Number of games played to find it.
     """
 
-    start: Start
+    start: RelativeStart
     closest_distance: float
     captured: bool
     games: int
@@ -198,7 +198,7 @@ def find_worst_start(
         winner, worst = _polish(lowest, box, winner, worst, cell)
     captured = worst <= capture_distance * (1.0 + 1e-9)
     r, a, psi = winner.tolist()
-    return WorstStart(Start(r, a, psi), worst, captured, played)
+    return WorstStart(RelativeStart(r, a, psi), worst, captured, played)
 
 
 def _local_minima(start_map: StartMap) -> tuple[Array, Array]:
