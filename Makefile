@@ -64,7 +64,7 @@ other-test:
 # Bad input for a while: make fuzz MINUTES=60
 MINUTES ?= 10
 fuzz: setup
-	$(BIN)/python -m tests.fuzz --minutes $(MINUTES)
+	$(BIN)/python -m tools.fuzz --minutes $(MINUTES)
 
 # The wheel, installed with nothing optional: commands work, or say what lacks.
 wheel: setup
@@ -99,18 +99,18 @@ endif
 SAMPLE ?= 400
 CAP ?= 40
 mutate: setup
-	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m tests.mutation --write \
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m tools.mutation --write \
 		--sample $(SAMPLE) --cap $(CAP)
 
 bench: setup
 	$(BIN)/python $(INSTALL) --editable ".[bench]"
-	$(BIN)/python benchmarks/run.py
-	$(BIN)/python benchmarks/kernel.py
-	$(BIN)/python -m documents
+	$(BIN)/python tools/benchmarks/run.py
+	$(BIN)/python tools/benchmarks/kernel.py
+	$(BIN)/python -m tools.documents
 
 # Tables, numbers and figures of README and docs/, from docs/results/.
 figures: setup
-	$(BIN)/python -m documents
+	$(BIN)/python -m tools.documents
 
 constraints:
 	uv pip compile --universal --python-version 3.11 --all-extras \

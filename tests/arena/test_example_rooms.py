@@ -1,0 +1,66 @@
+"""The rooms of the examples, walked by a pursuer on its plans."""
+
+from math import atan2, hypot
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from made_up_robot import GAIT, FakeLegs
+from stepaside.arena import check_starts, load_room
+from stepaside.control.clearance.guard import Guard
+from stepaside.control.clearance.surroundings import KnownRoom
+from stepaside.control.clearance.swept_outline import BodyOutline, sway_of
+from stepaside.control.scheme import ControlScheme
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.planning import ManeuverPlanner
+from stepaside.robots.description import load_robot
+from stepaside.sim.outline_measurement import measure_outline
+from stepaside.strategies import Pursuit
+
+ROOMS = Path(__file__).parents[2] / "examples" / "rooms"
+NAO: BodyOutline = measure_outline(load_robot("nao"), GAIT)
+MARGIN = 0.02
+
+
+@pytest.mark.parametrize(
+    "file", sorted(ROOMS.glob("*.toml")), ids=lambda f: f.stem
+)
+def test_a_pursuer_reaches_who_stands_and_touches_nothing(file: Path) -> None:
+    """Around the pillar, through the door, into the dead end."""
+    room = load_room(file)
+    assert room.starts is not None
+    check_starts(room, room.starts)
+    start, other = room.starts
+    needs = NAO.radius + MARGIN + sway_of(GAIT)
+    around = KnownRoom(room, start)
+    guard = Guard(around, NAO, ManeuverPlanner(GAIT), margin=MARGIN)
+    legs: Any = FakeLegs()
+    tick = 0.02
+    scheme = ControlScheme(
+        Pursuit(body_radius=needs), GAIT, legs, tick=tick, guard=guard
+    )
+    nothing, distance, least = np.zeros(3), np.inf, np.inf
+    goal = start.inverse().compose(other)
+    for number in range(round(60.0 / tick)):
+        now = number * tick
+        body = scheme.reference
+        legs.torso_heading = body.heading
+        away = goal.x - body.com[0], goal.y - body.com[1]
+        distance = hypot(*away)
+        if distance < 0.3:
+            break
+        bearing = wrap_angle(atan2(away[1], away[0]) - body.heading)
+        seen = Sighting(now, bearing, distance)
+        scheme.update(
+            Measurement(now, nothing, nothing, nothing, np.zeros(8), seen)
+        )
+        if number % 10 == 0:
+            placed = start.compose(Pose(*body.com[:2], body.heading))
+            trunk = placed.transform_points(NAO.trunk)
+            solids = guard.surroundings.solids
+            least = min(least, float(solids.swept_clearances(trunk[None])[0]))
+    assert distance < 0.3
+    assert least >= MARGIN - 1e-4

@@ -1,0 +1,123 @@
+"""Long work says so before it begins, and endless work is refused."""
+
+import re
+from pathlib import Path
+
+import click
+import pytest
+from click.testing import CliRunner, Result
+
+from stepaside.cli.effort_estimate import ENDLESS, LONG, in_words, tell_effort
+from stepaside.cli.main import main
+from tools.fuzz.case import Reached
+from tools.fuzz.invoking import without_work
+from tools.fuzz.kinds import make_run
+
+
+@click.command()
+@click.argument("seconds", type=float)
+@click.argument("workers", type=int)
+def work(seconds: float, workers: int) -> None:
+    """Say how long it takes."""
+    tell_effort("work", seconds, workers)
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> str:
+    folder = tmp_path_factory.mktemp("effort") / "run"
+    make_run(folder)
+    return str(folder)
+
+
+def said(seconds: float, workers: int = 1) -> Result:
+    return CliRunner().invoke(work, [str(seconds), str(workers)])
+
+
+def test_only_what_is_long_is_said_and_what_never_ends_is_refused() -> None:
+    assert said(LONG).output == ""
+    assert said(LONG + 1).stderr == (
+        "stepaside: work, about 1 minutes; Ctrl-C stops\n"
+    )
+    assert said(ENDLESS).exit_code == 0
+    refused = said(ENDLESS * 1.01)
+    assert refused.exit_code == 2 and "30 days" in refused.stderr
+
+
+def test_workers_share_it() -> None:
+    assert said(3 * LONG, 4).output == ""
+    assert "45 minutes" in said(45 * 60 * 4, 4).stderr
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [(61, "1 minutes"), (5400, "90 minutes"), (7200, "2 hours")]
+    + [(172800, "2 days"), (1e9, "1.2e+04 days")],
+)
+def test_times_are_said_as_people_say_them(seconds: float, words: str) -> None:
+    assert in_words(seconds) == words
+
+
+@pytest.mark.parametrize(
+    ("words", "wanted"),
+    [
+        ("duels --seeds 0:1000 --workers 1 --json", "1000 duels of 120 s"),
+        ("robustness --workers 1 --json", "walks of 20 s"),
+        ("reproduce --workers 1 --output x", "every claim of the paper"),
+    ],
+)
+def test_campaigns_say_what_they_plan(
+    words: str, wanted: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with without_work(), pytest.raises(Reached):
+        main(words.split())
+    assert wanted in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "duels --seeds 0:100000 --duration 86400 --workers 1 --json",
+        "map --grid 400 --distances 400 --duration 1e4 --step 1e-4",
+        "bound --grid 400 --horizon 2000 --refine 0",
+        "circle --starts 1000000 --evader-gain 1e6",
+        "unicycles --sample-time 1e-9 --duration 1e6 --delay 1e6",
+        "unicycles --duration 1e9 --evader-gain 1e3",
+        "unicycles --duration 1e9 --evader-strategy look-ahead",
+        "tournament --seeds 0:100000 --duration 1e6 --workers 1",
+        "replay RUN --video film.mp4 --rate 1e9",
+        "replay RUN --gif film.gif --speed 1e-9 --slow-motion",
+    ],
+)
+def test_what_cannot_end_is_refused(
+    words: str, run: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(main, words.replace("RUN", run).split())
+    assert not list(tmp_path.iterdir())
+    assert result.exit_code == 2 and result.output.count("\n") == 1
+    assert re.search("would take about|does not end", result.output)
+
+
+@pytest.mark.parametrize(
+    ("words", "wanted"),
+    [
+        ("bound --grid 200", "a table of"),
+        ("circle --starts 1000000", "1000000 games"),
+        ("circle --starts 300000 --remedies", "games"),
+        ("unicycles --duration 3e5", "a game of 300000 s"),
+        ("unicycles --sample-time .01 --duration 3e4", "a game of 30000 s"),
+        ("tournament --seeds 0:10000 --workers 1", "games of 180 s"),
+        ("replay RUN --video film.mp4 --speed 1e-4", "a film of about"),
+    ],
+)
+def test_what_is_long_says_so_before_it_begins(
+    words: str, wanted: str, run: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is stopped where it has said so."""
+
+    def told(*_: object, err: bool = False) -> None:
+        raise Reached(_[0])
+
+    monkeypatch.setattr("stepaside.cli.effort_estimate.echo", told)
+    with pytest.raises(Reached, match=wanted):
+        main(words.replace("RUN", run).split())

@@ -1,0 +1,145 @@
+"""What commands print for people: words with units, never raw keys."""
+
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from stepaside.cli import progress
+from stepaside.cli.main import COMMANDS, main
+from stepaside.cli.value_labels import label_of, text_of, unit_of
+
+TABLES = [
+    "duel --duration 1",
+    "duels --seeds 0:1 --duration 1 --workers 1",
+    "walk --duration 1",
+    "plan --role evader --bearing 0.3",
+    "unicycles --speed 0.1 --gain 0.2",
+    "unicycles --strategy move-aside --pursuer-strategy lead --duration 2",
+    "circle --speed 0.1 --gain 0.2 --starts 5 --remedies",
+    "circle --evader-gain 0.3 --sample-time 0.1 --starts 0",
+    "map --grid 3 --distances 2 --duration 5",
+    "bound --grid 16 --refine 1 --games 10 --horizon 0.1",
+    "bound --grid 16 --refine 0 --games 0 --horizon 0.1 --against any",
+    "tournament --seeds 0:1 --duration 1 --evader aside --workers 1",
+    "room --discs 2 --doors 1",
+    "robot nao",
+]
+
+
+@pytest.mark.parametrize("words", TABLES)
+def test_no_table_shows_a_raw_key(
+    words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    shown = CliRunner().invoke(main, words.split())
+    assert shown.exit_code == 0, shown.output
+    table = re.sub(r"\S*/\S*", "", shown.stdout)  # paths are no keys
+    assert not re.findall(r"\b[a-z]+_\w+", table), shown.stdout
+    assert not re.findall(r"\b(?:True|False|None)\b", table), shown.stdout
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "label", "text"),
+    [
+        ("some_distance_m", 0.5, "some distance", "0.5 m"),
+        ("turning_rate_rad_s", 0.25, "turning rate", "0.25 rad/s"),
+        ("headings_apart_rad", 1.0, "angle between headings", "57.2958 deg"),
+        ("other_share", 0.25, "other", "25 %"),
+        ("floor_m2", 9.0, "floor", "9 m^2"),
+        ("time_constant_s", None, "time constant", "-"),
+        ("stable", False, "stable", "no"),
+        ("games", 12, "games", "12"),
+        ("eigenvalues_per_s", [[-1.0, 2.0]], "eigenvalues", "-1+2i 1/s"),
+    ],
+)
+def test_a_name_becomes_words_and_its_end_a_unit(
+    name: str, value: Any, label: str, text: str
+) -> None:
+    assert label_of(name) == label
+    assert text_of(name, value) == text
+    unit = unit_of(name)
+    with_unit = f"{label} [{unit}]" if unit else label
+    assert label_of(name, unit=True) == with_unit
+
+
+LONG = {
+    "duel --duration 1": "duel",
+    "walk --duration 3": "walk",
+    "duels --seeds 0:2 --duration 1 --workers 1": "duels",
+    "circle --starts 5": "circle",
+    "map --grid 3 --distances 2 --duration 5": "map",
+    "bound --grid 16 --refine 0 --games 0 --horizon 0.1": "bound",
+    "tournament --seeds 0:1 --duration 1 --evader aside --workers 1": (
+        "tournament"
+    ),
+}
+
+
+@pytest.mark.parametrize("more", [[], ["--json"]])
+@pytest.mark.parametrize("words", LONG)
+def test_long_work_says_on_a_pipe_how_far_it_is(
+    words: str,
+    more: list[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(progress, "PERIOD", 0.0)
+    shown = CliRunner().invoke(main, [*words.split(), *more])
+    assert shown.exit_code == 0, shown.output
+    lines = [
+        line
+        for line in shown.stderr.splitlines()
+        if line.startswith(f"stepaside: {LONG[words]}: ")
+    ]
+    assert lines and all("s so far" in line for line in lines)
+    assert "%" in lines[-1] and "\r" not in shown.output
+    assert "so far" not in shown.stdout
+
+
+def test_lines_come_now_and_then(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A thousand updates over a hundred seconds are ten lines at most."""
+    clock = iter(0.1 * n for n in range(2000))
+    monkeypatch.setattr(progress, "monotonic", lambda: next(clock))
+    with progress.show_progress("work", 1000, "games") as bar:
+        for _ in range(1000):
+            bar.update(1)
+    lines = capsys.readouterr().err.splitlines()
+    assert 8 <= len(lines) <= 10
+    assert "% , " not in lines[0] and "of 1000 games" in lines[0]
+    assert "about" in lines[0] and "left" in lines[0]
+
+
+def test_the_bare_command_prints_its_help() -> None:
+    bare = CliRunner().invoke(main, [])
+    asked = CliRunner().invoke(main, ["--help"])
+    assert bare.exit_code == asked.exit_code == 0
+    assert bare.stdout == asked.stdout and not bare.stderr
+    assert len(bare.stdout.splitlines()) > len(COMMANDS)
+
+
+@pytest.mark.parametrize("command", ["play", "serve"])
+def test_help_names_every_language_alike(command: str) -> None:
+    help_ = CliRunner().invoke(main, [command, "--help"]).stdout
+    first = help_.partition("Options:")[0]
+    for text in (COMMANDS[command], first):
+        for language in ("LoLA", "NAOqi", "ROS 2"):
+            assert language in text
+
+
+def test_readme_names_every_extra() -> None:
+    import tomllib
+
+    root = Path(__file__).parents[2]
+    project = tomllib.loads((root / "pyproject.toml").read_text())["project"]
+    readme = (root / "README.md").read_text()
+    for extra, needs in project["optional-dependencies"].items():
+        (row,) = re.findall(rf"(?m)^\| `{extra}` \|.*$", readme)
+        for need in needs:
+            name = re.split(r"[><=;\[ ]", need)[0]
+            assert name in row or "everything" in row, (extra, name)

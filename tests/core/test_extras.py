@@ -1,0 +1,95 @@
+"""What is optional is named where it is missing, with what installs it."""
+
+import json
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from stepaside.cli.main import all_commands
+from stepaside.core.extras import EXTRAS, remedy
+from tools.documents.store import ROOT
+
+PACKAGES = {"cv2": "opencv-python-headless"}  # where it is not the module's
+SHORT = "--duration 0.02 --json"
+WORKS = (
+    f"duel {SHORT} --output run",
+    "compare run",
+    f"walk {SHORT}",
+    "plan --role evader --bearing 0.1 --json",
+    "unicycles --duration 1 --json",
+    "circle --starts 2 --json",
+    "map --grid 2 --distances 1 --duration 1 --json",
+    "bound --grid 16 --refine 0 --games 0 --horizon 0.01 --json",
+    "robot --json",
+)
+NEEDS = {
+    f"duel {SHORT} --sensing cameras": "vision",
+    f"duel {SHORT} --method mpc": "mpc",
+    "view --no-open --serve-for 0.1": "viewer",
+    "replay run --no-open --serve-for 0.1": "viewer",
+    "replay run --html page.html": "viewer",
+    "replay run --video film.mp4": "viewer",
+    "play --role evader --robot lola:none": "robot",
+    "serve --lola evader=socket --wait 0.1": "robot",
+}
+
+
+@pytest.fixture(scope="module")
+def said(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[object]]:
+    helps = [f"{name} --help" for name in all_commands()]
+    lines = [*WORKS, *NEEDS, *helps]
+    script = Path(__file__).parents[1] / "without_extras.py"
+    done = subprocess.run(
+        [sys.executable, str(script), json.dumps(lines)],
+        capture_output=True,
+        text=True,
+        check=True,
+        cwd=tmp_path_factory.mktemp("without"),
+    )
+    rows = [json.loads(line) for line in done.stdout.splitlines()]
+    return {line: [status, text] for line, status, text in rows}
+
+
+@pytest.mark.parametrize("line", WORKS)
+def test_this_works_without_anything_optional(
+    said: dict[str, list[object]], line: str
+) -> None:
+    assert said[line][0] == 0, said[line]
+
+
+@pytest.mark.parametrize("line", NEEDS)
+def test_what_is_missing_is_named_in_one_line(
+    said: dict[str, list[object]], line: str
+) -> None:
+    status, text = said[line]
+    assert status == 2 and isinstance(text, str), text
+    assert f"pip install 'stepaside[{NEEDS[line]}]'" in text
+    assert text.count("\n") == 1
+
+
+def test_every_command_explains_itself_without_them(
+    said: dict[str, list[object]],
+) -> None:
+    for name in all_commands():
+        assert said[f"{name} --help"][0] == 0, name
+
+
+def test_the_table_is_that_of_the_package() -> None:
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    extras = tomllib.loads(text)["project"]["optional-dependencies"]
+    for name, modules in EXTRAS.items():
+        wanted = {PACKAGES.get(module, module) for module in modules}
+        assert wanted == {re.split(r"[><=!]", e)[0] for e in extras[name]}
+    others = set(extras) - set(EXTRAS)
+    assert others == {"all", "bench", "dev"}
+
+
+def test_what_is_no_part_of_an_extra_is_the_package_itself() -> None:
+    error = ModuleNotFoundError("No module named 'click.x'", name="click.x")
+    assert remedy(error).endswith(
+        "click, which is not installed: pip install stepaside"
+    )

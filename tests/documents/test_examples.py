@@ -1,0 +1,79 @@
+"""Run the examples, as anybody would."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from stepaside.strategies import load_strategy
+from stepaside.strategies.evasion import EvasionMemory
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+SHORT = {  # seconds of simulation, where an example takes them
+    "change_gait": "2",
+    "keep_runs": "2",
+    "many_duels": "1",
+    "own_strategy": "8",
+    "play_duel": "2",
+}
+
+
+def run(name: str, *arguments: str, folder: Path | None = None) -> str:
+    """What an example prints."""
+    command = [sys.executable, str(EXAMPLES / name), *arguments]
+    done = subprocess.run(
+        command, capture_output=True, text=True, check=False, cwd=folder
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+@pytest.mark.parametrize("file", sorted(EXAMPLES.glob("*.py")), ids=str)
+def test_an_example_is_short_and_names_what_it_needs(file: Path) -> None:
+    """Anybody can run it alone: a line says what it stands on (PEP 723)."""
+    lines = file.read_text(encoding="utf-8").splitlines()
+    assert len(lines) <= 60
+    assert lines[0] == "# /// script"
+    assert lines[1].startswith('# dependencies = ["stepaside')
+    assert lines[2] == "# ///"
+
+
+@pytest.mark.parametrize(
+    "name",
+    [f.stem for f in sorted(EXAMPLES.glob("*.py")) if f.stem[:4] != "own_"],
+)
+def test_an_example_runs_alone_and_says_something(
+    name: str, tmp_path: Path
+) -> None:
+    given = [SHORT[name]] if name in SHORT else []
+    lines = run(f"{name}.py", *given, folder=tmp_path).splitlines()
+    assert len(lines) >= 3
+    assert any(re.search(r"\d (m|ms|s|mm|deg|rad|MB)\b|\[", x) for x in lines)
+
+
+def test_an_own_strategy_plays_as_unicycle_and_as_humanoid() -> None:
+    """It comes off better than moving aside, on both levels."""
+    line = r"(\w+) +(\w+): closest approach (.*) m, floor used (.*) m"
+    found = {
+        (name, bodies): (float(closest), float(floor))
+        for name, bodies, closest, floor in re.findall(
+            line, run("own_strategy.py", "8")
+        )
+    }
+    assert len(found) == 4
+    for bodies in ("unicycles", "humanoids"):
+        aside, own = found["aside", bodies], found["own", bodies]
+        assert 0.4 < aside[0] < own[0] < 0.9
+        assert 0.2 < own[1] < 1.0
+
+
+def test_an_own_strategy_is_about_twenty_lines() -> None:
+    strategy = load_strategy(f"{EXAMPLES / 'own_strategy.py'}:BackAndAside")
+    text = (EXAMPLES / "own_strategy.py").read_text(encoding="utf-8")
+    body = text.split("class BackAndAside")[1].split("\ndef ")[0]
+    assert len(body.strip().splitlines()) <= 25
+    assert strategy.begin() == EvasionMemory()

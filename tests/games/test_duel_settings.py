@@ -1,0 +1,96 @@
+"""Every setting has one range: docstring, table and check say the same."""
+
+from typing import Any
+
+import click
+import pytest
+
+from stepaside.cli.main import all_commands
+from stepaside.cli.options.declaration import DeclaredOption
+from stepaside.cli.options.print_config import meanings
+from stepaside.cli.value_types import NumberType
+from stepaside.core.errors import StepAsideError
+from stepaside.core.ranges import Range, check_count, check_settings, ranges_of
+from stepaside.sim.physics_settings import PhysicsSettings
+from tools.documents.tables.settings import LISTS, all_settings
+
+SETTINGS = all_settings()
+NUMBERS = [
+    path
+    for path, setting in SETTINGS.items()
+    if setting.name in ranges_of(setting.kind)
+]
+OTHERS = sorted(SETTINGS.keys() - NUMBERS - LISTS.keys())
+
+
+@pytest.mark.parametrize("path", NUMBERS)
+def test_the_docstring_says_the_range(path: str) -> None:
+    setting = SETTINGS[path]
+    allowed: Range = setting.kind.ranges[setting.name]
+    assert allowed.words in meanings(setting.kind)[setting.name]
+    assert allowed.unit and allowed.why and allowed.low < allowed.high
+
+
+@pytest.mark.parametrize("path", OTHERS)
+def test_what_has_no_range_is_no_number(path: str) -> None:
+    default = SETTINGS[path].default
+    assert default is None or isinstance(default, bool | str), default
+
+
+def numbers_of(name: str) -> list[click.Parameter]:
+    return [
+        param
+        for param in all_commands()[name].params
+        if not (isinstance(param, DeclaredOption) and param.sets_settings)
+    ]
+
+
+@pytest.mark.parametrize("name", all_commands())
+def test_every_number_of_a_command_has_two_ends(name: str) -> None:
+    for param in numbers_of(name):
+        kind: Any = param.type
+        assert kind not in (click.INT, click.FLOAT), param.opts
+        if isinstance(kind, click.IntRange | click.FloatRange):
+            assert kind.min is not None and kind.max is not None, param.opts
+        if isinstance(kind, NumberType):
+            assert kind.is_bounded, param.opts
+
+
+def test_a_range_holds_its_ends_and_what_is_named() -> None:
+    closed = Range(1.0, 2.0, "m", "why", also=(None, 0.0))
+    held: list[Any] = [1, 1.0, 2.0, None, 0.0, 0]
+    assert all(closed.holds(v) for v in held)
+    refused: list[Any] = [0.99, 2.01, True, "1", [], 1j]
+    assert not any(closed.holds(v) for v in refused)
+    half_open = Range(1.0, 2.0, "m", "why", above=True)
+    assert not half_open.holds(1.0) and half_open.holds(1.0 + 1e-15)
+    whole = Range(0, 5, "1", "why", whole=True)
+    assert whole.holds(5) and not whole.holds(5.0) and not whole.holds(10**99)
+    assert closed.words == "1 to 2 or none or 0"
+    assert half_open.text == "(1, 2]" and half_open.words == "above 1 to 2"
+
+
+def test_a_message_names_value_rule_unit_and_what_was_got() -> None:
+    wanted = r"^x must lie in \[1, 2\] \[m\], got 3$"
+    with pytest.raises(StepAsideError, match=wanted):
+        Range(1.0, 2.0, "m", "why").check(3, "x")
+    with pytest.raises(StepAsideError) as refused:
+        Range(1.0, 2.0, "m", "why").check(["a" * 9999], "x")
+    assert len(str(refused.value)) < 200
+
+
+def test_sections_and_truth_are_of_their_types() -> None:
+    check_settings(PhysicsSettings())
+    for path in OTHERS:
+        setting = SETTINGS[path]
+        if isinstance(setting.default, bool):
+            changes: dict[str, Any] = {setting.name: 1}
+            with pytest.raises(StepAsideError, match="must be true or false"):
+                setting.kind(**changes)
+
+
+def test_lists_are_bounded() -> None:
+    check_count([1, 2], 2, "x")
+    for value in ([1, 2, 3], "ab", None):
+        with pytest.raises(StepAsideError, match="x must be a list of at"):
+            check_count(value, 2, "x")

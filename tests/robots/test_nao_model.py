@@ -1,0 +1,167 @@
+"""Test the NAO's model against the published tables."""
+
+import csv
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.robots.description import load_robot
+
+DATA = Path(__file__).parents[1] / "data"
+NAO = load_robot("nao")
+MODEL = NAO.compile()
+
+
+def table(name: str) -> list[dict[str, str]]:
+    with (DATA / name).open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+LINKS, JOINTS = table("nao_links.csv"), table("nao_joints.csv")
+
+
+def numbers(row: dict[str, str], *names: str) -> np.ndarray:
+    return np.array([float(row[name]) for name in names])
+
+
+def zero_posture() -> mujoco.MjData:
+    data = mujoco.MjData(MODEL)
+    data.qpos[:] = 0.0
+    data.qpos[3] = 1.0
+    mujoco.mj_forward(MODEL, data)
+    return data
+
+
+def test_25_links_weigh_what_the_table_says() -> None:
+    assert len(LINKS) == MODEL.nbody - 1 == 25
+    assert MODEL.body_subtreemass[0] == pytest.approx(5.30535, abs=2e-4)
+
+
+@pytest.mark.parametrize("row", LINKS, ids=lambda row: row["link"])
+def test_mass_center_and_inertia_of_a_link(row: dict[str, str]) -> None:
+    body = MODEL.body(row["link"])
+    assert body.mass[0] == pytest.approx(float(row["mass_kg"]), rel=1e-6)
+    center = numbers(row, "com_x_m", "com_y_m", "com_z_m")
+    np.testing.assert_allclose(body.ipos, center, atol=1e-9)
+    turn = np.zeros(9)
+    mujoco.mju_quat2Mat(turn, body.iquat)
+    frame = turn.reshape(3, 3)
+    inertia = frame @ np.diag(body.inertia) @ frame.T
+    xx, yy, zz, xy, xz, yz = numbers(
+        row, *(f"i{ij}_com" for ij in ("xx", "yy", "zz", "xy", "xz", "yz"))
+    )
+    expected = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+    np.testing.assert_allclose(inertia, expected, atol=2e-9)
+
+
+@pytest.mark.parametrize("row", JOINTS, ids=lambda row: row["joint"])
+def test_place_axis_and_limits_of_a_joint(row: dict[str, str]) -> None:
+    joint = MODEL.joint(row["joint"])
+    body = MODEL.body(row["child_link"])
+    assert joint.bodyid[0] == body.id
+    assert body.parentid[0] == MODEL.body(row["parent_link"]).id
+    origin = numbers(row, "origin_x_m", "origin_y_m", "origin_z_m")
+    np.testing.assert_allclose(body.pos, origin, atol=1e-9)
+    axis = numbers(row, "axis_x", "axis_y", "axis_z")
+    np.testing.assert_allclose(joint.axis, axis, atol=1e-6)
+    limits = numbers(row, "lower_rad", "upper_rad")
+    np.testing.assert_allclose(joint.range, limits, atol=1e-6)
+
+
+@pytest.mark.parametrize("row", JOINTS, ids=lambda row: row["joint"])
+def test_torque_and_speed_of_a_motor(row: dict[str, str]) -> None:
+    if row["joint"] == "RHipYawPitch":  # driven by the motor of the left one
+        assert row["joint"] not in NAO.speed_limits
+        return
+    motor = MODEL.actuator(row["joint"])
+    torque = float(row["v6_stall_torque_ideal_Nm"])
+    np.testing.assert_allclose(motor.forcerange, [-torque, torque], rtol=1e-5)
+    speed = float(row["v6_noload_speed_rad_s"])
+    assert NAO.speed_limits[row["joint"]] == pytest.approx(speed, abs=1e-3)
+
+
+def test_hip_yaw_pitch_joints_share_one_motor() -> None:
+    assert len(JOINTS) == MODEL.njnt - 1 == 24
+    assert MODEL.nu == 23
+    coupled = NAO.coupled_joints(MODEL)
+    assert coupled == {"RHipYawPitch": "LHipYawPitch"}
+
+
+def test_shared_hip_joint_turns_both_toes_outwards() -> None:
+    data = zero_posture()
+    for side in "LR":
+        data.joint(f"{side}HipYawPitch").qpos = -0.5
+    mujoco.mj_forward(MODEL, data)
+    left = data.body("l_foot").xmat.reshape(3, 3)[:, 0]
+    right = data.body("r_foot").xmat.reshape(3, 3)[:, 0]
+    np.testing.assert_allclose(left, [0.878, 0.339, 0.339], atol=1e-3)
+    np.testing.assert_allclose(right, [0.878, -0.339, 0.339], atol=1e-3)
+
+
+def test_leg_lengths() -> None:
+    """Thigh 0.100 m, shank 0.1029 m, ankle 0.04519 m over the sole."""
+    data = zero_posture()
+    heights = [
+        data.body(name).xpos[2] for name in ("l_pelvis", "l_tibia", "l_ankle")
+    ]
+    sole = data.site("l_sole_center").xpos[2]
+    lengths = -np.diff([*heights, sole])
+    np.testing.assert_allclose(lengths, [0.1, 0.1029, 0.04519], atol=1e-9)
+
+
+def test_left_and_right_are_mirror_images() -> None:
+    data = zero_posture()
+    for row in LINKS:
+        if not row["link"].startswith("l_"):
+            continue
+        left = data.body(row["link"]).xipos
+        right = data.body("r_" + row["link"][2:]).xipos
+        np.testing.assert_allclose(right * [1, -1, 1], left, atol=1e-9)
+
+
+def test_sole_lies_inside_the_published_outline() -> None:
+    """Box of the outline: x -0.0507..0.0994, y -0.0388..0.0500."""
+    geom = MODEL.geom("l_sole")
+    low, high = geom.pos - geom.size, geom.pos + geom.size
+    np.testing.assert_allclose(low[:2], [-0.05, -0.035], atol=1e-9)
+    np.testing.assert_allclose(high[:2], [0.095, 0.042], atol=1e-9)
+    assert low[2] == pytest.approx(-0.04519)
+    assert MODEL.geom("r_sole").pos[1] == pytest.approx(-geom.pos[1])
+
+
+def test_robot_is_as_tall_as_a_nao() -> None:
+    """0.574 m from the soles to the top of the head."""
+    data = zero_posture()
+    top = -np.inf
+    for i in range(MODEL.ngeom):
+        center = data.geom_xpos[i]
+        frame = data.geom_xmat[i].reshape(3, 3)
+        half = MODEL.geom_aabb[i, 3:]
+        shift = frame @ MODEL.geom_aabb[i, :3]
+        top = max(top, center[2] + shift[2] + np.abs(frame[2]) @ half)
+    height = top - data.site("l_sole_center").xpos[2]
+    assert height == pytest.approx(0.574, abs=0.03)
+
+
+def test_shapes_weigh_nothing() -> None:
+    """All mass is in the links' own inertias; shapes are primitives."""
+    assert MODEL.nmesh == 0
+    masses = [float(row["mass_kg"]) for row in LINKS]
+    assert MODEL.body_mass[1:].sum() == pytest.approx(sum(masses), rel=1e-6)
+
+
+def test_foot_force_sensors_sit_where_they_should() -> None:
+    places = {
+        "l_fsr_front_left": (0.07025, 0.0299),
+        "l_fsr_front_right": (0.07025, -0.0231),
+        "l_fsr_rear_left": (-0.03025, 0.0299),
+        "l_fsr_rear_right": (-0.02965, -0.0191),
+        "r_fsr_front_left": (0.07025, 0.0231),
+        "r_fsr_front_right": (0.07025, -0.0299),
+        "r_fsr_rear_left": (-0.02965, 0.0191),
+        "r_fsr_rear_right": (-0.03025, -0.0299),
+    }
+    for name, place in places.items():
+        np.testing.assert_allclose(MODEL.site(name).pos[:2], place)

@@ -1,0 +1,441 @@
+"""Test the study of many duels on made records and on short duels."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from stepaside.cli.duels import duels
+from stepaside.cli.main import main
+from stepaside.core import worker_pool as workers
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.sim.push import Push
+from stepaside.strategies import Evasion
+from stepaside.studies import duel_campaign as study
+from stepaside.studies.duel_campaign import (
+    key_of,
+    play_record,
+    run_duels,
+    settings_hash,
+    stamps_of,
+    verify_duels,
+)
+from stepaside.studies.duel_statistics import (
+    certificate_row,
+    figure_row,
+    share,
+    summarise_duels,
+)
+from stepaside.studies.record_store import RecordStore
+
+SETTINGS = DuelSettings(duration=120.0)
+NOW = {"version": "new", "libraries": {"mujoco": "1"}}
+
+
+def made(seed: int, **changes: Any) -> dict[str, Any]:
+    """Record of a duel that nobody played."""
+    return {
+        "seed": seed,
+        "outcome": "completed",
+        "message": "",
+        "distance_m": 0.9 + 0.01 * seed,
+        "relative_orientation_deg": 90.0,
+        "pursuer_radius_m": 0.64,
+        "evader_radius_m": 0.63,
+        "converged_at_s": 10.0 * seed,
+        "min_distance_m": 0.5,
+        "evading_min_distance_m": 0.5,
+        "certified_m": None,
+        "digest": f"d{seed}",
+        "wall_s": 1.0,
+        **NOW,
+    } | changes
+
+
+class Here(Executor):
+    """Plays at once, in this process; counts."""
+
+    def __init__(self) -> None:
+        self.seeds: list[int] = []
+
+    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Play now."""
+        self.seeds.append(args[0].seed)
+        future: Future[Any] = Future()
+        future.set_result(fn(*args, **kwargs))
+        return future
+
+
+@pytest.fixture
+def quick(monkeypatch: pytest.MonkeyPatch) -> Iterator[Here]:
+    """Nothing is played: a duel's record is made from its seed."""
+    monkeypatch.setattr(study, "play_record", lambda s: made(s.seed))
+    monkeypatch.setattr(study, "_stamp", lambda: NOW)
+    yield Here()
+
+
+def test_a_record_holds_the_figures_of_its_duel() -> None:
+    start = StartSettings(distance=0.7)
+    settings = DuelSettings(seed=3, duration=2.0, start=start)
+    record, again = play_record(settings), play_record(settings)
+    assert record["seed"] == 3 and record["outcome"] == "completed"
+    assert record["triggered_at_s"] == 0.004  # at the first tick
+    assert record["start_distance_m"] == 0.7
+    assert 0.5 < record["evading_min_distance_m"] < 0.75
+    assert record["evading_min_distance_m"] >= record["min_distance_m"]
+    assert json.loads(json.dumps(record, allow_nan=False)) == record
+    for one in (record, again):
+        del one["wall_s"]
+    assert record == again
+    other = play_record(replace(settings, seed=4))
+    assert other["digest"] != record["digest"]
+
+
+def test_only_a_certified_start_has_a_certified_distance() -> None:
+    facing = StartSettings(0.75, 0.0, 0.0)
+    blind = StartSettings(0.75, 3.0, 3.0)
+    settings = DuelSettings(duration=0.1, start=facing)
+    assert 0.3 < play_record(settings)["certified_m"] < 0.75
+    for changes in (
+        {"start": blind},
+        {"strategy": Evasion(saturated=True)},
+        {"strategy": Evasion(angle=0.0)},
+    ):
+        record = play_record(replace(settings, **changes))
+        assert record["certified_m"] is None
+
+
+def test_what_is_done_is_not_done_again(quick: Here, tmp_path: Path) -> None:
+    file = RecordStore(tmp_path / "r.jsonl")
+    run_duels(SETTINGS, range(3), file, quick)
+    told: list[int] = []
+    found = run_duels(SETTINGS, range(5), file, quick, told.append)
+    assert quick.seeds == [0, 1, 2, 3, 4]
+    assert told[0] == 3 and told[-1] == 5
+    assert [r["seed"] for r in found.values()] == [0, 1, 2, 3, 4]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"version": "old"},
+        {"libraries": {"mujoco": "0"}},
+        {"verified": {**NOW, "version": "older"}},
+    ],
+)
+def test_records_of_other_versions_are_done_again(
+    quick: Here, tmp_path: Path, change: dict[str, Any]
+) -> None:
+    file = RecordStore(tmp_path / "r.jsonl")
+    file.append(key_of(replace(SETTINGS, seed=1)), made(1, **change))
+    run_duels(SETTINGS, range(1, 2), file, quick)
+    assert quick.seeds == [1]
+
+
+def test_a_strategy_that_was_rewritten_is_another(tmp_path: Path) -> None:
+    """By its file's content; and pushes, which came later, count if any."""
+    file = tmp_path / "own.py"
+    file.write_text("first")
+    own = replace(SETTINGS, evader_strategy=f"{file}:Own")
+    before = settings_hash(own)
+    assert settings_hash(own) == before != settings_hash(SETTINGS)
+    file.write_text("second")
+    after = settings_hash(own)
+    assert after != before
+    file.unlink()
+    assert settings_hash(own) not in (before, after)
+    pushed = replace(SETTINGS, pushes=(Push(1.0, 2.0, 0.0),))
+    assert settings_hash(pushed) != settings_hash(SETTINGS)
+
+
+def test_the_key_of_a_default_duel_is_that_of_its_records() -> None:
+    """Entries that came after the records do not make them strange."""
+    results = Path(__file__).parents[2] / "docs" / "results"
+    records = (results / "duels-ideal.jsonl").read_text("utf-8")
+    key = json.loads(records.splitlines()[0])["key"]
+    assert key.split("/")[1] == settings_hash(DuelSettings())
+
+
+def test_records_of_other_settings_are_not_these(
+    quick: Here, tmp_path: Path
+) -> None:
+    file = RecordStore(tmp_path / "r.jsonl")
+    run_duels(replace(SETTINGS, duration=60.0), [1], file, quick)
+    run_duels(SETTINGS, [1], file, quick)
+    assert quick.seeds == [1, 1]
+    assert len(file.read()) == 2
+
+
+def test_older_records_are_taken_over_if_they_play_the_same(
+    quick: Here, tmp_path: Path
+) -> None:
+    file = RecordStore(tmp_path / "r.jsonl")
+    for seed in range(6):
+        one = replace(SETTINGS, seed=seed)
+        file.append(key_of(one), made(seed, version="old", wall_s=9.0))
+    played, differ = verify_duels(SETTINGS, file, 3, quick)
+    assert len(played) == 3 and differ == []
+    quick.seeds.clear()
+    found = run_duels(SETTINGS, range(6), file, quick)
+    assert quick.seeds == []
+    stamps = stamps_of(found.values())
+    assert stamps["version"] == "old"
+    assert stamps["verified"] == {**NOW, "replayed": 3}
+
+
+def test_records_that_play_otherwise_are_not_taken_over(
+    quick: Here, tmp_path: Path
+) -> None:
+    file = RecordStore(tmp_path / "r.jsonl")
+    for seed in range(3):
+        one = replace(SETTINGS, seed=seed)
+        file.append(key_of(one), made(seed, version="old"))
+    altered = made(1, version="old", digest="another")
+    file.append(key_of(replace(SETTINGS, seed=1)), altered)
+    _, differ = verify_duels(SETTINGS, file, 3, quick)
+    assert differ == [1]
+    assert all("verified" not in r for r in file.read().values())
+
+
+def test_only_older_records_can_vouch_for_older_ones(
+    quick: Here, tmp_path: Path
+) -> None:
+    """Current records come out the same; that says nothing of the others."""
+    file = RecordStore(tmp_path / "r.jsonl")
+    for seed in range(12):
+        one = replace(SETTINGS, seed=seed)
+        wrong = {"version": "old", "digest": "wrong"} if seed < 2 else {}
+        file.append(key_of(one), made(seed, **wrong))
+    played, differ = verify_duels(SETTINGS, file, 3, quick)
+    assert sorted(played) == differ == [0, 1]
+
+
+def test_any_executor_serves(quick: Here) -> None:
+    with ThreadPoolExecutor(2) as pool:
+        found = run_duels(SETTINGS, range(7), None, pool)
+    assert [r["seed"] for r in found.values()] == list(range(7))
+
+
+def test_mean_interval_and_worst_seed_are_known_ones() -> None:
+    records = [made(s, distance_m=d) for s, d in enumerate([0.8, 0.9, 1.3])]
+    row = figure_row("distance_m", records, 0.9, 0)
+    assert row is not None
+    assert row["mean"] == pytest.approx(1.0)
+    assert row["deviation"] == pytest.approx(0.2645751)
+    half = 1.96 * 0.2645751 / np.sqrt(3.0)
+    assert row["mean_high"] == pytest.approx(1.0 + half)
+    assert row["mean_low"] == pytest.approx(1.0 - half)
+    assert (row["least"], row["median"], row["greatest"]) == (0.8, 0.9, 1.3)
+    assert row["worst_seed"] == 2  # farthest from theory
+    assert row["worst"] == 1.3
+    low = figure_row("distance_m", records, 0.9, -1)
+    assert low is not None and low["worst_seed"] == 0
+    high = figure_row("distance_m", records[:2], None, 1)
+    assert high is not None and high["worst_seed"] == 1
+
+
+def test_a_figure_that_nobody_has_is_left_out() -> None:
+    assert figure_row("misled_s", [made(1)], None, 1) is None
+    assert "misled_s" not in summarise_duels(SETTINGS, [made(1)])["figures"]
+
+
+def test_outcomes_and_convergence_are_counted() -> None:
+    records = [
+        made(1),
+        made(2, converged_at_s=None),
+        made(3, outcome="fall", message="evader fell", converged_at_s=None),
+    ]
+    summary = summarise_duels(SETTINGS, records)
+    assert summary["outcomes"]["completed"]["number"] == 2
+    assert summary["outcomes"]["fall"]["of"] == 3
+    assert summary["outcomes"]["contact"]["number"] == 0
+    assert summary["on_the_circle"]["number"] == 1
+    assert summary["not_on_the_circle"] == [2]
+    assert summary["not_completed"] == [
+        {"seed": 3, "outcome": "fall", "message": "evader fell"}
+    ]
+    assert summary["figures"]["distance_m"]["number"] == 2
+    assert summary["theory"]["radius_m"] == pytest.approx(0.6366198)
+
+
+@pytest.mark.parametrize("duration", [60.0, 120.0])
+def test_in_time_is_before_the_last_third(duration: float) -> None:
+    """The rule of the claims page; the last 5 s count otherwise."""
+    settings = replace(SETTINGS, duration=duration)
+    limit = duration * 2.0 / 3.0
+    since = (None, 0.0, limit - 0.1, limit, duration - 5.0)
+    records = [made(n, converged_at_s=s) for n, s in enumerate(since)]
+    summary = summarise_duels(settings, records)
+    assert summary["on_the_circle"]["number"] == 4
+    assert summary["on_the_circle_in_time"]["number"] == 2
+    assert summary["on_the_circle_in_time"]["of"] == 5
+    assert summary["on_the_circle_by_s"] == pytest.approx(limit)
+
+
+def test_a_share_has_wilsons_interval() -> None:
+    found = share([True] * 1000)
+    assert found["number"] == found["of"] == 1000
+    assert found["low"] == pytest.approx(0.99617, abs=1e-5)
+    assert found["high"] == pytest.approx(1.0)
+
+
+def test_approaches_are_held_against_the_certificate() -> None:
+    records = [
+        made(1, certified_m=0.4, evading_min_distance_m=0.5),
+        made(2, certified_m=0.5, evading_min_distance_m=0.48),
+        made(3),
+    ]
+    row = certificate_row(records)
+    assert row["certified"]["number"] == 2 and row["certified"]["of"] == 3
+    assert row["nearer_than_certified"]["number"] == 1
+    assert row["least_excess_m"] == pytest.approx(-0.02)
+    assert row["median_excess_m"] == pytest.approx(0.04)
+    assert row["worst_seed"] == 2
+    assert certificate_row([made(1)])["worst_seed"] is None
+
+
+def test_the_command_writes_records_summary_and_figure(
+    tmp_path: Path,
+) -> None:
+    folder = tmp_path / "out"
+    line = ["--seeds", "5:7", "--duration", "0.5", "--workers", "1"]
+    answer = CliRunner().invoke(
+        duels, [*line, "--json", "--output", str(folder)]
+    )
+    assert answer.exit_code == 0, answer.output
+    found = json.loads(answer.stdout)
+    assert found["seeds"] == "5:7" and found["summary"]["duels"] == 2
+    assert found == json.loads((folder / "summary.json").read_text())
+    assert len(RecordStore(folder / "duels.jsonl").read()) == 2
+    assert (folder / "duels.png").stat().st_size > 1000
+    table = CliRunner().invoke(duels, [*line, "--output", str(folder)])
+    assert "completed" in table.output and "2 of 2" in table.output
+
+
+@pytest.mark.parametrize(
+    "bad", ["", "a", "-1:3", "3:3", "5:2", "0:1000000", "1:2:3", "1.5"]
+)
+def test_seeds_that_are_none_are_refused(bad: str) -> None:
+    answer = CliRunner().invoke(duels, ["--seeds", bad, "--json"])
+    assert answer.exit_code == 2
+    assert "FIRST" in answer.output and "got" in answer.output
+
+
+def test_verifying_nothing_is_refused(tmp_path: Path) -> None:
+    answer = CliRunner().invoke(
+        duels, ["--verify", "3", "--output", str(tmp_path)]
+    )
+    assert answer.exit_code == 2 and "records" in answer.output
+
+
+def test_nothing_is_played_when_verified_duels_differ(
+    quick: Here, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = RecordStore(tmp_path / "duels.jsonl")
+    for seed in range(3):
+        one = replace(SETTINGS, seed=seed)
+        digest = "another" if seed else "d0"
+        file.append(key_of(one), made(seed, version="old", digest=digest))
+    monkeypatch.setattr(workers, "worker_pool", lambda _: quick)
+    line = ["duels", "--seeds", "0:9", "--verify", "3", "--json"]
+    line += ["--duration", "120", "--output", str(tmp_path)]
+    answer = CliRunner().invoke(main, line)
+    assert answer.exit_code == 1, answer.output
+    assert "1 of 3 duels came out the same" in answer.stderr
+    assert "seeds 1, 2" in answer.stderr
+    assert answer.stdout == "" and len(quick.seeds) == 3
+    assert [f.name for f in tmp_path.iterdir()] == ["duels.jsonl"]
+
+
+CHILD = """
+import os, signal, sys, time
+from concurrent.futures import as_completed
+from stepaside.workers import give_up, worker_pool
+
+def stay(number):
+    print(os.getpid(), flush=True)
+    time.sleep(300)
+
+if __name__ == "__main__":
+    # Whoever runs this in the background ignores Ctrl-C, and so would it.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with worker_pool(1) as pool:
+            futures = [pool.submit(stay, number) for number in range(20)]
+            try:
+                list(as_completed(futures))
+            except BaseException:
+                give_up(pool, futures)
+                raise
+    except KeyboardInterrupt:
+        sys.exit(130)
+"""
+
+
+@pytest.mark.parametrize(
+    ("how", "everyone"),
+    [(signal.SIGKILL, False), (signal.SIGINT, False), (signal.SIGINT, True)],
+)
+def test_workers_end_with_their_parent(
+    tmp_path: Path, how: signal.Signals, everyone: bool
+) -> None:
+    """However it ends; their output is at its end when all are gone.
+
+    A terminal's Ctrl-C reaches the workers, too; either way nothing of the
+    twenty that were waiting begins, and nothing is complained of.
+    """
+    script = tmp_path / "child.py"
+    script.write_text(CHILD)
+    with subprocess.Popen(
+        [sys.executable, str(script)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+        text=True,
+    ) as parent:
+        assert parent.stdout is not None and parent.stderr is not None
+        assert int(parent.stdout.readline()) > 0
+        if everyone:
+            os.killpg(parent.pid, how)
+        else:
+            parent.send_signal(how)
+        assert parent.stdout.read() == ""
+        complaints = parent.stderr.read()
+    if how is signal.SIGINT:
+        assert parent.returncode == 130
+        assert complaints == ""
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "worst"),
+    [
+        ("pursuer_radius_m", [0.60, 0.64, 0.66], 0),
+        ("evader_radius_m", [0.63, 0.64, 0.70], 2),
+        ("distance_m", [0.80, 0.90, 0.95], 0),
+        ("relative_orientation_deg", [90.0, 89.0, 92.0], 2),
+        ("converged_at_s", [20.0, 50.0, 30.0], 1),
+        ("min_distance_m", [0.5, 0.4, 0.6], 1),
+        ("triggered_at_distance_m", [0.8, 0.7, 0.75], 1),
+        ("min_zmp_margin_m", [0.03, 0.02, 0.04], 1),
+        ("misled_s", [0.0, 2.0, 1.0], 1),
+        ("lost_s", [0.0, 2.0, 1.0], 1),
+        ("detection_rate", [1.0, 0.9, 0.95], 1),
+        ("false_detections", [0.0, 3.0, 1.0], 1),
+    ],
+)
+def test_the_worst_of_each_figure_is_at_its_bad_end(
+    name: str, values: list[float], worst: int
+) -> None:
+    records = [made(seed, **{name: v}) for seed, v in enumerate(values)]
+    row = summarise_duels(SETTINGS, records)["figures"][name]
+    assert row["worst_seed"] == worst and row["worst"] == values[worst]

@@ -1,0 +1,212 @@
+"""What is there after a command was ended, however it was."""
+
+import os
+import platform
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+from hashlib import sha256
+from pathlib import Path
+
+import pytest
+
+from stepaside.cli import reproduce_figures
+from stepaside.core.atomic_output import DRAFT, draft_prefix, sweep, writing
+from stepaside.core.errors import OutputError
+from stepaside.core.interrupts import interruptible
+from stepaside.core.worker_pool import worker_pool
+from stepaside.studies.reading_store import ReadingStore
+from stepaside.studies.record_store import RecordStore
+from tools.fuzz.case import complaint_of
+from tools.fuzz.moments import SIGNALS, moment_case
+
+HERE = sha256(platform.node().encode()).hexdigest()[:8]
+
+
+@pytest.mark.parametrize(
+    ("name", "sign", "part"),
+    [
+        ("duel", signal.SIGTERM, 0.7),
+        ("duels", signal.SIGKILL, 0.6),
+    ],
+)
+def test_what_is_there_is_whole_and_the_rerun_is_the_same(
+    name: str, sign: signal.Signals, part: float
+) -> None:
+    """``python -m tools.fuzz --kinds moments`` tries many moments."""
+    assert sign in SIGNALS
+    assert complaint_of(moment_case(name, sign, part)) == ""
+
+
+def ended() -> int:
+    """Number of a process that is no more."""
+    process = subprocess.Popen([sys.executable, "-c", ""])
+    process.wait()
+    return process.pid
+
+
+def test_drafts_of_the_dead_are_swept_and_no_others(tmp_path: Path) -> None:
+    dead = ended()
+    gone = [f"{DRAFT}{HERE}-{dead}-a", f"{DRAFT}{HERE}-{dead}-b.png"]
+    kept = [
+        *(f"{DRAFT}{HERE}-{os.getpid()}-a", f"{DRAFT}elsewhere-{dead}-a"),
+        *(f"{DRAFT}{HERE}-1-a", f"{DRAFT}{HERE}-x-a", f"{DRAFT}x", "mine"),
+    ]
+    for name in [gone[1], *kept]:
+        (tmp_path / name).write_text("")
+    (tmp_path / gone[0]).mkdir()
+    (tmp_path / gone[0] / "part").write_text("")
+    assert draft_prefix() == f"{DRAFT}{HERE}-{os.getpid()}-"
+    with writing(tmp_path / "new") as draft:
+        draft.write_text("whole")
+    assert {f.name for f in tmp_path.iterdir()} == {*kept, "new"}
+    sweep(tmp_path)
+    assert {f.name for f in tmp_path.iterdir()} == {*kept, "new"}
+
+
+def test_sigterm_is_ctrl_c_while_a_command_runs() -> None:
+    before = signal.getsignal(signal.SIGTERM)
+    with pytest.raises(KeyboardInterrupt), interruptible():
+        signal.raise_signal(signal.SIGTERM)
+    assert signal.getsignal(signal.SIGTERM) == before
+
+
+def test_a_record_behind_a_torn_one_is_not_lost(tmp_path: Path) -> None:
+    file = RecordStore(tmp_path / "records.jsonl")
+    file.append("a", {"x": 1})
+    with file.path.open("a") as out:
+        out.write('{"key": "b", "rec')  # its writer was killed
+    file.append("c", {"x": 3})
+    again = RecordStore(file.path)
+    assert again.read() == {"a": {"x": 1}, "c": {"x": 3}}
+    assert again.aside == 1
+
+
+def test_readings_that_were_altered_are_set_aside_by_name(
+    tmp_path: Path,
+) -> None:
+    told: list[Path] = []
+    kept = ReadingStore(tmp_path, told.append)
+    kept.store("one", {"seed": 1}, {"x": 0.25})
+    file = tmp_path / "one.json"
+    assert kept.load("one", {"seed": 1}, ["x"]) == {"x": 0.25}
+    for spoilt in (file.read_text().replace("0.25", "0.26"), "[" * 100_000):
+        kept.store("one", {"seed": 1}, {"x": 0.25})
+        file.write_text(spoilt)
+        assert kept.load("one", {"seed": 1}, ["x"]) is None
+        assert told == [tmp_path / "one.json.aside"] and not file.exists()
+        told.pop().unlink()
+
+
+def test_a_figure_is_trusted_by_what_it_holds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn: list[str] = []
+
+    def draw(name: str) -> Callable[..., None]:
+        def drawer(file: Path, *_: object) -> None:
+            drawn.append(name)
+            file.write_text(name)
+
+        return drawer
+
+    for name in ("game", "sweep", "duel"):
+        monkeypatch.setattr(reproduce_figures, f"_draw_{name}", draw(name))
+    reproduce_figures.draw_figures(tmp_path, 1)
+    assert sorted(drawn) == ["duel", "game", "sweep"]
+    reproduce_figures.draw_figures(tmp_path, 1)
+    assert len(drawn) == 3
+    (tmp_path / "sweep.png").write_text("torn")
+    (tmp_path / "fig2.png").unlink()
+    reproduce_figures.draw_figures(tmp_path, 1)
+    assert sorted(drawn[3:]) == ["game", "sweep"]
+    assert (tmp_path / "sweep.png").read_text() == "sweep"
+
+
+def mask(_: int) -> tuple[bool, bool]:
+    """Whether SIGINT is blocked here, and whether it is passed over."""
+    blocked = signal.pthread_sigmask(signal.SIG_BLOCK, ())
+    return (
+        signal.SIGINT in blocked,
+        signal.getsignal(signal.SIGINT) is signal.SIG_IGN,
+    )
+
+
+def test_workers_leave_ctrl_c_to_their_parent() -> None:
+    with worker_pool(1) as pool:
+        assert list(pool.map(mask, [1])) == [(False, True)]
+    assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
+
+
+def fail(number: int) -> int:
+    """Fail at once."""
+    raise ValueError(number)
+
+
+def test_a_task_that_fails_ends_the_others_and_nothing_else(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The thread that manages the workers shows no traceback of its own."""
+    shown: list[object] = []
+    monkeypatch.setattr(threading, "excepthook", shown.append)
+    with pytest.raises(ValueError), worker_pool(1) as pool:
+        list(pool.map(fail, range(9)))
+    assert not shown
+
+
+def test_the_package_is_a_command_too() -> None:
+    said = subprocess.run(
+        [sys.executable, "-m", "stepaside", "--version"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert "stepaside" in said.stdout and not said.stderr
+
+
+def test_what_lies_aside_already_stays(tmp_path: Path) -> None:
+    """It may be an earlier one, or a file of somebody else."""
+    kept = ReadingStore(tmp_path)
+    (tmp_path / "one.json.aside").write_text("mine")
+    (tmp_path / "one.json").write_text("torn")
+    assert kept.load("one", {}, ["x"]) is None
+    found = {file.read_text() for file in tmp_path.iterdir()}
+    assert found == {"mine", "torn"}
+
+
+def test_an_empty_file_that_was_there_stays_where_room_runs_out(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for made_before in (True, False):
+        file = RecordStore(tmp_path / f"{made_before}.jsonl")
+        if made_before:
+            file.path.touch()
+        with monkeypatch.context() as patch:
+            patch.setattr(Path, "open", lambda path, *w, **k: Full(path))
+            with pytest.raises(OutputError):
+                file.append("a", {})
+        assert file.path.exists() is made_before
+
+
+class Full:
+    """A file that takes nothing."""
+
+    def __init__(self, path: Path) -> None:
+        """Make the file."""
+        path.touch()
+
+    def __enter__(self) -> "Full":
+        return self
+
+    def __exit__(self, *words: object) -> None:
+        pass
+
+    def seek(self, *words: int) -> int:
+        """Place of the end."""
+        return 0
+
+    def write(self, data: bytes) -> int:
+        """Run out of room."""
+        raise OSError(28, "No space left on device")

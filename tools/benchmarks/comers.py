@@ -1,0 +1,118 @@
+"""Let one person a seed come at a robot with the fast gait, or pass it.
+
+The starts are those of ``stepaside duel --pursuer person --person-path
+straight --gait fast``: from ahead within 30 degrees, 5 s of walking away.
+Fifty seeds of each kind; records stand in ``runs/comers`` and are gone on
+with::
+
+    python tools/benchmarks/comers.py --seeds 0:50
+
+``--verify N`` first takes over what an older version of the code played, if
+N duels of each kind that are played again come out the same, to the bit.
+"""
+
+from dataclasses import replace
+from pathlib import Path
+
+from asking import ask, seeds_of
+from tqdm import tqdm
+
+from stepaside.core.worker_pool import worker_pool
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.locomotion.zmp.control_settings import ControlSettings
+from stepaside.planning import PRESETS
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.person_settings import PersonSettings
+from stepaside.strategies import Evasion
+from stepaside.studies.duel_campaign import (
+    ROOMS,
+    Record,
+    run_duels,
+    verify_duels,
+)
+from stepaside.studies.record_store import RecordStore
+from stepaside.studies.result_files import header, write_result
+
+FAST = DuelSettings(
+    duration=16.0,
+    gait=PRESETS["fast"],
+    control=ControlSettings(feedback=True),
+    strategy=Evasion(trigger="time"),
+    pursuer="person",
+)
+SEES = replace(FAST, sensing="cameras")
+KINDS = {
+    "ideal-sight": replace(FAST, person=PersonSettings("straight", 1.0)),
+    "cameras": replace(SEES, person=PersonSettings("straight", 0.8)),
+    "cameras-passing": replace(
+        SEES, person=PersonSettings("straight", 0.8, miss=1.2)
+    ),
+    "hardware-cameras": replace(
+        SEES,
+        duration=20.0,
+        body=BODIES["hardware"],
+        person=PersonSettings("straight", 0.5),
+    ),
+}
+
+
+def row_of(kind: str, records: list[Record]) -> Record:
+    """What the duels of a kind came to."""
+    settings = KINDS[kind]
+    begun = [r["triggered_at_distance_m"] for r in records]
+    known = [away for away in begun if away is not None]
+    outcomes = [record["outcome"] for record in records]
+    closest = [record["min_distance_m"] for record in records]
+    return {
+        "kind": kind,
+        "body": next(k for k, body in BODIES.items() if body == settings.body),
+        "sensing": settings.sensing,
+        "speed_m_s": settings.person.speed,
+        "miss_m": settings.person.miss,
+        "number": len(records),
+        "contacts": outcomes.count("contact"),
+        "falls": outcomes.count("fall"),
+        "begun": len(known),
+        "begun_at_m": sum(known) / len(known) if known else None,
+        "closest_m": min(closest),
+        "mean_closest_m": sum(closest) / len(closest),
+    }
+
+
+def main() -> None:
+    """Play, and write what came out."""
+    parser = ask(__doc__, "comers.json")
+    parser.add_argument("--seeds", type=seeds_of, default=range(0, 50))
+    parser.add_argument("--kinds", nargs="+", choices=KINDS, default=KINDS)
+    parser.add_argument("--records", type=Path, default=Path("runs/comers"))
+    parser.add_argument("--verify", type=int)
+    parser.add_argument("--workers", type=int)
+    asked = parser.parse_args()
+    asked.records.mkdir(parents=True, exist_ok=True)
+    rows: list[Record] = []
+    every = len(asked.seeds) * len(asked.kinds)
+    with (
+        worker_pool(asked.workers) as executor,
+        tqdm(total=every, unit="duel", disable=None) as bar,
+    ):
+        for kind in asked.kinds:
+            file = RecordStore(asked.records / f"{kind}.jsonl")
+            if asked.verify is not None:
+                taken = KINDS[kind], file, asked.verify, executor
+                print(f"{kind}: otherwise: seeds {verify_duels(*taken)[1]}")
+            before = len(rows) * len(asked.seeds)
+
+            def report(number: int, before: int = before) -> None:
+                bar.n = before + number
+                bar.refresh()
+
+            found = run_duels(KINDS[kind], asked.seeds, file, executor, report)
+            rows.append(row_of(kind, list(found.values())))
+    seeds = [asked.seeds.start, asked.seeds.stop]
+    libraries = ["mujoco", "numpy", "opencv-python-headless"]
+    head = header({"seeds": seeds}, rooms=ROOMS, libraries=libraries)
+    write_result(asked.output, head, rows=rows)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,138 @@
+"""Let somebody come and go around a robot that sees, and count what happens.
+
+The robot has the hardware body, the fast gait and its cameras. A contact or a
+fall ends a game, and the next seed goes on; resident memory is taken each
+minute::
+
+    python tools/benchmarks/coming_and_going.py --minutes 30
+"""
+
+from math import inf
+from pathlib import Path
+from time import perf_counter
+
+from asking import ask, machine
+from people import CAMERAS
+
+from stepaside.games.duel import Duel
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.match import Match, play
+from stepaside.games.outcome import Outcome
+from stepaside.games.person_player import PersonPlayer
+from stepaside.locomotion.zmp.control_settings import STABILISED
+from stepaside.planning import PRESETS
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.camera_settings import SceneSettings
+from stepaside.sim.person_settings import PersonSettings
+from stepaside.strategies import Evasion
+from stepaside.studies.people_campaign import PASSING
+from stepaside.studies.result_files import header, write_result
+
+MINUTE = 60.0  # between two looks at the memory, in [s]
+
+
+def game(seed: int, speed: float, duration: float) -> DuelSettings:
+    """Somebody comes and goes at a speed, in [m/s], for a while, in [s]."""
+    return DuelSettings(
+        seed=seed,
+        duration=duration,
+        gait=PRESETS["fast"],
+        body=BODIES["hardware"],
+        control=STABILISED,
+        strategy=Evasion(trigger="time"),
+        sensing="cameras",
+        cameras=CAMERAS,
+        room=SceneSettings(walls=0.0),
+        pursuer="person",
+        person=PersonSettings("visits", speed),
+        start=StartSettings(4.5, 0.0),
+    )
+
+
+class Counts:
+    """What happened, as it happens.
+
+    Attributes:
+        crossings: Begun.
+        triggers: How often the robot began to move.
+        false: Of them, those while nobody came within a passer's way.
+        closest: Least distance between the torsos, in [m].
+        memory: Resident memory at each minute, in [MB].
+    """
+
+    def __init__(self) -> None:
+        self.crossings = self.triggers = self.false = 0
+        self.closest = inf
+        self.memory = [resident()]
+        self._before, self._moved = 0.0, False
+
+    def before(self, match: Match) -> None:
+        """Look at each tick."""
+        person, robot = match.players
+        assert isinstance(person, PersonPlayer)
+        visits = person.person.visits
+        if robot.is_moving and not self._moved:
+            self.triggers += 1
+            passes = abs(visits.miss) >= PASSING
+            self.false += passes or not visits.crossing
+        self._moved = robot.is_moving
+        played = self._before + match.world.time
+        if played >= MINUTE * len(self.memory):
+            self.memory.append(resident())
+
+    def acted(self, match: Match) -> None:
+        """Nothing is to be seen in between."""
+
+    def ended(self, match: Match, outcome: Outcome) -> None:
+        """Add a game up."""
+        person = match.players[0]
+        assert isinstance(person, PersonPlayer)
+        self.crossings += person.person.visits.number
+        assert match.min_distance is not None
+        self.closest = min(self.closest, match.min_distance)
+        self._before, self._moved = self._before + match.world.time, False
+
+
+def resident() -> float:
+    """Resident memory of this process, in [MB]."""
+    pages = int(Path("/proc/self/statm").read_text("utf-8").split()[1])
+    return pages * 4096 / 1e6
+
+
+def main() -> None:
+    """Play and write."""
+    asked = ask(__doc__, "coming-and-going.json")
+    asked.add_argument("--minutes", type=float, default=30.0)
+    asked.add_argument("--speed", type=float, default=0.5)
+    asked.add_argument("--seed", type=int, default=1)
+    given = asked.parse_args()
+    left, seed, counts = 60.0 * given.minutes, given.seed, Counts()
+    outcomes, began = [], perf_counter()
+    while left > 1.0:
+        duel = Duel(game(seed, given.speed, left), (counts,), recorded=False)
+        outcome, _ = play(duel, left)
+        print(seed, outcome.value, duel.message, flush=True)
+        outcomes.append(outcome.value)
+        left, seed = left - duel.world.time, seed + 1
+    settings = {"minutes": given.minutes, "speed_m_s": given.speed}
+    libraries = ["mujoco", "numpy", "opencv-python-headless"]
+    played = 60.0 * given.minutes - max(left, 0.0)
+    write_result(
+        given.output,
+        header(settings, rooms=("studies/encounters",), libraries=libraries),
+        machine=machine(),
+        played_s=played,
+        wall_s=perf_counter() - began,
+        crossings=counts.crossings,
+        contacts=outcomes.count("contact"),
+        falls=outcomes.count("fall"),
+        triggers=counts.triggers,
+        false_triggers=counts.false,
+        false_triggers_per_hour=3600.0 * counts.false / played,
+        closest_m=counts.closest,
+        memory_mb=counts.memory,
+    )
+
+
+if __name__ == "__main__":
+    main()

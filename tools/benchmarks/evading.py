@@ -1,0 +1,104 @@
+"""Evaders in rooms: survival, closest approach and floor, by opponent.
+
+Plays tournaments in steps and writes what came out::
+
+    python tools/benchmarks/evading.py --seeds 1000:1300 --small 1000:1050
+
+Games that are kept in a folder (``--records``) are not played again. No
+setting of an evader was chosen by seeds from 1000 on.
+"""
+
+from pathlib import Path
+from typing import Any
+
+from asking import ask, machine, seeds_of
+
+from stepaside.arena import RoomRecipe
+from stepaside.core.worker_pool import worker_pool
+from stepaside.studies.entrants import EVADERS
+from stepaside.studies.record_store import RecordStore
+from stepaside.studies.result_files import header, write_result
+from stepaside.studies.tournament_campaign import play_tournament
+from stepaside.studies.tournament_rows import tournament_rows
+from stepaside.studies.tournament_settings import ROOMS, TournamentSettings
+
+WORLDS = {
+    "open floor": RoomRecipe(None, None),
+    "3 x 3 m": RoomRecipe(),
+    "3 x 3 m, 3 discs": RoomRecipe(discs=3),
+}
+SIZES = (1.8, 2.0, 2.2, 2.5, 3.0, 4.0, 6.0)  # of square rooms, in [m]
+IN_SMALL = ("look-ahead", "aside", "deflected")
+PURSUERS = (
+    *("pure", "pure-x1.5", "pure-x2", "pure-x2.5", "pure-x2.8", "pure-x3"),
+    *("pure-x4", "sharp", "herding", "lead", "optimal"),
+)
+MET = (  # world and evader that meet every one of them
+    *(("open floor", "aside"), ("open floor", "look-ahead")),
+    *(("3 x 3 m", "look-ahead"), ("3 x 3 m, 3 discs", "look-ahead")),
+)
+
+
+def main() -> None:
+    """Play, write."""
+    asked = ask(__doc__, "evading.json")
+    asked.add_argument("--seeds", type=seeds_of, default=range(1000, 1300))
+    asked.add_argument("--small", type=seeds_of, default=range(1000, 1050))
+    asked.add_argument("--workers", type=int)
+    asked.add_argument("--records", type=Path)
+    arguments = asked.parse_args()
+    file = arguments.records and RecordStore(arguments.records / "games.jsonl")
+    with worker_pool(arguments.workers) as executor:
+
+        def rows(
+            recipe: RoomRecipe, pairings: list[tuple[str, str]], seeds: range
+        ) -> list[dict[str, Any]]:
+            settings = TournamentSettings(room=recipe)
+            found = play_tournament(settings, pairings, seeds, file, executor)
+            return tournament_rows(list(found.values()), settings.game)
+
+        pure = [(name, "pure") for name in EVADERS]
+        worlds = {
+            name: rows(recipe, pure, arguments.seeds)
+            for name, recipe in WORLDS.items()
+        }
+        opponents = [
+            {
+                "world": world,
+                "evader": evader,
+                "rows": rows(
+                    WORLDS[world],
+                    [(evader, pursuer) for pursuer in PURSUERS],
+                    arguments.small,
+                ),
+            }
+            for world, evader in MET
+        ]
+        sizes = [
+            {
+                "size_m": size,
+                "rows": rows(
+                    RoomRecipe(size, size),
+                    [(name, "pure") for name in IN_SMALL],
+                    arguments.small,
+                ),
+            }
+            for size in SIZES
+        ]
+    told = {
+        "seeds": f"{arguments.seeds.start}:{arguments.seeds.stop}",
+        "small": f"{arguments.small.start}:{arguments.small.stop}",
+    }
+    head = header(told, rooms=ROOMS, libraries=("numba", "numpy"))
+    write_result(
+        arguments.output,
+        head,
+        machine=machine(),
+        worlds=worlds,
+        opponents=opponents,
+        sizes=sizes,
+    )
+
+
+if __name__ == "__main__":
+    main()

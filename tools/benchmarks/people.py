@@ -1,0 +1,112 @@
+"""Let people come at, and pass, a robot with the fast gait that sees them.
+
+They wear no trim, so that colour images tell nothing of them: two a second
+are taken, made of rays. Depth images and echoes come as ever::
+
+    python tools/benchmarks/people.py --speed 0.8 --seeds 1:6
+    python tools/benchmarks/people.py --speed 0.5 --seeds 1:6 --body hardware
+"""
+
+from argparse import Namespace
+from dataclasses import replace
+
+from asking import ask, seeds_of
+from gathering import Row, finished, gather
+
+from stepaside.games.walk_settings import WalkSettings
+from stepaside.locomotion.zmp.control_settings import STABILISED
+from stepaside.planning import PRESETS
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.camera_settings import CameraSettings, ColourSettings
+from stepaside.studies.people_campaign import Encounter, encounters, meet
+from stepaside.studies.people_statistics import passing_rows, people_rows
+from stepaside.studies.result_files import header, write_result
+
+AHEAD = (0, 45, -45, 90, -90)  # where they come from, in [deg]
+BEHIND = (135, -135, 180)
+AIMED = (0.0, 0.3)  # how far beside the robot, in [m]
+BY = (1.2, -1.2)
+CAMERAS = CameraSettings(colour=ColourSettings(renderer="raycast", rate=2.0))
+
+
+def play(encounter: Encounter) -> Row:
+    """What happened to one person."""
+    return meet(encounter)[1]
+
+
+def grid(
+    body: str,
+    speed: float,
+    seeds: range,
+    bearings: tuple[int, ...],
+    *offsets: float,
+) -> list[Encounter]:
+    """People at one speed from some directions."""
+    walk = WalkSettings(
+        seed=seeds.start,
+        gait=PRESETS["fast"],
+        body=BODIES[body],
+        control=STABILISED,
+    )
+    return [
+        replace(each, base=replace(each.base, cameras=CAMERAS))
+        for each in encounters(
+            walk,
+            ("cameras",),
+            seeds=len(seeds),
+            speeds=(speed,),
+            bearings=bearings,
+            offsets=offsets,
+        )
+    ]
+
+
+def _name(asked: Namespace) -> str:
+    end = "" if asked.body == "ideal" else f"-{asked.body}"
+    return f"people-cameras{end}.json"
+
+
+def main() -> None:
+    """Play and write."""
+    asked = ask(__doc__, _name)
+    asked.add_argument("--speed", type=float, default=0.8)
+    asked.add_argument("--seeds", type=seeds_of, default="1:3")
+    asked.add_argument("--body", choices=BODIES, default="ideal")
+    asked.add_argument("--workers", type=int)
+    arguments = asked.parse_args()
+    speed, seeds, body = arguments.speed, arguments.seeds, arguments.body
+    output = arguments.output
+    groups = {
+        "ahead": grid(body, speed, seeds, AHEAD, *AIMED),
+        "behind": grid(body, speed, seeds[:1], BEHIND, AIMED[0]),
+        "past": grid(body, speed, seeds, AHEAD, *BY),
+    }
+    jobs = {each.key: each for group in groups.values() for each in group}
+    settings = {
+        "body": body,
+        "speed_m_s": speed,
+        "seeds": [seeds.start, seeds.stop],
+    }
+    libraries = ["mujoco", "numpy", "opencv-python-headless"]
+    head = header(settings, rooms=("studies/people",), libraries=libraries)
+    rows = gather(output, head, jobs, play, arguments.workers)
+    came = [
+        {"from": name, **people_rows(groups[name], rows)[0]}
+        for name in ("ahead", "behind")
+    ]
+    passed = passing_rows(groups["past"], rows)[0]
+    each = [
+        {
+            "bearing_deg": who.bearing,
+            "offset_m": who.offset,
+            "seed": who.seed,
+            **rows[key],
+        }
+        for key, who in jobs.items()
+    ]
+    write_result(output, head, came=came, passed=passed, rows=each)
+    finished(output)
+
+
+if __name__ == "__main__":
+    main()

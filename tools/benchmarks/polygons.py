@@ -1,0 +1,186 @@
+"""What a decision costs among the polygons of a map that was seen.
+
+Cells of a map of a room of 3 x 3 m with discs, as a depth camera leaves them,
+are covered by convex polygons; the more discs, the more of them. Timed is
+the processor time of each part of a decision there, in a place and with a
+start of its own each time::
+
+    python tools/benchmarks/polygons.py
+"""
+
+import os
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+from collections.abc import Callable
+from functools import partial
+from math import atan2, hypot
+from time import process_time
+from typing import Any
+
+import numpy as np
+from asking import ask, machine
+
+from stepaside.arena import (
+    ObstacleSet,
+    Room,
+    RoomRecipe,
+    draw_starts,
+    make_room,
+)
+from stepaside.arena.polygon_cover import cover
+from stepaside.control.clearance.guard import Guard, GuardDecision
+from stepaside.control.clearance.surroundings import HERE
+from stepaside.control.clearance.swept_outline import sway_of
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.planning import (
+    CenterState,
+    Direction,
+    Foot,
+    GaitSettings,
+    ManeuverPlan,
+    ManeuverPlanner,
+)
+from stepaside.robots.description import load_robot
+from stepaside.sim.outline_measurement import measure_outline
+from stepaside.strategies import (
+    Intent,
+    Knowledge,
+    Limits,
+    LookAhead,
+    Pursuit,
+    Strategy,
+)
+from stepaside.studies.result_files import header, write_result
+
+GAIT = GaitSettings()
+NAO = measure_outline(load_robot("nao"), GAIT)
+PLANNER = ManeuverPlanner(GAIT)
+MARGIN, CELL = 0.02, 0.05  # of the guard, and of a map, in [m]
+NEEDS = NAO.radius + MARGIN + sway_of(GAIT)
+ROOMS = ("planning", "rooms", "steps", "strategies", "control/clearance")
+RECIPES = (RoomRecipe(), RoomRecipe(discs=3), RoomRecipe(discs=6))
+WIDE = 2.0  # half of the side of a map, in [m]
+
+
+class Taken:
+    """Surroundings of what a map holds.
+
+    Attributes:
+        solids: All of it.
+        frame: Of odometry.
+        blur: How far off that may be, in [m].
+    """
+
+    frame = HERE
+    blur = CELL
+
+    def __init__(self, solids: ObstacleSet) -> None:
+        """Know it."""
+        self.solids = solids
+
+    def note(self, measurement: Any, body: Any) -> None:
+        """Learn nothing more."""
+
+
+def seen(room: Room, fine: float) -> ObstacleSet:
+    """Polygons that cover the cells of a map within 10 cm of a surface."""
+    ticks = np.arange(-WIDE, WIDE, CELL) + 0.5 * CELL
+    cells = np.stack(np.meshgrid(ticks, ticks), axis=-1).reshape(-1, 2)
+    clear = room.clearance(cells)
+    return ObstacleSet(
+        cover(cells[(clear < 0.0) & (clear > -0.1)], CELL, fine)
+    )
+
+
+def knowledge(
+    starts: tuple[Pose, Pose], own: int, solids: ObstacleSet
+) -> Knowledge:
+    """What one of two players knows at its start."""
+    here, other = starts[own], starts[1 - own]
+    x, y = other.x - here.x, other.y - here.y
+    limits = Limits(GAIT.speed, GAIT.gain, GAIT.stride, GAIT.step_duration)
+    bearing = wrap_angle(atan2(y, x) - here.theta)
+    return Knowledge(
+        0.0, bearing, hypot(x, y), limits, pose=here, obstacles=solids.shapes
+    )
+
+
+def guarded(pose: Pose, solids: ObstacleSet) -> Callable[[], object]:
+    """A choice of the guard in a place."""
+    guard = Guard(Taken(solids), NAO, PLANNER, margin=MARGIN)
+    half = 0.5 * GAIT.foot_spacing
+    support = pose.compose(Pose(0.0, -half, 0.0))
+    state = CenterState((0.01, 0.025), (-0.07, -0.04))
+
+    def plan_for(choice: GuardDecision) -> ManeuverPlan:
+        return PLANNER.plan(
+            choice.intent.heading,
+            Direction.BACKWARD,
+            first_foot=Foot.LEFT,
+            state=state,
+            speed_factor=choice.intent.speed_factor,
+        )
+
+    return lambda: guard.choose(Intent(0.4), plan_for, support, standing=False)
+
+
+def decide(mind: Strategy, known: Knowledge) -> object:
+    """First decision of a strategy."""
+    return mind.decide(known, mind.begin())
+
+
+def timed(do: Callable[[], object]) -> float:
+    """Processor time of one call, in [s]."""
+    begun = process_time()
+    do()
+    return process_time() - begun
+
+
+def measure(recipe: RoomRecipe, fine: float, games: int) -> dict[str, Any]:
+    """Times of the parts of decisions in some rooms, each map new."""
+    evader, pursuer = LookAhead(body_radius=NEEDS), Pursuit(body_radius=NEEDS)
+    times: dict[str, list[float]] = {}
+    counts: list[int] = []
+    for seed in range(games):
+        room = make_room(recipe, seed)
+        starts = draw_starts(room, seed, NEEDS)
+        solids = seen(room, fine)
+        counts.append(len(solids.shapes))
+        for own, name, mind in (
+            (1, "look-ahead", evader),
+            (0, "pursuit", pursuer),
+        ):
+            known = knowledge(starts, own, solids)
+            spent = timed(partial(decide, mind, known))
+            times.setdefault(name, []).append(spent)
+        times.setdefault("guard", []).append(timed(guarded(starts[1], solids)))
+    return {
+        "polygons": [min(counts), max(counts)],
+        "decisions": games,
+        **{
+            name: {
+                "median_ms": 1e3 * float(np.median(each[1:])),
+                "longest_ms": 1e3 * max(each[1:]),
+            }
+            for name, each in times.items()
+        },
+    }
+
+
+def main() -> None:
+    """Measure and write."""
+    asked = ask(__doc__, "polygons.json")
+    asked.add_argument("--games", type=int, default=40)
+    arguments = asked.parse_args()
+    head = header({"games": arguments.games}, rooms=ROOMS)
+    measure(RECIPES[0], 2.2, 2)  # code is loaded
+    rows = [
+        measure(recipe, fine, arguments.games)
+        for recipe, fine in zip(RECIPES, (2.2, 1.25, 1.15), strict=True)
+    ]
+    write_result(arguments.output, head, machine=machine(), rows=rows)
+
+
+if __name__ == "__main__":
+    main()

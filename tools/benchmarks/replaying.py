@@ -1,0 +1,73 @@
+"""Write a run as a page, a film and a GIF: how long, and how large.
+
+::
+
+    python tools/benchmarks/replaying.py --seed 7
+"""
+
+import os
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import perf_counter
+
+from asking import ask, machine
+from click.testing import CliRunner
+
+from stepaside.cli.main import main as stepaside
+from stepaside.studies.code_version import PHYSICS
+from stepaside.studies.result_files import header, write_result
+
+GIF = (
+    "--begin 4 --duration 16 --speed 2 --camera follow --rate 8 "
+    "--width 480 --height 270"
+)
+FILES = {
+    "html": ("--html", "run.html", ""),
+    "video": ("--video", "run.mp4", "--duration 60 --width 1280 --height 720"),
+    "gif": ("--gif", "run.gif", GIF),
+}
+
+
+def call(*words: str) -> None:
+    """Call ``stepaside``, and stop where it fails."""
+    answer = CliRunner().invoke(stepaside, words)
+    if answer.exit_code:
+        raise SystemExit(answer.output)
+
+
+def main() -> None:
+    """Play, write each file, and the results."""
+    asked = ask(__doc__, "replay.json")
+    asked.add_argument("--seed", type=int, default=7)
+    arguments = asked.parse_args()
+    files = {}
+    with TemporaryDirectory() as folder:
+        run = str(Path(folder) / "run")
+        call("duel", "--seed", str(arguments.seed), "--output", run)
+        for kind, (option, name, more) in FILES.items():
+            file = Path(folder) / name
+            began = perf_counter()
+            call("replay", run, option, str(file), *more.split())
+            files[kind] = {
+                "wall_s": perf_counter() - began,
+                "bytes": file.stat().st_size,
+                "options": more,
+            }
+            print(kind, files[kind], flush=True)
+    write_result(
+        arguments.output,
+        header(
+            {"seed": arguments.seed, "duration_s": 120.0},
+            rooms=(*PHYSICS, "report"),
+            libraries=("mujoco", "numpy", "av"),
+        ),
+        machine=machine(),
+        files=files,
+    )
+
+
+if __name__ == "__main__":
+    main()

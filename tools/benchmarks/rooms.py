@@ -1,0 +1,150 @@
+"""Play duels in rooms of 3 x 3 m with three discs, in physics.
+
+Rows of other strategies and maps that stand in the output already stay::
+
+    python tools/benchmarks/rooms.py --strategy evasion --map given --seeds 0:10
+
+``--summarise`` plays nothing: it makes the summary again from the rows.
+"""
+
+import json
+from pathlib import Path
+from typing import NamedTuple
+
+from asking import ask, machine, seeds_of
+from gathering import Row, finished, gather, spread
+
+from stepaside.arena import RoomRecipe, make_room
+from stepaside.control.clearance.map_settings import MAPS, MapSettings
+from stepaside.core.constants import CAPTURE_DISTANCE
+from stepaside.games import DuelSettings, run_duel
+from stepaside.sim.camera_settings import SceneSettings
+from stepaside.studies.physics_game import clearance
+from stepaside.studies.result_files import header, read_result, write_result
+
+RECIPE = RoomRecipe(discs=3)
+PLAYERS = ("pursuer", "evader")
+
+
+class Played(NamedTuple):
+    """One duel to play."""
+
+    strategy: str
+    map: str
+    seed: int
+    duration: float
+
+
+def play(played: Played) -> Row:
+    """Outcome of one duel, who touched what, and how clear they kept."""
+    seen = played.map == "seen"
+    settings = DuelSettings(
+        seed=played.seed,
+        duration=played.duration,
+        evader_strategy=played.strategy,
+        sensing="cameras" if seen else "ideal",
+        room=SceneSettings(plan=make_room(RECIPE, played.seed)),
+        map=MapSettings(source=played.map),
+    )
+    run = run_duel(settings)
+    summary = run.summary.to_json()
+    return {
+        "strategy": played.strategy,
+        "map": played.map,
+        "seed": played.seed,
+        "outcome": run.outcome.value,
+        "touched": summary.get("touched", []),
+        "survived_s": run.duration,
+        "closest_m": summary["min_distance_m"],
+        "plan_time_median_us": summary["plan_time_us"]["median"],
+        "plan_time_p99_us": summary["plan_time_us"]["p99"],
+        **{f"{name}_clearance_m": clearance(run, name) for name in PLAYERS},
+    }
+
+
+def summary_of(rows: list[Row]) -> Row:
+    """What the duels of one strategy with one map came to."""
+    outcomes = [row["outcome"] for row in rows]
+    contacts = [row for row in rows if row["outcome"] == "contact"]
+    players = sum(set(row["touched"]) == set(PLAYERS) for row in contacts)
+    both = [row[f"{name}_clearance_m"] for row in rows for name in PLAYERS]
+    return {
+        "strategy": rows[0]["strategy"],
+        "map": rows[0]["map"],
+        "pursuer": DuelSettings().pursuer_strategy,
+        "duels": len(rows),
+        "untouched": outcomes.count("completed"),
+        "captured": sum(row["closest_m"] <= CAPTURE_DISTANCE for row in rows),
+        "capture_distance_m": CAPTURE_DISTANCE,
+        "contact": players,
+        "touched_room": len(contacts) - players,
+        "fell": outcomes.count("fall"),
+        "other": len(rows)
+        - sum(outcomes.count(o) for o in ("completed", "contact", "fall")),
+        "survived_s": spread([row["survived_s"] for row in rows]),
+        "closest_m": spread([row["closest_m"] for row in rows]),
+        "clearance_m": spread(both),
+        "plan_time_p99_us": spread([r["plan_time_p99_us"] for r in rows]),
+    }
+
+
+def others(output: Path, strategy: str, source: str) -> list[Row]:
+    """Rows of what else was played before."""
+    if not output.is_file():
+        return []
+    found: list[Row] = json.loads(output.read_text("utf-8"))["rows"]
+    return [
+        r for r in found if (r["strategy"], r["map"]) != (strategy, source)
+    ]
+
+
+def summaries(rows: list[Row]) -> list[Row]:
+    """Summary of the duels of each strategy with each map."""
+    kinds: dict[tuple[str, str], list[Row]] = {}
+    for row in rows:
+        kinds.setdefault((row["strategy"], row["map"]), []).append(row)
+    return [summary_of(kind) for kind in kinds.values()]
+
+
+def main() -> None:
+    """Play and write."""
+    asked = ask(__doc__, "rooms.json")
+    asked.add_argument("--strategy", default="evasion")
+    asked.add_argument("--map", choices=MAPS, default="given")
+    asked.add_argument("--seeds", type=seeds_of, default="0:10")
+    asked.add_argument("--duration", type=float, default=120.0)
+    asked.add_argument("--workers", type=int)
+    asked.add_argument("--summarise", action="store_true")
+    arguments = asked.parse_args()
+    output = arguments.output
+    if arguments.summarise:
+        result = read_result(output)
+        write_result(output, result | {"summary": summaries(result["rows"])})
+        return
+    settings = {
+        "size_m": [RECIPE.width, RECIPE.depth],
+        "discs": RECIPE.discs,
+        "seeds": [arguments.seeds.start, arguments.seeds.stop],
+        "duration_s": arguments.duration,
+    }
+    head = header(settings, rooms=("studies/physics_game",))
+    jobs = {
+        f"{arguments.strategy} {arguments.map} {seed}": Played(
+            arguments.strategy, arguments.map, seed, arguments.duration
+        )
+        for seed in arguments.seeds
+    }
+    rows = others(output, arguments.strategy, arguments.map)
+    rows += gather(output, head, jobs, play, arguments.workers).values()
+    write_result(
+        output,
+        head,
+        machine=machine(),
+        summary=summaries(rows),
+        rows=rows,
+    )
+    finished(output)
+
+
+if __name__ == "__main__":
+    main()

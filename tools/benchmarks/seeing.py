@@ -1,0 +1,110 @@
+"""Play duels of robots that see, in an empty room or under difficulties.
+
+Degraded means 30 % of the images dropped, 100 ms more latency, and boxes
+and a figure standing in the room::
+
+    python tools/benchmarks/seeing.py plain --seeds 302:309
+    python tools/benchmarks/seeing.py degraded --seeds 302:305
+"""
+
+from typing import NamedTuple
+
+from asking import ask, machine, seeds_of
+from gathering import Row, finished, gather, spread
+
+from stepaside.games import DuelSettings, run_duel
+from stepaside.sim.camera_settings import (
+    CLUTTER,
+    CameraSettings,
+    SceneSettings,
+)
+from stepaside.studies.result_files import header, write_result
+
+BEYOND = 0.85  # start distance beyond which the trigger tells something, [m]
+LIBRARIES = ("mujoco", "numpy", "opencv-python-headless")
+PLAIN = (
+    "detection_rate",
+    "false_detections",
+    "distance_m",
+    "relative_orientation_deg",
+    "converged_at_s",
+    "min_distance_m",
+    "real_time_factor",
+)
+
+
+class Seen(NamedTuple):
+    """One duel to play."""
+
+    kind: str
+    seed: int
+
+
+def play(seen: Seen) -> Row:
+    """Figures of one duel of 120 s."""
+    settings = DuelSettings(seed=seen.seed, sensing="cameras")
+    if seen.kind == "degraded":
+        settings = DuelSettings(
+            seed=seen.seed,
+            sensing="cameras",
+            cameras=CameraSettings(drop_frames=0.3, added_latency=0.1),
+            room=SceneSettings(things=list(CLUTTER)),
+        )
+    found = run_duel(settings).summary.to_json()
+    row = {key: found[key] for key in PLAIN}
+    for name in ("pursuer", "evader"):
+        row[f"{name}_misled_s"] = found[name]["misled_s"]
+        for which in ("median", "p95"):
+            error = found[name]["bearing_error_deg"][which]
+            row[f"{name}_bearing_error_{which}_deg"] = error
+    away = found["evader"]["distance_error_m"]["median"]
+    row["evader_distance_error_median_m"] = away
+    begun = found["start"]["distance_m"]
+    at = found["triggered_at_distance_m"]
+    row["triggered_at_distance_m"] = at if begun > BEYOND else None
+    return {
+        "seed": seen.seed,
+        "outcome": found["outcome"],
+        "camera": found["camera"],
+        **row,
+    }
+
+
+def main() -> None:
+    """Play and write."""
+    asked = ask(__doc__, lambda given: f"seeing-{given.kind}.json")
+    asked.add_argument("kind", choices=["plain", "degraded"])
+    asked.add_argument("--seeds", type=seeds_of, default="302:309")
+    asked.add_argument("--workers", type=int)
+    arguments = asked.parse_args()
+    seeds, kind = arguments.seeds, arguments.kind
+    output = arguments.output
+    settings = {
+        "kind": kind,
+        "seeds": [seeds.start, seeds.stop],
+        "duration_s": 120.0,
+    }
+    head = header(settings, libraries=LIBRARIES)
+    jobs = {str(seed): Seen(kind, seed) for seed in seeds}
+    found = gather(output, head, jobs, play, arguments.workers)
+    rows = list(found.values())
+    outcomes = [row["outcome"] for row in rows]
+    names = [
+        key for key in rows[0] if key not in ("seed", "outcome", "camera")
+    ]
+    write_result(
+        output,
+        head,
+        machine=machine(),
+        number=len(rows),
+        falls=outcomes.count("fall"),
+        contacts=outcomes.count("contact"),
+        cameras=sorted({row["camera"] for row in rows}),
+        summary={key: spread([row[key] for row in rows]) for key in names},
+        rows=rows,
+    )
+    finished(output)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,150 @@
+r"""Play recorded measurements on a processor like a robot's.
+
+A robot's processor is older than a desk's: NAO's Atom has no AVX. A duel's
+worth of maneuvers is recorded here, once, from simulation; control then runs
+on it where nothing of a simulator may be imported, and must ask for the same
+joint targets:
+
+    apt-get install qemu-user
+    python tools/checks/on_board.py record /tmp/recorded.npz
+    python tools/checks/on_board.py play /tmp/recorded.npz
+    qemu-x86_64 -cpu Nehalem .venv/bin/python tools/checks/on_board.py play \
+        /tmp/recorded.npz
+
+Prints, as JSON: how far targets are from the recorded ones, top-level
+packages that were imported, resident memory, the time from the start of the
+process until control is ready, and the processor time of a tick; times under
+emulation mean nothing. ``tools/checks/README.md`` holds what came out.
+"""
+
+import argparse
+import json
+import os
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+SECONDS = 20.0
+SEED = 7
+ROLES = ("pursuer", "evader")
+TICK = 0.012
+ABSENT = ("mujoco", "scipy", "matplotlib", "cv2", "numba")
+AMONG_TICKS = 0.99  # share of the ticks that are no slower than is told
+
+
+def record(file: Path) -> None:
+    """Write what two robots measured, and what they were asked for."""
+    from stepaside.games.duel import Duel
+    from stepaside.games.duel_settings import DuelSettings
+    from stepaside.games.walker import Walker
+    from stepaside.locomotion.zmp.control_settings import STABILISED
+    from stepaside.sim.body_settings import BODIES
+
+    settings = DuelSettings(
+        seed=SEED,
+        duration=SECONDS,
+        body=BODIES["delayed"],
+        control=STABILISED,
+    )
+    duel = Duel(settings, recorded=False)
+    rows: dict[str, list[Any]] = {role: [] for role in ROLES}
+    for _ in range(round(SECONDS / TICK)):
+        for player in duel.players:
+            assert isinstance(player, Walker)
+            m = player.robot.read()
+            targets = player.scheme.update(m).copy()
+            player.robot.write(targets)
+            seen = (np.nan,) * 3 if m.sighting is None else m.sighting
+            sensed = (m.joint_positions, m.gyro, m.accelerometer)
+            row = [m.time], *sensed, m.foot_forces, seen, targets
+            rows[player.name].append(np.concatenate(row))
+        duel.world.step()
+    kept = {role: np.array(rows[role]) for role in ROLES}
+    np.savez_compressed(file, allow_pickle=False, **kept)
+
+
+def play(file: Path) -> dict[str, Any]:
+    """Let control decide on what was measured."""
+    for name in ABSENT:
+        sys.modules[name] = None  # type: ignore[assignment]
+    from stepaside.drivers.scheme_factory import mind_maker
+    from stepaside.locomotion.zmp.control_settings import STABILISED
+    from stepaside.perception.measurement import Measurement, Sighting
+    from stepaside.planning import GaitSettings
+    from stepaside.robots.description import load_robot
+    from stepaside.strategies import Evasion, Pursuit
+
+    make = mind_maker(load_robot("nao"), GaitSettings(), STABILISED, tick=TICK)
+    first = make(Pursuit())
+    ready = age()
+    minds = {"pursuer": first, "evader": make(Evasion())}
+    found: dict[str, Any] = {"ready_s": ready, "resident_mb": resident()}
+    worst, spent, walked = 0.0, [], 0
+    with np.load(file, allow_pickle=False) as recorded:
+        tables = {role: recorded[role] for role in ROLES}
+    for role, mind in minds.items():
+        joints = len(mind.joint_targets)
+        for row in tables[role]:
+            now, rest = float(row[0]), row[1:]
+            encoders, rest = rest[:joints], rest[joints:]
+            seen = rest[14:17]
+            sighting = None if np.isnan(seen[0]) else Sighting(*seen.tolist())
+            m = Measurement(
+                now, encoders, rest[:3], rest[3:6], rest[6:14], sighting
+            )
+            clock = time.process_time()
+            targets = mind.update(m)
+            spent.append(time.process_time() - clock)
+            worst = max(worst, float(np.abs(targets - rest[17:]).max()))
+            walked += mind.begun is not None
+    packages = {name.partition(".")[0] for name, m in sys.modules.items() if m}
+    packages -= set(sys.stdlib_module_names) | {"__main__"}
+    return found | {
+        "greatest_difference_rad": worst,
+        "ticks": len(spent),
+        "steps_begun": walked,
+        "tick_ms": 1e3 * float(np.median(spent)),
+        "slow_tick_ms": 1e3 * float(np.quantile(spent, AMONG_TICKS)),
+        "resident_at_the_end_mb": resident(),
+        "packages": sorted(packages),
+        "avx": has_avx(),
+    }
+
+
+def age() -> float:
+    """Time since this process began, in [s]."""
+    words = Path("/proc/self/stat").read_text().rpartition(")")[2].split()
+    began = int(words[19]) / os.sysconf("SC_CLK_TCK")
+    return float(Path("/proc/uptime").read_text().split()[0]) - began
+
+
+def resident() -> float:
+    """Memory that the process holds, in [MB]; under emulation its, too."""
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+
+def has_avx() -> bool:
+    """Whether NumPy finds AVX on this processor."""
+    from numpy._core._multiarray_umath import __cpu_features__
+
+    return bool(__cpu_features__["AVX"])
+
+
+def main() -> None:
+    """Record or play."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("what", choices=("record", "play"))
+    parser.add_argument("file", type=Path)
+    options = parser.parse_args()
+    if options.what == "record":
+        record(options.file)
+    else:
+        print(json.dumps(play(options.file), indent=1))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,91 @@
+"""Results by name, and one value of them by its address."""
+
+from pathlib import Path
+from typing import Any
+
+from stepaside.core.errors import ConfigurationError
+from stepaside.studies.result_files import read_result
+
+ROOT = Path(__file__).parents[2]
+RESULTS = ROOT / "docs" / "results"
+SHOWN = 8  # keys that a message names
+
+
+class DocumentError(ValueError):
+    """A document asks for what no result holds."""
+
+
+class Store:
+    """The results in a folder; each file is read once.
+
+    Attributes:
+        folder: Where they lie.
+    """
+
+    def __init__(self, folder: Path = RESULTS) -> None:
+        self.folder = folder
+        self._read: dict[str, dict[str, Any]] = {}
+
+    def names(self) -> list[str]:
+        """Names of all results."""
+        return sorted(file.stem for file in self.folder.glob("*.json"))
+
+    def result(self, name: str) -> dict[str, Any]:
+        """One result.
+
+        Raises:
+            DocumentError: If there is none of that name.
+        """
+        if name not in self._read:
+            try:
+                found = read_result(self.folder / f"{name}.json")
+            except ConfigurationError as error:
+                raise DocumentError(str(error)) from error
+            self._read[name] = found
+        return self._read[name]
+
+    def value(self, address: str) -> Any:
+        """Value at ``name:key.key.0.key``; numbers are places in lists.
+
+        A key may hold dots itself, as in ``by.push.0.8.falls``: the longest
+        one that is there counts.
+
+        Raises:
+            DocumentError: If nothing is there; the message names what is.
+        """
+        name, _, path = address.partition(":")
+        value: Any = self.result(name)
+        keys = path.split(".")
+        while keys:
+            for number in range(len(keys), 0, -1):
+                key = ".".join(keys[:number])
+                found = _child(value, key)
+                if found is not _NOTHING:
+                    value, keys = found, keys[number:]
+                    break
+            else:
+                raise DocumentError(
+                    f"{address}: no {keys[0]!r} among {_keys(value)}"
+                )
+        return value
+
+
+_NOTHING = object()
+
+
+def _child(value: Any, key: str) -> Any:
+    if isinstance(value, dict):
+        return value.get(key, _NOTHING)
+    if isinstance(value, list) and key.isdigit() and int(key) < len(value):
+        return value[int(key)]
+    return _NOTHING
+
+
+def _keys(value: Any) -> str:
+    if isinstance(value, dict):
+        keys = [str(key) for key in value]
+        more = "" if len(keys) <= SHOWN else ", ..."
+        return ", ".join(keys[:SHOWN]) + more
+    if isinstance(value, list):
+        return f"{len(value)} entries"
+    return repr(value)

@@ -1,0 +1,167 @@
+"""Stop every long command by Ctrl-C: how soon it ends, and what it says.
+
+Each is started as a terminal does, and stopped when it has worked for some
+while: while it loads, begins, and is at work::
+
+    python -m tools.fuzz.stopping
+"""
+
+import argparse
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from time import monotonic, sleep
+from typing import Any, NamedTuple
+
+from stepaside.games.duel import run_duel
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.report.run_folder import write_run
+from stepaside.robots.description import load_robot
+from stepaside.studies.result_files import header, write_result
+
+from .groups import Worked, members, obey_ctrl_c
+
+# Command lines that last, in a folder that holds a run and a robot.
+LONG = {
+    "duel": "--duration=3000 --output=duel",
+    "duels": "--seeds=0:1000 --workers=2 --output=duels",
+    "view": "--no-open --port=8761",
+    "replay": "run --video=film.mp4 --speed=0.05",
+    "walk": "--duration=3000 --output=walk",
+    "robustness": "--workers=2 --output=walks",
+    "circle": "--starts=1000000",
+    "map": "--grid=300 --distances=50",
+    "bound": "--grid=200",
+    "tournament": "--seeds=0:3000 --workers=2 --output=games",
+    "serve": "--lola=evader=socket --wait=3000",
+    "reproduce": "--workers=2 --output=claims",
+    "robot check": "robot --workers=2",
+    "robot tune": "robot --workers=2",
+}
+# What is through before anybody would stop it.
+SHORT = {"compare", "plan", "unicycles", "room", "robot init", "robot show"}
+# It lets the robot rest before it ends; a second Ctrl-C lets it go limp.
+APART = {"play"}
+MOMENTS = (0.4, 2.0, 4.0, 8.0)  # of processor time, in [s]
+LONGEST = 40.0  # that is waited for a moment, in [s]
+GIVEN_UP = 60.0  # that is waited for an end, in [s]
+
+
+class Stopped(NamedTuple):
+    """How a command ended that was stopped.
+
+    Attributes:
+        after_s: Processor time that it had used.
+        ended_s: Time until it and its workers had ended.
+        worked_s: Processor time that all of them had until then, which is
+            that time on a machine at rest.
+        status: Exit status, as a shell tells it.
+        said: Its last line.
+    """
+
+    after_s: float
+    ended_s: float
+    worked_s: float
+    status: int
+    said: str
+
+
+def stop(words: list[str], folder: Path, moment: float) -> Stopped:
+    """Start a command in a copy of a folder, stop it, and wait for its end."""
+    with tempfile.TemporaryDirectory() as place:
+        shutil.copytree(folder, place, dirs_exist_ok=True)
+        return _stop(words, place, moment)
+
+
+def _stop(words: list[str], folder: str, moment: float) -> Stopped:
+    process = subprocess.Popen(
+        [sys.executable, "-m", "stepaside", *words],
+        cwd=folder,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    began, worked = monotonic(), Worked(process)
+    while worked.until_now() < moment and monotonic() - began < LONGEST:
+        sleep(0.02)
+    if process.poll() is not None:
+        assert process.stderr is not None
+        raise SystemExit(f"{words} ended: {process.stderr.read()}")
+    after, pressed = worked.until_now(), monotonic()
+    os.killpg(process.pid, signal.SIGINT)
+    try:
+        _, said = process.communicate(timeout=GIVEN_UP)
+        while any(members(process.pid)):
+            sleep(0.01)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+        raise SystemExit(f"{words} does not end") from None
+    ended = monotonic() - pressed
+    lines = said.replace("\r", "\n").strip().splitlines()
+    return Stopped(
+        after,
+        ended,
+        max(worked.until_its_end() - after, 0.0),
+        status_of(process.returncode),
+        lines[-1] if lines else "",
+    )
+
+
+def status_of(returned: int) -> int:
+    """Status as a shell tells it.
+
+    Python ends itself by the signal if the interrupt came while a compiled
+    library ran code in Python, whoever caught it.
+    """
+    return returned if returned >= 0 else 128 - returned
+
+
+def prepare(folder: Path) -> None:
+    """Lay out a run and a robot."""
+    write_run(folder / "run", run_duel(DuelSettings(duration=20.0)))
+    source = load_robot("nao").folder
+    shutil.copytree(source, folder / "robot")
+
+
+def main() -> None:
+    """Stop all, and write."""
+    parser = argparse.ArgumentParser(
+        prog="python -m tools.fuzz.stopping", description=__doc__
+    )
+    add = parser.add_argument
+    add("--only", nargs="*", default=list(LONG), choices=list(LONG))
+    add("--keep", type=Path, help="result to write")
+    asked = parser.parse_args()
+    obey_ctrl_c()
+    rows: list[dict[str, Any]] = []
+    with tempfile.TemporaryDirectory() as name:
+        prepare(Path(name))
+        for command in asked.only:
+            words = [*command.split(), *LONG[command].split()]
+            stops = [stop(words, Path(name), moment) for moment in MOMENTS]
+            row = {"command": " ".join(words)}
+            rows.append(row | {"stops": [each._asdict() for each in stops]})
+            print(rows[-1], flush=True)
+    if asked.keep:
+        write_result(
+            asked.keep,
+            header(
+                {"moments_s": list(MOMENTS)},
+                rooms=("cli", "commands", "interrupting", "workers"),
+                command="python -m tools.fuzz.stopping --keep "
+                f"docs/results/{asked.keep.name}",
+            ),
+            load=os.getloadavg()[0],
+            cores=os.cpu_count(),
+            rows=rows,
+        )
+
+
+if __name__ == "__main__":
+    main()

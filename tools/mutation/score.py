@@ -1,0 +1,130 @@
+"""Score and survivors of a run, and the file of results."""
+
+import tomllib
+from collections import Counter
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from stepaside.studies.code_version import LIBRARIES
+from stepaside.studies.result_files import header, write_result
+
+# Rooms of the package that faults are put into.
+ROOMS = (
+    "planning",
+    "control",
+    "unicycle",
+    "sensing",
+    "robots",
+    "perception",
+    "strategies",
+    "world",
+    "rooms",
+    "steps",
+    "games",
+    "studies",
+)
+REASONS = Path("tools/mutation/reasons.toml")
+RESULTS = Path("docs/results/mutation.json")
+SAMPLE = 400  # faults
+CAP = 40.0  # processor time of the tests of one fault, in [s]
+NOTICED = ("killed", "timeout")
+
+
+def read_reasons(path: Path) -> dict[str, str]:
+    """Why a survivor is no gap, or what it lacks, by key of the fault."""
+    if not path.exists():
+        return {}
+    found: dict[str, str] = tomllib.loads(path.read_text(encoding="utf-8"))
+    return found
+
+
+def summary(
+    rows: list[dict[str, Any]], reasons: Mapping[str, str]
+) -> dict[str, Any]:
+    """What a run says, without times, so that it can be compared.
+
+    Args:
+        rows: Records of the trials, in the order of the draw.
+        reasons: Reasons by key.
+    """
+    survivors = [
+        {
+            name: row[name]
+            for name in ("key", "file", "line", "operator", "before", "after")
+        }
+        | {
+            "reached": row["outcome"] != "unreached",
+            "reason": reasons.get(row["key"], ""),
+        }
+        for row in rows
+        if row["outcome"] not in NOTICED
+    ]
+    survivors.sort(key=lambda row: (row["file"], row["line"], row["key"]))
+    packages = {}
+    for package in sorted({_package(row) for row in rows}):
+        of = [row["outcome"] for row in rows if _package(row) == package]
+        noticed = sum(outcome in NOTICED for outcome in of)
+        packages[package] = {"faults": len(of), "noticed": noticed}
+    noticed = sum(row["outcome"] in NOTICED for row in rows)
+    return {
+        "faults": len(rows),
+        "noticed": noticed,
+        "score": round(noticed / len(rows), 4) if rows else None,
+        "outcomes": dict(sorted(Counter(r["outcome"] for r in rows).items())),
+        "packages": packages,
+        "survivors": survivors,
+    }
+
+
+def score_line(found: Mapping[str, Any]) -> str:
+    """One line with the score."""
+    if not found["faults"]:
+        return "no faults"
+    return (
+        f"{found['noticed']} of {found['faults']} faults noticed "
+        f"({100.0 * found['score']:.1f} %)"
+    )
+
+
+def head(*, sample: int, seed: int, cap: float) -> dict[str, Any]:
+    """Where the result of a run comes from, of the code as it is now.
+
+    Args:
+        sample: How many faults are drawn.
+        seed: Seed of the draw.
+        cap: Processor time of tests that a fault can take, in [s].
+    """
+    make = "make mutate"
+    options = f" SAMPLE={sample}" if sample != SAMPLE else ""
+    options += f" CAP={cap:g}" if cap != CAP else ""
+    return header(
+        {"sample": sample, "seed": seed, "cap_s": cap},
+        rooms=ROOMS,
+        libraries=(*LIBRARIES, "hypothesis"),
+        command=make + options,
+    )
+
+
+def write(
+    path: Path, where_from: Mapping[str, Any], found: Mapping[str, Any]
+) -> None:
+    """Write the file of results.
+
+    Args:
+        path: Where to.
+        where_from: Of :func:`head`.
+        found: Of :func:`summary`.
+
+    Raises:
+        ValueError: If not all that were drawn have been tried. Those that
+            no test reaches come first, so a part says too little.
+    """
+    drawn = where_from["settings"]["sample"]
+    if found["faults"] != drawn:
+        raise ValueError(f"want {drawn} faults tried, got {found['faults']}")
+    write_result(path, where_from, **found)
+
+
+def _package(row: Mapping[str, Any]) -> str:
+    return str(row["file"]).removeprefix("src/stepaside/").partition("/")[0]
