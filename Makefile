@@ -48,8 +48,12 @@ python:
 
 # Another Python, as in make other PYTHON=python3.13: the wheel with nothing
 # optional, and tests that need no more and take milliseconds.
-OTHER := algebra cli configuration description errors footsteps interrupting \
-	kinematics laws options path plan ranges record records swing zmp
+OTHER := cli/test_main cli/test_options core/test_errors core/test_interrupts \
+	core/test_ranges games/test_configuration_file games/test_record \
+	planning/test_footsteps planning/test_path planning/test_plan \
+	planning/test_swing planning/test_zmp robots/test_description \
+	robots/test_kinematics robots/test_scalar_algebra \
+	studies/test_record_store theory/test_laws
 other: other-setup other-test
 
 other-setup:
@@ -59,7 +63,7 @@ other-setup:
 
 other-test:
 	.venv-other/bin/python -m pytest --numprocesses auto \
-		$(OTHER:%=tests/test_%.py)
+		$(OTHER:%=tests/%.py)
 
 # Bad input for a while: make fuzz MINUTES=60
 MINUTES ?= 10
@@ -85,7 +89,7 @@ ifeq ($(PYTHON312),)
 	@echo "skipped: real ROS 2 needs Python 3.12, as python3.12 on the path;" \
 		"or make ros2-peers PYTHON312=/path/to/python3.12"
 else
-	$(BIN)/python checks/ros2_peers.py \
+	$(BIN)/python tools/checks/ros2_peers.py \
 		$(foreach name,$(ROS2),$(name)=.venv-ros2-$(name)/bin/python)
 endif
 

@@ -45,9 +45,13 @@ def main(duration: float) -> None:
     body = Unicycle(0.1, 0.2)  # NAO's, in path time: 0.4 s in 0.547 s
     for name in ("evasion", f"{__file__}:BackAndAside"):
         game = st.play_strategies(
-            st.Pursuit(), st.load_strategy(name), RelativeStart(0.9, 0.3, -0.2),
-            bodies=(body, body), period=0.4, duration=0.4 / 0.547 * duration,
-        )  # fmt: skip
+            st.Pursuit(),
+            st.load_strategy(name),
+            RelativeStart(0.9, 0.3, -0.2),
+            bodies=(body, body),
+            period=0.4,
+            duration=0.4 / 0.547 * duration,
+        )
         start = StartSettings(0.9, -0.3, 0.2)
         duel = run_duel(
             DuelSettings(duration=duration, start=start, evader_strategy=name)

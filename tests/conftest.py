@@ -26,19 +26,22 @@ settings.register_profile(
 )
 settings.load_profile("untimed")
 
-# Whose tests call the same compiled functions: one worker compiles them.
+# Tests that call the same compiled functions share a worker, by the beginning
+# of their path below tests/: one worker compiles them.
 COMPILED = {
-    "test_bound_": "bound",
-    "test_look_ahead": "steps",
-    "test_steps": "steps",
-    "test_clearance": "steps",
-    "test_tournament": "steps",
-    "test_unicycle_": "unicycle",
+    "theory/test_barrier": "bound",
+    "theory/test_bound": "bound",
+    "theory/test_upwind_scheme": "bound",
+    "theory/": "unicycle",
+    "strategies/test_look_ahead": "steps",
+    "strategies/test_step_motion": "steps",
+    "control/test_clearance": "steps",
+    "studies/test_tournament": "steps",
 }
 # Begin first, so that no worker is left alone with one at the end.
 LONG = (
     *("browser", "bound", "unicycle", "steps", "duel 11"),
-    *("test_duel", "test_walk", "test_seeing", "test_robot_init"),
+    *("test_duel", "test_walk_game", "test_seeing", "test_robot_init"),
 )
 
 
@@ -51,9 +54,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if item.get_closest_marker("xdist_group") is None:
             group = item.path.stem
+            below = f"{item.path.parent.name}/{group}"
             for prefix, compiled in COMPILED.items():
-                if group.startswith(prefix):
+                if below.startswith(prefix):
                     group = compiled
+                    break
             item.add_marker(pytest.mark.xdist_group(group))
     items.sort(key=_turn)
 

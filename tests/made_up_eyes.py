@@ -10,7 +10,11 @@ from stepaside.core.poses import Pose, wrap_angle
 from stepaside.perception import perception as module
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.colour_detector import RED, ColourDetection
-from stepaside.perception.depth_detector import DepthScene, Obstacle, Shadow
+from stepaside.perception.depth_detector import (
+    DepthScene,
+    DetectedObstacle,
+    Shadow,
+)
 from stepaside.perception.frame_report import FrameReport
 from stepaside.perception.images import ColourImage, DepthImage
 from stepaside.perception.measurement import Measurement
@@ -158,16 +162,16 @@ def trim(column: float) -> ColourDetection:
     )
 
 
-def obstacle(x: float, y: float, azimuth: float = 0.0) -> Obstacle:
-    return Obstacle(x, y, 1.0, 0.0, azimuth, 0.2, 0.5, True)
+def obstacle(x: float, y: float, azimuth: float = 0.0) -> DetectedObstacle:
+    return DetectedObstacle(x, y, 1.0, 0.0, azimuth, 0.2, 0.5, True)
 
 
 def show(
-    monkeypatch: pytest.MonkeyPatch, *things: Obstacle | Shadow
+    monkeypatch: pytest.MonkeyPatch, *things: DetectedObstacle | Shadow
 ) -> list[tuple[Any, ...]]:
     """Let every depth image show some things; notes what it is given."""
     given: list[tuple[Any, ...]] = []
-    obstacles = tuple(t for t in things if isinstance(t, Obstacle))
+    obstacles = tuple(t for t in things if isinstance(t, DetectedObstacle))
     shadows = tuple(t for t in things if isinstance(t, Shadow))
 
     def detect(*arguments: Any) -> DepthScene:

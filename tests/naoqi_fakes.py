@@ -1,7 +1,13 @@
 """NAOqi's services called in this process, without any messaging."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+from velocity_fakes import until
+
+if TYPE_CHECKING:
+    from stepaside.drivers.naoqi.naoqi_body import NaoqiBody
+    from stepaside.drivers.velocity.velocity_body import VelocityReport
 
 
 class Answer:
@@ -53,3 +59,15 @@ class Direct:
     def called(self, name: str) -> list[tuple[Any, ...]]:
         """Arguments of each call of a method."""
         return [values for called, values in self.calls if called == name]
+
+
+def heard(body: "NaoqiBody") -> "VelocityReport":
+    """Next report of a robot that stands: that answer may be on its way."""
+
+    def told() -> "VelocityReport | None":
+        report = body.listen(1.0)
+        rises = report is not None and report.hindrance == "stands up"
+        return None if rises else report
+
+    report: VelocityReport = until(told)
+    return report

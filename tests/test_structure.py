@@ -1,8 +1,9 @@
-"""Test that the house stands: imports point down, doors open."""
+"""Test the layout: imports point down, names are unique and public."""
 
 import ast
 import subprocess
 import sys
+from collections import Counter
 from importlib import import_module
 from pathlib import Path
 
@@ -11,105 +12,112 @@ import pytest
 import stepaside
 
 ROOT = Path(stepaside.__file__).parent
-# From the ground up; a room imports from rooms below it and from itself.
-FLOORS = {
-    "errors": 0,
-    "constants": 0,
-    "ranges": 1,
-    "workers": 1,
-    "laws": 0,
-    "poses": 0,
-    "values": 0,
-    "convex": 0,
-    "randomness": 0,
-    "rooms": 1,
-    "doors": 1,
-    "extras": 1,
-    "outputs": 1,
-    "interrupting": 0,
-    "unicycle": 1,
-    "bound": 2,
-    "steps": 2,
-    "robots": 2,
-    "sensing": 2,
-    "planning": 2,
-    "perception": 3,
-    "strategies": 3,
-    "control": 4,
-    "drivers": 5,
-    "world": 5,
-    "games": 6,
-    "fitting": 8,
-    "report": 7,
-    "studies": 7,
-    "commands": 9,
-    "cli": 10,
-    "__main__": 11,
-}
+# From the bottom up; a package imports from those below it and from itself.
+LAYERS = (
+    "core",
+    "theory",
+    "arena",
+    "robots",
+    "planning",
+    "perception",
+    "strategies",
+    "locomotion",
+    "control",
+    "drivers",
+    "sim",
+    "games",
+    "report",
+    "studies",
+    "fitting",
+    "cli",
+    "__main__",
+)
 MODULES = sorted(ROOT.rglob("*.py"))
 
 
-def room_of(parts: tuple[str, ...]) -> str:
-    return parts[0] if parts else ""
+def package_of(file: Path) -> str:
+    return file.relative_to(ROOT).with_suffix("").parts[0]
 
 
-def imported_rooms(file: Path) -> set[str]:
-    """Rooms that a module imports from, wherever in it."""
+def imported_packages(file: Path) -> set[str]:
+    """Packages that a module imports from, anywhere in it."""
     here = file.relative_to(ROOT).with_suffix("").parts
-    rooms = set()
+    packages = set()
     for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
         if not isinstance(node, ast.ImportFrom) or not node.level:
             continue
         base = here[: len(here) - node.level]
         names = (node.module or "").split(".") if node.module else []
         if base or names:
-            rooms.add(room_of((*base, *names)))
+            packages.add((*base, *names)[0])
         else:
-            rooms.update(alias.name for alias in node.names)
-    return rooms
+            packages.update(alias.name for alias in node.names)
+    return packages
 
 
 @pytest.mark.parametrize("file", MODULES, ids=lambda f: f.stem)
 def test_imports_point_down(file: Path) -> None:
-    room = room_of(file.relative_to(ROOT).with_suffix("").parts)
-    if room == "__init__":
+    package = package_of(file)
+    if package == "__init__":
         return
-    for other in imported_rooms(file) - {room, "__version__"}:
-        assert FLOORS[other] < FLOORS[room], f"{file} imports {other}"
+    for other in imported_packages(file) - {package, "__version__"}:
+        assert LAYERS.index(other) < LAYERS.index(package), (
+            f"{file} imports {other}"
+        )
 
 
-@pytest.mark.parametrize("file", MODULES, ids=lambda f: f.stem)
-def test_no_file_is_longer_than_300_lines(file: Path) -> None:
-    assert len(file.read_text(encoding="utf-8").splitlines()) <= 300
-
-
-@pytest.mark.parametrize("room", ["planning", "control", "games"])
-def test_every_name_at_the_door_exists(room: str) -> None:
-    module = import_module(f"stepaside.{room}")
-    assert list(module.__all__) == sorted(
-        module.__all__, key=lambda name: (not name.isupper(), name)
+def test_a_class_name_is_defined_once() -> None:
+    defined = Counter(
+        node.name
+        for file in MODULES
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ClassDef)
     )
+    assert not [name for name, times in defined.items() if times > 1]
+
+
+def test_a_file_name_recurs_only_for_a_command() -> None:
+    """Files of ``cli`` are named after their command."""
+    names = Counter(
+        file.stem
+        for file in MODULES
+        if file.stem != "__init__" and file.parent != ROOT / "cli"
+    )
+    assert not [name for name, times in names.items() if times > 1]
+
+
+@pytest.mark.parametrize("package", ["planning", "control", "games"])
+def test_every_public_name_exists(package: str) -> None:
+    module = import_module(f"stepaside.{package}")
+    assert list(module.__all__) == sorted(set(module.__all__))
     for name in module.__all__:
         assert getattr(module, name) is not None
 
 
 @pytest.mark.parametrize(
-    "room",
+    "package",
     [
-        *("robots", "planning", "sensing", "perception", "strategies"),
-        *("control", "drivers"),
+        *("robots", "planning", "perception", "strategies"),
+        *("locomotion", "control", "drivers"),
     ],
 )
-def test_who_perceives_knows_nothing_of_the_simulator(room: str) -> None:
-    """No truth can leak in: neither the world nor MuJoCo is imported."""
-    files = set((ROOT / room).rglob("*.py"))
+def test_code_on_board_imports_no_simulator(package: str) -> None:
+    """No ground truth can leak in, and MuJoCo need not be installed."""
+    files = set((ROOT / package).rglob("*.py"))
     assert files
-    # Where a model is compiled, and handed to the world.
-    compiling = ["compiling", "description", "facing", "inertias"]
-    compiling += ["meshes", "overlaying", "reading"]
+    # Where a model is compiled and given to the simulator.
+    compiling = [
+        "tree_compiler",
+        "description",
+        "torso_frame",
+        "inertia_repair",
+        "mesh_files",
+        "model_overlay",
+        "model_reader",
+    ]
     files -= {ROOT / "robots" / f"{name}.py" for name in compiling}
     for file in files:
-        assert not {"world", "games"} & imported_rooms(file), file
+        assert not {"sim", "games"} & imported_packages(file), file
         tree = ast.parse(file.read_text(encoding="utf-8"))
         for node in ast.walk(tree):
             if not isinstance(node, ast.Import | ast.ImportFrom):
@@ -133,8 +141,8 @@ def test_an_ideal_duel_loads_neither_cameras_nor_vision() -> None:
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-def test_settings_come_through_doors_that_load_nothing_else() -> None:
-    """Whoever asks for help or for a configuration waits for no physics."""
+def test_settings_load_no_heavy_library() -> None:
+    """Help and configurations need no physics."""
     code = (
         "import sys; from stepaside.games.duel_settings import DuelSettings;"
         "DuelSettings();"
@@ -147,6 +155,6 @@ def test_settings_come_through_doors_that_load_nothing_else() -> None:
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-def test_a_door_has_no_other_names() -> None:
-    with pytest.raises(AttributeError, match="stepaside.games.*'walk_home'"):
+def test_an_unknown_public_name_is_an_attribute_error() -> None:
+    with pytest.raises(AttributeError, match="stepaside.games.*walk_home"):
         getattr(import_module("stepaside.games"), "walk_home")  # noqa: B009

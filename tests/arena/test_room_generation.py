@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from stepaside.arena import (
     Disc,
-    Polygon,
+    Obstacle,
     Room,
     RoomRecipe,
     draw_starts,
@@ -79,7 +79,7 @@ def test_obstacles_are_of_the_size_asked_for_and_apart(seed: int) -> None:
             assert float(one.clearance(points).min()) >= room_left - 1e-9
 
 
-def _circle_around(polygon: Polygon) -> tuple[np.ndarray, float]:
+def _circle_around(polygon: Obstacle) -> tuple[np.ndarray, float]:
     """Circle on which all corners lie."""
     a, b, c = polygon.points[:3]
     matrix = 2.0 * np.array([b - a, c - a])

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from stepaside.control.clearance.solids import Solids
 
 from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run
 from made_up_state import (
@@ -21,6 +20,7 @@ from made_up_state import (
     step,
 )
 from stepaside.arena import Disc, Room
+from stepaside.arena.obstacles import ObstacleSet
 from stepaside.control.clearance.guard import Guard
 from stepaside.control.clearance.surroundings import KnownRoom
 from stepaside.control.clearance.swept_outline import BodyOutline
@@ -110,7 +110,7 @@ class Around:
     def __init__(self, frame: Pose, room: Pose = HERE) -> None:
         self.frame = frame
         discs = (1.0, 1.0, 0.2), (-0.4, 0.3, 0.1)
-        self.solids = Solids(
+        self.solids = ObstacleSet(
             [Disc(*put(room, (x, y)), radius) for x, y, radius in discs]
         )
 

@@ -124,8 +124,7 @@ def test_they_find_each_other_and_walk() -> None:
 
 def test_the_head_of_a_robot_on_naoqi_turns_and_nothing_else() -> None:
     pytest.importorskip("qi")
-    from test_naoqi import heard
-
+    from naoqi_fakes import heard
     from stepaside.drivers.guardian_process import SessionLost
     from stepaside.drivers.naoqi.naoqi_body import NaoqiBody
     from stepaside.drivers.naoqi.naoqi_server import NaoqiServer

@@ -35,7 +35,6 @@ from stepaside.drivers.velocity.template_controller import TemplateController  #
 from stepaside.drivers.velocity.velocity_body import (
     REST,
     VelocityCommand,
-    VelocityReport,
 )
 from stepaside.drivers.velocity.velocity_limits import VelocityLimits  # noqa: E402
 from stepaside.drivers.velocity.velocity_loop import DrivingState, VelocityLoop
@@ -44,6 +43,7 @@ from stepaside.perception.measurement import Sighting  # noqa: E402
 from stepaside.planning import GaitSettings  # noqa: E402
 from stepaside.strategies import Pursuit  # noqa: E402
 
+from naoqi_fakes import heard  # isort: skip  # noqa: E402
 from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
 
 TICK = 0.012
@@ -76,18 +76,6 @@ def scene() -> Iterator[Scene]:
     scene = Scene()
     yield scene
     scene.server.close()
-
-
-def heard(body: NaoqiBody) -> VelocityReport:
-    """Next report of a robot that stands: that answer may be on its way."""
-
-    def told() -> VelocityReport | None:
-        report = body.listen(1.0)
-        rises = report is not None and report.hindrance == "stands up"
-        return None if rises else report
-
-    report: VelocityReport = until(told)
-    return report
 
 
 @pytest.fixture

@@ -1,7 +1,6 @@
 """Test checks of a stranger, and the search for a better way to walk."""
 
 import json
-from concurrent.futures import Executor, Future
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ from click.testing import CliRunner
 import published_humanoid as stranger
 import stepaside.fitting.gait_search as tuning
 import stepaside.fitting.robot_verification as checking
+from inline_executor import InlineExecutor
 from stepaside.cli.main import main
 from stepaside.fitting.derivation import derive
 from stepaside.fitting.description_edit import rewritten
@@ -30,16 +30,6 @@ from stepaside.robots.description import (
 )
 
 CALM = JointStrain(0.1, "knee", 0.4, "hip", 0.0, 0.001)
-
-
-class Here(Executor):
-    """Does work at once, in this process."""
-
-    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Do it."""
-        future: Future[Any] = Future()
-        future.set_result(fn(*args, **kwargs))
-        return future
 
 
 def described(folder: Path) -> RobotDescription:
@@ -128,14 +118,16 @@ def test_a_check_passes_what_walks_as_it_is_described(
         return walked(trial, 0.3, falls=trial.control.feedback)
 
     monkeypatch.setattr(checking, "walk_trial", falls_with_feedback)
-    checked = check_robot(own, Here(), lambda *done: told.append(done))
+    checked = check_robot(
+        own, InlineExecutor(), lambda *done: told.append(done)
+    )
     assert checked.passes and told[-1] == (10, 10)
     by_name = {f.name: f for f in checked.findings}
     assert by_name["walks open loop"].verdict == "pass"
     assert by_name["walks with feedback"].verdict == "warn"
     asks = replace(own, control=own.control | {"feedback": True})
     asks = replace(asks, control=asks.control | {"method": "measured"})
-    assert not check_robot(asks, Here()).passes
+    assert not check_robot(asks, InlineExecutor()).passes
     plain = checked.to_json()
     assert json.loads(json.dumps(plain)) == plain
 
@@ -173,7 +165,7 @@ def search(
         return walked(trial, off, falls=trial.control.feedback)
 
     monkeypatch.setattr(tuning, "walk_trial", walk)
-    return GaitSearch(own, Here(), kept).run(), len(walks)
+    return GaitSearch(own, InlineExecutor(), kept).run(), len(walks)
 
 
 def test_a_search_joins_the_changes_that_help(
@@ -202,7 +194,7 @@ def test_a_search_finds_a_way_out_of_falling(
         return walked(trial, 0.1, falls=falls)
 
     monkeypatch.setattr(tuning, "walk_trial", walk)
-    found = GaitSearch(own, Here(), None).run()
+    found = GaitSearch(own, InlineExecutor(), None).run()
     assert found.before.unsteadiness > found.best.unsteadiness
     assert found.best.unsteadiness == pytest.approx(0.1)
     best = found.best.candidate
@@ -223,7 +215,7 @@ def test_a_candidate_that_cannot_win_walks_no_farther(
         return walked(trial, 0.3 if same else 0.5)
 
     monkeypatch.setattr(tuning, "walk_trial", walk)
-    found = GaitSearch(own, Here(), None).run()
+    found = GaitSearch(own, InlineExecutor(), None).run()
     assert found.best == found.before
     assert begun[0.5] == begun[0.75] == 1
 
@@ -277,7 +269,8 @@ def test_the_command_writes_nothing_where_nothing_is_better(
     described(tmp_path)
     before = (tmp_path / FILE).read_bytes()
     monkeypatch.setattr(
-        "stepaside.core.worker_pool.worker_pool", lambda workers: Here()
+        "stepaside.core.worker_pool.worker_pool",
+        lambda workers: InlineExecutor(),
     )
     monkeypatch.setattr(tuning, "walk_trial", lambda t: walked(t, 0.1))
     result = CliRunner().invoke(main, ["robot", "tune", str(tmp_path)])

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from test_robot_tune import Here
 
 import several_hinges
+from inline_executor import InlineExecutor
 from stepaside.cli.main import main
 from stepaside.core.errors import ModelError
 from stepaside.fitting.derivation import DerivedDescription, derive
@@ -175,7 +175,7 @@ def test_a_hint_names_tune_only_where_tune_searches(
         ),
     )
     robot = load_robot(Path(both[0].description.folder))
-    checked = check_robot(robot, Here())
+    checked = check_robot(robot, InlineExecutor())
     worst = max(w.unsteadiness for w in checked.walks)
     hints = [finding.hint for finding in checked.findings if finding.hint]
     if torque > checking.TORQUE:

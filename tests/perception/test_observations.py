@@ -9,7 +9,7 @@ import pytest
 from stepaside.core.poses import wrap_angle
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.colour_detector import RED, ColourDetection
-from stepaside.perception.depth_detector import Obstacle, Shadow
+from stepaside.perception.depth_detector import DetectedObstacle, Shadow
 from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.images import ColourImage, DepthImage
 from stepaside.perception.observations import (
@@ -206,7 +206,7 @@ def test_nobody_is_nearer_than_can_be() -> None:
 def test_an_obstacle_is_where_it_was_measured(
     whole: bool, across: float
 ) -> None:
-    thing = Obstacle(1.0, 2.0, 1.5, 0.3, 0.1, 0.2, 0.5, whole)
+    thing = DetectedObstacle(1.0, 2.0, 1.5, 0.3, 0.1, 0.2, 0.5, whole)
     seen = observe_obstacle(DEPTH, thing)
     expected = (3.5, 1.0, 2.0, 0.3, 0.03, across, False, True, 0.5)
     assert tuple(seen) == expected
@@ -262,9 +262,11 @@ def test_columns_to_the_right_have_positive_angles() -> None:
 def test_in_a_mapped_room_only_what_is_where_the_other_is_counts() -> None:
     """The pieces of a wall that an edge cuts are not the other."""
 
-    def thing(x: float, y: float) -> Obstacle:
+    def thing(x: float, y: float) -> DetectedObstacle:
         bearing = atan2(y, x)
-        return Obstacle(x, y, hypot(x, y), bearing, 0.0, 0.3, 0.5, whole=False)
+        return DetectedObstacle(
+            x, y, hypot(x, y), bearing, 0.0, 0.3, 0.5, whole=False
+        )
 
     things = [thing(1.0, 0.1), thing(1.0, 0.6)]
     empty = FloorMap()

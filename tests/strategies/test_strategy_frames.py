@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stepaside.arena import Disc, Polygon, Room, box
+from stepaside.arena import Box, Disc, Obstacle, Polygon, Room
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
     DeflectedEvasion,
@@ -35,7 +35,7 @@ STEP = LIMITS.step_duration
 ANGLE = st.floats(-pi, pi)
 METRES = st.floats(-3.0, 3.0)
 MOVED = st.builds(Pose, METRES, METRES, ANGLE)
-SOLIDS = (Disc(0.9, 0.5, 0.2), box(-0.4, 0.7, 0.5, 0.3, 0.4))
+SOLIDS = (Disc(0.9, 0.5, 0.2), Box(-0.4, 0.7, 0.5, 0.3, 0.4))
 STRATEGIES: dict[str, Any] = {
     "pursuit": Pursuit(),
     "lead": LeadPursuit(),
@@ -48,7 +48,7 @@ STRATEGIES: dict[str, Any] = {
 }
 
 
-def moved(solid: Disc | Polygon, frame: Pose) -> Disc | Polygon:
+def moved(solid: Obstacle, frame: Pose) -> Obstacle:
     """A solid as seen from the parent of a frame."""
     if isinstance(solid, Disc):
         x, y, _ = frame.compose(Pose(solid.x, solid.y, 0.0))
@@ -128,7 +128,7 @@ def test_a_game_in_steps_has_no_preferred_direction(name: str) -> None:
     players = both if chases else (STRATEGIES["pursuit"], strategy)
     game = StepGame(duration=4.0)
     starts = Pose(0.1, 0.2, 0.5), Pose(0.9, 0.4, 2.4)
-    obstacles = (Disc(0.8, -0.7, 0.2), box(-0.5, 0.9, 0.4, 0.3, 0.4))
+    obstacles = (Disc(0.8, -0.7, 0.2), Box(-0.5, 0.9, 0.4, 0.3, 0.4))
     tracks = []
     for frame in (Pose(0.0, 0.0, 0.0), Pose(0.3, -0.2, 1.9)):
         solids = tuple(moved(solid, frame) for solid in obstacles)

@@ -95,7 +95,7 @@ class Bench:
         self.stop_at: int | None = None
         self.jobs = {
             "seeded": self.job("seeded", ("planning",), True),
-            "once": self.job("once", ("unicycle",), False),
+            "once": self.job("once", ("theory/unicycle",), False),
         }
 
     def job(self, name: str, rooms: tuple[str, ...], seeded: bool) -> ClaimJob:
@@ -154,7 +154,7 @@ def test_what_is_kept_is_not_measured_again(
 def test_an_edit_of_planning_moves_what_depends_on_it_only(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    versions = {("planning",): "a", ("unicycle",): "b"}
+    versions = {("planning",): "a", ("theory/unicycle",): "b"}
     monkeypatch.setattr(reproduce, "code_version", versions.__getitem__)
     assert again(bench, tmp_path, 1, 2) == ALL
     versions["planning",] = "c"

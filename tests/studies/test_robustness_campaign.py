@@ -209,7 +209,7 @@ def test_results_of_other_code_are_made_again(
             "code_version",
             lambda rooms: (
                 "edited"
-                if "studies/robustness" in rooms
+                if "studies/robustness_campaign" in rooms
                 else code_version(rooms)
             ),
         ),

@@ -119,7 +119,9 @@ def main() -> None:
     played = 60.0 * given.minutes - max(left, 0.0)
     write_result(
         given.output,
-        header(settings, rooms=("studies/encounters",), libraries=libraries),
+        header(
+            settings, rooms=("studies/people_campaign",), libraries=libraries
+        ),
         machine=machine(),
         played_s=played,
         wall_s=perf_counter() - began,

@@ -88,7 +88,9 @@ def main() -> None:
         "seeds": [seeds.start, seeds.stop],
     }
     libraries = ["mujoco", "numpy", "opencv-python-headless"]
-    head = header(settings, rooms=("studies/people",), libraries=libraries)
+    head = header(
+        settings, rooms=("studies/people_statistics",), libraries=libraries
+    )
     rows = gather(output, head, jobs, play, arguments.workers)
     came = [
         {"from": name, **people_rows(groups[name], rows)[0]}

@@ -29,7 +29,7 @@ def main() -> None:
         "body_m": asked.body,
     }
     drawn = asked.starts, asked.seed, asked.body
-    rooms = ("commands/circles", "commands/game_options")
+    rooms = ("cli/circle_tables", "cli/unicycle_options")
     write_result(
         asked.output,
         header(settings, rooms=rooms, libraries=("numpy", "numba")),

@@ -1,8 +1,9 @@
-"""Play duels in rooms of 3 x 3 m with three discs, in physics.
+r"""Play duels in rooms of 3 x 3 m with three discs, in physics.
 
 Rows of other strategies and maps that stand in the output already stay::
 
-    python tools/benchmarks/rooms.py --strategy evasion --map given --seeds 0:10
+    python tools/benchmarks/rooms.py --strategy evasion --map given \
+        --seeds 0:10
 
 ``--summarise`` plays nothing: it makes the summary again from the rows.
 """

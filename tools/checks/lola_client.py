@@ -11,8 +11,8 @@ it is kept here:
 It needs this package with ``[robot]``, and nobody else at ``/tmp/robocup``,
 which is the only place where that client looks for a robot. The world runs
 in lock step, so a machine may be busy, and the client's clock is told by the
-frames. Prints what happened, as JSON; ``tools/checks/README.md`` holds what came
-out.
+frames. Prints what happened, as JSON; ``tools/checks/README.md`` holds what
+came out.
 """
 
 import argparse

@@ -1,1 +1,1 @@
-"""Values and checks that every package uses: errors, ranges, poses, output files."""
+"""Values and checks of every package: errors, ranges, poses, output."""

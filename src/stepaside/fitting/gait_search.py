@@ -27,7 +27,7 @@ BETTER = 0.02  # by which a change must better it to stay
 TOGETHER = 4  # candidates at a time: the same whatever walks them
 FARTHER = 0.9 / len(WAYS)  # of who walks one way more before it falls
 STEADY = 1.0  # unsteadiness below which a robot walks
-ROOMS = ("fitting/trials", "fitting/candidates")
+ROOMS = ("fitting/walk_trials", "fitting/gait_candidates")
 IMPOSSIBLE = FALLEN + 2.0  # of changes that are too much
 
 

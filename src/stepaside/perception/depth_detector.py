@@ -87,7 +87,7 @@ class DepthComponent(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Obstacle:
+class DetectedObstacle:
     """Something that is neither floor nor the robot itself.
 
     Attributes:
@@ -144,7 +144,7 @@ class DepthScene:
         shadows: The broadest first.
     """
 
-    obstacles: tuple[Obstacle, ...]
+    obstacles: tuple[DetectedObstacle, ...]
     shadows: tuple[Shadow, ...]
 
 
@@ -186,7 +186,7 @@ def detect_obstacles(
     ]
     things = join_legs(sorted(things, key=lambda thing: thing.nearest))
     dark = _shadows(image, depths, rays, place, axes)
-    whole: list[Obstacle] = []
+    whole: list[DetectedObstacle] = []
     near = list(dark)
     for thing in things:
         half = 0.5 * thing.width / thing.nearest
@@ -229,7 +229,7 @@ def _join(parts: list[DepthComponent], ahead: float) -> tuple[Shadow, ...]:
     return tuple(sorted(shadows, key=lambda shadow: -shadow.width))
 
 
-def join_legs(things: list[Obstacle]) -> list[Obstacle]:
+def join_legs(things: list[DetectedObstacle]) -> list[DetectedObstacle]:
     """Take for one person two legs whose hips are above the view.
 
     Args:
@@ -252,11 +252,13 @@ def join_legs(things: list[Obstacle]) -> list[Obstacle]:
     return joined
 
 
-def _is_leg(thing: Obstacle) -> bool:
+def _is_leg(thing: DetectedObstacle) -> bool:
     return thing.rises and thing.width < THIN
 
 
-def _astride(leg: Obstacle, other: Obstacle) -> Obstacle:
+def _astride(
+    leg: DetectedObstacle, other: DetectedObstacle
+) -> DetectedObstacle:
     """The person midway between two legs."""
     ends = [
         thing.azimuth + side * 0.5 * thing.width / thing.nearest
@@ -264,7 +266,7 @@ def _astride(leg: Obstacle, other: Obstacle) -> Obstacle:
         for side in (-1.0, 1.0)
     ]
     middle = 0.5 * (min(ends) + max(ends))
-    return Obstacle(
+    return DetectedObstacle(
         0.5 * (leg.x + other.x),
         0.5 * (leg.y + other.y),
         leg.nearest,
@@ -279,7 +281,7 @@ def _astride(leg: Obstacle, other: Obstacle) -> Obstacle:
 
 def _measure(
     points: Array, part: NDArray[np.bool_], place: Array, axes: Array
-) -> Obstacle:
+) -> DetectedObstacle:
     dx, dy = points[:, 0] - place[0], points[:, 1] - place[1]
     ahead = atan2(axes[1, 0], axes[0, 0])
     azimuths = (np.arctan2(dy, dx) - ahead + np.pi) % (2.0 * np.pi) - np.pi
@@ -291,7 +293,7 @@ def _measure(
     columns = np.flatnonzero(part.any(axis=0))
     reach = nearest + min(max(0.5 * width, 0.11), 0.16)
     bearing = ahead + azimuth
-    return Obstacle(
+    return DetectedObstacle(
         float(place[0] + reach * np.cos(bearing)),
         float(place[1] + reach * np.sin(bearing)),
         nearest,

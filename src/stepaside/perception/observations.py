@@ -7,7 +7,7 @@ from ..core.poses import Array, wrap_angle
 from ..robots.body_pose import BodyPose
 from ..robots.head import Mount
 from .colour_detector import Appearance, ColourDetection
-from .depth_detector import Obstacle, Shadow
+from .depth_detector import DetectedObstacle, Shadow
 from .floor_map import FloorMap
 from .images import ColourImage, DepthImage
 from .ranging import BREADTH, range_of_breadth, range_of_trim
@@ -114,7 +114,9 @@ def _hidden(image: ColourImage, found: ColourDetection, away: float) -> float:
     return missing * (float(beyond_right) - float(beyond_left))
 
 
-def observe_obstacle(image: DepthImage, thing: Obstacle) -> Observation:
+def observe_obstacle(
+    image: DepthImage, thing: DetectedObstacle
+) -> Observation:
     """Turn an obstacle into an observation; its side may be cut."""
     aside = 0.03 if thing.whole else 0.12
     return Observation(
@@ -132,7 +134,7 @@ def observe_obstacle(image: DepthImage, thing: Obstacle) -> Observation:
 
 def observe_obstacles(
     image: DepthImage,
-    things: Sequence[Obstacle],
+    things: Sequence[DetectedObstacle],
     floor: FloorMap | None,
     other: tuple[float, float] | None = None,
 ) -> tuple[list[Observation], list[Observation]]:

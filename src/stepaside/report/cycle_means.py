@@ -9,8 +9,8 @@ from ..games.duel_circle import cycle_mean
 def whole_cycles(values: Array, times: Array, period: float) -> Array:
     """Mean over a gait cycle, where a whole one lies about a sample.
 
-    At both ends the window of :func:`~stepaside.games.duel_circle.cycle_mean` is
-    cut; what is left of it is no cycle, and its mean would bend away.
+    At both ends the window of :func:`~stepaside.games.duel_circle.cycle_mean`
+    is cut; what is left of it is no cycle, and its mean would bend away.
 
     Args:
         values: Samples. Shape (n,).

@@ -22,7 +22,8 @@ class EvasionMemory(NamedTuple):
 
     Attributes:
         evading: Whether it evades.
-        side: On which side, +1 or -1, see :mod:`stepaside.theory.laws`; 0 while it
+        side: On which side, +1 or -1, see :mod:`stepaside.theory.laws`; 0
+        while it
             does not evade.
         safe: Decisions in a row in which standing would have been safe.
     """

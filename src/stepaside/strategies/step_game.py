@@ -135,7 +135,7 @@ class StepTrack(NamedTuple):
         return found
 
 
-class _Player:
+class _StepPlayer:
     """One player with its strategy and where it is."""
 
     def __init__(
@@ -213,8 +213,8 @@ def play_steps(
     game = game or StepGame()
     # Who walks through walls goes around nothing.
     stops = room.solids if game.solid_pursuer else ()
-    hunter = _Player(pursuer, starts[0], game, stops)
-    prey = _Player(evader, starts[1], game, room.solids)
+    hunter = _StepPlayer(pursuer, starts[0], game, stops)
+    prey = _StepPlayer(evader, starts[1], game, room.solids)
     packed = obstacle_set(room.solids).packed
     ways: list[tuple[Pose, Pose]] = [(hunter.pose, prey.pose)]
     bearings = [prey.bearing_of(hunter.pose)]

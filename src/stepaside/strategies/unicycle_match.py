@@ -47,7 +47,7 @@ class StrategyRun:
         return float(self.distances.min())
 
 
-class _Player:
+class _UnicyclePlayer:
     """One unicycle with its strategy."""
 
     def __init__(
@@ -120,8 +120,8 @@ def play_strategies(
     check_positive(capture_distance, "capture_distance", "m")
     origin = Pose(0.0, 0.0, 0.0)
     players = (
-        _Player(pursuer, bodies[0], origin, period),
-        _Player(evader, bodies[1], start.evader_pose(origin), period),
+        _UnicyclePlayer(pursuer, bodies[0], origin, period),
+        _UnicyclePlayer(evader, bodies[1], start.evader_pose(origin), period),
     )
     parts = period * np.arange(1, PARTS + 1) / PARTS
     tracks = [[np.array([player.pose])] for player in players]

@@ -12,8 +12,8 @@ from .dependencies import dependencies
 ROOT = Path(__file__).parents[1]
 # Where results begin; what these import is found from their code.
 PLANNER = ("planning",)
-UNICYCLES = ("unicycle",)
-PHYSICS = ("games/duel", "games/walk")
+UNICYCLES = ("theory/unicycle",)
+PHYSICS = ("games/duel", "games/walk_game")
 LIBRARIES = ("mujoco", "numpy")
 DIGITS = 12
 

@@ -114,11 +114,13 @@ class _Graph:
     def _public(self, file: Path, name: str | None = None) -> list[Path]:
         """Files behind the public names of a package, or behind one."""
         found: list[Path] = []
-        tree, names = self._parse(file), self._names(file)
-        for node in _import_nodes(tree, for_types=True):
-            for alias, (module, own) in _named(node, names):
-                if name in (None, alias):
-                    found += self._resolve(module, own)
+        package = self._names(file)
+        stub = file.with_suffix(".pyi")  # names that are imported lazily
+        for source in (file, stub) if stub.is_file() else (file,):
+            for node in _import_nodes(self._parse(source), for_types=True):
+                for alias, (module, own) in _named(node, package):
+                    if name in (None, alias):
+                        found += self._resolve(module, own)
         return found
 
     def _file(self, module: str) -> Path | None:
@@ -139,7 +141,7 @@ class _Graph:
 
 
 def _is_code(file: Path) -> bool:
-    return file.suffix == ".py" or "__pycache__" in file.parts
+    return file.suffix in (".py", ".pyi") or "__pycache__" in file.parts
 
 
 def _imports(tree: ast.AST, package: tuple[str, ...]) -> Iterator[Import]:

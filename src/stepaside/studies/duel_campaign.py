@@ -32,7 +32,7 @@ from .record_store import RecordStore
 
 Record = dict[str, Any]
 # Modules that play a duel and make its record.
-ROOMS = ("studies/duels",)
+ROOMS = ("studies/duel_campaign",)
 # Of a record, what depends on the machine and not on the duel alone.
 MACHINE = ("version", "libraries", "verified", "wall_s")
 

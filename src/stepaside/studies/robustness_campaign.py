@@ -26,7 +26,7 @@ from .record_store import RecordStore
 from .settings_diff import OWN, changed_walk
 
 # Modules that play a trial and judge it.
-ROOMS = ("studies/robustness", "studies/encounters")
+ROOMS = ("studies/robustness_campaign", "studies/people_campaign")
 
 
 def read_results(file: Path | None) -> dict[str, bool]:

@@ -15,7 +15,9 @@ ERROR = ConfigurationError
 HUMANOIDS = "physics"
 LEVELS = ("steps", "unicycles", HUMANOIDS)
 MAPS = ("given", "seen", "none")
-ROOMS = ("studies/tournament",)  # modules that play a game and record it
+ROOMS = (
+    "studies/tournament_campaign",
+)  # modules that play a game and record it
 BLOCK = 10  # games that a process is given at once
 
 

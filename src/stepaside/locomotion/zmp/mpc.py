@@ -11,7 +11,8 @@ plan's, the motion stays bounded exactly if
 where the tail is what is assumed beyond the horizon: the plan's own ZMP
 (anticipative: 0), a ZMP that rests (truncated), or one whose velocity repeats
 (periodic). The ZMP has to stay under the feet on the floor
-(:mod:`stepaside.planning.support_polygon`), at the end of each sample and whenever a
+(:mod:`stepaside.planning.support_polygon`), at the end of each sample and
+whenever a
 foot lands or leaves. Between these instants the added ZMP runs straight, and
 so does the plan's, but for its correction (27 a / T^2 in curvature, at most
 0.06 of its amplitude a between two samples) and for the cubic profile.

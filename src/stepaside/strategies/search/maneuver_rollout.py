@@ -18,9 +18,8 @@ from .value_lookup import ValueTable, value_at
 
 if load_numba() is not None:
     _HERE = Path(__file__).parent
-    forget_stale(
-        _HERE, [*_HERE.glob("*.py"), *(_HERE.parent / "unicycle").glob("*.py")]
-    )
+    _UNICYCLE = _HERE.parents[1] / "theory" / "unicycle"
+    forget_stale(_HERE, [*_HERE.glob("*.py"), *_UNICYCLE.glob("*.py")])
 
 
 @inlined
@@ -66,10 +65,20 @@ def law_turn(
 
 @compiled
 def follow(
-    both: PlayerPair, score: float, turns: Any, count: int, spot: int,
-    still: StepRules, horizon: int, best: float, angle: float,
-    rules: StepRules, aims: ManeuverObjective, packed: PackedObstacles, table: ValueTable,
-) -> tuple[float, int]:  # fmt: skip
+    both: PlayerPair,
+    score: float,
+    turns: Any,
+    count: int,
+    spot: int,
+    still: StepRules,
+    horizon: int,
+    best: float,
+    angle: float,
+    rules: StepRules,
+    aims: ManeuverObjective,
+    packed: PackedObstacles,
+    table: ValueTable,
+) -> tuple[float, int]:
     """Roll a maneuver out that is given as turns, then the law.
 
     Args:

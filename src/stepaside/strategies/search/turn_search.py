@@ -29,10 +29,19 @@ from .value_lookup import ValueTable
 
 @compiled
 def descend(
-    both: PlayerPair, start: float, first: int, made: int, best: float,
-    maneuvers: CandidateManeuvers, rules: StepRules, aims: ManeuverObjective,
-    packed: PackedObstacles, table: ValueTable, chosen: Any, work: Any,
-) -> tuple[float, int]:  # fmt: skip
+    both: PlayerPair,
+    start: float,
+    first: int,
+    made: int,
+    best: float,
+    maneuvers: CandidateManeuvers,
+    rules: StepRules,
+    aims: ManeuverObjective,
+    packed: PackedObstacles,
+    table: ValueTable,
+    chosen: Any,
+    work: Any,
+) -> tuple[float, int]:
     """Go down the tree of pieces.
 
     Args:
@@ -89,10 +98,20 @@ def descend(
                 places[level, i] = here[i]
             continue
         score, more = follow(
-            here, score, work[at:], 0, 0, rules,
-            first + maneuvers.horizon - at, best + aims.gain,
-            maneuvers.angle, rules, aims, packed, table,
-        )  # fmt: skip
+            here,
+            score,
+            work[at:],
+            0,
+            0,
+            rules,
+            first + maneuvers.horizon - at,
+            best + aims.gain,
+            maneuvers.angle,
+            rules,
+            aims,
+            packed,
+            table,
+        )
         made += more
         if score > best + aims.gain:
             best = score
@@ -104,10 +123,17 @@ def descend(
 
 @compiled
 def search(
-    both: PlayerPair, plan: Any, planned: int, maneuvers: CandidateManeuvers,
-    rules: StepRules, aims: ManeuverObjective, packed: PackedObstacles, table: ValueTable,
-    chosen: Any, work: Any,
-) -> tuple[float, int, int]:  # fmt: skip
+    both: PlayerPair,
+    plan: Any,
+    planned: int,
+    maneuvers: CandidateManeuvers,
+    rules: StepRules,
+    aims: ManeuverObjective,
+    packed: PackedObstacles,
+    table: ValueTable,
+    chosen: Any,
+    work: Any,
+) -> tuple[float, int, int]:
     """Find the best maneuver; see :func:`look_ahead`.
 
     Args:
@@ -130,21 +156,46 @@ def search(
     horizon, angle = maneuvers.horizon, maneuvers.angle
     start, spot = aims.enough, 0
     still = StepRules(
-        rules.evader_stride * maneuvers.still, rules.evader_share,
-        rules.pursuer_stride, rules.pursuer_share, rules.lead,
-    )  # fmt: skip
+        rules.evader_stride * maneuvers.still,
+        rules.evader_share,
+        rules.pursuer_stride,
+        rules.pursuer_share,
+        rules.lead,
+    )
     best, made = follow(
-        both, start, chosen, 0, 0, still, horizon, -inf, angle, rules, aims,
-        packed, table,
-    )  # fmt: skip
+        both,
+        start,
+        chosen,
+        0,
+        0,
+        still,
+        horizon,
+        -inf,
+        angle,
+        rules,
+        aims,
+        packed,
+        table,
+    )
     if len(plan) > 0:
         for n in range(len(plan)):
             work[n] = plan[n]
         # On equal terms the plan is kept.
         score, more = follow(
-            both, start, work, len(plan), planned, still, horizon,
-            best - aims.gain, angle, rules, aims, packed, table,
-        )  # fmt: skip
+            both,
+            start,
+            work,
+            len(plan),
+            planned,
+            still,
+            horizon,
+            best - aims.gain,
+            angle,
+            rules,
+            aims,
+            packed,
+            table,
+        )
         made += more
         if score > best - aims.gain:
             best, spot = score, planned
@@ -152,9 +203,19 @@ def search(
     if len(maneuvers.pieces) == 0 or best >= start:
         return best, made, spot
     found, made = descend(
-        both, start, 0, made, best, maneuvers, rules, aims, packed, table,
-        chosen, work,
-    )  # fmt: skip
+        both,
+        start,
+        0,
+        made,
+        best,
+        maneuvers,
+        rules,
+        aims,
+        packed,
+        table,
+        chosen,
+        work,
+    )
     if found > best:
         best, spot = found, 0
     if best >= aims.tight:
@@ -173,9 +234,19 @@ def search(
             if n % 2 == 0:
                 continue
             found, made = descend(
-                here, score, n + 1, made, best, maneuvers, rules, aims, packed,
-                table, chosen, work,
-            )  # fmt: skip
+                here,
+                score,
+                n + 1,
+                made,
+                best,
+                maneuvers,
+                rules,
+                aims,
+                packed,
+                table,
+                chosen,
+                work,
+            )
             if found > best:
                 best, spot = found, n + 1
     return best, made, spot

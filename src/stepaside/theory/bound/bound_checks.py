@@ -134,7 +134,6 @@ def _drive(poses: Array, speed: float, turn: Array, step: float) -> None:
     poses[:, 2] += 2.0 * half
 
 
-Array = NDArray[np.float64]
 PIECES = {1: "both turn in", 2: "straight last", 3: "same turn first"}
 
 

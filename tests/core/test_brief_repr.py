@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from test_door import a_bound, a_plan, a_run
 
 import stepaside
+from public_values import a_bound, a_plan, a_run
 from stepaside import (
     DuelSettings,
     GaitSettings,

@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Callable, Iterator
-from functools import cache
 from importlib import import_module
 from inspect import getdoc, getmembers, isclass, signature
 from math import inf, nan, pi, tau
@@ -14,23 +13,17 @@ from typing import Any
 import pytest
 
 import stepaside
+from public_values import a_bound, a_plan, a_run, plan
 from stepaside import (
     Direction,
-    DuelRun,
-    DuelSettings,
-    Foot,
-    GaitSettings,
     RelativeStart,
 )
-from stepaside.arena import MovingBox, Room, box, load_room
+from stepaside.arena import Box, MovingBox, Room, load_room
 from stepaside.core.errors import StepAsideError
 from stepaside.core.poses import Pose
 from stepaside.strategies import StepGame
 from stepaside.theory.bound import (
-    Grid,
-    against_pursuit,
     load_bound,
-    solve_bound,
 )
 
 DOORS = [
@@ -82,28 +75,6 @@ class Place:
 
     def __fspath__(self) -> str:
         return str(self.path)
-
-
-@cache
-def a_run() -> DuelRun:
-    return stepaside.run_duel(DuelSettings(seed=3, duration=0.4))
-
-
-@cache
-def a_bound() -> Any:
-    grid = Grid(0.3, 4.0, 17, 16, 16)
-    return solve_bound(against_pursuit(1.0, 1.0, 1.0), grid, horizon=0.1)
-
-
-@cache
-def a_plan() -> Any:
-    return plan(0.3)
-
-
-def plan(bearing: Any) -> Any:
-    return stepaside.ManeuverPlanner(GaitSettings()).plan(
-        bearing, Direction.BACKWARD, first_foot=Foot.LEFT, standing=True
-    )
 
 
 @pytest.fixture(scope="module")
@@ -215,7 +186,7 @@ ANGLES: dict[str, Callable[[Any], Any]] = {
     "Bound.value bearing": lambda a: a_bound().value(1.0, 0.0, [0.1, a]),
     "Bound.evader_turn bearing": lambda a: a_bound().evader_turn(1.0, 0.0, a),
     "Bound.pursuer_turn error": lambda a: a_bound().pursuer_turn(1.0, a, 0.0),
-    "box heading": lambda a: box(0.0, 0.0, 1.0, 1.0, a),
+    "box heading": lambda a: Box(0.0, 0.0, 1.0, 1.0, a),
     "MovingBox heading": lambda a: MovingBox(
         0.0, 0.0, 1.0, 1.0, (1.0, 0.0), heading=a
     ),
