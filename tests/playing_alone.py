@@ -15,15 +15,15 @@ from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.robots.forward_kinematics import ForwardKinematics
 
-ROOMS = ("robots", "sensing", "perception", "strategies", "control")
+ROOMS = ("robots", "perception", "strategies", "locomotion", "control")
 TICK = 0.004
 
 # Where models are read, changed and compiled.
 WITH_MUJOCO = [
     f"stepaside.robots.{name}"
     for name in (
-        *("compiling", "facing", "inertias"),
-        *("meshes", "overlaying", "reading"),
+        *("tree_compiler", "torso_frame", "inertia_repair"),
+        *("mesh_files", "model_overlay", "model_reader"),
     )
 ]
 

@@ -167,8 +167,8 @@ ANGLES: dict[str, Callable[[Any], Any]] = {
     ),
     "LookAhead sight": lambda a: stepaside.strategies.LookAhead(sight=a),
     "StepGame largest_turn": lambda a: StepGame(largest_turn=a),
-    "Start pursuer_error": lambda a: RelativeStart(1.0, a),
-    "Start bearing": lambda a: RelativeStart(1.0, 0.0, a),
+    "RelativeStart pursuer_error": lambda a: RelativeStart(1.0, a),
+    "RelativeStart bearing": lambda a: RelativeStart(1.0, 0.0, a),
     "StartSettings pursuer_offset": lambda a: stepaside.StartSettings(1.0, a),
     "StartSettings evader_offset": lambda a: stepaside.StartSettings(
         1.0, 0.0, a
@@ -186,7 +186,7 @@ ANGLES: dict[str, Callable[[Any], Any]] = {
     "Bound.value bearing": lambda a: a_bound().value(1.0, 0.0, [0.1, a]),
     "Bound.evader_turn bearing": lambda a: a_bound().evader_turn(1.0, 0.0, a),
     "Bound.pursuer_turn error": lambda a: a_bound().pursuer_turn(1.0, a, 0.0),
-    "box heading": lambda a: Box(0.0, 0.0, 1.0, 1.0, a),
+    "Box heading": lambda a: Box(0.0, 0.0, 1.0, 1.0, a),
     "MovingBox heading": lambda a: MovingBox(
         0.0, 0.0, 1.0, 1.0, (1.0, 0.0), heading=a
     ),

@@ -156,5 +156,5 @@ def test_settings_load_no_heavy_library() -> None:
 
 
 def test_an_unknown_public_name_is_an_attribute_error() -> None:
-    with pytest.raises(AttributeError, match="stepaside.games.*walk_home"):
+    with pytest.raises(AttributeError, match="stepaside.games.*'walk_home'"):
         getattr(import_module("stepaside.games"), "walk_home")  # noqa: B009

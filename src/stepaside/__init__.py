@@ -1,11 +1,11 @@
 """Real-time pursuit and evasion for humanoid robots.
 
-What most people need stands at this door; it is imported when it is first
-used, so that ``import stepaside`` itself costs nothing.
+The public names most users need. Each is imported when it is first used, so
+that ``import stepaside`` itself loads no library.
 """
 
-import lazy_loader
+from .core.lazy_exports import lazy_exports
 
 __version__ = "0.1.0"
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
-__all__ = ["__version__", *__all__]
+__getattr__, __dir__, __all__ = lazy_exports(__name__, __file__)
+__all__.insert(0, "__version__")

@@ -46,7 +46,9 @@ DOCUMENTS = [*documents(), IMAGES / "README.md"]
 HEAD = re.compile(r"^\|(.*)\|\n\|[-:| ]+\|$", re.MULTILINE)
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"\]\((?!https?:|#)([^)#\s]+)")
-PATH = re.compile(r"\b(?:docs|benchmarks|tests)/[\w/-]+\.(?:md|py|json|png)")
+PATH = re.compile(
+    r"(?<![\w/])(?:docs|tools|tests)/[\w/-]+\.(?:md|py|json|png)"
+)
 STORE = Store()
 
 
@@ -109,7 +111,7 @@ def test_what_a_document_links_to_exists(file: Path) -> None:
 
 def test_every_file_that_text_or_code_names_exists() -> None:
     files = [*DOCUMENTS, *(ROOT / "src").rglob("*.py")]
-    files += [*(ROOT / "benchmarks").glob("*.py"), ROOT / "Makefile"]
+    files += [*(ROOT / "tools" / "benchmarks").glob("*.py"), ROOT / "Makefile"]
     for file in files:
         for path in PATH.findall(file.read_text(encoding="utf-8")):
             assert (ROOT / path).exists(), f"{name_of(file)} names {path}"

@@ -7,7 +7,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "statements.md").read_text(encoding="utf-8")
-NAMED = re.findall(r"`(tests/test_\w+\.py)(?:::(\w+))?`", PAGE)
+NAMED = re.findall(r"`(tests/(?:\w+/)?test_\w+\.py)(?:::(\w+))?`", PAGE)
 ROWS = [line for line in PAGE.splitlines() if line.startswith("| ")]
 
 

@@ -65,7 +65,7 @@ def believing(bearing: float, *, since: float = 0.0) -> Run:
 @pytest.fixture
 def screened(monkeypatch: pytest.MonkeyPatch) -> None:
     for place in (film, film_split):
-        monkeypatch.setattr(place, "Screen", FakeScreen)
+        monkeypatch.setattr(place, "OffscreenRenderer", FakeScreen)
 
 
 def insets_of(run: Run) -> Any:

@@ -247,7 +247,7 @@ class FakeScreen:
 
 @pytest.fixture
 def screened(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(film, "Screen", FakeScreen)
+    monkeypatch.setattr(film, "OffscreenRenderer", FakeScreen)
 
 
 def filmed(shot: FilmSettings, time: float) -> tuple[Any, Any, Any]:

@@ -279,7 +279,7 @@ def test_graphics_draw_the_field_of_view_of_the_camera(
             drawn.append(number)
             return np.full((60, 80, 3), 99, dtype=np.uint8)
 
-    monkeypatch.setattr(eyes_module, "Screen", Screen)
+    monkeypatch.setattr(eyes_module, "OffscreenRenderer", Screen)
     eyes = eyes_of(depth=False, renderer="egl")
     model = eyes._world.model
     assert model.camera("me/head_camera").fovy[0] == pytest.approx(47.6)

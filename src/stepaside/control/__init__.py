@@ -1,5 +1,5 @@
 """Control of one robot (paper, Fig. 4): perceive, plan, move."""
 
-import lazy_loader
+from ..core.lazy_exports import lazy_exports
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = lazy_exports(__name__, __file__)

@@ -1,5 +1,5 @@
 """Maneuver planning in closed form (paper, Sec. III); imports numpy only."""
 
-import lazy_loader
+from ..core.lazy_exports import lazy_exports
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = lazy_exports(__name__, __file__)

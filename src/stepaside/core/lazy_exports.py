@@ -1,0 +1,44 @@
+"""Public names of a package, imported when they are first used.
+
+The names stand once, in the stub ``__init__.pyi`` beside the package, which
+type checkers read too. Nothing but ``importlib`` is needed, so that a package
+loads before any library does.
+"""
+
+from importlib import import_module
+
+TYPE_CHECKING = False  # of typing, which takes longer to load than this
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Any
+
+
+def lazy_exports(
+    package: str, file: str
+) -> "tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]":
+    """Return ``__getattr__``, ``__dir__`` and ``__all__`` of a package.
+
+    Args:
+        package: Its ``__name__``.
+        file: Its ``__file__``; the stub has the same name and ends in
+            ``.pyi``. Every import in it is ``from .module import name``.
+    """
+    homes: dict[str, str] = {}
+    with open(f"{file.removesuffix('.py')}.pyi", encoding="utf-8") as stub:
+        statements = ("\n" + stub.read()).split("\nfrom ")[1:]
+    for statement in statements:
+        module, _, rest = statement.partition(" import ")
+        names = rest.partition(")")[0] if rest[0] == "(" else rest
+        for name in names.partition("\n\n")[0].strip("(\n ").split(","):
+            if name.strip():
+                homes[name.split(" as ")[-1].strip()] = package + module
+
+    def get(name: str) -> "Any":
+        if name not in homes:
+            raise AttributeError(
+                f"module {package!r} has no attribute {name!r}"
+            )
+        return getattr(import_module(homes[name]), name)
+
+    public = sorted(homes)
+    return get, lambda: public, public
