@@ -50,12 +50,12 @@ TO_LIMP = SILENT + round(FADING / 0.012) + 1  # ticks
 CONTROL = f"""
 import sys
 import numpy as np
-from stepaside.drivers.lola.address import Address
-from stepaside.drivers.lola.joints import NAMES
-from stepaside.drivers.session import SessionLost
-from stepaside.drivers.lola.opening import open_lola
+from stepaside.drivers.lola.lola_address import LolaAddress
+from stepaside.drivers.joint.joint_map import NAMES
+from stepaside.drivers.guardian_process import SessionLost
+from stepaside.drivers.lola.lola_connection import open_lola
 stance = np.array({STANCE.tolist()})
-body = open_lola(Address(sys.argv[1]), NAMES[:23], stance)
+body = open_lola(LolaAddress(sys.argv[1]), NAMES[:23], stance)
 try:
     while True:
         body.read()
@@ -68,9 +68,9 @@ body.close()
 WORLD = """
 import sys, time
 from lola_fakes import JOINTS, MadeUpRobot
-from stepaside.drivers.lola.address import Address
-from stepaside.drivers.lola.server import LolaServer
-server = LolaServer(Address(sys.argv[1]), MadeUpRobot(), JOINTS)
+from stepaside.drivers.lola.lola_address import LolaAddress
+from stepaside.drivers.lola.lola_server import LolaServer
+server = LolaServer(LolaAddress(sys.argv[1]), MadeUpRobot(), JOINTS)
 print("ready", flush=True)
 while True:
     server.speak()

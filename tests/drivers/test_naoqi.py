@@ -500,12 +500,12 @@ def test_a_guardian_can_stop_the_robot_by_itself(
 
 COMMANDER = """
 import sys
-from stepaside.drivers.naoqi.body import NaoqiBody
-from stepaside.drivers.velocity.body import Velocity
+from stepaside.drivers.naoqi.naoqi_body import NaoqiBody
+from stepaside.drivers.velocity.velocity_body import VelocityCommand
 body = NaoqiBody(sys.argv[1])
 while True:
     body.listen(0.1)
-    body.command(Velocity(0.03, -0.1))
+    body.command(VelocityCommand(0.03, -0.1))
 """
 
 

@@ -403,12 +403,12 @@ def test_a_chain_is_its_joints_and_no_others() -> None:
 CONTROL = """
 import sys
 import numpy as np
-from stepaside.drivers.lola.handling import Handling
-from stepaside.drivers.lola.conditions import SafetySettings
-from stepaside.drivers.naoqi.joints import open_joints
+from stepaside.drivers.joint.session_options import SessionOptions
+from stepaside.drivers.joint.safety_conditions import SafetySettings
+from stepaside.drivers.naoqi.joint_connection import open_joints
 names = sys.argv[2].split(",")
 stance = np.array([float(v) for v in sys.argv[3].split(",")])
-patient = Handling(guarded=True, safety=SafetySettings(silence=5.0))
+patient = SessionOptions(guarded=True, safety=SafetySettings(silence=5.0))
 body = open_joints(sys.argv[1], names, stance, patient)
 while True:
     body.read()

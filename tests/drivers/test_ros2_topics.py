@@ -330,12 +330,12 @@ COMMANDER = f"""
 import sys
 from time import sleep
 from stepaside.drivers.ros2.address import parse_namespace  # noqa: E402
-from stepaside.drivers.ros2.body import Ros2Body
-from stepaside.drivers.ros2.domain import Dds
-from stepaside.drivers.velocity.body import Velocity
-body = Ros2Body(Dds(0, tag={TAG!r}), "/nao")
+from stepaside.drivers.ros2.ros2_body import Ros2Body
+from stepaside.drivers.ros2.dds_domain import DdsParticipant
+from stepaside.drivers.velocity.velocity_body import VelocityCommand
+body = Ros2Body(DdsParticipant(0, tag={TAG!r}), "/nao")
 while True:
-    body.command(Velocity(0.03, -0.1))
+    body.command(VelocityCommand(0.03, -0.1))
     sleep(0.01)
 """
 

@@ -124,7 +124,7 @@ def test_only_the_evader_feels_depth(monkeypatch: pytest.MonkeyPatch) -> None:
         opened.append((*arguments, with_depth))
         return f"eyes {len(opened)}"
 
-    monkeypatch.setattr(seeing, "Eyes", open_eyes)
+    monkeypatch.setattr(seeing, "SensorSuite", open_eyes)
     both, world = prepared(), object()
     eyes: list[Any] = [both.eyes(world, name) for name in PLAYERS]  # type: ignore[arg-type]
     assert eyes == ["eyes 1", "eyes 2"]
@@ -144,7 +144,7 @@ def test_each_is_judged_by_the_truth_of_the_other(
     def judge(*a: Any, wears_trim: bool) -> None:
         made.append((*a, wears_trim))
 
-    monkeypatch.setattr(seeing, "Judge", judge)
+    monkeypatch.setattr(seeing, "SightEvaluator", judge)
     both = prepared()
     robot: Any = SimpleNamespace(name="pursuer")
     truth: Any = object()

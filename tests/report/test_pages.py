@@ -50,7 +50,7 @@ pytestmark = [
 @pytest.fixture(autouse=True)
 def _calm(monkeypatch: pytest.MonkeyPatch) -> None:
     """No page is told more often than it looks; see ``browsing``."""
-    for module in ("page", "replaying"):
+    for module in ("live_page", "replay_viewer"):
         place = f"stepaside.report.viewer.{module}.RATE"
         monkeypatch.setattr(place, 1e3 / PAUSE)
 

@@ -264,8 +264,8 @@ def test_settings_of_a_physical_job_name_seed_and_gait() -> None:
     for name in ("humanoids", "durations", "slip"):
         first, second = (JOBS[name].settings(seed) for seed in (1, 2))
         assert first != second
-        assert "single_support=0.425" in first
-    assert "single_support=0.122" in JOBS["durations"].settings(1)
+        assert "single_support = 0.425" in first
+    assert "single_support = 0.122" in JOBS["durations"].settings(1)
 
 
 # --- page and command -----------------------------------------------------
@@ -343,7 +343,7 @@ def test_command_prints_rows_and_writes_the_page(
     assert (kept["seed"], kept["runs"]) == (1, 10)
     job = kept["jobs"]["path"]
     assert job["version"] == rows[0]["version"]
-    assert "single_support=0.425" in job["settings"]
+    assert "'single_support': 0.425" in job["settings"]
     html = (tmp_path / "claims.html").read_text()
     first = html.split("</table>")[0]
     assert first.count("<tr>") == len(rows) + 1

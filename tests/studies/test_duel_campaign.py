@@ -31,6 +31,7 @@ from stepaside.studies.duel_campaign import (
     verify_duels,
 )
 from stepaside.studies.duel_statistics import (
+    FIELDS,
     certificate_row,
     figure_row,
     share,
@@ -44,22 +45,26 @@ NOW = {"version": "new", "libraries": {"mujoco": "1"}}
 
 def made(seed: int, **changes: Any) -> dict[str, Any]:
     """Record of a duel that nobody played."""
-    return {
-        "seed": seed,
-        "outcome": "completed",
-        "message": "",
-        "distance_m": 0.9 + 0.01 * seed,
-        "relative_orientation_deg": 90.0,
-        "pursuer_radius_m": 0.64,
-        "evader_radius_m": 0.63,
-        "converged_at_s": 10.0 * seed,
-        "min_distance_m": 0.5,
-        "evading_min_distance_m": 0.5,
-        "certified_m": None,
-        "digest": f"d{seed}",
-        "wall_s": 1.0,
-        **NOW,
-    } | changes
+    return (
+        dict.fromkeys(FIELDS)
+        | {
+            "seed": seed,
+            "outcome": "completed",
+            "message": "",
+            "distance_m": 0.9 + 0.01 * seed,
+            "relative_orientation_deg": 90.0,
+            "pursuer_radius_m": 0.64,
+            "evader_radius_m": 0.63,
+            "converged_at_s": 10.0 * seed,
+            "min_distance_m": 0.5,
+            "evading_min_distance_m": 0.5,
+            "certified_m": None,
+            "digest": f"d{seed}",
+            "wall_s": 1.0,
+            **NOW,
+        }
+        | changes
+    )
 
 
 class Here(Executor):
@@ -360,7 +365,7 @@ def test_nothing_is_played_when_verified_duels_differ(
 CHILD = """
 import os, signal, sys, time
 from concurrent.futures import as_completed
-from stepaside.workers import give_up, worker_pool
+from stepaside.core.worker_pool import give_up, worker_pool
 
 def stay(number):
     print(os.getpid(), flush=True)

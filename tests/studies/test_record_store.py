@@ -75,9 +75,9 @@ def test_no_file_holds_nothing_and_is_not_made(tmp_path: Path) -> None:
 SHORT_OF_ROOM = """
 import resource, sys
 from pathlib import Path
-from stepaside.errors import OutputError
-from stepaside.studies.records import RecordFile
-file = RecordFile(Path(sys.argv[1]))
+from stepaside.core.errors import OutputError
+from stepaside.studies.record_store import RecordStore
+file = RecordStore(Path(sys.argv[1]))
 size = file.path.stat().st_size if file.path.exists() else 0
 most = size + 40  # less than a record
 resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))

@@ -115,7 +115,7 @@ def test_value_is_its_own_mirror_image(cars: Bound) -> None:
     )
     here = cars.value(r, a, psi)
     np.testing.assert_allclose(cars.value(r, -a, -psi), here, atol=1e-6)
-    turned = cars.value(r, a + tau, psi - tau)
+    turned = cars.value(r, a - tau * np.sign(a), psi - tau * np.sign(psi))
     np.testing.assert_allclose(turned, here, atol=1e-6)
 
 

@@ -1,7 +1,7 @@
 """Rooms by seed: how large, with how much in them."""
 
 from dataclasses import dataclass
-from math import pi, radians
+from math import pi, radians, tau
 
 import numpy as np
 
@@ -155,9 +155,12 @@ def draw_starts(
             or not room.sees(both[:1], both[1:])[0]
         ):
             continue
+        facing = sight + pi + evader_turn
+        if facing > tau:  # headings of initial poses lie within one turn
+            facing -= tau
         starts = (
             Pose(float(place[0]), float(place[1]), sight + pursuer_turn),
-            Pose(float(other[0]), float(other[1]), sight + pi + evader_turn),
+            Pose(float(other[0]), float(other[1]), facing),
         )
         if has_way(room, starts[0][:2], starts[1][:2], radius):
             return starts

@@ -48,7 +48,8 @@ class RobotSize:
         foot_spacing: Distance between the feet, in [m].
         sole: Edges back, front, outer and inner, in [m], none negative but
             the first.
-        reach: See :class:`stepaside.robots.description_types.ReferencePoint`, in [m].
+        reach: See
+            :class:`stepaside.robots.description_types.ReferencePoint`, in [m].
     """
 
     com_height: float

@@ -9,7 +9,7 @@ its first fall, or where it can be no better than the best.
 import json
 from collections.abc import Callable, Iterable
 from concurrent.futures import Executor, as_completed
-from dataclasses import replace
+from dataclasses import asdict, replace
 from hashlib import sha256
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -198,7 +198,7 @@ def _stamp_of(description: RobotDescription) -> str:
     # Wherever it lies and whatever it is called, it walks the same.
     plain = replace(description, folder=Path(), name="", game={})
     said = (
-        *(digest_of(description), plain),
+        *(digest_of(description), asdict(plain)),
         *(code_version(ROOMS), library_versions()),
     )
     return sha256(repr(said).encode()).hexdigest()[:16]

@@ -18,9 +18,10 @@ from .camera_settings import RAYCAST as RAYCAST
 from .camera_settings import RENDERERS
 
 PROBE = (
-    "import mujoco; from stepaside.sim.offscreen_rendering import Screen; "
+    "import mujoco; "
+    "from stepaside.sim.offscreen_rendering import OffscreenRenderer; "
     'm = mujoco.MjModel.from_xml_string(\'<mujoco><worldbody><geom size="1"/>'
-    "</worldbody></mujoco>'); Screen(m, 16, 16, {backend!r})"
+    "</worldbody></mujoco>'); OffscreenRenderer(m, 16, 16, {backend!r})"
 )
 GEOMS = 2000  # that a scene can hold
 GRID = 10.0  # spacing of the vertices of a plane, in [m]

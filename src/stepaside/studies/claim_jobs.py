@@ -1,6 +1,7 @@
 """What measures the claims of the paper, job by job."""
 
 from collections.abc import Callable
+from dataclasses import asdict
 
 from ..games.configuration_file import dump_configuration
 from ..games.duel_settings import DuelSettings
@@ -40,7 +41,7 @@ def _plan(
     rooms: tuple[str, ...],
 ) -> ClaimJob:
     """Job on the planner, with the gait of Sec. IV."""
-    settings = repr(planner.GAIT)
+    settings = repr(asdict(planner.GAIT))
     return ClaimJob(
         claims, lambda _: measure(), rooms, ("numpy",), lambda _: settings
     )
