@@ -1,5 +1,6 @@
 """A command that is stopped says what is kept."""
 
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,6 @@ from click.testing import CliRunner, Result
 from stepaside.cli.interruption import kept_in
 from stepaside.cli.main import LazyGroup, all_commands, main
 from stepaside.cli.output_files import OutputFile, attempt, writes_files
-from stepaside.cli.reproduce import reproduce
 from stepaside.cli.run_output import SavedRun
 from stepaside.core.atomic_output import writing
 from stepaside.games.outcome import Outcome
@@ -88,8 +88,8 @@ def test_the_paper_stopped_while_it_is_drawn_keeps_its_runs(
     def interrupt(*_: Any) -> None:
         raise KeyboardInterrupt
 
-    module = reproduce.callback.__globals__  # type: ignore[union-attr]
-    monkeypatch.setitem(module, "_measure", lambda *_: [])
+    module = import_module("stepaside.cli.reproduce")
+    monkeypatch.setattr(module, "_measure", lambda *_: [])
     monkeypatch.setattr(reproduce_figures, "draw_figures", interrupt)
     result = CliRunner().invoke(main, ["reproduce", f"--output={tmp_path}"])
     assert result.exit_code == 130
