@@ -1,7 +1,7 @@
 """Real-time pursuit and evasion for humanoid robots.
 
-What most people need stands at this door; it is imported when it is first
-used, so that ``import stepaside`` itself costs nothing.
+Names of the public interface; each is imported on first use, which keeps
+``import stepaside`` fast.
 """
 
 import lazy_loader
