@@ -12,8 +12,8 @@ from stepaside.perception.colour_detector import (
     Appearance,
     ColourDetection,
     ColourDetector,
+    _check_group,
     _groups,
-    _judge,
 )
 from stepaside.perception.images import ColourImage, Pixels
 
@@ -122,7 +122,7 @@ TRIM = (
 
 
 def judge(*patches: Patch) -> ColourDetection | None:
-    return _judge(boxes(*patches), CAMERA)
+    return _check_group(boxes(*patches), CAMERA)
 
 
 def ends(found: ColourDetection | None) -> tuple[float, ...]:

@@ -11,7 +11,7 @@ from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.floor_colours import (
     FloorColours,
     FloorContact,
-    find_footings,
+    detect_feet,
     floor_points,
 )
 from stepaside.perception.images import ColourImage
@@ -38,7 +38,7 @@ def find(
     colours: FloorColours, posts: list[Post], axes: Array = AHEAD
 ) -> tuple[FloorContact, ...]:
     seen = image(axes, posts)
-    return find_footings(seen, colours, EYE, axes, (0.0, 0.0))
+    return detect_feet(seen, colours, EYE, axes, (0.0, 0.0))
 
 
 @pytest.mark.parametrize("distance", [0.4, 0.6, 0.8, 1.0])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from stepaside.perception.floor_growing import EVEN, grow_floor
+from stepaside.perception.floor_growing import MAX_STEP, grow_floor
 
 HIGH, WIDE = 40, 60
 FIRST = np.s_[:, :12]  # columns whose colour is known
@@ -57,7 +57,7 @@ def test_a_surface_of_which_little_is_known_is_none() -> None:
 
 def test_lines_between_tiles_are_floor() -> None:
     pixels = lit(190.0, 190.0)
-    pixels[:, 30:] = 190 + 3 * EVEN  # two surfaces, both known in part
+    pixels[:, 30:] = 190 + 3 * MAX_STEP  # two surfaces, both known in part
     both = known() | known(np.s_[:, 45:])
     assert grow_floor(pixels, both).all()
     assert not grow_floor(pixels, known())[:, 32:].any()

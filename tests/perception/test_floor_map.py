@@ -11,11 +11,11 @@ from stepaside.core.poses import Array
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.floor_map import (
     CELL,
-    START,
-    TAKEN,
+    FREE_AT_START,
+    OCCUPIED,
     FloorMap,
-    _broad,
     _centres,
+    _wide_areas,
 )
 from stepaside.perception.images import DepthImage
 
@@ -127,7 +127,9 @@ def test_from_another_side_only_the_thing_itself_stays() -> None:
 def test_a_robot_begins_with_room_to_turn() -> None:
     seen = FloorMap()
     seen.take(*view((), (0.0, 0.0), 0.0), (0.0, 0.0), None)
-    behind = np.array([[-START + 1.5 * CELL, 0.0], [-START - CELL, 0.02]])
+    behind = np.array(
+        [[-FREE_AT_START + 1.5 * CELL, 0.0], [-FREE_AT_START - CELL, 0.02]]
+    )
     clearance = np.min(
         [p.clearance(behind) for p in seen.unseen((0.0, 0.0))], axis=0
     )
@@ -148,25 +150,27 @@ def test_what_the_other_stands_beside_stays() -> None:
     """Who walks along a wall does not wipe it off the map."""
     wall = Box(1.4, 0.0, 0.1, 2.0)
     seen = looked(FloorMap(), (wall,), times=4)
-    cells = _centres(seen._evidence > TAKEN)
+    cells = _centres(seen._evidence > OCCUPIED)
     assert len(cells) == 40
     for place in ((0.9, 0.0), (1.22, 0.0), None, (1.22, 0.0)):
         both = (wall,) if place is None else (wall, Disc(*place, 0.09))
         facing = pi if place is None else 0.0  # a glance away
         seen.take(*view(both, (0.0, 0.0), facing), (0.0, 0.0), place)
-        assert np.array_equal(_centres(seen._evidence > TAKEN), cells)
+        assert np.array_equal(_centres(seen._evidence > OCCUPIED), cells)
     assert not seen.is_free(np.array([[1.42, 0.0]])).any()
 
 
 def test_the_map_tells_what_belongs_to_the_room() -> None:
     seen = looked(FloorMap(), (Disc(1.2, 0.3, 0.15),))
-    assert seen.holds(1.1, 0.25) and seen.holds(1.25, 0.3)
-    assert not seen.holds(1.2, -0.2) and not FloorMap().holds(0.0, 0.0)
+    assert seen.is_occupied(1.1, 0.25) and seen.is_occupied(1.25, 0.3)
+    assert not seen.is_occupied(1.2, -0.2) and not FloorMap().is_occupied(
+        0.0, 0.0
+    )
     facing = atan2(0.3, 1.2)
-    away = seen.nearest(0.0, 0.0, facing, 0.2)
+    away = seen.distance_in_cone(0.0, 0.0, facing, 0.2)
     assert away == pytest.approx(np.hypot(1.2, 0.3) - 0.15, abs=1.5 * CELL)
-    assert seen.nearest(0.0, 0.0, facing + 2.0 * pi, 0.2) == away
-    assert seen.nearest(0.0, 0.0, facing + 0.5, 0.2) == np.inf
+    assert seen.distance_in_cone(0.0, 0.0, facing + 2.0 * pi, 0.2) == away
+    assert seen.distance_in_cone(0.0, 0.0, facing + 0.5, 0.2) == np.inf
 
 
 @pytest.mark.parametrize("heading", [0.0, 0.3, pi / 4])
@@ -195,7 +199,7 @@ def test_columns_beside_what_is_too_near_show_no_floor_there() -> None:
             c, s = np.cos(turned), np.sin(turned)
             axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
             seen.take(image, eye, axes, (0.0, 0.0), None)
-    shown = _centres(seen._seen)
+    shown = _centres(seen._known)
     assert near.clearance(shown).min() > -0.5 * CELL
     beyond = np.array([[0.6, 0.35], [0.6, -0.35], [1.2, 0.5]])
     gaps = np.hypot(*(shown[:, None] - beyond).transpose(2, 0, 1))
@@ -218,7 +222,7 @@ def test_the_rim_of_what_is_unseen_is_unseen() -> None:
     hidden = np.zeros((12, 12), dtype=np.bool_)
     hidden[3:7, 4:8] = True
     hidden[2, 5:7] = hidden[7, 5:7] = hidden[4:6, 3] = hidden[4:6, 8] = True
-    assert (_broad(hidden) == hidden).all()
+    assert (_wide_areas(hidden) == hidden).all()
     strip = np.zeros((12, 12), dtype=np.bool_)
     strip[4:6] = True
-    assert not _broad(strip).any()
+    assert not _wide_areas(strip).any()

@@ -14,7 +14,10 @@ from stepaside.perception.colour_detector import RED
 from stepaside.perception.images import Percept, SonarEcho
 from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.perception.observations import camera_of
-from stepaside.perception.people_selection import PeopleSelection, nearest
+from stepaside.perception.people_selection import (
+    PeopleSelection,
+    closest_approach,
+)
 from stepaside.perception.perception import Perception
 from stepaside.perception.track import Observation, TargetTrack
 from stepaside.perception.tracker import Tracker
@@ -128,7 +131,7 @@ def followed(*places: Place) -> TargetTrack:
     ]
     track = TargetTrack(first)
     for seen in rest:
-        track.correct(seen)
+        track.update(seen)
     track.confirmed = True
     return track
 
@@ -154,7 +157,7 @@ def looks(begin: float, speed: float, seconds: float, spread: float) -> float:
     track.confirmed = looked = True
     for i in range(1, count):
         if looked or i % 20 == 0:  # else the head sweeps by it
-            track.correct(seen(i))
+            track.update(seen(i))
         chosen = people.look([track], None, 0.1 * i, 0.0, 0.0)
         looked = chosen is track
         at += looked
@@ -174,11 +177,11 @@ def test_glances_come_every_few_seconds_and_sooner_at_who_walks(
 ) -> None:
     """0.6 s long, 3 s apart at what rests, 1 s at a walker who leaves."""
     people, track, looked = PeopleSelection(), followed((3.0, 0.0)), []
-    track.walked = walks
+    track.has_walked = walks
     track._state[2] = 0.3 if walks else 0.0
     for i in range(2000):
         now = 0.01 * i
-        track.seen_at = now
+        track.observed_at = now
         looked.append(people.look([track], None, now, 0.0, 0.0) is track)
     edges = np.flatnonzero(np.diff(np.array(looked, int)))
     begins, ends = edges[1::2], edges[2::2]
@@ -222,8 +225,8 @@ def test_who_walks_counts_before_what_is_nearer_and_rests() -> None:
 def test_a_glance_back_and_forth_is_no_walk() -> None:
     """A walker sways by some centimetres, and a wall by as much."""
     swaying = followed(*[(1.0 + 0.05 * (-1) ** i, 0.0) for i in range(20)])
-    assert not swaying.walked
-    assert nearest(swaying, 2.0, 0.0, 0.0) > 0.6
+    assert not swaying.has_walked
+    assert closest_approach(swaying, 2.0, 0.0, 0.0) > 0.6
 
 
 @pytest.mark.parametrize(
@@ -238,16 +241,16 @@ def test_where_somebody_goes_is_told_after_a_while_of_watching(
     for i in range(1, 20):
         now, x = 0.05 * i, begin + 0.05 * i * speed
         place = Observation(now, x, 0.0, 0.0, 0.03, 0.03, False, True)
-        track.correct(place)
+        track.update(place)
         settled.append(people.settled(track, now, 0.0, 0.0))
     assert settled[-1] and not settled[0]
     assert 0.05 * (1 + settled.index(True)) == pytest.approx(wait, abs=0.26)
     # After a gap the watch begins anew, of somebody known whatever the time.
-    track.correct(Observation(2.0, x, 0.0, 0.0, 0.03, 0.03, False, True))
+    track.update(Observation(2.0, x, 0.0, 0.0, 0.03, 0.03, False, True))
     assert not people.settled(track, 2.1, 0.0, 0.0)
     for i in range(24):
         now = 2.05 + 0.05 * i
-        track.correct(Observation(now, x, 0.0, 0.0, 0.03, 0.03, False, True))
+        track.update(Observation(now, x, 0.0, 0.0, 0.03, 0.03, False, True))
     assert people.settled(track, now, 0.0, 0.0)
     assert not people.settled(track, now + 0.35, 0.0, 0.0)
 
@@ -271,9 +274,7 @@ def test_who_may_pass_is_watched_for_longer(
     people, settled = PeopleSelection(), []
     for i in range(1, 40):
         now, x = 0.05 * i, begin - 0.05 * i * 0.8
-        track.correct(
-            Observation(now, x, beside, 0.0, 0.03, 0.03, False, True)
-        )
+        track.update(Observation(now, x, beside, 0.0, 0.03, 0.03, False, True))
         settled.append(people.settled(track, now, 0.0, 0.0))
     told = 0.05 * (1 + settled.index(True))
     assert told == pytest.approx(least, abs=0.26)

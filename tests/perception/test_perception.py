@@ -77,7 +77,7 @@ def test_three_images_of_the_other_make_a_sighting(column: float) -> None:
     assert eyes.perception.sighting == seen and seen.time == 2 * TICK
     (track,) = eyes.tracks
     x, y, heading = eyes.torso
-    u, v = track.place_at(seen.time)
+    u, v = track.position_at(seen.time)
     assert seen.distance == pytest.approx(hypot(u - x, v - y))
     expected = wrap_angle(atan2(v - y, u - x) - heading)
     assert seen.bearing == pytest.approx(expected)
@@ -93,7 +93,7 @@ def test_the_eyes_are_where_head_and_mount_have_them(eyes: Eyes) -> None:
     body = eyes.perception.body
     assert body is not None
     place = body.head_place + body.head_axes @ HEAD.top.place
-    u, v = eyes.tracks[0].place_at(TICK)
+    u, v = eyes.tracks[0].position_at(TICK)
     angle = atan2(v - place[1], u - place[0])
     assert angle == pytest.approx(SUPPORT.theta, abs=1e-3)
     breadth = 2.0 * atan2(15.0, 140.0)
@@ -131,7 +131,7 @@ def test_a_late_image_is_of_where_the_eyes_were_then() -> None:
     body = eyes.perception._poses[10]
     assert body.time == pytest.approx(10 * TICK)
     place = body.head_place + body.head_axes @ HEAD.top.place
-    u, v = eyes.tracks[0].place_at(10 * TICK)
+    u, v = eyes.tracks[0].position_at(10 * TICK)
     angle = atan2(v - place[1], u - place[0])
     assert angle == pytest.approx(0.7 + 0.02 * 10, abs=1e-3)
 

@@ -5,7 +5,7 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.perception.colour_detector import RED, Appearance
-from stepaside.perception.ranging import range_of_breadth, range_of_trim
+from stepaside.perception.ranging import range_of_trim, range_of_width
 
 EYE = 0.46
 TOES = 0.05  # that trim at the feet is nearer than the axis, in [m]
@@ -72,8 +72,8 @@ def test_a_span_too_small_tells_nothing() -> None:
 
 def test_breadth_tells_by_proportion_and_within_limits() -> None:
     """Shoulders of 0.3 m from the front, half of that from the side."""
-    assert range_of_breadth(0.25) == pytest.approx(1.0)
-    assert range_of_breadth(0.5) == pytest.approx(0.5)
+    assert range_of_width(0.25) == pytest.approx(1.0)
+    assert range_of_width(0.5) == pytest.approx(0.5)
     for narrow in (-0.1, 0.0, 0.05):
-        assert range_of_breadth(narrow) == 4.0
-    assert range_of_breadth(3.0) == 0.2
+        assert range_of_width(narrow) == 4.0
+    assert range_of_width(3.0) == 0.2

@@ -15,7 +15,12 @@ from stepaside.perception.colour_detector import RED
 from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.gaze import Gaze
 from stepaside.perception.perception import Perception
-from stepaside.perception.room_scan import BEHIND, FACING, LONGEST, RoomScan
+from stepaside.perception.room_scan import (
+    BODY_TURN,
+    HEADING_TOLERANCE,
+    MAX_DURATION,
+    RoomScan,
+)
 from stepaside.planning import Direction
 
 TICK = 0.02
@@ -57,7 +62,7 @@ def test_a_body_that_turns_has_seen_all_around() -> None:
     """And faces again where it did, no later than it can."""
     lasted, turned, around = looked(behind=True)
     assert share_seen(turned) > 0.99
-    way = 2.0 * BEHIND - FACING
+    way = 2.0 * BODY_TURN - HEADING_TOLERANCE
     assert lasted == pytest.approx(BEGINS + way / RATE, abs=0.1)
     assert around.turning == 0.0
     assert share_seen(looked(behind=False)[1]) < 0.95
@@ -80,7 +85,7 @@ def test_who_has_turned_back_waits_for_others_without_turning() -> None:
 
 def test_a_turn_that_does_not_come_is_not_waited_for_ever() -> None:
     lasted, turned, around = looked(behind=True, rate=0.0)
-    assert lasted == pytest.approx(0.5 * LONGEST, abs=0.1)
+    assert lasted == pytest.approx(0.5 * MAX_DURATION, abs=0.1)
     assert around.turning == 0.0
     assert turned.min() == pytest.approx(-radians(115.0), abs=0.01)
 
@@ -95,20 +100,20 @@ def test_who_turns_slowly_turns_back_in_time(rate: float) -> None:
         now += TICK
         if now > BEGINS:
             heading += rate * around.turning * TICK
-    assert now < LONGEST + 0.1
-    assert abs(heading - START) < FACING + rate * BEGINS
+    assert now < MAX_DURATION + 0.1
+    assert abs(heading - START) < HEADING_TOLERANCE + rate * BEGINS
 
 
 def test_who_turns_the_wrong_way_turns_back_as_well() -> None:
     lasted, _, around = looked(behind=True, rate=-0.1)
-    assert lasted == pytest.approx(LONGEST, abs=0.1)
+    assert lasted == pytest.approx(MAX_DURATION, abs=0.1)
     assert around.turning == 0.0
 
 
 def test_a_game_begins_when_everybody_has_looked() -> None:
     """Or who does not look is waited for no longer."""
     _, _, around = looked(behind=False)
-    gaze = SimpleNamespace(turned=2, search=lambda **_: None)
+    gaze = SimpleNamespace(scan_ends=2, search=lambda **_: None)
     other = SimpleNamespace(looking=True)
     assert not around.lasts(gaze)  # type: ignore[arg-type]
     around.company.append(other)

@@ -47,10 +47,10 @@ def test_each_takes_what_fits_it_best() -> None:
     near, far = known(0.0, 1.0), known(0.0, 2.0)
     tracker = tracker_of(far, near)
     seen = [look(0.1, 2.02), look(0.1, 1.04), look(0.1, 1.01)]
-    updated = tracker.observe(seen, founds=False)
+    updated = tracker.observe(seen, may_start=False)
     assert len(updated) == 2 and near in updated and far in updated
-    assert near.place_at(0.1)[0] == pytest.approx(1.01, abs=0.005)
-    assert far.place_at(0.1)[0] == pytest.approx(2.02, abs=0.008)
+    assert near.position_at(0.1)[0] == pytest.approx(1.01, abs=0.005)
+    assert far.position_at(0.1)[0] == pytest.approx(2.02, abs=0.008)
     assert tracker.tracks == [far, near]
 
 
@@ -64,7 +64,7 @@ def test_who_was_seen_last_takes_first() -> None:
 
 def test_what_fits_nothing_begins_a_track_unless_told_otherwise() -> None:
     tracker = Tracker()
-    assert tracker.observe([look(0.0, 1.0)], founds=False) == []
+    assert tracker.observe([look(0.0, 1.0)], may_start=False) == []
     assert tracker.tracks == []
     begun = tracker.observe([look(0.0, 1.0), look(0.0, 2.0)])
     assert begun == tracker.tracks and len(begun) == 2
@@ -128,15 +128,17 @@ def test_three_tracks_at_one_place_become_one() -> None:
     )
     tracker.tracks.append(known(0.0, 3.0))
     main = tracker.main(0.2, 0.0, 0.0)
-    assert main is not None and main.begun_at == 0.0 and main.seen_at == 0.2
+    assert (
+        main is not None and main.started_at == 0.0 and main.observed_at == 0.2
+    )
     assert len(tracker.tracks) == 2
 
 
 def test_merging_looks_at_where_things_are_by_now() -> None:
     moving, resting = known(0.0, 1.0), known(0.01, 1.5)
     for i in range(1, 7):
-        moving.correct(look(0.1 * i, 1.0 + 0.05 * i))
-        resting.correct(look(0.1 * i, 1.5))
+        moving.update(look(0.1 * i, 1.0 + 0.05 * i))
+        resting.update(look(0.1 * i, 1.5))
     tracker = tracker_of(moving, resting)
     tracker.main(0.61, 0.0, 0.0)
     assert len(tracker.tracks) == 2
@@ -158,7 +160,7 @@ def test_the_other_is_the_other_for_five_seconds_unrecognised(
 ) -> None:
     other, near = known(0.0, 2.0, identified=True), known(0.0, 1.0)
     for track, x in ((other, 2.0), (near, 1.0)):
-        track.correct(look(age, x))
+        track.update(look(age, x))
     main = tracker_of(near, other).main(age, 0.0, 0.0)
     assert main is (other if counts else near)
 
@@ -171,7 +173,7 @@ def test_of_two_recognised_the_one_longer_known_counts(
     for order in (1, -1):
         first = known(0.0, 2.0, identified=True)
         late = known(lapse, 1.0, identified=True)
-        first.correct(look(lapse, 2.0))
+        first.update(look(lapse, 2.0))
         main = tracker_of(*[first, late][::order]).main(lapse, 0.0, 0.0)
         assert main is (first if older else late)
 
@@ -215,7 +217,7 @@ def test_memory_ends_where_doubt_is_as_large_as_a_step_aside(
 def test_hopeless_tracks_are_dropped() -> None:
     track = TargetTrack(look(0.0, 1.0))
     for _ in range(3):
-        track.count(False)
+        track.record_frame(False)
     tracker = tracker_of(track)
     tracker.main(0.0, 0.0, 0.0)
     assert tracker.tracks == []
