@@ -99,7 +99,11 @@ def test_a_backend_works_if_another_process_survives_it(
         # Past its memory, that other tests rely on.
         assert _works.__wrapped__("egl") is good
     probe = asked[0]
-    assert "Screen(m, 16, 16, 'egl')" in probe["command"][-1]
+    program = probe["command"][-1]
+    assert "OffscreenRenderer(m, 16, 16, 'egl')" in program
+    names: dict[str, Any] = {}
+    exec(program.partition("; m =")[0], names)  # its imports
+    assert names["OffscreenRenderer"] is OffscreenRenderer
     assert probe["env"]["MUJOCO_GL"] == "egl"
     assert probe["env"]["PYOPENGL_PLATFORM"] == "egl"
     assert "PATH" in probe["env"]

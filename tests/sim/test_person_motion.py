@@ -110,9 +110,9 @@ def test_paths_are_read_as_rows(tmp_path: Path) -> None:
         ("0,1,2\n", "has 1"),
         ("0,1\n1,2\n", "needs two rows of time,x,y"),
         ("0,1,2,3\n1,2,3,4\n", "needs two rows of time,x,y"),
-        ("0,0,0\n0,1,1\n", "finite and rise"),
-        ("0,0,nan\n1,1,1\n", "finite and rise"),
-        ("0,0,0\n1,inf,1\n", "finite and rise"),
+        ("0,0,0\n0,1,1\n", "finite, and times must increase"),
+        ("0,0,nan\n1,1,1\n", "finite, and times must increase"),
+        ("0,0,0\n1,inf,1\n", "finite, and times must increase"),
         ("0,0,0\n1,1\n", "must be steer, straight, visits or a CSV file"),
     ],
 )

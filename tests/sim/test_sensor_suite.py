@@ -227,7 +227,7 @@ def test_grain_is_noise_of_the_size_asked_for() -> None:
     camera = CameraModel.of_field_of_view(80, 60, 1.0, 0.8)
     grey = np.full((60, 80, 3), 128, dtype=np.uint8)
     grain = ImageNoise(camera, 6.0, np.random.default_rng(2))
-    one, other = grain.spoil(grey), grain.spoil(grey)
+    one, other = grain.add_to(grey), grain.add_to(grey)
     assert one.shape == grey.shape and one.dtype == np.uint8
     assert not np.array_equal(one, other)
     for noise in (one.astype(float) - 128.0, other.astype(float) - 128.0):
@@ -235,9 +235,9 @@ def test_grain_is_noise_of_the_size_asked_for() -> None:
         assert abs(noise.mean()) < 0.15
     # Bright stays bright: noise does not wrap around.
     white = np.full((60, 80, 3), 254, dtype=np.uint8)
-    assert grain.spoil(white).min() > 200
+    assert grain.add_to(white).min() > 200
     still = ImageNoise(camera, 0.0, np.random.default_rng(2))
-    np.testing.assert_array_equal(still.spoil(grey), grey)
+    np.testing.assert_array_equal(still.add_to(grey), grey)
 
 
 def test_noise_is_shifted_all_about() -> None:
@@ -245,7 +245,7 @@ def test_noise_is_shifted_all_about() -> None:
     camera = CameraModel.of_field_of_view(10, 8, 1.0, 0.8)
     grey = np.full((8, 10, 3), 128, dtype=np.uint8)
     grain = ImageNoise(camera, 6.0, np.random.default_rng(2))
-    images = {grain.spoil(grey).tobytes() for _ in range(2000)}
+    images = {grain.add_to(grey).tobytes() for _ in range(2000)}
     assert len(images) == 80
 
 
@@ -270,7 +270,7 @@ def test_graphics_draw_the_field_of_view_of_the_camera(
     sizes: list[tuple[Any, ...]] = []
     drawn: list[int] = []
 
-    class Screen:
+    class FakeRenderer:
         def __init__(self, model: Any, *arguments: Any) -> None:
             sizes.append(arguments)
 
@@ -279,7 +279,7 @@ def test_graphics_draw_the_field_of_view_of_the_camera(
             drawn.append(number)
             return np.full((60, 80, 3), 99, dtype=np.uint8)
 
-    monkeypatch.setattr(eyes_module, "Screen", Screen)
+    monkeypatch.setattr(eyes_module, "OffscreenRenderer", FakeRenderer)
     eyes = eyes_of(depth=False, renderer="egl")
     model = eyes._world.model
     assert model.camera("me/head_camera").fovy[0] == pytest.approx(47.6)
@@ -296,7 +296,7 @@ def test_closed_eyes_may_be_closed_again() -> None:
     eyes = eyes_of(depth=False)
     closed: list[bool] = []
     screen: Any = SimpleNamespace(close=lambda: closed.append(True))
-    eyes._screen = screen
+    eyes._renderer = screen
     eyes.close()
     eyes.close()
     assert closed == [True]

@@ -51,7 +51,7 @@ def test_mujoco_is_not_the_release_with_the_wrong_solver() -> None:
 
 @pytest.mark.parametrize("tick", [0.005, 0.003, 0.001])
 def test_tick_that_is_no_multiple_of_the_step_is_refused(tick: float) -> None:
-    with pytest.raises(ConfigurationError, match="whole multiple"):
+    with pytest.raises(ConfigurationError, match="multiple of time_step"):
         PhysicsSettings(time_step=0.002, tick=tick)
 
 
