@@ -321,7 +321,7 @@ def test_trim_that_an_edge_hides_in_part_is_put_where_its_middle_is(
     assert not near.ranged and near.along > 0.5
 
 
-def test_trim_in_the_middle_is_whole_however_narrow_it_looks() -> None:
+def test_trim_in_the_image_centre_is_not_hidden() -> None:
     """From the side it is half as broad."""
     found = trim(0.9, YAW)
     ways = [

@@ -1,4 +1,4 @@
-"""Test what depth, shadows, echoes and empty frames tell."""
+"""Test obstacles, shadows, echoes and missed detections."""
 
 from dataclasses import replace
 from math import cos, degrees, radians, sin
@@ -76,7 +76,7 @@ def eyes() -> Eyes:
     return made
 
 
-def test_obstacles_are_followed_unnamed(
+def test_obstacles_start_unidentified_tracks(
     eyes: Eyes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     x, y = eyes.beside(1.0, 0.0)
@@ -107,14 +107,14 @@ def test_obstacles_are_followed_unnamed(
         (MIN_SHADOW + 0.01, True, False),
     ],
 )
-def test_a_broad_shadow_is_somebody_who_came_unseen(
+def test_a_wide_shadow_starts_a_track_if_none_is_confirmed(
     eyes: Eyes,
     monkeypatch: pytest.MonkeyPatch,
     width: float,
     known: bool,
     may_start: bool,
 ) -> None:
-    """Unless somebody is known: then it is only a hint about him."""
+    """With a confirmed track it only updates that."""
     if known:
         eyes.know(*eyes.beside(1.0, 2.5))
     show(monkeypatch, Shadow(SUPPORT.theta, 0.0, width))
@@ -123,7 +123,7 @@ def test_a_broad_shadow_is_somebody_who_came_unseen(
     assert MIN_SHADOW == 0.12
 
 
-def test_a_shadow_tells_the_bearing_of_who_is_known(
+def test_a_shadow_updates_the_bearing_of_a_track(
     eyes: Eyes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     track = eyes.know(*eyes.beside(0.7, 0.0))
@@ -135,7 +135,7 @@ def test_a_shadow_tells_the_bearing_of_who_is_known(
 
 
 @pytest.mark.parametrize("sonar", ["left", "right"])
-def test_an_echo_of_nobody_known_founds_somebody_near(
+def test_an_echo_without_track_starts_one_nearby(
     eyes: Eyes, sonar: str
 ) -> None:
     eyes.see(TICK, SonarEcho(TICK, sonar, None))
@@ -154,7 +154,7 @@ def test_an_echo_of_nobody_known_founds_somebody_near(
     assert AXIS_OFFSET == 0.10
 
 
-def test_what_the_edge_cuts_updates_but_founds_nobody(
+def test_a_cut_obstacle_updates_but_starts_no_track(
     eyes: Eyes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It may be a piece of a wall, which moves as the head turns."""
@@ -169,8 +169,8 @@ def test_what_the_edge_cuts_updates_but_founds_nobody(
     assert track.observed_at == 2 * TICK
 
 
-def test_an_echo_of_the_own_arms_founds_nobody(eyes: Eyes) -> None:
-    """Nobody whom a sonar hears at its near limit is not yet touched."""
+def test_an_echo_of_the_own_arms_starts_no_track(eyes: Eyes) -> None:
+    """An opponent at the near limit of a sonar would be in contact."""
     for i, distance in enumerate((0.2, 0.24)):
         eyes.see(i * TICK, SonarEcho(i * TICK, "left", distance))
     assert not eyes.tracks
@@ -178,8 +178,8 @@ def test_an_echo_of_the_own_arms_founds_nobody(eyes: Eyes) -> None:
     assert len(eyes.tracks) == 1
 
 
-def test_an_echo_tells_the_distance_of_who_is_known(eyes: Eyes) -> None:
-    """When nothing else has told it lately."""
+def test_an_echo_updates_the_distance_of_a_track(eyes: Eyes) -> None:
+    """Only if its distance was not measured recently."""
     for age, heard in ((MIN_AGE - 0.05, False), (MIN_AGE + 0.05, True)):
         eyes.tracks.clear()
         now = 1.0
@@ -201,19 +201,19 @@ def test_an_echo_tells_the_distance_of_who_is_known(eyes: Eyes) -> None:
 
 
 @pytest.mark.parametrize(("sonar", "bearing", "heard"), HEARD)
-def test_a_sonar_hears_over_the_half_turn(
+def test_a_sonar_covers_the_angle_wrap(
     sonar: str, bearing: float, heard: bool
 ) -> None:
-    """As anywhere else: odometry's angles wrap ahead of this robot."""
+    """The angles of odometry wrap ahead of this robot."""
     for theta in (np.pi - 0.1, -np.pi + 0.1):
         eyes = Eyes()
         eyes.support = Pose(0.0, 0.0, theta)
         eyes.see(0.0)
-        test_a_sonar_hears_its_own_side(eyes, sonar, bearing, heard)
+        test_a_sonar_covers_its_own_side(eyes, sonar, bearing, heard)
 
 
 @pytest.mark.parametrize(("sonar", "bearing", "heard"), HEARD)
-def test_a_sonar_hears_its_own_side(
+def test_a_sonar_covers_its_own_side(
     eyes: Eyes, sonar: str, bearing: float, heard: bool
 ) -> None:
     """50 degrees aside, and little across the middle."""
@@ -232,7 +232,7 @@ def test_a_sonar_hears_its_own_side(
     ("bearing", "missed"),
     [(0.0, True), (23.0, True), (-23.0, True), (27.5, False), (-27.5, False)],
 )
-def test_a_frame_counts_against_what_it_should_have_shown(
+def test_a_frame_counts_a_miss_only_within_its_view(
     eyes: Eyes,
     monkeypatch: pytest.MonkeyPatch,
     percept: Any,
@@ -252,7 +252,7 @@ def test_a_frame_counts_against_what_it_should_have_shown(
     assert hits(track) == ([True, False] if missed else [True])
 
 
-def test_a_colour_frame_says_nothing_of_things_without_colour(
+def test_a_colour_frame_counts_no_miss_of_unidentified_tracks(
     eyes: Eyes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     show(monkeypatch)
@@ -263,17 +263,17 @@ def test_a_colour_frame_says_nothing_of_things_without_colour(
     assert hits(thing) == [True, False]
 
 
-def test_what_a_frame_shows_is_not_missed(eyes: Eyes) -> None:
+def test_a_detected_track_counts_no_miss(eyes: Eyes) -> None:
     eyes.detector.found = trim(80.0)
     for i in range(1, 4):
         eyes.see(TICK * i, colour(TICK * i))
     assert hits(eyes.tracks[0]) == [True] * 3
 
 
-def test_what_stands_in_a_mapped_room_is_nobody(
+def test_mapped_obstacles_start_no_track(
     eyes: Eyes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Pillars, near ones and echoes of walls found no track of the other."""
+    """Neither pillars, nor near ones, nor echoes of walls."""
     alone = len(eyes.tracks)
     eyes.perception.floor = NoFloor()
     show(monkeypatch, obstacle(*eyes.beside(1.0, 0.0)), Shadow(0.0, 0.0, 0.5))
@@ -288,7 +288,7 @@ def test_what_stands_in_a_mapped_room_is_nobody(
 
 
 @pytest.mark.parametrize(("gap", "heard"), [(0.2, False), (0.3, True)])
-def test_an_echo_that_may_be_of_the_room_tells_nothing(
+def test_an_echo_near_a_mapped_obstacle_is_ignored(
     eyes: Eyes, gap: float, heard: bool
 ) -> None:
     floor = eyes.perception.floor = NoFloor()
@@ -299,7 +299,7 @@ def test_an_echo_that_may_be_of_the_room_tells_nothing(
     assert (track.ranged_at == TICK) is heard
 
 
-def test_a_thing_on_the_map_corrects_no_track(
+def test_a_mapped_obstacle_updates_no_track(
     eyes: Eyes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     eyes.perception.floor = floor = NoFloor()
@@ -313,7 +313,7 @@ def test_a_thing_on_the_map_corrects_no_track(
     assert track.observed_at == 2 * TICK
 
 
-def test_a_place_of_the_other_that_is_old_frees_no_floor(
+def test_an_outdated_opponent_position_frees_no_floor(
     eyes: Eyes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     floor = eyes.perception.floor = NoFloor()
@@ -326,10 +326,10 @@ def test_a_place_of_the_other_that_is_old_frees_no_floor(
 
 
 @pytest.mark.parametrize(("beyond", "missed"), [(-0.05, 0), (0.05, 1)])
-def test_who_is_too_near_to_be_measured_is_not_missed(
+def test_a_track_within_the_near_limit_counts_no_miss(
     eyes: Eyes, monkeypatch: pytest.MonkeyPatch, beyond: float, missed: int
 ) -> None:
-    """Else nobody near would be confirmed where the cameras take turns."""
+    """Otherwise no near track would be confirmed by two cameras."""
     eyes.perception.floor = NoFloor()
     show(monkeypatch)
     forward = HEAD.depth.place[0]
@@ -344,10 +344,10 @@ def test_who_is_too_near_to_be_measured_is_not_missed(
     ("floor", "people", "calm"),
     [(None, False, False), (FloorMap, False, True), (FloorMap, True, False)],
 )
-def test_among_things_that_rest_a_robot_is_followed_as_one_that_walks(
+def test_with_a_map_tracks_use_the_motion_model_of_robots(
     floor: Any, people: bool, calm: bool
 ) -> None:
-    """And an edge that hides a part of one so near is looked out for."""
+    """The part of a near robot beyond an image edge is estimated too."""
     eyes = Eyes()
     made = eyes.perception = Perception(
         *(NAO, HEAD, RED),

@@ -1,4 +1,4 @@
-"""Test following things through frames: gates, memory, latency."""
+"""Test tracks: gates, prediction, latency."""
 
 from math import hypot, inf
 from typing import Any
@@ -30,7 +30,7 @@ def look(
     identified: bool = True,
     along: float = 0.03,
 ) -> Observation:
-    """Something seen along the x axis."""
+    """Return an observation on the x axis."""
     return Observation(time, x, y, 0.0, along, 0.01, identified, True)
 
 
@@ -41,7 +41,7 @@ def watch(tracker: Tracker, frames: int, x: float, speed: float) -> float:
     return (frames - 1) * FRAME
 
 
-def test_one_wrong_frame_is_nobody() -> None:
+def test_one_wrong_frame_confirms_no_track() -> None:
     tracker = Tracker()
     tracker.observe([look(0.0, 0.5)])
     assert tracker.main(0.0, 0.0, 0.0) is None
@@ -50,7 +50,7 @@ def test_one_wrong_frame_is_nobody() -> None:
         assert tracker.main(time, 0.0, 0.0) is None
 
 
-def test_one_wrong_frame_moves_no_one_who_is_known() -> None:
+def test_one_wrong_frame_does_not_move_a_track() -> None:
     tracker = Tracker()
     now = watch(tracker, 20, 1.5, 0.0)
     tracker.observe([look(now + FRAME, 0.5)])
@@ -61,7 +61,7 @@ def test_one_wrong_frame_moves_no_one_who_is_known() -> None:
     )
 
 
-def test_three_frames_confirm() -> None:
+def test_three_frames_confirm_a_track() -> None:
     tracker = Tracker()
     now = watch(tracker, 2, 1.0, 0.0)
     assert tracker.main(now, 0.0, 0.0) is None
@@ -69,7 +69,7 @@ def test_three_frames_confirm() -> None:
     assert tracker.main(now, 0.0, 0.0) is not None
 
 
-def test_steady_motion_is_foreseen() -> None:
+def test_steady_motion_is_predicted() -> None:
     tracker = Tracker()
     now = watch(tracker, 60, 2.0, -0.1)
     track = tracker.main(now, 0.0, 0.0)
@@ -81,7 +81,7 @@ def test_steady_motion_is_foreseen() -> None:
     assert hypot(x - true, y) < 0.01
 
 
-def test_doubt_grows_unseen_until_memory_ends() -> None:
+def test_the_deviation_grows_until_the_track_is_dropped() -> None:
     tracker = Tracker()
     now = watch(tracker, 20, 1.0, 0.0)
     track = tracker.main(now, 0.0, 0.0)
@@ -91,8 +91,8 @@ def test_doubt_grows_unseen_until_memory_ends() -> None:
     assert tracker.main(now + MAX_AGE + 0.1, 0.0, 0.0) is None
 
 
-def test_late_frames_count_for_when_they_were_taken() -> None:
-    """A frame of the past, of a thing that moves, does not pull it back."""
+def test_delayed_frames_count_at_their_exposure() -> None:
+    """A delayed frame of a moving object does not pull the track back."""
     prompt, late = TargetTrack(look(0.0, 2.0)), TargetTrack(look(0.0, 2.0))
     for i in range(1, 60):
         prompt.update(look(i * FRAME, 2.0 - 0.3 * i * FRAME))
@@ -104,7 +104,7 @@ def test_late_frames_count_for_when_they_were_taken() -> None:
     )
 
 
-def test_the_other_robot_counts_before_what_stands_nearer() -> None:
+def test_the_recognised_robot_comes_before_a_nearer_object() -> None:
     tracker = Tracker()
     for i in range(5):
         time = i * FRAME
@@ -116,7 +116,7 @@ def test_the_other_robot_counts_before_what_stands_nearer() -> None:
     assert track.distance_from(0.0, 0.0, time) == pytest.approx(1.5, abs=0.02)
 
 
-def test_without_another_robot_the_nearest_counts() -> None:
+def test_without_a_recognised_robot_the_nearest_is_main() -> None:
     tracker = Tracker()
     for i in range(5):
         time = i * FRAME
@@ -139,7 +139,7 @@ def test_covariance_does_not_depend_on_axes() -> None:
     np.testing.assert_allclose(deviations, [0.05, 0.2], atol=1e-12)
 
 
-def test_deviations_lie_along_and_across_the_line_of_sight() -> None:
+def test_deviations_are_along_and_across_the_bearing() -> None:
     seen = Observation(0.0, 1.0, 1.0, 0.7, 0.2, 0.05, True, True)
     sight = np.array([np.cos(0.7), np.sin(0.7)])
     aside = np.array([-np.sin(0.7), np.cos(0.7)])
@@ -147,7 +147,7 @@ def test_deviations_lie_along_and_across_the_line_of_sight() -> None:
     np.testing.assert_allclose(seen.covariance @ aside, 0.05**2 * aside)
 
 
-def test_a_track_begins_at_rest_where_it_was_seen() -> None:
+def test_a_track_starts_at_rest_at_its_first_observation() -> None:
     track = TargetTrack(
         Observation(2.0, 1.0, -0.5, 0.7, 0.2, 0.05, False, False)
     )
@@ -173,8 +173,8 @@ def unseen_for(step: float) -> tuple[float, float, float]:
 
 
 @pytest.mark.parametrize("step", [0.1, 0.3, 0.39, 0.8, 2.0])
-def test_doubt_grows_by_speed_and_push(step: float) -> None:
-    """HURRY of 0.25 m/s and pushes of 1 m/s^2, forgotten after 0.4 s."""
+def test_the_covariance_grows_by_speed_and_acceleration(step: float) -> None:
+    """Speed 0.25 m/s, acceleration 1 m/s^2, decay after 0.4 s."""
     track = TargetTrack(look(1.0, 2.0))
     ahead, _, share = unseen_for(step)
     variance = 0.03**2 + (0.25 * ahead) ** 2 + share * 0.25 * step**4
@@ -183,7 +183,7 @@ def test_doubt_grows_by_speed_and_push(step: float) -> None:
 
 @pytest.mark.parametrize("step", [0.1, 0.39, 0.8, 2.0])
 @pytest.mark.parametrize("bearing", [0.0, 0.7, -2.0])
-def test_a_correction_is_the_best_linear_estimate(
+def test_an_update_is_the_best_linear_estimate(
     step: float, bearing: float
 ) -> None:
     """Two observations against the sum of their informations."""
@@ -228,7 +228,7 @@ def test_a_correction_is_the_best_linear_estimate(
     assert track.mahalanobis_squared(third) == pytest.approx(misfit)
 
 
-def test_a_speed_is_believed_for_a_while_and_then_forgotten() -> None:
+def test_the_velocity_is_held_and_then_decays() -> None:
     track = TargetTrack(look(0.0, 2.0))
     for i in range(1, 60):
         time = i * FRAME
@@ -241,7 +241,7 @@ def test_a_speed_is_believed_for_a_while_and_then_forgotten() -> None:
         np.testing.assert_allclose(there - start, way, rtol=1e-6)
 
 
-def test_the_past_neither_turns_back_time_nor_memory() -> None:
+def test_a_delayed_observation_does_not_turn_back_times() -> None:
     track = TargetTrack(look(1.0, 2.0))
     track.update(look(1.2, 2.0))
     track.update(look(1.1, 2.0))
@@ -252,7 +252,7 @@ def test_the_past_neither_turns_back_time_nor_memory() -> None:
     assert (track.identified_at, track.ranged_at) == (1.2, 1.2)
 
 
-def test_a_late_frame_fits_where_the_thing_was() -> None:
+def test_a_delayed_frame_is_compared_at_its_time() -> None:
     track = TargetTrack(look(0.0, 2.0))
     for i in range(1, 60):
         track.update(look(i * FRAME, 2.0 - 0.3 * i * FRAME))
@@ -279,10 +279,10 @@ def test_a_late_frame_fits_where_the_thing_was() -> None:
         ("++-----", True, False),
     ],
 )
-def test_three_of_five_frames_decide(
+def test_three_of_five_frames_confirm_or_reject(
     frames: str, confirmed: bool, hopeless: bool
 ) -> None:
-    """A track begins with a frame that found it."""
+    """The first frame counts."""
     track = TargetTrack(look(0.0, 1.0))
     for frame in frames:
         track.record_frame(frame == "+")
@@ -290,7 +290,7 @@ def test_three_of_five_frames_decide(
     assert track.is_rejected is hopeless
 
 
-def test_direction_and_distance_are_from_the_place_that_asks() -> None:
+def test_bearing_and_distance_are_from_the_given_position() -> None:
     track = TargetTrack(look(0.0, 2.0, 1.0))
     assert track.bearing_from(1.0, 3.0, 0.0) == pytest.approx(
         np.arctan2(-2, 1)
@@ -298,7 +298,7 @@ def test_direction_and_distance_are_from_the_place_that_asks() -> None:
     assert track.distance_from(1.0, 3.0, 0.0) == pytest.approx(hypot(1.0, 2.0))
 
 
-def test_what_takes_over_knows_what_both_knew() -> None:
+def test_a_merged_track_has_the_history_of_both() -> None:
     def pair() -> tuple[TargetTrack, TargetTrack]:
         old = TargetTrack(look(0.0, 2.0))
         new = TargetTrack(look(1.0, 2.0))
@@ -341,10 +341,10 @@ def trailed(
 
 
 @pytest.mark.parametrize("speed", [0.0, 0.4, -0.9])
-def test_how_it_moves_is_told_once_it_was_seen_for_a_while(
+def test_a_velocity_needs_a_span_of_recent_positions(
     speed: float,
 ) -> None:
-    """Whatever way it went meanwhile; and until it was not seen for long."""
+    """Until the positions expire."""
     early = trailed([0.0, 0.1, 0.2, 0.3], speed)
     assert not early.has_velocity(0.3) and early.drift == (0.0, 0.0)
     told = trailed([0.0, 0.1, 0.2, 0.3, MIN_SPAN], speed)
@@ -360,7 +360,7 @@ def test_how_it_moves_is_told_once_it_was_seen_for_a_while(
     "blurred",
     [{"along": MAX_DEVIATION + 0.01}, {"across": MAX_DEVIATION + 0.01}],
 )
-def test_only_what_is_seen_sharply_tells_how_it_moves(
+def test_only_precise_positions_give_a_velocity(
     blurred: dict[str, float],
 ) -> None:
     times = [0.0, 0.15, 0.3, 0.45, 0.6]
@@ -371,8 +371,8 @@ def test_only_what_is_seen_sharply_tells_how_it_moves(
     ).has_velocity(0.6)
 
 
-def test_places_are_kept_apart_and_not_for_long() -> None:
-    """Two kinds of speed, one long before the other: the late one counts."""
+def test_positions_are_stored_at_intervals_and_expire() -> None:
+    """Of two speeds the later one counts."""
     track = TargetTrack(look(0.0, 1.0, 0.0))
     for i in range(1, 200):
         time = 0.02 * i
@@ -384,7 +384,7 @@ def test_places_are_kept_apart_and_not_for_long() -> None:
     assert track.drift[0] == pytest.approx(-0.3, abs=1e-9)
 
 
-def test_an_ear_sights_nobody() -> None:
+def test_sonar_does_not_count_as_an_image() -> None:
     heard = look(1.0, 1.0)._replace(across=SONAR_DEVIATION)
     assert TargetTrack(heard).imaged_at == -inf
     track = TargetTrack(look(1.0, 1.0))
@@ -393,8 +393,8 @@ def test_an_ear_sights_nobody() -> None:
     assert track.imaged_at == 1.0 and track.observed_at == 1.2
 
 
-def test_a_robot_that_walks_is_not_thought_to_run() -> None:
-    """Errors of where it is seen near by are of its place, not of its way."""
+def test_the_motion_model_of_robots_limits_the_speed() -> None:
+    """Errors of a near position do not change the velocity much."""
     away = []
     for motion in (PERSON_MOTION, ROBOT_MOTION):
         made = TargetTrack(look(0.0, 0.5), 1, motion)
