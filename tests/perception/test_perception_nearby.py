@@ -350,7 +350,9 @@ def test_with_a_map_tracks_use_the_motion_model_of_robots(
     """The part of a near robot beyond an image edge is estimated too."""
     eyes = Eyes()
     made = eyes.perception = Perception(
-        *(NAO, HEAD, RED),
+        NAO,
+        HEAD,
+        RED,
         tick=TICK,
         floor=None if floor is None else floor(),
         people=people,
