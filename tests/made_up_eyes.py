@@ -60,7 +60,7 @@ class FakeDetector:
 class FakeGaze:
     """Notes what it is told."""
 
-    yaw, pitch, turned = 0.4, -0.2, 2
+    yaw, pitch, scan_ends = 0.4, -0.2, 2
 
     def __init__(self) -> None:
         self.followed: tuple[float, float] | None = None

@@ -1,10 +1,10 @@
-"""Where ``stepaside`` and ``python -m stepaside`` begin."""
+"""Entry point of ``stepaside`` and ``python -m stepaside``."""
 
 import os
 
 
 def main() -> None:
-    """Run the command line; Ctrl-C is no traceback even while it loads."""
+    """Run the command line; exit with status 130 on Ctrl-C during import."""
     try:
         from .core.interrupts import interruptible
 

@@ -74,7 +74,7 @@ def test_a_place_that_fills_meanwhile_costs_no_result(
     words: str, small: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """What was computed is printed; a run is kept where it says."""
-    monkeypatch.setattr(outputs, "ROOM", 0)
+    monkeypatch.setattr(outputs, "MIN_FREE_SPACE", 0)
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     result = said(words.format(small).split(), small)
     assert result.stdout  # what it came to

@@ -1,4 +1,4 @@
-"""Results are written whole, or not at all, and replace nothing unasked."""
+"""Test output files: checked first, replaced atomically, never unasked."""
 
 import errno
 import json
@@ -73,7 +73,7 @@ BAD: dict[str, Callable[[Path], Path]] = {
 
 
 @pytest.mark.parametrize("kind", BAD)
-def test_what_cannot_be_written_is_refused_before(
+def test_a_path_that_cannot_be_written_is_refused(
     tmp_path: Path, kind: str
 ) -> None:
     path = BAD[kind](tmp_path)
@@ -89,14 +89,14 @@ def test_what_cannot_be_written_is_refused_before(
     assert sorted(tmp_path.rglob("*")) == before
 
 
-def test_a_place_without_room_is_refused(
+def test_a_full_disk_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(**options: Any) -> Any:
         raise FULL
 
     check_file(tmp_path / "a")
-    monkeypatch.setattr("stepaside.core.atomic_output.ROOM", 2**62)
+    monkeypatch.setattr("stepaside.core.atomic_output.MIN_FREE_SPACE", 2**62)
     with pytest.raises(ConfigurationError, match="bytes are free"):
         check_file(tmp_path / "a")
     monkeypatch.setattr("tempfile.TemporaryFile", full)
@@ -110,7 +110,7 @@ def test_nothing_is_replaced_unless_asked(tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match="--overwrite"):
         check_file(file)
     check_file(file, overwrite=True)
-    with pytest.raises(ConfigurationError, match="must be a file"):
+    with pytest.raises(ConfigurationError, match="must be a regular file"):
         check_file(tmp_path, overwrite=True)
     assert file.read_text() == "kept"
     assert free_file(file) == tmp_path / "there-2"
@@ -119,7 +119,7 @@ def test_nothing_is_replaced_unless_asked(tmp_path: Path) -> None:
     assert free_file(tmp_path / "new.png") == tmp_path / "new-2.png"
 
 
-def test_a_link_leads_to_what_is_written(tmp_path: Path) -> None:
+def test_writing_follows_a_link(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("old")
     (tmp_path / "link").symlink_to(tmp_path / "file")
     with writing(tmp_path / "link") as draft:
@@ -128,7 +128,7 @@ def test_a_link_leads_to_what_is_written(tmp_path: Path) -> None:
     assert (tmp_path / "file").read_text() == "new"
 
 
-def test_what_fails_half_way_leaves_the_old(tmp_path: Path) -> None:
+def test_a_failed_write_leaves_the_old_file(tmp_path: Path) -> None:
     file = tmp_path / "file"
     file.write_text("old")
     with pytest.raises(OutputError, match="file could not.*no space left"):
@@ -142,7 +142,7 @@ def test_what_fails_half_way_leaves_the_old(tmp_path: Path) -> None:
     assert file.read_text() == "old"
 
 
-def test_a_file_has_the_permissions_of_any_other(tmp_path: Path) -> None:
+def test_an_output_file_has_default_permissions(tmp_path: Path) -> None:
     (tmp_path / "usual").write_text("")
     with writing(tmp_path / "ours") as draft:
         draft.write_text("")
@@ -155,18 +155,18 @@ def short() -> DuelRun:
     return run_duel(DuelSettings(duration=0.1))
 
 
-def test_of_two_runs_into_one_folder_both_are_kept(
+def test_two_runs_into_one_folder_are_both_saved(
     tmp_path: Path, short: DuelRun
 ) -> None:
     figures: list[Path] = []
 
-    def keep() -> None:
+    def save() -> None:
         figures.append(write_run(tmp_path / "run", short))
 
-    keep()
-    # One after the other: what draws figures knows one thread.
+    save()
+    # One after the other: matplotlib is not thread-safe.
     for _ in range(2):
-        other = threading.Thread(target=keep)
+        other = threading.Thread(target=save)
         other.start()
         other.join()
     names = ["run", "run-2", "run-3"]
@@ -175,7 +175,7 @@ def test_of_two_runs_into_one_folder_both_are_kept(
     assert all(figure.is_file() for figure in figures)
 
 
-def test_a_run_that_cannot_be_written_is_kept_elsewhere(
+def test_a_run_that_cannot_be_written_is_saved_in_the_temporary_folder(
     tmp_path: Path, short: DuelRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     there, spare = tmp_path / "there", tmp_path / "spare"
@@ -188,9 +188,9 @@ def test_a_run_that_cannot_be_written_is_kept_elsewhere(
             raise FULL
 
     monkeypatch.setattr(duel_figure, "draw_duel", full)
-    kept, why = keep_run(there / "run", short)
-    assert kept == spare / "stepaside-run"
-    assert why is not None and "no space left" in str(why)
+    saved, error = keep_run(there / "run", short)
+    assert saved == spare / "stepaside-run"
+    assert error is not None and "no space left" in str(error)
     assert list(there.iterdir()) == []
     monkeypatch.setattr("tempfile.tempdir", str(there))
     assert keep_run(there / "run", short)[0] is None
@@ -198,7 +198,7 @@ def test_a_run_that_cannot_be_written_is_kept_elsewhere(
 
 
 def options() -> list[tuple[str, click.Parameter]]:
-    """Every option of every command that names a file to write."""
+    """Return every option that names an output file, with its command."""
     group: Any = main
     context = click.Context(group)
     commands = {name: group.get_command(context, name) for name in COMMANDS}
@@ -232,9 +232,9 @@ NEEDED = {
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory, short: DuelRun) -> Path:
-    place = tmp_path_factory.mktemp("runs") / "run"
-    write_run(place, short)
-    return place
+    path = tmp_path_factory.mktemp("runs") / "run"
+    write_run(path, short)
+    return path
 
 
 def cases() -> list[Any]:
@@ -247,7 +247,7 @@ def cases() -> list[Any]:
 
 
 @pytest.mark.parametrize(("name", "param", "kind"), cases())
-def test_every_command_refuses_a_bad_file_in_one_line(
+def test_every_command_refuses_a_bad_path_in_one_line(
     tmp_path: Path, folder: Path, name: str, param: Any, kind: str
 ) -> None:
     suffix = (*param.type.suffixes, "")[0]
@@ -267,8 +267,7 @@ def test_every_command_refuses_a_bad_file_in_one_line(
         assert path.read_text() == "kept"
 
 
-def test_every_option_for_files_is_one_of_these() -> None:
-    """An option that writes a file is of the type that is checked."""
+def test_every_output_option_is_checked() -> None:
     group: Any = main
     context = click.Context(group)
     for name in COMMANDS:
@@ -280,7 +279,7 @@ def test_every_option_for_files_is_one_of_these() -> None:
     assert len(options()) == 22
 
 
-def test_a_figure_without_a_suffix_is_told_as_it_is_written(
+def test_a_figure_without_a_suffix_is_reported_with_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     few = partial(unicycle_sweep.draw_sweep, marks=0)
@@ -299,7 +298,7 @@ def test_a_figure_without_a_suffix_is_told_as_it_is_written(
     assert result.exit_code == 2 and "another file" in result.output
 
 
-def test_a_summary_is_printed_even_if_its_figure_is_not_written(
+def test_a_summary_is_printed_although_its_figure_cannot_be_written(
     tmp_path: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(*arguments: Any) -> None:
@@ -321,7 +320,7 @@ def test_a_summary_is_printed_even_if_its_figure_is_not_written(
         assert list(tmp_path.iterdir()) == []
 
 
-def test_a_duel_is_told_even_if_it_is_not_written(
+def test_a_duel_is_reported_although_it_cannot_be_written(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(*arguments: Any) -> None:
@@ -337,7 +336,7 @@ def test_a_duel_is_told_even_if_it_is_not_written(
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="pipes of POSIX")
-def test_whoever_stops_reading_gets_no_traceback() -> None:
+def test_a_closed_pipe_gives_no_traceback() -> None:
     code = "from stepaside.cli.main import main; main(['robot', '--mjcf'])"
     reader, writer = os.pipe()
     os.close(reader)

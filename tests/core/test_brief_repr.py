@@ -1,4 +1,4 @@
-"""What functions at the door return is short to look at."""
+"""Test the short text of public values."""
 
 from dataclasses import replace
 from functools import cache
@@ -22,14 +22,14 @@ from stepaside.strategies import Evasion, Pursuit, play_steps
 from stepaside.strategies.step_game import StepGame
 from stepaside.theory.unicycle import simulate_sampled
 
-SHORT = 600  # characters of anything
+SHORT = 600  # longest text of any value, in [characters]
 GAME = make_game(0.1, 0.1, 0.2, 0.2)
 START = RelativeStart(1.0, 0.3, 0.4)
 
 
 @cache
 def values() -> dict[str, Any]:
-    """One of everything that functions at the door take or return."""
+    """Return one value of every public type."""
     walk = stepaside.run_walk(WalkSettings(duration=1.0))
     nao = stepaside.load_robot("nao")
     tree = stepaside.load_tree(nao)
@@ -66,7 +66,7 @@ def test_a_value_is_one_short_line(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["duel", "walk"])
-def test_a_run_says_what_it_is_and_how_it_ended(name: str) -> None:
+def test_a_run_shows_its_name_players_and_outcome(name: str) -> None:
     run = values()[name]
     text = repr(run)
     assert len(text) < 200

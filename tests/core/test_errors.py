@@ -1,4 +1,4 @@
-"""Test the checks of numbers: what passes, what is refused, in what words."""
+"""Test the checks of numbers and their messages."""
 
 from math import inf, nan
 from typing import Any
@@ -26,7 +26,7 @@ def test_every_finite_number_is_finite(value: float) -> None:
 
 
 @pytest.mark.parametrize("value", [nan, inf, -inf])
-def test_what_is_not_finite_is_refused_by_every_check(value: float) -> None:
+def test_every_check_refuses_nan_and_inf(value: float) -> None:
     with pytest.raises(PlanError, match=r"x must be finite \[m\], got"):
         check_finite(value, "x", "m")
     with pytest.raises(PlanError, match=r"x must be finite and > 0 \[m\]"):
@@ -56,7 +56,7 @@ def test_not_negative_begins_at_zero() -> None:
 @pytest.mark.parametrize(
     "value", [True, "1", None, [1.0], 10**5000, 1j], ids=type
 )
-def test_only_numbers_are_numbers_and_messages_are_short(value: Any) -> None:
+def test_other_types_are_refused_with_a_short_message(value: Any) -> None:
     for check in (check_finite, check_positive, check_not_negative):
         with pytest.raises(PlanError, match="x must be finite") as refused:
             check(value, "x", "m")
@@ -65,7 +65,7 @@ def test_only_numbers_are_numbers_and_messages_are_short(value: Any) -> None:
         check_within(value, 0.0, 1.0, "x", "m")
 
 
-def test_a_range_holds_both_of_its_ends() -> None:
+def test_a_closed_range_includes_its_bounds() -> None:
     for value in (-1.0, 0.5, 2.0):
         check_within(value, -1.0, 2.0, "x", "m")
     for value in (-1.0 - 1e-12, 2.0 + 1e-12):
@@ -74,7 +74,7 @@ def test_a_range_holds_both_of_its_ends() -> None:
 
 
 @pytest.mark.parametrize("error", [ConfigurationError, ModelError, ReachError])
-def test_a_check_raises_what_it_is_told_to(
+def test_a_check_raises_the_given_error(
     error: type[StepAsideError],
 ) -> None:
     with pytest.raises(error):
@@ -90,7 +90,7 @@ def test_a_check_raises_what_it_is_told_to(
 @pytest.mark.parametrize(
     "error", [PlanError, ConfigurationError, ModelError, ReachError]
 )
-def test_every_error_is_the_packages_and_a_value_error(
+def test_every_input_error_is_a_stepaside_and_a_value_error(
     error: type[Exception],
 ) -> None:
     assert issubclass(error, StepAsideError)

@@ -1,4 +1,4 @@
-"""What is optional is named where it is missing, with what installs it."""
+"""Test that a missing optional dependency is named with its remedy."""
 
 import json
 import re
@@ -13,7 +13,7 @@ from stepaside.cli.main import all_commands
 from stepaside.core.extras import EXTRAS, remedy
 from tools.documents.store import ROOT
 
-PACKAGES = {"cv2": "opencv-python-headless"}  # where it is not the module's
+PACKAGES = {"cv2": "opencv-python-headless"}  # where it differs
 SHORT = "--duration 0.02 --json"
 WORKS = (
     f"duel {SHORT} --output run",
@@ -39,7 +39,9 @@ NEEDS = {
 
 
 @pytest.fixture(scope="module")
-def said(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[object]]:
+def results(
+    tmp_path_factory: pytest.TempPathFactory,
+) -> dict[str, list[object]]:
     helps = [f"{name} --help" for name in all_commands()]
     lines = [*WORKS, *NEEDS, *helps]
     script = Path(__file__).parents[1] / "without_extras.py"
@@ -55,30 +57,30 @@ def said(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[object]]:
 
 
 @pytest.mark.parametrize("line", WORKS)
-def test_this_works_without_anything_optional(
-    said: dict[str, list[object]], line: str
+def test_a_basic_command_works_without_extras(
+    results: dict[str, list[object]], line: str
 ) -> None:
-    assert said[line][0] == 0, said[line]
+    assert results[line][0] == 0, results[line]
 
 
 @pytest.mark.parametrize("line", NEEDS)
-def test_what_is_missing_is_named_in_one_line(
-    said: dict[str, list[object]], line: str
+def test_a_missing_extra_is_named_in_one_line(
+    results: dict[str, list[object]], line: str
 ) -> None:
-    status, text = said[line]
+    status, text = results[line]
     assert status == 2 and isinstance(text, str), text
     assert f"pip install 'stepaside[{NEEDS[line]}]'" in text
     assert text.count("\n") == 1
 
 
-def test_every_command_explains_itself_without_them(
-    said: dict[str, list[object]],
+def test_every_command_has_help_without_extras(
+    results: dict[str, list[object]],
 ) -> None:
     for name in all_commands():
-        assert said[f"{name} --help"][0] == 0, name
+        assert results[f"{name} --help"][0] == 0, name
 
 
-def test_the_table_is_that_of_the_package() -> None:
+def test_the_table_matches_the_package_metadata() -> None:
     text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     extras = tomllib.loads(text)["project"]["optional-dependencies"]
     for name, modules in EXTRAS.items():
@@ -88,7 +90,7 @@ def test_the_table_is_that_of_the_package() -> None:
     assert others == {"all", "bench", "dev"}
 
 
-def test_what_is_no_part_of_an_extra_is_the_package_itself() -> None:
+def test_a_missing_core_dependency_names_the_package() -> None:
     error = ModuleNotFoundError("No module named 'click.x'", name="click.x")
     assert remedy(error).endswith(
         "click, which is not installed: pip install stepaside"

@@ -1,174 +1,34 @@
-"""Ctrl-C is neither lost nor mistaken, whenever it comes."""
+"""Test Ctrl-C, SIGTERM and SIGHUP: handled alike, deferred within a tick."""
 
 import signal
-import subprocess
-import sys
-import threading
-from collections.abc import Callable
+from time import sleep
 from typing import Any
 
-import click
 import pytest
 
-from stepaside.cli.main import LazyGroup
-from stepaside.cli.output_files import writes_files
 from stepaside.core.interrupts import (
+    LONGEST_DELAY,
     DeferredInterrupt,
     interrupt,
     interruptible,
-    is_loading,
-    was_interrupted,
 )
 from stepaside.games.outcome import Outcome
 from stepaside.games.player_record import PlayerRecord
 from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.studies.code_version import ROOT
 
-LOADERS = """
-class {name}:
-    def exec_module(self, call):
-        return call()
-"""
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
-def loader(name: str) -> Callable[[Callable[[], Any]], Any]:
-    """What loads a module as Python's own loader of that name does."""
-    file = "<frozen importlib._bootstrap_external>"
-    found: dict[str, Any] = {}
-    exec(compile(LOADERS.format(name=name), file, "exec"), found)
-    return found[name]().exec_module  # type: ignore[no-any-return]
-
-
-def loading() -> bool:
-    return is_loading(sys._getframe())
-
-
-def test_a_compiled_library_that_begins_is_not_interrupted() -> None:
-    assert loader("ExtensionFileLoader")(loading)
-    assert not loader("SourceFileLoader")(loading)
-    assert not loading()
-
-
-def test_an_import_itself_is_not_interrupted_but_what_it_runs_is() -> None:
-    inner: dict[str, Any] = {"found": is_loading, "frame": sys._getframe}
-    code = "seen = found(frame())"
-    exec(compile(code, "<frozen importlib._bootstrap>", "exec"), inner)
-    assert inner["seen"]
-    exec(compile(code, "module.py", "exec"), inner)
-    assert not inner["seen"]
-
-
-def test_a_process_that_a_library_asks_as_it_loads_is_waited_for() -> None:
-    asked: dict[str, Any] = {"found": is_loading, "frame": sys._getframe}
-    text = "def ask(): return found(frame())"
-    exec(compile(text, subprocess.__file__, "exec"), asked)
-    assert loader("SourceFileLoader")(asked["ask"])
-    assert not asked["ask"]()
-
-
-@pytest.mark.parametrize("sign", SIGNALS)
-def test_an_interrupt_comes_when_the_library_is_there(
-    sign: signal.Signals,
+@pytest.mark.parametrize("number", SIGNALS)
+def test_every_signal_raises_keyboard_interrupt(
+    number: signal.Signals,
 ) -> None:
-    def begin() -> str:
-        signal.raise_signal(sign)
-        return "whole"
-
-    whole = ""
     with interruptible(), pytest.raises(KeyboardInterrupt):
-        whole = loader("ExtensionFileLoader")(begin)
-        while True:
-            pass
-    assert whole == "whole"
+        signal.raise_signal(number)
 
 
-class Lost:
-    """Is interrupted where nobody can be told."""
-
-    def __del__(self) -> None:
-        signal.raise_signal(signal.SIGINT)
-
-
-def test_an_interrupt_that_nobody_could_be_told_comes_again() -> None:
-    with interruptible(), pytest.raises(KeyboardInterrupt):
-        Lost()
-        while True:
-            pass
-
-
-def test_an_interrupt_while_a_lost_one_is_sent_again_is_not_lost(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """As on a busy machine, where the moment is over before it began."""
-    start = threading.Timer.start
-    slow = iter([True])
-
-    def starts(timer: threading.Timer) -> None:
-        start(timer)
-        if next(slow, False):
-            timer.join()
-
-    monkeypatch.setattr(threading.Timer, "start", starts)
-    with interruptible(), pytest.raises(KeyboardInterrupt):
-        Lost()
-        while True:
-            pass
-
-
-def mistake(sign: signal.Signals) -> None:
-    """As a library does whose compiled parts ask Python things."""
-    try:
-        signal.raise_signal(sign)
-    except KeyboardInterrupt:
-        raise ValueError("invalid bounding box") from None
-
-
-@pytest.mark.parametrize("sign", SIGNALS)
-def test_an_interrupt_that_a_library_mistook_is_told_from_an_error(
-    sign: signal.Signals,
-) -> None:
-    with interruptible():
-        assert not was_interrupted()
-        with pytest.raises(ValueError, match="bounding"):
-            mistake(sign)
-        assert was_interrupted()
-    with interruptible():
-        assert not was_interrupted()
-
-
-class Group(LazyGroup):
-    """Has one command."""
-
-    def __init__(self, calls: dict[str, click.Command]) -> None:
-        super().__init__("stepaside")
-        self.calls = calls
-
-    def get_command(
-        self, ctx: click.Context, cmd_name: str
-    ) -> click.Command | None:
-        """The one that is asked for."""
-        return self.calls.get(cmd_name)
-
-
-@pytest.mark.parametrize("writes", [False, True])
-def test_a_command_that_is_interrupted_so_says_it_in_a_line(
-    writes: bool, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def command() -> None:
-        mistake(signal.SIGTERM)
-
-    call = click.command("draw")(writes_files(command) if writes else command)
-    with pytest.raises(SystemExit) as status:
-        Group({"draw": call}).main(["draw"])
-    assert status.value.code == 130
-    said = capsys.readouterr().err
-    assert said.startswith("stepaside: interrupted; ")
-    assert said.count("\n") == 1
-
-
-def test_whoever_has_a_handler_keeps_it() -> None:
+def test_a_custom_handler_stays_installed() -> None:
     def own(*_: object) -> None:
         """Do nothing."""
 
@@ -184,33 +44,33 @@ def test_whoever_has_a_handler_keeps_it() -> None:
     assert signal.getsignal(signal.SIGINT) is before
 
 
-@pytest.mark.parametrize("sign", SIGNALS)
-def test_an_interrupt_waits_for_what_is_being_done(
-    sign: signal.Signals,
+@pytest.mark.parametrize("number", SIGNALS)
+def test_an_interrupt_is_deferred_until_let_through(
+    number: signal.Signals,
 ) -> None:
-    whole = 0
+    completed = 0
     with (
         interruptible(),
         pytest.raises(KeyboardInterrupt),
-        DeferredInterrupt() as held,
+        DeferredInterrupt() as deferred,
     ):
         for _ in range(3):
-            held.let_through()
-            signal.raise_signal(sign)
-            whole += 1
-    assert whole == 1
+            deferred.let_through()
+            signal.raise_signal(number)
+            completed += 1
+    assert completed == 1
 
 
-def test_the_second_interrupt_does_not_wait() -> None:
-    whole = False
+def test_the_second_interrupt_is_not_deferred() -> None:
+    completed = False
     with pytest.raises(KeyboardInterrupt), DeferredInterrupt():
         signal.raise_signal(signal.SIGINT)
         signal.raise_signal(signal.SIGINT)
-        whole = True
-    assert not whole
+        completed = True
+    assert not completed
 
 
-def test_work_without_an_end_is_interrupted_all_the_same() -> None:
+def test_an_endless_loop_is_interrupted_after_the_longest_delay() -> None:
     before = signal.getsignal(signal.SIGINT)
     with pytest.raises(KeyboardInterrupt), DeferredInterrupt():
         signal.raise_signal(signal.SIGINT)
@@ -219,32 +79,35 @@ def test_work_without_an_end_is_interrupted_all_the_same() -> None:
     assert signal.getsignal(signal.SIGINT) is before
 
 
-def test_what_waited_is_not_lost_at_the_end_and_comes_once() -> None:
+def test_a_pending_interrupt_is_raised_once_at_the_end() -> None:
     with pytest.raises(KeyboardInterrupt), DeferredInterrupt():
         signal.raise_signal(signal.SIGINT)
-    with pytest.raises(ValueError), DeferredInterrupt() as held:
+    with DeferredInterrupt() as deferred:
+        deferred.let_through()
+
+
+def test_an_error_discards_a_pending_interrupt() -> None:
+    with pytest.raises(ValueError), DeferredInterrupt():
         signal.raise_signal(signal.SIGINT)
         raise ValueError
-    assert held._timer is None
-    with DeferredInterrupt() as held:
-        held.let_through()
+    sleep(LONGEST_DELAY + 0.1)
 
 
 @pytest.mark.parametrize("times", [1, 2])
-def test_a_record_is_whole_whenever_ctrl_c_comes(
+def test_an_interrupted_record_has_complete_samples(
     times: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """In the middle of a sample, even if it is pressed twice."""
+    """Ctrl-C arrives once or twice within a sample."""
     add = PlayerRecord.add
     count = iter(range(100))
 
-    def pressed(record: PlayerRecord, seen: Any) -> None:
-        add(record, seen)
+    def add_and_interrupt(record: PlayerRecord, sample: Any) -> None:
+        add(record, sample)
         if next(count) == 5:
             for _ in range(times):
                 signal.raise_signal(signal.SIGINT)
 
-    monkeypatch.setattr(PlayerRecord, "add", pressed)
+    monkeypatch.setattr(PlayerRecord, "add", add_and_interrupt)
     run = run_walk(WalkSettings(duration=0.5))
     assert run.outcome is Outcome.INTERRUPTED and 3 < len(run.times) < 9
     lengths = {
@@ -255,25 +118,8 @@ def test_a_record_is_whole_whenever_ctrl_c_comes(
     assert lengths == {len(run.times)}
 
 
-def test_little_is_loaded_before_it_is_known_what_ctrl_c_does() -> None:
-    """What is loaded while nobody listens cannot be interrupted in a line."""
-    code = (
-        f"import sys; sys.path.insert(0, {str(ROOT.parent)!r}); "
-        "before = set(sys.modules); import stepaside; "
-        "print(*sorted(set(sys.modules) - before))"
-    )
-    said = subprocess.run(
-        [sys.executable, "-I", "-S", "-c", code],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    loaded = set(said.stdout.split())
-    assert "stepaside" in loaded and not loaded & {"enum", "re", "typing"}
-
-
-def test_a_terminal_that_hangs_up_interrupts_once() -> None:
-    """The shell sends a SIGHUP, and the system another one."""
+def test_a_closed_terminal_interrupts_once() -> None:
+    """Both the shell and the kernel send SIGHUP."""
     with interruptible():
         with pytest.raises(KeyboardInterrupt):
             signal.raise_signal(signal.SIGHUP)
@@ -282,7 +128,7 @@ def test_a_terminal_that_hangs_up_interrupts_once() -> None:
             signal.raise_signal(signal.SIGINT)
 
 
-def test_what_shall_survive_its_terminal_does() -> None:
+def test_an_ignored_sighup_stays_ignored() -> None:
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
         with interruptible():

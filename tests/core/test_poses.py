@@ -1,4 +1,4 @@
-"""Test planar poses as the group that they are."""
+"""Test planar poses by the laws of the group SE(2)."""
 
 from math import pi, tau
 
@@ -27,13 +27,13 @@ def test_inverse_undoes_a_pose(a: Pose) -> None:
 
 
 @given(POSES, NUMBERS, NUMBERS)
-def test_points_move_as_poses_do(a: Pose, x: float, y: float) -> None:
+def test_points_transform_like_poses(a: Pose, x: float, y: float) -> None:
     moved = a.transform_points([[x, y]])[0]
     np.testing.assert_allclose(moved, a.compose(Pose(x, y, 0.0))[:2])
 
 
 @given(st.floats(-100.0, 100.0))
-def test_wrapped_angles_differ_by_whole_turns(angle: float) -> None:
+def test_wrapping_changes_an_angle_by_whole_turns(angle: float) -> None:
     for wrapped in (wrap_angle(angle), float(wrap_angles(angle))):
         assert -pi <= wrapped <= pi
         turns = (angle - wrapped) / tau
@@ -41,7 +41,7 @@ def test_wrapped_angles_differ_by_whole_turns(angle: float) -> None:
 
 
 def test_headings_turn_counter_clockwise() -> None:
-    """A mirrored plane obeys the laws of a group too."""
+    """A mirrored plane satisfies the group laws too."""
     quarter = Pose(1.0, 2.0, pi / 2)
     assert quarter.compose(Pose(3.0, 0.5, 0.1)) == pytest.approx(
         (0.5, 5.0, pi / 2 + 0.1)
@@ -52,7 +52,7 @@ def test_headings_turn_counter_clockwise() -> None:
     )
 
 
-def test_half_turns_wrap_to_the_promised_end() -> None:
+def test_half_turns_wrap_to_minus_pi_in_arrays() -> None:
     np.testing.assert_array_equal(wrap_angles([pi, -pi, 3 * pi]), 3 * [-pi])
     assert abs(wrap_angle(pi)) == pi
     assert wrap_angle(1.5 * pi) == pytest.approx(-0.5 * pi)

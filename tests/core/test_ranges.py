@@ -1,4 +1,4 @@
-"""Numbers that are legal and absurd are refused, with the rule they break."""
+"""Test that settings outside their ranges are refused with the range."""
 
 from dataclasses import fields, replace
 from math import inf, nan
@@ -37,13 +37,13 @@ ABSURD = (1e18, 1e300, 5e-324, 1e-18, inf, nan, -1.0, True, 0.0)
 
 @pytest.mark.parametrize("name", GAIT)
 @pytest.mark.parametrize("value", ABSURD)
-def test_a_gait_is_one_that_can_be_computed(name: str, value: Any) -> None:
+def test_a_gait_refuses_absurd_values(name: str, value: Any) -> None:
     with pytest.raises(PlanError, match=name):
         replace(GaitSettings(), **{name: value})
 
 
 @pytest.mark.parametrize("name", GAIT)
-def test_ranges_end_where_they_say(name: str) -> None:
+def test_values_beyond_a_bound_are_refused(name: str) -> None:
     low, high = GaitSettings.ranges[name][:2]
     for value in (low * 0.99, high * 1.01):
         changes: dict[str, Any] = {name: value}
@@ -52,7 +52,7 @@ def test_ranges_end_where_they_say(name: str) -> None:
 
 
 def numbers(kind: Any) -> list[Any]:
-    """Every entry of settings that is a number."""
+    """Return the numeric attributes of a class of settings."""
     return [
         (kind, field.name)
         for field in fields(kind)
@@ -64,7 +64,10 @@ def numbers(kind: Any) -> list[Any]:
 ALL = [
     entry
     for kind in (
-        *(DuelSettings, StartSettings, PhysicsSettings, SightSettings),
+        DuelSettings,
+        StartSettings,
+        PhysicsSettings,
+        SightSettings,
         GaitSettings,
     )
     for entry in numbers(kind)
@@ -73,7 +76,7 @@ ALL = [
 
 @pytest.mark.parametrize(("kind", "name"), ALL)
 @pytest.mark.parametrize("value", [True, False, nan])
-def test_no_setting_takes_true_for_a_number(
+def test_a_numeric_setting_refuses_bool_and_nan(
     kind: Any, name: str, value: Any
 ) -> None:
     with pytest.raises(StepAsideError, match=name):
@@ -81,14 +84,16 @@ def test_no_setting_takes_true_for_a_number(
 
 
 @pytest.mark.parametrize("power", [(10, 5000), (-1, 1), (2, 128)])
-def test_a_seed_is_a_number_of_some_digits(power: tuple[int, int]) -> None:
+def test_a_seed_of_more_than_128_bits_is_refused(
+    power: tuple[int, int],
+) -> None:
     value = power[0] ** power[1]
     with pytest.raises(StepAsideError, match="seed") as refused:
         DuelSettings(seed=value)
     assert len(str(refused.value)) < 200
 
 
-def test_a_plan_is_asked_for_angles_and_times() -> None:
+def test_a_plan_refuses_absurd_bearings_and_times() -> None:
     planner = ManeuverPlanner(GaitSettings())
     for bearing in (1e308, -1e18, nan, inf):
         with pytest.raises(PlanError, match="bearing"):
@@ -109,15 +114,21 @@ def test_a_plan_is_asked_for_angles_and_times() -> None:
 @pytest.mark.parametrize(
     "words",
     [
-        *("unicycles --duration 1e18", "unicycles --duration 5e-324"),
-        *("duels --workers 1000000000000", "duel --duration 1e18"),
-        *("duel --gain 1e300", "duel --friction 1e18"),
-        *("duel --start-support 1e-18", "duel --single-support 1e18"),
-        *("replay . --rate 1e18", "replay . --speed 5e-324"),
-        *("view --serve-for 1e18", f"duel --seed {'9' * 4000}"),
+        "unicycles --duration 1e18",
+        "unicycles --duration 5e-324",
+        "duels --workers 1000000000000",
+        "duel --duration 1e18",
+        "duel --gain 1e300",
+        "duel --friction 1e18",
+        "duel --start-support 1e-18",
+        "duel --single-support 1e18",
+        "replay . --rate 1e18",
+        "replay . --speed 5e-324",
+        "view --serve-for 1e18",
+        f"duel --seed {'9' * 4000}",
     ],
 )
-def test_commands_refuse_the_absurd_in_one_line(words: str) -> None:
+def test_commands_refuse_absurd_values_in_one_line(words: str) -> None:
     result = CliRunner().invoke(main, words.split())
     assert result.exit_code == 2, result.output
     assert result.stderr.count("\n") == 1
@@ -139,9 +150,7 @@ NARROW = [np.float16, np.float32, np.float64, np.longdouble]
 @pytest.mark.parametrize(
     "text", "inf -inf nan 0 1 -1 6e-8 1e-13 1e-7 65504 1e13 3e38 1e300".split()
 )
-def test_a_narrow_number_is_checked_as_the_number_that_it_is(
-    kind: Any, text: str
-) -> None:
+def test_checks_convert_narrow_floats_to_double(kind: Any, text: str) -> None:
     narrow = kind(text)
     wide = float(narrow)
     for check in (check_finite, check_positive, check_not_negative):
@@ -156,7 +165,7 @@ def test_a_narrow_number_is_checked_as_the_number_that_it_is(
 @pytest.mark.parametrize("kind", NARROW)
 @pytest.mark.parametrize(("owner", "name"), ALL)
 @pytest.mark.parametrize("text", ["inf", "-inf", "nan", "0", "1e-13"])
-def test_settings_take_a_narrow_number_as_the_number_that_it_is(
+def test_settings_convert_narrow_floats_to_double(
     owner: Any, name: str, kind: Any, text: str
 ) -> None:
     def made(value: Any) -> Any:
@@ -173,12 +182,12 @@ def test_settings_take_a_narrow_number_as_the_number_that_it_is(
 
 
 @pytest.mark.parametrize("value", [10**400, -(10**400)])
-def test_an_integer_beyond_all_doubles_is_refused(value: int) -> None:
+def test_an_integer_beyond_the_double_range_is_refused(value: int) -> None:
     for check in (check_finite, check_positive):
         assert not holds(check, value)
 
 
-def test_settings_of_numpy_are_written_like_those_of_python() -> None:
+def test_settings_of_numpy_types_are_written_as_python_numbers() -> None:
     settings = DuelSettings(
         seed=np.int64(3),  # type: ignore[arg-type]
         duration=np.float32(2.5),  # type: ignore[arg-type]

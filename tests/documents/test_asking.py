@@ -61,7 +61,7 @@ def test_what_is_no_place_for_results_is_told_before_work(
     (tmp_path / "walls.json").mkdir()
     below = file / "walls.json"
     assert "not a directory" in refused(capsys, "--output", below)
-    assert "must be a file" in refused(capsys, "--output", tmp_path)
+    assert "must be a regular file" in refused(capsys, "--output", tmp_path)
     assert "must end in .json" in refused(capsys, "--output", file)
     assert "no/where" in refused(capsys, "--output", "no/where")
     assert sorted(os.listdir(tmp_path)) == ["file", "walls.json"]

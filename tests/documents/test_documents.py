@@ -30,7 +30,7 @@ NOT_MEASURED = {
     ("docs/robots-real.md", "what happens"),
     ("docs/run-folder.md", "array"),
     ("docs/run-folder.md", "file"),
-    ("docs/sensing.md", "value"),
+    ("docs/sensing.md", "parameter"),
     ("docs/settings.md", "file or folder"),
     ("docs/statements.md", "statement"),
     ("docs/strategies.md", "`Intent`"),

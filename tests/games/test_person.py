@@ -70,7 +70,7 @@ def test_a_recorded_path_is_walked(tmp_path: Path) -> None:
         ("x,y\n0,0\n", "first line"),
         ("time,x,y\n0,0,a\n1,1,1\n", "could not convert"),
         ("time,x,y\n0,0,0\n", "two rows"),
-        ("time,x,y\n1,0,0\n0,1,0\n", "rise"),
+        ("time,x,y\n1,0,0\n0,1,0\n", "increase"),
     ],
 )
 def test_bad_paths_are_refused(

@@ -19,7 +19,7 @@ from stepaside.games.configuration_file import (
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import StartSettings
 from stepaside.games.walker import Walker
-from stepaside.perception.gaze import REACH, SCAN_SPEED
+from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED
 from stepaside.perception.images import ColourImage, SonarEcho
 from stepaside.perception.perception import Perception
 from stepaside.sim.camera_settings import (
@@ -92,7 +92,7 @@ def test_the_pursuer_finds_who_is_behind_its_view() -> None:
     # Out of view at first, found by half a sweep of the head, never lost.
     assert true_bearing[0] > radians(85.0)
     found = int(np.argmax(np.isfinite(bearing)))
-    assert 0.3 < times[found] < REACH / SCAN_SPEED
+    assert 0.3 < times[found] < MAX_YAW / SCAN_SPEED
     assert np.isnan(bearing[:found]).all()
     assert np.isfinite(bearing[found:]).all()
     off = np.abs(bearing - true_bearing)[found:]

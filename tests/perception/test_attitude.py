@@ -59,19 +59,19 @@ def test_it_is_ready_after_a_second_of_standing() -> None:
 
 
 @pytest.mark.parametrize(("roll", "pitch"), [(0.2, -0.1), (-0.3, 0.25)])
-def test_standing_shows_the_tilt(roll: float, pitch: float) -> None:
+def test_standing_measures_the_tilt(roll: float, pitch: float) -> None:
     attitude = stood(roll, pitch)
     assert (attitude.roll, attitude.pitch) == pytest.approx((roll, pitch))
 
 
-def test_standing_shows_the_bias_of_each_axis() -> None:
+def test_standing_measures_the_bias_of_each_axis() -> None:
     attitude = stood(bias=(0.02, -0.05))
     attitude.update(np.array([0.12, 0.15, 0.3]), force(0, 0), REST, TICK)
     assert attitude.rate == pytest.approx((0.10, 0.20, 0.3))
 
 
-def test_the_first_third_of_standing_is_settling() -> None:
-    """What shakes then is no bias, what shakes later is averaged in."""
+def test_the_first_third_of_the_calibration_is_ignored() -> None:
+    """Early readings are ignored, later ones averaged."""
     shaken = {}
     for until in (0.29, 0.65):
         attitude = AttitudeFilter(GAIN, BIAS_GAIN)
@@ -86,7 +86,7 @@ def test_the_first_third_of_standing_is_settling() -> None:
     assert shaken[0.65] == pytest.approx(0.5, abs=0.01)
 
 
-def test_the_gyro_is_integrated_as_the_frames_turn() -> None:
+def test_the_gyro_is_integrated_as_euler_rates() -> None:
     """A tilted torso that spins: Euler rates against matrices."""
     h = 1e-4
     attitude = stood(0.3, -0.4, correction=0.0, bias_correction=0.0)
@@ -102,9 +102,7 @@ def test_the_gyro_is_integrated_as_the_frames_turn() -> None:
 
 
 @pytest.mark.parametrize(("roll", "pitch"), [(0.02, 0.0), (-0.03, 0.02)])
-def test_what_gravity_shows_corrects_at_the_rate_of_belief(
-    roll: float, pitch: float
-) -> None:
+def test_gravity_corrects_at_the_given_gain(roll: float, pitch: float) -> None:
     """To first order d(angle)/dt = k (true - angle)."""
     attitude = stood(bias_correction=0.0)
     attitude.update(np.zeros(3), force(roll, pitch), REST, TICK)
@@ -119,8 +117,8 @@ def test_what_gravity_shows_corrects_at_the_rate_of_belief(
 @pytest.mark.parametrize(
     "bias", [(0.01, 0.0), (-0.01, 0.0), (0.0, 0.01), (0.0, -0.01)]
 )
-def test_a_bias_that_drifts_is_learned(bias: tuple[float, float]) -> None:
-    """With the wrong sign the filter would run away from it."""
+def test_a_drifting_bias_is_estimated(bias: tuple[float, float]) -> None:
+    """With the wrong sign the filter would diverge."""
     attitude = stood()
     gyro = np.array([*bias, 0.0])
     attitude.update(gyro, force(0.0, 0.0), REST, TICK)
@@ -131,7 +129,7 @@ def test_a_bias_that_drifts_is_learned(bias: tuple[float, float]) -> None:
 
 
 @pytest.mark.parametrize("axis", [0, 1])
-def test_a_bias_settles_as_the_second_order_system_it_is(axis: int) -> None:
+def test_the_bias_estimate_is_a_second_order_system(axis: int) -> None:
     """Error e and bias b: e' = -k e - b, b' = kb e, from a step of b."""
     attitude = stood()
     gyro = np.zeros(3)
@@ -147,9 +145,7 @@ def test_a_bias_settles_as_the_second_order_system_it_is(axis: int) -> None:
 
 
 @pytest.mark.parametrize(("ahead", "left"), [(1.0, 0.0), (0.0, -1.5)])
-def test_acceleration_that_is_known_of_is_no_tilt(
-    ahead: float, left: float
-) -> None:
+def test_known_acceleration_does_not_tilt(ahead: float, left: float) -> None:
     attitude = stood(0.1, -0.2)
     felt = force(0.1, -0.2, ahead, left)
     for _ in range(500):
@@ -166,8 +162,8 @@ def test_free_fall_corrects_nothing() -> None:
     assert attitude.roll != 0.1
 
 
-def test_who_does_not_stand_first_begins_upright() -> None:
-    """Whatever the accelerometer says: what it says counts from then on."""
+def test_without_calibration_the_filter_starts_upright() -> None:
+    """The accelerometer corrects from then on."""
     attitude = AttitudeFilter(GAIN, 0.0, calibration=0.0)
     assert attitude.ready and (attitude.roll, attitude.pitch) == REST
     attitude.update(np.zeros(3), force(0.3, 0.2), REST, TICK)
@@ -178,10 +174,8 @@ def test_who_does_not_stand_first_begins_upright() -> None:
     )
 
 
-def test_without_calibration_it_is_the_filter_of_one_that_stood_upright() -> (
-    None
-):
-    """To the bit, through spins, tilts and shocks."""
+def test_without_calibration_it_equals_a_filter_calibrated_upright() -> None:
+    """Bit for bit, through rotations, tilts and impacts."""
     attitude = AttitudeFilter(GAIN, BIAS_GAIN, calibration=0.0)
     other = stood()
     generator = np.random.default_rng(1)
@@ -195,13 +189,13 @@ def test_without_calibration_it_is_the_filter_of_one_that_stood_upright() -> (
     assert abs(attitude.roll) > 0.01
 
 
-def test_yaw_of_an_upright_torso_is_no_tilt() -> None:
+def test_yaw_of_an_upright_torso_does_not_tilt() -> None:
     attitude = AttitudeFilter(GAIN, 0.0, calibration=0.0)
     run(attitude, np.array([0.0, 0.0, 2.0]), force(0.0, 0.0), 0.4)
     assert (attitude.roll, attitude.pitch) == pytest.approx(REST, abs=1e-12)
 
 
-def test_a_level_rotation_about_a_tilted_axis_leaves_the_tilt_alone() -> None:
+def test_a_rotation_about_the_vertical_keeps_the_tilt() -> None:
     """Turning about the vertical changes neither roll nor pitch."""
     attitude = stood(0.2, 0.3, bias_correction=0.0)
     gyro = rotation(0.2, 0.3, 0.0).T @ np.array([0.0, 0.0, 1.5])
@@ -214,7 +208,7 @@ def test_a_level_rotation_about_a_tilted_axis_leaves_the_tilt_alone() -> None:
     )
 
 
-def test_a_gyro_of_two_axes_tells_roll_and_pitch_of_a_level_torso() -> None:
+def test_a_gyro_with_two_axes_measures_roll_and_pitch() -> None:
     attitudes = [
         AttitudeFilter(GAIN, 0.0, calibration=calibration)
         for calibration in (0.0, CALIBRATION)

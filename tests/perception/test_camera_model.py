@@ -11,14 +11,14 @@ from stepaside.perception.camera_model import CameraModel
 XTION = CameraModel.of_field_of_view(80, 60, radians(58.0), radians(45.0))
 
 
-def test_edges_look_along_the_field_of_view() -> None:
+def test_image_edges_span_the_field_of_view() -> None:
     left = XTION.ray(0.0, 30.0)
     top = XTION.ray(40.0, 0.0)
     assert degrees(np.arctan2(left[1], left[0])) == pytest.approx(29.0)
     assert degrees(np.arctan2(top[2], top[0])) == pytest.approx(22.5)
 
 
-def test_projection_undoes_rays() -> None:
+def test_projection_inverts_rays() -> None:
     rays = XTION.rays().reshape(-1, 3)
     columns, rows = XTION.project(2.7 * rays).T
     u, v = np.meshgrid(np.arange(80) + 0.5, np.arange(60) + 0.5)
@@ -26,7 +26,7 @@ def test_projection_undoes_rays() -> None:
     np.testing.assert_allclose(rows, v.ravel(), atol=1e-9)
 
 
-def test_what_is_behind_is_not_seen() -> None:
+def test_points_behind_the_camera_have_no_pixel() -> None:
     assert XTION.sees([1.0, 0.0, 0.0])
     assert not XTION.sees([-1.0, 0.0, 0.0])
     assert XTION.sees([1.0, tan(radians(28.9)), 0.0])
@@ -53,7 +53,7 @@ def test_axes_are_forward_left_and_up() -> None:
     assert above[0] == pytest.approx(40.0)
 
 
-def test_a_pixel_looks_where_the_grid_of_rays_says() -> None:
+def test_the_ray_of_a_pixel_matches_the_grid() -> None:
     for row, column in ((0, 0), (7, 50), (59, 79)):
         ray = XTION.ray(column + 0.5, row + 0.5)
         np.testing.assert_allclose(ray, XTION.rays()[row, column])
@@ -77,7 +77,7 @@ def test_rays_are_shared_and_therefore_read_only() -> None:
         XTION.rays()[0, 0, 0] = 2.0
 
 
-def test_sizes_and_angles_of_cameras_end_where_they_should() -> None:
+def test_bounds_of_camera_sizes_and_angles() -> None:
     for size, angle in ((8, 0.05), (4096, 2.8)):
         CameraModel.of_field_of_view(size, size, angle, angle)
     for size, angle in ((7, 1.0), (4097, 1.0), (80, 0.049), (80, 2.81)):

@@ -1,4 +1,4 @@
-"""Test the finding of trim, in drawn images."""
+"""Test the detection of trim in drawn images."""
 
 import cv2
 import numpy as np
@@ -64,13 +64,15 @@ def look_for(appearance: Appearance, pixels: Pixels) -> float | None:
 @pytest.mark.parametrize("colour", PAINT)
 @pytest.mark.parametrize("tall", [60, 100, 160])
 @pytest.mark.parametrize("at", [90, 160, 230])
-def test_a_robot_is_found_at_its_axis(colour: str, tall: int, at: int) -> None:
+def test_a_robot_is_detected_at_its_axis(
+    colour: str, tall: int, at: int
+) -> None:
     pixels = empty()
     draw_robot(pixels, colour, at, tall)
     assert look_for(LOOKS[colour], pixels) == pytest.approx(at, abs=2.0)
 
 
-def test_the_mirror_image_is_found_at_the_mirrored_column() -> None:
+def test_a_mirrored_image_mirrors_the_detection() -> None:
     pixels = empty()
     draw_robot(pixels, "red", 97, 110)
     column = look_for(RED, pixels)
@@ -80,7 +82,7 @@ def test_the_mirror_image_is_found_at_the_mirrored_column() -> None:
 
 
 @pytest.mark.parametrize("colour", PAINT)
-def test_neither_box_nor_bare_figure_nor_other_is_a_robot(
+def test_boxes_and_figures_without_this_trim_are_no_robot(
     colour: str,
 ) -> None:
     other = "blue" if colour == "red" else "red"
@@ -100,12 +102,12 @@ def test_a_box_beside_a_robot_does_not_move_it(gap: int, tall: int) -> None:
     assert look_for(RED, pixels) == pytest.approx(160, abs=8.0)
 
 
-def test_an_empty_room_holds_nobody() -> None:
+def test_an_empty_room_gives_no_detection() -> None:
     assert look_for(RED, empty()) is None
     assert look_for(BLUE, empty()) is None
 
 
-def test_what_the_edge_cuts_says_so() -> None:
+def test_a_cut_by_an_image_edge_is_reported() -> None:
     pixels = empty()
     draw_robot(pixels, "blue", 160, 260)
     found = ColourDetector(BLUE).detect(ColourImage(0.0, CAMERA, pixels))
@@ -127,8 +129,8 @@ def draw_ears(pixels: Pixels, paint: tuple[int, ...], at: int) -> None:
 
 
 @pytest.mark.parametrize("colour", PAINT)
-def test_ears_as_narrow_as_a_pixel_are_the_upper_end(colour: str) -> None:
-    """Else a robot looks a seventh farther away in every such frame."""
+def test_one_pixel_wide_ears_are_the_upper_end(colour: str) -> None:
+    """Otherwise such a robot appears a seventh farther away."""
     find = ColourDetector(LOOKS[colour]).detect
     tops = []
     for paint in (PAINT[colour], pale(colour), (240, 240, 238)):
@@ -144,7 +146,7 @@ def test_ears_as_narrow_as_a_pixel_are_the_upper_end(colour: str) -> None:
 
 
 @pytest.mark.parametrize("colour", PAINT)
-def test_what_is_faint_above_a_robot_is_not_of_it(colour: str) -> None:
+def test_faint_patches_away_from_the_ears_are_ignored(colour: str) -> None:
     """A poster on the wall behind it, and its own arm beside it."""
     pixels = empty()
     draw_robot(pixels, colour, 160, 100)
@@ -159,7 +161,7 @@ def test_what_is_faint_above_a_robot_is_not_of_it(colour: str) -> None:
 @pytest.mark.parametrize(
     ("width", "least"), [(80, 3), (160, 3), (320, 6), (480, 14)]
 )
-def test_specks_are_no_patches_of_trim(
+def test_small_specks_are_no_patches(
     width: int, least: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Under three pixels, or 1.5 of an image of 160 columns."""

@@ -1,4 +1,4 @@
-"""Test what the colour detector takes for trim and for a robot."""
+"""Test the rules of the colour detector for trim and for robots."""
 
 import cv2
 import numpy as np
@@ -12,8 +12,8 @@ from stepaside.perception.colour_detector import (
     Appearance,
     ColourDetection,
     ColourDetector,
+    _check_group,
     _groups,
-    _judge,
 )
 from stepaside.perception.images import ColourImage, Pixels
 
@@ -37,9 +37,7 @@ def is_trim(look: Appearance, pixels: Pixels) -> bool:
 @pytest.mark.parametrize(
     ("look", "middle", "width"), [(RED, 0, 9), (BLUE, 108, 8)]
 )
-def test_hues_are_taken_around_the_circle(
-    look: Appearance, middle: int, width: int
-) -> None:
+def test_hues_wrap_around(look: Appearance, middle: int, width: int) -> None:
     """Red lies on both sides of its seam."""
     for hue in range(180):
         pixels = paint(hue, 220, 180)
@@ -49,7 +47,7 @@ def test_hues_are_taken_around_the_circle(
 
 
 @pytest.mark.parametrize(("look", "least"), [(RED, 110), (BLUE, 125)])
-def test_pale_and_dark_colours_are_no_trim(
+def test_pale_and_dark_colours_are_not_trim(
     look: Appearance, least: int
 ) -> None:
     for hue in (look.hue, (look.hue + 176) % 180):
@@ -75,7 +73,7 @@ def patch(
     ("gap", "axis", "groups"),
     [(24, 0, 1), (26, 0, 2), (59, 1, 1), (61, 1, 2)],
 )
-def test_patches_belong_together_by_the_size_of_the_smaller(
+def test_patches_are_grouped_by_the_size_of_the_smaller(
     gap: int, axis: int, groups: int
 ) -> None:
     """Gaps of 2.5 sizes aside and of 6 sizes below."""
@@ -90,7 +88,7 @@ def test_patches_belong_together_by_the_size_of_the_smaller(
                 assert len(_groups(boxes(*pair))) == groups
 
 
-def test_diagonal_patches_must_be_near_both_ways() -> None:
+def test_diagonal_patches_must_be_near_in_both_directions() -> None:
     one = patch(100, 50, 10, 10)
     assert len(_groups(boxes(one, patch(130, 110, 10, 10)))) == 1
     assert len(_groups(boxes(one, patch(140, 110, 10, 10)))) == 2
@@ -122,7 +120,7 @@ TRIM = (
 
 
 def judge(*patches: Patch) -> ColourDetection | None:
-    return _judge(boxes(*patches), CAMERA)
+    return _check_group(boxes(*patches), CAMERA)
 
 
 def ends(found: ColourDetection | None) -> tuple[float, ...]:
@@ -130,7 +128,7 @@ def ends(found: ColourDetection | None) -> tuple[float, ...]:
     return found.left, found.top, found.right, found.bottom
 
 
-def test_trim_is_a_robot_as_large_as_all_of_it() -> None:
+def test_a_detection_spans_all_trim() -> None:
     found = judge(*TRIM)
     assert ends(found) == (120, 40, 200, 140)
     assert found is not None and found.column == 160.0
@@ -147,7 +145,7 @@ def test_trim_is_a_robot_as_large_as_all_of_it() -> None:
     ("share", "size", "same"),
     [(0.9, 28, True), (0.8, 28, False), (0.9, 14, False)],
 )
-def test_what_is_square_and_large_stands_beside_the_robot(
+def test_large_square_patches_are_removed(
     share: float, size: int, same: bool
 ) -> None:
     """Large is 2.5 times the median patch; round ones fill 0.79 of a box."""
@@ -169,16 +167,14 @@ def test_large_is_two_and_a_half_times_the_median() -> None:
 
 
 @pytest.mark.parametrize(("tall", "same"), [(58, False), (62, True)])
-def test_a_patch_as_tall_as_legs_is_not_of_the_robot(
-    tall: int, same: bool
-) -> None:
+def test_tall_patches_are_removed(tall: int, same: bool) -> None:
     """It may be 0.6 of the height of all trim."""
     post = patch(204, 60, 6, tall)
     assert (ends(judge(*TRIM, post)) == ends(judge(*TRIM))) is same
 
 
 @pytest.mark.parametrize(("width", "found"), [(205, True), (215, False)])
-def test_what_is_broader_than_two_robots_is_none(
+def test_a_group_wider_than_two_robots_is_rejected(
     width: int, found: bool
 ) -> None:
     corners = [(50, 60), (50 + width - 20, 60), (100, 100), (150, 140)]
@@ -192,7 +188,7 @@ def test_what_is_broader_than_two_robots_is_none(
     assert judge(*cut) is not None
 
 
-def test_edges_that_cut_are_named() -> None:
+def test_cut_edges_are_reported() -> None:
     """Below, 0.1 of the height may be missing: trim ends above the feet."""
 
     def moved(x: int, y: int) -> ColourDetection:
@@ -222,7 +218,7 @@ def test_trim_fills_less_than_half_of_its_box(area: int, found: bool) -> None:
 EAR, SHOULDER = patch(150, 60, 12, 12), patch(146, 82, 20, 20)
 
 
-def test_ear_and_shoulder_are_a_profile_whatever_comes_first() -> None:
+def test_ear_and_shoulder_are_a_profile_in_any_order() -> None:
     for pair in ((EAR, SHOULDER), (SHOULDER, EAR)):
         found = judge(*pair)
         assert ends(found) == (146, 60, 166, 102)
@@ -246,11 +242,11 @@ def test_ear_and_shoulder_are_a_profile_whatever_comes_first() -> None:
         (patch(144, 82, 24, 24, 0.76), False),  # four times as large
     ],
 )
-def test_two_other_patches_are_nobody(shoulder: Patch, found: bool) -> None:
+def test_two_other_patches_are_no_robot(shoulder: Patch, found: bool) -> None:
     assert (judge(EAR, shoulder) is not None) is found
 
 
-def test_a_square_ear_is_none() -> None:
+def test_a_square_ear_is_rejected() -> None:
     assert judge(patch(150, 60, 12, 12, 0.9), SHOULDER) is None
 
 
@@ -269,7 +265,9 @@ SPREAD = [(100, 60, 20, 20), (160, 60, 20, 20), (100, 120, 20, 20)]
 @pytest.mark.parametrize(
     ("width", "height", "counts"), [(5, 2, True), (3, 3, False)]
 )
-def test_specks_are_no_trim(width: int, height: int, counts: bool) -> None:
+def test_specks_below_the_minimum_area_are_ignored(
+    width: int, height: int, counts: bool
+) -> None:
     """Blurred, six pixels of the one pass as red and five of the other."""
     plain = ColourDetector(RED).detect(scene(*SPREAD))
     speck = 185, 66, width, height
@@ -279,7 +277,7 @@ def test_specks_are_no_trim(width: int, height: int, counts: bool) -> None:
     assert (found.right > plain.right) is counts
 
 
-def test_of_several_robots_the_tallest_is_found() -> None:
+def test_the_tallest_of_several_robots_is_detected() -> None:
     small = [(x // 2 + 200, y // 2 + 10, 10, 10) for x, y, _, _ in SPREAD]
     large = [(x - 95, y + 60, a, b) for x, y, a, b in SPREAD]
     for blots in (small + large, large + small):

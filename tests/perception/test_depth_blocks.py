@@ -44,7 +44,9 @@ def count(*blocks: Block, height: float = 0.5, scale: int = 1) -> int:
 
 @pytest.mark.parametrize("yaw", [0.0, 1.0, 3.0, -3.1])
 @pytest.mark.parametrize("shift", [-12, 0, 12])
-def test_a_block_is_measured_as_it_is_drawn(yaw: float, shift: int) -> None:
+def test_a_block_is_measured_at_its_size_and_position(
+    yaw: float, shift: int
+) -> None:
     """Twelve columns at 1.5 m, whose mirror image is to the other side."""
     scene = draw((10, 40, 34 + shift, 46 + shift, 1.5), yaw=yaw)
     (thing,) = scene.obstacles
@@ -66,7 +68,7 @@ def test_a_block_is_measured_as_it_is_drawn(yaw: float, shift: int) -> None:
 @pytest.mark.parametrize(
     ("columns", "behind"), [(4, 0.11), (11, None), (30, 0.16)]
 )
-def test_the_axis_lies_behind_the_front_as_deep_as_robots_are(
+def test_the_axis_lies_half_a_depth_behind_the_front(
     columns: int, behind: float | None
 ) -> None:
     (thing,) = draw((10, 40, 40, 40 + columns, 1.6)).obstacles
@@ -76,20 +78,20 @@ def test_the_axis_lies_behind_the_front_as_deep_as_robots_are(
     assert np.hypot(x, y) - thing.nearest == pytest.approx(expected)
 
 
-def test_what_is_above_heads_is_in_nobodys_way() -> None:
+def test_points_above_the_ceiling_are_no_obstacle() -> None:
     (thing,) = draw((0, 40, 30, 40, 1.5), height=1.9).obstacles
     assert 2.15 < thing.height < 2.2
     assert count((0, 20, 30, 40, 1.5), height=2.2) == 0
     assert count((0, 40, 30, 40, 1.5), height=2.2) == 1
 
 
-def test_what_is_lower_than_a_foot_is_high_is_nothing() -> None:
+def test_objects_below_the_minimum_height_are_ignored() -> None:
     """The upper row of one block is 0.158 m above the floor."""
     assert count((46, 50, 30, 40, 1.5)) == 1
     assert count((47, 50, 30, 40, 1.5)) == 0
 
 
-def test_the_floor_ends_7_cm_above_itself() -> None:
+def test_points_up_to_7_cm_belong_to_the_floor() -> None:
     """Fourteen pixels make a thing: two columns of seven rows.
 
     At 1.5 m with its slack the floor ends at 0.085 m; rows 49 and 50 are
@@ -107,7 +109,7 @@ def test_the_floor_has_a_hundredth_of_slack(share: float, found: int) -> None:
 
 
 @pytest.mark.parametrize("scale", [1, 2])
-def test_few_pixels_are_noise_at_any_resolution(scale: int) -> None:
+def test_small_components_are_noise_at_any_resolution(scale: int) -> None:
     rows = 7 * scale
     assert count((10, 10 + rows, 30, 30 + 2 * scale, 1.5), scale=scale) == 1
     assert count((10, 9 + rows, 30, 30 + 2 * scale, 1.5), scale=scale) == 0
@@ -115,7 +117,7 @@ def test_few_pixels_are_noise_at_any_resolution(scale: int) -> None:
 
 @pytest.mark.parametrize(("gap", "things"), [(0.22, 1), (0.28, 2)])
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_a_jump_of_depth_takes_things_apart(
+def test_a_step_of_depth_separates_components(
     gap: float, things: int, sign: float
 ) -> None:
     there = 1.5 + sign * gap
@@ -126,14 +128,14 @@ def test_a_jump_of_depth_takes_things_apart(
 
 
 @pytest.mark.parametrize(("hole", "things"), [(1, 1), (2, 1), (3, 2)])
-def test_small_holes_do_not_take_things_apart(hole: int, things: int) -> None:
+def test_small_holes_do_not_split_a_component(hole: int, things: int) -> None:
     whole = (10, 40, 30, 50, 1.5)
     assert count(whole, (10, 40, 38, 38 + hole, 0.0)) == things
     assert count(whole, (24, 24 + hole, 30, 50, 0.0)) == things
 
 
 @pytest.mark.parametrize("dark", [1, 2])
-def test_what_is_dark_does_not_tie_a_thing_to_the_wall(dark: int) -> None:
+def test_missing_depth_does_not_join_an_object_to_the_wall(dark: int) -> None:
     """The camera's own shadow beside a near edge answers nothing."""
     edge = 46 + dark
     shadow = 10, 27, 46, edge, 0.0
@@ -144,20 +146,20 @@ def test_what_is_dark_does_not_tie_a_thing_to_the_wall(dark: int) -> None:
     assert thing.whole
 
 
-def test_what_is_broader_than_a_robot_is_a_wall() -> None:
+def test_a_component_wider_than_1_1_m_is_a_wall() -> None:
     """1.03 m and 1.17 m."""
     assert count((10, 40, 15, 65, 1.6)) == 1
     assert count((10, 40, 11, 69, 1.6)) == 0
 
 
-def test_what_is_too_far_to_be_measured_whole_is_left_out() -> None:
+def test_objects_at_the_far_limit_are_ignored() -> None:
     assert count((10, 36, 30, 40, 3.27)) == 1
     assert count((10, 36, 30, 40, 3.40)) == 0
 
 
 @pytest.mark.parametrize(("left", "right"), [(0, 12), (68, 80)])
-def test_a_piece_at_the_edge_counts_only_near(left: int, right: int) -> None:
-    """Afar it may be a wall; nobody sees how broad it is."""
+def test_a_cut_component_counts_only_nearby(left: int, right: int) -> None:
+    """Farther away it may be part of a wall."""
     (thing,) = draw((10, 36, left, right, 1.6)).obstacles
     assert not thing.whole
     assert count((10, 36, left, right, 1.75)) == 1  # 1.94 m away
@@ -167,7 +169,7 @@ def test_a_piece_at_the_edge_counts_only_near(left: int, right: int) -> None:
     assert thing.whole
 
 
-def test_the_nearest_tenth_tells_how_near() -> None:
+def test_the_distance_is_the_nearest_tenth() -> None:
     """Fewer pixels than that, of 400, are noise: 36 and 44 of them."""
     body = (10, 30, 30, 50, 1.5)
     for more, nearest in ((), 1.5), (((10, 18, 42, 43, 1.4),), 1.4):
@@ -176,7 +178,7 @@ def test_the_nearest_tenth_tells_how_near() -> None:
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
-def test_the_outermost_fiftieth_does_not_broaden(sign: int) -> None:
+def test_the_width_ignores_the_outermost_fiftieth(sign: int) -> None:
     plain = draw((10, 30, 30, 50, 1.5)).obstacles[0]
     for rows, same in ((3, True), (6, False)):
         ear = (10, 10 + rows, 50, 52, 1.5)
@@ -192,7 +194,7 @@ def angle(column: int) -> float:
 
 
 @pytest.mark.parametrize("yaw", [0.0, 1.0, 3.1, -3.1])
-def test_a_shadow_is_as_broad_as_the_floor_it_hides(yaw: float) -> None:
+def test_a_shadow_is_as_wide_as_the_hidden_floor(yaw: float) -> None:
     scene = draw((43, 60, 10, 20, 0.0), (43, 60, 50, 70, 0.0), yaw=yaw)
     first, second = scene.shadows
     for shadow, left, right in ((first, 50, 69), (second, 10, 19)):
@@ -208,7 +210,7 @@ def test_a_shadow_is_whole_unless_it_is_at_an_edge() -> None:
         assert shadow.whole is (left > 0 and right < 80)
 
 
-def test_only_floor_that_must_answer_can_be_hidden() -> None:
+def test_only_floor_within_the_range_can_be_hidden() -> None:
     """Between 1.1 of the near limit and 0.85 of the far one."""
     near = [(55, 60, 30, 40, 0.0), (51, 55, 30, 40, 0.0)]
     seen = [draw(block, height=0.3).shadows for block in near]
@@ -218,7 +220,7 @@ def test_only_floor_that_must_answer_can_be_hidden() -> None:
     assert [len(shadows) for shadows in seen] == [0, 1]
 
 
-def test_few_dark_pixels_hide_nobody() -> None:
+def test_few_pixels_without_return_are_no_shadow() -> None:
     for scale in (1, 2):
         for columns, shadows in ((8, 1), (7, 0)):
             dark = 50 * scale, 53 * scale, 30 * scale, (30 + columns) * scale
@@ -231,8 +233,8 @@ def test_few_dark_pixels_hide_nobody() -> None:
 
 
 @pytest.mark.parametrize(("between", "shadows"), [(16, 1), (18, 2)])
-def test_near_shadows_are_of_one_thing(between: int, shadows: int) -> None:
-    """Gaps of 0.237 and 0.265 rad: legs of somebody who strides."""
+def test_shadows_close_together_are_joined(between: int, shadows: int) -> None:
+    """Gaps of 0.237 and 0.265 rad, as between the legs of a person."""
     scene = draw(
         (43, 60, 30, 36, 0.0), (43, 60, 36 + between, 45 + between, 0.0)
     )
@@ -242,7 +244,7 @@ def test_near_shadows_are_of_one_thing(between: int, shadows: int) -> None:
         assert scene.shadows[0].width == pytest.approx(ends[0] - ends[1])
 
 
-def test_a_shadow_within_another_adds_nothing() -> None:
+def test_a_shadow_within_another_is_absorbed() -> None:
     dark = (43, 60, 20, 60, 0.0), (50, 55, 30, 36, 1.5), (51, 54, 31, 35, 0.0)
     (shadow,) = draw(*dark).shadows
     assert shadow.width == pytest.approx(angle(20) - angle(59))
@@ -252,10 +254,10 @@ def test_a_shadow_within_another_adds_nothing() -> None:
     ("depth", "left", "cut"),
     [(0.90, 36, True), (0.94, 36, False), (0.90, 60, False)],
 )
-def test_what_is_near_and_hides_the_floor_is_cut(
+def test_a_near_obstacle_beside_a_shadow_becomes_a_shadow(
     depth: float, left: int, cut: bool
 ) -> None:
-    """Part of it may be nearer than the near limit, and so not measured."""
+    """Part of it may lie within the near limit."""
     scene = draw((10, 35, 30, 42, depth), (43, 60, left, left + 8, 0.0))
     assert len(scene.obstacles) == (0 if cut else 1)
     (shadow,) = scene.shadows
@@ -266,7 +268,7 @@ def test_what_is_near_and_hides_the_floor_is_cut(
         assert shadow.width == pytest.approx(angle(left) - angle(left + 7))
 
 
-def test_a_leg_that_is_measured_tells_how_near_the_other_is() -> None:
+def test_a_measured_leg_gives_the_distance_of_both() -> None:
     leg, shadow = (0, 35, 30, 36, 0.85), (43, 60, 42, 50, 0.0)
     scene = draw(leg, shadow)
     assert scene.obstacles == ()
@@ -280,10 +282,10 @@ def test_a_leg_that_is_measured_tells_how_near_the_other_is() -> None:
 @pytest.mark.parametrize(
     ("top", "gap", "things"), [(0, 6, 1), (4, 6, 2), (0, 22, 2)]
 )
-def test_legs_whose_hips_are_above_the_view_are_one_person(
+def test_legs_cut_by_the_upper_edge_are_one_person(
     top: int, gap: int, things: int
 ) -> None:
-    """Thin things that end within the view are two, and so are far ones."""
+    """Narrow obstacles within the view, or far apart, stay two."""
     right = 36 + gap
     legs = (top, 40, 30, 36, 1.2), (top, 40, right, right + 6, 1.3)
     found = draw(*legs).obstacles

@@ -30,13 +30,13 @@ def find(
 
 @pytest.mark.parametrize("pitch", [0.0, 10.0, 20.0])
 @pytest.mark.parametrize("roll", [-6.0, 0.0, 6.0])
-def test_an_empty_floor_holds_nothing(roll: float, pitch: float) -> None:
+def test_an_empty_floor_gives_no_obstacle(roll: float, pitch: float) -> None:
     assert find([], roll, pitch) == DepthScene((), ())
 
 
 @pytest.mark.parametrize("roll", [-6.0, 0.0, 6.0])
 @pytest.mark.parametrize("yaw", [-15.0, 0.0, 40.0])
-def test_a_post_is_where_it_stands(roll: float, yaw: float) -> None:
+def test_a_post_is_detected_at_its_position(roll: float, yaw: float) -> None:
     """Whatever the tilt and the yaw of the head, as they are measured."""
     bearing = radians(yaw + 8.0)
     x, y = 1.6 * np.cos(bearing), 1.6 * np.sin(bearing)
@@ -49,8 +49,8 @@ def test_a_post_is_where_it_stands(roll: float, yaw: float) -> None:
     assert post.width == pytest.approx(0.24, abs=0.06)
 
 
-def test_a_tilt_that_is_not_measured_shows_a_floor_that_is_not_there() -> None:
-    """So the compensation of the tilt is what the other tests test."""
+def test_an_unmeasured_tilt_gives_false_obstacles() -> None:
+    """This shows that the other tests depend on the compensation."""
     axes = rotation(0.0, radians(18.0), 0.0)
     image = take(axes, [])
     level = rotation(0.0, radians(0.0), 0.0)
@@ -58,13 +58,13 @@ def test_a_tilt_that_is_not_measured_shows_a_floor_that_is_not_there() -> None:
     assert scene != DepthScene((), ())
 
 
-def test_the_nearest_comes_first() -> None:
+def test_the_nearest_obstacle_is_first() -> None:
     scene = find([(2.2, -0.5, 0.15, 1.7), (1.4, 0.3, 0.1, 0.4)])
     assert [round(o.x, 1) for o in scene.obstacles] == [1.4, 2.2]
     assert scene.obstacles[1].height > 0.8
 
 
-def test_what_is_too_near_casts_a_shadow_with_its_bearing() -> None:
+def test_an_object_too_near_gives_a_shadow_at_its_bearing() -> None:
     bearing = radians(7.0)
     x, y = 0.6 * np.cos(bearing), 0.6 * np.sin(bearing)
     scene = find([(x, y, 0.1, 0.5)])
@@ -73,7 +73,7 @@ def test_what_is_too_near_casts_a_shadow_with_its_bearing() -> None:
     assert degrees(shadow.bearing) == pytest.approx(7.0, abs=1.5)
 
 
-def test_a_thing_that_is_partly_too_near_is_one_thing() -> None:
+def test_a_partly_measured_object_is_one_shadow() -> None:
     """Its far side alone would be off to a side."""
     parts: list[Post] = [(0.83, 0.1, 0.08, 0.5), (0.95, -0.05, 0.08, 0.5)]
     scene = find(parts)
@@ -81,12 +81,12 @@ def test_a_thing_that_is_partly_too_near_is_one_thing() -> None:
     assert len(scene.shadows) == 1
 
 
-def test_a_broad_wall_is_no_obstacle() -> None:
+def test_a_wide_wall_is_no_obstacle() -> None:
     wall = [(2.0, 0.1 * i, 0.08, 1.5) for i in range(-15, 16)]
     assert find(wall).obstacles == ()
 
 
-def test_the_robot_does_not_see_itself() -> None:
+def test_the_own_body_is_removed() -> None:
     """Hands and feet within reach of its own axis are its own."""
     scene = detect_obstacles(
         take(rotation(0.0, radians(10.0), 0.0), [(1.2, 0.0, 0.1, 0.5)]),
@@ -98,7 +98,7 @@ def test_the_robot_does_not_see_itself() -> None:
 
 
 @pytest.mark.parametrize("side", [-1.0, 1.0])
-def test_only_what_is_nearer_than_an_arm_is_oneself(side: float) -> None:
+def test_only_points_within_the_own_radius_are_removed(side: float) -> None:
     """The post's flank is 0.19 m or 0.25 m away from the own axis."""
     axes = rotation(0.0, radians(10.0), 0.0)
     image = take(axes, [(1.2, 0.0, 0.1, 0.5)])

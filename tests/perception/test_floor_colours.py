@@ -1,4 +1,4 @@
-"""Test what stands close by on a floor whose colours are known."""
+"""Test the detection of feet on a floor with known colours."""
 
 from math import atan2, cos, degrees, hypot, radians, sin
 
@@ -11,7 +11,7 @@ from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.floor_colours import (
     FloorColours,
     FloorContact,
-    find_footings,
+    detect_feet,
     floor_points,
 )
 from stepaside.perception.images import ColourImage
@@ -38,15 +38,15 @@ def find(
     colours: FloorColours, posts: list[Post], axes: Array = AHEAD
 ) -> tuple[FloorContact, ...]:
     seen = image(axes, posts)
-    return find_footings(seen, colours, EYE, axes, (0.0, 0.0))
+    return detect_feet(seen, colours, EYE, axes, (0.0, 0.0))
 
 
 @pytest.mark.parametrize("distance", [0.4, 0.6, 0.8, 1.0])
 @pytest.mark.parametrize("bearing", [-20.0, 0.0, 15.0])
-def test_legs_stand_where_their_image_begins(
+def test_feet_are_located_at_their_near_edge(
     colours: FloorColours, distance: float, bearing: float
 ) -> None:
-    """Two of them are one person's, midway between."""
+    """The position of two legs is midway between them."""
     angle = radians(bearing)
     ahead, left = distance * cos(angle), distance * sin(angle)
     aside = -0.09 * sin(angle), 0.09 * cos(angle)
@@ -59,26 +59,26 @@ def test_legs_stand_where_their_image_begins(
     assert degrees(atan2(found.y, found.x)) == pytest.approx(bearing, abs=3.0)
 
 
-def test_a_floor_alone_holds_nothing_from_any_side(
+def test_an_empty_floor_has_no_feet_from_any_side(
     colours: FloorColours,
 ) -> None:
     for yaw in (0.0, 0.7, -1.0):
         assert find(colours, [], rotation(0.02, radians(35.0), yaw)) == ()
 
 
-def test_two_who_stand_apart_are_two(colours: FloorColours) -> None:
+def test_two_people_apart_are_two_contacts(colours: FloorColours) -> None:
     found = find(colours, [(0.8, 0.3, 0.08, 1.0), (0.7, -0.25, 0.08, 1.0)])
     assert [round(f.y, 1) for f in found] == [-0.2, 0.3]
 
 
-def test_of_a_floor_that_was_not_seen_nothing_is_told() -> None:
+def test_an_unknown_floor_gives_no_contact() -> None:
     colours = FloorColours()
     assert not colours.known
     assert find(colours, [(0.6, 0.0, 0.1, 1.0)]) == ()
 
 
-def test_a_rare_colour_is_not_the_floors(colours: FloorColours) -> None:
-    """Somebody who was learnt by mistake, once, is seen all the same."""
+def test_a_rare_colour_is_not_floor(colours: FloorColours) -> None:
+    """A person learnt once by mistake is still detected."""
     leg = [(0.7, 0.0, 0.06, 0.8)]
     seen = image(AHEAD, leg).pixels
     dark = seen[..., 0] < 120
@@ -88,11 +88,11 @@ def test_a_rare_colour_is_not_the_floors(colours: FloorColours) -> None:
     assert len(find(colours, leg)) == 1
 
 
-def test_the_own_feet_are_nobody(colours: FloorColours) -> None:
+def test_the_own_feet_are_ignored(colours: FloorColours) -> None:
     assert find(colours, [(0.15, 0.05, 0.05, 0.1)]) == ()
 
 
-def test_rays_above_the_horizon_meet_no_floor() -> None:
+def test_rays_above_the_horizon_have_no_floor_point() -> None:
     level = rotation(0.0, 0.0, 0.0)
     points = floor_points(image(level, []), EYE, level)
     assert np.isinf(points[:60]).all() and np.isfinite(points[61:]).all()

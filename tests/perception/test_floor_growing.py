@@ -1,4 +1,4 @@
-"""Test how floor is told from what stands on it where light changes it."""
+"""Test region growing of floor under gradual lighting."""
 
 from typing import Any
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from stepaside.perception.floor_growing import EVEN, grow_floor
+from stepaside.perception.floor_growing import MAX_STEP, grow_floor
 
 HIGH, WIDE = 40, 60
 FIRST = np.s_[:, :12]  # columns whose colour is known
@@ -26,16 +26,16 @@ def known(place: Any = FIRST) -> NDArray[np.bool_]:
     return found
 
 
-def test_floor_that_light_changes_little_by_little_is_floor() -> None:
+def test_gradual_lighting_stays_floor() -> None:
     assert grow_floor(lit(), known()).all()
 
 
-def test_nothing_grows_from_nothing() -> None:
+def test_an_empty_mask_does_not_grow() -> None:
     assert not grow_floor(lit(), known(np.s_[:0])).any()
 
 
 @pytest.mark.parametrize("less", [-60, -25, 25])
-def test_what_stands_out_is_no_floor(less: int) -> None:
+def test_regions_with_an_edge_are_not_floor(less: int) -> None:
     """Lighter or darker: but for its rim, which no pixel tells."""
     pixels = lit(150.0, 200.0)
     pixels[10:30, 30:50] = (pixels[10:30, 30:50].astype(int) + less).clip(0)
@@ -45,7 +45,7 @@ def test_what_stands_out_is_no_floor(less: int) -> None:
     assert grown[:, :28].all() and grown[:, 52:].all()
 
 
-def test_a_surface_of_which_little_is_known_is_none() -> None:
+def test_a_surface_with_few_known_pixels_is_not_floor() -> None:
     """A few pixels of a thing may look like floor by chance."""
     pixels = lit(80.0, 80.0)
     pixels[:, 30:] = 200
@@ -57,14 +57,14 @@ def test_a_surface_of_which_little_is_known_is_none() -> None:
 
 def test_lines_between_tiles_are_floor() -> None:
     pixels = lit(190.0, 190.0)
-    pixels[:, 30:] = 190 + 3 * EVEN  # two surfaces, both known in part
+    pixels[:, 30:] = 190 + 3 * MAX_STEP  # two surfaces, both known in part
     both = known() | known(np.s_[:, 45:])
     assert grow_floor(pixels, both).all()
     assert not grow_floor(pixels, known())[:, 32:].any()
 
 
-def test_edges_are_no_surface() -> None:
-    """However many pixels of a coloured pattern look like floor."""
+def test_edge_pixels_are_no_surface() -> None:
+    """Even if many pixels of a pattern have colours of the floor."""
     pixels = lit(190.0, 190.0)
     pattern = np.indices((HIGH, 30))[1] // 3 % 2 * 90 + 100
     pixels[:, 30:] = pattern[..., None]

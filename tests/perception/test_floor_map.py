@@ -1,4 +1,4 @@
-"""A map of the floor from depth images."""
+"""Test the occupancy grid from depth images."""
 
 from math import atan2, pi
 
@@ -11,11 +11,11 @@ from stepaside.core.poses import Array
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.floor_map import (
     CELL,
-    START,
-    TAKEN,
+    FREE_AT_START,
+    OCCUPIED,
     FloorMap,
-    _broad,
     _centres,
+    _wide_areas,
 )
 from stepaside.perception.images import DepthImage
 
@@ -26,7 +26,7 @@ EYE, HIGH, FAR = 0.5, 0.6, 3.5
 def view(
     solids: tuple[Obstacle, ...], place: tuple[float, float], heading: float
 ) -> tuple[DepthImage, Array, Array]:
-    """What a camera sees of solids on a floor; marched along each ray."""
+    """Return a depth image of solids on a floor, by ray marching."""
     c, s = np.cos(heading), np.sin(heading)
     axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     rays = CAMERA.rays().reshape(-1, 3) @ axes.T
@@ -58,7 +58,7 @@ def looked(
     return seen
 
 
-def test_what_is_seen_is_where_it_stands() -> None:
+def test_obstacles_are_mapped_at_their_positions() -> None:
     pillar, wall = Disc(1.2, 0.3, 0.15), Box(-1.4, 0.0, 0.1, 2.0)
     found = looked(FloorMap(), (pillar, wall)).taken()
     near = np.array([[1.06, 0.25], [-1.34, 0.5], [-1.34, -0.5]])
@@ -71,14 +71,14 @@ def test_what_is_seen_is_where_it_stands() -> None:
         assert off.max() < 1.5 * CELL  # and nothing else
 
 
-def test_what_has_moved_is_cleared_when_it_is_looked_at_again() -> None:
+def test_cells_of_a_moved_obstacle_are_cleared() -> None:
     seen = looked(FloorMap(), (Disc(1.2, 0.3, 0.15),), times=4)
     assert seen.taken()
     looked(seen, (), times=14)
     assert not seen.taken()
 
 
-def test_the_other_player_is_no_part_of_the_room() -> None:
+def test_the_opponent_is_not_mapped() -> None:
     seen = FloorMap()
     body = (Disc(1.2, 0.0, 0.12),)
     for _ in range(4):
@@ -86,7 +86,7 @@ def test_the_other_player_is_no_part_of_the_room() -> None:
     assert not seen.taken()
 
 
-def test_unseen_floor_is_told_from_free_floor() -> None:
+def test_unknown_floor_differs_from_free_floor() -> None:
     seen = FloorMap()
     for _ in range(2):
         seen.take(*view((), (0.0, 0.0), 0.0), (0.0, 0.0), None)
@@ -97,8 +97,8 @@ def test_unseen_floor_is_told_from_free_floor() -> None:
     assert not seen.taken()
 
 
-def test_what_is_too_near_to_be_measured_stays_unseen() -> None:
-    """It hides the floor behind it, so nothing frees the floor under it."""
+def test_floor_too_near_to_be_measured_stays_unknown() -> None:
+    """It also hides the floor behind, so no ray frees the floor below."""
     near = Disc(0.55, 0.0, 0.15)
     seen = looked(FloorMap(), (near,))
     assert not seen.taken()
@@ -111,7 +111,7 @@ def test_what_is_too_near_to_be_measured_stays_unseen() -> None:
     assert clearance.min() > 0.2
 
 
-def test_from_another_side_only_the_thing_itself_stays() -> None:
+def test_a_second_view_leaves_only_the_obstacle() -> None:
     near, seen = Disc(0.55, 0.0, 0.15), FloorMap()
     for place in ((0.0, 0.0), (0.3, -0.8), (0.3, 0.8)):
         for heading in np.arange(-pi, pi, 0.5):
@@ -124,18 +124,20 @@ def test_from_another_side_only_the_thing_itself_stays() -> None:
         assert near.clearance(polygon.points).max() < 0.16
 
 
-def test_a_robot_begins_with_room_to_turn() -> None:
+def test_the_floor_around_the_start_is_free() -> None:
     seen = FloorMap()
     seen.take(*view((), (0.0, 0.0), 0.0), (0.0, 0.0), None)
-    behind = np.array([[-START + 1.5 * CELL, 0.0], [-START - CELL, 0.02]])
+    behind = np.array(
+        [[-FREE_AT_START + 1.5 * CELL, 0.0], [-FREE_AT_START - CELL, 0.02]]
+    )
     clearance = np.min(
         [p.clearance(behind) for p in seen.unseen((0.0, 0.0))], axis=0
     )
     assert clearance[0] > 0.0 > clearance[1]
 
 
-def test_what_was_struck_of_the_other_is_forgotten_when_it_is_known() -> None:
-    """It was taken for a thing before it was recognised."""
+def test_hits_on_the_opponent_are_erased_when_it_is_recognised() -> None:
+    """It was mapped as an obstacle before."""
     seen, body = FloorMap(), (Disc(1.2, 0.0, 0.12),)
     for _ in range(4):
         seen.take(*view(body, (0.0, 0.0), 0.0), (0.0, 0.0), None)
@@ -144,29 +146,31 @@ def test_what_was_struck_of_the_other_is_forgotten_when_it_is_known() -> None:
     assert not seen.taken()
 
 
-def test_what_the_other_stands_beside_stays() -> None:
+def test_obstacles_beside_the_opponent_stay() -> None:
     """Who walks along a wall does not wipe it off the map."""
     wall = Box(1.4, 0.0, 0.1, 2.0)
     seen = looked(FloorMap(), (wall,), times=4)
-    cells = _centres(seen._evidence > TAKEN)
+    cells = _centres(seen._evidence > OCCUPIED)
     assert len(cells) == 40
     for place in ((0.9, 0.0), (1.22, 0.0), None, (1.22, 0.0)):
         both = (wall,) if place is None else (wall, Disc(*place, 0.09))
         facing = pi if place is None else 0.0  # a glance away
         seen.take(*view(both, (0.0, 0.0), facing), (0.0, 0.0), place)
-        assert np.array_equal(_centres(seen._evidence > TAKEN), cells)
+        assert np.array_equal(_centres(seen._evidence > OCCUPIED), cells)
     assert not seen.is_free(np.array([[1.42, 0.0]])).any()
 
 
 def test_the_map_tells_what_belongs_to_the_room() -> None:
     seen = looked(FloorMap(), (Disc(1.2, 0.3, 0.15),))
-    assert seen.holds(1.1, 0.25) and seen.holds(1.25, 0.3)
-    assert not seen.holds(1.2, -0.2) and not FloorMap().holds(0.0, 0.0)
+    assert seen.is_occupied(1.1, 0.25) and seen.is_occupied(1.25, 0.3)
+    assert not seen.is_occupied(1.2, -0.2) and not FloorMap().is_occupied(
+        0.0, 0.0
+    )
     facing = atan2(0.3, 1.2)
-    away = seen.nearest(0.0, 0.0, facing, 0.2)
+    away = seen.distance_in_cone(0.0, 0.0, facing, 0.2)
     assert away == pytest.approx(np.hypot(1.2, 0.3) - 0.15, abs=1.5 * CELL)
-    assert seen.nearest(0.0, 0.0, facing + 2.0 * pi, 0.2) == away
-    assert seen.nearest(0.0, 0.0, facing + 0.5, 0.2) == np.inf
+    assert seen.distance_in_cone(0.0, 0.0, facing + 2.0 * pi, 0.2) == away
+    assert seen.distance_in_cone(0.0, 0.0, facing + 0.5, 0.2) == np.inf
 
 
 @pytest.mark.parametrize("heading", [0.0, 0.3, pi / 4])
@@ -185,7 +189,7 @@ def test_a_corner_of_two_walls_becomes_few_polygons(heading: float) -> None:
     assert sum(p.area for p in found) < 2.5 * len(cells) * CELL**2
 
 
-def test_columns_beside_what_is_too_near_show_no_floor_there() -> None:
+def test_columns_beside_a_blocked_one_start_at_the_near_limit() -> None:
     """While the head turns, where it looks is known to some degrees."""
     near, seen = Disc(0.6, 0.0, 0.12), FloorMap()
     for wrong in np.radians([-3.0, 0.0, 3.0]):  # what is believed is off
@@ -195,7 +199,7 @@ def test_columns_beside_what_is_too_near_show_no_floor_there() -> None:
             c, s = np.cos(turned), np.sin(turned)
             axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
             seen.take(image, eye, axes, (0.0, 0.0), None)
-    shown = _centres(seen._seen)
+    shown = _centres(seen._known)
     assert near.clearance(shown).min() > -0.5 * CELL
     beyond = np.array([[0.6, 0.35], [0.6, -0.35], [1.2, 0.5]])
     gaps = np.hypot(*(shown[:, None] - beyond).transpose(2, 0, 1))
@@ -218,7 +222,7 @@ def test_the_rim_of_what_is_unseen_is_unseen() -> None:
     hidden = np.zeros((12, 12), dtype=np.bool_)
     hidden[3:7, 4:8] = True
     hidden[2, 5:7] = hidden[7, 5:7] = hidden[4:6, 3] = hidden[4:6, 8] = True
-    assert (_broad(hidden) == hidden).all()
+    assert (_wide_areas(hidden) == hidden).all()
     strip = np.zeros((12, 12), dtype=np.bool_)
     strip[4:6] = True
-    assert not _broad(strip).any()
+    assert not _wide_areas(strip).any()

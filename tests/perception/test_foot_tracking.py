@@ -64,7 +64,7 @@ class Standing:
         track = TargetTrack(
             Observation(0.0, x, y, 0.0, 0.15, 0.15, False, True)
         )
-        track.confirmed, track.walked = True, walked
+        track.confirmed, track.has_walked = True, walked
         self.perception._tracker.tracks.append(track)
         return track
 
@@ -84,7 +84,7 @@ def test_the_lower_camera_tells_how_far_the_feet_are(
     for i in range(2, 12):
         now = 0.02 * i
         robot.see(now, robot.image(now, legs_at(*place), low=True))
-    x, y = track.place_at(0.22)
+    x, y = track.position_at(0.22)
     # These legs have no toes.
     assert hypot(x, y) == pytest.approx(hypot(*place), abs=0.1)
     off = wrap_angle(atan2(y, x) - atan2(place[1], place[0]))
@@ -101,7 +101,7 @@ def test_feet_found_nobody_and_move_nothing_that_rests() -> None:
     assert robot.perception._tracker.tracks == []
     resting = robot.follow(0.7, 0.0, walked=False)
     robot.see(0.06, robot.image(0.06, legs_at(0.6, 0.0), low=True))
-    assert resting.place_at(0.06) == pytest.approx((0.7, 0.0))
+    assert resting.position_at(0.06) == pytest.approx((0.7, 0.0))
 
 
 def test_the_lower_camera_is_asked_for_when_somebody_is_close() -> None:
@@ -113,7 +113,7 @@ def test_the_lower_camera_is_asked_for_when_somebody_is_close() -> None:
     robot.see(0.02, robot.image(0.02, [], low=False))
     perception._tracker.tracks.append(near)
     assert perception.looks_low()
-    near.walked = False
+    near.has_walked = False
     assert not perception.looks_low()
     perception._tracker.tracks[:] = [robot.follow(CLOSE + 0.1, 0.0)]
     assert not perception.looks_low()

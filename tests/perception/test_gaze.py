@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 from stepaside.perception.gaze import (
-    AWAY,
-    HIPS,
-    LONG,
-    LOOKOUT,
-    REACH,
+    CAMERA_HEIGHT,
+    FOLLOW_SPEED,
+    GLANCE_DURATION,
+    MAX_TURN,
+    MAX_UPWARD,
+    MAX_YAW,
+    MIN_DISTANCE,
+    PERSON_TOP,
     SCAN_PITCH,
     SCAN_SPEED,
-    SPEED,
-    TOO_NEAR,
-    UPWARD,
     Gaze,
     Glances,
 )
@@ -52,7 +52,10 @@ def test_it_keeps_to_ranges_and_speed(bearing: float) -> None:
         yaw, pitch = gaze.yaw, gaze.pitch
         gaze.follow(radians(bearing), 0.2)
         assert within(gaze)
-        assert hypot(gaze.yaw - yaw, gaze.pitch - pitch) <= 2 * SPEED * TICK
+        assert (
+            hypot(gaze.yaw - yaw, gaze.pitch - pitch)
+            <= 2 * FOLLOW_SPEED * TICK
+        )
 
 
 def test_a_search_looks_everywhere_it_can() -> None:
@@ -119,8 +122,8 @@ def test_it_looks_at_the_middle_of_a_body_and_keeps_the_crown_in_view() -> (
 def test_what_it_reaches_it_keeps_without_overshoot() -> None:
     gaze = settled(0.5, 1.0)
     assert gaze.yaw == 0.5
-    gaze.follow(0.5 + 0.5 * SPEED * TICK, 1.0)
-    assert gaze.yaw == 0.5 + 0.5 * SPEED * TICK
+    gaze.follow(0.5 + 0.5 * FOLLOW_SPEED * TICK, 1.0)
+    assert gaze.yaw == 0.5 + 0.5 * FOLLOW_SPEED * TICK
 
 
 def test_bearings_are_taken_the_short_way() -> None:
@@ -137,12 +140,12 @@ def test_a_search_after_another_goes_on_to_the_same_side() -> None:
         assert not gaze.searching
         gaze.search()
         assert gaze.searching
-        while side * gaze.yaw < REACH - 1e-3:
+        while side * gaze.yaw < MAX_YAW - 1e-3:
             gaze.search()
         assert gaze.pitch == pytest.approx(SCAN_PITCH)
         for _ in range(20):
             gaze.search()
-        assert side * gaze.yaw < REACH - 10 * SCAN_SPEED * TICK
+        assert side * gaze.yaw < MAX_YAW - 10 * SCAN_SPEED * TICK
 
 
 def test_a_neck_that_turns_less_searches_as_far_as_it_can() -> None:
@@ -181,9 +184,9 @@ def test_it_looks_up_as_somebody_tall_comes_near() -> None:
     pitches = [pitch_at(away, 1.5) for away in (3.0, 2.0, 1.0, 0.6, 0.4)]
     assert pitches == sorted(pitches, reverse=True)
     assert pitches[0] == pytest.approx(pitch_at(3.0, 0.0), abs=1e-9)
-    assert pitches[-1] == pytest.approx(-degrees(UPWARD))
+    assert pitches[-1] == pytest.approx(-degrees(MAX_UPWARD))
     # From 1 m the hips are in the upper half of the view of 40 degrees.
-    hips = degrees(atan2(HIPS - LOOKOUT, 0.94))
+    hips = degrees(atan2(PERSON_TOP - CAMERA_HEIGHT, 0.94))
     assert hips + pitches[2] == pytest.approx(20.0, abs=0.1)
     # A robot is looked at as ever.
     assert pitch_at(0.6, 0.6) == pitch_at(0.6, 0.0) > 0.0
@@ -193,34 +196,36 @@ def seen_sides(bearing: float, seconds: float = 9.0) -> set[float]:
     """Over which shoulders it looks while somebody is at a bearing."""
     glances = Glances(TICK, 2.0)
     looks = {
-        glances.turned(bearing, 1.0) for _ in range(round(seconds / TICK))
+        glances.direction(bearing, 1.0) for _ in range(round(seconds / TICK))
     }
     return looks - {bearing}
 
 
 def test_glances_go_over_both_shoulders_of_who_walks_backward() -> None:
-    assert seen_sides(0.0, 2.5) == {REACH}
-    assert seen_sides(0.0) == seen_sides(0.1) == {REACH, -REACH}
+    assert seen_sides(0.0, 2.5) == {MAX_YAW}
+    assert seen_sides(0.0) == seen_sides(0.1) == {MAX_YAW, -MAX_YAW}
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_nobody_looks_away_so_far_that_the_other_is_lost(side: float) -> None:
     """Who is on one side leaves only the shoulder of that side."""
-    assert seen_sides(side * 1.2) == {side * REACH}
-    assert abs(REACH + 1.2) > AWAY > abs(REACH - 1.2)
+    assert seen_sides(side * 1.2) == {side * MAX_YAW}
+    assert abs(MAX_YAW + 1.2) > MAX_TURN > abs(MAX_YAW - 1.2)
 
 
 def test_from_who_is_very_near_nobody_looks_away() -> None:
     glances = Glances(TICK, 2.0)
-    near = TOO_NEAR - 0.01
-    assert {glances.turned(1.2, near) for _ in range(2000)} == {1.2}
+    near = MIN_DISTANCE - 0.01
+    assert {glances.direction(1.2, near) for _ in range(2000)} == {1.2}
 
 
 def test_a_glance_takes_its_time_and_comes_back_as_often() -> None:
     glances = Glances(TICK, 2.0)
     looks = np.array(
-        [glances.turned(1.2, 1.0) for _ in range(round(29.0 / TICK))]
+        [glances.direction(1.2, 1.0) for _ in range(round(29.0 / TICK))]
     )
     away = looks != 1.2
     assert np.diff(away.astype(int)).tolist().count(1) == 10
-    assert away.mean() == pytest.approx(LONG / (2.0 + LONG), abs=0.01)
+    assert away.mean() == pytest.approx(
+        GLANCE_DURATION / (2.0 + GLANCE_DURATION), abs=0.01
+    )

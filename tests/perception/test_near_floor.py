@@ -83,7 +83,7 @@ def test_floor_that_is_lighter_close_by_is_seen() -> None:
     steep = -(CAMERA.rays() @ axes.T)[..., 2].clip(-1.0, 0.0)
     lamp = 0.5 + 0.7 * steep[..., None]
     lighter = (picture.pixels * lamp).clip(0, 255).astype(np.uint8)
-    unknown = near._colours.strange(lighter)
+    unknown = near._colours.is_not_floor(lighter)
     assert unknown[60, 80] or unknown[110, 20]
     near.show(replace(picture, pixels=lighter), EYE, axes, HERE)
     assert not hidden(floor, BEFORE) and not hidden(floor, BESIDE)
@@ -100,7 +100,7 @@ def test_nothing_of_a_thing_or_right_beside_it_is_shown(
     near, axes = learnt(around([post]), [post]), axes_of(39.7)
     floor = near._floor = FloorMap()
     near.show(image([post], axes, low=True), EYE, axes, HERE)
-    shown = _centres(floor._seen)
+    shown = _centres(floor._known)
     gaps = np.hypot(*(shown - np.array(post[:2])).T) - post[2]
     assert len(gaps) > 10 and gaps.min() > 0.5 * CELL
     # It is not shown through it, either.
@@ -113,10 +113,10 @@ def test_other_colours_show_no_floor() -> None:
     """A dark thing that fills the view leaves all as it was."""
     post = [(0.45, 0.0, 0.3, 0.8)]
     floor = around(post)
-    before = floor._seen.copy()
+    before = floor._known.copy()
     near, axes = learnt(floor, post), axes_of(39.7)
     near.show(image(post, axes, low=True), EYE, axes, HERE)
-    shown = np.argwhere(floor._seen & ~before)
+    shown = np.argwhere(floor._known & ~before)
     assert not len(shown)
 
 
@@ -128,8 +128,8 @@ def test_the_floor_is_learnt_where_rays_passed() -> None:
     near.learn(image(post, axes, low=False), EYE, axes, HERE, None)
     dark = np.full((4, 4, 3), 64, dtype=np.uint8)
     light = np.full((4, 4, 3), 212, dtype=np.uint8)
-    assert near._colours.strange(dark).all()
-    assert not near._colours.strange(light).any()
+    assert near._colours.is_not_floor(dark).all()
+    assert not near._colours.is_not_floor(light).any()
     blind = NearFloorMapper(FloorMap())
     blind.learn(image([], axes, low=False), EYE, axes, HERE, None)
     assert not blind._colours._counts.any()
@@ -144,7 +144,7 @@ def test_who_stands_on_the_floor_is_not_learnt() -> None:
     near.learn(image(post, axes, low=False), EYE, axes, HERE, other)
     dark = np.full((4, 4, 3), 64, dtype=np.uint8)
     assert not near._colours._counts[4, 4, 4]
-    assert near._colours.strange(dark).all()
+    assert near._colours.is_not_floor(dark).all()
     alone = NearFloorMapper(floor)
     alone.learn(image(post, axes, low=False), EYE, axes, HERE, None)
     assert alone._colours._counts[4, 4, 4]
@@ -168,7 +168,7 @@ def test_what_rays_struck_stays_taken() -> None:
     for _ in range(20):
         near.show(image([], axes, low=True), EYE, axes, HERE)
     assert before == len(floor.taken()) > 0
-    assert atan2(0.0, 1.2) == 0.0 and floor.holds(1.1, 0.0)
+    assert atan2(0.0, 1.2) == 0.0 and floor.is_occupied(1.1, 0.0)
 
 
 def test_who_has_lost_the_other_looks_with_the_upper_camera() -> None:
@@ -176,7 +176,7 @@ def test_who_has_lost_the_other_looks_with_the_upper_camera() -> None:
     eyes = Eyes()
     eyes.see(0.0)
     perception = eyes.perception
-    perception._lower = lower_of(around([]))
+    perception._bottom_camera = lower_of(around([]))
     eyes.know(*eyes.beside(1.5, 0.5))
     eyes.see(0.0)
     assert [perception.looks_low() for _ in range(4)].count(True) == 2
@@ -184,7 +184,7 @@ def test_who_has_lost_the_other_looks_with_the_upper_camera() -> None:
     eyes.see(0.0)
     assert perception.searching
     assert not any(perception.looks_low() for _ in range(4))
-    perception.floor, eyes.gaze.turned = FloorMap(), 0
+    perception.floor, eyes.gaze.scan_ends = FloorMap(), 0
     assert perception.looking  # around, before anybody is looked for
     assert [perception.looks_low() for _ in range(4)].count(True) == 2
 
@@ -192,7 +192,7 @@ def test_who_has_lost_the_other_looks_with_the_upper_camera() -> None:
 def test_nobody_is_sought_in_an_image_of_the_floor() -> None:
     eyes = Eyes()
     eyes.see(0.0)
-    eyes.perception._lower = lower_of(around([]))
+    eyes.perception._bottom_camera = lower_of(around([]))
     eyes.see(0.02, image([], axes_of(39.7), low=True))
     (report,) = eyes.reports
     assert not report.sought and not report.azimuths

@@ -13,23 +13,23 @@ from stepaside.perception.depth_detector import DetectedObstacle, Shadow
 from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.images import ColourImage, DepthImage
 from stepaside.perception.observations import (
-    BESIDE,
-    BLIND,
-    CLOSEST,
-    GUESS,
-    NEARBY,
-    PARTLY,
-    PULLED,
-    ROUGH,
-    SURE,
-    VAGUE,
+    DEFAULT_DISTANCE,
+    DEVIATION_BOUND,
+    DEVIATION_PART,
+    DEVIATION_TRACK,
+    DEVIATION_UNKNOWN,
+    DEVIATION_WIDTH,
+    MIN_CONFIDENCE,
+    MIN_DISTANCE,
+    MIN_SHADOW_DISTANCE,
+    SHADOW_MARGIN,
     angle_of,
     observe_obstacle,
     observe_obstacles,
     observe_shadow,
     observe_trim,
 )
-from stepaside.perception.ranging import BREADTH, FORWARD
+from stepaside.perception.ranging import FORWARD, WIDTH
 from stepaside.perception.track import Observation, TargetTrack
 from stepaside.robots.head import rotation
 
@@ -124,7 +124,8 @@ def test_bearing_is_that_of_the_middle_of_the_trim() -> None:
 
 
 @pytest.mark.parametrize(
-    ("confidence", "ranged"), [(SURE, True), (SURE - 0.01, False)]
+    ("confidence", "ranged"),
+    [(MIN_CONFIDENCE, True), (MIN_CONFIDENCE - 0.01, False)],
 )
 def test_only_what_is_sure_tells_distance_by_its_height(
     confidence: float, ranged: bool
@@ -135,22 +136,26 @@ def test_only_what_is_sure_tells_distance_by_its_height(
     if ranged:
         assert away == pytest.approx(1.5, rel=0.1)
     else:
-        assert away == pytest.approx(GUESS)
-        assert seen.along == VAGUE
+        assert away == pytest.approx(DEFAULT_DISTANCE)
+        assert seen.along == DEVIATION_TRACK
 
 
 def test_confidence_of_four_fifths_is_sure() -> None:
     """What the constants mean, in one place."""
-    assert (SURE, GUESS, CLOSEST) == (0.8, 1.2, 0.35)
-    assert (ROUGH, VAGUE, NEARBY) == (0.35, 0.6, 0.15)
+    assert (MIN_CONFIDENCE, DEFAULT_DISTANCE, MIN_DISTANCE) == (0.8, 1.2, 0.35)
+    assert (DEVIATION_WIDTH, DEVIATION_TRACK, SHADOW_MARGIN) == (
+        0.35,
+        0.6,
+        0.15,
+    )
 
 
 def test_feet_out_of_view_leave_the_breadth() -> None:
     found = trim(0.6, YAW, cut_below=True, left=200.0, right=420.0)
     seen = observe(found)
     breadth = atan2(100.0, 550.0) + atan2(120.0, 550.0)
-    assert distance_of(seen) == pytest.approx(BREADTH / breadth)
-    assert seen.along == pytest.approx(ROUGH * BREADTH / breadth)
+    assert distance_of(seen) == pytest.approx(WIDTH / breadth)
+    assert seen.along == pytest.approx(DEVIATION_WIDTH * WIDTH / breadth)
     assert not seen.ranged
 
 
@@ -165,10 +170,10 @@ def test_feet_out_of_view_leave_the_breadth() -> None:
 )
 def test_what_tells_nothing_leaves_memory(cut: dict[str, Any]) -> None:
     found = trim(1.5, YAW, left=200.0, right=420.0, **cut)
-    assert distance_of(observe(found)) == pytest.approx(GUESS)
+    assert distance_of(observe(found)) == pytest.approx(DEFAULT_DISTANCE)
     seen = observe(found, track(0.9, YAW))
     assert distance_of(seen) == pytest.approx(0.9, abs=0.01)
-    assert seen.along == VAGUE and not seen.ranged
+    assert seen.along == DEVIATION_TRACK and not seen.ranged
     sideways = 0.06 if found.cut_aside else 0.005
     assert seen.across == pytest.approx(0.003 + sideways * 0.9, rel=0.01)
 
@@ -180,7 +185,7 @@ def test_memory_is_of_what_was_in_that_direction(bearing: float) -> None:
     there = observe(found).bearing
     for off, known in ((19.0, True), (-19.0, True), (21.0, False)):
         seen = observe(found, track(0.9, there + radians(off)))
-        away = 0.9 if known else GUESS
+        away = 0.9 if known else DEFAULT_DISTANCE
         assert distance_of(seen) == pytest.approx(away, abs=1e-9)
     several = track(2.0, there + 1.0), track(0.7, there), track(0.9, there)
     assert distance_of(observe(found, *several)) == pytest.approx(0.7)
@@ -196,10 +201,10 @@ def test_memory_is_of_where_it_is_by_now() -> None:
 def test_nobody_is_nearer_than_can_be() -> None:
     found = trim(1.5, YAW, cut_above=True)
     seen = observe(found, track(0.2, observe(found).bearing))
-    assert distance_of(seen) == pytest.approx(CLOSEST)
+    assert distance_of(seen) == pytest.approx(MIN_DISTANCE)
     assert seen.along == 0.1
     seen = observe(found, track(0.36, observe(found).bearing))
-    assert seen.along == VAGUE
+    assert seen.along == DEVIATION_TRACK
 
 
 @pytest.mark.parametrize(("whole", "across"), [(True, 0.03), (False, 0.12)])
@@ -215,12 +220,12 @@ def test_an_obstacle_is_where_it_was_measured(
 def test_a_shadow_is_no_farther_than_the_near_limit() -> None:
     shadow = Shadow(YAW, 0.2, 0.3)
     seen = observe_shadow(DEPTH, shadow, PLACE, ())
-    away = 0.8 + NEARBY
+    away = 0.8 + SHADOW_MARGIN
     assert (seen.x - PLACE[0], seen.y - PLACE[1]) == pytest.approx(
         (away * cos(YAW), away * sin(YAW))
     )
     assert seen.bearing == YAW and seen.time == 3.5
-    assert seen.along == PULLED
+    assert seen.along == DEVIATION_BOUND
     assert seen.across == pytest.approx(0.08 * away)
     assert not seen.identified and not seen.ranged
 
@@ -230,27 +235,27 @@ def test_within_its_bounds_a_shadow_tells_no_distance() -> None:
     shadow = Shadow(YAW, 0.2, 0.3)
     nearer = observe_shadow(DEPTH, shadow, PLACE, (track(0.5, YAW),))
     assert distance_of(nearer) == pytest.approx(0.5)
-    assert nearer.along == BLIND > 1.0
+    assert nearer.along == DEVIATION_UNKNOWN > 1.0
     followed = track(0.6, YAW)
     before = followed.deviation_at(4.5)
     for _ in range(20):
         one = observe_shadow(DEPTH, shadow, PLACE, (followed,))
-        followed.correct(one._replace(time=4.5))
+        followed.update(one._replace(time=4.5))
     assert followed.deviation_at(4.5) > 0.8 * before
 
 
 def test_nobody_in_a_shadow_is_within_the_robot() -> None:
     shadow = Shadow(YAW, 0.2, 0.3)
     seen = observe_shadow(DEPTH, shadow, PLACE, (track(0.36, YAW),))
-    assert distance_of(seen) == pytest.approx(BESIDE)
-    assert seen.along == PULLED
+    assert distance_of(seen) == pytest.approx(MIN_SHADOW_DISTANCE)
+    assert seen.along == DEVIATION_BOUND
 
 
 def test_a_shadow_whose_part_was_measured_is_where_that_is() -> None:
     shadow = Shadow(YAW, 0.2, 0.3, 0.85)
     seen = observe_shadow(DEPTH, shadow, PLACE, (track(0.5, YAW),))
     assert distance_of(seen) == pytest.approx(0.85)
-    assert seen.ranged and seen.along == PARTLY
+    assert seen.ranged and seen.along == DEVIATION_PART
 
 
 def test_columns_to_the_right_have_positive_angles() -> None:
@@ -293,7 +298,7 @@ def test_trim_that_an_edge_hides_in_part_is_put_where_its_middle_is(
     Behind, its middle is beyond the half turn, and what is seen is not.
     """
     away, edge = 0.6, 0.5 * CAMERA.width
-    whole = BREADTH / away
+    whole = WIDTH / away
     half = abs(angle_of(IMAGE, 0.0))
     middle = side * (half - (0.5 - left_out) * whole)  # positive rightward
     yaw = middle - side * (pi + 0.02) if behind else YAW
@@ -312,11 +317,11 @@ def test_trim_that_an_edge_hides_in_part_is_put_where_its_middle_is(
     assert off[0] == pytest.approx(0.0, abs=0.01)
     assert off[1] == pytest.approx(side * 0.5 * left_out * whole, abs=0.01)
     assert max(abs(near.bearing), abs(blind.bearing)) <= pi
-    assert near.across > 0.4 * left_out * BREADTH > blind.across
+    assert near.across > 0.4 * left_out * WIDTH > blind.across
     assert not near.ranged and near.along > 0.5
 
 
-def test_trim_in_the_middle_is_whole_however_narrow_it_looks() -> None:
+def test_trim_in_the_image_centre_is_not_hidden() -> None:
     """From the side it is half as broad."""
     found = trim(0.9, YAW)
     ways = [

@@ -1,4 +1,4 @@
-"""Test whom a robot watches that stands in a room where people walk."""
+"""Test target selection in a room with people and walls."""
 
 from collections.abc import Callable, Sequence
 from math import atan2, cos, degrees, hypot, radians, sin
@@ -14,7 +14,10 @@ from stepaside.perception.colour_detector import RED
 from stepaside.perception.images import Percept, SonarEcho
 from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.perception.observations import camera_of
-from stepaside.perception.people_selection import PeopleSelection, nearest
+from stepaside.perception.people_selection import (
+    PeopleSelection,
+    closest_approach,
+)
 from stepaside.perception.perception import Perception
 from stepaside.perception.track import Observation, TargetTrack
 from stepaside.perception.tracker import Tracker
@@ -25,7 +28,7 @@ Place = tuple[float, float]
 
 
 class Watch:
-    """A robot that stands at the origin and looks about."""
+    """Robot at the origin that scans."""
 
     def __init__(self, walls: Sequence[Wall], echo: float | None) -> None:
         self.perception = Perception(NAO, HEAD, RED, tick=TICK, people=True)
@@ -65,7 +68,7 @@ class Watch:
 
 
 def coming(bearing: float, speed: float, far: float) -> Callable[..., Place]:
-    """Somebody who walks at the origin, from a direction in [deg]."""
+    """Person who walks towards the origin, from a direction in [deg]."""
 
     def place(time: float) -> Place:
         away = far - speed * time
@@ -86,10 +89,10 @@ def off(seen: Sighting | None, place: Place) -> float:
     ("beside", "away"),
     [(-90.0, 0.5), (-90.0, 0.9), (0.0, 0.6), (0.0, 1.1), (-45.0, 0.7)],
 )
-def test_a_near_wall_hides_nobody_who_comes(
+def test_a_near_wall_does_not_distract_from_an_approaching_person(
     beside: float, away: float
 ) -> None:
-    """Wherever the wall is, who comes is followed from 1.5 m on."""
+    """The person is followed from 1.5 m on, wherever the wall is."""
     echo = away if beside == 0.0 and away < 0.8 else None
     watch = Watch([(radians(beside), away)], echo)
     walk = coming(90.0, 0.8, 5.5)
@@ -101,7 +104,7 @@ def test_a_near_wall_hides_nobody_who_comes(
             assert not watch.perception.searching
 
 
-def test_who_comes_is_told_from_who_passes() -> None:
+def test_an_approaching_person_is_preferred_to_one_who_passes() -> None:
     """One walks by at 1.3 m, the other at the robot: two tracks, one counts.
 
     They cross in sight of the robot, and each is still the one it was.
@@ -128,7 +131,7 @@ def followed(*places: Place) -> TargetTrack:
     ]
     track = TargetTrack(first)
     for seen in rest:
-        track.correct(seen)
+        track.update(seen)
     track.confirmed = True
     return track
 
@@ -154,31 +157,31 @@ def looks(begin: float, speed: float, seconds: float, spread: float) -> float:
     track.confirmed = looked = True
     for i in range(1, count):
         if looked or i % 20 == 0:  # else the head sweeps by it
-            track.correct(seen(i))
+            track.update(seen(i))
         chosen = people.look([track], None, 0.1 * i, 0.0, 0.0)
         looked = chosen is track
         at += looked
     return at / (count - 1)
 
 
-def test_at_what_rests_the_head_only_glances() -> None:
-    """First it looks, long enough to see that nothing moves."""
+def test_the_head_only_glances_at_objects_at_rest() -> None:
+    """A first look is long enough to detect that nothing moves."""
     assert looks(1.0, 0.0, 0.4, 0.03) == 1.0
     assert 0.05 < looks(1.0, 0.0, 30.0, 0.03) < 0.35
     assert 0.05 < looks(3.0, 0.0, 30.0, 0.03) < 0.35
 
 
 @pytest.mark.parametrize("walks", [False, True])
-def test_glances_come_every_few_seconds_and_sooner_at_who_walks(
+def test_glances_are_more_frequent_at_walking_people(
     walks: bool,
 ) -> None:
     """0.6 s long, 3 s apart at what rests, 1 s at a walker who leaves."""
     people, track, looked = PeopleSelection(), followed((3.0, 0.0)), []
-    track.walked = walks
+    track.has_walked = walks
     track._state[2] = 0.3 if walks else 0.0
     for i in range(2000):
         now = 0.01 * i
-        track.seen_at = now
+        track.observed_at = now
         looked.append(people.look([track], None, now, 0.0, 0.0) is track)
     edges = np.flatnonzero(np.diff(np.array(looked, int)))
     begins, ends = edges[1::2], edges[2::2]
@@ -190,18 +193,18 @@ def test_glances_come_every_few_seconds_and_sooner_at_who_walks(
     np.testing.assert_allclose(pauses, 1.0 if walks else 3.0, atol=0.03)
 
 
-def test_who_comes_is_looked_at_and_who_leaves_is_not() -> None:
+def test_the_head_follows_people_who_approach_not_those_who_leave() -> None:
     assert looks(3.0, -0.5, 5.0, 0.03) > 0.9
     assert looks(1.5, 0.5, 8.0, 0.03) < 0.45
 
 
-def test_what_is_too_near_to_be_seen_sharply_is_watched() -> None:
-    """Nobody can tell yet whether it walks; an echo alone holds no gaze."""
+def test_the_head_follows_a_near_track_without_velocity() -> None:
+    """It may walk; an echo alone does not hold the gaze."""
     assert looks(0.7, 0.0, 5.0, 0.1) == 1.0
     assert looks(0.7, 0.0, 30.0, 0.3) < 0.3
 
 
-def test_who_walks_counts_before_what_is_nearer_and_rests() -> None:
+def test_a_walking_person_comes_before_a_nearer_object_at_rest() -> None:
     wall = followed(*[(0.6, 0.0)] * 10)
     walker = followed(*[(0.0, 3.0 - 0.05 * i) for i in range(10)])
     passer = followed(*[(2.0 - 0.1 * i, 1.5) for i in range(10)])
@@ -219,35 +222,35 @@ def test_who_walks_counts_before_what_is_nearer_and_rests() -> None:
     assert people.main(tracker, 0.95, 0.0, 0.0) is again
 
 
-def test_a_glance_back_and_forth_is_no_walk() -> None:
-    """A walker sways by some centimetres, and a wall by as much."""
+def test_sway_is_not_walking() -> None:
+    """Positions of people and walls sway by some centimetres."""
     swaying = followed(*[(1.0 + 0.05 * (-1) ** i, 0.0) for i in range(20)])
-    assert not swaying.walked
-    assert nearest(swaying, 2.0, 0.0, 0.0) > 0.6
+    assert not swaying.has_walked
+    assert closest_approach(swaying, 2.0, 0.0, 0.0) > 0.6
 
 
 @pytest.mark.parametrize(
     ("begin", "speed", "wait"), [(3.0, -0.6, 0.6), (1.4, -0.8, 0.3)]
 )
-def test_where_somebody_goes_is_told_after_a_while_of_watching(
+def test_a_track_settles_after_the_settling_time(
     begin: float, speed: float, wait: float
 ) -> None:
-    """At once, nearly, of somebody who turns up near by."""
+    """A new track nearby settles almost at once."""
     track = followed((begin, 0.0))
     people, settled = PeopleSelection(), []
     for i in range(1, 20):
         now, x = 0.05 * i, begin + 0.05 * i * speed
         place = Observation(now, x, 0.0, 0.0, 0.03, 0.03, False, True)
-        track.correct(place)
+        track.update(place)
         settled.append(people.settled(track, now, 0.0, 0.0))
     assert settled[-1] and not settled[0]
     assert 0.05 * (1 + settled.index(True)) == pytest.approx(wait, abs=0.26)
     # After a gap the watch begins anew, of somebody known whatever the time.
-    track.correct(Observation(2.0, x, 0.0, 0.0, 0.03, 0.03, False, True))
+    track.update(Observation(2.0, x, 0.0, 0.0, 0.03, 0.03, False, True))
     assert not people.settled(track, 2.1, 0.0, 0.0)
     for i in range(24):
         now = 2.05 + 0.05 * i
-        track.correct(Observation(now, x, 0.0, 0.0, 0.03, 0.03, False, True))
+        track.update(Observation(now, x, 0.0, 0.0, 0.03, 0.03, False, True))
     assert people.settled(track, now, 0.0, 0.0)
     assert not people.settled(track, now + 0.35, 0.0, 0.0)
 
@@ -263,17 +266,15 @@ def test_where_somebody_goes_is_told_after_a_while_of_watching(
         (1.6, 1.2, 1.1),
     ],
 )
-def test_who_may_pass_is_watched_for_longer(
+def test_a_person_who_may_pass_settles_later(
     begin: float, beside: float, least: float
 ) -> None:
-    """Far away and near by; who comes straight on is not."""
+    """At any distance; an approaching person settles earlier."""
     track = followed((begin, beside))
     people, settled = PeopleSelection(), []
     for i in range(1, 40):
         now, x = 0.05 * i, begin - 0.05 * i * 0.8
-        track.correct(
-            Observation(now, x, beside, 0.0, 0.03, 0.03, False, True)
-        )
+        track.update(Observation(now, x, beside, 0.0, 0.03, 0.03, False, True))
         settled.append(people.settled(track, now, 0.0, 0.0))
     told = 0.05 * (1 + settled.index(True))
     assert told == pytest.approx(least, abs=0.26)

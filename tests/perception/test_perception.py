@@ -1,4 +1,4 @@
-"""Test the way from images to a line of sight."""
+"""Test perception from images to sightings."""
 
 from math import atan2, cos, hypot, sin
 
@@ -30,7 +30,7 @@ def eyes() -> Eyes:
     return made
 
 
-def test_before_anything_is_seen_it_searches(eyes: Eyes) -> None:
+def test_without_detections_the_head_scans(eyes: Eyes) -> None:
     perception = eyes.perception
     assert perception.searching and perception.sighting is None
     assert eyes.gaze.followed is None and not eyes.reports
@@ -38,7 +38,7 @@ def test_before_anything_is_seen_it_searches(eyes: Eyes) -> None:
     assert fresh.body is None and fresh.sighting is None and fresh.searching
 
 
-def test_the_body_is_placed_on_the_foot_that_stands(eyes: Eyes) -> None:
+def test_the_body_pose_follows_from_the_support_foot(eyes: Eyes) -> None:
     """Straight joints: the torso is half a hip to the right of the left."""
     x, y, heading = SUPPORT.inverse().compose(eyes.torso)
     assert heading == pytest.approx(0.0, abs=1e-6)
@@ -55,7 +55,7 @@ def test_the_body_is_placed_on_the_foot_that_stands(eyes: Eyes) -> None:
 
 
 @pytest.mark.parametrize("tilt", [(0.1, 0.0), (0.0, -0.2), (-0.15, 0.1)])
-def test_the_torso_is_tilted_as_it_is_told(
+def test_the_torso_has_the_measured_tilt(
     eyes: Eyes, tilt: tuple[float, float]
 ) -> None:
     """Roll and pitch after the heading of the standing foot."""
@@ -67,8 +67,8 @@ def test_the_torso_is_tilted_as_it_is_told(
 
 
 @pytest.mark.parametrize("column", [40.0, 80.0, 130.0])
-def test_three_images_of_the_other_make_a_sighting(column: float) -> None:
-    """Bearing and distance are from the torso, not from the eyes."""
+def test_three_images_of_the_opponent_give_a_sighting(column: float) -> None:
+    """Bearing and distance are from the torso, not from the camera."""
     eyes = Eyes()
     eyes.detector.found = trim(column)
     for i in range(3):
@@ -77,7 +77,7 @@ def test_three_images_of_the_other_make_a_sighting(column: float) -> None:
     assert eyes.perception.sighting == seen and seen.time == 2 * TICK
     (track,) = eyes.tracks
     x, y, heading = eyes.torso
-    u, v = track.place_at(seen.time)
+    u, v = track.position_at(seen.time)
     assert seen.distance == pytest.approx(hypot(u - x, v - y))
     expected = wrap_angle(atan2(v - y, u - x) - heading)
     assert seen.bearing == pytest.approx(expected)
@@ -86,14 +86,14 @@ def test_three_images_of_the_other_make_a_sighting(column: float) -> None:
     assert eyes.gaze.followed == pytest.approx((seen.bearing, seen.distance))
 
 
-def test_the_eyes_are_where_head_and_mount_have_them(eyes: Eyes) -> None:
-    """An image ahead places the other before the camera."""
+def test_the_camera_pose_follows_from_head_and_mount(eyes: Eyes) -> None:
+    """A detection in the image centre is in front of the camera."""
     eyes.detector.found = trim(80.0)
     eyes.see(TICK, colour(TICK))
     body = eyes.perception.body
     assert body is not None
     place = body.head_place + body.head_axes @ HEAD.top.place
-    u, v = eyes.tracks[0].place_at(TICK)
+    u, v = eyes.tracks[0].position_at(TICK)
     angle = atan2(v - place[1], u - place[0])
     assert angle == pytest.approx(SUPPORT.theta, abs=1e-3)
     breadth = 2.0 * atan2(15.0, 140.0)
@@ -101,7 +101,7 @@ def test_the_eyes_are_where_head_and_mount_have_them(eyes: Eyes) -> None:
     assert away == pytest.approx(0.25 / breadth, rel=1e-3)
 
 
-def test_frames_are_reported_with_azimuths_to_the_left(eyes: Eyes) -> None:
+def test_reported_azimuths_are_positive_leftward(eyes: Eyes) -> None:
     image = colour(TICK)
     eyes.detector.found = trim(100.0)
     eyes.see(TICK, image)
@@ -113,7 +113,7 @@ def test_frames_are_reported_with_azimuths_to_the_left(eyes: Eyes) -> None:
     assert eyes.reports[1].azimuths == () and not eyes.reports[1].colour
 
 
-def test_reports_are_of_the_last_tick(eyes: Eyes) -> None:
+def test_reports_cover_the_last_tick_only(eyes: Eyes) -> None:
     images = [colour(TICK), colour(1.5 * TICK)]
     eyes.see(2 * TICK, *images)
     assert [r.image for r in eyes.perception.reports] == images
@@ -121,7 +121,7 @@ def test_reports_are_of_the_last_tick(eyes: Eyes) -> None:
     assert eyes.perception.reports == []
 
 
-def test_a_late_image_is_of_where_the_eyes_were_then() -> None:
+def test_a_delayed_image_uses_the_pose_at_its_exposure() -> None:
     eyes = Eyes()
     for i in range(40):
         eyes.support = Pose(1.0, -2.0, 0.7 + 0.02 * i)
@@ -131,12 +131,12 @@ def test_a_late_image_is_of_where_the_eyes_were_then() -> None:
     body = eyes.perception._poses[10]
     assert body.time == pytest.approx(10 * TICK)
     place = body.head_place + body.head_axes @ HEAD.top.place
-    u, v = eyes.tracks[0].place_at(10 * TICK)
+    u, v = eyes.tracks[0].position_at(10 * TICK)
     angle = atan2(v - place[1], u - place[0])
     assert angle == pytest.approx(0.7 + 0.02 * 10, abs=1e-3)
 
 
-def test_poses_are_kept_for_a_second(eyes: Eyes) -> None:
+def test_poses_are_stored_for_a_second(eyes: Eyes) -> None:
     for i in range(1, 100):
         eyes.see(TICK * i)
     poses = eyes.perception._poses
@@ -145,7 +145,7 @@ def test_poses_are_kept_for_a_second(eyes: Eyes) -> None:
     assert eyes.perception._pose_at(poses[7].time - 1e-12) is poses[7]
 
 
-def test_the_head_goes_where_the_gaze_turns(eyes: Eyes) -> None:
+def test_the_head_targets_are_those_of_the_gaze(eyes: Eyes) -> None:
     targets = np.full(JOINTS, 9.0)
     eyes.perception.aim(targets)
     names = [NAO.compile().actuator(i).name for i in range(JOINTS)]
@@ -158,7 +158,7 @@ def test_the_head_goes_where_the_gaze_turns(eyes: Eyes) -> None:
     ("share", "missed"), [(0.848, True), (0.852, False), (2.0, False)]
 )
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_what_an_image_should_have_shown_counts_as_missed(
+def test_a_visible_track_without_detection_counts_a_miss(
     eyes: Eyes, share: float, missed: bool, side: float
 ) -> None:
     """Well within the view of the camera, to the edge of which it is 80."""

@@ -1,4 +1,4 @@
-"""Test what the head looks at, and what is believed meanwhile."""
+"""Test the gaze, and the tracks meanwhile."""
 
 from math import pi
 from typing import Any
@@ -8,9 +8,9 @@ import pytest
 from made_up_eyes import HEAD, TICK, Eyes
 from stepaside.core.poses import Pose
 from stepaside.perception.floor_map import FloorMap
-from stepaside.perception.gaze import REACH, SCAN_SPEED, Gaze
+from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED, Gaze
 from stepaside.perception.measurement import Sighting
-from stepaside.perception.target_selection import STARE, UNSEEN
+from stepaside.perception.target_selection import GAZE_RADIUS, MAX_GAZE_AGE
 
 
 @pytest.fixture
@@ -24,13 +24,18 @@ def eyes() -> Eyes:
     ("changes", "distance", "speed", "looks"),
     [
         ({}, 3.0, 0.0, True),  # the other, recognised
-        ({"identified": False}, STARE - 0.05, 0.0, True),  # near
-        ({"identified": False}, STARE + 0.05, 0.0, False),  # far, at rest
+        ({"identified": False}, GAZE_RADIUS - 0.05, 0.0, True),  # near
+        (
+            {"identified": False},
+            GAZE_RADIUS + 0.05,
+            0.0,
+            False,
+        ),  # far, at rest
         ({"identified": False}, 3.0, 0.09, True),  # far, moving
         ({"identified": False}, 3.0, 0.07, False),  # hardly moving
     ],
 )
-def test_the_head_looks_at_what_counts(
+def test_the_head_follows_the_main_track(
     eyes: Eyes,
     changes: dict[str, Any],
     distance: float,
@@ -45,10 +50,10 @@ def test_the_head_looks_at_what_counts(
         assert eyes.gaze.followed == pytest.approx((-0.8, distance))
     else:
         assert eyes.gaze.followed is None
-    assert STARE == 1.2
+    assert GAZE_RADIUS == 1.2
 
 
-def test_what_is_not_confirmed_is_looked_at_only_near(eyes: Eyes) -> None:
+def test_the_head_follows_unconfirmed_tracks_only_nearby(eyes: Eyes) -> None:
     track = eyes.know(*eyes.beside(3.0, 0.5), identified=False)
     track.confirmed = False
     track._state[3] = 0.5
@@ -62,30 +67,36 @@ def test_what_is_not_confirmed_is_looked_at_only_near(eyes: Eyes) -> None:
     assert eyes.perception.sighting is None
 
 
-def test_the_head_knows_how_tall_it_is_whom_it_looks_at(eyes: Eyes) -> None:
+def test_the_gaze_gets_the_height_of_the_track(eyes: Eyes) -> None:
     track = eyes.know(*eyes.beside(1.0, 0.5))
     track.height = 1.4
     eyes.see(0.0)
     assert eyes.gaze.height == 1.4
 
 
-def test_who_was_recognised_long_ago_is_a_thing_again(eyes: Eyes) -> None:
-    for age, looks in ((UNSEEN - 0.1, True), (UNSEEN + 0.1, False)):
+def test_recognition_expires(eyes: Eyes) -> None:
+    for age, looks in (
+        (MAX_GAZE_AGE - 0.1, True),
+        (MAX_GAZE_AGE + 0.1, False),
+    ):
         eyes.tracks.clear()
         track = eyes.know(*eyes.beside(2.0, 0.5), time=2.0)
         track.identified_at = 2.0 - age
         eyes.see(2.0)
         assert eyes.perception.searching is not looks
-    assert UNSEEN == 1.0
+    assert MAX_GAZE_AGE == 1.0
 
 
-def test_the_head_searches_for_who_was_not_seen_for_a_second() -> None:
-    """Memory goes on, and the line of sight with it."""
-    for age, looks in ((UNSEEN - 0.1, True), (UNSEEN + 0.1, False)):
+def test_the_head_scans_after_a_second_without_observation() -> None:
+    """The track, and with it the sighting, lasts longer."""
+    for age, looks in (
+        (MAX_GAZE_AGE - 0.1, True),
+        (MAX_GAZE_AGE + 0.1, False),
+    ):
         eyes = Eyes()
         eyes.see(0.0)
         track = eyes.know(*eyes.beside(1.0, 0.5), time=0.0)
-        track.take_over(track)
+        track.merge(track)
         seen = eyes.see(age)
         assert isinstance(seen, Sighting)
         assert seen.bearing == pytest.approx(0.5)
@@ -93,7 +104,7 @@ def test_the_head_searches_for_who_was_not_seen_for_a_second() -> None:
         assert (eyes.gaze.followed is not None) is looks
 
 
-def test_the_one_who_counts_is_looked_at_before_others(eyes: Eyes) -> None:
+def test_the_head_prefers_the_main_track(eyes: Eyes) -> None:
     eyes.know(*eyes.beside(0.6, 1.0), identified=False)
     eyes.know(*eyes.beside(1.5, -0.5))
     seen = eyes.see(0.0)
@@ -101,7 +112,7 @@ def test_the_one_who_counts_is_looked_at_before_others(eyes: Eyes) -> None:
     assert eyes.gaze.followed == pytest.approx((-0.5, 1.5))
 
 
-def test_a_bearing_behind_is_wrapped(eyes: Eyes) -> None:
+def test_a_bearing_behind_is_wrapped_to_pi(eyes: Eyes) -> None:
     eyes.support = Pose(0.0, 0.0, 3.0)
     eyes.see(0.0)
     eyes.know(*eyes.beside(1.5, 2.9))
@@ -110,15 +121,15 @@ def test_a_bearing_behind_is_wrapped(eyes: Eyes) -> None:
     assert abs(seen.bearing) <= pi
 
 
-def test_lost_is_lost(eyes: Eyes) -> None:
+def test_a_lost_opponent_gives_no_sighting(eyes: Eyes) -> None:
     eyes.know(*eyes.beside(1.0, 0.5))
     assert eyes.see(0.0) is not None
     assert eyes.see(10.0) is None
     assert eyes.perception.sighting is None and eyes.perception.searching
 
 
-def test_who_maps_the_floor_looks_all_around_first(eyes: Eyes) -> None:
-    """Until then it says nothing of the other, so that nobody walks."""
+def test_a_robot_with_a_map_scans_the_room_first(eyes: Eyes) -> None:
+    """Until then it gives no sighting, so that the robot stands."""
     gaze: Any = Gaze(HEAD.coupling, TICK)
     eyes.perception.floor, eyes.perception._gaze = FloorMap(), gaze
     yaws = []
@@ -130,6 +141,6 @@ def test_who_maps_the_floor_looks_all_around_first(eyes: Eyes) -> None:
         yaws.append(gaze.yaw)
         if seen is not None:
             break
-    assert min(yaws) < -REACH + 0.01 and max(yaws) > REACH - 0.01
-    assert now == pytest.approx(3.0 * REACH / SCAN_SPEED, abs=0.1)
-    assert gaze.turned == 2 and not gaze.searching
+    assert min(yaws) < -MAX_YAW + 0.01 and max(yaws) > MAX_YAW - 0.01
+    assert now == pytest.approx(3.0 * MAX_YAW / SCAN_SPEED, abs=0.1)
+    assert gaze.scan_ends == 2 and not gaze.searching

@@ -1,4 +1,4 @@
-"""Test what depth, shadows, echoes and empty frames tell."""
+"""Test obstacles, shadows, echoes and missed detections."""
 
 from dataclasses import replace
 from math import cos, degrees, radians, sin
@@ -27,9 +27,14 @@ from stepaside.perception.colour_detector import RED, ColourDetection
 from stepaside.perception.depth_detector import Shadow
 from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.images import ColourImage, SonarEcho
-from stepaside.perception.perception import BROAD, EDGE, SURE, Perception
-from stepaside.perception.sonar import CHEST, EAR, FRESH
-from stepaside.perception.track import ANYBODY, WALKER
+from stepaside.perception.perception import (
+    MAX_AGE,
+    MIN_SHADOW,
+    NEAR_MARGIN,
+    Perception,
+)
+from stepaside.perception.sonar import AXIS_OFFSET, HALF_CONE, MIN_AGE
+from stepaside.perception.track import PERSON_MOTION, ROBOT_MOTION
 
 HEARD = [  # sonar, bearing from the heading in [deg], whether it is heard
     ("left", 49.0, True),
@@ -44,24 +49,24 @@ HEARD = [  # sonar, bearing from the heading in [deg], whether it is heard
 
 
 class NoFloor(FloorMap):
-    """Maps nothing, and notes where the other was said to be."""
+    """Map without cells, which records the positions of the opponent."""
 
     def __init__(self) -> None:
         super().__init__()
         self.others: list[Any] = []
         self.wall, self.full = np.inf, False
 
-    def nearest(self, *asked: float) -> float:
-        """Distance of a wall."""
+    def distance_in_cone(self, *cone: float) -> float:
+        """Return the distance of a wall."""
         return float(self.wall)
 
-    def holds(self, x: float, y: float) -> bool:
-        """Whether all is full."""
+    def is_occupied(self, x: float, y: float) -> bool:
+        """Return whether all cells are occupied."""
         return self.full
 
-    def take(self, *told: Any) -> None:
-        """Note the other."""
-        self.others.append(told[-1])
+    def take(self, *arguments: Any) -> None:
+        """Record the position of the opponent."""
+        self.others.append(arguments[-1])
 
 
 @pytest.fixture
@@ -71,7 +76,7 @@ def eyes() -> Eyes:
     return made
 
 
-def test_obstacles_are_followed_unnamed(
+def test_obstacles_start_unidentified_tracks(
     eyes: Eyes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     x, y = eyes.beside(1.0, 0.0)
@@ -79,7 +84,7 @@ def test_obstacles_are_followed_unnamed(
     image = depth(TICK)
     eyes.see(TICK, image)
     (track,) = eyes.tracks
-    assert track.place_at(TICK) == pytest.approx((x, y))
+    assert track.position_at(TICK) == pytest.approx((x, y))
     assert track.identified_at == -np.inf
     (report,) = eyes.reports
     assert report.azimuths == (0.2, -0.3)
@@ -95,42 +100,42 @@ def test_obstacles_are_followed_unnamed(
 
 
 @pytest.mark.parametrize(
-    ("width", "known", "founds"),
+    ("width", "known", "may_start"),
     [
-        (BROAD + 0.01, False, True),
-        (BROAD - 0.01, False, False),
-        (BROAD + 0.01, True, False),
+        (MIN_SHADOW + 0.01, False, True),
+        (MIN_SHADOW - 0.01, False, False),
+        (MIN_SHADOW + 0.01, True, False),
     ],
 )
-def test_a_broad_shadow_is_somebody_who_came_unseen(
+def test_a_wide_shadow_starts_a_track_if_none_is_confirmed(
     eyes: Eyes,
     monkeypatch: pytest.MonkeyPatch,
     width: float,
     known: bool,
-    founds: bool,
+    may_start: bool,
 ) -> None:
-    """Unless somebody is known: then it is only a hint about him."""
+    """With a confirmed track it only updates that."""
     if known:
         eyes.know(*eyes.beside(1.0, 2.5))
     show(monkeypatch, Shadow(SUPPORT.theta, 0.0, width))
     eyes.see(TICK, depth(TICK))
-    assert len(eyes.tracks) == known + founds
-    assert BROAD == 0.12
+    assert len(eyes.tracks) == known + may_start
+    assert MIN_SHADOW == 0.12
 
 
-def test_a_shadow_tells_the_bearing_of_who_is_known(
+def test_a_shadow_updates_the_bearing_of_a_track(
     eyes: Eyes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     track = eyes.know(*eyes.beside(0.7, 0.0))
-    before = track.turned_to(*eyes.torso[:2], 0.0)
+    before = track.bearing_from(*eyes.torso[:2], 0.0)
     show(monkeypatch, Shadow(SUPPORT.theta + 0.06, 0.06, 0.3))
     eyes.see(TICK, depth(TICK))
-    assert track.turned_to(*eyes.torso[:2], TICK) > before + 0.001
-    assert track.seen_at == TICK and len(eyes.tracks) == 1
+    assert track.bearing_from(*eyes.torso[:2], TICK) > before + 0.001
+    assert track.observed_at == TICK and len(eyes.tracks) == 1
 
 
 @pytest.mark.parametrize("sonar", ["left", "right"])
-def test_an_echo_of_nobody_known_founds_somebody_near(
+def test_an_echo_without_track_starts_one_nearby(
     eyes: Eyes, sonar: str
 ) -> None:
     eyes.see(TICK, SonarEcho(TICK, sonar, None))
@@ -139,17 +144,17 @@ def test_an_echo_of_nobody_known_founds_somebody_near(
     eyes.see(3 * TICK, SonarEcho(3 * TICK, sonar, 0.59))
     (track,) = eyes.tracks
     x, y, heading = eyes.torso
-    away = track.away_from(x, y, 3 * TICK)
-    assert away == pytest.approx(0.59 + CHEST)
-    turned = track.turned_to(x, y, 3 * TICK)
+    away = track.distance_from(x, y, 3 * TICK)
+    assert away == pytest.approx(0.59 + AXIS_OFFSET)
+    turned = track.bearing_from(x, y, 3 * TICK)
     assert turned == pytest.approx(axis_of(eyes, sonar))
     assert (turned > heading) == (sonar == "left")
     assert track.identified_at == -np.inf and track.ranged_at == 3 * TICK
     assert track.deviation_at(3 * TICK) == pytest.approx(0.25)
-    assert CHEST == 0.10
+    assert AXIS_OFFSET == 0.10
 
 
-def test_what_the_edge_cuts_updates_but_founds_nobody(
+def test_a_cut_obstacle_updates_but_starts_no_track(
     eyes: Eyes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It may be a piece of a wall, which moves as the head turns."""
@@ -161,11 +166,11 @@ def test_what_the_edge_cuts_updates_but_founds_nobody(
     eyes.know(*place)
     eyes.see(2 * TICK, depth(2 * TICK))
     (track,) = eyes.tracks
-    assert track.seen_at == 2 * TICK
+    assert track.observed_at == 2 * TICK
 
 
-def test_an_echo_of_the_own_arms_founds_nobody(eyes: Eyes) -> None:
-    """Nobody whom a sonar hears at its near limit is not yet touched."""
+def test_an_echo_of_the_own_arms_starts_no_track(eyes: Eyes) -> None:
+    """An opponent at the near limit of a sonar would be in contact."""
     for i, distance in enumerate((0.2, 0.24)):
         eyes.see(i * TICK, SonarEcho(i * TICK, "left", distance))
     assert not eyes.tracks
@@ -173,9 +178,9 @@ def test_an_echo_of_the_own_arms_founds_nobody(eyes: Eyes) -> None:
     assert len(eyes.tracks) == 1
 
 
-def test_an_echo_tells_the_distance_of_who_is_known(eyes: Eyes) -> None:
-    """When nothing else has told it lately."""
-    for age, heard in ((FRESH - 0.05, False), (FRESH + 0.05, True)):
+def test_an_echo_updates_the_distance_of_a_track(eyes: Eyes) -> None:
+    """Only if its distance was not measured recently."""
+    for age, heard in ((MIN_AGE - 0.05, False), (MIN_AGE + 0.05, True)):
         eyes.tracks.clear()
         now = 1.0
         track = eyes.know(
@@ -184,31 +189,31 @@ def test_an_echo_tells_the_distance_of_who_is_known(eyes: Eyes) -> None:
         track.ranged_at = now - age
         eyes.see(now, SonarEcho(now, "left", 0.5))
         x, y, heading = eyes.torso
-        away = track.away_from(x, y, now)
+        away = track.distance_from(x, y, now)
         assert (away < 0.79) == heard
-        turned = wrap_angle(track.turned_to(x, y, now) - heading)
+        turned = wrap_angle(track.bearing_from(x, y, now) - heading)
         assert turned == pytest.approx(0.1, abs=0.01)
         if heard:
             part = 0.02**2 / (0.02**2 + 0.06**2)
             assert away == pytest.approx(0.8 - 0.2 * part, abs=2e-3)
         assert len(eyes.tracks) == 1
-    assert FRESH == 0.25
+    assert MIN_AGE == 0.25
 
 
 @pytest.mark.parametrize(("sonar", "bearing", "heard"), HEARD)
-def test_a_sonar_hears_over_the_half_turn(
+def test_a_sonar_covers_the_angle_wrap(
     sonar: str, bearing: float, heard: bool
 ) -> None:
-    """As anywhere else: odometry's angles wrap ahead of this robot."""
+    """The angles of odometry wrap ahead of this robot."""
     for theta in (np.pi - 0.1, -np.pi + 0.1):
         eyes = Eyes()
         eyes.support = Pose(0.0, 0.0, theta)
         eyes.see(0.0)
-        test_a_sonar_hears_its_own_side(eyes, sonar, bearing, heard)
+        test_a_sonar_covers_its_own_side(eyes, sonar, bearing, heard)
 
 
 @pytest.mark.parametrize(("sonar", "bearing", "heard"), HEARD)
-def test_a_sonar_hears_its_own_side(
+def test_a_sonar_covers_its_own_side(
     eyes: Eyes, sonar: str, bearing: float, heard: bool
 ) -> None:
     """50 degrees aside, and little across the middle."""
@@ -216,10 +221,10 @@ def test_a_sonar_hears_its_own_side(
         *eyes.beside(0.8, radians(bearing)), time=1.0, ranged=False
     )
     eyes.see(1.0, SonarEcho(1.0, sonar, 0.5))
-    away = track.away_from(*eyes.torso[:2], 1.0)
+    away = track.distance_from(*eyes.torso[:2], 1.0)
     assert (away < 0.79) == heard
     assert len(eyes.tracks) == 1
-    assert degrees(EAR) == pytest.approx(50.0)
+    assert degrees(HALF_CONE) == pytest.approx(50.0)
 
 
 @pytest.mark.parametrize("percept", [colour, depth])
@@ -227,7 +232,7 @@ def test_a_sonar_hears_its_own_side(
     ("bearing", "missed"),
     [(0.0, True), (23.0, True), (-23.0, True), (27.5, False), (-27.5, False)],
 )
-def test_a_frame_counts_against_what_it_should_have_shown(
+def test_a_frame_counts_a_miss_only_within_its_view(
     eyes: Eyes,
     monkeypatch: pytest.MonkeyPatch,
     percept: Any,
@@ -247,7 +252,7 @@ def test_a_frame_counts_against_what_it_should_have_shown(
     assert hits(track) == ([True, False] if missed else [True])
 
 
-def test_a_colour_frame_says_nothing_of_things_without_colour(
+def test_a_colour_frame_counts_no_miss_of_unidentified_tracks(
     eyes: Eyes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     show(monkeypatch)
@@ -258,17 +263,17 @@ def test_a_colour_frame_says_nothing_of_things_without_colour(
     assert hits(thing) == [True, False]
 
 
-def test_what_a_frame_shows_is_not_missed(eyes: Eyes) -> None:
+def test_a_detected_track_counts_no_miss(eyes: Eyes) -> None:
     eyes.detector.found = trim(80.0)
     for i in range(1, 4):
         eyes.see(TICK * i, colour(TICK * i))
     assert hits(eyes.tracks[0]) == [True] * 3
 
 
-def test_what_stands_in_a_mapped_room_is_nobody(
+def test_mapped_obstacles_start_no_track(
     eyes: Eyes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Pillars, near ones and echoes of walls found no track of the other."""
+    """Neither pillars, nor near ones, nor echoes of walls."""
     alone = len(eyes.tracks)
     eyes.perception.floor = NoFloor()
     show(monkeypatch, obstacle(*eyes.beside(1.0, 0.0)), Shadow(0.0, 0.0, 0.5))
@@ -283,18 +288,18 @@ def test_what_stands_in_a_mapped_room_is_nobody(
 
 
 @pytest.mark.parametrize(("gap", "heard"), [(0.2, False), (0.3, True)])
-def test_an_echo_that_may_be_of_the_room_tells_nothing(
+def test_an_echo_near_a_mapped_obstacle_is_ignored(
     eyes: Eyes, gap: float, heard: bool
 ) -> None:
     floor = eyes.perception.floor = NoFloor()
-    floor.wall = 0.5 + CHEST + gap
+    floor.wall = 0.5 + AXIS_OFFSET + gap
     facing = axis_of(eyes, "left") - eyes.torso.theta
     track = eyes.know(*eyes.beside(0.75, facing), time=-1.0)
     eyes.see(TICK, SonarEcho(TICK, "left", 0.5))
     assert (track.ranged_at == TICK) is heard
 
 
-def test_a_thing_on_the_map_corrects_no_track(
+def test_a_mapped_obstacle_updates_no_track(
     eyes: Eyes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     eyes.perception.floor = floor = NoFloor()
@@ -302,34 +307,34 @@ def test_a_thing_on_the_map_corrects_no_track(
     show(monkeypatch, obstacle(*eyes.beside(1.05, 0.0)))
     floor.full = True
     eyes.see(TICK, depth(TICK))
-    assert track.seen_at == 0.0
+    assert track.observed_at == 0.0
     floor.full = False
     eyes.see(2 * TICK, depth(2 * TICK))
-    assert track.seen_at == 2 * TICK
+    assert track.observed_at == 2 * TICK
 
 
-def test_a_place_of_the_other_that_is_old_frees_no_floor(
+def test_an_outdated_opponent_position_frees_no_floor(
     eyes: Eyes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     floor = eyes.perception.floor = NoFloor()
     show(monkeypatch)
     track = eyes.know(*eyes.beside(1.0, 0.0))
-    for age, known in ((0.9 * SURE, True), (1.1 * SURE, False)):
-        track.seen_at = TICK - age
+    for age, known in ((0.9 * MAX_AGE, True), (1.1 * MAX_AGE, False)):
+        track.observed_at = TICK - age
         eyes.see(TICK, depth(TICK))
         assert (floor.others[-1] is not None) is known
 
 
 @pytest.mark.parametrize(("beyond", "missed"), [(-0.05, 0), (0.05, 1)])
-def test_who_is_too_near_to_be_measured_is_not_missed(
+def test_a_track_within_the_near_limit_counts_no_miss(
     eyes: Eyes, monkeypatch: pytest.MonkeyPatch, beyond: float, missed: int
 ) -> None:
-    """Else nobody near would be confirmed where the cameras take turns."""
+    """Otherwise no near track would be confirmed by two cameras."""
     eyes.perception.floor = NoFloor()
     show(monkeypatch)
     forward = HEAD.depth.place[0]
     image = depth(TICK)
-    away = image.near + EDGE + forward + beyond
+    away = image.near + NEAR_MARGIN + forward + beyond
     track = eyes.know(*eyes.beside(away, 0.0))
     eyes.see(TICK, image)
     assert list(track._hits).count(False) == missed
@@ -339,13 +344,15 @@ def test_who_is_too_near_to_be_measured_is_not_missed(
     ("floor", "people", "calm"),
     [(None, False, False), (FloorMap, False, True), (FloorMap, True, False)],
 )
-def test_among_things_that_rest_a_robot_is_followed_as_one_that_walks(
+def test_with_a_map_tracks_use_the_motion_model_of_robots(
     floor: Any, people: bool, calm: bool
 ) -> None:
-    """And an edge that hides a part of one so near is looked out for."""
+    """The part of a near robot beyond an image edge is estimated too."""
     eyes = Eyes()
     made = eyes.perception = Perception(
-        *(NAO, HEAD, RED),
+        NAO,
+        HEAD,
+        RED,
         tick=TICK,
         floor=None if floor is None else floor(),
         people=people,
@@ -357,6 +364,9 @@ def test_among_things_that_rest_a_robot_is_followed_as_one_that_walks(
     black = np.zeros((CAMERA.height, CAMERA.width, 3), np.uint8)
     eyes.see(0.0, ColourImage(0.0, CAMERA, black))
     (track,) = eyes.tracks
-    assert track._push == (WALKER if calm else ANYBODY).push
+    assert (
+        track._acceleration
+        == (ROBOT_MOTION if calm else PERSON_MOTION).acceleration
+    )
     deviation = np.sqrt(np.linalg.eigvalsh(track._covariance[:2, :2])[0])
     assert bool(deviation > 0.05) is calm

@@ -5,7 +5,7 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.perception.colour_detector import RED, Appearance
-from stepaside.perception.ranging import range_of_breadth, range_of_trim
+from stepaside.perception.ranging import range_of_trim, range_of_width
 
 EYE = 0.46
 TOES = 0.05  # that trim at the feet is nearer than the axis, in [m]
@@ -30,25 +30,25 @@ def measured(
 
 @pytest.mark.parametrize("aside", [-0.7, 0.0, 0.4])
 @pytest.mark.parametrize("away", [0.4, 0.8, 1.5, 3.0])
-def test_trim_tells_the_distance_of_the_axis(
+def test_trim_gives_the_distance_of_the_axis(
     away: float, aside: float
 ) -> None:
     assert measured(away, aside=aside) == pytest.approx(away, rel=1e-3)
 
 
 @pytest.mark.parametrize("eye", [0.40, 0.46, 0.50])
-def test_from_any_height_of_the_eye(eye: float) -> None:
+def test_the_distance_is_exact_at_any_camera_height(eye: float) -> None:
     assert measured(1.2, eye) == pytest.approx(1.2, rel=1e-3)
 
 
-def test_an_eye_that_is_off_by_centimeters_matters_little() -> None:
+def test_a_camera_height_error_of_centimetres_has_little_influence() -> None:
     upper = direction(1.5, RED.top, 0.44, 0.0)
     lower = direction(1.5 - TOES, RED.bottom, 0.44, 0.0)
     away = range_of_trim(upper, lower, 0.47, RED)
     assert away == pytest.approx(1.5, abs=0.01)
 
 
-def test_ends_that_make_no_sense_tell_nothing() -> None:
+def test_inconsistent_ends_give_no_distance() -> None:
     upper, lower = direction(1.0, 0.54, EYE, 0.0), direction(1.0, 0.06, EYE, 0)
     assert range_of_trim(lower, upper, EYE, RED) is None
     assert range_of_trim(upper, upper, EYE, RED) is None
@@ -57,12 +57,14 @@ def test_ends_that_make_no_sense_tell_nothing() -> None:
 @pytest.mark.parametrize(
     ("away", "told"), [(0.19, False), (0.21, True), (3.9, True), (4.1, False)]
 )
-def test_trim_tells_from_0_2_m_to_4_m(away: float, told: bool) -> None:
+def test_trim_gives_distances_from_0_2_m_to_4_m(
+    away: float, told: bool
+) -> None:
     assert measured(away) == (pytest.approx(away, rel=0.01) if told else None)
 
 
-def test_a_span_too_small_tells_nothing() -> None:
-    """Even of something so small that it would be near."""
+def test_a_small_span_gives_no_distance() -> None:
+    """Even for trim small enough to be near."""
     small = Appearance(0, 9, 110, 45, top=0.5, bottom=0.4)
     level = np.array([1.0, 0.0, 0.0])
     for slope, tells in ((0.045, False), (0.055, True)):
@@ -70,10 +72,10 @@ def test_a_span_too_small_tells_nothing() -> None:
         assert (range_of_trim(level, lower, 0.5, small) is not None) is tells
 
 
-def test_breadth_tells_by_proportion_and_within_limits() -> None:
+def test_the_width_gives_the_distance_within_limits() -> None:
     """Shoulders of 0.3 m from the front, half of that from the side."""
-    assert range_of_breadth(0.25) == pytest.approx(1.0)
-    assert range_of_breadth(0.5) == pytest.approx(0.5)
+    assert range_of_width(0.25) == pytest.approx(1.0)
+    assert range_of_width(0.5) == pytest.approx(0.5)
     for narrow in (-0.1, 0.0, 0.05):
-        assert range_of_breadth(narrow) == 4.0
-    assert range_of_breadth(3.0) == 0.2
+        assert range_of_width(narrow) == 4.0
+    assert range_of_width(3.0) == 0.2

@@ -1,4 +1,4 @@
-"""Test the look around before a game begins."""
+"""Test the scan of the room before a game."""
 
 from math import radians
 from types import SimpleNamespace
@@ -15,7 +15,12 @@ from stepaside.perception.colour_detector import RED
 from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.gaze import Gaze
 from stepaside.perception.perception import Perception
-from stepaside.perception.room_scan import BEHIND, FACING, LONGEST, RoomScan
+from stepaside.perception.room_scan import (
+    BODY_TURN,
+    HEADING_TOLERANCE,
+    MAX_DURATION,
+    RoomScan,
+)
 from stepaside.planning import Direction
 
 TICK = 0.02
@@ -27,7 +32,7 @@ BEGINS, RATE = 0.8, 0.46  # of a turn on the spot, in [s] and [rad/s]
 def looked(
     *, behind: bool, rate: float = RATE
 ) -> tuple[float, Array, RoomScan]:
-    """How long a look takes, in [s], and where the eyes were turned."""
+    """Return the duration of a scan, in [s], and the directions."""
     gaze, around = Gaze(HEAD.coupling, TICK), RoomScan()
     around.behind = behind
     now, heading, turned = 0.0, 0.0, []
@@ -42,28 +47,28 @@ def looked(
 
 
 def share_seen(turned: Array) -> float:
-    """Share of the directions that were in view."""
+    """Return the fraction of directions that were in view."""
     around = np.linspace(-np.pi, np.pi, 721)
     off = np.abs((around[:, None] - turned + np.pi) % (2.0 * np.pi) - np.pi)
     return float((off < HALF).any(axis=1).mean())
 
 
-def test_a_head_alone_does_not_see_what_is_behind() -> None:
+def test_the_head_alone_does_not_cover_the_rear() -> None:
     lasted, turned, _ = looked(behind=False, rate=0.0)
     assert 1.8 < lasted < 2.3 and 0.7 < share_seen(turned) < 0.85
 
 
-def test_a_body_that_turns_has_seen_all_around() -> None:
-    """And faces again where it did, no later than it can."""
+def test_a_turning_body_covers_all_directions() -> None:
+    """And turns back to its first heading."""
     lasted, turned, around = looked(behind=True)
     assert share_seen(turned) > 0.99
-    way = 2.0 * BEHIND - FACING
+    way = 2.0 * BODY_TURN - HEADING_TOLERANCE
     assert lasted == pytest.approx(BEGINS + way / RATE, abs=0.1)
     assert around.turning == 0.0
     assert share_seen(looked(behind=False)[1]) < 0.95
 
 
-def test_who_has_turned_back_waits_for_others_without_turning() -> None:
+def test_a_finished_scan_waits_without_turning() -> None:
     gaze, around = Gaze(HEAD.coupling, TICK), RoomScan()
     other = SimpleNamespace(looking=True)
     around.behind, around.company = True, [other]
@@ -78,16 +83,16 @@ def test_who_has_turned_back_waits_for_others_without_turning() -> None:
     assert not around.lasts(gaze)
 
 
-def test_a_turn_that_does_not_come_is_not_waited_for_ever() -> None:
+def test_a_scan_times_out_without_a_turn() -> None:
     lasted, turned, around = looked(behind=True, rate=0.0)
-    assert lasted == pytest.approx(0.5 * LONGEST, abs=0.1)
+    assert lasted == pytest.approx(0.5 * MAX_DURATION, abs=0.1)
     assert around.turning == 0.0
     assert turned.min() == pytest.approx(-radians(115.0), abs=0.01)
 
 
 @pytest.mark.parametrize("rate", [0.05, 0.1, 0.2, 0.26])
-def test_who_turns_slowly_turns_back_in_time(rate: float) -> None:
-    """Whatever it has seen by then: a game begins as it was put."""
+def test_a_slow_turn_is_reversed_in_time(rate: float) -> None:
+    """So that the game begins from its initial pose."""
     gaze, around = Gaze(HEAD.coupling, TICK), RoomScan()
     around.behind, now, heading = True, 0.0, START
     while around.lasts(gaze):
@@ -95,20 +100,20 @@ def test_who_turns_slowly_turns_back_in_time(rate: float) -> None:
         now += TICK
         if now > BEGINS:
             heading += rate * around.turning * TICK
-    assert now < LONGEST + 0.1
-    assert abs(heading - START) < FACING + rate * BEGINS
+    assert now < MAX_DURATION + 0.1
+    assert abs(heading - START) < HEADING_TOLERANCE + rate * BEGINS
 
 
-def test_who_turns_the_wrong_way_turns_back_as_well() -> None:
+def test_a_turn_in_the_wrong_direction_is_reversed_too() -> None:
     lasted, _, around = looked(behind=True, rate=-0.1)
-    assert lasted == pytest.approx(LONGEST, abs=0.1)
+    assert lasted == pytest.approx(MAX_DURATION, abs=0.1)
     assert around.turning == 0.0
 
 
-def test_a_game_begins_when_everybody_has_looked() -> None:
-    """Or who does not look is waited for no longer."""
+def test_a_game_begins_when_all_scans_are_done() -> None:
+    """Or when the longest duration has passed."""
     _, _, around = looked(behind=False)
-    gaze = SimpleNamespace(turned=2, search=lambda **_: None)
+    gaze = SimpleNamespace(scan_ends=2, search=lambda **_: None)
     other = SimpleNamespace(looking=True)
     assert not around.lasts(gaze)  # type: ignore[arg-type]
     around.company.append(other)
@@ -122,8 +127,10 @@ def test_a_game_begins_when_everybody_has_looked() -> None:
 
 
 @pytest.mark.parametrize("direction", list(Direction))
-def test_who_walks_backward_looks_behind(direction: Direction) -> None:
-    """Whatever its role: only that one turns its back meanwhile."""
+def test_a_robot_that_walks_backward_scans_behind(
+    direction: Direction,
+) -> None:
+    """In either role; a robot that walks forward does not."""
     perception = Perception(NAO, HEAD, RED, tick=TICK, floor=FloorMap())
     assert not perception.around.behind
     build_scheme(

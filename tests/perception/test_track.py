@@ -1,4 +1,4 @@
-"""Test following things through frames: gates, memory, latency."""
+"""Test tracks: gates, prediction, latency."""
 
 from math import hypot, inf
 from typing import Any
@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 
 from stepaside.perception.track import (
-    ANYBODY,
-    APART,
-    HEARD,
-    LEAST,
-    SHARP,
+    MAX_DEVIATION,
+    MIN_INTERVAL,
+    MIN_SPAN,
+    PERSON_MOTION,
+    ROBOT_MOTION,
+    SONAR_DEVIATION,
     TRAIL,
-    WALKER,
     Observation,
     TargetTrack,
 )
-from stepaside.perception.tracker import PATIENCE, Tracker
+from stepaside.perception.tracker import MAX_AGE, Tracker
 
 FRAME = 1.0 / 15.0
 
@@ -30,7 +30,7 @@ def look(
     identified: bool = True,
     along: float = 0.03,
 ) -> Observation:
-    """Something seen along the x axis."""
+    """Return an observation on the x axis."""
     return Observation(time, x, y, 0.0, along, 0.01, identified, True)
 
 
@@ -41,7 +41,7 @@ def watch(tracker: Tracker, frames: int, x: float, speed: float) -> float:
     return (frames - 1) * FRAME
 
 
-def test_one_wrong_frame_is_nobody() -> None:
+def test_one_wrong_frame_confirms_no_track() -> None:
     tracker = Tracker()
     tracker.observe([look(0.0, 0.5)])
     assert tracker.main(0.0, 0.0, 0.0) is None
@@ -50,18 +50,18 @@ def test_one_wrong_frame_is_nobody() -> None:
         assert tracker.main(time, 0.0, 0.0) is None
 
 
-def test_one_wrong_frame_moves_no_one_who_is_known() -> None:
+def test_one_wrong_frame_does_not_move_a_track() -> None:
     tracker = Tracker()
     now = watch(tracker, 20, 1.5, 0.0)
     tracker.observe([look(now + FRAME, 0.5)])
     track = tracker.main(now + FRAME, 0.0, 0.0)
     assert track is not None
-    assert track.away_from(0.0, 0.0, now + FRAME) == pytest.approx(
+    assert track.distance_from(0.0, 0.0, now + FRAME) == pytest.approx(
         1.5, abs=0.02
     )
 
 
-def test_three_frames_confirm() -> None:
+def test_three_frames_confirm_a_track() -> None:
     tracker = Tracker()
     now = watch(tracker, 2, 1.0, 0.0)
     assert tracker.main(now, 0.0, 0.0) is None
@@ -69,42 +69,42 @@ def test_three_frames_confirm() -> None:
     assert tracker.main(now, 0.0, 0.0) is not None
 
 
-def test_steady_motion_is_foreseen() -> None:
+def test_steady_motion_is_predicted() -> None:
     tracker = Tracker()
     now = watch(tracker, 60, 2.0, -0.1)
     track = tracker.main(now, 0.0, 0.0)
     assert track is not None
     assert track.velocity[0] == pytest.approx(-0.1, abs=0.02)
     ahead = 0.2
-    x, y = track.place_at(now + ahead)
+    x, y = track.position_at(now + ahead)
     true = 2.0 - 0.1 * (now + ahead)
     assert hypot(x - true, y) < 0.01
 
 
-def test_doubt_grows_unseen_until_memory_ends() -> None:
+def test_the_deviation_grows_until_the_track_is_dropped() -> None:
     tracker = Tracker()
     now = watch(tracker, 20, 1.0, 0.0)
     track = tracker.main(now, 0.0, 0.0)
     assert track is not None
     doubts = [track.deviation_at(now + t) for t in np.linspace(0, 2, 9)]
     assert all(a < b for a, b in zip(doubts, doubts[1:], strict=False))
-    assert tracker.main(now + PATIENCE + 0.1, 0.0, 0.0) is None
+    assert tracker.main(now + MAX_AGE + 0.1, 0.0, 0.0) is None
 
 
-def test_late_frames_count_for_when_they_were_taken() -> None:
-    """A frame of the past, of a thing that moves, does not pull it back."""
+def test_delayed_frames_count_at_their_exposure() -> None:
+    """A delayed frame of a moving object does not pull the track back."""
     prompt, late = TargetTrack(look(0.0, 2.0)), TargetTrack(look(0.0, 2.0))
     for i in range(1, 60):
-        prompt.correct(look(i * FRAME, 2.0 - 0.3 * i * FRAME))
-        late.correct(look(i * FRAME, 2.0 - 0.3 * i * FRAME))
+        prompt.update(look(i * FRAME, 2.0 - 0.3 * i * FRAME))
+        late.update(look(i * FRAME, 2.0 - 0.3 * i * FRAME))
     now = 59 * FRAME
-    late.correct(look(now - 0.15, 2.0 - 0.3 * (now - 0.15)))
-    assert late.place_at(now)[0] == pytest.approx(
-        prompt.place_at(now)[0], abs=0.005
+    late.update(look(now - 0.15, 2.0 - 0.3 * (now - 0.15)))
+    assert late.position_at(now)[0] == pytest.approx(
+        prompt.position_at(now)[0], abs=0.005
     )
 
 
-def test_the_other_robot_counts_before_what_stands_nearer() -> None:
+def test_the_recognised_robot_comes_before_a_nearer_object() -> None:
     tracker = Tracker()
     for i in range(5):
         time = i * FRAME
@@ -113,10 +113,10 @@ def test_the_other_robot_counts_before_what_stands_nearer() -> None:
         )
     track = tracker.main(time, 0.0, 0.0)
     assert track is not None
-    assert track.away_from(0.0, 0.0, time) == pytest.approx(1.5, abs=0.02)
+    assert track.distance_from(0.0, 0.0, time) == pytest.approx(1.5, abs=0.02)
 
 
-def test_without_another_robot_the_nearest_counts() -> None:
+def test_without_a_recognised_robot_the_nearest_is_main() -> None:
     tracker = Tracker()
     for i in range(5):
         time = i * FRAME
@@ -128,7 +128,7 @@ def test_without_another_robot_the_nearest_counts() -> None:
         )
     track = tracker.main(time, 0.0, 0.0)
     assert track is not None
-    assert track.away_from(0.0, 0.0, time) == pytest.approx(
+    assert track.distance_from(0.0, 0.0, time) == pytest.approx(
         hypot(1.0, 0.8), abs=0.02
     )
 
@@ -139,7 +139,7 @@ def test_covariance_does_not_depend_on_axes() -> None:
     np.testing.assert_allclose(deviations, [0.05, 0.2], atol=1e-12)
 
 
-def test_deviations_lie_along_and_across_the_line_of_sight() -> None:
+def test_deviations_are_along_and_across_the_bearing() -> None:
     seen = Observation(0.0, 1.0, 1.0, 0.7, 0.2, 0.05, True, True)
     sight = np.array([np.cos(0.7), np.sin(0.7)])
     aside = np.array([-np.sin(0.7), np.cos(0.7)])
@@ -147,14 +147,14 @@ def test_deviations_lie_along_and_across_the_line_of_sight() -> None:
     np.testing.assert_allclose(seen.covariance @ aside, 0.05**2 * aside)
 
 
-def test_a_track_begins_at_rest_where_it_was_seen() -> None:
+def test_a_track_starts_at_rest_at_its_first_observation() -> None:
     track = TargetTrack(
         Observation(2.0, 1.0, -0.5, 0.7, 0.2, 0.05, False, False)
     )
-    assert track.place_at(2.0) == (1.0, -0.5)
+    assert track.position_at(2.0) == (1.0, -0.5)
     assert track.velocity == (0.0, 0.0)
     assert track.deviation_at(2.0) == pytest.approx(0.2)
-    assert (track.time, track.begun_at, track.seen_at) == (2.0, 2.0, 2.0)
+    assert (track.time, track.started_at, track.observed_at) == (2.0, 2.0, 2.0)
     assert (track.identified_at, track.ranged_at) == (-inf, -inf)
     assert not track.confirmed
     known = TargetTrack(
@@ -173,8 +173,8 @@ def unseen_for(step: float) -> tuple[float, float, float]:
 
 
 @pytest.mark.parametrize("step", [0.1, 0.3, 0.39, 0.8, 2.0])
-def test_doubt_grows_by_speed_and_push(step: float) -> None:
-    """HURRY of 0.25 m/s and pushes of 1 m/s^2, forgotten after 0.4 s."""
+def test_the_covariance_grows_by_speed_and_acceleration(step: float) -> None:
+    """Speed 0.25 m/s, acceleration 1 m/s^2, decay after 0.4 s."""
     track = TargetTrack(look(1.0, 2.0))
     ahead, _, share = unseen_for(step)
     variance = 0.03**2 + (0.25 * ahead) ** 2 + share * 0.25 * step**4
@@ -183,7 +183,7 @@ def test_doubt_grows_by_speed_and_push(step: float) -> None:
 
 @pytest.mark.parametrize("step", [0.1, 0.39, 0.8, 2.0])
 @pytest.mark.parametrize("bearing", [0.0, 0.7, -2.0])
-def test_a_correction_is_the_best_linear_estimate(
+def test_an_update_is_the_best_linear_estimate(
     step: float, bearing: float
 ) -> None:
     """Two observations against the sum of their informations."""
@@ -214,9 +214,9 @@ def test_a_correction_is_the_best_linear_estimate(
     track = TargetTrack(first)
     gap = np.array([0.2, 0.1])
     misfit = gap @ np.linalg.inv(spread[:2, :2] + second.covariance) @ gap
-    assert track.misfit(second) == pytest.approx(misfit)
-    track.correct(second)
-    assert track.place_at(step) == pytest.approx((x, y))
+    assert track.mahalanobis_squared(second) == pytest.approx(misfit)
+    track.update(second)
+    assert track.position_at(step) == pytest.approx((x, y))
     assert track.velocity == pytest.approx((vx, vy))
     greatest = np.linalg.eigvalsh(after[:2, :2])[-1]
     assert track.deviation_at(step) == pytest.approx(np.sqrt(greatest))
@@ -225,40 +225,43 @@ def test_a_correction_is_the_best_linear_estimate(
     spread = (move @ after @ move.T)[:2, :2] + 0.25 * 0.2**4 * eye
     gap = np.array([1.2 - x - 0.2 * vx, 0.1 - y - 0.2 * vy])
     misfit = gap @ np.linalg.inv(spread + third.covariance) @ gap
-    assert track.misfit(third) == pytest.approx(misfit)
+    assert track.mahalanobis_squared(third) == pytest.approx(misfit)
 
 
-def test_a_speed_is_believed_for_a_while_and_then_forgotten() -> None:
+def test_the_velocity_is_held_and_then_decays() -> None:
     track = TargetTrack(look(0.0, 2.0))
     for i in range(1, 60):
         time = i * FRAME
-        track.correct(look(time, 2.0 - 0.3 * time, 0.2 * time))
-    start, speed = np.array(track.place_at(track.time)), track.velocity
+        track.update(look(time, 2.0 - 0.3 * time, 0.2 * time))
+    start, speed = np.array(track.position_at(track.time)), track.velocity
     assert speed == pytest.approx((-0.3, 0.2), abs=0.02)
     for step in (0.1, 0.4, 0.8, 10.0):
-        there = track.place_at(track.time + step)
+        there = track.position_at(track.time + step)
         way = unseen_for(step)[0] * np.array(speed)
         np.testing.assert_allclose(there - start, way, rtol=1e-6)
 
 
-def test_the_past_neither_turns_back_time_nor_memory() -> None:
+def test_a_delayed_observation_does_not_turn_back_times() -> None:
     track = TargetTrack(look(1.0, 2.0))
-    track.correct(look(1.2, 2.0))
-    track.correct(look(1.1, 2.0))
-    assert (track.time, track.seen_at) == (1.2, 1.2)
+    track.update(look(1.2, 2.0))
+    track.update(look(1.1, 2.0))
+    assert (track.time, track.observed_at) == (1.2, 1.2)
     assert (track.identified_at, track.ranged_at) == (1.2, 1.2)
-    track.correct(Observation(1.4, 2.0, 0.0, 0.0, 0.1, 0.1, False, False))
-    assert (track.time, track.seen_at) == (1.4, 1.4)
+    track.update(Observation(1.4, 2.0, 0.0, 0.0, 0.1, 0.1, False, False))
+    assert (track.time, track.observed_at) == (1.4, 1.4)
     assert (track.identified_at, track.ranged_at) == (1.2, 1.2)
 
 
-def test_a_late_frame_fits_where_the_thing_was() -> None:
+def test_a_delayed_frame_is_compared_at_its_time() -> None:
     track = TargetTrack(look(0.0, 2.0))
     for i in range(1, 60):
-        track.correct(look(i * FRAME, 2.0 - 0.3 * i * FRAME))
+        track.update(look(i * FRAME, 2.0 - 0.3 * i * FRAME))
     now = 59 * FRAME
-    assert track.misfit(look(now - 0.3, 2.0 - 0.3 * (now - 0.3))) < 0.01
-    assert track.misfit(look(now - 0.3, 2.0 - 0.3 * now)) > 1.0
+    assert (
+        track.mahalanobis_squared(look(now - 0.3, 2.0 - 0.3 * (now - 0.3)))
+        < 0.01
+    )
+    assert track.mahalanobis_squared(look(now - 0.3, 2.0 - 0.3 * now)) > 1.0
 
 
 @pytest.mark.parametrize(
@@ -276,24 +279,26 @@ def test_a_late_frame_fits_where_the_thing_was() -> None:
         ("++-----", True, False),
     ],
 )
-def test_three_of_five_frames_decide(
+def test_three_of_five_frames_confirm_or_reject(
     frames: str, confirmed: bool, hopeless: bool
 ) -> None:
-    """A track begins with a frame that found it."""
+    """The first frame counts."""
     track = TargetTrack(look(0.0, 1.0))
     for frame in frames:
-        track.count(frame == "+")
+        track.record_frame(frame == "+")
     assert track.confirmed is confirmed
-    assert track.hopeless is hopeless
+    assert track.is_rejected is hopeless
 
 
-def test_direction_and_distance_are_from_the_place_that_asks() -> None:
+def test_bearing_and_distance_are_from_the_given_position() -> None:
     track = TargetTrack(look(0.0, 2.0, 1.0))
-    assert track.turned_to(1.0, 3.0, 0.0) == pytest.approx(np.arctan2(-2, 1))
-    assert track.away_from(1.0, 3.0, 0.0) == pytest.approx(hypot(1.0, 2.0))
+    assert track.bearing_from(1.0, 3.0, 0.0) == pytest.approx(
+        np.arctan2(-2, 1)
+    )
+    assert track.distance_from(1.0, 3.0, 0.0) == pytest.approx(hypot(1.0, 2.0))
 
 
-def test_what_takes_over_knows_what_both_knew() -> None:
+def test_a_merged_track_has_the_history_of_both() -> None:
     def pair() -> tuple[TargetTrack, TargetTrack]:
         old = TargetTrack(look(0.0, 2.0))
         new = TargetTrack(look(1.0, 2.0))
@@ -301,15 +306,23 @@ def test_what_takes_over_knows_what_both_knew() -> None:
         return old, new
 
     old, new = pair()
-    old.take_over(new)
-    assert (old.identified_at, old.seen_at, old.ranged_at) == (1.0, 1.0, 1.0)
-    assert old.confirmed and old.begun_at == 0.0
+    old.merge(new)
+    assert (old.identified_at, old.observed_at, old.ranged_at) == (
+        1.0,
+        1.0,
+        1.0,
+    )
+    assert old.confirmed and old.started_at == 0.0
     old, new = pair()
-    new.take_over(old)
-    assert (new.identified_at, new.seen_at, new.ranged_at) == (1.0, 1.0, 1.0)
+    new.merge(old)
+    assert (new.identified_at, new.observed_at, new.ranged_at) == (
+        1.0,
+        1.0,
+        1.0,
+    )
     assert new.confirmed
     unsure = TargetTrack(look(0.0, 2.0))
-    unsure.take_over(TargetTrack(look(0.1, 2.0)))
+    unsure.merge(TargetTrack(look(0.1, 2.0)))
     assert not unsure.confirmed
 
 
@@ -323,65 +336,70 @@ def trailed(
     )
     track = TargetTrack(first)
     for seen in rest:
-        track.correct(seen)
+        track.update(seen)
     return track
 
 
 @pytest.mark.parametrize("speed", [0.0, 0.4, -0.9])
-def test_how_it_moves_is_told_once_it_was_seen_for_a_while(
+def test_a_velocity_needs_a_span_of_recent_positions(
     speed: float,
 ) -> None:
-    """Whatever way it went meanwhile; and until it was not seen for long."""
+    """Until the positions expire."""
     early = trailed([0.0, 0.1, 0.2, 0.3], speed)
-    assert not early.is_told(0.3) and early.drift == (0.0, 0.0)
-    told = trailed([0.0, 0.1, 0.2, 0.3, LEAST], speed)
-    assert told.is_told(LEAST) and told.is_told(LEAST + TRAIL - 1e-9)
-    assert not told.is_told(LEAST + TRAIL + 1e-6)
+    assert not early.has_velocity(0.3) and early.drift == (0.0, 0.0)
+    told = trailed([0.0, 0.1, 0.2, 0.3, MIN_SPAN], speed)
+    assert told.has_velocity(MIN_SPAN) and told.has_velocity(
+        MIN_SPAN + TRAIL - 1e-9
+    )
+    assert not told.has_velocity(MIN_SPAN + TRAIL + 1e-6)
     late = trailed([0.0, 0.15, 0.3, 0.45, 0.6], speed)
     assert late.drift == pytest.approx((speed, 0.0), abs=1e-9)
 
 
 @pytest.mark.parametrize(
-    "blurred", [{"along": SHARP + 0.01}, {"across": SHARP + 0.01}]
+    "blurred",
+    [{"along": MAX_DEVIATION + 0.01}, {"across": MAX_DEVIATION + 0.01}],
 )
-def test_only_what_is_seen_sharply_tells_how_it_moves(
+def test_only_precise_positions_give_a_velocity(
     blurred: dict[str, float],
 ) -> None:
     times = [0.0, 0.15, 0.3, 0.45, 0.6]
-    assert not trailed(times, **blurred).is_told(0.6)
-    assert not trailed(times, ranged=False).is_told(0.6)
-    assert trailed(times, along=SHARP, across=SHARP).is_told(0.6)
+    assert not trailed(times, **blurred).has_velocity(0.6)
+    assert not trailed(times, ranged=False).has_velocity(0.6)
+    assert trailed(
+        times, along=MAX_DEVIATION, across=MAX_DEVIATION
+    ).has_velocity(0.6)
 
 
-def test_places_are_kept_apart_and_not_for_long() -> None:
-    """Two kinds of speed, one long before the other: the late one counts."""
+def test_positions_are_stored_at_intervals_and_expire() -> None:
+    """Of two speeds the later one counts."""
     track = TargetTrack(look(0.0, 1.0, 0.0))
     for i in range(1, 200):
         time = 0.02 * i
         x = 1.0 + 0.5 * time if time < 2.0 else 2.0 - 0.3 * (time - 2.0)
-        track.correct(look(time, x, 0.0))
+        track.update(look(time, x, 0.0))
         trail = [at for at, *_ in track._trail]
-        assert time - trail[0] <= TRAIL + APART
-        assert np.diff(trail).min(initial=inf) >= APART - 1e-9
+        assert time - trail[0] <= TRAIL + MIN_INTERVAL
+        assert np.diff(trail).min(initial=inf) >= MIN_INTERVAL - 1e-9
     assert track.drift[0] == pytest.approx(-0.3, abs=1e-9)
 
 
-def test_an_ear_sights_nobody() -> None:
-    heard = look(1.0, 1.0)._replace(across=HEARD)
-    assert TargetTrack(heard).sighted_at == -inf
+def test_sonar_does_not_count_as_an_image() -> None:
+    heard = look(1.0, 1.0)._replace(across=SONAR_DEVIATION)
+    assert TargetTrack(heard).imaged_at == -inf
     track = TargetTrack(look(1.0, 1.0))
-    assert track.sighted_at == 1.0
-    track.correct(heard._replace(time=1.2))
-    assert track.sighted_at == 1.0 and track.seen_at == 1.2
+    assert track.imaged_at == 1.0
+    track.update(heard._replace(time=1.2))
+    assert track.imaged_at == 1.0 and track.observed_at == 1.2
 
 
-def test_a_robot_that_walks_is_not_thought_to_run() -> None:
-    """Errors of where it is seen near by are of its place, not of its way."""
+def test_the_motion_model_of_robots_limits_the_speed() -> None:
+    """Errors of a near position do not change the velocity much."""
     away = []
-    for motion in (ANYBODY, WALKER):
+    for motion in (PERSON_MOTION, ROBOT_MOTION):
         made = TargetTrack(look(0.0, 0.5), 1, motion)
         for time, x in ((0.15, 0.62), (0.3, 0.75)):
-            made.correct(look(time, x, along=0.15))
-        away.append(made.place_at(1.3)[0] - made.place_at(0.3)[0])
-        assert made.place_at(0.3)[0] > 0.5
+            made.update(look(time, x, along=0.15))
+        away.append(made.position_at(1.3)[0] - made.position_at(0.3)[0])
+        assert made.position_at(0.3)[0] > 0.5
     assert away[0] > 0.15 and 0.0 < away[1] < 0.25 * away[0]

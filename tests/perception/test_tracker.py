@@ -1,4 +1,4 @@
-"""Test which of the things seen is the other: gates, merging, memory."""
+"""Test the tracker: association, merging, pruning, main track."""
 
 import pytest
 
@@ -14,7 +14,7 @@ def look(
     identified: bool = False,
     along: float = 0.03,
 ) -> Observation:
-    """Something seen along the x axis, as sure in x as in y."""
+    """Return an observation on the x axis with equal deviations."""
     return Observation(time, x, y, 0.0, along, along, identified, True)
 
 
@@ -33,7 +33,7 @@ def tracker_of(*tracks: TargetTrack) -> Tracker:
     return tracker
 
 
-def test_within_the_gate_it_is_the_same_and_beyond_it_another() -> None:
+def test_the_gate_decides_between_update_and_new_track() -> None:
     """Four deviations of both together: 0.17 m."""
     for gap, same in ((0.160, True), (0.179, False)):
         track = known(0.0, 1.0)
@@ -43,28 +43,28 @@ def test_within_the_gate_it_is_the_same_and_beyond_it_another() -> None:
         assert len(tracker.tracks) == (1 if same else 2)
 
 
-def test_each_takes_what_fits_it_best() -> None:
+def test_each_track_takes_its_nearest_observation() -> None:
     near, far = known(0.0, 1.0), known(0.0, 2.0)
     tracker = tracker_of(far, near)
     seen = [look(0.1, 2.02), look(0.1, 1.04), look(0.1, 1.01)]
-    updated = tracker.observe(seen, founds=False)
+    updated = tracker.observe(seen, may_start=False)
     assert len(updated) == 2 and near in updated and far in updated
-    assert near.place_at(0.1)[0] == pytest.approx(1.01, abs=0.005)
-    assert far.place_at(0.1)[0] == pytest.approx(2.02, abs=0.008)
+    assert near.position_at(0.1)[0] == pytest.approx(1.01, abs=0.005)
+    assert far.position_at(0.1)[0] == pytest.approx(2.02, abs=0.008)
     assert tracker.tracks == [far, near]
 
 
-def test_who_was_seen_last_takes_first() -> None:
-    """Else a track that was lost would take what belongs to another."""
+def test_the_most_recent_track_associates_first() -> None:
+    """Otherwise a lost track would take the observation of another."""
     for order in (1, -1):
         old, new = known(0.0, 1.0), known(0.5, 1.05)
         tracker = tracker_of(*[old, new][::order])
         assert tracker.observe([look(0.6, 1.03)]) == [new]
 
 
-def test_what_fits_nothing_begins_a_track_unless_told_otherwise() -> None:
+def test_an_unassociated_observation_may_start_a_track() -> None:
     tracker = Tracker()
-    assert tracker.observe([look(0.0, 1.0)], founds=False) == []
+    assert tracker.observe([look(0.0, 1.0)], may_start=False) == []
     assert tracker.tracks == []
     begun = tracker.observe([look(0.0, 1.0), look(0.0, 2.0)])
     assert begun == tracker.tracks and len(begun) == 2
@@ -78,7 +78,7 @@ def test_an_observation_counts_for_confirmation() -> None:
 
 
 @pytest.mark.parametrize(("gap", "one"), [(0.13, True), (0.17, False)])
-def test_two_tracks_at_one_place_become_the_older(
+def test_two_tracks_at_one_position_merge_into_the_older(
     gap: float, one: bool
 ) -> None:
     for order in (1, -1):
@@ -100,10 +100,10 @@ def test_two_tracks_at_one_place_become_the_older(
         ((0.6, 0.9), 0.3, 2),
     ],
 )
-def test_two_tall_things_beside_each_other_are_one_person(
+def test_two_tall_tracks_close_together_are_one_person(
     heights: tuple[float, float], gap: float, number: int
 ) -> None:
-    """A leg on either side of the trunk; a robot beside somebody is two."""
+    """Two legs of a person; a robot beside a person stays separate."""
     tracks = [known(0.0, 1.0), known(0.0, 1.0 + gap)]
     for track, height in zip(tracks, heights, strict=True):
         track.height = height
@@ -114,7 +114,7 @@ def test_two_tall_things_beside_each_other_are_one_person(
 
 
 @pytest.mark.parametrize(("late", "one"), [(0.45, True), (0.55, False)])
-def test_who_comes_when_another_has_long_left_is_not_that_one(
+def test_a_new_track_does_not_merge_with_an_outdated_one(
     late: float, one: bool
 ) -> None:
     tracker = tracker_of(known(0.0, 1.0), known(late, 1.0, 0.05))
@@ -122,21 +122,23 @@ def test_who_comes_when_another_has_long_left_is_not_that_one(
     assert len(tracker.tracks) == (1 if one else 2)
 
 
-def test_three_tracks_at_one_place_become_one() -> None:
+def test_three_tracks_at_one_position_merge() -> None:
     tracker = tracker_of(
         known(0.2, 1.0, 0.05), known(0.0, 1.0), known(0.1, 1.0, -0.05)
     )
     tracker.tracks.append(known(0.0, 3.0))
     main = tracker.main(0.2, 0.0, 0.0)
-    assert main is not None and main.begun_at == 0.0 and main.seen_at == 0.2
+    assert (
+        main is not None and main.started_at == 0.0 and main.observed_at == 0.2
+    )
     assert len(tracker.tracks) == 2
 
 
-def test_merging_looks_at_where_things_are_by_now() -> None:
+def test_merging_uses_predicted_positions() -> None:
     moving, resting = known(0.0, 1.0), known(0.01, 1.5)
     for i in range(1, 7):
-        moving.correct(look(0.1 * i, 1.0 + 0.05 * i))
-        resting.correct(look(0.1 * i, 1.5))
+        moving.update(look(0.1 * i, 1.0 + 0.05 * i))
+        resting.update(look(0.1 * i, 1.5))
     tracker = tracker_of(moving, resting)
     tracker.main(0.61, 0.0, 0.0)
     assert len(tracker.tracks) == 2
@@ -144,7 +146,7 @@ def test_merging_looks_at_where_things_are_by_now() -> None:
     assert tracker.tracks == [moving]
 
 
-def test_the_nearest_counts_from_where_one_stands() -> None:
+def test_the_nearest_is_measured_from_the_own_position() -> None:
     left, right = known(0.0, 1.0), known(0.0, 4.0)
     tracker = tracker_of(left, right)
     assert tracker.main(0.1, 0.0, 0.0) is left
@@ -153,37 +155,35 @@ def test_the_nearest_counts_from_where_one_stands() -> None:
 
 
 @pytest.mark.parametrize(("age", "counts"), [(4.8, True), (5.2, False)])
-def test_the_other_is_the_other_for_five_seconds_unrecognised(
-    age: float, counts: bool
-) -> None:
+def test_recognition_lasts_five_seconds(age: float, counts: bool) -> None:
     other, near = known(0.0, 2.0, identified=True), known(0.0, 1.0)
     for track, x in ((other, 2.0), (near, 1.0)):
-        track.correct(look(age, x))
+        track.update(look(age, x))
     main = tracker_of(near, other).main(age, 0.0, 0.0)
     assert main is (other if counts else near)
 
 
 @pytest.mark.parametrize(("lapse", "older"), [(0.45, True), (0.55, False)])
-def test_of_two_recognised_the_one_longer_known_counts(
+def test_of_two_recognised_tracks_the_older_is_main(
     lapse: float, older: bool
 ) -> None:
-    """A late one may be a mistake, until the first is recognised no more."""
+    """A new one may be a false detection."""
     for order in (1, -1):
         first = known(0.0, 2.0, identified=True)
         late = known(lapse, 1.0, identified=True)
-        first.correct(look(lapse, 2.0))
+        first.update(look(lapse, 2.0))
         main = tracker_of(*[first, late][::order]).main(lapse, 0.0, 0.0)
         assert main is (first if older else late)
 
 
-def test_what_is_not_confirmed_counts_for_nothing() -> None:
+def test_unconfirmed_tracks_are_not_main() -> None:
     unsure = TargetTrack(look(0.0, 1.0, identified=True))
     sure = known(0.0, 2.0)
     assert tracker_of(unsure, sure).main(0.1, 0.0, 0.0) is sure
 
 
 @pytest.mark.parametrize(("age", "kept"), [(0.9, True), (1.1, False)])
-def test_what_is_not_confirmed_is_forgotten_in_a_second(
+def test_unconfirmed_tracks_are_dropped_after_a_second(
     age: float, kept: bool
 ) -> None:
     tracker = tracker_of(TargetTrack(look(9.0, 1.0)))
@@ -194,7 +194,7 @@ def test_what_is_not_confirmed_is_forgotten_in_a_second(
 
 
 @pytest.mark.parametrize(("age", "kept"), [(0.28, True), (0.32, False)])
-def test_a_vague_sighting_counts_while_it_is_fresh(
+def test_an_imprecise_track_is_retained_while_fresh(
     age: float, kept: bool
 ) -> None:
     vague = TargetTrack(look(9.0, 1.0, along=0.7))
@@ -204,7 +204,7 @@ def test_a_vague_sighting_counts_while_it_is_fresh(
 
 
 @pytest.mark.parametrize(("along", "kept"), [(0.54, True), (0.66, False)])
-def test_memory_ends_where_doubt_is_as_large_as_a_step_aside(
+def test_a_track_is_dropped_at_the_largest_deviation(
     along: float, kept: bool
 ) -> None:
     vague = TargetTrack(look(0.0, 1.0, along=along))
@@ -212,10 +212,10 @@ def test_memory_ends_where_doubt_is_as_large_as_a_step_aside(
     assert (tracker_of(vague).main(0.31, 0.0, 0.0) is vague) is kept
 
 
-def test_hopeless_tracks_are_dropped() -> None:
+def test_rejected_tracks_are_dropped() -> None:
     track = TargetTrack(look(0.0, 1.0))
     for _ in range(3):
-        track.count(False)
+        track.record_frame(False)
     tracker = tracker_of(track)
     tracker.main(0.0, 0.0, 0.0)
     assert tracker.tracks == []

@@ -1,4 +1,4 @@
-"""Honest bodies: every effect does what it says, and nothing at zero."""
+"""Test body settings: each error has its effect, and none at zero."""
 
 from dataclasses import fields, replace
 from math import radians
@@ -48,15 +48,15 @@ def answer(body: BodySettings, cycles: int, step: float = 0.05) -> Array:
     return np.array(angles)
 
 
-def test_a_request_moves_the_joint_after_the_delay() -> None:
+def test_a_target_moves_the_joint_after_the_delay() -> None:
     late = answer(BodySettings(delay_cycles=3), 12)
     assert np.abs(late[:3]).max() < 1e-4
     assert late[3] > 1e-3
     assert late[-1] == pytest.approx(0.05, abs=0.005)
 
 
-def test_within_its_play_a_motor_pulls_at_nothing() -> None:
-    """Only legs have play; half of its width lies on either side."""
+def test_within_the_backlash_there_is_no_torque() -> None:
+    """Only legs have backlash, half of it on either side."""
     robot, scheme = standing(BodySettings(backlash=radians(2.0)))
     names = scheme.kinematics.joint_names
     hip, head = names.index("LHipPitch"), names.index("HeadYaw")
@@ -72,7 +72,7 @@ def test_within_its_play_a_motor_pulls_at_nothing() -> None:
     assert off[1][head] == pytest.approx(radians(0.9))
 
 
-def test_torque_falls_to_nothing_at_the_no_load_speed() -> None:
+def test_torque_falls_to_zero_at_the_no_load_speed() -> None:
     robot, _ = standing(BodySettings(torque_speed=True, efficiency=0.6))
     world = robot.world
     knee = world.model.actuator("walker/LKneePitch").id
@@ -89,7 +89,7 @@ def test_torque_falls_to_nothing_at_the_no_load_speed() -> None:
     np.testing.assert_allclose(np.array(limits)[:, 0] / (0.6 * stall), -1.0)
 
 
-def test_stiffness_caps_the_torque() -> None:
+def test_stiffness_limits_the_torque() -> None:
     robot, _ = standing(BodySettings(stiffness=0.5))
     world = robot.world
     ranges = world.model.actuator_forcerange
@@ -97,7 +97,7 @@ def test_stiffness_caps_the_torque() -> None:
     np.testing.assert_allclose(ranges, 0.5 * whole)
 
 
-def test_sensors_are_quantised_biased_noisy_and_late() -> None:
+def test_sensors_have_resolution_bias_noise_and_delay() -> None:
     body = BodySettings(
         encoder_step=0.01,
         gyro_bias=0.1,
@@ -121,7 +121,7 @@ def test_sensors_are_quantised_biased_noisy_and_late() -> None:
     assert np.ptp(forces) > 0.1
 
 
-def test_misbuilt_links_keep_their_names_and_change_their_masses() -> None:
+def test_mass_errors_change_masses_but_not_names() -> None:
     robots = {"walker": load_robot("nao")}
     physics = PhysicsSettings()
     right = build_model(robots, physics)
@@ -137,14 +137,14 @@ def test_misbuilt_links_keep_their_names_and_change_their_masses() -> None:
     assert 0.0 < np.abs(shift[:2]).max() <= 0.01 and shift[2] == 0.0
 
 
-def test_an_uneven_floor_is_as_high_as_asked() -> None:
+def test_an_uneven_floor_has_the_set_height() -> None:
     physics = PhysicsSettings(unevenness=0.005)
     model = build_model({"walker": load_robot("nao")}, physics)
     assert model.hfield_size[0, 2] == pytest.approx(0.005)
     assert model.hfield_data.max() <= 1.0 and np.ptp(model.hfield_data) > 0.9
 
 
-def test_a_slope_turns_gravity() -> None:
+def test_a_slope_tilts_gravity() -> None:
     physics = PhysicsSettings(slope=0.1, slope_direction=np.pi / 2)
     model = build_model({"walker": load_robot("nao")}, physics)
     x, y, z = model.opt.gravity
@@ -153,7 +153,7 @@ def test_a_slope_turns_gravity() -> None:
     assert y == pytest.approx(9.81 * np.sin(0.1))
 
 
-def test_a_push_gives_its_impulse_in_the_robots_own_frame() -> None:
+def test_a_push_applies_its_impulse_in_the_robot_frame() -> None:
     description = load_robot("nao")
     kinematics = LegKinematics(description, tick=0.004)
     world = World({"walker": description}, PhysicsSettings())
@@ -183,7 +183,7 @@ def test_a_push_gives_its_impulse_in_the_robots_own_frame() -> None:
     "name",
     [f.name for f in fields(BodySettings) if f.name != "torque_speed"],
 )
-def test_bodies_refuse_nonsense(name: str) -> None:
+def test_body_settings_refuse_values_out_of_range(name: str) -> None:
     changes: dict[str, Any] = {name: -1}
     with pytest.raises(ConfigurationError, match=name):
         replace(BodySettings(), **changes)

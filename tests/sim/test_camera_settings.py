@@ -1,4 +1,4 @@
-"""Test what senses and rooms may be: both ends of every range."""
+"""Test the ranges of sensors and scenes."""
 
 from math import degrees, inf, nan
 from typing import Any
@@ -54,7 +54,7 @@ def refuse(kind: Any, name: str, value: float) -> None:
 
 
 @pytest.mark.parametrize(("kind", "name", "low", "high", "step"), ENDS)
-def test_ranges_hold_both_ends_and_nothing_beyond(
+def test_ranges_include_their_bounds_only(
     kind: Any, name: str, low: float, high: float, step: float
 ) -> None:
     for value in (low, high):
@@ -64,24 +64,24 @@ def test_ranges_hold_both_ends_and_nothing_beyond(
 
 
 @pytest.mark.parametrize(("kind", "name"), POSITIVE)
-def test_some_must_be_above_nothing(kind: Any, name: str) -> None:
+def test_some_settings_must_be_positive(kind: Any, name: str) -> None:
     kind(**{name: kind.ranges[name].low})
     for value in (0.0, -1e-6, nan, inf):
         refuse(kind, name, value)
 
 
 @pytest.mark.parametrize(("kind", "name"), NOT_NEGATIVE)
-def test_noise_may_be_nothing(kind: Any, name: str) -> None:
+def test_noise_may_be_zero(kind: Any, name: str) -> None:
     kind(**{name: 0.0})
     for value in (-1e-6, nan, inf):
         refuse(kind, name, value)
 
 
-def test_rooms_may_have_no_walls() -> None:
+def test_walls_may_be_zero() -> None:
     assert SceneSettings(walls=0.0).walls == 0.0
 
 
-def test_people_walk_no_faster_than_they_run() -> None:
+def test_the_speed_of_a_person_is_limited() -> None:
     assert PersonSettings(speed=3.0).speed == 3.0
     refuse(PersonSettings, "speed", 3.01)
     with pytest.raises(ConfigurationError, match="got ''"):
@@ -96,7 +96,7 @@ def test_a_pursuer_is_a_robot_or_a_person() -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_things_stand_within_twenty_meters(kind: str) -> None:
+def test_objects_lie_within_twenty_metres(kind: str) -> None:
     for place in ((20.0, -20.0), (-20.0, 20.0)):
         assert (
             RoomObject(kind, *place).x,
@@ -120,7 +120,7 @@ def field_of_view(kind: ColourSettings | DepthSettings) -> tuple[float, ...]:
     )
 
 
-def test_optics_are_those_of_the_makers() -> None:
+def test_optics_are_those_of_the_vendors() -> None:
     """SoftBank's for NAO V5 and V6, ASUS's for the Xtion."""
     assert field_of_view(ColourSettings()) == pytest.approx((60.9, 47.6))
     six = ColourSettings(optics="v6")
@@ -130,7 +130,7 @@ def test_optics_are_those_of_the_makers() -> None:
         ColourSettings(optics="v7")
 
 
-def test_sensors_are_by_default_those_of_the_documents() -> None:
+def test_default_sensors_are_those_of_the_documents() -> None:
     """What `docs/sensing.md` says of them."""
     assert ColourSettings() == ColourSettings(
         "v5", 320, 240, 15.0, 0.05, 4.0, "auto"
@@ -148,7 +148,7 @@ def test_sensors_are_by_default_those_of_the_documents() -> None:
     assert PersonSettings() == PersonSettings("steer", 0.15, 0.2, 0.0)
 
 
-def test_clutter_is_what_it_was_when_duels_were_measured() -> None:
+def test_clutter_has_its_documented_positions() -> None:
     """In nobody's way: duels go on within a meter or so of the middle."""
     places = {thing.kind: (thing.x, thing.y) for thing in CLUTTER}
     assert set(places) == set(KINDS)

@@ -1,4 +1,4 @@
-"""The floor: gravity on a slope, heights of an uneven one, randomness."""
+"""Test the floor: slope, unevenness and random heights."""
 
 from math import cos, pi, sin
 
@@ -38,7 +38,7 @@ def test_an_even_floor_is_a_plane_with_the_friction_asked_for() -> None:
     np.testing.assert_array_equal(model.geom_pos[0], 0.0)
 
 
-def test_what_is_seen_of_the_floor_is_pale_and_lit_from_above() -> None:
+def test_the_floor_is_pale_and_lit_from_above() -> None:
     """Checks of 0.25 m whose two shades hardly differ, under a sky."""
     model = floor()
     assert model.ntex == 2 and model.nmat == 1 and model.nlight == 1
@@ -69,7 +69,7 @@ def heights(model: mujoco.MjModel) -> np.ndarray:
     return grid
 
 
-def test_an_uneven_floor_is_rough_by_the_grain_and_as_high_as_asked() -> None:
+def test_an_uneven_floor_has_the_set_grain_and_height() -> None:
     """8 m square; independent every 0.1 m, straight between."""
     model = floor(unevenness=0.004, friction=0.5)
     assert model.geom_type[0] == mujoco.mjtGeom.mjGEOM_HFIELD
@@ -87,14 +87,14 @@ def test_an_uneven_floor_is_rough_by_the_grain_and_as_high_as_asked() -> None:
     assert near > 0.5 and abs(far) < 0.05
 
 
-def test_heights_come_from_the_seed_alone() -> None:
+def test_heights_depend_on_the_seed_only() -> None:
     one, same = floor(2, unevenness=0.01), floor(2, unevenness=0.02)
     other = floor(3, unevenness=0.01)
     np.testing.assert_array_equal(heights(one), heights(same))
     assert np.abs(heights(one) - heights(other)).max() > 0.5
 
 
-def test_a_purpose_has_draws_of_its_own() -> None:
+def test_each_purpose_has_an_independent_generator() -> None:
     def draws(seed: int, name: str) -> tuple[float, ...]:
         return tuple(named_generator(seed, name).uniform(size=4))
 

@@ -38,7 +38,7 @@ def points(geom: str, assets: str = "") -> tuple[Array, Array]:
 
 
 @pytest.mark.parametrize("kind", REACHES)
-def test_points_reach_as_far_as_the_shape(kind: str) -> None:
+def test_points_span_the_geom(kind: str) -> None:
     """Those of the rims of a cylinder lie every 15 degrees."""
     found, axes = points(f'type="{kind}" size="0.3 0.2 0.1"')
     reach = REACHES[kind](axes)
@@ -63,7 +63,7 @@ def test_points_of_a_mesh_are_its_corners() -> None:
     np.testing.assert_allclose(found[order], wanted[other], atol=1e-6)
 
 
-def test_a_plane_has_no_end() -> None:
+def test_a_plane_has_no_points() -> None:
     model = mujoco.MjModel.from_xml_string(
         '<mujoco><worldbody><geom type="plane" size="1 1 1"/></worldbody>'
         "</mujoco>"

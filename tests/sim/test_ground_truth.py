@@ -1,4 +1,4 @@
-"""Test what only the simulator knows, on a box that is put anywhere."""
+"""Test the true state of a box at any pose."""
 
 from math import hypot, radians
 
@@ -33,7 +33,7 @@ def put(
     return TrueRobotState(model, data, "box", com_forward=com_forward)
 
 
-def test_place_heading_and_com_are_those_of_the_torso() -> None:
+def test_position_heading_and_com_are_those_of_the_torso() -> None:
     truth = put(1.0, -2.0, 0.0, 0.0, 130.0)
     assert truth.position == (1.0, -2.0)
     assert truth.heading == pytest.approx(radians(130.0))
@@ -42,7 +42,7 @@ def test_place_heading_and_com_are_those_of_the_torso() -> None:
 
 
 @pytest.mark.parametrize("yaw", [0.0, 90.0, -130.0])
-def test_the_place_is_behind_the_com_along_the_heading(yaw: float) -> None:
+def test_the_reference_point_is_behind_the_com(yaw: float) -> None:
     truth = put(1.0, -2.0, 0.0, 0.0, yaw, com_forward=0.02)
     turned = Pose(*truth.place, truth.heading).compose(Pose(0.02, 0.0, 0.0))
     np.testing.assert_allclose(turned[:2], truth.com[:2], atol=1e-12)

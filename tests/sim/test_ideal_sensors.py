@@ -27,7 +27,7 @@ def read(sight: IdealLineOfSight, now: float) -> Sighting:
     return seen
 
 
-def test_the_truth_is_seen_at_once() -> None:
+def test_the_ideal_sighting_is_exact_and_immediate() -> None:
     sight = look()
     for tick in range(5):
         time, bearing, distance, *_ = read(sight, tick * TICK)
@@ -39,7 +39,7 @@ def test_the_truth_is_seen_at_once() -> None:
         assert 0.0 < bearing < 1.0
 
 
-def test_a_rate_holds_sightings_until_the_next() -> None:
+def test_a_sighting_is_held_until_the_next() -> None:
     sight = look(rate=10.0)
     times = [read(sight, tick * TICK).time for tick in range(101)]
     taken = sorted(set(times))
@@ -48,7 +48,7 @@ def test_a_rate_holds_sightings_until_the_next() -> None:
     assert ages.max() == pytest.approx(0.1 - TICK)
 
 
-def test_a_delay_keeps_back_what_was_seen() -> None:
+def test_a_delay_postpones_sightings() -> None:
     sight = look(delay=0.02)
     assert sight.read(0.0) is None
     assert sight.read(0.016) is None
@@ -58,14 +58,14 @@ def test_a_delay_keeps_back_what_was_seen() -> None:
     assert read(sight, 0.056).time == pytest.approx(0.036)
 
 
-def test_of_several_that_arrive_the_newest_counts() -> None:
+def test_the_latest_of_several_sightings_is_returned() -> None:
     sight = look(delay=0.01)
     for now in (0.0, 0.004, 0.008):
         sight.read(now)
     assert read(sight, 0.1).time == 0.008
 
 
-def test_noise_is_as_large_as_asked_and_has_no_bias() -> None:
+def test_noise_has_the_set_deviation_and_no_bias() -> None:
     sight = look(bearing_noise=0.05, distance_noise=0.1)
     seen = np.array([read(sight, i * TICK) for i in range(4000)])
     true = atan2(-0.4, -1.5) - 2.5 + 2 * pi
@@ -78,7 +78,7 @@ def test_noise_is_as_large_as_asked_and_has_no_bias() -> None:
     assert abs(np.corrcoef(seen[:, 1], seen[:, 2])[0, 1]) < 0.06
 
 
-def test_each_noise_stands_alone() -> None:
+def test_bearing_and_distance_noise_are_independent() -> None:
     sight = look(bearing_noise=0.05)
     assert read(sight, 0.0).distance == hypot(-1.5, 1.6 - 2.0)
     sight = look(distance_noise=0.1)
@@ -86,7 +86,7 @@ def test_each_noise_stands_alone() -> None:
     assert len(bearings) == 1
 
 
-def test_noise_wraps_bearings_and_leaves_no_distance_below_nothing() -> None:
+def test_noisy_bearings_wrap_and_distances_stay_positive() -> None:
     sight = look(bearing_noise=3.0, distance_noise=5.0)
     seen = np.array([read(sight, i * TICK) for i in range(500)])
     assert np.abs(seen[:, 1]).max() <= pi

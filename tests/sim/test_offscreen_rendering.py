@@ -1,4 +1,4 @@
-"""Test the choice of a renderer on machines that have other ones."""
+"""Test the choice of a renderer."""
 
 import os
 import subprocess
@@ -22,14 +22,14 @@ from stepaside.sim.offscreen_rendering import (
 
 @pytest.fixture
 def works(monkeypatch: pytest.MonkeyPatch) -> Iterator[set[str]]:
-    """Backends that work; a test fills them in."""
+    """Return the set of working backends, which a test fills."""
     found: set[str] = set()
     monkeypatch.delenv("MUJOCO_GL", raising=False)
     monkeypatch.setattr(graphics, "_works", found.__contains__)
     yield found
 
 
-def test_egl_goes_before_osmesa_and_rays_work_always(works: set[str]) -> None:
+def test_egl_is_preferred_to_osmesa_and_rays(works: set[str]) -> None:
     assert choose_renderer() == "raycast"
     works.add("osmesa")
     assert choose_renderer() == "osmesa"
@@ -49,7 +49,7 @@ def test_egl_goes_before_osmesa_and_rays_work_always(works: set[str]) -> None:
         ("disable", "raycast"),
     ],
 )
-def test_the_environment_narrows_down_what_is_tried(
+def test_the_environment_restricts_the_backends(
     works: set[str],
     monkeypatch: pytest.MonkeyPatch,
     asked: str,
@@ -60,7 +60,7 @@ def test_the_environment_narrows_down_what_is_tried(
     assert choose_renderer() == renderer
 
 
-def test_what_is_wanted_is_taken_or_refused(
+def test_a_requested_renderer_is_used_or_refused(
     works: set[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("MUJOCO_GL", "osmesa")
@@ -74,7 +74,7 @@ def test_what_is_wanted_is_taken_or_refused(
         choose_renderer("glfw")
 
 
-def test_a_backend_works_if_another_process_survives_it(
+def test_a_backend_works_if_a_process_survives_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     asked: list[dict[str, Any]] = []
@@ -99,7 +99,11 @@ def test_a_backend_works_if_another_process_survives_it(
         # Past its memory, that other tests rely on.
         assert _works.__wrapped__("egl") is good
     probe = asked[0]
-    assert "Screen(m, 16, 16, 'egl')" in probe["command"][-1]
+    program = probe["command"][-1]
+    assert "OffscreenRenderer(m, 16, 16, 'egl')" in program
+    names: dict[str, Any] = {}
+    exec(program.partition("; m =")[0], names)  # its imports
+    assert names["OffscreenRenderer"] is OffscreenRenderer
     assert probe["env"]["MUJOCO_GL"] == "egl"
     assert probe["env"]["PYOPENGL_PLATFORM"] == "egl"
     assert "PATH" in probe["env"]
@@ -119,7 +123,7 @@ specular="0 0 0"/></visual><worldbody>
 </worldbody></mujoco>"""
 
 
-def test_a_screen_draws_what_a_camera_sees_the_right_way_up(
+def test_a_rendered_image_is_upright(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Ahead a red box up on the left, behind a blue one in the middle."""

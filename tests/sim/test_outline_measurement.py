@@ -1,4 +1,4 @@
-"""The outline of a robot holds all of it, at rest and while it walks."""
+"""Test that the outline contains the robot, standing and walking."""
 
 import mujoco
 import numpy as np

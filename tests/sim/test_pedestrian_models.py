@@ -1,4 +1,4 @@
-"""Test the figure of a person: its size, its walk and its place in a duel."""
+"""Test the body of a person: size, gait and role in a duel."""
 
 from math import pi, sin
 from types import SimpleNamespace
@@ -63,7 +63,7 @@ def box(model: mujoco.MjModel, data: mujoco.MjData, *names: str) -> Array:
 STANDING = Pose(0.0, 0.0, 0.0)
 
 
-def test_a_person_is_as_large_as_people_are() -> None:
+def test_a_person_has_human_size() -> None:
     model, data = posed(STANDING, 0.0)
     low, high = box(model, data, *PARTS)
     assert low[2] == pytest.approx(0.0, abs=0.01)
@@ -127,7 +127,7 @@ def feet(way: float) -> Array:
 
 
 @pytest.mark.parametrize("name", FIGURES)
-def test_everybody_is_of_one_shape_and_steps_as_far_as_legs_swing(
+def test_pedestrians_are_scaled_and_step_as_far_as_legs_swing(
     name: str,
 ) -> None:
     """A child is smaller in all, dressed otherwise, and steps farther."""
@@ -149,7 +149,7 @@ def test_everybody_is_of_one_shape_and_steps_as_far_as_legs_swing(
     assert len(shirts) == len(FIGURES)
 
 
-def test_a_child_comes_as_one() -> None:
+def test_a_child_can_be_the_pursuer() -> None:
     person = PersonSettings(figure="child")
     start = StartSettings(2.0, 0.0, 0.0)
     settings = DuelSettings(pursuer="person", person=person, start=start)
@@ -198,7 +198,7 @@ def test_a_figure_turns_and_moves_as_one(theta: float) -> None:
         )
 
 
-def test_robots_run_into_people_and_cameras_see_them() -> None:
+def test_robots_collide_with_people_and_cameras_show_them() -> None:
     model, _ = figure()
     assert (model.geom_contype == 1).all()
     assert (model.geom_conaffinity == 0).all()
@@ -252,7 +252,7 @@ def test_a_recorded_person_is_where_the_end_of_the_tick_says(
     assert person.truth.position == pytest.approx((2.0 + TICK, 0.0))
 
 
-def test_truth_of_a_person_is_that_of_the_walk() -> None:
+def test_the_true_state_of_a_person_is_that_of_the_walk() -> None:
     model, data = figure()
     motion = PersonMotion(PersonSettings("steer"), Pose(1, 2, 0.7), (4.0, 2.0))
     truth = PersonBody(world_of(model, data), "her", motion).truth
@@ -263,7 +263,7 @@ def test_truth_of_a_person_is_that_of_the_walk() -> None:
     assert torsos_apart(truth, other) == 5.0
 
 
-def test_nothing_is_known_of_a_person_but_where_it_is() -> None:
+def test_a_person_has_no_robot_quantities() -> None:
     """What only a robot has is None, and a walk is no plan of ours."""
     model, data = figure()
     motion = PersonMotion(PersonSettings("steer"), Pose(1, 2, 0.7), (4.0, 2.0))
@@ -285,7 +285,7 @@ def test_nothing_is_known_of_a_person_but_where_it_is() -> None:
     np.testing.assert_array_equal(data.mocap_pos, before)
 
 
-def test_nobody_pushes_a_person() -> None:
+def test_a_person_cannot_be_pushed() -> None:
     model, data = figure()
     motion = PersonMotion(PersonSettings("steer"), STANDING, (4.0, 2.0))
     other: Any = SimpleNamespace(position=(4.0, 2.0))
@@ -296,7 +296,7 @@ def test_nobody_pushes_a_person() -> None:
         player.push(Push(1.0, 0.0, 0.0))
 
 
-def test_a_person_walks_to_where_the_other_is_by_then() -> None:
+def test_a_person_steers_at_the_current_evader_position() -> None:
     model, data = figure()
     world = world_of(model, data)
     motion = PersonMotion(
@@ -319,7 +319,7 @@ def test_only_robots_walk_by_control() -> None:
     assert WITH.robots == ("evader",)
 
 
-def test_a_world_is_furnished_with_all_that_there_is() -> None:
+def test_a_world_contains_all_bodies() -> None:
     put: list[mujoco.MjSpec] = []
     sense: Any = put.append
     assert furnisher_of(DuelSettings()) is None
@@ -333,9 +333,7 @@ def test_a_world_is_furnished_with_all_that_there_is() -> None:
         assert spec.compile().body("pursuer/trunk").mocapid[0] >= 0
 
 
-def test_a_person_stands_where_the_pursuer_would_and_knows_the_evader() -> (
-    None
-):
+def test_a_person_starts_at_the_pursuer_pose() -> None:
     """A straight walk looks once, at the middle or beside it."""
     start = StartSettings(2.0, 0.5, -0.3)
     for miss in (0.0, -0.5):

@@ -1,4 +1,4 @@
-"""Test where persons walk, and how near they come to theory's evader."""
+"""Test the walks of people, and their closest approach to the template."""
 
 from math import atan2, cos, hypot, pi, sin
 from pathlib import Path
@@ -34,7 +34,7 @@ def test_a_straight_walk_aims_to_the_left_of_the_evader(
     assert aside == pytest.approx(atan2(miss, hypot(dx, dy)))
 
 
-def test_a_straight_walk_does_not_care_where_the_evader_goes() -> None:
+def test_a_straight_walk_ignores_the_motion_of_the_evader() -> None:
     person = PersonSettings("straight", 0.5)
     motion = PersonMotion(person, Pose(0.0, 0.0, 0.0), EVADER)
     heading = motion.pose.theta
@@ -90,7 +90,7 @@ def test_a_recorded_walk_is_where_and_heads_as_recorded(
         assert motion.pose == pytest.approx(pose)
 
 
-def test_who_rests_heads_ahead(tmp_path: Path) -> None:
+def test_a_recorded_person_at_rest_heads_along_x(tmp_path: Path) -> None:
     file = recorded(tmp_path, "0,1,2\n3,1,2\n")
     motion = PersonMotion(
         PersonSettings(str(file)), Pose(0.0, 0.0, 1.0), EVADER
@@ -110,20 +110,20 @@ def test_paths_are_read_as_rows(tmp_path: Path) -> None:
         ("0,1,2\n", "has 1"),
         ("0,1\n1,2\n", "needs two rows of time,x,y"),
         ("0,1,2,3\n1,2,3,4\n", "needs two rows of time,x,y"),
-        ("0,0,0\n0,1,1\n", "finite and rise"),
-        ("0,0,nan\n1,1,1\n", "finite and rise"),
-        ("0,0,0\n1,inf,1\n", "finite and rise"),
+        ("0,0,0\n0,1,1\n", "finite, and times must increase"),
+        ("0,0,nan\n1,1,1\n", "finite, and times must increase"),
+        ("0,0,0\n1,inf,1\n", "finite, and times must increase"),
         ("0,0,0\n1,1\n", "must be steer, straight, visits or a CSV file"),
     ],
 )
-def test_bad_rows_are_refused_by_their_count(
+def test_invalid_rows_are_refused(
     tmp_path: Path, lines: str, message: str
 ) -> None:
     with pytest.raises(ConfigurationError, match=message):
         read_path(recorded(tmp_path, lines))
 
 
-def test_no_file_is_no_path(tmp_path: Path) -> None:
+def test_a_missing_file_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match="got '.*none.csv'"):
         read_path(tmp_path / "none.csv")
     empty = tmp_path / "empty.csv"
@@ -201,7 +201,7 @@ def test_the_template_moves_by_the_law_of_the_paper(
     assert least == pytest.approx(computed(there, evader, angle), abs=3e-3)
 
 
-def test_mirrored_persons_come_as_near() -> None:
+def test_mirrored_walks_have_the_same_closest_approach() -> None:
     """The evader steps aside to the side where the person is not."""
     evader = Pose(0.0, 0.0, 0.0)
     left, right = Pose(1.1, 0.5, 0.0), Pose(1.1, -0.5, 0.0)
@@ -214,7 +214,7 @@ def test_mirrored_persons_come_as_near() -> None:
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_the_side_is_kept_from_the_first_on(sign: float) -> None:
+def test_the_evasion_side_is_held(sign: float) -> None:
     """A person who walks past the heading does not turn the evader."""
     evader = Pose(0.0, 0.0, 0.0)
     walk = PersonSettings("straight", 0.15, miss=0.1 * sign)
@@ -224,7 +224,7 @@ def test_the_side_is_kept_from_the_first_on(sign: float) -> None:
     assert least == pytest.approx(expected, abs=3e-3)
 
 
-def test_outside_of_the_safety_area_the_template_stands() -> None:
+def test_outside_the_safety_radius_the_template_stands() -> None:
     evader = Pose(0.0, 0.0, 0.0)
     walk = PersonSettings("straight", 0.5, miss=-1.0)
     least = approach(Pose(3.0, 0.0, 0.0), evader, 0.0, walk)
@@ -236,7 +236,7 @@ def test_outside_of_the_safety_area_the_template_stands() -> None:
     assert soon == pytest.approx(hypot(7.0, 1.0))
 
 
-def test_a_recorded_person_comes_as_near_as_recorded(tmp_path: Path) -> None:
+def test_a_recorded_walk_has_its_closest_approach(tmp_path: Path) -> None:
     file = recorded(tmp_path, "0,0,0\n10,10,0\n")
     walk = PersonSettings(str(file))
     start, evader = Pose(0.0, 0.0, 0.0), Pose(5.0, 2.0, 0.0)
@@ -264,7 +264,7 @@ def walked(person: PersonSettings, ways: int = 40) -> list[Pose]:
 
 
 @pytest.mark.parametrize("path", ["straight", "steer"])
-def test_who_halts_stands_where_the_way_ended(path: str) -> None:
+def test_a_halted_person_stands_at_the_set_distance(path: str) -> None:
     poses = walked(PersonSettings(path, 0.5, halt_after=1.0))
     assert poses[20].x == pytest.approx(1.0)
     assert poses[20:] == [poses[20]] * 21
@@ -273,7 +273,7 @@ def test_who_halts_stands_where_the_way_ended(path: str) -> None:
 
 @pytest.mark.parametrize("turn", [-1.0, 0.5 * pi, pi])
 @pytest.mark.parametrize("after", [0.0, 1.0])
-def test_who_turns_walks_on_in_the_new_direction(
+def test_a_turned_person_walks_in_the_new_direction(
     turn: float, after: float
 ) -> None:
     person = PersonSettings("straight", 0.5, turn_after=after, turn=turn)
@@ -285,7 +285,7 @@ def test_who_turns_walks_on_in_the_new_direction(
 
 
 @pytest.mark.parametrize("path", ["straight", "steer"])
-def test_who_walks_backward_goes_the_same_way_and_faces_away(
+def test_a_backward_walk_follows_the_same_path_facing_away(
     path: str,
 ) -> None:
     ahead = walked(PersonSettings(path, 0.5, miss=0.3, turn_after=1.0))
@@ -298,7 +298,7 @@ def test_who_walks_backward_goes_the_same_way_and_faces_away(
         assert abs(off) == pytest.approx(pi)
 
 
-def test_visits_come_from_everywhere_and_pass_where_they_aim() -> None:
+def test_visits_cover_all_directions_and_pass_at_their_offset() -> None:
     """Round the evader, which has moved meanwhile, from 4.5 m away."""
     motion = PersonMotion(
         PersonSettings("visits", 1.0, miss=0.5),

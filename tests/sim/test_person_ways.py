@@ -1,4 +1,4 @@
-"""Test ways of persons that are recorded, and of one who comes again."""
+"""Test recorded walks and repeated visits."""
 
 from math import cos, hypot, pi, sin
 from pathlib import Path
@@ -8,14 +8,14 @@ import pytest
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.sim.person_motion import PersonMotion
 from stepaside.sim.person_settings import PersonSettings
-from stepaside.sim.person_visits import AROUND, RepeatedVisits
+from stepaside.sim.person_visits import RADIUS, RepeatedVisits
 
 GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 
 
 @pytest.mark.parametrize("speed", [0.01, 1.0, 10.0])
 @pytest.mark.parametrize("eighth", range(8))
-def test_whoever_is_recorded_heads_along_the_way(
+def test_a_recorded_person_heads_along_the_path(
     eighth: int, speed: float, tmp_path: Path
 ) -> None:
     """In any direction, however fast."""
@@ -31,10 +31,10 @@ def test_whoever_is_recorded_heads_along_the_way(
         assert wrap_angle(motion.pose.theta - course) == pytest.approx(0.0)
 
 
-def test_visits_aim_by_the_golden_ratio_and_pass_on_that_side() -> None:
+def test_visit_offsets_follow_the_golden_ratio() -> None:
     """Crossing k aims 1.5 m (2 frac(k / 1.618) - 1) to the left."""
     visits, evader = RepeatedVisits(0.4), (0.7, -0.3)
-    x, y, course, step = evader[0] - AROUND, evader[1] + 0.4, 0.0, 0.02
+    x, y, course, step = evader[0] - RADIUS, evader[1] + 0.4, 0.0, 0.02
     aims: dict[int, float] = {}
     passed: dict[int, float] = {}
     while visits.number < 8:

@@ -1,4 +1,4 @@
-"""Pushes: begin, end, direction and impulse, on one free body."""
+"""Test pushes of one free body: time, direction and impulse."""
 
 from math import cos, inf, nan, pi, sin
 from typing import Any
@@ -22,7 +22,7 @@ MODEL = f"""
 
 
 class Bench:
-    """One body that somebody pushes."""
+    """One free body with pushes."""
 
     def __init__(self, quaternion: Array, *pushes: Push) -> None:
         """Turn the body, and take the pushes."""
@@ -58,7 +58,7 @@ def turned(heading: float, pitch: float = 0.0) -> Array:
 @pytest.mark.parametrize("heading", [0.0, 0.7, -2.5])
 @pytest.mark.parametrize("direction", [0.0, pi / 2, -0.4, pi])
 @pytest.mark.parametrize("pitch", [0.0, 0.6])
-def test_a_push_goes_where_the_heading_says(
+def test_a_push_is_relative_to_the_heading(
     heading: float, direction: float, pitch: float
 ) -> None:
     bench = Bench(turned(heading, pitch), Push(1.5, 0.0, direction))
@@ -69,7 +69,7 @@ def test_a_push_goes_where_the_heading_says(
     )
 
 
-def test_a_push_begins_and_ends_when_it_should() -> None:
+def test_a_push_starts_and_ends_on_time() -> None:
     bench = Bench(turned(0.0), Push(1.2, 0.02, 0.0, 0.04))
     pushed = bench.forces(60)[:, 0]
     np.testing.assert_allclose(pushed[10:30], 30.0)
@@ -77,7 +77,7 @@ def test_a_push_begins_and_ends_when_it_should() -> None:
     np.testing.assert_array_equal(pushed[30:], 0.0)
 
 
-def test_a_clock_that_rounds_down_begins_and_ends_in_time() -> None:
+def test_rounding_of_time_does_not_delay_a_push() -> None:
     bench = Bench(turned(0.0), Push(1.0, 0.3, 0.0, 0.1))
     before = bench.pusher.before_step
     force = bench.data.xfrc_applied[2]
@@ -91,7 +91,7 @@ def test_a_clock_that_rounds_down_begins_and_ends_in_time() -> None:
         assert bool(force[0] > 0.0) is pushed
 
 
-def test_the_impulse_is_what_the_body_gets() -> None:
+def test_the_impulse_changes_the_momentum() -> None:
     bench = Bench(turned(0.5), Push(0.8, 0.01, 1.0))
     bench.forces(100)
     expected = 0.8 * np.array([cos(1.5), sin(1.5)])
@@ -99,7 +99,7 @@ def test_the_impulse_is_what_the_body_gets() -> None:
     np.testing.assert_allclose(2.0 * bench.data.qvel[6:8], expected)
 
 
-def test_pushes_at_one_time_add_up_and_come_in_any_order() -> None:
+def test_simultaneous_pushes_add_up_in_any_order() -> None:
     late, early = Push(2.0, 0.04, 0.0), Push(1.0, 0.02, pi / 2)
     bench = Bench(turned(0.0), late, early)
     found = bench.forces(100)
@@ -110,7 +110,7 @@ def test_pushes_at_one_time_add_up_and_come_in_any_order() -> None:
     np.testing.assert_allclose(bench.pusher.impulse, [2.0, 1.0])
 
 
-def test_a_push_is_held_in_the_direction_in_which_it_began() -> None:
+def test_a_push_holds_its_initial_direction() -> None:
     bench = Bench(turned(0.0), Push(1.0, 0.0, 0.0))
     bench.forces(5)
     bench.data.qpos[10:14] = turned(pi / 2)
@@ -118,7 +118,7 @@ def test_a_push_is_held_in_the_direction_in_which_it_began() -> None:
     np.testing.assert_allclose(bench.forces(1)[0], [10.0, 0.0, 0.0])
 
 
-def test_the_edges_of_a_push_are_taken() -> None:
+def test_bounds_of_a_push_are_accepted() -> None:
     for direction in (-2 * pi, 2 * pi):
         Push(0.0, 0.0, direction, 1e-3)
     Push(0.0, 86400.0, 0.0)
@@ -138,14 +138,12 @@ def test_the_edges_of_a_push_are_taken() -> None:
         ((1.0, 1.0, 0.0, -0.1), "push duration"),
     ],
 )
-def test_pushes_that_nobody_can_give_are_refused(
-    values: Any, name: str
-) -> None:
+def test_pushes_out_of_range_are_refused(values: Any, name: str) -> None:
     with pytest.raises(ConfigurationError, match=name):
         Push(*values)
 
 
-def test_pushes_are_sorted_by_who_is_meant() -> None:
+def test_pushes_are_grouped_by_robot() -> None:
     """Who is not named is the last: the walker, or the evader."""
     one, other = Push(1.0, 2.0, 0.0), Push(2.0, 1.0, 0.0, player="pursuer")
     players = ("pursuer", "evader")
@@ -157,7 +155,7 @@ def test_pushes_are_sorted_by_who_is_meant() -> None:
         check_pushes([one, other], ("evader",))
 
 
-def test_what_was_given_is_remembered_with_its_place_and_way() -> None:
+def test_started_pushes_are_recorded_in_the_world() -> None:
     bench = Bench(turned(0.7), Push(1.5, 0.01, pi / 2), Push(1.0, 0.03, 0.0))
     assert list(bench.pusher.given) == []
     bench.forces(5)

@@ -1,4 +1,4 @@
-"""Test cameras and sonars made of rays, before walls that are computed."""
+"""Test ray-cast cameras in front of walls at known positions."""
 
 from dataclasses import replace
 from math import cos, radians, sqrt
@@ -38,7 +38,7 @@ def wall(away: float, top: float = 3.0, half: float = 5.0) -> str:
 def cast(
     things: str, rays: Array, mount: Mount = AHEAD, at: str = 'pos="0 0 0.5"'
 ) -> tuple[mujoco.MjModel, RayCaster]:
-    """Rays from a body above a floor, that wears a shell."""
+    """Return a ray caster on a body with a shell above a floor."""
     model = mujoco.MjModel.from_xml_string(
         '<mujoco><worldbody><geom name="floor" type="plane" size="9 9 1"/>'
         f'<body name="eye" {at}><geom size="0.3" group="1"/></body>'
@@ -66,7 +66,7 @@ def test_a_ray_goes_from_its_mount_on_a_turned_body() -> None:
     np.testing.assert_allclose(caster.along, (0.5, 1.0 / sqrt(13.0)))
 
 
-def test_rays_pass_through_what_has_no_look() -> None:
+def test_rays_ignore_invisible_geoms() -> None:
     rays = np.array([[1.0, 0.0, 0.0]])
     for group, there in ((0, True), (2, True), (3, False), (5, False)):
         thing = wall(1.1).replace("<geom", f'<geom group="{group}"')
@@ -162,7 +162,7 @@ def colours(things: str, mount: Mount = AHEAD) -> np.ndarray:
     return ColourCaster(model, caster, CAMERA).take()
 
 
-def test_colours_are_those_of_things_in_the_light() -> None:
+def test_colours_are_shaded_geom_colours() -> None:
     """Faces towards the viewer are turned from the light but a little."""
     box = (
         '<geom type="box" pos="1.5 0 0.5" size="0.4 0.4 0.3"'
@@ -178,9 +178,7 @@ def test_colours_are_those_of_things_in_the_light() -> None:
 @pytest.mark.parametrize(
     ("yaw", "facing"), [(0, 0.2), (90, 0.3), (180, 0.0), (270, 0.0)]
 )
-def test_light_falls_on_the_sides_that_face_it(
-    yaw: int, facing: float
-) -> None:
+def test_faces_towards_the_light_are_brighter(yaw: int, facing: float) -> None:
     """It comes from behind the right; other sides have what is about."""
     model, caster = cast(
         '<geom type="box" pos="0 0 0.5" size="0.1 0.1 0.1" rgba="1 1 1 1"/>',
@@ -193,7 +191,7 @@ def test_light_falls_on_the_sides_that_face_it(
     assert pixel.ravel().tolist() == 3 * [int(255 * light)]
 
 
-def test_materials_go_before_colours_and_walls_are_grey() -> None:
+def test_material_colours_override_and_walls_are_grey() -> None:
     named = wall(1.6).replace('name="wall"', 'name="wall 1 0"')
     face = 0.55 + 0.45 * 0.2 / sqrt(1.13)
     expected = [int(255 * c * face) for c in (0.74, 0.75, 0.73)]
@@ -214,7 +212,7 @@ def test_materials_go_before_colours_and_walls_are_grey() -> None:
     assert pixel.tolist() == [0, 0, int(255 * face)]
 
 
-def test_the_floor_is_a_board_of_half_a_meter() -> None:
+def test_the_floor_is_a_checkerboard_of_half_a_metre() -> None:
     """Seen from above: dark and bright where their places say so."""
     mount = Mount(np.array([0.1, 0.0, 0.5]), rotation(0.0, radians(90.0), 0))
     image = colours("", mount)

@@ -1,4 +1,4 @@
-"""Test walls, things and the depth camera that a world is furnished with."""
+"""Test walls, objects and camera housings of a room."""
 
 import mujoco
 import numpy as np
@@ -26,7 +26,7 @@ def furnished(
     return model, data
 
 
-def test_walls_stand_all_around_at_their_distance() -> None:
+def test_walls_enclose_the_room_at_their_distance() -> None:
     model, data = furnished(SceneSettings(walls=3.0))
     for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         wall = model.geom(f"wall {x} {y}")
@@ -55,7 +55,7 @@ def test_walls_stand_all_around_at_their_distance() -> None:
 
 
 def test_walls_are_pale_and_checked() -> None:
-    """Two tones that nobody takes for trim."""
+    """Two tones that differ from trim."""
     model, _ = furnished(SceneSettings(walls=3.0))
     texture = model.tex("wall")
     start = int(texture.adr[0])
@@ -67,7 +67,7 @@ def test_walls_are_pale_and_checked() -> None:
         assert tone.min() > 0.9 * tone.max()
 
 
-def test_no_walls_are_no_walls() -> None:
+def test_zero_walls_add_none() -> None:
     model, _ = furnished(SceneSettings(walls=0.0))
     names = [model.geom(i).name for i in range(model.ngeom)]
     assert not any("wall" in name for name in names)
@@ -124,7 +124,7 @@ def test_a_white_figure_is_as_tall_as_a_robot_and_symmetric() -> None:
     assert (model.geom_conaffinity[parts] == 0).all()
 
 
-def test_things_stand_where_each_is_said_to_stand() -> None:
+def test_objects_are_at_their_positions() -> None:
     things = [
         RoomObject("red box", 1.0, 0.0),
         RoomObject("white figure", -1.0, 0.5),
@@ -135,7 +135,7 @@ def test_things_stand_where_each_is_said_to_stand() -> None:
         np.testing.assert_allclose(place, (thing.x, thing.y, 0.0))
 
 
-def test_the_depth_camera_is_worn_without_weight_behind_its_window() -> None:
+def test_the_housing_is_massless_and_behind_the_lens() -> None:
     model, data = furnished(SceneSettings(0.0))
     head = model.body("me/head").id
     _, housing = np.flatnonzero(model.geom_bodyid == head)
@@ -152,8 +152,8 @@ def test_the_depth_camera_is_worn_without_weight_behind_its_window() -> None:
     np.testing.assert_allclose(model.geom_rgba[housing], black, rtol=1e-6)
 
 
-def test_the_lower_camera_looks_where_its_mount_has_it() -> None:
-    """Along its own -z, with x to the right; nobody has it unasked."""
+def test_the_bottom_camera_has_the_axes_of_its_mount() -> None:
+    """It looks along -z with x to the right, and exists on request only."""
     model, data = furnished(SceneSettings(walls=0.0), lower=("me",))
     mujoco.mj_camlight(model, data)
     camera, mount = model.camera(f"me/{LOWER}").id, HEAD.bottom

@@ -1,4 +1,4 @@
-"""Sensors and links that are off: each error has its size and its place."""
+"""Test errors of sensors and masses."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -19,12 +19,12 @@ TURN = np.array([0.3, -0.2, 0.1])
 FORCE = np.array([1.0, 2.0, 9.0])
 
 
-def spoilt(seed: int = 1, **effects: Any) -> SensorErrors:
+def errors_of(seed: int = 1, **effects: Any) -> SensorErrors:
     return SensorErrors(BodySettings(**effects), named_generator(seed, "s"))
 
 
-def test_without_errors_sensors_tell_the_truth() -> None:
-    sensors = spoilt()
+def test_without_errors_sensors_are_exact() -> None:
+    sensors = errors_of()
     angles, forces = np.array([0.1234, -2.0]), np.arange(8.0)
     np.testing.assert_array_equal(sensors.encoders(angles), angles)
     np.testing.assert_array_equal(sensors.foot_forces(forces), forces)
@@ -37,7 +37,7 @@ def test_without_errors_sensors_tell_the_truth() -> None:
     ("name", "which", "size"),
     [("gyro_bias", 0, 0.1), ("accelerometer_bias", 1, 0.5)],
 )
-def test_a_bias_is_constant_and_as_great_as_asked(
+def test_a_bias_is_constant_and_within_its_bound(
     name: str, which: int, size: float
 ) -> None:
     """Over many robots it fills minus to plus its size on every axis."""
@@ -45,7 +45,7 @@ def test_a_bias_is_constant_and_as_great_as_asked(
     drawn = []
     for seed in range(300):
         effects: dict[str, Any] = {name: size}
-        sensors = spoilt(seed, **effects)
+        sensors = errors_of(seed, **effects)
         first, second = sensors.imu(*truth), sensors.imu(*truth)
         np.testing.assert_array_equal(first[which], second[which])
         np.testing.assert_array_equal(first[1 - which], truth[1 - which])
@@ -61,11 +61,11 @@ def test_a_bias_is_constant_and_as_great_as_asked(
     ("name", "which", "size"),
     [("gyro_noise", 0, 0.02), ("accelerometer_noise", 1, 0.3)],
 )
-def test_imu_noise_is_centred_and_as_great_as_asked(
+def test_imu_noise_has_zero_mean_and_the_set_deviation(
     name: str, which: int, size: float
 ) -> None:
     effects: dict[str, Any] = {name: size}
-    sensors = spoilt(**effects)
+    sensors = errors_of(**effects)
     truth = (TURN, FORCE)
     readings = [sensors.imu(*truth) for _ in range(4000)]
     off = np.array([r[which] for r in readings]) - truth[which]
@@ -76,8 +76,8 @@ def test_imu_noise_is_centred_and_as_great_as_asked(
 
 
 @pytest.mark.parametrize("delay", [0, 1, 3])
-def test_the_imu_is_late_by_whole_cycles(delay: int) -> None:
-    sensors = spoilt(imu_delay_cycles=delay)
+def test_the_imu_is_delayed_by_whole_cycles(delay: int) -> None:
+    sensors = errors_of(imu_delay_cycles=delay)
     for number in range(8):
         turn, force = sensors.imu(TURN * number, FORCE * number)
         then = max(number - delay, 0)
@@ -105,16 +105,16 @@ def test_the_greatest_draws_give_the_greatest_errors() -> None:
     np.testing.assert_allclose(sensors.foot_forces(np.full(8, 5.0)), 6.4)
 
 
-def test_what_was_read_is_not_changed() -> None:
+def test_inputs_are_not_modified() -> None:
     turn, force = TURN.copy(), FORCE.copy()
-    spoilt(gyro_bias=1.0, accelerometer_bias=1.0).imu(turn, force)
+    errors_of(gyro_bias=1.0, accelerometer_bias=1.0).imu(turn, force)
     np.testing.assert_array_equal(turn, TURN)
     np.testing.assert_array_equal(force, FORCE)
 
 
 def test_encoders_round_to_their_nearest_step() -> None:
     angles = np.linspace(-0.1, 0.1, 1001)
-    encoded = spoilt(encoder_step=0.01).encoders(angles)
+    encoded = errors_of(encoder_step=0.01).encoders(angles)
     np.testing.assert_allclose(np.round(encoded / 0.01), encoded / 0.01)
     assert np.abs(encoded - angles).max() <= 0.005 + 1e-12
 
@@ -122,7 +122,7 @@ def test_encoders_round_to_their_nearest_step() -> None:
 def test_foot_sensors_have_a_constant_gain_each() -> None:
     drawn = []
     for seed in range(100):
-        sensors = spoilt(seed, force_gain_error=0.2)
+        sensors = errors_of(seed, force_gain_error=0.2)
         gains = sensors.foot_forces(np.ones(8))
         np.testing.assert_allclose(
             sensors.foot_forces(np.full(8, 7.0)), 7.0 * gains
@@ -134,8 +134,8 @@ def test_foot_sensors_have_a_constant_gain_each() -> None:
     np.testing.assert_allclose(gains.mean(), 1.0, atol=0.02)
 
 
-def test_foot_noise_is_as_great_as_asked_and_never_pulls() -> None:
-    sensors = spoilt(force_noise=0.4)
+def test_foot_noise_has_the_set_deviation_and_stays_positive() -> None:
+    sensors = errors_of(force_noise=0.4)
     nine = np.full(8, 9.0)
     pressed = np.array([sensors.foot_forces(nine) for _ in range(999)])
     np.testing.assert_allclose(pressed.std(), 0.4, rtol=0.05)
@@ -181,7 +181,7 @@ def part(name: str, mass: float = 2.0) -> SimpleNamespace:
     )
 
 
-def test_inertia_is_as_far_off_as_the_mass() -> None:
+def test_inertia_scales_with_the_mass() -> None:
     factors = []
     for seed in range(300):
         parts = [part("torso"), part("leg"), part("frame", 0.0)]
@@ -233,7 +233,7 @@ def test_a_specification_of_mujoco_takes_the_errors() -> None:
     assert np.abs(model.body_ipos[1][:2]).min() > 0.0
 
 
-def test_errors_of_other_robots_go_with_their_size() -> None:
+def test_errors_scale_with_the_robot() -> None:
     body = BodySettings(force_noise=0.4, com_error=0.01)
     noises, shifts = [], []
     for unit in (1.0, 6.0):

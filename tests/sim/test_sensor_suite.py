@@ -1,4 +1,4 @@
-"""Test when eyes and ears look and when the robot learns of it."""
+"""Test rates, latencies and losses of cameras and sonars."""
 
 from collections import deque
 from dataclasses import replace
@@ -53,7 +53,7 @@ def stream(
 
 
 def watch(sensor: SensorStream, ticks: int) -> tuple[list[float], list[float]]:
-    """When percepts were taken, and how old they were at their arrival."""
+    """Return times of exposure, and ages at arrival."""
     noted: list[Percept] = []
     ages, taken = [], []
     for tick in range(ticks):
@@ -65,7 +65,7 @@ def watch(sensor: SensorStream, ticks: int) -> tuple[list[float], list[float]]:
     return taken, ages
 
 
-def test_a_sensor_looks_at_its_rate_and_tells_at_once() -> None:
+def test_a_sensor_takes_percepts_at_its_rate() -> None:
     taken, ages = watch(stream(), 101)
     np.testing.assert_allclose(taken, [0.0, 0.1, 0.2, 0.3, 0.4])
     assert ages == [0.0] * 5
@@ -80,7 +80,7 @@ def test_latency_delays_what_arrives_but_not_when_it_is_taken() -> None:
     np.testing.assert_allclose(ages, 0.252)
 
 
-def test_a_share_is_dropped_and_the_rest_keeps_its_times() -> None:
+def test_dropped_percepts_do_not_shift_the_others() -> None:
     taken, ages = watch(stream(0.02, 0.1, drop=0.3), 4000)
     assert len(taken) == pytest.approx(0.7 * 800, rel=0.06)
     multiples = np.array(taken) / 0.02
@@ -96,7 +96,7 @@ def eyes_of(
     seed: int = 3,
     renderer: str = "raycast",
 ) -> SensorSuite:
-    """Eyes of a head 0.5 m above a floor, with a box 1.6 m ahead."""
+    """Return sensors of a head 0.5 m above a floor, a box 1.6 m ahead."""
     model = mujoco.MjModel.from_xml_string(
         '<mujoco><worldbody><geom name="floor" type="plane" size="9 9 1"/>'
         '<geom type="box" pos="2.1 0 0.4" size="0.5 0.4 0.4" rgba="1 0 0 1"/>'
@@ -134,7 +134,7 @@ def arrivals(
     return found
 
 
-def test_each_sense_keeps_its_own_clock() -> None:
+def test_each_sensor_has_its_own_rate() -> None:
     """Rates become whole ticks: 15 images a second are one in 17 ticks."""
     settings = replace(
         PLAIN,
@@ -158,11 +158,11 @@ def test_each_sense_keeps_its_own_clock() -> None:
         assert (late < latency + TICK).all()
 
 
-def test_only_who_wears_the_depth_camera_listens_too() -> None:
+def test_only_a_robot_with_a_depth_camera_has_sonars() -> None:
     assert list(arrivals(eyes_of(depth=False), 30)) == ["ColourImage"]
 
 
-def test_images_are_taken_from_where_the_sensors_sit() -> None:
+def test_images_are_taken_from_the_sensor_mounts() -> None:
     eyes = eyes_of()
     arrivals(eyes, 1)
     colour, depth, left, right = eyes.exposed
@@ -183,7 +183,7 @@ def test_images_are_taken_from_where_the_sensors_sit() -> None:
         assert echo.distance == pytest.approx(0.6, abs=0.03)
 
 
-def test_what_is_exposed_is_told_at_its_tick_though_it_arrives_later() -> None:
+def test_exposed_percepts_are_listed_before_their_latency() -> None:
     settings = replace(PLAIN, added_latency=2 * TICK)
     eyes = eyes_of(settings, depth=False)
     exposed, arrived = [], []
@@ -197,7 +197,7 @@ def test_what_is_exposed_is_told_at_its_tick_though_it_arrives_later() -> None:
     assert late <= arrived[0][1] - exposed[0][1] < late + TICK
 
 
-def test_what_is_drawn_by_chance_depends_on_the_seed_alone() -> None:
+def test_random_draws_depend_on_the_seed_only() -> None:
     noisy = replace(
         PLAIN, colour=replace(PLAIN.colour, noise=4.0), drop_frames=0.5
     )
@@ -217,17 +217,17 @@ def test_what_is_drawn_by_chance_depends_on_the_seed_alone() -> None:
     assert not np.array_equal(one[0], other[0])
 
 
-def test_senses_drop_their_images_apart_from_each_other() -> None:
+def test_sensors_drop_percepts_independently() -> None:
     found = arrivals(eyes_of(replace(PLAIN, drop_frames=0.5)), 500)
     left, right = ({t for t, _ in found[ear]} for ear in ("left", "right"))
     assert left != right
 
 
-def test_grain_is_noise_of_the_size_asked_for() -> None:
+def test_pixel_noise_has_the_set_deviation() -> None:
     camera = CameraModel.of_field_of_view(80, 60, 1.0, 0.8)
     grey = np.full((60, 80, 3), 128, dtype=np.uint8)
     grain = ImageNoise(camera, 6.0, np.random.default_rng(2))
-    one, other = grain.spoil(grey), grain.spoil(grey)
+    one, other = grain.add_to(grey), grain.add_to(grey)
     assert one.shape == grey.shape and one.dtype == np.uint8
     assert not np.array_equal(one, other)
     for noise in (one.astype(float) - 128.0, other.astype(float) - 128.0):
@@ -235,21 +235,21 @@ def test_grain_is_noise_of_the_size_asked_for() -> None:
         assert abs(noise.mean()) < 0.15
     # Bright stays bright: noise does not wrap around.
     white = np.full((60, 80, 3), 254, dtype=np.uint8)
-    assert grain.spoil(white).min() > 200
+    assert grain.add_to(white).min() > 200
     still = ImageNoise(camera, 0.0, np.random.default_rng(2))
-    np.testing.assert_array_equal(still.spoil(grey), grey)
+    np.testing.assert_array_equal(still.add_to(grey), grey)
 
 
-def test_noise_is_shifted_all_about() -> None:
-    """Any part of the tile may come, up to its last row and column."""
+def test_pixel_noise_is_shifted_over_the_whole_tile() -> None:
+    """Every offset occurs, up to the last row and column."""
     camera = CameraModel.of_field_of_view(10, 8, 1.0, 0.8)
     grey = np.full((8, 10, 3), 128, dtype=np.uint8)
     grain = ImageNoise(camera, 6.0, np.random.default_rng(2))
-    images = {grain.spoil(grey).tobytes() for _ in range(2000)}
+    images = {grain.add_to(grey).tobytes() for _ in range(2000)}
     assert len(images) == 80
 
 
-def test_rays_afford_160_columns_of_the_same_view() -> None:
+def test_ray_casting_reduces_the_image_to_160_columns() -> None:
     camera = ColourSettings().model()
     assert _size_for("egl", camera) is camera
     small = _size_for("raycast", camera)
@@ -263,14 +263,14 @@ def test_rays_afford_160_columns_of_the_same_view() -> None:
     assert _size_for("raycast", small) is small
 
 
-def test_graphics_draw_the_field_of_view_of_the_camera(
+def test_rendering_uses_the_field_of_view_of_the_camera(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """MuJoCo takes its height, in degrees; the width follows."""
+    """MuJoCo takes the vertical angle, in degrees."""
     sizes: list[tuple[Any, ...]] = []
     drawn: list[int] = []
 
-    class Screen:
+    class FakeRenderer:
         def __init__(self, model: Any, *arguments: Any) -> None:
             sizes.append(arguments)
 
@@ -279,7 +279,7 @@ def test_graphics_draw_the_field_of_view_of_the_camera(
             drawn.append(number)
             return np.full((60, 80, 3), 99, dtype=np.uint8)
 
-    monkeypatch.setattr(eyes_module, "OffscreenRenderer", Screen)
+    monkeypatch.setattr(eyes_module, "OffscreenRenderer", FakeRenderer)
     eyes = eyes_of(depth=False, renderer="egl")
     model = eyes._world.model
     assert model.camera("me/head_camera").fovy[0] == pytest.approx(47.6)
@@ -292,11 +292,11 @@ def test_graphics_draw_the_field_of_view_of_the_camera(
     assert drawn == 2 * [model.camera("me/head_camera").id]
 
 
-def test_closed_eyes_may_be_closed_again() -> None:
+def test_sensors_can_be_closed_twice() -> None:
     eyes = eyes_of(depth=False)
     closed: list[bool] = []
     screen: Any = SimpleNamespace(close=lambda: closed.append(True))
-    eyes._screen = screen
+    eyes._renderer = screen
     eyes.close()
     eyes.close()
     assert closed == [True]

@@ -1,4 +1,4 @@
-"""Servos on two hinges: speed limits, feedforward, lag, play, torque."""
+"""Test servos on two hinges: limits, feedforward, delay, backlash."""
 
 from typing import Any
 
@@ -48,7 +48,7 @@ def ideal() -> tuple[IdealServos, mujoco.MjModel, mujoco.MjData]:
     return servos, model, data
 
 
-def honest(
+def realistic(
     play: tuple[float, float] = (0.0, 0.0), **effects: Any
 ) -> tuple[RealisticServos, mujoco.MjModel, mujoco.MjData]:
     model, data = bench()
@@ -67,7 +67,7 @@ def torques(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
     return found
 
 
-def test_a_reset_is_taken_as_what_was_always_asked() -> None:
+def test_a_reset_sets_targets_without_motion() -> None:
     servos, _, data = ideal()
     servos.reset(np.array([0.3, -0.4]))
     np.testing.assert_array_equal(data.ctrl, [0.123, 0.3, -0.4])
@@ -90,15 +90,15 @@ def test_a_target_moves_no_faster_than_the_joint_can(side: float) -> None:
     np.testing.assert_allclose(data.ctrl[1:], wanted, atol=1e-12)
 
 
-def test_a_small_change_is_followed_whole() -> None:
+def test_a_small_change_is_not_limited() -> None:
     servos, _, _ = ideal()
     servos.reset(np.zeros(2))
     servos.write(np.array([0.002, -0.001]))
     np.testing.assert_allclose(servos._target, [0.002, -0.001])
 
 
-def test_a_joint_that_keeps_up_needs_no_torque() -> None:
-    """At the target, at the target's own speed, damping pulls at nothing."""
+def test_a_joint_at_its_target_speed_needs_no_torque() -> None:
+    """At the target and at its speed, damping gives no torque."""
     servos, model, data = ideal()
     servos.reset(np.zeros(2))
     targets = np.array([0.01, -0.02])
@@ -109,8 +109,8 @@ def test_a_joint_that_keeps_up_needs_no_torque() -> None:
     np.testing.assert_allclose(torques(model, data), KV * targets / CYCLE)
 
 
-def test_honest_servos_reach_a_request_over_one_cycle() -> None:
-    servos, _, data = honest(delay_cycles=0, efficiency=0.9)
+def test_realistic_servos_ramp_over_one_cycle() -> None:
+    servos, _, data = realistic(delay_cycles=0, efficiency=0.9)
     wanted = np.array([0.012, -0.006])
     servos.write(wanted)
     lead = KV / np.array([KP, 2 * KP]) / CYCLE * wanted
@@ -126,8 +126,8 @@ def test_honest_servos_reach_a_request_over_one_cycle() -> None:
 
 
 @pytest.mark.parametrize("delay", [0, 1, 3])
-def test_requests_arrive_in_order_after_the_delay(delay: int) -> None:
-    servos, _, data = honest(delay_cycles=delay, efficiency=0.9)
+def test_targets_take_effect_in_order_after_the_delay(delay: int) -> None:
+    servos, _, data = realistic(delay_cycles=delay, efficiency=0.9)
     sent = [np.array([0.001 * i, -0.002 * i]) for i in range(1, 8)]
     for number, request in enumerate(sent):
         servos.write(request)
@@ -139,8 +139,8 @@ def test_requests_arrive_in_order_after_the_delay(delay: int) -> None:
         np.testing.assert_allclose(ramp, expected, atol=1e-12)
 
 
-def test_a_reset_forgets_what_was_on_its_way() -> None:
-    servos, _, data = honest(delay_cycles=2)
+def test_a_reset_clears_pending_targets() -> None:
+    servos, _, data = realistic(delay_cycles=2)
     for _ in range(3):
         servos.write(np.array([0.01, 0.01]))
     servos.reset(np.array([0.2, 0.1]))
@@ -151,8 +151,8 @@ def test_a_reset_forgets_what_was_on_its_way() -> None:
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_honest_servos_keep_the_speed_limits_too(side: float) -> None:
-    servos, _, _ = honest(efficiency=0.9)
+def test_realistic_servos_respect_the_speed_limits(side: float) -> None:
+    servos, _, _ = realistic(efficiency=0.9)
     wanted = side * np.ones(2)
     for count in range(1, 4):
         servos.write(wanted)
@@ -161,9 +161,9 @@ def test_honest_servos_keep_the_speed_limits_too(side: float) -> None:
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_play_takes_half_its_width_off_an_error(side: float) -> None:
+def test_backlash_subtracts_half_its_width_from_the_error(side: float) -> None:
     """Within it no torque, beyond it the rest; a joint without has none."""
-    servos, _, data = honest(play=(0.04, 0.0))
+    servos, _, data = realistic(play=(0.04, 0.0))
     data.qpos[QPOS] = [0.5, -0.5]
     for off, seen in ((0.019, 0.0), (0.021, 0.001), (0.05, 0.03)):
         servos.reset(data.qpos[QPOS] + side * off)
@@ -172,8 +172,8 @@ def test_play_takes_half_its_width_off_an_error(side: float) -> None:
         np.testing.assert_allclose(error, side * np.array([seen, off]))
 
 
-def test_a_weak_gain_scales_the_pull_and_leaves_the_rest_point() -> None:
-    servos, model, data = honest(servo_gain=0.75)
+def test_a_gain_scales_torque_but_not_the_equilibrium() -> None:
+    servos, model, data = realistic(servo_gain=0.75)
     data.qpos[QPOS] = [0.3, -0.2]
     servos.reset(np.array([0.31, -0.21]))
     servos.before_step(0.0)
@@ -186,8 +186,8 @@ def test_a_weak_gain_scales_the_pull_and_leaves_the_rest_point() -> None:
 
 
 def limits_at(share: float, **effects: Any) -> tuple[Array, Array]:
-    """Torque limits of both motors at a share of their no-load speeds."""
-    servos, model, data = honest(**effects)
+    """Return torque limits at a fraction of the no-load speeds."""
+    servos, model, data = realistic(**effects)
     data.qvel[DOFS] = share * SPEEDS
     servos.before_step(0.0)
     low, high = model.actuator_forcerange[ACTUATORS].T
@@ -209,16 +209,16 @@ def limits_at(share: float, **effects: Any) -> tuple[Array, Array]:
         (-1.5, 0.0, 1.0),
     ],
 )
-def test_a_motor_tires_in_the_direction_in_which_it_turns(
+def test_the_torque_limit_falls_in_the_direction_of_motion(
     share: float, low: float, high: float
 ) -> None:
-    """A motor that is turned backward brakes with its stall, not more."""
+    """A motor driven backward brakes with the stall torque at most."""
     found = limits_at(share, torque_speed=True)
     np.testing.assert_allclose(found[0], low, atol=1e-12)
     np.testing.assert_allclose(found[1], high, atol=1e-12)
 
 
-def test_stall_is_the_share_that_efficiency_and_stiffness_leave() -> None:
+def test_stall_torque_scales_with_efficiency_and_stiffness() -> None:
     for share in (0.0, 0.5, -0.5):
         low, high = limits_at(share, efficiency=0.6, stiffness=0.5)
         np.testing.assert_allclose(low, -0.3)
@@ -228,8 +228,8 @@ def test_stall_is_the_share_that_efficiency_and_stiffness_leave() -> None:
     np.testing.assert_allclose(high, 0.6)
 
 
-def test_the_physics_holds_a_motor_to_its_limits() -> None:
-    servos, model, data = honest(torque_speed=True)
+def test_physics_applies_the_torque_limits() -> None:
+    servos, model, data = realistic(torque_speed=True)
     servos.reset(np.array([1.0, 1.0]))
     data.qvel[DOFS] = 0.5 * SPEEDS
     servos.before_step(0.0)
@@ -238,14 +238,14 @@ def test_the_physics_holds_a_motor_to_its_limits() -> None:
 
 @pytest.mark.parametrize("kind", ["ideal", "torque-speed", "flat"])
 @pytest.mark.parametrize("share", [0.0, 0.25, 1.0])
-def test_a_soft_joint_pushes_with_its_share_and_no_other_is_touched(
+def test_stiffness_of_one_joint_does_not_affect_others(
     kind: str, share: float
 ) -> None:
     servos: IdealServos
     if kind == "ideal":
         servos, model, data = ideal()
     else:
-        servos, model, data = honest(
+        servos, model, data = realistic(
             torque_speed=kind == "torque-speed", efficiency=0.5
         )
     full = STALL * (1.0 if kind == "ideal" else 0.5)

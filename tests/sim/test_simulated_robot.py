@@ -1,4 +1,4 @@
-"""A robot behind its own sensors and servos, its fall, its place."""
+"""Test a simulated robot: sensors, servos, fall and reference point."""
 
 from math import cos, pi, radians, sin
 from types import SimpleNamespace
@@ -80,7 +80,7 @@ def stabiliser_of(scheme: ControlScheme) -> Stabiliser:
     return scheme.balance.stabiliser
 
 
-def test_a_robot_stands_where_its_odometry_begins() -> None:
+def test_a_robot_starts_at_its_odometry_frame() -> None:
     robot, scheme = stand()
     # The torso stands over the feet, on the line between them.
     place = FRAME.inverse().transform_points([robot.truth.position])[0]
@@ -106,7 +106,7 @@ def test_a_robot_stands_where_its_odometry_begins() -> None:
 
 
 def test_a_robot_reads_its_own_sensors() -> None:
-    """Each value of the simulator's list comes out where it should."""
+    """Each simulated sensor appears in its field of the measurement."""
     robot, _ = stand()
     model, data = robot.world.model, robot.world.data
     data.sensordata[:] = np.arange(data.sensordata.size)
@@ -188,7 +188,7 @@ def test_truth_is_the_robots_own() -> None:
 @pytest.mark.parametrize(
     ("effect", "value"), [("efficiency", 0.9), ("backlash", 0.01)]
 )
-def test_servos_are_honest_where_the_body_is_not_ideal(
+def test_a_body_that_is_not_ideal_has_realistic_servos(
     effect: str, value: float
 ) -> None:
     plain, _ = stand()
@@ -214,7 +214,7 @@ def test_speed_limits_belong_to_their_joints() -> None:
         np.testing.assert_allclose(reach, 0.012 * np.array(limits))
 
 
-def test_sensors_are_spoilt_by_the_robots_own_draws() -> None:
+def test_sensor_errors_use_the_generator_of_the_robot() -> None:
     """Encoders, IMU and feet go through the errors, in their places."""
     effects: dict[str, Any] = {
         "encoder_step": 0.01,
@@ -240,7 +240,7 @@ def test_sensors_are_spoilt_by_the_robots_own_draws() -> None:
     )
 
 
-def test_without_a_generator_nothing_is_spoilt() -> None:
+def test_without_a_generator_sensors_are_exact() -> None:
     physics = PhysicsSettings()
     world = World({"walker": NAO}, physics)
     robot = SimulatedRobot(
@@ -283,7 +283,7 @@ def test_feedback_knows_the_clock_and_the_delay() -> None:
     assert stabiliser_of(at_once)._asked.maxlen == 1
 
 
-def test_a_scheme_starts_from_what_it_was_told() -> None:
+def test_a_scheme_starts_from_the_first_measurement() -> None:
     robot, scheme = stand()
     assert scheme.phase is Phase.STANDING
     assert isinstance(scheme.decisions.strategy, Pursuit)
@@ -331,7 +331,7 @@ def test_sight_and_eyes_are_read_at_the_time_of_the_world() -> None:
     walker().close()  # who has no eyes has nothing to let go of
 
 
-def test_time_passes_when_every_robot_has_asked_for_it() -> None:
+def test_time_advances_when_all_robots_are_done() -> None:
     robot, _ = stand()
     robot.step()
     assert robot.world.ticks == 0
@@ -350,8 +350,8 @@ def test_settings_of_the_body_reach_the_robot() -> None:
     np.testing.assert_allclose(ranges[half:], 0.5 * ranges[:half])
 
 
-def test_a_walker_is_a_body_and_what_moves_it() -> None:
-    """It reads, decides and sends; time passes by others."""
+def test_a_walker_reads_decides_and_writes() -> None:
+    """Time is advanced elsewhere."""
     made = walker()
     robot, scheme = made.robot, made.scheme
     assert made.name == "second" and made.frame == FRAME
@@ -368,7 +368,7 @@ def test_a_walker_is_a_body_and_what_moves_it() -> None:
     assert robot.pusher is not None
 
 
-def test_a_walker_has_fallen_by_truth_or_by_its_own_feeling() -> None:
+def test_a_walker_has_fallen_by_truth_or_estimate() -> None:
     made = walker()
     assert not made.has_fallen
     made.scheme.phase = Phase.FALLEN
@@ -400,7 +400,7 @@ def test_a_snapshot_holds_an_instant_of_a_walker() -> None:
     assert np.abs(later.posture - seen.posture).max() > 0.0
 
 
-def test_a_walker_with_eyes_hands_on_what_its_images_show() -> None:
+def test_a_walker_with_cameras_reports_its_frames() -> None:
     made = walker()
     perception: Any = SimpleNamespace(reports=["a frame"])
     made.scheme.senses = CameraSight(perception, tick=0.012)

@@ -1,4 +1,4 @@
-"""A world of robots: who meets whom, whose time it is, where they stand."""
+"""Test a world of robots: contacts, time and placement."""
 
 from math import cos, pi, sin
 from pathlib import Path
@@ -44,7 +44,7 @@ def placed(world: World, first: float, second: float, height: float) -> None:
     mujoco.mj_forward(world.model, data)
 
 
-def test_robots_touch_each_other_and_things_but_not_the_floor() -> None:
+def test_contacts_are_with_robots_and_objects_not_the_floor() -> None:
     world = World(TWO, PhysicsSettings(), furnish=furnish)
     placed(world, 0.0, 2.0, 2.0)
     assert world.data.ncon == 0 and not world.robots_touch()
@@ -59,7 +59,7 @@ def test_robots_touch_each_other_and_things_but_not_the_floor() -> None:
 
 @pytest.mark.parametrize("number", [1, 2, 3, 8, 10, 17])
 def test_every_pair_of_robots_collides_once(number: int) -> None:
-    """Floor with each, each with the others, none with itself."""
+    """Each collides with the floor and the others, not with itself."""
     robots = dict.fromkeys([f"robot {i}" for i in range(number)], NAO)
     model = build_model(robots, PhysicsSettings())
     types, affinities = model.geom_contype, model.geom_conaffinity
@@ -90,10 +90,10 @@ def test_feet_have_the_friction_of_the_floor() -> None:
 
 
 @pytest.mark.filterwarnings("error")
-def test_the_physics_is_as_asked_and_as_documented(
+def test_the_physics_has_its_settings(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The robot's own time step gives way, without a word about it."""
+    """The options of the world replace those of the robot model."""
     monkeypatch.chdir(tmp_path)
     option = build_model(TWO, PhysicsSettings(time_step=0.001)).opt
     assert option.timestep == 0.001
@@ -102,7 +102,7 @@ def test_the_physics_is_as_asked_and_as_documented(
     assert option.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL
 
 
-def test_robots_are_told_apart_by_their_colours() -> None:
+def test_robots_have_the_colours_of_their_roles() -> None:
     model = build_model({"evader": NAO, "x": NAO}, PhysicsSettings())
     accent = model.material(f"evader/{NAO.accent}").rgba
     np.testing.assert_allclose(accent, COLOURS["evader"])
@@ -112,7 +112,7 @@ def test_robots_are_told_apart_by_their_colours() -> None:
     np.testing.assert_allclose(model.material(f"x/{NAO.accent}").rgba, other)
 
 
-def test_the_world_can_be_drawn_as_large_as_films_are() -> None:
+def test_the_world_can_be_rendered_at_film_size() -> None:
     model = build_model(TWO, PhysicsSettings())
     assert model.vis.global_.offwidth >= 1920
     assert model.vis.global_.offheight >= 1080
@@ -120,7 +120,7 @@ def test_the_world_can_be_drawn_as_large_as_films_are() -> None:
 
 
 @pytest.mark.parametrize("effect", ["mass_error", "com_error"])
-def test_each_robot_is_misbuilt_in_its_own_way(effect: str) -> None:
+def test_each_robot_has_independent_mass_errors(effect: str) -> None:
     body = BodySettings(**{effect: 0.05})  # type: ignore[arg-type]
     right = build_model(TWO, PhysicsSettings(), BodySettings(), 4)
     wrong = build_model(TWO, PhysicsSettings(), body, 4)
@@ -134,7 +134,7 @@ def test_each_robot_is_misbuilt_in_its_own_way(effect: str) -> None:
     assert np.abs(change[torsos[0]]).max() > 1e-6
 
 
-def test_time_passes_when_both_have_asked_and_counts_their_steps() -> None:
+def test_time_counts_ticks_of_all_robots() -> None:
     world = World(TWO, PhysicsSettings(time_step=0.002, tick=0.006))
     for tick in range(3):
         world.advance()
@@ -145,7 +145,7 @@ def test_time_passes_when_both_have_asked_and_counts_their_steps() -> None:
         assert world.data.time == pytest.approx(world.time)
 
 
-def test_before_each_step_everyone_is_told_its_time() -> None:
+def test_before_step_is_called_with_the_time() -> None:
     world = World({"evader": NAO}, PhysicsSettings(tick=0.006))
     told: list[float] = []
     also: list[float] = []

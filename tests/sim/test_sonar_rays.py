@@ -1,4 +1,4 @@
-"""Test sonars made of rays: what they hear before walls and slopes."""
+"""Test ray-cast sonars in front of walls and slopes."""
 
 from dataclasses import replace
 from math import radians
@@ -31,7 +31,7 @@ def wall(away: float, top: float = 3.0, half: float = 5.0) -> str:
 def cast(
     things: str, rays: Array, mount: Mount = AHEAD, at: str = 'pos="0 0 0.5"'
 ) -> tuple[mujoco.MjModel, RayCaster]:
-    """Rays from a body above a floor, that wears a shell."""
+    """Return a ray caster on a body with a shell above a floor."""
     model = mujoco.MjModel.from_xml_string(
         '<mujoco><worldbody><geom name="floor" type="plane" size="9 9 1"/>'
         f'<body name="eye" {at}><geom size="0.3" group="1"/></body>'
@@ -49,7 +49,7 @@ def hear(
     return SonarCaster(caster, settings, generator()).listen()
 
 
-def test_a_sonar_hears_the_nearest_and_not_the_floor() -> None:
+def test_a_sonar_measures_the_nearest_object_not_the_floor() -> None:
     post = '<geom type="box" pos="0.75 0.1 0.5" size="0.1 0.1 0.5"/>'
     for things in (wall(0.8) + post, post):
         heard = hear(things)
@@ -58,8 +58,8 @@ def test_a_sonar_hears_the_nearest_and_not_the_floor() -> None:
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_floor_and_ceiling_throw_the_sound_away(sign: float) -> None:
-    """Even for one who looks up or down at them; a slope does not."""
+def test_floor_and_ceiling_give_no_echo(sign: float) -> None:
+    """Also for a sonar that is pitched; a slope gives an echo."""
     lid = '<geom type="box" pos="0 0 1.1" size="2 2 0.1" euler="0 {} 0"/>'
     up = np.cos(-sign * np.pi / 6), np.sin(-sign * np.pi / 6)
     at = f'pos="0 0 0.5" quat="{up[0]} 0 {up[1]} 0"'
@@ -70,7 +70,7 @@ def test_floor_and_ceiling_throw_the_sound_away(sign: float) -> None:
 @pytest.mark.parametrize(
     ("face", "echo"), [(0.2, 0.2), (0.25, 0.2), (0.6, 0.5), (0.95, None)]
 )
-def test_echoes_keep_to_the_limits_of_a_sonar(
+def test_echoes_are_clipped_to_the_range(
     face: float, echo: float | None
 ) -> None:
     """The rays next to the axis are a little longer than it."""
@@ -83,7 +83,7 @@ def test_echoes_keep_to_the_limits_of_a_sonar(
         assert round(heard / 0.01) == pytest.approx(heard / 0.01)
 
 
-def test_a_sonar_hears_as_far_as_its_limit_says() -> None:
+def test_a_sonar_has_its_far_limit() -> None:
     far = replace(QUIET, far=1.5)
     assert hear(wall(1.35), far) is not None
     assert hear(wall(1.65), far) is None
@@ -91,7 +91,7 @@ def test_a_sonar_hears_as_far_as_its_limit_says() -> None:
     assert hear(wall(1.0), coarse) == pytest.approx(0.9)
 
 
-def test_sonar_noise_is_as_large_as_asked() -> None:
+def test_sonar_noise_has_the_set_deviation() -> None:
     settings = replace(QUIET, noise=0.02, step=1e-4)
     _, caster = cast(wall(0.6), cone(settings.cone))
     sonar = SonarCaster(caster, settings, generator())
@@ -102,10 +102,8 @@ def test_sonar_noise_is_as_large_as_asked() -> None:
 
 
 @pytest.mark.parametrize(("angle", "heard"), [(57.0, True), (63.0, False)])
-def test_what_faces_away_throws_the_sound_away(
-    angle: float, heard: bool
-) -> None:
-    """A leaf that is turned about the vertical, in a narrow cone."""
+def test_oblique_surfaces_give_no_echo(angle: float, heard: bool) -> None:
+    """A plate turned about the vertical, in a narrow cone."""
     leaf = (
         '<geom type="box" pos="0.6 0 0.5" size="0.001 0.3 0.5" '
         f'euler="0 0 {angle}"/>'

@@ -51,7 +51,7 @@ def test_mujoco_is_not_the_release_with_the_wrong_solver() -> None:
 
 @pytest.mark.parametrize("tick", [0.005, 0.003, 0.001])
 def test_tick_that_is_no_multiple_of_the_step_is_refused(tick: float) -> None:
-    with pytest.raises(ConfigurationError, match="whole multiple"):
+    with pytest.raises(ConfigurationError, match="multiple of time_step"):
         PhysicsSettings(time_step=0.002, tick=tick)
 
 
@@ -63,7 +63,7 @@ def test_time_is_a_count_of_ticks() -> None:
     assert duel.world.data.time == pytest.approx(1.0, abs=1e-9)
 
 
-def test_standing_robots_weigh_what_their_feet_feel() -> None:
+def test_foot_forces_of_a_standing_robot_sum_to_its_weight() -> None:
     """The evader stands: foot forces, accelerometer and gyro at rest."""
     duel = standing()
     for _ in range(200):
@@ -79,7 +79,7 @@ def test_standing_robots_weigh_what_their_feet_feel() -> None:
     np.testing.assert_allclose(measured.joint_positions, targets, atol=0.03)
 
 
-def test_sight_is_the_direction_and_distance_of_the_other() -> None:
+def test_the_line_of_sight_measures_the_opponent() -> None:
     duel = standing(1.7)
     pursuer, evader = walkers(duel)
     sighting = pursuer.robot.read().sighting
@@ -91,7 +91,7 @@ def test_sight_is_the_direction_and_distance_of_the_other() -> None:
     assert back.bearing == pytest.approx(0.2, abs=0.02)
 
 
-def test_delay_and_rate_make_sight_old() -> None:
+def test_delay_and_rate_age_the_sighting() -> None:
     sight = SightSettings(delay=0.1, rate=10.0)
     duel = standing(sight=sight)
     pursuer = walkers(duel)[0]
@@ -105,7 +105,7 @@ def test_delay_and_rate_make_sight_old() -> None:
     assert 0.19 < max(ages) < 0.21
 
 
-def test_sight_noise_has_the_size_asked_for_and_repeats() -> None:
+def test_sight_noise_has_the_set_deviation_and_repeats() -> None:
     def bearings() -> np.ndarray:
         duel = standing(sight=SightSettings(bearing_noise=0.05))
         evader = walkers(duel)[1].robot
@@ -122,7 +122,7 @@ def test_sight_noise_has_the_size_asked_for_and_repeats() -> None:
     assert 0.04 < one.std() < 0.06
 
 
-def test_servo_obeys_the_speed_limits_of_the_joints() -> None:
+def test_servos_respect_the_speed_limits() -> None:
     duel = standing()
     walker = walkers(duel)[0]
     robot = walker.robot
@@ -150,8 +150,8 @@ def test_robots_touch_within_each_others_arms() -> None:
     assert not world.robots_touch() and world.touching() == ()
 
 
-def test_a_robot_in_a_thing_touches_a_thing() -> None:
-    """A box of nobody; the floor on which both stand is none."""
+def test_a_robot_in_an_object_touches_it() -> None:
+    """The floor does not count."""
 
     def furnish(spec: mujoco.MjSpec) -> None:
         box = spec.worldbody.add_body(pos=[0.0, 0.0, 0.1])
@@ -169,10 +169,10 @@ def test_a_robot_in_a_thing_touches_a_thing() -> None:
 @pytest.mark.parametrize(
     ("distance", "expected"), [(0.12, Outcome.CONTACT), (1.5, None)]
 )
-def test_robots_that_touch_end_the_duel(
+def test_contact_ends_the_duel(
     distance: float, expected: Outcome | None
 ) -> None:
-    """One is put down at a distance from the other, both still upright."""
+    """Both are placed upright at a distance."""
     duel = standing()
     assert duel.tick() is None
     pursuer, evader = (w.robot.qpos_slice.start for w in walkers(duel))

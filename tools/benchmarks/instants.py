@@ -72,7 +72,7 @@ class Torso:
 
 def play(job: Job) -> dict[str, Any]:
     """Radii and distance of one duel, in the process of its own choices."""
-    look, replan = IdealLineOfSight._look, ControlScheme._replan
+    look, replan = IdealLineOfSight._measure, ControlScheme._replan
 
     def look_at_torsos(sight: Any, now: float) -> Any:
         own, other = sight._own, sight._other
@@ -99,7 +99,7 @@ def play(job: Job) -> dict[str, Any]:
     by_path, at_place = job.heading == "path", job.point == "place"
     with (
         patch.object(
-            IdealLineOfSight, "_look", look if at_place else look_at_torsos
+            IdealLineOfSight, "_measure", look if at_place else look_at_torsos
         ),
         patch.object(
             ControlScheme, "_replan", replan if by_path else replan_from_feet

@@ -10,7 +10,7 @@ import click
 from .. import __version__
 from ..core.errors import StepAsideError, shortened
 from ..core.extras import remedy
-from ..core.interrupts import interruptible, was_interrupted
+from ..core.interrupts import interruptible
 
 INTERRUPTED = 130  # exit status
 COMMANDS = {
@@ -80,10 +80,6 @@ class LazyGroup(click.Group):
             _refuse(f"{place}{(error.strerror or str(error)).lower()}")
         except (click.Abort, KeyboardInterrupt):
             _leave()
-        except Exception:
-            if was_interrupted():
-                _leave()
-            raise
         sys.exit(status if isinstance(status, int) else 0)
 
 

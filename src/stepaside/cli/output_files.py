@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Callable
-from concurrent.futures import BrokenExecutor
 from contextlib import suppress
 from functools import wraps
 from pathlib import Path
@@ -11,8 +10,7 @@ from typing import Any
 import click
 
 from ..core.atomic_output import check_file
-from ..core.errors import ConfigurationError, OutputError, StepAsideError
-from ..core.interrupts import was_interrupted
+from ..core.errors import ConfigurationError, OutputError
 from .interruption import NOTHING, leave_stopped
 from .options.declaration import OptionDeclaration
 from .options.value_kinds import OutputFile
@@ -21,10 +19,6 @@ OVERWRITE = OptionDeclaration(
     "--overwrite/--no-overwrite", "Replace files that are there already."
 )
 FAILED = "stepaside.core.atomic_output.failed"
-EXPECTED = (
-    *(StepAsideError, OSError, ImportError, BrokenExecutor),
-    *(click.ClickException, click.Abort, click.exceptions.Exit),
-)
 
 
 def writes_files(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -51,10 +45,6 @@ def writes_files(function: Callable[..., Any]) -> Callable[..., Any]:
             leave_stopped(_kept(before, _files(context)))
         except SystemExit as status:
             left = status
-        except Exception as error:
-            if isinstance(error, EXPECTED) or not was_interrupted():
-                raise
-            leave_stopped(_kept(before, _files(context)))
         for failed in context.meta.get(FAILED, ())[:1]:
             raise failed
         if left is not None:

@@ -1,1 +1,1 @@
-"""Values and checks of every package: errors, ranges, poses, output."""
+"""Basis of all packages: errors, ranges, poses, output, processes."""

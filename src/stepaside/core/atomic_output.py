@@ -1,4 +1,4 @@
-"""Where results go: tried before work begins, written whole or not at all."""
+"""Output files: checked before the work begins, replaced atomically."""
 
 import os
 import platform
@@ -13,8 +13,8 @@ from stat import S_ISREG
 from .errors import ConfigurationError, OutputError
 
 FIGURES = (".png", ".svg", ".pdf")
-DRAFT = ".draft-"  # begins the names of what is not whole yet
-ROOM = 2**20  # that must be free for a result, in [bytes]
+DRAFT = ".draft-"  # prefix of unfinished output
+MIN_FREE_SPACE = 2**20  # free space that a result needs, in [bytes]
 
 
 def check_file(
@@ -24,16 +24,16 @@ def check_file(
     suffixes: Sequence[str] = (),
     overwrite: bool = False,
 ) -> None:
-    """Refuse a file that could not be written; nothing is left of the trial.
+    """Check that a file can be written, without creating it.
 
     Args:
-        file: What would be written.
-        name: Of the option that asks for it, for messages.
-        suffixes: What it may end in; anything if empty.
-        overwrite: Whether a file may be there already.
+        file: Output file.
+        name: Name of the option, for messages.
+        suffixes: Permitted suffixes; any if empty.
+        overwrite: Whether an existing file may be replaced.
 
     Raises:
-        ConfigurationError: If it could not; it says why.
+        ConfigurationError: If it cannot be written, with the reason.
     """
     if suffixes and file.suffix.lower() not in suffixes:
         raise ConfigurationError(
@@ -44,40 +44,39 @@ def check_file(
     there = _existing(file, name)
     if there is not None and not S_ISREG(there.st_mode):
         raise ConfigurationError(
-            f"{name} must be a file, got {str(file)!r}, which is something "
-            "else"
+            f"{name} must be a regular file, got {str(file)!r}"
         )
     if there is not None and not overwrite:
         raise ConfigurationError(
             f"{name} must be a file that does not exist yet, got "
             f"{str(file)!r}; --overwrite replaces it"
         )
-    _check_room(_target(file).parent, file, name)
+    _check_space(_target(file).parent, file, name)
 
 
 def check_folder(folder: Path, name: str = "output", *, new: bool) -> None:
-    """Refuse a folder that could not be written to; see :func:`check_file`.
+    """Check that a folder can be written to; see :func:`check_file`.
 
     Args:
-        folder: Where several files would lie.
-        name: Of the option that asks for it, for messages.
-        new: Whether nothing may be in it yet.
+        folder: Folder of the output files.
+        name: Name of the option, for messages.
+        new: Whether it must be new or empty.
 
     Raises:
-        ConfigurationError: If it could not; it says why.
+        ConfigurationError: If it cannot be written, with the reason.
     """
     there = _existing(folder, name)
     if there is None:
-        _check_room(folder.absolute().parent, folder, name)
+        _check_space(folder.absolute().parent, folder, name)
         return
     if not folder.is_dir() or (new and any(folder.iterdir())):
         kind = "a new or an empty folder" if new else "a folder"
         raise ConfigurationError(f"{name} must be {kind}, got {folder}")
-    _check_room(folder, folder, name)
+    _check_space(folder, folder, name)
 
 
 def free_file(file: Path) -> Path:
-    """File beside this one that does not exist yet: name, name-2, ..."""
+    """Return the first path of name, name-2, ... that does not exist."""
     found, number = file, 1
     while os.path.lexists(found):
         number += 1
@@ -87,15 +86,13 @@ def free_file(file: Path) -> Path:
 
 @contextmanager
 def writing(file: Path) -> Iterator[Path]:
-    """Give a draft to write, which becomes the file when it is whole.
+    """Yield a draft that replaces the file atomically on success.
 
     Args:
-        file: What to write; of a link, what it leads to. Folders that lack
-            are made.
+        file: Output file; a link is followed. Missing folders are created.
 
     Raises:
-        OutputError: If the system does not let it be written; nothing of it
-            is left then.
+        OutputError: If it cannot be written; the draft is removed.
     """
     draft = None
     try:
@@ -122,24 +119,18 @@ def writing(file: Path) -> Iterator[Path]:
 
 
 def draft_prefix() -> str:
-    """Beginning of a draft's name: whose it is."""
+    """Return the prefix of drafts of this process on this machine."""
     return f"{DRAFT}{_machine()}-{os.getpid()}-"
 
 
 def sweep(folder: Path) -> None:
-    """Remove drafts of processes of this machine that are no more.
-
-    One that was killed at once could not do it itself.
-
-    Args:
-        folder: Where drafts may lie; it exists.
-    """
+    """Remove drafts of killed processes of this machine from a folder."""
     mine = f"{DRAFT}{_machine()}-"
     for entry in os.scandir(folder):
         number = entry.name.removeprefix(mine).partition("-")[0]
         if not entry.name.startswith(mine) or not number.isdigit():
             continue
-        if _lives(int(number)):
+        if _is_running(int(number)):
             continue
         if entry.is_dir(follow_symlinks=False):
             shutil.rmtree(entry.path, ignore_errors=True)
@@ -149,24 +140,24 @@ def sweep(folder: Path) -> None:
 
 
 def _machine() -> str:
-    """Name of this machine, as a part of a file's name."""
+    """Return a short hash of the host name."""
     return sha256(platform.node().encode()).hexdigest()[:8]
 
 
-def _lives(process: int) -> bool:
+def _is_running(process: int) -> bool:
     try:
         os.kill(process, 0)
     except (ProcessLookupError, OverflowError):
         return False
-    except OSError:  # it is somebody else's
+    except OSError:  # it belongs to another user
         return True
     return True
 
 
 def reason_of(error: BaseException) -> str:
-    """What the system says of an error, in few words."""
-    said = getattr(error, "strerror", None) or str(error)
-    return (said or type(error).__name__).lower()
+    """Return the operating system's short text for an error."""
+    text = getattr(error, "strerror", None) or str(error)
+    return (text or type(error).__name__).lower()
 
 
 def _mask() -> int:
@@ -180,20 +171,21 @@ def _target(file: Path) -> Path:
 
 
 def _existing(path: Path, name: str) -> os.stat_result | None:
-    """What is at a path, at the end of its links; None if nothing is."""
+    """Return the status of a path, following links; None if missing."""
     try:
         return path.stat()
     except FileNotFoundError as error:
         if not os.path.lexists(path):
             return None
-        why: BaseException = error
-        said = "it is a link to what is not there"
+        cause: BaseException = error
+        reason = "it is a dangling link"
     except (OSError, ValueError) as error:
-        why, said = error, reason_of(error)
+        cause = error
+        reason = reason_of(error)
     raise ConfigurationError(
         f"{name} must be a path that can be written, got {_short(path)}: "
-        f"{said}"
-    ) from why
+        f"{reason}"
+    ) from cause
 
 
 def _short(path: Path) -> str:
@@ -201,21 +193,21 @@ def _short(path: Path) -> str:
     return text if len(text) < 120 else f"{text[:100]}...'"
 
 
-def _check_room(folder: Path, wanted: Path, name: str) -> None:
-    """Try to write where something shall lie, and leave nothing there."""
+def _check_space(folder: Path, output: Path, name: str) -> None:
+    """Write a temporary file to a folder, and check the free space."""
     while not os.path.lexists(folder):
         folder = folder.parent
     try:
-        # Permissions do not tell everything: only writing does.
+        # A quota or a read-only mount shows only when writing.
         with tempfile.TemporaryFile(prefix=DRAFT, dir=folder):
             free = shutil.disk_usage(folder).free
     except OSError as error:
         raise ConfigurationError(
             f"{name} must lie in a folder that can be written, got "
-            f"{_short(wanted)}: {reason_of(error)}"
+            f"{_short(output)}: {reason_of(error)}"
         ) from error
-    if free < ROOM:
+    if free < MIN_FREE_SPACE:
         raise ConfigurationError(
-            f"{name} must lie where {ROOM} bytes are free, got "
-            f"{_short(wanted)}, where {free} are"
+            f"{name} must lie where {MIN_FREE_SPACE} bytes are free, got "
+            f"{_short(output)} with {free} bytes"
         )

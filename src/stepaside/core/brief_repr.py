@@ -4,29 +4,29 @@ from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from typing import Any
 
-MOST = 4  # entries of a list or a mapping that are written out
-LONGEST = 80  # text of one entry, in [characters]
+MOST = 4  # longest list or mapping written out, in [entries]
+LONGEST = 80  # longest text of one entry, in [characters]
 
 
 def brief_repr(value: Any) -> str:
     """Write a dataclass or a named tuple as one short line.
 
-    Fields that have their default are left out, arrays are given by their
-    shape, long lists by the number of their entries.
+    Fields at their default are omitted, arrays are shown by shape, and long
+    collections by length.
 
     Args:
         value: Instance of a dataclass or of a named tuple.
     """
-    told = [
+    shown = [
         f"{name}={_brief(getattr(value, name))}"
         for name, default in _defaults(value)
         if not _equals(getattr(value, name), default)
     ]
-    return f"{type(value).__name__}({', '.join(told)})"
+    return f"{type(value).__name__}({', '.join(shown)})"
 
 
 def _defaults(value: Any) -> Iterator[tuple[str, Any]]:
-    """Names of all fields with their defaults; ``MISSING`` for none."""
+    """Yield fields with their defaults; ``MISSING`` if there is none."""
     if not is_dataclass(value):
         for name in value._fields:
             yield name, value._field_defaults.get(name, MISSING)
@@ -40,7 +40,7 @@ def _defaults(value: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _equals(value: Any, default: Any) -> bool:
-    """Whether a value is its default; no array is a default."""
+    """Return whether a value is its default; arrays never are."""
     if value is default:
         return True
     same = type(value) is type(default) and not hasattr(value, "shape")

@@ -13,19 +13,19 @@ def convex_hull(points: Array, tolerance: float = 0.0) -> Array:
 
     Args:
         points: Points (x, y), in [m]. Shape (n, 2).
-        tolerance: Twice the area of the triangle with its neighbours, in
-            [m^2], up to which a corner is left out.
+        tolerance: Corners are dropped when the triangle with their two
+            neighbours has at most half this area, in [m^2].
 
     Returns:
-        Corners, counter-clockwise from the least x; of points on a line both
-        ends. Shape (m, 2).
+        Corners, counter-clockwise from the smallest x; the two ends if all
+        points lie on a line. Shape (m, 2).
     """
     ordered = sorted(map(tuple, points.tolist()))
     hull: list[tuple[float, ...]] = []
     for chain in (ordered, ordered[::-1]):
-        begun = len(hull)
+        first = len(hull)
         for p in chain:
-            while len(hull) >= begun + 2:
+            while len(hull) >= first + 2:
                 (ax, ay), (bx, by) = hull[-2], hull[-1]
                 turn = (by - ay) * (p[0] - ax) + tolerance
                 if (bx - ax) * (p[1] - ay) > turn:

@@ -1,4 +1,4 @@
-"""Errors raised by this package, and the checks that raise them."""
+"""Errors raised by this package, and checks of values."""
 
 import os
 import sys
@@ -8,35 +8,35 @@ from pathlib import Path
 
 AnyPath = str | os.PathLike[str]
 
-# Of what is greater or smaller, cubes and ratios leave the numbers that a
-# computer has; no length, time or rate of a robot is.
+# Outside this range cubes and ratios may overflow a double; no length, time
+# or rate of a robot lies there.
 LARGEST, LEAST = 1e12, 1e-12
 GREATEST = sys.float_info.max
-LONGEST_WORD = 240  # of a message; paths are shorter
+LONGEST_WORD = 240  # in a message, in [characters]; paths are shorter
 
 
 class StepAsideError(Exception):
     """Base class of every error that this package raises."""
 
     def __str__(self) -> str:
-        """Message, short whatever was given."""
+        """Return the message with overlong words cut."""
         return shortened(super().__str__())
 
 
 class PlanError(StepAsideError, ValueError):
-    """A plan was asked for with values that no plan can satisfy."""
+    """Arguments of a plan are invalid."""
 
 
 class ConfigurationError(StepAsideError, ValueError):
-    """A setting is unknown, of the wrong type or out of its range."""
+    """A setting is unknown, of the wrong type or out of range."""
 
 
 class ReachError(StepAsideError, ValueError):
-    """A body was asked for a posture that it cannot take."""
+    """A posture is outside the reach of a robot."""
 
 
 class StrategyError(StepAsideError, RuntimeError):
-    """A strategy failed when it was asked, or gave no intent."""
+    """A strategy raised an error or returned no valid intent."""
 
 
 class ModelError(StepAsideError, ValueError):
@@ -44,15 +44,11 @@ class ModelError(StepAsideError, ValueError):
 
 
 class OutputError(StepAsideError, OSError):
-    """The system did not let a result be written."""
+    """A result could not be written."""
 
 
 def shortened(text: str) -> str:
-    """Text without words that nobody reads, like a number of 1,000 digits.
-
-    Args:
-        text: Of any length.
-    """
+    """Return a text with overlong words cut, like a number of 1,000 digits."""
     if len(text) <= LONGEST_WORD:
         return text
     words = text.split(" ")
@@ -62,10 +58,9 @@ def shortened(text: str) -> str:
 
 
 def shown(value: object) -> str:
-    """A value for a message: short, for Python writes no number of any length.
+    """Return a short text of any value, for a message.
 
-    Args:
-        value: Whatever was given.
+    Python refuses to convert integers of thousands of digits.
     """
     if isinstance(value, int) and abs(value) >= 2**128:
         return "an integer of more than 38 digits"
@@ -83,14 +78,14 @@ def _spelled(value: object) -> str:
 
 
 def number_in(value: object, *, whole: bool = False) -> float | None:
-    """A number in double precision; None for truth, text and all else.
+    """Return a number in double precision; None for any other type.
 
-    NumPy compares a narrow number with the bounds in its own precision, in
-    which they may be zero or infinite.
+    NumPy would compare a half or single precision number with the bounds in
+    that precision, where they may round to zero or infinity.
 
     Args:
-        value: Whatever was given.
-        whole: Whether it must be an integer, which is exact at any size.
+        value: Value to convert; ``bool`` is not a number.
+        whole: Whether it must be an integer, which stays exact.
     """
     if type(value) is float and not whole:
         return value
@@ -183,11 +178,11 @@ def as_path(
 
     Args:
         path: Text or any ``os.PathLike`` of text.
-        name: Of the argument, for the message.
-        error: What is raised.
+        name: Name of the argument, for the message.
+        error: Class of the error.
 
     Raises:
-        StepAsideError: Of the kind asked for, if it is neither, or holds a
+        StepAsideError: Of class ``error``, if it is no path or contains a
             null character.
     """
     try:

@@ -1,6 +1,6 @@
-"""Optional parts: what brings each."""
+"""Optional dependencies, and the extra that installs each."""
 
-EXTRAS = {  # as ``pyproject.toml`` has them; names as they are imported
+EXTRAS = {  # as in ``pyproject.toml``, with the names of the modules
     "fast": ("numba",),
     "mpc": ("daqp",),
     "robot": ("msgpack",),
@@ -12,14 +12,10 @@ EXTRAS = {  # as ``pyproject.toml`` has them; names as they are imported
 
 
 def remedy(error: ModuleNotFoundError) -> str:
-    """What to do about a module that is not installed, in one line.
-
-    Args:
-        error: Of the import.
-    """
+    """Return a message with the command that installs a missing module."""
     missing = (error.name or str(error)).partition(".")[0]
     extra = next((e for e, names in EXTRAS.items() if missing in names), "")
-    wanted = f"'stepaside[{extra}]'" if extra else "stepaside"
+    package = f"'stepaside[{extra}]'" if extra else "stepaside"
     return (
-        f"this needs {missing}, which is not installed: pip install {wanted}"
+        f"this needs {missing}, which is not installed: pip install {package}"
     )

@@ -1,15 +1,5 @@
-"""Ctrl-C, SIGTERM and SIGHUP end a command, also while it loads libraries.
+"""Ctrl-C, SIGTERM and SIGHUP: handled alike, and deferred while playing."""
 
-An interrupt that comes while a compiled library begins is taken for an error
-of that library, and one that comes while Python tidies up after an import is
-passed over; a process that a library asks as it loads would die with words of
-its own. So none is raised there, but a moment later. One that comes while a
-game is at a tick waits for the end of that, so that the record is whole. One
-that a library mistook for an error of its own all the same, as those do whose
-compiled parts ask Python things, is told from such an error afterwards.
-"""
-
-import os
 import signal
 import sys
 import threading
@@ -18,158 +8,111 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
-AGAIN = 0.01  # after which it is tried again, in [s]
-LONGEST = 0.5  # that an interrupt is kept back for a whole, in [s]
-IMPORTING = "<frozen importlib._bootstrap"  # and ..._external>
-ASKING = os.path.join(os.path.dirname(os.__file__), "subprocess.py")
-ENDINGS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-BY_DEFAULT = (signal.default_int_handler, signal.SIG_DFL)
-COMPILED = ("create_module", "exec_module")  # of a loader
+# Longest delay of a deferred interrupt, in [s]: far above a tick of a game
+# (a few ms), and short enough that Ctrl-C still seems to act at once.
+LONGEST_DELAY = 0.5
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+DEFAULT_HANDLERS = (signal.default_int_handler, signal.SIG_DFL)
 
-_raised: set[int] = set()  # signals that were told to what runs
+_raised: set[int] = set()  # signals that raised KeyboardInterrupt
 
 
 @contextmanager
 def interruptible() -> Iterator[None]:
-    """Let SIGTERM and SIGHUP end what runs as Ctrl-C does.
+    """Let SIGTERM and SIGHUP raise KeyboardInterrupt, as Ctrl-C does.
 
-    What is done is kept. A handler of one's own for Ctrl-C stays, and a
-    process that is told to survive its terminal (``nohup``) does.
+    A custom handler of SIGINT stays installed, and a process that ignores
+    SIGHUP (``nohup``) goes on ignoring it.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
     _raised.clear()
     before = {}
-    for number in ENDINGS:
+    for number in SIGNALS:
         handler = signal.getsignal(number)
-        if number == signal.SIGTERM or handler in BY_DEFAULT:
+        if number == signal.SIGTERM or handler in DEFAULT_HANDLERS:
             before[number] = signal.signal(number, interrupt)
-    unraisable = sys.unraisablehook
-    sys.unraisablehook = _again_if_lost
     try:
         yield
     finally:
-        sys.unraisablehook = unraisable
         for number, handler in before.items():
             signal.signal(number, handler)
 
 
 class DeferredInterrupt:
-    """Keeps what ends a command back until what is being done is whole.
+    """Context that defers interrupts to points where all data is complete.
 
-    Within it, whoever handles them is called where the work says that it is
-    whole, when they come a second time, or after half a second.
+    A deferred signal reaches its handler at the next :meth:`let_through`,
+    when a second signal arrives, or after ``LONGEST_DELAY``.
     """
 
     def __init__(self) -> None:
-        """Begin with nothing that was kept back."""
+        """Start without a pending signal."""
         self._before: dict[int, Any] = {}
-        self._waits: int | None = None
+        self._pending: int | None = None
         self._timer: threading.Timer | None = None
 
     def __enter__(self) -> "DeferredInterrupt":
-        """Keep back what somebody handles."""
+        """Install the deferring handler for signals that have a handler."""
         if threading.current_thread() is threading.main_thread():
-            for number in ENDINGS:
+            for number in SIGNALS:
                 if callable(before := signal.getsignal(number)):
                     self._before[number] = before
-                    signal.signal(number, self._keep)
+                    signal.signal(number, self._defer)
         return self
 
     def __exit__(self, *error: object) -> None:
-        """Let what was kept back through, unless an error goes first."""
+        """Handle a pending signal, unless another error propagates."""
         for number, handler in self._before.items():
             signal.signal(number, handler)
         if error[0] is None:
             self.let_through()
         else:
-            self._forget()
+            self._take_pending()
 
     def let_through(self) -> None:
-        """Say that all is whole; what was kept back is handled now."""
-        number = self._forget()
+        """Call the handler of a pending signal, if there is one."""
+        number = self._take_pending()
         if number is not None:
             self._before[number](number, sys._getframe())
 
-    def _keep(self, number: int, frame: FrameType | None) -> None:
-        if self._waits is None:
-            self._waits = number
-            self._timer = _again(number, LONGEST)
+    def _defer(self, number: int, frame: FrameType | None) -> None:
+        if self._pending is None:
+            self._pending = number
+            self._timer = _send_later(number, LONGEST_DELAY)
         else:
-            self._forget()
+            self._take_pending()
             self._before[number](number, frame)
 
-    def _forget(self) -> int | None:
-        """What waits, which does so no more."""
+    def _take_pending(self) -> int | None:
+        """Return the pending signal and clear it."""
         if self._timer is not None:
             self._timer.cancel()
-        number, self._waits, self._timer = self._waits, None, None
+        number, self._pending, self._timer = self._pending, None, None
         return number
 
 
 def interrupt(number: int, frame: FrameType | None) -> None:
-    """Raise KeyboardInterrupt, where it is not lost.
+    """Raise KeyboardInterrupt; handler of all three signals.
 
-    A terminal that hangs up says so once: the shell and the system each
-    send a SIGHUP then, and the second is no second wish.
+    When a terminal closes, both the shell and the kernel send SIGHUP; only
+    the first one raises, so that the second does not interrupt the cleanup.
 
     Raises:
-        KeyboardInterrupt: Now, or a moment later.
+        KeyboardInterrupt: Unless this is a repeated SIGHUP.
     """
     if number == signal.SIGHUP and number in _raised:
         return
-    if not is_loading(frame):
-        _raised.add(number)
-        raise KeyboardInterrupt
-    _again(number)
+    _raised.add(number)
+    raise KeyboardInterrupt
 
 
-def was_interrupted() -> bool:
-    """Whether an error that nobody expects may have been an interrupt."""
-    return bool(_raised)
-
-
-def is_loading(frame: FrameType | None) -> bool:
-    """Whether an exception would be lost or mistaken in a frame.
-
-    Args:
-        frame: Where Python is.
-    """
-    innermost, waits = True, False
-    while frame is not None:
-        code = frame.f_code
-        waits |= code.co_filename == ASKING
-        if code is _again_if_lost.__code__:  # nobody could be told of this
-            return True
-        if code.co_filename.startswith(IMPORTING):
-            loader = frame.f_locals.get("self")
-            if (
-                innermost
-                or waits
-                or (
-                    code.co_name in COMPILED
-                    and type(loader).__name__ == "ExtensionFileLoader"
-                )
-            ):
-                return True
-        innermost, frame = False, frame.f_back
-    return False
-
-
-def _again(number: int, after: float = AGAIN) -> threading.Timer:
-    """Send a signal to the main thread once more, after a moment."""
+def _send_later(number: int, delay: float) -> threading.Timer:
+    """Send a signal to the main thread after a delay, in [s]."""
     main = threading.main_thread().ident
     assert main is not None
-    timer = threading.Timer(after, signal.pthread_kill, (main, number))
+    timer = threading.Timer(delay, signal.pthread_kill, (main, number))
     timer.daemon = True
     timer.start()
     return timer
-
-
-def _again_if_lost(lost: "sys.UnraisableHookArgs") -> None:
-    """Interrupt once more if nobody could be told."""
-    if issubclass(lost.exc_type, KeyboardInterrupt):
-        _again(signal.SIGINT)
-    else:
-        sys.__unraisablehook__(lost)

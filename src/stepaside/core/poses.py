@@ -21,7 +21,7 @@ def wrap_angles(angles: ArrayLike) -> Array:
 
 
 class Pose(NamedTuple):
-    """Pose of a frame in the plane, as seen in a parent frame.
+    """Pose of a frame in the plane, relative to a parent frame.
 
     Attributes:
         x: Coordinate along the parent's sagittal axis, in [m].
@@ -34,7 +34,7 @@ class Pose(NamedTuple):
     theta: float
 
     def compose(self, child: "Pose") -> "Pose":
-        """Express in the parent frame a pose given in this frame."""
+        """Return the pose in the parent frame of a pose in this frame."""
         c, s = cos(self.theta), sin(self.theta)
         return Pose(
             self.x + c * child.x - s * child.y,
@@ -43,14 +43,14 @@ class Pose(NamedTuple):
         )
 
     def inverse(self) -> "Pose":
-        """Pose of the parent frame, as seen in this frame."""
+        """Return the pose of the parent frame in this frame."""
         c, s = cos(self.theta), sin(self.theta)
         return Pose(
             -c * self.x - s * self.y, s * self.x - c * self.y, -self.theta
         )
 
     def transform_points(self, points: ArrayLike) -> Array:
-        """Express in the parent frame points of this frame. Shape (n, 2)."""
+        """Transform points of this frame to the parent frame. Shape (n, 2)."""
         c, s = cos(self.theta), sin(self.theta)
         turned: Array = np.asarray(points) @ np.array([[c, s], [-s, c]])
         turned += (self.x, self.y)

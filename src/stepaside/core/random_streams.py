@@ -1,4 +1,4 @@
-"""Named random generators: one for each purpose, all from one seed."""
+"""Independent random generators by name, derived from one seed."""
 
 from zlib import crc32
 
@@ -6,10 +6,10 @@ import numpy as np
 
 
 def named_generator(seed: int, name: str) -> np.random.Generator:
-    """Generator of the draws of one purpose.
+    """Return the random generator of one purpose.
 
     Args:
         seed: Seed of the run.
-        name: Purpose. Other names give independent draws.
+        name: Purpose; different names give independent streams.
     """
     return np.random.default_rng([seed, crc32(name.encode())])

@@ -1,4 +1,4 @@
-"""Ranges of values: one description for checks, options and documents."""
+"""Ranges of settings: one declaration for checks, options and documents."""
 
 from collections.abc import Mapping
 from dataclasses import MISSING, fields, is_dataclass
@@ -11,16 +11,17 @@ from .errors import ConfigurationError, StepAsideError, number_in, shown
 
 
 class Range(NamedTuple):
-    """Numbers that a value may be, and why no others.
+    """Permitted values of a number, with the reason for the bounds.
 
     Attributes:
-        low: Least number.
-        high: Greatest number.
-        unit: Of both; ``1`` for a ratio or a count without a unit.
+        low: Lower bound.
+        high: Upper bound.
+        unit: Unit of both; ``1`` for a ratio or a count.
         why: Reason for the bounds, in a few words.
-        above: Whether it must be above ``low``, not at it.
-        whole: Whether it must be an integer.
-        also: What it may be beside: infinity, zero, None for what is drawn.
+        above: Whether the lower bound is excluded.
+        whole: Whether the value must be an integer.
+        also: Further permitted values, such as infinity, zero, or None for a
+            value that is drawn at random.
     """
 
     low: float
@@ -37,16 +38,16 @@ class Range(NamedTuple):
         name: str,
         error: type[StepAsideError] = ConfigurationError,
     ) -> None:
-        """Refuse what is not such a number, true and false among it.
+        """Check that a value is a number in the range; a ``bool`` is not.
 
         Args:
-            value: Whatever was given.
-            name: What it is for, for the message.
-            error: What is raised.
+            value: Value to check.
+            name: Name of the setting, for the message.
+            error: Class of the error.
 
         Raises:
-            StepAsideError: Of the kind asked for; it names value, rule, unit
-                and what was got.
+            StepAsideError: Of class ``error``, with name, range, unit and
+                value.
         """
         if self.holds(value):
             return
@@ -57,7 +58,7 @@ class Range(NamedTuple):
         )
 
     def holds(self, value: object) -> bool:
-        """Whether a value is such a number, or what it may be beside."""
+        """Return whether a value is permitted."""
         if value is None:
             return None in self.also
         number = number_in(value, whole=self.whole)
@@ -70,13 +71,13 @@ class Range(NamedTuple):
 
     @property
     def text(self) -> str:
-        """The range in brackets; a round one leaves its end out."""
+        """The range in interval notation."""
         begin = "(" if self.above else "["
         return f"{begin}{self.low:g}, {self.high:g}]{self._more}"
 
     @property
     def words(self) -> str:
-        """The range as docstrings and documents have it."""
+        """The range as written in docstrings and documents."""
         begin = "above " if self.above else ""
         return f"{begin}{self.low:g} to {self.high:g}{self._more}"
 
@@ -91,7 +92,7 @@ NO_RANGES: Ranges = {}
 
 
 def ranges_of(kind: type[Any]) -> Ranges:
-    """Ranges that a class of settings declares, by attribute."""
+    """Return the ranges declared by a class of settings, by attribute."""
     found: Ranges = getattr(kind, "ranges", NO_RANGES)
     return found
 
@@ -102,33 +103,35 @@ def check_settings(
     *,
     prefix: str = "",
 ) -> None:
-    """Refuse settings that leave their ranges or are of another type.
+    """Check ranges and types of settings.
 
-    Numbers of other types than Python's become those.
+    Numbers of other types, as of NumPy, are converted to Python numbers.
 
     Args:
-        settings: A dataclass with ``ranges``, by attribute. What has none
-            must be of the type of its default: truth, text or a section.
-        error: What is raised.
-        prefix: Before each name in messages, like ``person.``.
+        settings: Dataclass with ``ranges`` by attribute. Other attributes
+            must have the type of their default: bool, text or a section.
+        error: Class of the error.
+        prefix: Prefix of each name in messages, like ``person.``.
 
     Raises:
-        StepAsideError: Of the kind asked for.
+        StepAsideError: Of class ``error``.
     """
     for name, allowed in ranges_of(type(settings)).items():
         value = getattr(settings, name)
         allowed.check(value, f"{prefix}{name}", error)
-        if type(value) not in (int, float, NoneType):  # of NumPy, or a ratio
+        if type(value) not in (int, float, NoneType):  # NumPy, Fraction
             number = number_in(value, whole=isinstance(value, Integral))
             object.__setattr__(settings, name, number)
     for name, kind in _kinds(type(settings)).items():  # type: ignore[arg-type]
         value = getattr(settings, name)
         if not isinstance(value, kind):
-            called = _CALLED.get(kind, f"a {kind.__name__}")
-            raise error(f"{prefix}{name} must be {called}, got {shown(value)}")
-        if kind is str and "\0" in value:  # no name of a file holds it
+            expected = _TYPE_NAMES.get(kind, f"a {kind.__name__}")
             raise error(
-                f"{prefix}{name} must be text without a null, got "
+                f"{prefix}{name} must be {expected}, got {shown(value)}"
+            )
+        if kind is str and "\0" in value:  # not valid in a file name
+            raise error(
+                f"{prefix}{name} must be text without a null character, got "
                 f"{shown(value)}"
             )
 
@@ -139,7 +142,7 @@ def check_count(
     name: str,
     error: type[StepAsideError] = ConfigurationError,
 ) -> None:
-    """Refuse a list or tuple of more entries than anybody needs."""
+    """Check that a value is a list or tuple of at most ``most`` entries."""
     if not isinstance(values, list | tuple) or len(values) > most:
         got = len(values) if isinstance(values, list | tuple) else values
         raise error(
@@ -148,12 +151,12 @@ def check_count(
         )
 
 
-_CALLED: Mapping[type[Any], str] = {bool: "true or false", str: "text"}
+_TYPE_NAMES: Mapping[type[Any], str] = {bool: "true or false", str: "text"}
 
 
 @cache
 def _kinds(kind: type[Any]) -> dict[str, type[Any]]:
-    """Types of the attributes that are no numbers, by their defaults."""
+    """Return the types of attributes that are not numbers, from defaults."""
     found = {}
     for field in fields(kind):
         default = field.default
@@ -166,8 +169,10 @@ def _kinds(kind: type[Any]) -> dict[str, type[Any]]:
 
 
 SEEDS = Range(
-    *(0, 2**128 - 1, "1"),
-    "generators of random numbers take seeds of 128 bits",
+    0,
+    2**128 - 1,
+    "1",
+    "random generators take seeds of 128 bits",
     whole=True,
 )
-RUNTIME = Range(1e-3, 86400.0, "s", "from a step of the physics to a day")
+RUNTIME = Range(1e-3, 86400.0, "s", "from a physics step to a day")

@@ -1,4 +1,4 @@
-"""Processes that share work and end with it, however it ends."""
+"""Pool of worker processes that ends with its ``with`` block."""
 
 import os
 import signal
@@ -12,13 +12,13 @@ R = TypeVar("R")
 
 
 class WorkerPool(ProcessPoolExecutor):
-    """Pool of processes that does not outlive its ``with`` block."""
+    """Process pool whose workers end with its ``with`` block."""
 
     def submit(self, *task: Any, **more: Any) -> Future[Any]:
-        """Hand in a task; see :class:`concurrent.futures.Executor`.
+        """Submit a task; see :class:`concurrent.futures.Executor`.
 
-        A Ctrl-C reaches workers that are just starting, too, where it would
-        end in a traceback: they begin deaf to it, until :func:`_begin`.
+        Workers start with SIGINT blocked, until :func:`_begin`, for a Ctrl-C
+        during their start would print a traceback.
         """
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         try:
@@ -33,23 +33,23 @@ class WorkerPool(ProcessPoolExecutor):
         timeout: float | None = None,
         chunksize: int = 1,
     ) -> Iterator[R]:
-        """Hand in a task for each; none is cancelled: see :func:`give_up`."""
+        """Submit a task for each; none is cancelled, see :func:`give_up`."""
         each = zip(*iterables, strict=False)
         futures = [self.submit(fn, *one) for one in each]
         return (future.result(timeout) for future in futures)
 
     def __exit__(self, *error: Any) -> None:
-        """End the workers: what is not done by now was given up."""
+        """Terminate the workers; unfinished tasks were given up."""
         for process in list((self._processes or {}).values()):
             process.terminate()
         super().__exit__(*error)
 
 
 def give_up(executor: Executor, futures: Iterable[Future[Any]]) -> None:
-    """Cancel what has not begun.
+    """Cancel tasks that have not started.
 
-    A pool of processes is left alone. It drops all work with its workers,
-    and, where they are gone, trips over a future that was cancelled.
+    A process pool is left alone: it drops all tasks with its workers, and
+    fails on a cancelled future when they are gone.
     """
     if not isinstance(executor, ProcessPoolExecutor):
         for future in futures:
@@ -57,14 +57,14 @@ def give_up(executor: Executor, futures: Iterable[Future[Any]]) -> None:
 
 
 def worker_pool(workers: int | None = None) -> WorkerPool:
-    """Pool of processes, one thread of linear algebra each.
+    """Return a pool of processes with one linear algebra thread each.
 
-    A Ctrl-C is for the parent, which ends the workers at once: so none hands
-    in a result that was cut short, and none breaks the pool before its parent
-    knows. They do not outlive a parent that was killed.
+    Workers ignore Ctrl-C: the parent handles it and terminates them, so that
+    none returns a truncated result or breaks the pool first. They also exit
+    when the parent was killed.
 
     Args:
-        workers: How many; as many as there are cores by default.
+        workers: Number of processes; the number of cores by default.
     """
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     return WorkerPool(workers, get_context("spawn"), initializer=_begin)

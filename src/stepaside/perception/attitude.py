@@ -5,20 +5,20 @@ from math import atan2, cos, hypot, isnan, sin, tan
 from ..core.constants import GRAVITY
 from ..core.poses import Array
 
-CALIBRATION = 1.0  # how long a robot stands to learn the bias, in [s]
+CALIBRATION = 1.0  # standing time to estimate the gyro bias, in [s]
 
 
 class AttitudeFilter:
-    """Complementary filter with an estimate of the gyro's bias.
+    """Complementary filter of roll and pitch with a gyro bias estimate.
 
-    The gyro is integrated; the accelerometer, less what the pendulum is
-    known to accelerate by, shows where up is and corrects the angles and,
-    more slowly, the bias.
+    The gyro is integrated. The accelerometer, less the known acceleration of
+    the pendulum, measures the direction of gravity and corrects the angles
+    and, more slowly, the bias.
 
     Attributes:
-        roll: About the torso's x axis, in [rad].
-        pitch: About its y axis, in [rad].
-        rate: Angular velocity without bias in the torso frame, in [rad/s].
+        roll: Angle about the x axis of the torso, in [rad].
+        pitch: Angle about its y axis, in [rad].
+        rate: Angular velocity in the torso frame, bias removed, in [rad/s].
     """
 
     def __init__(
@@ -28,35 +28,35 @@ class AttitudeFilter:
         *,
         calibration: float = CALIBRATION,
     ) -> None:
-        """Begin standing still, and learn the bias.
+        """Start uncalibrated, for a robot that stands still.
 
         Args:
-            correction: Rate at which the accelerometer is believed, [1/s].
-            bias_correction: Its square for the bias, in [1/s^2].
-            calibration: How long the robot stands to learn the bias, in
-                [s]; 0 for one that moves at once and begins upright.
+            correction: Gain of the angle correction, in [1/s].
+            bias_correction: Gain of the bias correction, in [1/s^2].
+            calibration: Standing time to estimate the bias, in [s]; 0 for a
+                robot that starts upright and moves at once.
         """
         self._calibration = calibration
         self._correction, self._bias_correction = correction, bias_correction
         self.roll = self.pitch = 0.0
         self.rate = (0.0, 0.0, 0.0)
         self._bias = [0.0, 0.0]
-        self._stood = 0.0
+        self._time_standing = 0.0
         self._sum = [0.0] * 5
         self._count = 0
 
     @property
     def ready(self) -> bool:
-        """Whether the robot has stood long enough to know its bias."""
-        return self._stood >= self._calibration
+        """Whether the bias is calibrated."""
+        return self._time_standing >= self._calibration
 
     def _calibrate(
         self, gyro: Array, specific_force: Array, duration: float
     ) -> None:
         """Average the readings of a robot that stands still."""
-        self._stood += duration
-        if self._stood < 0.3 * self._calibration:
-            return  # still settling
+        self._time_standing += duration
+        if self._time_standing < 0.3 * self._calibration:
+            return  # the robot still settles after its start
         self._count += 1
         readings = (*gyro.tolist()[:2], *specific_force.tolist())
         self._sum = [a + b for a, b in zip(self._sum, readings, strict=True)]
@@ -72,14 +72,14 @@ class AttitudeFilter:
         acceleration: tuple[float, float],
         duration: float,
     ) -> None:
-        """Take one pair of readings.
+        """Update the angles with one reading of the IMU.
 
         Args:
             gyro: Angular velocity in the torso frame, in [rad/s].
-            specific_force: In the torso frame, in [m/s^2].
-            acceleration: What the torso is known to accelerate by along its
-                heading and to its left, in [m/s^2].
-            duration: Time since the last one, in [s].
+            specific_force: Accelerometer in the torso frame, in [m/s^2].
+            acceleration: Known acceleration of the torso along its heading
+                and to its left, in [m/s^2].
+            duration: Time since the last reading, in [s].
         """
         if not self.ready:
             self._calibrate(gyro, specific_force, duration)
@@ -93,18 +93,18 @@ class AttitudeFilter:
         roll += duration * (wx + tan(pitch) * (sr * wy + cr * wz))
         pitch += duration * (cr * wy - sr * wz)
         fx, fy, fz = specific_force.tolist()
-        # Linear in the readings, so that shocks of landings, which average
-        # to nothing, leave nothing behind.
+        # Linear in the readings, so that landing impacts, whose mean is zero,
+        # leave no error.
         ax, ay = acceleration
         sr, cr, sp, cp = sin(roll), cos(roll), sin(pitch), cos(pitch)
-        off_pitch = -(fx - (cp * ax - sp * GRAVITY)) / GRAVITY
+        error_pitch = -(fx - (cp * ax - sp * GRAVITY)) / GRAVITY
         expected = sr * sp * ax + cr * ay + sr * cp * GRAVITY
-        off_roll = (fy - expected) / GRAVITY
+        error_roll = (fy - expected) / GRAVITY
         if fx * fx + fy * fy + fz * fz > 1.0:
             gain = self._correction
-            roll += gain * duration * off_roll
-            pitch += gain * duration * off_pitch
+            roll += gain * duration * error_roll
+            pitch += gain * duration * error_pitch
             step = self._bias_correction * duration
-            self._bias[0] -= step * off_roll
-            self._bias[1] -= step * off_pitch
+            self._bias[0] -= step * error_roll
+            self._bias[1] -= step * error_pitch
         self.roll, self.pitch = roll, pitch

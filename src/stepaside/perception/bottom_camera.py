@@ -1,4 +1,4 @@
-"""What the lower camera of a head shows: feet, and the floor close by."""
+"""Bottom camera of a head: detects feet and maps the floor close by."""
 
 from collections.abc import Sequence
 from math import atan2
@@ -14,43 +14,42 @@ from .near_floor import NearFloorMapper
 from .observations import camera_of
 from .track import Observation, TargetTrack
 
-Own = tuple[float, float]  # axis of the robot in odometry, in [m]
+Point = tuple[float, float]  # in odometry, in [m]
 
 
 class BottomCamera:
-    """The second camera of a head, which looks down.
+    """Second camera of a head, which looks down.
 
-    It takes turns with the upper one. It finds the feet of people who are
-    near, and shows a map the floor that the depth camera is too near to see.
+    It alternates with the top camera. It detects the feet of people nearby,
+    and marks floor that is too near for the depth camera as free.
     """
 
     def __init__(
         self, mount: Mount | None, *, people: bool, floor: FloorMap | None
     ) -> None:
-        """Use it, if there is one.
+        """Set up the detectors for which there is a use.
 
         Args:
-            mount: On the head; None for a head that has none.
-            people: Whether people come.
-            floor: Map of the floor, if one is kept.
+            mount: Mount on the head; None for a head without this camera.
+            people: Whether people may approach.
+            floor: Map of the floor, if there is one.
         """
         self._mount = mount
-        there = mount is not None
-        self.feet = FootDetector() if people and there else None
+        exists = mount is not None
+        self.feet = FootDetector() if people and exists else None
         self.near = (
-            NearFloorMapper(floor) if floor is not None and there else None
+            NearFloorMapper(floor) if floor is not None and exists else None
         )
 
     def wanted(
         self, body: BodyPose, main: TargetTrack | None, *, lost: bool
     ) -> bool:
-        """Whether the next image is to be its own.
+        """Return whether the next image should come from this camera.
 
         Args:
-            body: Where the body is.
-            main: Who counts, if anybody does.
-            lost: Whether somebody is looked for, which the upper camera
-                does.
+            body: Pose of the body.
+            main: Main track, if any.
+            lost: Whether the head searches, which needs the top camera.
         """
         if not lost and self.near is not None and self.near.wanted():
             return True
@@ -62,46 +61,77 @@ class BottomCamera:
     def learn(
         self,
         image: ColourImage,
-        place: Array,
-        axes: Array,
-        own: Own,
+        position_camera_in_odometry: Array,
+        axes_camera_in_odometry: Array,
+        position_own_in_odometry: Point,
         tracks: Sequence[TargetTrack],
         main: TargetTrack | None,
     ) -> None:
-        """Learn what the floor looks like, from an upper image.
+        """Learn the colours of the floor from an image of the top camera.
 
         Args:
             image: The image.
-            place: Place of the upper camera in odometry, in [m]. Shape (3,).
-            axes: Its axes as columns. Shape (3, 3).
-            own: Own axis in odometry, in [m].
-            tracks: Who stands on the floor.
-            main: Who of them counts, if anybody does.
+            position_camera_in_odometry: Position of the camera, in [m].
+                Shape (3,).
+            axes_camera_in_odometry: Its axes (forward, left, up) as columns.
+                Shape (3, 3).
+            position_own_in_odometry: Position of the robot, in [m].
+            tracks: All tracks; the floor around them is left out.
+            main: Main track, if any.
         """
         if self.feet is not None:
-            self.feet.learn(image, place, axes, own, tracks)
+            self.feet.learn(
+                image,
+                position_camera_in_odometry,
+                axes_camera_in_odometry,
+                position_own_in_odometry,
+                tracks,
+            )
         if self.near is not None:
-            other = None if main is None else main.place_at(image.time)
-            self.near.learn(image, place, axes, own, other)
+            position_opponent_in_odometry = (
+                None if main is None else main.position_at(image.time)
+            )
+            self.near.learn(
+                image,
+                position_camera_in_odometry,
+                axes_camera_in_odometry,
+                position_own_in_odometry,
+                position_opponent_in_odometry,
+            )
 
     def see(
         self, image: ColourImage, body: BodyPose
     ) -> tuple[list[Observation], FrameReport]:
-        """What an image of it shows, and in which directions.
+        """Evaluate an image of this camera.
 
         Args:
             image: The image.
-            body: Where the body was when it was taken.
+            body: Pose of the body at its exposure.
+
+        Returns:
+            Observations of feet, and the report of the frame.
         """
         if self._mount is None:
             return [], FrameReport(image, (), sought=False)
         own = body.torso[:2]
-        place, axes = camera_of(body, self._mount)
+        position, axes = camera_of(body, self._mount)
         if self.near is not None:
-            self.near.show(image, place, axes, own)
+            self.near.show(
+                image,
+                position,
+                axes,
+                own,
+            )
         if self.feet is None:
             return [], FrameReport(image, (), sought=False)
-        seen = self.feet.observe(image, place, axes, own)
+        observations = self.feet.observe(
+            image,
+            position,
+            axes,
+            own,
+        )
         ahead = atan2(axes[1, 0], axes[0, 0])
-        azimuths = tuple(wrap_angle(each.bearing - ahead) for each in seen)
-        return seen, FrameReport(image, azimuths)
+        azimuths = tuple(
+            wrap_angle(each.bearing - ahead) for each in observations
+        )
+        return observations, FrameReport(image, azimuths)

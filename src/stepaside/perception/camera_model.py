@@ -1,4 +1,4 @@
-"""Pinhole cameras: from pixels to rays and back."""
+"""Pinhole camera model: pixels to rays and back."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -13,13 +13,13 @@ from ..core.poses import Array
 
 @dataclass(frozen=True, slots=True)
 class CameraModel:
-    """A pinhole camera that looks along x, with y left and z up.
+    """Pinhole camera whose frame has x forward, y left and z up.
 
     Attributes:
-        width: Columns.
-        height: Rows.
-        focal_x: Focal length across the columns, in pixels.
-        focal_y: Focal length across the rows, in pixels.
+        width: Image width, in [pixels].
+        height: Image height, in [pixels].
+        focal_x: Horizontal focal length, in [pixels].
+        focal_y: Vertical focal length, in [pixels].
     """
 
     width: int
@@ -31,10 +31,16 @@ class CameraModel:
     def of_field_of_view(
         cls, width: int, height: int, horizontal: float, vertical: float
     ) -> "CameraModel":
-        """Camera of a size that sees so far, in [rad], in all.
+        """Return the camera with a given field of view.
+
+        Args:
+            width: Image width, in [pixels].
+            height: Image height, in [pixels].
+            horizontal: Horizontal field of view, in [rad].
+            vertical: Vertical field of view, in [rad].
 
         Raises:
-            ConfigurationError: If no pinhole camera can.
+            ConfigurationError: If a value is out of range.
         """
         error = ConfigurationError
         for name, size in (("width", width), ("height", height)):
@@ -52,11 +58,11 @@ class CameraModel:
         )
 
     def ray(self, u: float, v: float) -> Array:
-        """Direction in which a pixel looks, with x = 1. Shape (3,).
+        """Return the ray of a pixel in the camera frame, x = 1. Shape (3,).
 
         Args:
-            u: Column, from the left edge of the image.
-            v: Row, from the upper edge.
+            u: Column from the left edge, in [pixels].
+            v: Row from the upper edge, in [pixels].
         """
         return np.array(
             [
@@ -67,17 +73,17 @@ class CameraModel:
         )
 
     def rays(self) -> Array:
-        """Directions of all pixels' centers. Shape (height, width, 3)."""
+        """Return the rays of all pixel centres. Shape (height, width, 3)."""
         return _rays(self)
 
     def project(self, points: ArrayLike) -> Array:
-        """Pixels of points in the camera's frame; NaN behind it.
+        """Project points to pixels; NaN for points behind the camera.
 
         Args:
-            points: Points, in [m]. Shape (n, 3).
+            points: Points in the camera frame, in [m]. Shape (n, 3).
 
         Returns:
-            Columns and rows. Shape (n, 2).
+            Columns and rows, in [pixels]. Shape (n, 2).
         """
         x, y, z = np.atleast_2d(np.asarray(points, dtype=float)).T
         x = np.where(x > 1e-9, x, np.nan)
@@ -89,7 +95,7 @@ class CameraModel:
         )
 
     def sees(self, point: ArrayLike) -> bool:
-        """Whether a point in the camera's frame is inside the image."""
+        """Return whether a point in the camera frame is in the image."""
         u, v = self.project(point)[0].tolist()
         return bool(0.0 <= u <= self.width and 0.0 <= v <= self.height)
 

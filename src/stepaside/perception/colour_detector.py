@@ -1,4 +1,4 @@
-"""Find a robot by the colour of its trim, in a colour image."""
+"""Detection of a robot in a colour image by the colour of its trim."""
 
 from dataclasses import dataclass, replace
 
@@ -10,29 +10,36 @@ from .camera_model import CameraModel
 from .images import ColourImage, Pixels
 
 Mask = NDArray[np.uint8]
-HUES = 180  # of OpenCV's circle
-SMALLEST = 1.5  # pixels of a patch of trim, at 160 columns
-PATCHES = 2  # of trim that make a robot, at least
-ACROSS, DOWN = 2.5, 6.0  # gaps between patches, of the smaller one
-SQUARE = 0.85  # share of its box that a round patch does not fill
-LARGE = 2.5  # area of what is no trim, of the median patch
-TALLEST = 0.6  # patch, of the height of all trim
-WIDEST = 2.1  # all trim, of its height
-ROOM = 0.1  # below the lowest trim, of its height, if it is the lowest
-FULLEST = 0.5  # trim, of the box around all of it
-FAINT = 0.55  # saturation of ears as narrow as a pixel, of that of trim
-HEAD = 0.3  # height of the ears above the shoulders, of the trim's below
+HUES = 180  # range of OpenCV's hue
+MIN_AREA = 1.5  # of a patch of trim at 160 columns, in [pixels]
+MIN_PATCHES = 2  # patches of a robot
+# Largest gaps between patches of one robot, in sizes of the smaller patch.
+MAX_GAP_ACROSS = 2.5
+MAX_GAP_DOWN = 6.0
+# A patch that fills more of its bounding box is square; trim is round.
+SQUARE_FILL = 0.85
+LARGE_AREA = 2.5  # a square patch above so many median areas is no trim
+MAX_PATCH_HEIGHT = 0.6  # as a fraction of the height of all trim
+MAX_WIDTH = 2.1  # of all trim, as a fraction of its height
+# Margin below the lowest trim, as a fraction of the height, within which the
+# image edge may cut lower trim off.
+EDGE_MARGIN = 0.1
+MAX_FILL = 0.5  # fraction of the bounding box of all trim that trim fills
+# Saturation of one-pixel wide ears, as a fraction of that of trim.
+EAR_SATURATION = 0.55
+# Height of the ears above the shoulders, as a fraction of the trim below.
+EAR_HEIGHT = 0.3
 
 
 @dataclass(frozen=True, slots=True)
 class Appearance:
-    """How a robot looks to those who know it.
+    """Colour and height of a robot's trim.
 
     Attributes:
-        hue: Hue of its trim on OpenCV's circle of 180.
-        width: How far hues stray from it.
-        saturation: Least saturation of trim, of 255.
-        value: Least brightness of trim, of 255.
+        hue: Hue, 0 to 180 as in OpenCV.
+        width: Tolerance of the hue.
+        saturation: Minimum saturation, of 255.
+        value: Minimum brightness, of 255.
         top: Height of the upper end of all trim, in [m].
         bottom: Height of the lower end, in [m].
     """
@@ -51,18 +58,18 @@ BLUE = Appearance(hue=108, width=8, saturation=125, value=45)
 
 @dataclass(frozen=True, slots=True)
 class ColourDetection:
-    """A robot in an image; columns and rows from its upper left corner.
+    """Robot in an image; columns and rows from the upper left corner.
 
     Attributes:
-        column: Of its vertical axis.
+        column: Column of its vertical axis.
         top: Row of the upper end of its trim.
         bottom: Row of the lower end.
         left: Column of the left end.
         right: Column of the right end.
-        confidence: From 0 to 1: how much of its usual trim is there.
-        cut_above: Whether it reaches beyond the upper edge of the image.
-        cut_below: Whether it reaches beyond the lower edge.
-        cut_aside: Whether it reaches beyond the left or right edge.
+        confidence: Fraction of its usual number of patches, 0 to 1.
+        cut_above: Whether the upper image edge cuts it.
+        cut_below: Whether the lower image edge cuts it.
+        cut_aside: Whether the left or right image edge cuts it.
     """
 
     column: float
@@ -77,21 +84,22 @@ class ColourDetection:
 
 
 class ColourDetector:
-    """Finds one appearance: patches of trim, grouped and checked.
+    """Detector of robots with one appearance.
 
-    Trim is many small patches on a white body; a box of the same colour is
-    one large one. What is grouped must look like the former.
+    Patches of the trim colour are grouped, and groups are checked: trim is
+    many small patches on a white body, while a box of the same colour is one
+    large patch.
     """
 
     def __init__(self, appearance: Appearance) -> None:
-        """Look for an appearance."""
+        """Set the appearance to detect."""
         self.appearance = appearance
 
     def detect(self, image: ColourImage) -> ColourDetection | None:
-        """Find the robot; the largest, if several look alike."""
+        """Detect the robot; the tallest group if there are several."""
         mask = self.mask(image.pixels)
         _, _, stats, _ = cv2.connectedComponentsWithStats(mask, connectivity=8)
-        least = max(3.0, SMALLEST * (image.camera.width / 160.0) ** 2)
+        least = max(3.0, MIN_AREA * (image.camera.width / 160.0) ** 2)
         boxes = np.column_stack(
             [
                 stats[1:, 0],
@@ -104,7 +112,7 @@ class ColourDetector:
         boxes = boxes[boxes[:, 4] >= least]
         best: ColourDetection | None = None
         for group in _groups(boxes):
-            found = _judge(group, image.camera)
+            found = _check_group(group, image.camera)
             if found is not None and (
                 best is None
                 or found.bottom - found.top > best.bottom - best.top
@@ -112,19 +120,25 @@ class ColourDetector:
                 best = found
         if best is None:
             return None
-        return _with_ears(best, self.mask(image.pixels, FAINT), least)
+        return _with_ears(best, self.mask(image.pixels, EAR_SATURATION), least)
 
-    def mask(self, pixels: Pixels, share: float = 1.0) -> Mask:
-        """Mark the pixels whose colour is that of the trim: 255, else 0.
+    def mask(self, pixels: Pixels, saturation_factor: float = 1.0) -> Mask:
+        """Return a mask of the pixels with the trim's colour: 255, else 0.
 
         Args:
             pixels: Image. Shape (height, width, 3).
-            share: Of the saturation that trim has, which is enough.
+            saturation_factor: Factor on the minimum saturation.
         """
-        look = self.appearance
+        appearance = self.appearance
         hsv = cv2.cvtColor(cv2.blur(pixels, (3, 3)), cv2.COLOR_RGB2HSV)
-        low, high = look.hue - look.width, look.hue + look.width
-        least = round(share * look.saturation), look.value
+        low, high = (
+            appearance.hue - appearance.width,
+            appearance.hue + appearance.width,
+        )
+        least = (
+            round(saturation_factor * appearance.saturation),
+            appearance.value,
+        )
         if low < 0:
             mask = cv2.inRange(hsv, (0, *least), (high, 255, 255))
             rest = cv2.inRange(hsv, (low + HUES, *least), (HUES, 255, 255))
@@ -135,7 +149,7 @@ class ColourDetector:
 
 
 def _groups(boxes: NDArray[np.int32]) -> list[NDArray[np.int32]]:
-    """Patches that belong together: near each other for their size."""
+    """Group patches that are near each other for their size."""
     if len(boxes) == 0:
         return []
     left, top, right, bottom = boxes[:, :4].T
@@ -143,32 +157,34 @@ def _groups(boxes: NDArray[np.int32]) -> list[NDArray[np.int32]]:
     across = np.maximum(left[:, None] - right, left - right[:, None])
     down = np.maximum(top[:, None] - bottom, top - bottom[:, None])
     smaller = np.minimum(size[:, None], size)
-    near = (across <= ACROSS * smaller) & (down <= DOWN * smaller)
-    groups, left_over = [], set(range(len(boxes)))
-    while left_over:
-        reached = {left_over.pop()}
-        front = set(reached)
-        while front:
-            index = front.pop()
-            new = {j for j in left_over if near[index, j]}
-            left_over -= new
-            reached |= new
-            front |= new
-        groups.append(boxes[sorted(reached)])
+    near = (across <= MAX_GAP_ACROSS * smaller) & (
+        down <= MAX_GAP_DOWN * smaller
+    )
+    groups, ungrouped = [], set(range(len(boxes)))
+    while ungrouped:
+        connected = {ungrouped.pop()}
+        frontier = set(connected)
+        while frontier:
+            index = frontier.pop()
+            new = {j for j in ungrouped if near[index, j]}
+            ungrouped -= new
+            connected |= new
+            frontier |= new
+        groups.append(boxes[sorted(connected)])
     return groups
 
 
-def _judge(
+def _check_group(
     group: NDArray[np.int32], camera: CameraModel
 ) -> ColourDetection | None:
-    """A group as a robot, or None if no robot looks so."""
+    """Return the detection of a group; None if it does not fit a robot."""
     sizes = group[:, 2:4] - group[:, :2]
     areas = group[:, 4]
-    # Trim is round: what is square and large is a thing beside the robot.
-    square = areas > SQUARE * sizes.prod(axis=1)
-    group = group[~(square & (areas > LARGE * np.median(areas)))]
+    # Trim is round: a large square patch is an object beside the robot.
+    square = areas > SQUARE_FILL * sizes.prod(axis=1)
+    group = group[~(square & (areas > LARGE_AREA * np.median(areas)))]
     while True:
-        if len(group) < PATCHES:
+        if len(group) < MIN_PATCHES:
             return None
         left, top = group[:, :2].min(axis=0).tolist()
         right, bottom = group[:, 2:4].max(axis=0).tolist()
@@ -176,17 +192,17 @@ def _judge(
         tall = group[:, 3] - group[:, 1]
         if len(group) == 2 and _is_profile(group):
             break
-        if len(group) > 2 and tall.max() <= TALLEST * height:
+        if len(group) > 2 and tall.max() <= MAX_PATCH_HEIGHT * height:
             break
         group = np.delete(group, int(np.argmax(tall)), axis=0)
-    # So near the edge, trim may be missing below.
-    edge = camera.height - 1 - ROOM * height
+    # Near the lower edge, trim may be cut off.
+    edge = camera.height - 1 - EDGE_MARGIN * height
     cut_above, cut_below = top <= 1, bottom >= edge
     cut_aside = left <= 1 or right >= camera.width - 1
-    if right - left > WIDEST * height and not (cut_above or cut_below):
+    if right - left > MAX_WIDTH * height and not (cut_above or cut_below):
         return None
     fill = float(group[:, 4].sum()) / (height * (right - left))
-    if fill > FULLEST:
+    if fill > MAX_FILL:
         return None
     return ColourDetection(
         0.5 * (left + right),
@@ -204,20 +220,20 @@ def _judge(
 def _with_ears(
     found: ColourDetection, faint: Mask, least: float
 ) -> ColourDetection:
-    """Lift the upper end to ears that are too narrow to be sure of.
+    """Extend a detection to ears, whose narrow patches are less saturated.
 
     Args:
-        found: A robot.
-        faint: Pixels that may be of its trim.
-        least: Pixels of a patch.
+        found: Detected robot.
+        faint: Mask with the lower saturation of ears.
+        least: Minimum area of a patch, in [pixels].
     """
     height = found.bottom - found.top
     stats = cv2.connectedComponentsWithStats(faint, connectivity=8)[2][1:]
     left, top, width, tall, area = stats.T
     ears = (area >= least) & (left >= found.left)
     ears &= left + width <= found.right
-    ears &= (top < found.top) & (top >= found.top - HEAD * height)
-    ears &= (top + tall <= found.top + 1) & (tall < HEAD * height)
+    ears &= (top < found.top) & (top >= found.top - EAR_HEIGHT * height)
+    ears &= (top + tall <= found.top + 1) & (tall < EAR_HEIGHT * height)
     number = int(ears.sum())
     if number == 0 or found.cut_above:
         return found
@@ -231,17 +247,17 @@ def _with_ears(
 
 
 def _is_profile(pair: NDArray[np.int32]) -> bool:
-    """Whether two patches are ear and shoulder of a robot from its side."""
+    """Return whether two patches are ear and shoulder, seen from the side."""
     upper, lower = pair[np.argsort(pair[:, 1])]
     broad = max(upper[2] - upper[0], lower[2] - lower[0])
     middle = 0.5 * abs(int(upper[0] + upper[2] - lower[0] - lower[2]))
     gap = lower[1] - upper[3]
     sizes = pair[:, 2:4] - pair[:, :2]
-    square = (pair[:, 4] > SQUARE * sizes.prod(axis=1)).any()
+    square = (pair[:, 4] > SQUARE_FILL * sizes.prod(axis=1)).any()
     alike = pair[:, 4].max() < 4.0 * pair[:, 4].min()
     return bool(
         not square and alike and middle < 0.6 * broad and 0 <= gap < broad
     )
 
 
-LOOKS = {"pursuer": BLUE, "evader": RED}  # by who looks
+LOOKS = {"pursuer": BLUE, "evader": RED}  # opponent's, by own role

@@ -1,4 +1,4 @@
-"""Find whatever stands in the way, in a depth image."""
+"""Detection of obstacles in a depth image."""
 
 from dataclasses import dataclass
 from math import atan2
@@ -11,73 +11,76 @@ from numpy.typing import NDArray
 from ..core.poses import Array
 from .images import DepthImage
 
-JUMP = 0.25  # of depth between pixels of one thing, at most, in [m]
-SMALLEST = 14  # pixels of a thing, at 80 columns
-FREE, TAKEN, NEW = 0, 1, 2  # of a pixel while parts are filled
+MAX_STEP = 0.25  # of depth between pixels of one component, in [m]
+MIN_AREA = 14  # of a component at 80 columns, in [pixels]
+# States of a pixel during the flood fill.
+UNFILLED = 0
+DONE = 1
+NEW = 2
 
 
-def parts_of(
+def segment_depth(
     solid: NDArray[np.bool_], depths: Array
 ) -> list[NDArray[np.bool_]]:
-    """Take an image apart where its depth jumps.
+    """Segment a depth image at steps of the depth.
 
-    A hole of two pixels, where nothing came back, does not take a thing
-    apart: it counts as deep as the nearest thing beside it, so that it ties
-    nothing to what stands behind.
+    A hole of up to two pixels without return does not split a component: it
+    is filled with the nearest depth beside it, so that it joins no component
+    to one behind.
 
     Args:
-        solid: Pixels that count. Shape (height, width).
-        depths: Depth along the axis of the camera, in [m]. Same shape.
+        solid: Pixels to segment. Shape (height, width).
+        depths: Depth along the camera axis, in [m]. Same shape.
 
     Returns:
-        The pixels of each part. Shapes (height, width).
+        Mask of each component. Shapes (height, width).
     """
     block = np.ones((3, 3), np.uint8)
     closed = cv2.morphologyEx(solid.astype(np.uint8), cv2.MORPH_CLOSE, block)
     filled = np.where(solid, depths, np.inf).astype(np.float32)
     filled = np.where(solid, filled, cv2.erode(filled, block))
     filled[np.isinf(filled)] = 0.0
-    # OpenCV fills what is free, within a frame of one pixel.
-    state = np.full((solid.shape[0] + 2, solid.shape[1] + 2), TAKEN, np.uint8)
-    state[1:-1, 1:-1][closed > 0] = FREE
-    least = SMALLEST * (solid.shape[1] / 80.0) ** 2
-    how = 8 | cv2.FLOODFILL_MASK_ONLY | NEW << 8
+    # OpenCV fills pixels whose mask is zero; the mask has a border of one.
+    state = np.full((solid.shape[0] + 2, solid.shape[1] + 2), DONE, np.uint8)
+    state[1:-1, 1:-1][closed > 0] = UNFILLED
+    least = MIN_AREA * (solid.shape[1] / 80.0) ** 2
+    flags = 8 | cv2.FLOODFILL_MASK_ONLY | NEW << 8
     parts = []
     for row, column in np.argwhere(closed > 0).tolist():
-        if state[row + 1, column + 1] != FREE:
+        if state[row + 1, column + 1] != UNFILLED:
             continue
         count, *_ = cv2.floodFill(
-            filled, state, (column, row), 0.0, JUMP, JUMP, how
+            filled, state, (column, row), 0.0, MAX_STEP, MAX_STEP, flags
         )
         new = state == NEW
-        state[new] = TAKEN
+        state[new] = DONE
         if count >= least:
             parts.append(new[1:-1, 1:-1] & solid)
     return parts
 
 
-FLOOR = 0.07  # what is lower belongs to the floor, in [m]
-CEILING = 2.2  # what is higher is in nobody's way, in [m]
-SELF = 0.22  # what is nearer to the own axis is the robot itself, in [m]
-BROADEST = 1.1  # what is broader is a wall, in [m]
-LOWEST = 0.15  # height of what is in the way, in [m]
-TRUSTED = 0.95  # share of the far limit up to which a thing is whole
-PIECE = 2.0  # distance from which a thing has to be in view as a whole, [m]
-TRUNCATED = 0.12  # beyond the near limit: part of it may be nearer, in [m]
-THIN = 0.25  # of a leg, at most, in [m]
-STRADDLE = 0.45  # between the legs of one person, at most, in [m]
-GAP = 0.25  # between parts of one near thing, legs for one, in [rad]
-BLIND = 24  # pixels without return that something near must hide
+FLOOR = 0.07  # points below belong to the floor, in [m]
+CEILING = 2.2  # points above are no obstacle, in [m]
+SELF = 0.22  # points nearer to the own axis are the robot itself, in [m]
+MAX_WIDTH = 1.1  # wider components are walls, in [m]
+MIN_HEIGHT = 0.15  # of an obstacle, in [m]
+TRUSTED = 0.95  # fraction of the far limit within which depth is complete
+WHOLE_BEYOND = 2.0  # farther obstacles must not be cut by an edge, in [m]
+TRUNCATED = 0.12  # beyond the near limit: part may be nearer, in [m]
+MAX_LEG_WIDTH = 0.25  # in [m]
+MAX_LEG_GAP = 0.45  # between the legs of one person, in [m]
+MAX_SHADOW_GAP = 0.25  # between parts of one near object, as legs, in [rad]
+MIN_SHADOW_AREA = 24  # pixels without return, at 80 columns
 
 
 class DepthComponent(NamedTuple):
-    """A part of something near.
+    """Component of an object nearby.
 
     Attributes:
-        low: Its right end from the camera's axis, in [rad].
-        high: Its left end, in [rad].
-        nearest: The nearest that was measured of it, in [m].
-        whole: Whether neither side is cut by the edge of the image.
+        low: Azimuth of its right end from the camera axis, in [rad].
+        high: Azimuth of its left end, in [rad].
+        nearest: Smallest measured distance, in [m]; None if unmeasured.
+        whole: Whether the image edges cut neither side.
     """
 
     low: float
@@ -88,19 +91,19 @@ class DepthComponent(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class DetectedObstacle:
-    """Something that is neither floor nor the robot itself.
+    """Obstacle in a depth image, neither floor nor the robot itself.
 
     Attributes:
-        x: Its estimated axis in odometry, in [m].
-        y: Likewise.
-        nearest: Distance of its nearest part from the camera, in [m].
+        x: Estimated x of its vertical axis in odometry, in [m].
+        y: Estimated y of its vertical axis in odometry, in [m].
+        nearest: Distance from the camera to its nearest part, in [m].
         bearing: Direction of its middle from the camera, in odometry, in
             [rad].
-        azimuth: The same from the camera's axis, positive leftward.
-        width: Breadth, in [m].
+        azimuth: The same from the camera axis, positive leftward, in [rad].
+        width: Width, in [m].
         height: Height of its upper end above the floor, in [m].
-        whole: Whether neither side is cut by the edge of the image.
-        rises: Whether it is cut by the upper edge.
+        whole: Whether the image edges cut neither side.
+        rises: Whether the upper image edge cuts it.
     """
 
     x: float
@@ -116,7 +119,7 @@ class DetectedObstacle:
 
 @dataclass(frozen=True, slots=True)
 class Shadow:
-    """Something too near to be measured, that hides the floor.
+    """Object too near to be measured, which hides the floor.
 
     Attributes:
         bearing: Direction of its middle from the camera, in odometry, in
@@ -137,11 +140,11 @@ class Shadow:
 
 @dataclass(frozen=True, slots=True)
 class DepthScene:
-    """What a depth image shows.
+    """Obstacles and shadows of one depth image.
 
     Attributes:
-        obstacles: The nearest first.
-        shadows: The broadest first.
+        obstacles: Obstacles, nearest first.
+        shadows: Shadows, widest first.
     """
 
     obstacles: tuple[DetectedObstacle, ...]
@@ -149,76 +152,104 @@ class DepthScene:
 
 
 def detect_obstacles(
-    image: DepthImage, place: Array, axes: Array, own: tuple[float, float]
+    image: DepthImage,
+    position_camera_in_odometry: Array,
+    axes_camera_in_odometry: Array,
+    position_own_in_odometry: tuple[float, float],
 ) -> DepthScene:
-    """Remove floor and self, and cluster the rest.
+    """Detect obstacles: remove floor and own body, segment the rest.
 
     Args:
         image: Depth image.
-        place: Place of the camera in odometry, at its exposure, in [m].
-            Shape (3,).
-        axes: Its axes (forward, left, up) as columns, with the measured
-            tilt of the body. Shape (3, 3).
-        own: Own axis in odometry, in [m].
+        position_camera_in_odometry: Position of the camera, in [m].
+                Shape (3,).
+        axes_camera_in_odometry: Its axes (forward, left, up) as columns.
+            Shape (3, 3).
+        position_own_in_odometry: Position of the robot, in [m].
     """
-    rays = image.camera.rays() @ axes.T
+    rays = image.camera.rays() @ axes_camera_in_odometry.T
     depths = image.depths.astype(np.float64)
-    points = place + depths[..., None] * rays
-    there = depths > 0.0
-    level = points[..., 2]
-    # A tilt that is off lifts the far floor.
+    points = position_camera_in_odometry + depths[..., None] * rays
+    valid = depths > 0.0
+    heights = points[..., 2]
+    # An error of the tilt lifts the far floor.
     slack = FLOOR + 0.01 * depths
-    solid = there & (level > slack) & (level < CEILING)
-    away = np.hypot(points[..., 0] - own[0], points[..., 1] - own[1])
+    solid = valid & (heights > slack) & (heights < CEILING)
+    away = np.hypot(
+        points[..., 0] - position_own_in_odometry[0],
+        points[..., 1] - position_own_in_odometry[1],
+    )
     solid &= away > SELF
-    found = [
-        _measure(points[part], part, place, axes)
-        for part in parts_of(solid, depths)
+    measured = [
+        _measure(
+            points[part],
+            part,
+            position_camera_in_odometry,
+            axes_camera_in_odometry,
+        )
+        for part in segment_depth(solid, depths)
     ]
-    things = [
-        thing
-        for thing in found
-        if thing.width < BROADEST
-        and thing.height > LOWEST
-        and thing.nearest < TRUSTED * image.far
-        # A piece of a wall, cut off by the edge of the image.
-        and (thing.whole or thing.nearest < PIECE)
+    obstacles = [
+        obstacle
+        for obstacle in measured
+        if obstacle.width < MAX_WIDTH
+        and obstacle.height > MIN_HEIGHT
+        and obstacle.nearest < TRUSTED * image.far
+        # An image edge may cut a piece off a wall.
+        and (obstacle.whole or obstacle.nearest < WHOLE_BEYOND)
     ]
-    things = join_legs(sorted(things, key=lambda thing: thing.nearest))
-    dark = _shadows(image, depths, rays, place, axes)
+    obstacles = join_legs(
+        sorted(obstacles, key=lambda obstacle: obstacle.nearest)
+    )
+    no_return = _shadows(
+        image,
+        depths,
+        rays,
+        position_camera_in_odometry,
+        axes_camera_in_odometry,
+    )
     whole: list[DetectedObstacle] = []
-    near = list(dark)
-    for thing in things:
-        half = 0.5 * thing.width / thing.nearest
-        low, high = thing.azimuth - half, thing.azimuth + half
-        # What hides the floor without an echo may be a nearer part of it.
-        hidden = any(p.low - GAP < high and low - GAP < p.high for p in dark)
-        if thing.nearest < image.near + TRUNCATED and hidden:
-            near.append(DepthComponent(low, high, thing.nearest, thing.whole))
+    near = list(no_return)
+    for obstacle in obstacles:
+        half = 0.5 * obstacle.width / obstacle.nearest
+        low, high = obstacle.azimuth - half, obstacle.azimuth + half
+        # Missing floor beside it may be a nearer part of the same object.
+        hidden = any(
+            p.low - MAX_SHADOW_GAP < high and low - MAX_SHADOW_GAP < p.high
+            for p in no_return
+        )
+        if obstacle.nearest < image.near + TRUNCATED and hidden:
+            near.append(
+                DepthComponent(low, high, obstacle.nearest, obstacle.whole)
+            )
         else:
-            whole.append(thing)
-    ahead = atan2(axes[1, 0], axes[0, 0])
-    return DepthScene(tuple(whole), _join(near, ahead))
+            whole.append(obstacle)
+    heading_camera = atan2(
+        axes_camera_in_odometry[1, 0], axes_camera_in_odometry[0, 0]
+    )
+    return DepthScene(tuple(whole), _join_components(near, heading_camera))
 
 
-def _join(parts: list[DepthComponent], ahead: float) -> tuple[Shadow, ...]:
-    """Join parts into near things, whose middle is that of their ends."""
+def _join_components(
+    parts: list[DepthComponent], heading_camera: float
+) -> tuple[Shadow, ...]:
+    """Join components at small gaps into shadows."""
     joined: list[DepthComponent] = []
     for part in sorted(parts, key=lambda part: part[:2]):
-        if not joined or part.low >= joined[-1].high + GAP:
+        if not joined or part.low >= joined[-1].high + MAX_SHADOW_GAP:
             joined.append(part)
             continue
         low, high, known, whole = joined[-1]
-        told = [n for n in (known, part.nearest) if n is not None]
+        ranges = [n for n in (known, part.nearest) if n is not None]
         joined[-1] = DepthComponent(
             low,
             max(part.high, high),
-            min(told, default=None),
+            min(ranges, default=None),
             whole and part.whole,
         )
     shadows = [
         Shadow(
-            ahead + 0.5 * (low + high),
+            heading_camera + 0.5 * (low + high),
             0.5 * (low + high),
             high - low,
             nearest,
@@ -229,40 +260,40 @@ def _join(parts: list[DepthComponent], ahead: float) -> tuple[Shadow, ...]:
     return tuple(sorted(shadows, key=lambda shadow: -shadow.width))
 
 
-def join_legs(things: list[DetectedObstacle]) -> list[DetectedObstacle]:
-    """Take for one person two legs whose hips are above the view.
+def join_legs(obstacles: list[DetectedObstacle]) -> list[DetectedObstacle]:
+    """Join two legs of a person whose hips are above the image.
 
     Args:
-        things: What was found, the nearest first.
+        obstacles: Detected obstacles, nearest first.
 
     Returns:
-        The same, where two thin ones beside each other, which both reach
-        beyond the upper edge of the image, have become one.
+        Obstacles, in which two narrow ones close to each other that the
+        upper image edge cuts are joined.
     """
-    left_over, joined = list(things), []
-    while left_over:
-        leg = left_over.pop(0)
-        for other in left_over:
+    remaining, joined = list(obstacles), []
+    while remaining:
+        leg = remaining.pop(0)
+        for other in remaining:
             apart = float(np.hypot(leg.x - other.x, leg.y - other.y))
-            if _is_leg(leg) and _is_leg(other) and apart < STRADDLE:
-                left_over.remove(other)
-                leg = _astride(leg, other)
+            if _is_leg(leg) and _is_leg(other) and apart < MAX_LEG_GAP:
+                remaining.remove(other)
+                leg = _person_between(leg, other)
                 break
         joined.append(leg)
     return joined
 
 
-def _is_leg(thing: DetectedObstacle) -> bool:
-    return thing.rises and thing.width < THIN
+def _is_leg(obstacle: DetectedObstacle) -> bool:
+    return obstacle.rises and obstacle.width < MAX_LEG_WIDTH
 
 
-def _astride(
+def _person_between(
     leg: DetectedObstacle, other: DetectedObstacle
 ) -> DetectedObstacle:
-    """The person midway between two legs."""
+    """Return the person midway between two legs."""
     ends = [
-        thing.azimuth + side * 0.5 * thing.width / thing.nearest
-        for thing in (leg, other)
+        obstacle.azimuth + side * 0.5 * obstacle.width / obstacle.nearest
+        for obstacle in (leg, other)
         for side in (-1.0, 1.0)
     ]
     middle = 0.5 * (min(ends) + max(ends))
@@ -280,11 +311,21 @@ def _astride(
 
 
 def _measure(
-    points: Array, part: NDArray[np.bool_], place: Array, axes: Array
+    points: Array,
+    part: NDArray[np.bool_],
+    position_camera_in_odometry: Array,
+    axes_camera_in_odometry: Array,
 ) -> DetectedObstacle:
-    dx, dy = points[:, 0] - place[0], points[:, 1] - place[1]
-    ahead = atan2(axes[1, 0], axes[0, 0])
-    azimuths = (np.arctan2(dy, dx) - ahead + np.pi) % (2.0 * np.pi) - np.pi
+    dx, dy = (
+        points[:, 0] - position_camera_in_odometry[0],
+        points[:, 1] - position_camera_in_odometry[1],
+    )
+    heading_camera = atan2(
+        axes_camera_in_odometry[1, 0], axes_camera_in_odometry[0, 0]
+    )
+    azimuths = (np.arctan2(dy, dx) - heading_camera + np.pi) % (
+        2.0 * np.pi
+    ) - np.pi
     distances = np.hypot(dx, dy)
     nearest = float(np.quantile(distances, 0.1))
     low, high = np.quantile(azimuths, (0.02, 0.98)).tolist()
@@ -292,10 +333,10 @@ def _measure(
     width = nearest * (high - low)
     columns = np.flatnonzero(part.any(axis=0))
     reach = nearest + min(max(0.5 * width, 0.11), 0.16)
-    bearing = ahead + azimuth
+    bearing = heading_camera + azimuth
     return DetectedObstacle(
-        float(place[0] + reach * np.cos(bearing)),
-        float(place[1] + reach * np.sin(bearing)),
+        float(position_camera_in_odometry[0] + reach * np.cos(bearing)),
+        float(position_camera_in_odometry[1] + reach * np.sin(bearing)),
         nearest,
         bearing,
         azimuth,
@@ -307,29 +348,39 @@ def _measure(
 
 
 def _shadows(
-    image: DepthImage, depths: Array, rays: Array, place: Array, axes: Array
+    image: DepthImage,
+    depths: Array,
+    rays: Array,
+    position_camera_in_odometry: Array,
+    axes_camera_in_odometry: Array,
 ) -> list[DepthComponent]:
-    """Where the floor should answer and does not: something too near."""
+    """Find floor that should return depth and does not."""
     down = -rays[..., 2]
     with np.errstate(divide="ignore"):
-        floor = np.where(down > 1e-6, place[2] / down, np.inf)
+        floor = np.where(
+            down > 1e-6, position_camera_in_odometry[2] / down, np.inf
+        )
     expected = (floor > 1.1 * image.near) & (floor < 0.85 * image.far)
-    dark = (expected & (depths == 0.0)).astype(np.uint8)
-    dark = np.asarray(
-        cv2.morphologyEx(dark, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8)),
+    no_return = (expected & (depths == 0.0)).astype(np.uint8)
+    no_return = np.asarray(
+        cv2.morphologyEx(no_return, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8)),
         dtype=np.uint8,
     )
     count, labels, stats, _ = cv2.connectedComponentsWithStats(
-        dark, connectivity=8
+        no_return, connectivity=8
     )
-    least = BLIND * (depths.shape[1] / 80.0) ** 2
+    least = MIN_SHADOW_AREA * (depths.shape[1] / 80.0) ** 2
     shadows = []
-    ahead = atan2(axes[1, 0], axes[0, 0])
+    heading_camera = atan2(
+        axes_camera_in_odometry[1, 0], axes_camera_in_odometry[0, 0]
+    )
     for label in range(1, count):
         if stats[label, cv2.CC_STAT_AREA] < least:
             continue
         directions = rays[labels == label]
-        azimuths = np.arctan2(directions[:, 1], directions[:, 0]) - ahead
+        azimuths = (
+            np.arctan2(directions[:, 1], directions[:, 0]) - heading_camera
+        )
         azimuths = (azimuths + np.pi) % (2.0 * np.pi) - np.pi
         low, high = float(azimuths.min()), float(azimuths.max())
         left, wide = stats[label, [cv2.CC_STAT_LEFT, cv2.CC_STAT_WIDTH]]

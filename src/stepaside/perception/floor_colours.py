@@ -1,4 +1,4 @@
-"""What the floor looks like, and what stands on it close by."""
+"""Colour histogram of the floor, and detection of feet on it close by."""
 
 from typing import NamedTuple
 
@@ -10,23 +10,26 @@ from numpy.typing import NDArray
 from ..core.poses import Array
 from .images import ColourImage, Pixels
 
-BITS = 4  # of each colour that count
+BITS = 4  # of each colour channel in the histogram
 LEVELS = 2**BITS
-ENOUGH = 4000  # pixels of floor that must have been seen
-RARE = 0.01  # share of the pixels below which a colour is not the floor's
-BEGIN, END = 0.25, 1.2  # of the floor that is looked at, from the axis [m]
-LEAST = 20  # pixels of what stands there, at 80 columns
-STRADDLE = 0.45  # between the feet of one person, at most, in [m]
-FRONT = 0.02  # share of a thing's pixels nearer than where it begins
+MIN_PIXELS = 4000  # of floor before the histogram is used
+# Fraction of the pixels below which a colour is not the floor's.
+MIN_FRACTION = 0.01
+# Distances from the own axis at which feet are detected, in [m].
+NEAR = 0.25
+FAR = 1.2
+MIN_AREA = 20  # of a foot at 80 columns, in [pixels]
+MAX_FOOT_GAP = 0.45  # between the feet of one person, in [m]
+FRONT = 0.02  # quantile of the distances that is the front edge of a foot
 
 
 class FloorContact(NamedTuple):
-    """Where something stands on the floor.
+    """Point at which an object stands on the floor.
 
     Attributes:
-        x: Middle of its nearer edge in odometry, in [m].
-        y: Likewise.
-        distance: From the own axis, in [m].
+        x: Middle of its near edge, x in odometry, in [m].
+        y: Middle of its near edge, y in odometry, in [m].
+        distance: Distance from the own axis, in [m].
     """
 
     x: float
@@ -35,117 +38,148 @@ class FloorContact(NamedTuple):
 
 
 class FloorColours:
-    """Colours that the floor was seen to have."""
+    """Histogram of the colours of the floor."""
 
-    def __init__(self, rare: float = RARE) -> None:
-        """Know no floor.
+    def __init__(self, min_fraction: float = MIN_FRACTION) -> None:
+        """Start with an empty histogram.
 
         Args:
-            rare: Share of the pixels below which a colour is not the
-                floor's, but of what stood before it.
+            min_fraction: Fraction of the pixels below which a colour is not
+                the floor's, but that of an object in front of it.
         """
-        self._rare = rare
+        self._min_fraction = min_fraction
         self._counts = np.zeros((LEVELS,) * 3, dtype=np.int64)
 
     @property
     def known(self) -> bool:
-        """Whether enough of the floor was seen."""
-        return bool(self._counts.sum() >= ENOUGH)
+        """Whether the histogram holds enough pixels."""
+        return bool(self._counts.sum() >= MIN_PIXELS)
 
     def learn(self, pixels: Pixels, floor: NDArray[np.bool_]) -> None:
-        """Take pixels of the floor in.
+        """Add pixels of the floor.
 
         Args:
-            pixels: An image. Shape (height, width, 3).
-            floor: Which of them show floor. Shape (height, width).
+            pixels: Image. Shape (height, width, 3).
+            floor: Mask of the floor. Shape (height, width).
         """
         coarse = pixels[floor] >> (8 - BITS)
         np.add.at(self._counts, tuple(coarse.T), 1)
 
-    def strange(self, pixels: Pixels) -> NDArray[np.bool_]:
-        """Which pixels look like no floor. Shape (height, width)."""
-        least = self._rare * max(1, int(self._counts.sum()))
+    def is_not_floor(self, pixels: Pixels) -> NDArray[np.bool_]:
+        """Return the mask of other colours than the floor's.
+
+        Args:
+            pixels: Image. Shape (height, width, 3).
+
+        Returns:
+            Mask. Shape (height, width).
+        """
+        least = self._min_fraction * max(1, int(self._counts.sum()))
         floor = np.asarray(self._counts >= least)
-        # A little lighter or darker is floor as well.
+        # Neighbouring levels are floor too, at other brightness.
         near = sliding_window_view(np.pad(floor, 1), (3, 3, 3))
-        like = np.asarray(near.any(axis=(3, 4, 5)))
+        is_floor = np.asarray(near.any(axis=(3, 4, 5)))
         coarse = pixels >> (8 - BITS)
-        found: NDArray[np.bool_] = ~like[tuple(np.moveaxis(coarse, 2, 0))]
+        found: NDArray[np.bool_] = ~is_floor[tuple(np.moveaxis(coarse, 2, 0))]
         return found
 
 
-def floor_points(image: ColourImage, place: Array, axes: Array) -> Array:
-    """Where the pixels of an image meet the floor; infinite above it.
+def floor_points(
+    image: ColourImage,
+    position_camera_in_odometry: Array,
+    axes_camera_in_odometry: Array,
+) -> Array:
+    """Return the floor points of the pixels; infinite above the horizon.
 
     Args:
         image: The image.
-        place: Place of the camera in odometry, in [m]. Shape (3,).
-        axes: Its axes (forward, left, up) as columns. Shape (3, 3).
+        position_camera_in_odometry: Position of the camera, in [m].
+                Shape (3,).
+        axes_camera_in_odometry: Its axes (forward, left, up) as columns.
+            Shape (3, 3).
 
     Returns:
-        Places on the floor, in [m]. Shape (height, width, 2).
+        Points in odometry, in [m]. Shape (height, width, 2).
     """
-    rays = image.camera.rays() @ axes.T
+    rays = image.camera.rays() @ axes_camera_in_odometry.T
     down = -rays[..., 2]
     with np.errstate(divide="ignore", invalid="ignore"):
-        reach = np.where(down > 1e-3, place[2] / down, np.inf)
-        points = place[:2] + reach[..., None] * rays[..., :2]
-    met: Array = np.where((down > 1e-3)[..., None], points, np.inf)
-    return met
+        reach = np.where(
+            down > 1e-3, position_camera_in_odometry[2] / down, np.inf
+        )
+        points = (
+            position_camera_in_odometry[:2] + reach[..., None] * rays[..., :2]
+        )
+    points_or_inf: Array = np.where((down > 1e-3)[..., None], points, np.inf)
+    return points_or_inf
 
 
-def find_footings(
+def detect_feet(
     image: ColourImage,
     colours: FloorColours,
-    place: Array,
-    axes: Array,
-    own: tuple[float, float],
+    position_camera_in_odometry: Array,
+    axes_camera_in_odometry: Array,
+    position_own_in_odometry: tuple[float, float],
 ) -> tuple[FloorContact, ...]:
-    """Find what stands on the floor close by, by where its image begins.
+    """Detect feet on the floor close by, by their near edges.
 
-    What has not the colours of the floor stands on it where it is seen
-    lowest. Feet that are beside each other are of one person, who stands
-    midway between them.
+    A component of other colours than the floor's touches the floor at its
+    lowest pixels. Two feet beside each other belong to one person, whose
+    position is midway between them.
 
     Args:
-        image: Of a camera that looks down.
-        colours: Of the floor; unless it is known, nothing is found.
-        place: Place of the camera in odometry, in [m]. Shape (3,).
-        axes: Its axes as columns. Shape (3, 3).
-        own: Own axis in odometry, in [m].
+        image: Image of the bottom camera.
+        colours: Colours of the floor; without enough of them nothing is
+            detected.
+        position_camera_in_odometry: Position of the camera, in [m].
+                Shape (3,).
+        axes_camera_in_odometry: Its axes (forward, left, up) as columns.
+            Shape (3, 3).
+        position_own_in_odometry: Position of the robot, in [m].
 
     Returns:
-        The nearest first.
+        Floor contacts, nearest first.
     """
     if not colours.known:
         return ()
-    points = floor_points(image, place, axes)
-    away = np.hypot(points[..., 0] - own[0], points[..., 1] - own[1])
-    seen = (away > BEGIN) & (away < END) & colours.strange(image.pixels)
+    points = floor_points(
+        image, position_camera_in_odometry, axes_camera_in_odometry
+    )
+    distances = np.hypot(
+        points[..., 0] - position_own_in_odometry[0],
+        points[..., 1] - position_own_in_odometry[1],
+    )
+    candidates = (
+        (distances > NEAR)
+        & (distances < FAR)
+        & colours.is_not_floor(image.pixels)
+    )
     block = np.ones((3, 3), np.uint8)
-    dark = cv2.morphologyEx(seen.astype(np.uint8), cv2.MORPH_OPEN, block)
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(dark)
-    least = LEAST * (image.camera.width / 80.0) ** 2
+    cleaned = cv2.morphologyEx(
+        candidates.astype(np.uint8), cv2.MORPH_OPEN, block
+    )
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(cleaned)
+    least = MIN_AREA * (image.camera.width / 80.0) ** 2
     found = []
     for label in range(1, count):
         if stats[label, cv2.CC_STAT_AREA] < least:
             continue
         part = labels == label
-        begin = float(np.quantile(away[part], FRONT))
-        edge = part & (away < begin + 0.05)
+        front = float(np.quantile(distances[part], FRONT))
+        edge = part & (distances < front + 0.05)
         x, y = points[edge].mean(axis=0).tolist()
-        found.append(FloorContact(x, y, begin))
-    return _together(sorted(found, key=lambda footing: footing.distance))
+        found.append(FloorContact(x, y, front))
+    return _join_feet(sorted(found, key=lambda footing: footing.distance))
 
 
-def _together(feet: list[FloorContact]) -> tuple[FloorContact, ...]:
-    """Take two feet beside each other for one person's."""
-    rest, found = list(feet), []
-    while rest:
-        foot = rest.pop(0)
-        for other in rest:
-            if np.hypot(foot.x - other.x, foot.y - other.y) < STRADDLE:
-                rest.remove(other)
+def _join_feet(feet: list[FloorContact]) -> tuple[FloorContact, ...]:
+    """Join two feet beside each other."""
+    remaining, found = list(feet), []
+    while remaining:
+        foot = remaining.pop(0)
+        for other in remaining:
+            if np.hypot(foot.x - other.x, foot.y - other.y) < MAX_FOOT_GAP:
+                remaining.remove(other)
                 foot = FloorContact(
                     0.5 * (foot.x + other.x),
                     0.5 * (foot.y + other.y),

@@ -1,4 +1,4 @@
-"""The feet of who is near, by the lower camera of the head."""
+"""Detection of the feet of people nearby, by the bottom camera."""
 
 from collections.abc import Sequence
 from math import atan2, cos, hypot, sin
@@ -6,29 +6,31 @@ from math import atan2, cos, hypot, sin
 import numpy as np
 
 from ..core.poses import Array
-from .floor_colours import FloorColours, find_footings, floor_points
+from .floor_colours import FloorColours, detect_feet, floor_points
 from .images import ColourImage
 from .track import Observation, TargetTrack
 
-CLOSE = 1.2  # distance of somebody whose feet are looked at, in [m]
-ASIDE = 1.0  # yaw of the head up to which no arm is in view, in [rad]
-SEEN = 0.5, 2.5  # distances of floor whose colours are learnt, in [m]
-APART = 0.7  # from that floor to anybody, in [m]
-TOES = 0.1  # from where feet begin to the axis above them, in [m]
-ALONG, ACROSS = 0.12, 0.06  # deviations of that axis, in [m]
+CLOSE = 1.2  # distance within which feet are looked for, in [m]
+MAX_YAW = 1.0  # of the head, beyond which arms are in view, in [rad]
+LEARNT = 0.5, 2.5  # distances of floor whose colours are learnt, in [m]
+MARGIN = 0.7  # from that floor to any track, in [m]
+TOES = 0.1  # from the near edge of feet to the axis of a person, in [m]
+# Standard deviations of that axis along and across the bearing, in [m].
+ALONG = 0.12
+ACROSS = 0.06
 
 
 class FootDetector:
-    """Learns the floor from far, and finds who stands on it close by.
+    """Detector of feet on a floor whose colours it learns from a distance.
 
-    Within the near limit of the depth camera its image shows the bearing of
-    somebody at best. The lower camera sees the feet there, and how far away
-    they stand. It founds nobody and tells only of who was seen to walk, so
-    that a stain on the floor moves no robot.
+    Within the near limit of the depth camera, depth gives a bearing at best.
+    The bottom camera shows feet there, and their distance. Its observations
+    start no track and update only tracks that have walked, so that a stain
+    on the floor does not make the robot move.
     """
 
     def __init__(self) -> None:
-        """Know no floor."""
+        """Start without colours of the floor."""
         self.colours = FloorColours()
 
     def wanted(
@@ -39,71 +41,96 @@ class FootDetector:
         y: float,
         yaw: float,
     ) -> bool:
-        """Whether the lower camera is of more use than the upper one.
+        """Return whether to use the bottom camera instead of the top one.
 
         Args:
-            track: Who counts, if anybody does.
+            track: Main track, if any.
             now: Time, in [s].
-            x: Own place in odometry, in [m].
-            y: Likewise.
-            yaw: Of the head, in [rad].
+            x: Own x in odometry, in [m].
+            y: Own y in odometry, in [m].
+            yaw: Yaw of the head, in [rad].
         """
-        if track is None or not track.walked or not self.colours.known:
+        if track is None or not track.has_walked or not self.colours.known:
             return False
-        return abs(yaw) < ASIDE and track.away_from(x, y, now) < CLOSE
+        return abs(yaw) < MAX_YAW and track.distance_from(x, y, now) < CLOSE
 
     def learn(
         self,
         image: ColourImage,
-        place: Array,
-        axes: Array,
-        own: tuple[float, float],
+        position_camera_in_odometry: Array,
+        axes_camera_in_odometry: Array,
+        position_own_in_odometry: tuple[float, float],
         tracks: Sequence[TargetTrack],
     ) -> None:
-        """Learn the floor in an image of the upper camera.
+        """Learn the colours of the floor from an image of the top camera.
 
         Args:
             image: The image.
-            place: Place of the camera in odometry, in [m]. Shape (3,).
-            axes: Its axes as columns. Shape (3, 3).
-            own: Own axis in odometry, in [m].
-            tracks: Who stands on the floor.
+            position_camera_in_odometry: Position of the camera, in [m].
+                Shape (3,).
+            axes_camera_in_odometry: Its axes (forward, left, up) as columns.
+                Shape (3, 3).
+            position_own_in_odometry: Position of the robot, in [m].
+            tracks: All tracks; the floor around them is left out.
         """
-        points = floor_points(image, place, axes)
-        away = np.hypot(points[..., 0] - own[0], points[..., 1] - own[1])
-        floor = (away > SEEN[0]) & (away < SEEN[1])
+        points = floor_points(
+            image, position_camera_in_odometry, axes_camera_in_odometry
+        )
+        distances = np.hypot(
+            points[..., 0] - position_own_in_odometry[0],
+            points[..., 1] - position_own_in_odometry[1],
+        )
+        floor = (distances > LEARNT[0]) & (distances < LEARNT[1])
         for track in tracks:
-            x, y = track.place_at(image.time)
+            x, y = track.position_at(image.time)
             apart = np.hypot(points[..., 0] - x, points[..., 1] - y)
-            # Whoever stands there hides the floor behind as well.
-            beyond = away > hypot(x - own[0], y - own[1]) - APART
-            floor &= (apart > APART) & ~beyond
+            # A person also hides the floor behind.
+            beyond = (
+                distances
+                > hypot(
+                    x - position_own_in_odometry[0],
+                    y - position_own_in_odometry[1],
+                )
+                - MARGIN
+            )
+            floor &= (apart > MARGIN) & ~beyond
         self.colours.learn(image.pixels, floor)
 
     def observe(
         self,
         image: ColourImage,
-        place: Array,
-        axes: Array,
-        own: tuple[float, float],
+        position_camera_in_odometry: Array,
+        axes_camera_in_odometry: Array,
+        position_own_in_odometry: tuple[float, float],
     ) -> list[Observation]:
-        """Find whose feet an image of the lower camera shows.
+        """Detect feet in an image of the bottom camera.
 
         Args:
             image: The image.
-            place: Place of the camera in odometry, in [m]. Shape (3,).
-            axes: Its axes as columns. Shape (3, 3).
-            own: Own axis in odometry, in [m].
+            position_camera_in_odometry: Position of the camera, in [m].
+                Shape (3,).
+            axes_camera_in_odometry: Its axes (forward, left, up) as columns.
+                Shape (3, 3).
+            position_own_in_odometry: Position of the robot, in [m].
         """
-        found = find_footings(image, self.colours, place, axes, own)
-        seen = []
-        for foot in found:
-            bearing = atan2(foot.y - own[1], foot.x - own[0])
-            seen.append(
+        contacts = detect_feet(
+            image,
+            self.colours,
+            position_camera_in_odometry,
+            axes_camera_in_odometry,
+            position_own_in_odometry,
+        )
+        observations = []
+        for contact in contacts:
+            bearing = atan2(
+                contact.y - position_own_in_odometry[1],
+                contact.x - position_own_in_odometry[0],
+            )
+            observations.append(
                 Observation(
                     image.time,
-                    foot.x + TOES * cos(bearing),
-                    foot.y + TOES * sin(bearing),
+                    contact.x + TOES * cos(bearing),
+                    contact.y + TOES * sin(bearing),
                     bearing,
                     ALONG,
                     ACROSS,
@@ -111,4 +138,4 @@ class FootDetector:
                     False,
                 )
             )
-        return seen
+        return observations

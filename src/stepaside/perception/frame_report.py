@@ -1,4 +1,4 @@
-"""What one image was found to show."""
+"""Detections in one image."""
 
 from dataclasses import dataclass
 
@@ -9,15 +9,15 @@ from .images import ColourImage, DepthImage
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrameReport:
-    """What one image was found to show.
+    """Detections in one image.
 
     Attributes:
         image: The image.
-        azimuths: Directions in which something was found, from the
-            camera's axis, in [rad], positive leftward.
-        colour: What a colour image shows.
-        depth: What a depth image shows.
-        sought: Whether the other was looked for in it.
+        azimuths: Directions of the detections from the camera axis, in
+            [rad], positive leftward.
+        colour: Detection in a colour image, if any.
+        depth: Obstacles and shadows in a depth image.
+        sought: Whether the opponent was searched for in it.
     """
 
     image: ColourImage | DepthImage

@@ -1,4 +1,4 @@
-"""Where to look: at the other, or for it."""
+"""Gaze control: follow a target, scan for it, glance aside."""
 
 from math import atan2, hypot, radians
 
@@ -7,38 +7,39 @@ import numpy as np
 from ..core.poses import Array, wrap_angle
 from .tracker import TALL
 
-SPEED = 3.0  # of the head while it follows, in [rad/s]
-SCAN_SPEED = 3.0  # of the head while it searches, in [rad/s]
-SCAN_PITCH = radians(8.0)  # downward, while it searches
-REACH = radians(115.0)  # of the yaw while it searches
-MIDDLE = 0.28  # height of a robot that is looked at, in [m]
-CROWN = 0.54  # height of the upper end of a robot's trim, in [m]
-HALF = radians(20.0)  # upward from the middle of an image, still in it
-LOOKOUT = 0.46  # height of the eyes, in [m]
-HIPS = 1.05  # height up to which somebody taller is kept in view, in [m]
-UPWARD = radians(13.0)  # at most for it: the floor stays in view, too
-OFTEN = 2.0  # between two glances of one who walks backward, in [s]
-SELDOM = 4.0  # of one who walks where it looks, in [s]
-LONG = 0.9  # of a glance, the way there included, in [s]
-TOO_NEAR = 0.8  # to look away: no depth tells where it is meanwhile, in [m]
-AWAY = 2.3  # from the other at most, or it is lost, in [rad]
+FOLLOW_SPEED = 3.0  # of the head while it follows, in [rad/s]
+SCAN_SPEED = 3.0  # of the head during a scan, in [rad/s]
+SCAN_PITCH = radians(8.0)  # of the head during a scan, downward
+MAX_YAW = radians(115.0)  # of the head during a scan and a glance
+ROBOT_MIDDLE = 0.28  # height of a robot at which the head looks, in [m]
+ROBOT_TOP = 0.54  # height of the upper end of a robot's trim, in [m]
+HALF_VIEW = radians(20.0)  # from the image centre to its usable upper edge
+CAMERA_HEIGHT = 0.46  # in [m]
+PERSON_TOP = 1.05  # height up to which a person is held in view, in [m]
+MAX_UPWARD = radians(13.0)  # pitch for a person: the floor stays in view
+OFTEN = 2.0  # between glances of a robot that walks backward, in [s]
+SELDOM = 4.0  # between glances of a robot that walks forward, in [s]
+GLANCE_DURATION = 0.9  # including the motion of the head, in [s]
+MIN_DISTANCE = 0.8  # of the target of a glance: nearer, depth is lost, in [m]
+MAX_TURN = 2.3  # from the target during a glance, in [rad]
 
 
 class Gaze:
-    """Turns the head within its ranges and a calm speed.
+    """Head motion at a limited speed within the joint ranges.
 
     Attributes:
-        yaw: Target of the yaw, in [rad].
-        pitch: Target of the pitch, in [rad].
-        searching: Whether it scans.
-        turned: How often it turned back at an end of a scan.
+        yaw: Target of the head yaw, in [rad].
+        pitch: Target of the head pitch, in [rad].
+        searching: Whether the head scans.
+        scan_ends: Number of times that a scan has reached one of its ends.
     """
 
     def __init__(self, coupling: Array, tick: float) -> None:
-        """Look ahead, and a little down.
+        """Start straight ahead at the pitch of a scan.
 
         Args:
-            coupling: Yaw, least and greatest pitch, in [rad]. Shape (3, n).
+            coupling: Rows of yaw, minimum and maximum pitch, in [rad]. Shape
+                (3, n).
             tick: Control period, in [s].
         """
         self._yaws, self._low, self._high = coupling
@@ -46,42 +47,46 @@ class Gaze:
         self._side = 1.0
         self.yaw, self.pitch = 0.0, SCAN_PITCH
         self.searching = True
-        self.turned = 0
+        self.scan_ends = 0
 
     def follow(
         self, bearing: float, distance: float, height: float = 0.0
     ) -> None:
-        """Look at something, and up as somebody tall comes near.
+        """Turn towards a target, and upward for a person nearby.
 
         Args:
-            bearing: Its direction from the heading of the torso, in [rad].
-            distance: Its distance, in [m].
-            height: How high it rises at least, in [m].
+            bearing: Direction of the target from the heading of the torso,
+                in [rad].
+            distance: Distance of the target, in [m].
+            height: Observed height of the target, in [m].
         """
         if self.searching:
             self.searching = False
         bearing = wrap_angle(bearing)
-        # Should it leave, the search begins on its side.
+        # A scan after losing it starts on its side.
         self._side = 1.0 if bearing >= self.yaw else -1.0
-        # From near not all is in view: rather the head than the feet.
+        # Nearby not all fits in the image: the head matters most.
         tall = height > TALL
-        top = HIPS if tall else CROWN
-        crown = atan2(top - LOOKOUT, max(distance - 0.06, 0.1))
-        pitch = min(atan2(LOOKOUT - MIDDLE, distance), HALF - crown)
-        pitch = max(pitch, -UPWARD) if tall else pitch
-        self._turn(bearing, pitch, SPEED)
+        top = PERSON_TOP if tall else ROBOT_TOP
+        elevation_top = atan2(top - CAMERA_HEIGHT, max(distance - 0.06, 0.1))
+        pitch = min(
+            atan2(CAMERA_HEIGHT - ROBOT_MIDDLE, distance),
+            HALF_VIEW - elevation_top,
+        )
+        pitch = max(pitch, -MAX_UPWARD) if tall else pitch
+        self._turn(bearing, pitch, FOLLOW_SPEED)
 
     def search(self, *, stay: bool = False) -> None:
-        """Sweep from side to side.
+        """Scan from side to side.
 
         Args:
-            stay: Whether to stay at the end of a scan.
+            stay: Whether to stop at the next end of the scan.
         """
         self.searching = True
-        edge = min(REACH, float(self._yaws[-1]))
+        edge = min(MAX_YAW, float(self._yaws[-1]))
         if self._side * self.yaw >= edge - 1e-6 and not stay:
             self._side = -self._side
-            self.turned += 1
+            self.scan_ends += 1
         self._turn(self._side * edge, SCAN_PITCH, SCAN_SPEED)
 
     def _turn(self, yaw: float, pitch: float, speed: float) -> None:
@@ -89,49 +94,52 @@ class Gaze:
         yaw = min(max(yaw, float(self._yaws[0])), float(self._yaws[-1]))
         to_yaw, to_pitch = yaw - self.yaw, pitch - self.pitch
         length = hypot(to_yaw, to_pitch)
-        share = 1.0 if length <= step else step / length
-        self.yaw += share * to_yaw
-        self.pitch += share * to_pitch
+        fraction = 1.0 if length <= step else step / length
+        self.yaw += fraction * to_yaw
+        self.pitch += fraction * to_pitch
         low = float(np.interp(self.yaw, self._yaws, self._low))
         high = float(np.interp(self.yaw, self._yaws, self._high))
         self.pitch = min(max(self.pitch, low), high)
 
 
 class Glances:
-    """Looks over one shoulder and the other, while somebody is followed."""
+    """Periodic glances over alternate shoulders while following a target."""
 
     def __init__(self, tick: float, every: float = OFTEN) -> None:
-        """Begin with a while of looking at the other.
+        """Start with a full interval before the first glance.
 
         Args:
             tick: Control period, in [s].
             every: Time between two glances, in [s].
         """
-        self._every, self._long = round(every / tick), round(LONG / tick)
-        self._passed = 0
+        self._interval, self._glance_ticks = (
+            round(every / tick),
+            round(GLANCE_DURATION / tick),
+        )
+        self._ticks = 0
         self._side = 1.0
 
-    def turned(self, bearing: float, distance: float) -> float:
-        """Where to look at a tick instead of at somebody.
+    def direction(self, bearing: float, distance: float) -> float:
+        """Return the direction to look in at this tick; call every tick.
 
         Args:
-            bearing: Direction of who is followed, from the torso, in [rad].
-            distance: Distance, in [m]; from one who is very near, nobody
-                looks away.
+            bearing: Bearing of the target from the torso, in [rad].
+            distance: Distance of the target, in [m]; the head does not look
+                away from a very near one.
 
         Returns:
-            Direction to look in, in [rad].
+            Bearing of the target or of a glance, in [rad].
         """
-        self._passed += 1
-        if self._passed < self._every or distance < TOO_NEAR:
+        self._ticks += 1
+        if self._ticks < self._interval or distance < MIN_DISTANCE:
             return bearing
-        if self._passed == self._every and not self._is_beside(bearing):
+        if self._ticks == self._interval and not self._is_in_reach(bearing):
             self._side = -self._side
-        if self._passed >= self._every + self._long:
-            self._passed, self._side = 0, -self._side
+        if self._ticks >= self._interval + self._glance_ticks:
+            self._ticks, self._side = 0, -self._side
             return bearing
-        return self._side * REACH if self._is_beside(bearing) else bearing
+        return self._side * MAX_YAW if self._is_in_reach(bearing) else bearing
 
-    def _is_beside(self, bearing: float) -> bool:
-        """Whether a look over the shoulder is soon back at a bearing."""
-        return abs(self._side * REACH - wrap_angle(bearing)) < AWAY
+    def _is_in_reach(self, bearing: float) -> bool:
+        """Return whether a glance to the current side is short enough."""
+        return abs(self._side * MAX_YAW - wrap_angle(bearing)) < MAX_TURN

@@ -1,4 +1,4 @@
-"""What cameras and sonars hand over, each with the time it was taken."""
+"""Images and sonar echoes with their times."""
 
 from dataclasses import dataclass
 
@@ -13,13 +13,13 @@ Depths = NDArray[np.float32]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ColourImage:
-    """A colour image.
+    """Colour image.
 
     Attributes:
         time: Middle of its exposure, in [s].
         camera: Camera that took it.
         pixels: Red, green and blue. Shape (height, width, 3).
-        low: Whether it is of the lower camera of a head that has two.
+        low: Whether the bottom camera of a head with two took it.
     """
 
     time: float
@@ -30,15 +30,15 @@ class ColourImage:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DepthImage:
-    """A depth image.
+    """Depth image.
 
     Attributes:
         time: Middle of its exposure, in [s].
         camera: Camera that took it.
-        depths: Depth along the camera's axis, in [m]; 0 where nothing came
-            back. Shape (height, width).
-        near: Nothing nearer comes back, in [m].
-        far: Nothing farther comes back, in [m].
+        depths: Depth along the camera axis, in [m]; 0 without return. Shape
+            (height, width).
+        near: Lower limit of the range, in [m].
+        far: Upper limit of the range, in [m].
     """
 
     time: float
@@ -50,13 +50,13 @@ class DepthImage:
 
 @dataclass(frozen=True, slots=True)
 class SonarEcho:
-    """An echo, or silence.
+    """Sonar echo, or the absence of one.
 
     Attributes:
-        time: When it was heard, in [s].
+        time: Time of the echo, in [s].
         sonar: Name of the sonar.
-        distance: Distance of the nearest thing in its cone, in [m]; None
-            if all was silent.
+        distance: Distance of the nearest object in its cone, in [m]; None
+            without echo.
     """
 
     time: float

@@ -1,4 +1,4 @@
-"""What a robot's own sensors give."""
+"""Measurements of a robot's own sensors."""
 
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -9,16 +9,16 @@ if TYPE_CHECKING:
 
 
 class Sighting(NamedTuple):
-    """The other robot, as a sensor of this one saw it.
+    """Bearing and distance of an opponent, as measured by the robot.
 
     Attributes:
-        time: When it was seen, in [s].
-        bearing: Direction of the other in the horizontal plane, from the
-            heading of this robot's torso, in [rad], positive leftward.
-        distance: Horizontal distance to the other, in [m].
-        who: Number of who it is, where several may come.
-        settled: Whether it was watched long enough to tell where it goes.
-        spread: Standard deviation of its place, in [m].
+        time: Time of the observation, in [s].
+        bearing: Horizontal direction of the opponent from the heading of the
+            own torso, in [rad], positive leftward.
+        distance: Horizontal distance to the opponent, in [m].
+        who: Number of its track, where several people may approach; else 0.
+        settled: Whether it was observed long enough for its velocity.
+        spread: Standard deviation of its position, in [m].
     """
 
     time: float
@@ -30,23 +30,23 @@ class Sighting(NamedTuple):
 
 
 class Measurement(NamedTuple):
-    """What a robot's own sensors give at one control tick.
+    """Values of all sensors at one control tick.
 
     Attributes:
         time: Time of the tick, in [s].
-        joint_positions: Encoders, in [rad], in the order of the joint
-            targets. Shape (joints,).
+        joint_positions: Joint angles from the encoders, in [rad], in the
+            order of the joint targets. Shape (joints,).
         gyro: Angular velocity of the torso in its frame, in [rad/s]; its
-            third axis is NaN where the robot measures two. Shape (3,).
+            z component is NaN for a gyro with two axes. Shape (3,).
         accelerometer: Specific force at the torso in its frame, in [m/s^2].
             Shape (3,).
-        foot_forces: Pressing force at the corners of the soles, in [N]:
+        foot_forces: Normal force at the corners of the soles, in [N]:
             left front-left, front-right, rear-left, rear-right, then right.
             Shape (8,).
-        sighting: Newest sighting of the other robot, if there is any.
-        percepts: Images and echoes that have arrived since the last tick.
-        place: CoM and heading of the torso on the floor of a room that is
-            known, from a sensor that tells them.
+        sighting: Latest sighting of the opponent, if any.
+        percepts: Images and echoes that arrived since the last tick.
+        place: CoM and heading of the torso in the frame of a known room,
+            from a localisation sensor; None without one.
     """
 
     time: float

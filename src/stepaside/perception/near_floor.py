@@ -1,4 +1,4 @@
-"""The floor close by, by the lower camera of the head: what a map lacks."""
+"""Mapping of the floor close by with the bottom camera."""
 
 import numpy as np
 
@@ -8,86 +8,105 @@ from .floor_growing import grow_floor
 from .floor_map import FloorMap
 from .images import ColourImage
 
-EVERY = 2  # of this many colour images one is of the lower camera
-SPARSE = 2  # of this many rows and columns of an image one counts
+EVERY = 2  # one in so many colour images is from the bottom camera
+STRIDE = 2  # between the rows and columns of an image that are used
 LEARNT = 0.6, 2.5  # distances of floor whose colours are learnt, in [m]
-SHOWN = 0.15, 0.9  # of floor that is looked at, from the own axis, in [m]
-APART = 0.4  # from floor that is learnt to the other player, in [m]
-# Share of the pixels below which a colour is not the floor's: who is not yet
-# known to stand there is learnt with it.
-RARE = 0.05
+MAPPED = 0.15, 0.9  # distances of floor that is mapped, in [m]
+MARGIN = 0.4  # from floor whose colours are learnt to the opponent, in [m]
+# Fraction of the pixels below which a colour is not the floor's: before the
+# opponent is tracked, its colours are learnt with the floor's.
+MIN_FRACTION = 0.05
 
 
 class NearFloorMapper:
-    """Shows a map the floor that its depth camera is too near to measure.
+    """Mapper of free floor nearer than the range of the depth camera.
 
-    Within the near limit of that camera a thing hides the floor before it,
-    too. The lower camera sees this floor. What floor looks like is learnt
-    from images of the upper camera, where the depth camera saw that nothing
-    stands; close by floor is lighter, and what is even with floor counts as
-    floor. It adds nothing that stands there, and takes nothing away: what
-    looks like floor was seen, and is free unless rays struck something.
+    Within the near limit of the depth camera an obstacle also hides the
+    floor in front of it, which the bottom camera shows. The colours of the
+    floor are learnt from images of the top camera, where the depth camera
+    has measured free floor. Lighting changes them close by, so regions are
+    grown. Cells become known by this, but never occupied or cleared: depth
+    alone decides that.
     """
 
     def __init__(self, floor: FloorMap) -> None:
-        """Know no colours of the floor of a map."""
+        """Start without colours of the floor."""
         self._floor = floor
-        self._colours = FloorColours(RARE)
+        self._colours = FloorColours(MIN_FRACTION)
         self._images = 0
 
     def wanted(self) -> bool:
-        """Whether the next colour image is to be of the lower camera."""
+        """Return whether the next image should be from the bottom camera."""
         self._images += 1
         return self._colours.known and self._images % EVERY == 0
 
     def learn(
         self,
         image: ColourImage,
-        place: Array,
-        axes: Array,
-        own: tuple[float, float],
-        other: tuple[float, float] | None,
+        position_camera_in_odometry: Array,
+        axes_camera_in_odometry: Array,
+        position_own_in_odometry: tuple[float, float],
+        position_opponent_in_odometry: tuple[float, float] | None,
     ) -> None:
-        """Learn what the floor looks like, from an upper image.
+        """Learn the colours of the floor from an image of the top camera.
 
         Args:
             image: The image.
-            place: Place of the camera in odometry, in [m]. Shape (3,).
-            axes: Its axes as columns. Shape (3, 3).
-            own: Own axis in odometry, in [m].
-            other: Other player in odometry, if it is seen, in [m].
+            position_camera_in_odometry: Position of the camera, in [m].
+                Shape (3,).
+            axes_camera_in_odometry: Its axes (forward, left, up) as columns.
+                Shape (3, 3).
+            position_own_in_odometry: Position of the robot, in [m].
+            position_opponent_in_odometry: Position of the opponent, in [m];
+                None if it is not tracked.
         """
-        points = floor_points(image, place, axes)[::SPARSE, ::SPARSE]
-        away = np.hypot(points[..., 0] - own[0], points[..., 1] - own[1])
-        chosen = (away > LEARNT[0]) & (away < LEARNT[1])
-        if other is not None:
-            # Whoever stands there hides the floor behind as well.
+        points = floor_points(
+            image, position_camera_in_odometry, axes_camera_in_odometry
+        )[::STRIDE, ::STRIDE]
+        distances = np.hypot(
+            points[..., 0] - position_own_in_odometry[0],
+            points[..., 1] - position_own_in_odometry[1],
+        )
+        chosen = (distances > LEARNT[0]) & (distances < LEARNT[1])
+        if position_opponent_in_odometry is not None:
+            # The opponent also hides the floor behind it.
             gap = np.hypot(
-                points[..., 0] - other[0], points[..., 1] - other[1]
+                points[..., 0] - position_opponent_in_odometry[0],
+                points[..., 1] - position_opponent_in_odometry[1],
             )
-            beyond = away > np.hypot(other[0] - own[0], other[1] - own[1])
-            chosen &= (gap > APART) & ~beyond
+            beyond = distances > np.hypot(
+                position_opponent_in_odometry[0] - position_own_in_odometry[0],
+                position_opponent_in_odometry[1] - position_own_in_odometry[1],
+            )
+            chosen &= (gap > MARGIN) & ~beyond
         chosen[chosen] = self._floor.is_free(points[chosen])
-        self._colours.learn(image.pixels[::SPARSE, ::SPARSE], chosen)
+        self._colours.learn(image.pixels[::STRIDE, ::STRIDE], chosen)
 
     def show(
         self,
         image: ColourImage,
-        place: Array,
-        axes: Array,
-        own: tuple[float, float],
+        position_camera_in_odometry: Array,
+        axes_camera_in_odometry: Array,
+        position_own_in_odometry: tuple[float, float],
     ) -> None:
-        """Tell the map what floor a lower image shows.
+        """Mark floor in an image of the bottom camera as known in the map.
 
         Args:
             image: The image.
-            place: Place of the camera in odometry, in [m]. Shape (3,).
-            axes: Its axes as columns. Shape (3, 3).
-            own: Own axis in odometry, in [m].
+            position_camera_in_odometry: Position of the camera, in [m].
+                Shape (3,).
+            axes_camera_in_odometry: Its axes (forward, left, up) as columns.
+                Shape (3, 3).
+            position_own_in_odometry: Position of the robot, in [m].
         """
-        points = floor_points(image, place, axes)[::SPARSE, ::SPARSE]
-        away = np.hypot(points[..., 0] - own[0], points[..., 1] - own[1])
-        near = (away > SHOWN[0]) & (away < SHOWN[1])
-        pixels = image.pixels[::SPARSE, ::SPARSE]
-        bare = grow_floor(pixels, ~self._colours.strange(pixels))
+        points = floor_points(
+            image, position_camera_in_odometry, axes_camera_in_odometry
+        )[::STRIDE, ::STRIDE]
+        distances = np.hypot(
+            points[..., 0] - position_own_in_odometry[0],
+            points[..., 1] - position_own_in_odometry[1],
+        )
+        near = (distances > MAPPED[0]) & (distances < MAPPED[1])
+        pixels = image.pixels[::STRIDE, ::STRIDE]
+        bare = grow_floor(pixels, ~self._colours.is_not_floor(pixels))
         self._floor.show(points[near & bare], points[near & ~bare])

@@ -1,4 +1,4 @@
-"""From what an image shows to a place in odometry, as sure as it is."""
+"""Observations in odometry, with covariance, from detections."""
 
 from collections.abc import Sequence
 from math import atan2, cos, hypot, radians, sin
@@ -10,164 +10,184 @@ from .colour_detector import Appearance, ColourDetection
 from .depth_detector import DetectedObstacle, Shadow
 from .floor_map import FloorMap
 from .images import ColourImage, DepthImage
-from .ranging import BREADTH, range_of_breadth, range_of_trim
+from .ranging import WIDTH, range_of_trim, range_of_width
 from .track import Observation, TargetTrack
 
-SURE = 0.8  # confidence from which the size of the trim tells distance
-GUESS = 1.2  # distance of a thing whose distance is unknown, in [m]
-CLOSEST = 0.35  # distance below which no other can be, in [m]
-ROUGH = 0.35  # share by which a distance told by breadth is off
-VAGUE = 0.6  # deviation of a distance that is only remembered, in [m]
-NEARBY = 0.15  # beyond the near limit, of what casts a shadow, in [m]
-BESIDE = 0.45  # distance of what casts one, at least, in [m]
-BLIND = 3.0  # deviation of a distance that nothing tells, in [m]
-PULLED = 0.15  # of the bounds of a shadow, which the memory overran, in [m]
-BODY = 0.35  # from the middle of somebody to a part of it, in [m]
-AXIS = 0.03  # from the middle of what is seen of trim to the axis, in [m]
-PARTLY = 0.15  # of the axis of whom only a part was measured, in [m]
+MIN_CONFIDENCE = 0.8  # at which the height of the trim gives the distance
+DEFAULT_DISTANCE = 1.2  # without measurement or track, in [m]
+MIN_DISTANCE = 0.35  # of an opponent, in [m]
+DEVIATION_WIDTH = 0.35  # of a distance from the width, relative
+DEVIATION_TRACK = 0.6  # of a distance from the track, in [m]
+# Bounds of the distance of a shadow: beyond the near limit of the depth
+# camera at most, and from the camera at least, in [m].
+SHADOW_MARGIN = 0.15
+MIN_SHADOW_DISTANCE = 0.45
+DEVIATION_UNKNOWN = 3.0  # of a distance without any measurement, in [m]
+DEVIATION_BOUND = 0.15  # of a distance clipped to those bounds, in [m]
+BODY_RADIUS = 0.35  # from the axis of a player to a part of it, in [m]
+DEVIATION_AXIS = 0.03  # from the middle of visible trim to the axis, in [m]
+DEVIATION_PART = 0.15  # of the axis of a partly measured object, in [m]
 
 
 def observe_trim(
     image: ColourImage,
     found: ColourDetection,
-    place: Array,
-    axes: Array,
+    position_camera_in_odometry: Array,
+    axes_camera_in_odometry: Array,
     appearance: Appearance,
     tracks: Sequence[TargetTrack],
     *,
     near: bool = False,
 ) -> Observation:
-    """Turn trim in an image into a place in odometry.
+    """Return the observation of a robot from its trim in an image.
 
-    Its size tells the distance when all of it is in view, its breadth
-    roughly when it is too near for that, and else memory.
+    The distance follows from the height of the trim when all of it is in
+    view, roughly from its width when the robot is too near for that, and
+    from the track otherwise.
 
     Args:
         image: The image.
-        found: The trim in it.
-        place: Place of the camera in odometry, in [m]. Shape (3,).
-        axes: Its axes as columns. Shape (3, 3).
-        appearance: Whose trim it is.
-        tracks: What is followed already.
-        near: Whether it may be so near that an edge hides a part of it, of
-            which no trim tells; then its middle is not its axis either, and
-            to believe that would be to take sway for a change of distance.
+        found: Detection of the trim.
+        position_camera_in_odometry: Position of the camera, in [m].
+                Shape (3,).
+        axes_camera_in_odometry: Its axes (forward, left, up) as columns.
+            Shape (3, 3).
+        appearance: Appearance of the robot.
+        tracks: All tracks.
+        near: Whether it may be so near that an image edge hides a part
+            without cutting a patch. The middle of the visible trim is then
+            not the axis, and sway would look like a change of distance.
     """
     camera = image.camera
     middle = 0.5 * (found.top + found.bottom)
-    x, y, _ = (axes @ camera.ray(found.column, middle)).tolist()
+    x, y, _ = (
+        axes_camera_in_odometry @ camera.ray(found.column, middle)
+    ).tolist()
     bearing = atan2(y, x)
     hidden = 0.0
     if near:
-        hidden = _hidden(
-            image, found, _remembered(tracks, image.time, bearing, place)
+        hidden = _hidden_angle(
+            image,
+            found,
+            _distance_of_track(
+                tracks, image.time, bearing, position_camera_in_odometry
+            ),
         )
         bearing = wrap_angle(bearing - 0.5 * hidden)
-    away = None
+    distance = None
     whole = not (found.cut_above or found.cut_below)
-    if whole and found.confidence >= SURE:
-        away = range_of_trim(
-            axes @ camera.ray(found.column, found.top),
-            axes @ camera.ray(found.column, found.bottom),
-            float(place[2]),
+    if whole and found.confidence >= MIN_CONFIDENCE:
+        distance = range_of_trim(
+            axes_camera_in_odometry @ camera.ray(found.column, found.top),
+            axes_camera_in_odometry @ camera.ray(found.column, found.bottom),
+            float(position_camera_in_odometry[2]),
             appearance,
         )
-    ranged = away is not None
-    along = VAGUE
-    if away is not None:
-        along = 0.02 + 0.05 * away
+    ranged = distance is not None
+    along = DEVIATION_TRACK
+    if distance is not None:
+        along = 0.02 + 0.05 * distance
     elif not (found.cut_aside or hidden) and found.cut_below:
-        away = range_of_breadth(
+        distance = range_of_width(
             angle_of(image, found.right) - angle_of(image, found.left)
         )
-        along = ROUGH * away
+        along = DEVIATION_WIDTH * distance
     else:
-        away = _remembered(tracks, image.time, bearing, place)
-        if away <= CLOSEST:
+        distance = _distance_of_track(
+            tracks, image.time, bearing, position_camera_in_odometry
+        )
+        if distance <= MIN_DISTANCE:
             along = 0.1
     aside = 0.005 if not found.cut_aside else 0.06
-    across = 0.003 + max(aside, 0.5 * abs(hidden)) * away
+    across = 0.003 + max(aside, 0.5 * abs(hidden)) * distance
     return Observation(
         image.time,
-        float(place[0] + away * cos(bearing)),
-        float(place[1] + away * sin(bearing)),
+        float(position_camera_in_odometry[0] + distance * cos(bearing)),
+        float(position_camera_in_odometry[1] + distance * sin(bearing)),
         bearing,
         along,
-        max(across, AXIS) if near else across,
+        max(across, DEVIATION_AXIS) if near else across,
         True,
         ranged,
     )
 
 
-def _hidden(image: ColourImage, found: ColourDetection, away: float) -> float:
-    """Angle of the trim beyond an edge, in [rad], positive rightward.
+def _hidden_angle(
+    image: ColourImage, found: ColourDetection, distance: float
+) -> float:
+    """Return the angle of trim beyond an edge, positive rightward.
 
     Args:
         image: The image.
-        found: The trim in it.
-        away: Distance of who wears it, in [m].
+        found: Detection of the trim.
+        distance: Distance of the robot, in [m].
     """
     left, right = angle_of(image, found.left), angle_of(image, found.right)
-    missing = max(0.0, BREADTH / away - (right - left))
+    missing = max(0.0, WIDTH / distance - (right - left))
     edge = -angle_of(image, 0.0)
     beyond_left, beyond_right = edge + left < missing, edge - right < missing
     return missing * (float(beyond_right) - float(beyond_left))
 
 
 def observe_obstacle(
-    image: DepthImage, thing: DetectedObstacle
+    image: DepthImage, obstacle: DetectedObstacle
 ) -> Observation:
-    """Turn an obstacle into an observation; its side may be cut."""
-    aside = 0.03 if thing.whole else 0.12
+    """Return the observation of an obstacle."""
+    aside = 0.03 if obstacle.whole else 0.12
     return Observation(
         image.time,
-        thing.x,
-        thing.y,
-        thing.bearing,
+        obstacle.x,
+        obstacle.y,
+        obstacle.bearing,
         0.03,
         aside,
         False,
         True,
-        thing.height,
+        obstacle.height,
     )
 
 
 def observe_obstacles(
     image: DepthImage,
-    things: Sequence[DetectedObstacle],
+    obstacles: Sequence[DetectedObstacle],
     floor: FloorMap | None,
-    other: tuple[float, float] | None = None,
+    position_opponent_in_odometry: tuple[float, float] | None = None,
 ) -> tuple[list[Observation], list[Observation]]:
-    """Turn obstacles into observations.
+    """Return the observations of obstacles.
 
-    What the edge cuts may be a piece of a wall: it founds nobody. In a room
-    that is mapped nothing does but trim, and what is on the map, or not
-    where the other is, is nobody.
+    An obstacle that an image edge cuts may be a piece of a wall, and starts
+    no track. With a map of the floor only trim starts a track, and obstacles
+    are used only if they are near the opponent and not on the map.
 
     Args:
         image: The image.
-        things: Obstacles in it.
-        floor: Map of the floor, if one is kept.
-        other: Where the other is taken to be, in odometry, in [m].
+        obstacles: Obstacles in it.
+        floor: Map of the floor, if there is one.
+        position_opponent_in_odometry: Predicted position of the opponent,
+            in [m].
 
     Returns:
-        Those that may found a track, and those that may not.
+        Observations that may start a track, and those that may not.
     """
     if floor is not None:
-        things = [
+        obstacles = [
             t
-            for t in things
-            if not floor.holds(t.x, t.y)
-            and other is not None
-            and hypot(t.x - other[0], t.y - other[1]) < BODY
+            for t in obstacles
+            if not floor.is_occupied(t.x, t.y)
+            and position_opponent_in_odometry is not None
+            and hypot(
+                t.x - position_opponent_in_odometry[0],
+                t.y - position_opponent_in_odometry[1],
+            )
+            < BODY_RADIUS
         ]
     whole, cut = (
         [
-            observe_obstacle(image, thing)
-            for thing in things
-            if (thing.whole and floor is None) is founds
+            observe_obstacle(image, obstacle)
+            for obstacle in obstacles
+            if (obstacle.whole and floor is None) is may_start
         ]
-        for founds in (True, False)
+        for may_start in (True, False)
     )
     return whole, cut
 
@@ -175,64 +195,79 @@ def observe_obstacles(
 def observe_shadow(
     image: DepthImage,
     shadow: Shadow,
-    place: Array,
+    position_camera_in_odometry: Array,
     tracks: Sequence[TargetTrack],
 ) -> Observation:
-    """Place by its bearing what is too near for its distance.
+    """Return the observation of an object too near for a distance.
 
-    It stands between the nearest that anybody can be and the near limit,
-    unless a part of it was measured; within that nothing but its bearing is
-    known, and the distance of memory is handed back without any weight.
+    Unless a part of it was measured, its distance lies between the smallest
+    possible one and the near limit. Only the bearing is measured, so the
+    distance of the track is returned with a negligible weight.
 
     Args:
         image: The image.
-        shadow: The shadow in it.
-        place: Place of the camera in odometry, in [m]. Shape (3,).
-        tracks: What is followed already.
+        shadow: Shadow in it.
+        position_camera_in_odometry: Position of the camera, in [m].
+                Shape (3,).
+        tracks: All tracks.
     """
-    far = image.near + NEARBY
-    memory = _remembered(tracks, image.time, shadow.bearing, place)
+    far = image.near + SHADOW_MARGIN
+    memory = _distance_of_track(
+        tracks, image.time, shadow.bearing, position_camera_in_odometry
+    )
     ranged = shadow.nearest is not None
     if shadow.nearest is not None:
-        away, along = shadow.nearest, PARTLY
+        distance, along = shadow.nearest, DEVIATION_PART
     else:
-        away = min(max(memory, BESIDE), far)
-        along = BLIND if away == memory else PULLED
+        distance = min(max(memory, MIN_SHADOW_DISTANCE), far)
+        along = DEVIATION_UNKNOWN if distance == memory else DEVIATION_BOUND
     return Observation(
         image.time,
-        float(place[0] + away * cos(shadow.bearing)),
-        float(place[1] + away * sin(shadow.bearing)),
+        float(position_camera_in_odometry[0] + distance * cos(shadow.bearing)),
+        float(position_camera_in_odometry[1] + distance * sin(shadow.bearing)),
         shadow.bearing,
         along,
-        0.08 * away,
+        0.08 * distance,
         False,
         ranged,
     )
 
 
 def camera_of(body: BodyPose, mount: Mount) -> tuple[Array, Array]:
-    """Place and axes of a camera on the head, in odometry.
+    """Return the position and axes of a head camera in odometry.
+
+    Args:
+        body: Pose of the body.
+        mount: Mount of the camera on the head.
 
     Returns:
-        Place, in [m], shape (3,), and axes as columns, shape (3, 3).
+        Position, in [m], shape (3,), and axes as columns, shape (3, 3).
     """
-    place = body.head_place + body.head_axes @ mount.place
-    return place, body.head_axes @ mount.axes
+    position_camera_in_odometry = (
+        body.head_place + body.head_axes @ mount.place
+    )
+    return position_camera_in_odometry, body.head_axes @ mount.axes
 
 
 def angle_of(image: ColourImage | DepthImage, column: float) -> float:
-    """Angle of a column from the middle, in [rad], positive rightward."""
+    """Return the angle of a column from the centre, positive rightward."""
     camera = image.camera
     return atan2(column - 0.5 * camera.width, camera.focal_x)
 
 
-def _remembered(
-    tracks: Sequence[TargetTrack], time: float, bearing: float, place: Array
+def _distance_of_track(
+    tracks: Sequence[TargetTrack],
+    time: float,
+    bearing: float,
+    position_camera_in_odometry: Array,
 ) -> float:
-    """Distance of what was seen in a direction, from a place, in [m]."""
-    x, y = float(place[0]), float(place[1])
+    """Return the distance of the track in a direction, in [m]."""
+    x, y = (
+        float(position_camera_in_odometry[0]),
+        float(position_camera_in_odometry[1]),
+    )
     for track in tracks:
-        off = wrap_angle(track.turned_to(x, y, time) - bearing)
+        off = wrap_angle(track.bearing_from(x, y, time) - bearing)
         if abs(off) < radians(20.0):
-            return max(track.away_from(x, y, time), CLOSEST)
-    return GUESS
+            return max(track.distance_from(x, y, time), MIN_DISTANCE)
+    return DEFAULT_DISTANCE

@@ -1,53 +1,55 @@
-"""Whom to watch where people come and go, and walls stand near."""
+"""Target selection among people who approach and leave, near walls."""
 
 from collections.abc import Sequence
 from math import hypot
 
-from .target_selection import STARE, UNSEEN, lately_seen
-from .track import LAPSE, TargetTrack
+from .target_selection import GAZE_RADIUS, MAX_GAZE_AGE, recent_tracks
+from .track import MAX_GAP, TargetTrack
 from .tracker import Tracker
 
-AHEAD = 4.0  # for which somebody is taken to walk on, in [s]
-COMES = 1.0  # who comes nearer than this is not let out of sight, in [m]
-KEPT = 0.3  # by which another must come nearer to count instead, in [m]
-GLANCE = 0.6  # for which anything else is looked at, in [s]
-AWAY = 3.0  # from one such glance to the next at what rests, in [s]
-AGAIN = 1.0  # the same at who walks, in [s]
-WATCHED = 0.6  # for which somebody must be seen who is to move it, in [s]
-LONGER = 1.1  # the same of somebody who may pass, in [s]
-STRAIGHT = 0.45  # who will come nearer than this seems not to pass, in [m]
-NEW = 1.0  # since when nobody knew of somebody, in [s]
-SOON = 1.6  # time in which somebody new would be near, in [s]
-NEAR = 0.7  # in [m]
+HORIZON = 4.0  # of the prediction at constant velocity, in [s]
+APPROACHING = 1.0  # predicted distance below which the gaze stays, in [m]
+HYSTERESIS = 0.3  # by which another track must pass nearer to win, in [m]
+GLANCE = 0.6  # duration of a glance at any other track, in [s]
+PAUSE_RESTING = 3.0  # between glances at a track that rests, in [s]
+PAUSE_WALKING = 1.0  # between glances at a track that walks, in [s]
+SETTLING = 0.6  # observation of an approaching person before moving, in [s]
+SETTLING_PASSING = 1.1  # the same of a person who may pass by, in [s]
+STRAIGHT = 0.45  # predicted distance below which a person does not pass, [m]
+NEW = 1.0  # age of a new track, in [s]
+SOON = 1.6  # time to reach NEAR below which a new track settles, in [s]
+NEAR = 0.7  # distance of a near person, in [m]
 
 
 class PeopleSelection:
-    """Watches who comes, and no more than glances at what rests.
+    """Target selection that prefers approaching people to objects at rest.
 
-    A wall is nearer than any person, and would hold the gaze for ever. So
-    who was seen to walk counts before what was not, and of those who walk
-    the one who will be nearest if all walk on. Only who will be near is
-    followed, and what is too near to be seen sharply; at anything else the
-    head looks now and then, long enough to see whether it walks.
+    A wall may be nearer than any person and would hold the gaze. Tracks that
+    have walked therefore come first, and among them the one with the
+    smallest predicted distance. The gaze follows a track that will come near
+    or is too near to be measured precisely; the head only glances at all
+    others, long enough to detect whether they walk.
     """
 
     def __init__(self) -> None:
-        """Know nobody."""
+        """Start without a main track."""
         self._main: TargetTrack | None = None
         self._glanced: dict[
             TargetTrack, float
-        ] = {}  # begin of the last, in [s]
+        ] = {}  # start of the last glance, in [s]
 
     def main(
         self, tracker: Tracker, now: float, x: float, y: float
     ) -> TargetTrack | None:
-        """Who walks and will be nearest; else what is nearest."""
-        tracker.tidy(now)
-        known = [track for track in tracker.tracks if track.confirmed]
-        walkers = [track for track in known if track.walked]
+        """Return the walking track that will be nearest, else the nearest."""
+        tracker.prune(now)
+        confirmed = [track for track in tracker.tracks if track.confirmed]
+        walkers = [track for track in confirmed if track.has_walked]
         self._main = min(
-            walkers or known,
-            key=lambda t: nearest(t, now, x, y) - KEPT * (t is self._main),
+            walkers or confirmed,
+            key=lambda t: (
+                closest_approach(t, now, x, y) - HYSTERESIS * (t is self._main)
+            ),
             default=None,
         )
         return self._main
@@ -60,23 +62,32 @@ class PeopleSelection:
         x: float,
         y: float,
     ) -> TargetTrack | None:
-        """Who comes; else what was not looked at for a while."""
-        candidates = lately_seen(tracks, main, now)
+        """Return an approaching track, else one that is due for a glance."""
+        candidates = recent_tracks(tracks, main, now)
         for track in candidates:
-            if track.walked and nearest(track, now, x, y) < COMES:
+            if (
+                track.has_walked
+                and closest_approach(track, now, x, y) < APPROACHING
+            ):
                 return track
         for track in candidates:
-            near = track.away_from(x, y, now) < STARE
-            seen = now - track.sighted_at <= UNSEEN
-            if near and seen and not (track.walked or track.is_told(now)):
+            near = track.distance_from(x, y, now) < GAZE_RADIUS
+            seen = now - track.imaged_at <= MAX_GAZE_AGE
+            if (
+                near
+                and seen
+                and not (track.has_walked or track.has_velocity(now))
+            ):
                 return track
         begun = self._glanced
         self._glanced = {t: begun[t] for t in tracks if t in begun}
         for track in candidates:
-            if not (track.confirmed or track.away_from(x, y, now) < STARE):
+            if not (
+                track.confirmed or track.distance_from(x, y, now) < GAZE_RADIUS
+            ):
                 continue
             since = now - self._glanced.setdefault(track, now)
-            pause = AGAIN if track.walked else AWAY
+            pause = PAUSE_WALKING if track.has_walked else PAUSE_RESTING
             if since > GLANCE + pause:
                 self._glanced[track], since = now, 0.0
             if since < GLANCE:
@@ -86,40 +97,46 @@ class PeopleSelection:
     def settled(
         self, track: TargetTrack, now: float, x: float, y: float
     ) -> bool:
-        """Whether it was watched for a while, or there is no time for that.
+        """Return whether a track was observed for long enough.
 
-        Of whom the head only sweeps by, parts are seen, and their middles
-        seem to walk; and the first steps of a way do not tell where it
-        leads: by how far somebody will pass takes longer to see than that
-        they come. Only somebody who turns up near by leaves no time to see.
+        While the head sweeps over a person, parts are detected whose middle
+        seems to move, and the first steps do not show the direction of the
+        walk. The distance at which a person passes takes longer to estimate
+        than the approach itself. A new track nearby settles at once, for
+        there is no time left.
         """
-        if now - track.seen_at > LAPSE:
+        if now - track.observed_at > MAX_GAP:
             return False
-        watched = now - track.watched_since
-        if watched >= LONGER:
+        watched = now - track.observed_since
+        if watched >= SETTLING_PASSING:
             return True
-        least = nearest(track, now, x, y)
-        if watched >= WATCHED and least < STRAIGHT:
+        least = closest_approach(track, now, x, y)
+        if watched >= SETTLING and least < STRAIGHT:
             return True
-        away, speed = track.away_from(x, y, now), hypot(*track.velocity)
+        away, speed = track.distance_from(x, y, now), hypot(*track.velocity)
         soon = away - NEAR < SOON * speed
-        return now - track.begun_at < NEW and soon and least < NEAR
+        return now - track.started_at < NEW and soon and least < NEAR
 
 
-def nearest(track: TargetTrack, now: float, x: float, y: float) -> float:
-    """Least distance from a place if somebody walks on for a while, in [m].
+def closest_approach(
+    track: TargetTrack, now: float, x: float, y: float
+) -> float:
+    """Return the predicted closest approach of a track to a position.
 
     Args:
-        track: Who.
+        track: Track, at constant velocity over the horizon.
         now: Time, in [s].
-        x: The place in odometry, in [m].
-        y: Likewise.
+        x: Position, x in odometry, in [m].
+        y: Position, y in odometry, in [m].
+
+    Returns:
+        Distance, in [m].
     """
-    u, v = track.place_at(now)
+    u, v = track.position_at(now)
     dx, dy = u - x, v - y
     vx, vy = track.drift
     square = vx * vx + vy * vy
     ahead = 0.0
     if square > 0.0:
-        ahead = min(max(-(dx * vx + dy * vy) / square, 0.0), AHEAD)
+        ahead = min(max(-(dx * vx + dy * vy) / square, 0.0), HORIZON)
     return hypot(dx + ahead * vx, dy + ahead * vy)

@@ -1,4 +1,4 @@
-"""From percepts to a line of sight, and from it to where the head looks."""
+"""Perception: sightings of the opponent from images and echoes, and gaze."""
 
 from collections import deque
 from collections.abc import Sequence
@@ -26,29 +26,29 @@ from .observations import (
 )
 from .people_selection import PeopleSelection
 from .room_scan import RoomScan
-from .sonar import is_heard, observe_echo
-from .target_selection import UNSEEN, RobotSelection, TargetSelection
-from .track import ANYBODY, WALKER, Observation, TargetTrack
+from .sonar import is_valid_echo, observe_echo
+from .target_selection import MAX_GAZE_AGE, RobotSelection, TargetSelection
+from .track import PERSON_MOTION, ROBOT_MOTION, Observation, TargetTrack
 from .tracker import Tracker
 
-MEMORY = 1.0  # how long past poses are kept, in [s]
-SURE = 0.5  # age up to which the other is known to be where it is, in [s]
-EDGE = 0.1  # beyond the near limit, where somebody is measured in part, in [m]
-BROAD = 0.12  # shadow of somebody who was not seen before, in [rad]
+POSE_MEMORY = 1.0  # how long past poses are stored, in [s]
+MAX_AGE = 0.5  # of the opponent's position when the map is updated, in [s]
+NEAR_MARGIN = 0.1  # beyond the near limit: measured in part only, in [m]
+MIN_SHADOW = 0.12  # width of a shadow that starts a track, in [rad]
 
 
 class Perception:
-    """Sees the other, follows it in odometry and keeps looking at it.
+    """Detection and tracking of the opponent in odometry, with gaze control.
 
     Attributes:
-        body: Where the body is by its own measurements; None before the
+        body: Pose of the body from its own measurements; None before the
             first.
-        sighting: The other as it is believed to be now; None if lost.
-        searching: Whether it is lost and looked for.
-        reports: What the images that arrived at the last tick show.
-        forward: Kinematics of the measured body, for balance to share.
-        floor: Map of the floor, if it keeps one.
-        around: Its look around, before a game begins.
+        sighting: Estimate of the opponent at the last tick; None if lost.
+        searching: Whether the head scans for the opponent.
+        reports: Detections in the images that arrived at the last tick.
+        forward: Kinematics of the measured body, shared with balance.
+        floor: Map of the floor, if there is one.
+        around: Scan of the room before a game begins.
     """
 
     def __init__(
@@ -62,25 +62,28 @@ class Perception:
         glances: float | None = None,
         people: bool = False,
     ) -> None:
-        """Know the own body and what the other looks like.
+        """Set up the perception of a robot.
 
         Args:
-            description: The robot.
-            head: Its head.
-            appearance: The other's look, if it is the one that is known.
+            description: Description of the robot.
+            head: Description of its head.
+            appearance: Appearance of the opponent.
             tick: Control period, in [s].
-            floor: Map of the floor to keep; who keeps one looks around first.
-            glances: Time between two looks over its shoulders, to see the
-                floor that it walks backward onto, in [s]; None for none.
-            people: Whether people come, who wear no trim.
+            floor: Map of the floor to fill, which needs a scan of the room
+                first; None for no map.
+            glances: Time between two glances over the shoulders at the floor
+                behind, in [s]; None for no glances.
+            people: Whether people, who wear no trim, may approach.
         """
-        self._attention: TargetSelection = (
+        self._selection: TargetSelection = (
             PeopleSelection() if people else RobotSelection()
         )
         self._people = people
         self.floor = floor
         self.around = RoomScan()
-        self._lower = BottomCamera(head.bottom, people=people, floor=floor)
+        self._bottom_camera = BottomCamera(
+            head.bottom, people=people, floor=floor
+        )
         self._glances = None if glances is None else Glances(tick, glances)
         self._head = head
         self.forward = ForwardKinematics(description, head.body)
@@ -88,8 +91,8 @@ class Perception:
         self._detector = ColourDetector(appearance)
         self._gaze = Gaze(head.coupling, tick)
         self._calm = floor is not None and not people
-        self._tracker = Tracker(WALKER if self._calm else ANYBODY)
-        self._poses: deque[BodyPose] = deque(maxlen=round(MEMORY / tick))
+        self._tracker = Tracker(ROBOT_MOTION if self._calm else PERSON_MOTION)
+        self._poses: deque[BodyPose] = deque(maxlen=round(POSE_MEMORY / tick))
         self.body: BodyPose | None = None
         self.sighting: Sighting | None = None
         self.searching = True
@@ -102,47 +105,52 @@ class Perception:
         left_supports: bool,
         tilt: tuple[float, float],
     ) -> Sighting | None:
-        """Take in what the sensors give at one tick.
+        """Process the measurement of one tick.
 
         Args:
-            measurement: What they give.
-            support: Pose of the standing foot in odometry.
-            left_supports: Whether that is the left one.
+            measurement: Values of the sensors.
+            support: Pose of the support foot in odometry.
+            left_supports: Whether that is the left foot.
             tilt: Roll and pitch of the torso, in [rad].
 
         Returns:
-            Where the other is now, as far as is known.
+            Sighting of the opponent; None if it is lost.
         """
-        now, joints = measurement.time, measurement.joint_positions
-        body = self._kinematics.pose(now, joints, support, left_supports, tilt)
-        return self._see(measurement, body)
+        body = self._kinematics.pose(
+            measurement.time,
+            measurement.joint_positions,
+            support,
+            left_supports,
+            tilt,
+        )
+        return self._process(measurement, body)
 
     @property
     def head_joints(self) -> tuple[int, int]:
-        """Numbers of the joints that turn the head: yaw and pitch."""
+        """Indices of the head joints, yaw and pitch."""
         return self._kinematics.yaw, self._kinematics.pitch
 
     @property
     def gaze(self) -> tuple[float, float]:
-        """Yaw and pitch to which the head is to turn, in [rad]."""
+        """Target yaw and pitch of the head, in [rad]."""
         return self._gaze.yaw, self._gaze.pitch
 
     @property
     def looking(self) -> bool:
-        """Whether it looks around, before it says anything of the other."""
+        """Whether the scan of the room still lasts."""
         return self.floor is not None and self.around.lasts(self._gaze)
 
     def looks_low(self) -> bool:
-        """Whether the lower camera of the head is asked for an image."""
+        """Return whether the next image should be from the bottom camera."""
         if self.body is None:
             return False
         now, (x, y, _) = self.body.time, self.body.torso
-        main = self._attention.main(self._tracker, now, x, y)
-        # Who has lost the other needs all images of the upper one.
+        main = self._selection.main(self._tracker, now, x, y)
+        # A search for the opponent needs all images of the top camera.
         lost = self.sighting is None and not self.looking
-        return self._lower.wanted(self.body, main, lost=lost)
+        return self._bottom_camera.wanted(self.body, main, lost=lost)
 
-    def _see(
+    def _process(
         self, measurement: Measurement, body: BodyPose
     ) -> Sighting | None:
         now = measurement.time
@@ -150,153 +158,200 @@ class Perception:
         self._poses.append(body)
         self.reports.clear()
         for percept in measurement.percepts:
-            self._take(percept, self._pose_at(percept.time), now)
-        track = self._attention.main(self._tracker, now, *body.torso[:2])
+            self._process_percept(percept, self._pose_at(percept.time), now)
+        track = self._selection.main(self._tracker, now, *body.torso[:2])
         self.sighting = None
         if self.looking:
             self.around.look(self._gaze, now, body.torso.theta)
             return None
-        self._look(now, body, track)
+        self._move_gaze(now, body, track)
         if track is not None:
             x, y, heading = body.torso
-            bearing = wrap_angle(track.turned_to(x, y, now) - heading)
-            away = track.away_from(x, y, now)
+            bearing = wrap_angle(track.bearing_from(x, y, now) - heading)
+            distance = track.distance_from(x, y, now)
             who = track.number if self._people else 0
-            settled = self._attention.settled(track, now, x, y)
+            settled = self._selection.settled(track, now, x, y)
             spread = track.deviation_at(now)
-            self.sighting = Sighting(now, bearing, away, who, settled, spread)
+            self.sighting = Sighting(
+                now, bearing, distance, who, settled, spread
+            )
         return self.sighting
 
     def aim(self, joint_targets: Array) -> None:
-        """Write where the head turns into joint targets, in [rad]."""
+        """Write the targets of the head joints, in [rad], in place."""
         joint_targets[self._kinematics.yaw] = self._gaze.yaw
         joint_targets[self._kinematics.pitch] = self._gaze.pitch
 
-    def _look(
+    def _move_gaze(
         self, now: float, body: BodyPose, track: TargetTrack | None
     ) -> None:
-        """Look at what counts, at what may come to count, or about."""
+        """Move the gaze to the selected track, or scan."""
         x, y, heading = body.torso
         tracks = self._tracker.tracks
-        chosen = self._attention.look(tracks, track, now, x, y)
+        chosen = self._selection.look(tracks, track, now, x, y)
         self.searching = chosen is None
         if chosen is None:
             self._gaze.search()
             return
-        distance = chosen.away_from(x, y, now)
-        bearing = chosen.turned_to(x, y, now) - heading
+        distance = chosen.distance_from(x, y, now)
+        bearing = chosen.bearing_from(x, y, now) - heading
         if self._glances is not None:
-            bearing = self._glances.turned(bearing, distance)
+            bearing = self._glances.direction(bearing, distance)
         self._gaze.follow(bearing, distance, chosen.height)
 
     def _pose_at(self, time: float) -> BodyPose:
         known = (p for p in reversed(self._poses) if p.time <= time + 1e-9)
         return next(known, self._poses[0])
 
-    def _take(self, percept: Percept, body: BodyPose, now: float) -> None:
+    def _process_percept(
+        self, percept: Percept, body: BodyPose, now: float
+    ) -> None:
         if isinstance(percept, ColourImage):
-            self._take_colour(percept, body, now)
+            self._process_colour(percept, body, now)
         elif isinstance(percept, DepthImage):
-            self._take_depth(percept, body, now)
+            self._process_depth(percept, body, now)
         else:
-            self._hear(percept, body, now)
+            self._process_echo(percept, body, now)
 
-    def _take_colour(
+    def _process_colour(
         self, image: ColourImage, body: BodyPose, now: float
     ) -> None:
         if image.low:
-            self._take_low(image, body)
+            self._process_bottom(image, body)
             return
-        place, axes = camera_of(body, self._head.top)
-        own, other = body.torso[:2], None
+        position, axes = camera_of(body, self._head.top)
+        own = body.torso[:2]
+        main = None
         if self.floor is not None:
-            other = self._attention.main(self._tracker, now, *own)
+            main = self._selection.main(self._tracker, now, *own)
         tracks = self._tracker.tracks
-        self._lower.learn(image, place, axes, own, tracks, other)
+        self._bottom_camera.learn(
+            image,
+            position,
+            axes,
+            own,
+            tracks,
+            main,
+        )
         found = self._detector.detect(image)
         azimuths: tuple[float, ...] = ()
-        seen: list[Observation] = []
+        observations: list[Observation] = []
         if found is not None:
             azimuths = (-angle_of(image, found.column),)
-            view = image, found, place, axes, self._detector.appearance
-            seen = [observe_trim(*view, tracks, near=self._calm)]
+            view = (
+                image,
+                found,
+                position,
+                axes,
+                self._detector.appearance,
+            )
+            observations = [observe_trim(*view, tracks, near=self._calm)]
         self.reports.append(FrameReport(image, azimuths, colour=found))
-        self._observe(seen, image, place, axes, named=True)
+        self._observe(
+            observations,
+            image,
+            position,
+            axes,
+            by_appearance=True,
+        )
 
-    def _take_low(self, image: ColourImage, body: BodyPose) -> None:
-        seen, report = self._lower.see(image, body)
+    def _process_bottom(self, image: ColourImage, body: BodyPose) -> None:
+        observations, report = self._bottom_camera.see(image, body)
         self.reports.append(report)
-        self._tracker.observe(seen, founds=False, walkers=True)
+        self._tracker.observe(observations, may_start=False, walked_only=True)
 
-    def _take_depth(
+    def _process_depth(
         self, image: DepthImage, body: BodyPose, now: float
     ) -> None:
-        place, axes = camera_of(body, self._head.depth)
+        position, axes = camera_of(body, self._head.depth)
         own = body.torso[:2]
-        scene = detect_obstacles(image, place, axes, own)
+        scene = detect_obstacles(
+            image,
+            position,
+            axes,
+            own,
+        )
         azimuths = tuple(o.azimuth for o in scene.obstacles)
         azimuths += tuple(s.azimuth for s in scene.shadows)
         self.reports.append(FrameReport(image, azimuths, depth=scene))
-        there = None
+        opponent = None
         if self.floor is not None:
-            other = self._attention.main(self._tracker, now, *own)
-            there = None if other is None else other.place_at(image.time)
-            sure = other is not None and now - other.seen_at < SURE
-            self.floor.take(image, place, axes, own, there if sure else None)
+            main = self._selection.main(self._tracker, now, *own)
+            opponent = None if main is None else main.position_at(image.time)
+            sure = main is not None and now - main.observed_at < MAX_AGE
+            self.floor.take(
+                image,
+                position,
+                axes,
+                own,
+                opponent if sure else None,
+            )
         whole, cut = observe_obstacles(
-            image, scene.obstacles, self.floor, there
+            image, scene.obstacles, self.floor, opponent
         )
-        self._observe(whole, image, place, axes, named=False, cut=cut)
+        self._observe(
+            whole,
+            image,
+            position,
+            axes,
+            by_appearance=False,
+            cut=cut,
+        )
         for shadow in scene.shadows if self.floor is None else ():
             tracks = self._tracker.tracks
-            # Something that came so near unseen is somebody too.
-            founds = shadow.width > BROAD and not any(
+            # A wide shadow without any track may be an unnoticed opponent.
+            may_start = shadow.width > MIN_SHADOW and not any(
                 track.confirmed for track in tracks
             )
-            near = observe_shadow(image, shadow, place, tracks)
-            # What the edge cuts may be a wall: of people it tells only of
-            # those who were seen to come.
+            near = observe_shadow(image, shadow, position, tracks)
+            # A shadow that an image edge cuts may be a wall: among people
+            # it updates only tracks that have walked.
             wall = self._people and not shadow.whole
             self._tracker.observe(
-                [near], founds=founds and not wall, walkers=wall
+                [near], may_start=may_start and not wall, walked_only=wall
             )
 
-    def _hear(self, echo: SonarEcho, body: BodyPose, now: float) -> None:
-        """Hear how far away is what no camera measures any more."""
-        if not is_heard(echo):
+    def _process_echo(
+        self, echo: SonarEcho, body: BodyPose, now: float
+    ) -> None:
+        """Update the track with an echo when no camera gives a distance."""
+        if not is_valid_echo(echo):
             return
-        track = self._attention.main(self._tracker, now, *body.torso[:2])
+        track = self._selection.main(self._tracker, now, *body.torso[:2])
         mount = self._head.sonars[echo.sonar]
-        heard = observe_echo(echo, mount, body, track, self.floor, now)
-        if heard is not None:
-            self._tracker.observe([heard], founds=track is None)
+        observation = observe_echo(echo, mount, body, track, self.floor, now)
+        if observation is not None:
+            self._tracker.observe([observation], may_start=track is None)
 
     def _observe(
         self,
-        seen: list[Observation],
+        observations: list[Observation],
         image: ColourImage | DepthImage,
-        place: Array,
+        position: Array,
         axes: Array,
         *,
-        named: bool,
+        by_appearance: bool,
         cut: Sequence[Observation] = (),
     ) -> None:
-        """Update tracks, and count those that a frame should have shown."""
-        updated = self._tracker.observe(seen)
+        """Update tracks, and count a miss for those that should be visible."""
+        updated = self._tracker.observe(observations)
         updated += self._tracker.observe(
-            cut, founds=False, walkers=self._people
+            cut, may_start=False, walked_only=self._people
         )
         ahead = atan2(axes[1, 0], axes[0, 0])
         half = 0.85 * abs(angle_of(image, 0.0))
-        x, y = float(place[0]), float(place[1])
+        x, y = float(position[0]), float(position[1])
         for track in self._tracker.tracks:
-            late = image.time - track.identified_at > UNSEEN
-            if track in updated or (named and late):
+            is_old = image.time - track.identified_at > MAX_GAZE_AGE
+            if track in updated or (by_appearance and is_old):
                 continue
             if self.floor is not None and isinstance(image, DepthImage):
-                # What is so near it does not measure.
-                if track.away_from(x, y, image.time) < image.near + EDGE:
+                # Too near for the depth camera.
+                if (
+                    track.distance_from(x, y, image.time)
+                    < image.near + NEAR_MARGIN
+                ):
                     continue
-            off = wrap_angle(track.turned_to(x, y, image.time) - ahead)
-            if abs(off) < half:
-                track.count(False)
+            offset = wrap_angle(track.bearing_from(x, y, image.time) - ahead)
+            if abs(offset) < half:
+                track.record_frame(False)

@@ -1,4 +1,4 @@
-"""Perception of a robot that walks by itself and tells where it is."""
+"""Perception of a robot that walks by itself and reports its pose."""
 
 from bisect import insort
 
@@ -8,31 +8,31 @@ from .perception import Perception
 
 
 class PlanarPerception(Perception):
-    """Sees from a body that stays level, midway between its feet."""
+    """Perception on a body that stays level, midway between its feet."""
 
     def see_level(
         self, measurement: Measurement, frame: Pose
     ) -> Sighting | None:
-        """Take in what a robot gives that walks by itself, and stays level.
+        """Process a measurement of a level robot.
 
         Args:
-            measurement: What its sensors give.
-            frame: Of the robot in its odometry.
+            measurement: Values of its sensors.
+            frame: Pose of the robot in odometry.
 
         Returns:
-            Where the other is now, as far as is known.
+            Sighting of the opponent; None if it is lost.
         """
         joints = measurement.joint_positions
         body = self._kinematics.level(measurement.time, joints, frame)
-        return self._see(measurement, body)
+        return self._process(measurement, body)
 
     def recall_level(self, time: float, joints: Array, frame: Pose) -> None:
-        """Remember where such a robot was between two of its reports.
+        """Store a pose between two reports, for images taken then.
 
         Args:
-            time: The instant, in [s].
-            joints: Angles then, in [rad]. Shape (joints,).
-            frame: Of the robot in its odometry then.
+            time: Time of the pose, in [s].
+            joints: Joint angles, in [rad]. Shape (joints,).
+            frame: Pose of the robot in odometry.
         """
         if len(self._poses) == self._poses.maxlen:
             self._poses.popleft()

@@ -1,54 +1,59 @@
-"""Distance from the apparent size of what is known."""
+"""Distance of a robot from the apparent size of its trim."""
 
 from math import hypot
 
 from ..core.poses import Array
 from .colour_detector import Appearance
 
-FORWARD = 0.05  # how far the lower end stands before the axis, in [m]
-BREADTH = 0.25  # of trim, seen aslant, in [m]
-NEAREST, FARTHEST = 0.2, 4.0  # distances that trim can tell, in [m]
+FORWARD = 0.05  # from the axis to the lower end of the trim, in [m]
+WIDTH = 0.25  # of trim, seen obliquely, in [m]
+# Range of distances from trim, in [m].
+NEAREST = 0.2
+FARTHEST = 4.0
 
 
 def range_of_trim(
-    upper: Array, lower: Array, eye: float, appearance: Appearance
+    upper: Array, lower: Array, camera_height: float, appearance: Appearance
 ) -> float | None:
-    """Distance of a robot's axis from the two ends of its trim.
+    """Return the distance of a robot from the two ends of its trim.
 
-    The difference of the slopes at which they are seen tells it; the
-    height of the eye matters little.
+    It follows from the difference of their slopes; the height of the camera
+    has little influence.
 
     Args:
-        upper: Direction of the upper end in a level frame. Shape (3,).
-        lower: Direction of the lower end. Shape (3,).
-        eye: Height of the camera above the floor, in [m].
-        appearance: The heights of the ends.
+        upper: Ray to the upper end in a level frame. Shape (3,).
+        lower: Ray to the lower end in a level frame. Shape (3,).
+        camera_height: Height of the camera above the floor, in [m].
+        appearance: Appearance with the heights of the ends.
 
     Returns:
-        Horizontal distance from the camera, in [m]; None if the ends make
-        no sense.
+        Horizontal distance from the camera to the axis of the robot, in [m];
+        None if it is out of range.
     """
     rise = upper[2] / hypot(upper[0], upper[1])
     span = rise - lower[2] / hypot(lower[0], lower[1])
-    above, below = appearance.top - eye, eye - appearance.bottom
+    above, below = (
+        appearance.top - camera_height,
+        camera_height - appearance.bottom,
+    )
     if span <= 0.05:
         return None
-    away = (above + below) / span
+    distance = (above + below) / span
     for _ in range(4):
-        rest = span - above / max(away, NEAREST)
-        if rest <= 0.0:
+        slope_below = span - above / max(distance, NEAREST)
+        if slope_below <= 0.0:
             return None
-        away = FORWARD + below / rest
-    return float(away) if NEAREST < away < FARTHEST else None
+        distance = FORWARD + below / slope_below
+    return float(distance) if NEAREST < distance < FARTHEST else None
 
 
-def range_of_breadth(breadth: float) -> float:
-    """Rough distance of a robot from how broad its trim looks.
+def range_of_width(angle: float) -> float:
+    """Return a rough distance of a robot from the width of its trim, in [m].
 
-    Its trim is as broad as its shoulders from the front and half as broad
-    from the side: this is off by a third.
+    Trim is as wide as the shoulders from the front and half as wide from the
+    side, so the error is up to a third.
 
     Args:
-        breadth: Angle from its left to its right end, in [rad].
+        angle: Angle from the left to the right end of the trim, in [rad].
     """
-    return min(max(BREADTH / max(breadth, 1e-3), NEAREST), FARTHEST)
+    return min(max(WIDTH / max(angle, 1e-3), NEAREST), FARTHEST)

@@ -1,4 +1,4 @@
-"""Looking all around before a game begins, to map what stands there."""
+"""Scan of the room before a game, to fill the map of the floor."""
 
 from math import copysign
 from typing import Protocol
@@ -6,73 +6,74 @@ from typing import Protocol
 from ..core.poses import wrap_angle
 from .gaze import Gaze
 
-BOTH = 2  # ends of a scan
-AWAY = -1.0  # to the right, from where the head looks first
-# How far the body turns so that the head sees what was behind it: it reaches
-# 115 degrees to either side, and its camera 29 more.
-BEHIND = 1.3  # [rad]
-FACING = 0.15  # from where it faced first, it faces there again, in [rad]
-LONGEST = 10.0  # that turns, or somebody else, are waited for, in [s]
+SCAN_ENDS = 2
+RIGHT = -1.0  # the body turns away from the first side of the scan
+# Turn of the body that brings the floor behind into view: the head yaws 115
+# degrees to either side, and its camera sees 29 degrees more, in [rad].
+BODY_TURN = 1.3
+HEADING_TOLERANCE = 0.15  # of the turn back to the first heading, in [rad]
+MAX_DURATION = 10.0  # of a scan, waiting for other players included, in [s]
 
 
 class ScanGroup(Protocol):
-    """Who may look around."""
+    """Player whose scan others wait for."""
 
     @property
     def looking(self) -> bool:
-        """Whether it still does."""
+        """Whether its scan still lasts."""
 
 
 class RoomScan:
-    """One look to either end of the head's reach, and behind.
+    """Scan of the head to both sides, and optionally behind the body.
 
-    Who walks backward turns on the spot meanwhile, away from where it looks
-    first, and keeps looking over the other shoulder until it has seen what
-    was behind it, or half of the time is over; then it turns back to where
-    it faced, so that the game begins from there. Who has seen all may wait
-    for others: a game begins when everybody has.
+    A robot that walks backward also turns on the spot, away from the first
+    side of the scan, and holds the head at the second end until the floor
+    behind is visible or half of the time has passed. It then turns back to
+    its first heading, from which the game begins. The scan can wait for
+    those of other players, for up to its longest duration.
 
     Attributes:
-        company: Who is waited for, if not for ever.
-        behind: Whether the body turns, and what is behind is looked at.
-        turning: How the body is to turn on the spot meanwhile: 1 to the
-            left, -1 to the right, 0 not at all.
+        company: Other players whose scans to wait for.
+        behind: Whether to turn the body and scan behind.
+        turning: Requested turn on the spot: 1 left, -1 right, 0 none.
     """
 
     def __init__(self) -> None:
-        """Have seen nothing yet."""
+        """Start a scan that has not begun."""
         self.company: list[ScanGroup] = []
         self.behind = False
         self.turning = 0.0
-        self._began: tuple[float, float] | None = None
-        self._late = False
+        self._start: tuple[float, float] | None = None
+        self._timed_out = False
 
     def lasts(self, gaze: Gaze) -> bool:
-        """Whether there is something left to look at, or somebody."""
-        if gaze.turned < BOTH or self.turning:
+        """Return whether the scan, or one that it waits for, still lasts."""
+        if gaze.scan_ends < SCAN_ENDS or self.turning:
             return True
-        return not self._late and any(each.looking for each in self.company)
+        return not self._timed_out and any(
+            each.looking for each in self.company
+        )
 
     def look(self, gaze: Gaze, now: float, heading: float) -> None:
-        """Turn the head on.
+        """Advance the scan by one tick.
 
         Args:
-            gaze: Where the head looks.
+            gaze: Gaze of the head, which is moved.
             now: Time, in [s].
-            heading: Of the torso in odometry, in [rad].
+            heading: Heading of the torso in odometry, in [rad].
         """
-        if self._began is None:
-            self._began = now, heading
-        time, before = self._began
-        aside = wrap_angle(heading - before)
-        self._late = now - time >= LONGEST
-        half = now - time >= 0.5 * LONGEST
-        done = not self.behind or abs(aside) >= BEHIND or half
-        gaze.search(stay=not done and gaze.turned == BOTH - 1)
-        if not self.behind or self._late:
+        if self._start is None:
+            self._start = now, heading
+        time, before = self._start
+        turned = wrap_angle(heading - before)
+        self._timed_out = now - time >= MAX_DURATION
+        half_time = now - time >= 0.5 * MAX_DURATION
+        done = not self.behind or abs(turned) >= BODY_TURN or half_time
+        gaze.search(stay=not done and gaze.scan_ends == SCAN_ENDS - 1)
+        if not self.behind or self._timed_out:
             self.turning = 0.0
-        elif gaze.turned < BOTH:
-            self.turning = AWAY
+        elif gaze.scan_ends < SCAN_ENDS:
+            self.turning = RIGHT
         else:
-            back = abs(aside) > FACING
-            self.turning = -copysign(1.0, aside) if back else 0.0
+            back = abs(turned) > HEADING_TOLERANCE
+            self.turning = -copysign(1.0, turned) if back else 0.0

@@ -1,4 +1,4 @@
-"""From an echo to a place in odometry."""
+"""Observations in odometry from sonar echoes."""
 
 from math import atan2, cos, radians, sin
 
@@ -9,17 +9,19 @@ from .floor_map import FloorMap
 from .images import SonarEcho
 from .track import Observation, TargetTrack
 
-FRESH = 0.25  # age at which a distance is worth hearing again, in [s]
-CHEST = 0.10  # from a sonar to the own axis and into the other, in [m]
-DEAF = 0.25  # echo that may be of the own arms, or of anything nearer, [m]
-STRANGE = 0.6  # echo of somebody unknown, at most, in [m]
-EAR = radians(50.0)  # how far aside a sonar hears
-ROOMY = 0.25  # by which what an echo comes from must be nearer, in [m]
+MIN_AGE = 0.25  # of the last measured distance before an echo counts, in [s]
+# From the sonar to the own axis plus from the surface of the opponent to its
+# axis, in [m].
+AXIS_OFFSET = 0.10
+MIN_ECHO = 0.25  # shorter echoes may come from the own arms, in [m]
+MAX_NEW = 0.6  # longest echo that starts a track, in [m]
+HALF_CONE = radians(50.0)  # within which an opponent gives an echo
+MAP_MARGIN = 0.25  # from an echo to the nearest obstacle on the map, in [m]
 
 
-def is_heard(echo: SonarEcho) -> bool:
-    """Whether an echo is of anything but the own arms."""
-    return echo.distance is not None and echo.distance >= DEAF
+def is_valid_echo(echo: SonarEcho) -> bool:
+    """Return whether an echo is not from the own arms."""
+    return echo.distance is not None and echo.distance >= MIN_ECHO
 
 
 def observe_echo(
@@ -30,44 +32,44 @@ def observe_echo(
     floor: FloorMap | None,
     now: float,
 ) -> Observation | None:
-    """Turn an echo into an observation of who counts, or of somebody new.
+    """Return the observation of an opponent from an echo.
 
     Args:
-        echo: One that is heard.
-        mount: Of the sonar on the torso.
-        body: Where the body was.
-        track: Who counts, if anybody does.
-        floor: Map of the floor, if one is kept.
+        echo: Echo that :func:`is_valid_echo` accepts.
+        mount: Mount of the sonar on the torso.
+        body: Pose of the body at that time.
+        track: Main track, if any.
+        floor: Map of the floor, if there is one.
         now: Time, in [s].
 
     Returns:
-        What it tells; None if that is nothing.
+        The observation; None if the echo is not used.
     """
     assert echo.distance is not None
     x, y, heading = body.torso
     axis = body.torso_axes @ mount.axes[:, 0]
     facing = atan2(axis[1], axis[0])
-    away = echo.distance + CHEST
+    distance = echo.distance + AXIS_OFFSET
     if floor is not None:
-        known = floor.nearest(x, y, facing, EAR)
-        if track is None or known < away + ROOMY:
-            return None  # it may be an echo of the room
+        distance_mapped = floor.distance_in_cone(x, y, facing, HALF_CONE)
+        if track is None or distance_mapped < distance + MAP_MARGIN:
+            return None  # it may be an echo of a wall or obstacle
     if track is None:
-        if echo.distance > STRANGE:
+        if echo.distance > MAX_NEW:
             return None
         bearing, across = facing, 0.25
     else:
-        bearing, across = track.turned_to(x, y, now), 0.4
-        if now - track.ranged_at < FRESH:
+        bearing, across = track.bearing_from(x, y, now), 0.4
+        if now - track.ranged_at < MIN_AGE:
             return None
-        if abs(wrap_angle(bearing - facing)) > EAR - abs(
+        if abs(wrap_angle(bearing - facing)) > HALF_CONE - abs(
             wrap_angle(facing - heading)
         ):
             return None
     return Observation(
         echo.time,
-        x + away * cos(bearing),
-        y + away * sin(bearing),
+        x + distance * cos(bearing),
+        y + distance * sin(bearing),
         bearing,
         0.06,
         across,

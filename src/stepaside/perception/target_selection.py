@@ -1,4 +1,4 @@
-"""Who counts of all that is followed, and who is looked at."""
+"""Selection of the main track and of the target of the gaze."""
 
 from collections.abc import Sequence
 from math import hypot
@@ -7,24 +7,24 @@ from typing import Protocol
 from .track import TargetTrack
 from .tracker import Tracker
 
-UNSEEN = 1.0  # after which nobody is looked at any more, in [s]
-STARE = 1.2  # unknown things that rest are looked at up to here, in [m]
-MOVING = 0.08  # speed from which a thing moves, in [m/s]
+MAX_GAZE_AGE = 1.0  # of a track at which the head looks, in [s]
+GAZE_RADIUS = 1.2  # within which the head looks at any track, in [m]
+MOVING = 0.08  # speed of a moving track, in [m/s]
 
 
 class TargetSelection(Protocol):
-    """What a robot makes of the tracks that it follows."""
+    """Selection of tracks as targets."""
 
     def main(
         self, tracker: Tracker, now: float, x: float, y: float
     ) -> TargetTrack | None:
-        """The track that counts, if any.
+        """Return the main track: that of the opponent, if any.
 
         Args:
-            tracker: What is followed.
+            tracker: Tracker, which is pruned.
             now: Time, in [s].
-            x: Own place in odometry, in [m].
-            y: Likewise.
+            x: Own x in odometry, in [m].
+            y: Own y in odometry, in [m].
         """
 
     def look(
@@ -35,51 +35,53 @@ class TargetSelection(Protocol):
         x: float,
         y: float,
     ) -> TargetTrack | None:
-        """The track to look at; None to look about.
+        """Return the track to look at; None to scan.
 
         Args:
-            tracks: Everything followed.
-            main: What counts.
+            tracks: All tracks.
+            main: Main track.
             now: Time, in [s].
-            x: Own place in odometry, in [m].
-            y: Likewise.
+            x: Own x in odometry, in [m].
+            y: Own y in odometry, in [m].
         """
 
     def settled(
         self, track: TargetTrack, now: float, x: float, y: float
     ) -> bool:
-        """Whether it is known well enough to begin to move.
+        """Return whether a track is reliable enough to start moving.
 
         Args:
-            track: What counts.
+            track: Main track.
             now: Time, in [s].
-            x: Own place in odometry, in [m].
-            y: Likewise.
+            x: Own x in odometry, in [m].
+            y: Own y in odometry, in [m].
         """
 
 
-def lately_seen(
+def recent_tracks(
     tracks: Sequence[TargetTrack], main: TargetTrack | None, now: float
 ) -> list[TargetTrack]:
-    """Tracks that may be looked at, what counts before all others.
+    """Return tracks observed recently, the main one first.
 
     Args:
-        tracks: Everything followed.
-        main: What counts.
+        tracks: All tracks.
+        main: Main track.
         now: Time, in [s].
     """
     ordered = [] if main is None else [main]
     ordered += [track for track in tracks if track is not main]
-    return [track for track in ordered if now - track.seen_at <= UNSEEN]
+    return [
+        track for track in ordered if now - track.observed_at <= MAX_GAZE_AGE
+    ]
 
 
 class RobotSelection:
-    """Looks for a robot that is known by its trim."""
+    """Target selection of a robot that is recognised by its trim."""
 
     def main(
         self, tracker: Tracker, now: float, x: float, y: float
     ) -> TargetTrack | None:
-        """Who was recognised lately, and else the nearest."""
+        """Return the track recognised recently, else the nearest."""
         return tracker.main(now, x, y)
 
     def look(
@@ -90,16 +92,20 @@ class RobotSelection:
         x: float,
         y: float,
     ) -> TargetTrack | None:
-        """What counts, and else what is near or moves."""
-        for track in lately_seen(tracks, main, now):
-            named = now - track.identified_at < UNSEEN
+        """Return the recognised track, else one that is near or moves."""
+        for track in recent_tracks(tracks, main, now):
+            recognised = now - track.identified_at < MAX_GAZE_AGE
             moves = hypot(*track.velocity) > MOVING and track.confirmed
-            if named or track.away_from(x, y, now) < STARE or moves:
+            if (
+                recognised
+                or track.distance_from(x, y, now) < GAZE_RADIUS
+                or moves
+            ):
                 return track
         return None
 
     def settled(
         self, track: TargetTrack, now: float, x: float, y: float
     ) -> bool:
-        """Always: where a robot is that is near decides."""
+        """Return true: the position of a robot is enough."""
         return True

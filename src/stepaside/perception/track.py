@@ -1,4 +1,4 @@
-"""One thing that moves, followed in the robot's own odometry."""
+"""Kalman filter track of an opponent or object in odometry."""
 
 from collections import deque
 from math import atan2, cos, exp, hypot, inf, sin, sqrt
@@ -8,49 +8,51 @@ import numpy as np
 
 from ..core.poses import Array
 
-HOLD = 0.4  # how long a speed is believed unseen, in [s]
-DECAY = 0.7  # time in which it is forgotten thereafter, in [s]
-WINDOW = 5  # frames that are remembered for confirmation
-ENOUGH = 3  # of them that must have found a thing
-GATE = 16.0  # squared distance, in deviations, beyond which it is another
-SHARP = 0.05  # deviation of a place that tells where a thing goes, in [m]
-TRAIL = 1.2  # how long such places are kept, in [s]
-APART = 0.1  # from one to the next, at least, in [s]
-LEAST = 0.35  # that they must span to tell a velocity, in [s]
-LAPSE = 0.3  # without a look, after which a new one begins, in [s]
-HEARD = 0.2  # deviation across that only an ear has, in [m]
-WALKED = 0.2  # way from where it was first seen sharply that is none, in [m]
+HOLD = 0.4  # prediction at constant velocity without observation, in [s]
+DECAY = 0.7  # time constant of the velocity thereafter, in [s]
+WINDOW = 5  # frames in which a track is confirmed
+MIN_HITS = 3  # of them that must show it
+GATE = 16.0  # largest squared Mahalanobis distance of an observation
+MAX_DEVIATION = 0.05  # of a precise position, in [m]
+TRAIL = 1.2  # how long precise positions are stored, in [s]
+MIN_INTERVAL = 0.1  # between precise positions, in [s]
+MIN_SPAN = 0.35  # of precise positions for a velocity, in [s]
+MAX_GAP = 0.3  # without observation, after which a track is unsettled, in [s]
+SONAR_DEVIATION = 0.2  # across the bearing, which only sonar exceeds, in [m]
+# Distance from the first precise position beyond which a track has walked, in
+# [m]; the middle of a person at rest moves less than this.
+MIN_WALK = 0.2
 
 
 class MotionModel(NamedTuple):
-    """How things move that are followed.
+    """Process noise of a track.
 
     Attributes:
-        push: Acceleration that they have, in [m/s^2].
-        hurry: Speed that one may have when it is first seen, in [m/s].
+        acceleration: Standard deviation of the acceleration, in [m/s^2].
+        speed: Standard deviation of the first velocity, in [m/s].
     """
 
-    push: float
-    hurry: float
+    acceleration: float
+    speed: float
 
 
-ANYBODY = MotionModel(1.0, 0.25)
-WALKER = MotionModel(0.3, 0.1)  # a humanoid robot among things that rest
+PERSON_MOTION = MotionModel(1.0, 0.25)
+ROBOT_MOTION = MotionModel(0.3, 0.1)  # a humanoid robot among things that rest
 
 
 class Observation(NamedTuple):
-    """Something seen at a place in odometry.
+    """Measured position of an object in odometry.
 
     Attributes:
-        time: When it was seen, in [s].
-        x: Where, in [m].
-        y: Likewise.
-        bearing: Direction from where it was seen, in [rad].
-        along: Standard deviation along that direction, in [m].
-        across: Standard deviation across it, in [m].
-        identified: Whether it looks like the other robot.
-        ranged: Whether its distance was measured too.
-        height: How high it rises at least, in [m].
+        time: Time of the measurement, in [s].
+        x: Position, x in odometry, in [m].
+        y: Position, y in odometry, in [m].
+        bearing: Direction from the sensor in odometry, in [rad].
+        along: Standard deviation along the bearing, in [m].
+        across: Standard deviation across the bearing, in [m].
+        identified: Whether it has the appearance of the opponent.
+        ranged: Whether its distance was measured.
+        height: Observed height, in [m]; 0 if unknown.
     """
 
     time: float
@@ -74,36 +76,37 @@ class Observation(NamedTuple):
 
 
 class TargetTrack:
-    """Kalman filter of place and velocity, with a memory of its frames.
+    """Kalman filter of position and velocity, confirmed by several frames.
 
     Attributes:
         time: Time of the state, in [s].
-        begun_at: When it was first seen, in [s].
-        identified_at: When it last looked like the other robot, in [s].
-        seen_at: When it was last seen, in [s].
-        ranged_at: When its distance was last measured, in [s].
-        sighted_at: When it was last seen and not only heard, in [s].
-        watched_since: Since when it was seen without a gap, in [s].
-        confirmed: Whether enough frames agree on it.
-        height: How high it was seen to rise, in [m].
-        walked: Whether it was seen to go anywhere.
-        number: Tells it from others.
+        started_at: Time of the first observation, in [s].
+        identified_at: Time when it last had the opponent's appearance, in
+            [s].
+        observed_at: Time of the last observation, in [s].
+        ranged_at: Time of the last measured distance, in [s].
+        imaged_at: Time of the last observation by a camera, in [s].
+        observed_since: Start of the observations without a gap, in [s].
+        confirmed: Whether enough frames show it.
+        height: Largest observed height, in [m].
+        has_walked: Whether it has moved away from its first position.
+        number: Number of the track.
     """
 
     def __init__(
         self,
         first: Observation,
         number: int = 0,
-        motion: MotionModel = ANYBODY,
+        motion: MotionModel = PERSON_MOTION,
     ) -> None:
-        """Begin with a first observation."""
-        self.number, self._push = number, motion.push
-        self.walked = False
-        self.sighted_at = -inf
-        self._first: tuple[float, float] | None = None
+        """Start with a first observation."""
+        self.number, self._acceleration = number, motion.acceleration
+        self.has_walked = False
+        self.imaged_at = -inf
+        self._first_position: tuple[float, float] | None = None
         self._trail: deque[tuple[float, float, float]] = deque()
-        self.time = self.seen_at = self.begun_at = first.time
-        self.watched_since = first.time
+        self.time = self.observed_at = self.started_at = first.time
+        self.observed_since = first.time
         self.identified_at = first.time if first.identified else -inf
         self.ranged_at = first.time if first.ranged else -inf
         self.confirmed = False
@@ -111,27 +114,27 @@ class TargetTrack:
         self._state = np.array([first.x, first.y, 0.0, 0.0])
         self._covariance = np.zeros((4, 4))
         self._covariance[:2, :2] = first.covariance
-        self._covariance[2, 2] = self._covariance[3, 3] = motion.hurry**2
+        self._covariance[2, 2] = self._covariance[3, 3] = motion.speed**2
         self._hits: deque[bool] = deque([True], maxlen=WINDOW)
-        self._mark(first)
+        self._store_position(first)
 
     @property
     def drift(self) -> tuple[float, float]:
-        """Slope of the places seen sharply of late, in [m/s].
+        """Velocity by regression over recent precise positions, in [m/s].
 
-        It sways less than the velocity of the filter; zero until the places
-        span a while.
+        It sways less than the velocity of the filter. It is zero until the
+        positions span enough time.
         """
         trail = self._trail
-        if not trail or trail[-1][0] - trail[0][0] < LEAST:
+        if not trail or trail[-1][0] - trail[0][0] < MIN_SPAN:
             return 0.0, 0.0
         times, x, y = np.array(trail).T
-        late = times - times.mean()
-        square = late @ late
-        return float(late @ x / square), float(late @ y / square)
+        delay = times - times.mean()
+        square = delay @ delay
+        return float(delay @ x / square), float(delay @ y / square)
 
-    def is_told(self, now: float) -> bool:
-        """Whether it was seen sharply of late, and so how it moves.
+    def has_velocity(self, now: float) -> bool:
+        """Return whether recent precise positions give a velocity.
 
         Args:
             now: Time, in [s].
@@ -139,131 +142,138 @@ class TargetTrack:
         trail = self._trail
         if not trail or now - trail[-1][0] > TRAIL:
             return False
-        return trail[-1][0] - trail[0][0] >= LEAST
+        return trail[-1][0] - trail[0][0] >= MIN_SPAN
 
-    def _mark(self, seen: Observation) -> None:
-        """Keep a place that was seen sharply."""
-        if seen.across < HEARD:
-            self.sighted_at = max(self.sighted_at, seen.time)
-        if not seen.ranged or max(seen.along, seen.across) > SHARP:
+    def _store_position(self, observation: Observation) -> None:
+        """Store a precise position."""
+        if observation.across < SONAR_DEVIATION:
+            self.imaged_at = max(self.imaged_at, observation.time)
+        if (
+            not observation.ranged
+            or max(observation.along, observation.across) > MAX_DEVIATION
+        ):
             return
-        trail, here = self._trail, (seen.x, seen.y)
-        while trail and seen.time - trail[0][0] > TRAIL:
+        trail, position = self._trail, (observation.x, observation.y)
+        while trail and observation.time - trail[0][0] > TRAIL:
             trail.popleft()
-        if not trail or seen.time - trail[-1][0] >= APART:
-            trail.append((seen.time, *here))
-        self._first = self._first or here
-        away = hypot(here[0] - self._first[0], here[1] - self._first[1])
-        self.walked |= away > WALKED
+        if not trail or observation.time - trail[-1][0] >= MIN_INTERVAL:
+            trail.append((observation.time, *position))
+        self._first_position = self._first_position or position
+        distance = hypot(
+            position[0] - self._first_position[0],
+            position[1] - self._first_position[1],
+        )
+        self.has_walked |= distance > MIN_WALK
 
     @property
     def velocity(self) -> tuple[float, float]:
         """Estimated velocity in odometry, in [m/s]."""
         return float(self._state[2]), float(self._state[3])
 
-    def place_at(self, time: float) -> tuple[float, float]:
-        """Predicted place in odometry, in [m]."""
+    def position_at(self, time: float) -> tuple[float, float]:
+        """Return the predicted position in odometry, in [m]."""
         x, y, vx, vy = self._state.tolist()
-        ahead, _ = _coast(time - self.time)
+        ahead, _ = _decay_velocity(time - self.time)
         return x + ahead * vx, y + ahead * vy
 
     def deviation_at(self, time: float) -> float:
-        """Greatest standard deviation of the predicted place, in [m]."""
+        """Return the largest standard deviation of the prediction, in [m]."""
         (a, b), (_, d) = self._predicted(time)[1][:2, :2].tolist()
         return sqrt(0.5 * (a + d) + hypot(0.5 * (a - d), b))
 
-    def misfit(self, seen: Observation) -> float:
-        """Squared distance of an observation, in deviations."""
-        state, covariance = self._predicted(max(seen.time, self.time))
-        gap = self._moved(seen, state) - state[:2]
-        spread = covariance[:2, :2] + seen.covariance
+    def mahalanobis_squared(self, observation: Observation) -> float:
+        """Return the squared Mahalanobis distance of an observation."""
+        state, covariance = self._predicted(max(observation.time, self.time))
+        gap = self._extrapolated(observation, state) - state[:2]
+        spread = covariance[:2, :2] + observation.covariance
         return float(gap @ np.linalg.solve(spread, gap))
 
-    def correct(self, seen: Observation) -> None:
-        """Take an observation in, of any time."""
+    def update(self, observation: Observation) -> None:
+        """Update the state with an observation, which may be delayed."""
         self._state, self._covariance = self._predicted(
-            max(seen.time, self.time)
+            max(observation.time, self.time)
         )
-        measured = self._moved(seen, self._state)
-        self.time = max(seen.time, self.time)
-        spread = self._covariance[:2, :2] + seen.covariance
+        measured = self._extrapolated(observation, self._state)
+        self.time = max(observation.time, self.time)
+        spread = self._covariance[:2, :2] + observation.covariance
         gain = np.linalg.solve(spread, self._covariance[:2]).T
         self._state = self._state + gain @ (measured - self._state[:2])
-        # Joseph's form stays positive.
-        keep = np.eye(4)
-        keep[:, :2] -= gain
+        # The Joseph form keeps the covariance positive definite.
+        complement = np.eye(4)
+        complement[:, :2] -= gain
         self._covariance = (
-            keep @ self._covariance @ keep.T + gain @ seen.covariance @ gain.T
+            complement @ self._covariance @ complement.T
+            + gain @ observation.covariance @ gain.T
         )
-        if seen.time - self.seen_at > LAPSE:
-            self.watched_since = seen.time
-        self.seen_at = max(self.seen_at, seen.time)
-        if seen.identified:
-            self.identified_at = max(self.identified_at, seen.time)
-        if seen.ranged:
-            self.ranged_at = max(self.ranged_at, seen.time)
-        self.height = max(self.height, seen.height)
-        self._mark(seen)
+        if observation.time - self.observed_at > MAX_GAP:
+            self.observed_since = observation.time
+        self.observed_at = max(self.observed_at, observation.time)
+        if observation.identified:
+            self.identified_at = max(self.identified_at, observation.time)
+        if observation.ranged:
+            self.ranged_at = max(self.ranged_at, observation.time)
+        self.height = max(self.height, observation.height)
+        self._store_position(observation)
 
-    def count(self, found: bool) -> None:
-        """Note whether a frame that could have shown it did."""
-        self._hits.append(found)
-        if sum(self._hits) >= ENOUGH:
+    def record_frame(self, shown: bool) -> None:
+        """Record whether a frame that should show the track does."""
+        self._hits.append(shown)
+        if sum(self._hits) >= MIN_HITS:
             self.confirmed = True
 
-    def take_over(self, other: "TargetTrack") -> None:
-        """Take over what is known of another track of the same thing."""
+    def merge(self, other: "TargetTrack") -> None:
+        """Merge the history of another track of the same object."""
         self.identified_at = max(self.identified_at, other.identified_at)
-        self.seen_at = max(self.seen_at, other.seen_at)
+        self.observed_at = max(self.observed_at, other.observed_at)
         self.ranged_at = max(self.ranged_at, other.ranged_at)
         self.confirmed = self.confirmed or other.confirmed
         self.height = max(self.height, other.height)
-        self.walked |= other.walked
-        self.sighted_at = max(self.sighted_at, other.sighted_at)
+        self.has_walked |= other.has_walked
+        self.imaged_at = max(self.imaged_at, other.imaged_at)
 
     @property
-    def hopeless(self) -> bool:
-        """Whether its frames will not confirm it any more."""
+    def is_rejected(self) -> bool:
+        """Whether its frames can no longer confirm it."""
         misses = len(self._hits) - sum(self._hits)
-        return not self.confirmed and misses > WINDOW - ENOUGH
+        return not self.confirmed and misses > WINDOW - MIN_HITS
 
-    def turned_to(self, x: float, y: float, time: float) -> float:
-        """Direction of the track from a place, in [rad]."""
-        u, v = self.place_at(time)
+    def bearing_from(self, x: float, y: float, time: float) -> float:
+        """Return its direction from a point in odometry, in [rad]."""
+        u, v = self.position_at(time)
         return atan2(v - y, u - x)
 
-    def away_from(self, x: float, y: float, time: float) -> float:
-        """Distance of the track from a place, in [m]."""
-        u, v = self.place_at(time)
+    def distance_from(self, x: float, y: float, time: float) -> float:
+        """Return its distance from a point in odometry, in [m]."""
+        u, v = self.position_at(time)
         return hypot(u - x, v - y)
 
-    def _moved(self, seen: Observation, state: Array) -> Array:
-        """Bring an old observation to the time of the state."""
-        late = max(0.0, self.time - seen.time)
-        return np.array([seen.x, seen.y]) + late * state[2:]
+    def _extrapolated(self, observation: Observation, state: Array) -> Array:
+        """Extrapolate a delayed observation to the time of the state."""
+        delay = max(0.0, self.time - observation.time)
+        return np.array([observation.x, observation.y]) + delay * state[2:]
 
     def _predicted(self, time: float) -> tuple[Array, Array]:
         step = max(0.0, time - self.time)
-        ahead, kept = _coast(step)
-        move = np.diag([1.0, 1.0, kept, kept])
+        ahead, remaining = _decay_velocity(step)
+        move = np.diag([1.0, 1.0, remaining, remaining])
         move[0, 2] = move[1, 3] = ahead
         covariance = move @ self._covariance @ move.T
-        push = self._push**2 * np.array(
+        push = self._acceleration**2 * np.array(
             [[0.25 * step**4, 0.5 * step**3], [0.5 * step**3, step**2]]
         )
-        # White noise within the step: it must not depend on how it is cut.
+        # White noise: the result must not depend on the number of steps.
         push *= min(1.0, 0.3 / step) if step > 0.0 else 0.0
         covariance[0::2, 0::2] += push
         covariance[1::2, 1::2] += push
         return move @ self._state, covariance
 
 
-def _coast(step: float) -> tuple[float, float]:
-    """How far a unit speed leads unseen, in [s], and what is left of it.
+def _decay_velocity(step: float) -> tuple[float, float]:
+    """Return displacement, in [s], and remaining fraction of a unit speed.
 
-    Walkers sway: the speed of an instant leads nowhere for long.
+    Walkers sway, so a velocity estimate predicts for a short time only.
     """
     if step <= HOLD:
         return step, 1.0
-    kept = exp(-(step - HOLD) / DECAY)
-    return HOLD + DECAY * (1.0 - kept), kept
+    remaining = exp(-(step - HOLD) / DECAY)
+    return HOLD + DECAY * (1.0 - remaining), remaining

@@ -1,36 +1,37 @@
-"""Which of the things seen is the other, and where it is by now."""
+"""Tracker of all objects, which selects the opponent."""
 
 from collections.abc import Sequence
 from itertools import count
 
-from .track import ANYBODY, GATE, MotionModel, Observation, TargetTrack
+from .track import GATE, PERSON_MOTION, MotionModel, Observation, TargetTrack
 
-IDENTITY = 5.0  # how long a thing stays the other robot unseen, in [s]
-PATIENCE = 4.0  # how long a confirmed thing is remembered, in [s]
-FRESH = 0.3  # age up to which nobody doubts a sighting, in [s]
-LAPSE = 0.5  # of recognition that does not make it another, in [s]
-SAME = 0.15  # distance within which two tracks are one thing, in [m]
-TALL = 0.75  # height of what is no robot but may be a person, in [m]
-BROAD = 0.35  # distance within which two tall tracks are one person, in [m]
-DOUBT = 0.6  # deviation beyond which memory is worth nothing, in [m]
+IDENTITY = 5.0  # how long a track stays recognised without trim, in [s]
+MAX_AGE = 4.0  # of a confirmed track, in [s]
+MAX_AGE_UNCONFIRMED = 1.0  # of any other track, in [s]
+FRESH = 0.3  # age up to which a track is never dropped for its deviation
+MAX_LAPSE = 0.5  # between the last observations of tracks of one object, [s]
+MERGE_DISTANCE = 0.15  # of two tracks of one object, in [m]
+TALL = 0.75  # height above which an object is no robot, in [m]
+MERGE_DISTANCE_TALL = 0.35  # of two tracks of one person, in [m]
+MAX_DEVIATION = 0.6  # of the predicted position of a track, in [m]
 
 
 class Tracker:
-    """Follows things through frames; says which one counts.
+    """Multi-object tracker with nearest-neighbour association.
 
-    A thing is confirmed by several frames, so that one wrong frame does
-    not make anybody move. Of the confirmed ones the other robot counts
-    most, when it was recognised lately, and else the nearest.
+    Several frames confirm a track, so that one wrong frame does not make the
+    robot move. The main track is the confirmed one that was recognised as
+    the opponent recently, else the nearest confirmed one.
 
     Attributes:
-        tracks: Everything followed.
+        tracks: All tracks.
     """
 
-    def __init__(self, motion: MotionModel = ANYBODY) -> None:
-        """Follow nothing yet.
+    def __init__(self, motion: MotionModel = PERSON_MOTION) -> None:
+        """Start without tracks.
 
         Args:
-            motion: How what is followed moves.
+            motion: Process noise of the tracks.
         """
         self._motion = motion
         self.tracks: list[TargetTrack] = []
@@ -38,83 +39,91 @@ class Tracker:
 
     def observe(
         self,
-        seen: Sequence[Observation],
+        observations: Sequence[Observation],
         *,
-        founds: bool = True,
-        walkers: bool = False,
+        may_start: bool = True,
+        walked_only: bool = False,
     ) -> list[TargetTrack]:
-        """Take in everything that one frame shows.
+        """Update the tracks with all observations of one frame.
 
         Args:
-            seen: Observations; the best fitting one updates a track.
-            founds: Whether what fits no track begins one.
-            walkers: Whether it tells only of who was seen to walk.
+            observations: Observations; the nearest one updates a track.
+            may_start: Whether an observation without track starts one.
+            walked_only: Whether to update only tracks that have walked.
 
         Returns:
-            Tracks that were updated or begun.
+            Tracks that were updated or started.
         """
-        fresh = list(seen)
+        remaining = list(observations)
         updated = []
-        for track in sorted(self.tracks, key=lambda t: -t.seen_at):
-            if not fresh:
+        for track in sorted(self.tracks, key=lambda t: -t.observed_at):
+            if not remaining:
                 break
-            if walkers and not track.walked:
+            if walked_only and not track.has_walked:
                 continue
-            best = min(fresh, key=track.misfit)
-            if track.misfit(best) <= GATE:
-                track.correct(best)
-                track.count(True)
-                fresh.remove(best)
+            best = min(remaining, key=track.mahalanobis_squared)
+            if track.mahalanobis_squared(best) <= GATE:
+                track.update(best)
+                track.record_frame(True)
+                remaining.remove(best)
                 updated.append(track)
-        if founds:
-            begun = [
-                TargetTrack(each, next(self._numbers), self._motion)
-                for each in fresh
+        if may_start:
+            started = [
+                TargetTrack(observation, next(self._numbers), self._motion)
+                for observation in remaining
             ]
-            self.tracks += begun
-            updated += begun
+            self.tracks += started
+            updated += started
         return updated
 
     def main(self, now: float, x: float, y: float) -> TargetTrack | None:
-        """The track that counts at a time, for a robot at a place."""
-        self.tidy(now)
-        known = [track for track in self.tracks if track.confirmed]
-        named = [t for t in known if now - t.identified_at < IDENTITY]
-        if named:
-            # A late one may be a mistake: the oldest still recognised.
-            newest = max(t.identified_at for t in named)
+        """Return the main track for a robot at a position in odometry."""
+        self.prune(now)
+        confirmed = [track for track in self.tracks if track.confirmed]
+        recognised = [t for t in confirmed if now - t.identified_at < IDENTITY]
+        if recognised:
+            # A new one may be a false detection: the oldest wins.
+            newest = max(t.identified_at for t in recognised)
             return min(
-                (t for t in named if newest - t.identified_at < LAPSE),
-                key=lambda t: t.begun_at,
+                (
+                    t
+                    for t in recognised
+                    if newest - t.identified_at < MAX_LAPSE
+                ),
+                key=lambda t: t.started_at,
             )
-        return min(known, key=lambda t: t.away_from(x, y, now), default=None)
+        return min(
+            confirmed, key=lambda t: t.distance_from(x, y, now), default=None
+        )
 
-    def tidy(self, now: float) -> None:
-        """Forget what was not seen for long, and merge what is one thing."""
+    def prune(self, now: float) -> None:
+        """Drop outdated tracks, and merge tracks of the same object."""
         self.tracks = [
             track
             for track in self.tracks
-            if not track.hopeless
-            and now - track.seen_at < (PATIENCE if track.confirmed else 1.0)
+            if not track.is_rejected
+            and now - track.observed_at
+            < (MAX_AGE if track.confirmed else MAX_AGE_UNCONFIRMED)
             and (
-                now - track.seen_at < FRESH or track.deviation_at(now) < DOUBT
+                now - track.observed_at < FRESH
+                or track.deviation_at(now) < MAX_DEVIATION
             )
         ]
         self._merge(now)
 
     def _merge(self, now: float) -> None:
-        """Drop the younger of two tracks of the same thing."""
-        kept: list[TargetTrack] = []
-        for track in sorted(self.tracks, key=lambda t: t.begun_at):
-            x, y = track.place_at(now)
-            for older in kept:
+        """Merge the younger of two tracks of one object into the older."""
+        merged: list[TargetTrack] = []
+        for track in sorted(self.tracks, key=lambda t: t.started_at):
+            x, y = track.position_at(now)
+            for older in merged:
                 tall = min(track.height, older.height) > TALL
-                same = BROAD if tall else SAME
-                if older.away_from(x, y, now) < same and (
-                    track.seen_at - older.seen_at < LAPSE
+                limit = MERGE_DISTANCE_TALL if tall else MERGE_DISTANCE
+                if older.distance_from(x, y, now) < limit and (
+                    track.observed_at - older.observed_at < MAX_LAPSE
                 ):
-                    older.take_over(track)
+                    older.merge(track)
                     break
             else:
-                kept.append(track)
-        self.tracks = kept
+                merged.append(track)
+        self.tracks = merged

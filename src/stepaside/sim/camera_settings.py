@@ -1,4 +1,4 @@
-"""Settings of what the robots see with, and of the room around them."""
+"""Settings of cameras and sonars, and of the scene around the robots."""
 
 from dataclasses import dataclass, field
 from math import radians
@@ -10,32 +10,35 @@ from ..core.ranges import Range, Ranges, check_count, check_settings
 from ..perception.camera_model import CameraModel
 
 PIXELS = Range(
-    *(8, 4096, "pixels"),
-    "nothing is seen in fewer; more do not fit in memory",
+    8,
+    4096,
+    "pixels",
+    "too few to detect anything; more do not fit in memory",
     whole=True,
 )
-RATE = Range(1.0, 60.0, "1/s", "what such sensors give")
-LATENCY = Range(0.0, 1.0, "s", "what a robot remembers of its way")
-QUANTUM = Range(1e-6, 1.0, "m", "from finer than any noise to useless")
-MOST_THINGS = 100  # in a room
+RATE = Range(1.0, 60.0, "1/s", "typical of such sensors")
+LATENCY = Range(0.0, 1.0, "s", "how long a robot stores its poses")
+QUANTUM = Range(1e-6, 1.0, "m", "from below the noise to useless")
+MAX_OBJECTS = 100  # in a room
 KINDS = ("red box", "blue box", "white figure")
 # Horizontal and vertical field of view of NAO's top camera, in [deg].
 OPTICS = {"v5": (60.9, 47.6), "v6": (54.7, 42.5)}
-BACKENDS = ("egl", "osmesa")  # of graphics without a screen
-RAYCAST = "raycast"  # no graphics at all
+BACKENDS = ("egl", "osmesa")  # off-screen graphics
+RAYCAST = "raycast"  # without graphics
 RENDERERS = ("auto", *BACKENDS, RAYCAST)
 
 
 @dataclass(frozen=True, slots=True)
 class ColourSettings:
-    """NAO's top camera.
+    """Settings of NAO's top camera.
 
     Attributes:
         optics: "v5" or "v6".
-        width: Columns; the V6 offers 320 and more, both offer 160; 8 to 4096.
-        height: Rows; 8 to 4096.
-        rate: Images per second, in [1/s]; the sensor gives up to 30; 1 to 60.
-        latency: From exposure to the image in hand, in [s]; 0 to 1.
+        width: Image width, in [pixels]; the V6 offers 320 and more, both
+            offer 160; 8 to 4096.
+        height: Image height, in [pixels]; 8 to 4096.
+        rate: Frame rate, in [1/s]; the sensor gives up to 30; 1 to 60.
+        latency: Delay from exposure to arrival, in [s]; 0 to 1.
         noise: Standard deviation of a pixel, of 255; 0 to 64.
         renderer: One of ``RENDERERS``.
     """
@@ -57,7 +60,7 @@ class ColourSettings:
     }
 
     def __post_init__(self) -> None:
-        """Refuse what no such camera is."""
+        """Check the ranges."""
         check_settings(self)
         if self.optics not in OPTICS:
             raise ConfigurationError(
@@ -66,7 +69,7 @@ class ColourSettings:
             )
 
     def model(self) -> CameraModel:
-        """Pinhole camera with these optics."""
+        """Return the camera model with these optics."""
         across, down = (radians(a) for a in OPTICS[self.optics])
         size = self.width, self.height
         return CameraModel.of_field_of_view(*size, across, down)
@@ -74,19 +77,20 @@ class ColourSettings:
 
 @dataclass(frozen=True, slots=True)
 class DepthSettings:
-    """The ASUS Xtion on the evader's head.
+    """Settings of the ASUS Xtion on the evader's head.
 
     Attributes:
         width: Columns that are used, of 640; 8 to 4096.
         height: Rows that are used, of 480; 8 to 4096.
-        rate: Images per second, in [1/s]; the sensor gives 30; 1 to 60.
-        latency: From exposure to the image in hand, in [s]; 0 to 1.
-        near: Nothing nearer comes back, in [m]; 0.01 to 20.
-        far: Nothing farther comes back, in [m]; 0.01 to 20.
-        noise: Standard deviation at 1 m, in [m]; it grows with the square; 0
-            to 1.
-        step: Quantum at 1 m, in [m]; it grows with the square; 1e-06 to 1.
-        missing: Share of the pixels that nothing comes back to; 0 to 1.
+        rate: Frame rate, in [1/s]; the sensor gives 30; 1 to 60.
+        latency: Delay from exposure to arrival, in [s]; 0 to 1.
+        near: Lower limit of the range, in [m]; 0.01 to 20.
+        far: Upper limit of the range, in [m]; 0.01 to 20.
+        noise: Standard deviation at 1 m, in [m]; proportional to the squared
+            distance; 0 to 1.
+        step: Quantum at 1 m, in [m]; proportional to the squared distance;
+            1e-06 to 1.
+        missing: Fraction of the pixels without return; 0 to 1.
     """
 
     width: int = 80
@@ -104,20 +108,20 @@ class DepthSettings:
         "height": PIXELS,
         "rate": RATE,
         "latency": LATENCY,
-        "near": Range(0.01, 20.0, "m", "nothing is nearer to a lens"),
-        "far": Range(0.01, 20.0, "m", "from near on, as far as a room goes"),
-        "noise": Range(0.0, 1.0, "m", "more is no distance at all"),
+        "near": Range(0.01, 20.0, "m", "the size of a lens"),
+        "far": Range(0.01, 20.0, "m", "from near to the size of a room"),
+        "noise": Range(0.0, 1.0, "m", "more is no measurement"),
         "step": QUANTUM,
-        "missing": Range(0.0, 1.0, "1", "a share"),
+        "missing": Range(0.0, 1.0, "1", "a fraction"),
     }
 
     def __post_init__(self) -> None:
-        """Refuse what no such camera is."""
+        """Check the ranges."""
         check_settings(self)
         check_within(self.far, self.near, 20.0, "far", "m", ConfigurationError)
 
     def model(self) -> CameraModel:
-        """Pinhole camera with the optics of the Xtion."""
+        """Return the camera model with the optics of the Xtion."""
         return CameraModel.of_field_of_view(
             self.width, self.height, radians(58.0), radians(45.0)
         )
@@ -125,12 +129,14 @@ class DepthSettings:
 
 @dataclass(frozen=True, slots=True)
 class SonarSettings:
-    """NAO's sonars, V5 and V6.
+    """Settings of NAO's sonars, V5 and V6.
 
     Attributes:
-        rate: Echoes per second of each, in [1/s]; assumed; 1 to 40.
-        near: Nearer things sound as near as this, in [m]; 0.01 to 10.
-        far: Farther things are not heard, in [m]; 0.01 to 10.
+        rate: Echo rate of each, in [1/s]; assumed; 1 to 40.
+        near: Lower limit of the range; nearer objects read as this, in [m];
+            0.01 to 10.
+        far: Upper limit of the range; farther objects give no echo, in [m];
+            0.01 to 10.
         cone: Opening angle, in [rad]; 0.05 to 2.5.
         noise: Standard deviation, in [m]; 0 to 1.
         step: Quantum, in [m]; 1e-06 to 1.
@@ -144,30 +150,30 @@ class SonarSettings:
     step: float = 0.01
 
     ranges: ClassVar[Ranges] = {
-        "rate": Range(1.0, 40.0, "1/s", "the next echo waits for the last"),
-        "near": Range(0.01, 10.0, "m", "nothing is nearer to the chest"),
-        "far": Range(0.01, 10.0, "m", "from near on, as far as echoes come"),
+        "rate": Range(1.0, 40.0, "1/s", "echoes must not overlap"),
+        "near": Range(0.01, 10.0, "m", "the surface of the chest"),
+        "far": Range(0.01, 10.0, "m", "from near to the longest echo"),
         "cone": Range(0.05, 2.5, "rad", "from a ray to half the room"),
-        "noise": Range(0.0, 1.0, "m", "more is no distance at all"),
+        "noise": Range(0.0, 1.0, "m", "more is no measurement"),
         "step": QUANTUM,
     }
 
     def __post_init__(self) -> None:
-        """Refuse what no sonar is."""
+        """Check the ranges."""
         check_settings(self)
         check_within(self.far, self.near, 10.0, "far", "m", ConfigurationError)
 
 
 @dataclass(frozen=True, slots=True)
 class CameraSettings:
-    """Everything that a robot perceives the other with.
+    """Settings of all exteroceptive sensors of the robots.
 
     Attributes:
         colour: The camera in the head of either robot.
         depth: The depth camera on the evader's head.
         sonar: The sonars in the evader's chest.
-        drop_frames: Share of the images that never arrive; 0 to 1.
-        added_latency: Latency on top of each camera's own, in [s]; 0 to 0.5.
+        drop_frames: Fraction of the images that are lost; 0 to 1.
+        added_latency: Additional latency of each camera, in [s]; 0 to 0.5.
     """
 
     colour: ColourSettings = field(default_factory=ColourSettings)
@@ -177,23 +183,25 @@ class CameraSettings:
     added_latency: float = 0.0
 
     ranges: ClassVar[Ranges] = {
-        "drop_frames": Range(0.0, 1.0, "1", "a share"),
-        "added_latency": Range(0.0, 0.5, "s", "beside a camera's own"),
+        "drop_frames": Range(0.0, 1.0, "1", "a fraction"),
+        "added_latency": Range(
+            0.0, 0.5, "s", "in addition to a camera's latency"
+        ),
     }
 
     def __post_init__(self) -> None:
-        """Refuse shares that are none and latency beyond the memory."""
+        """Check the ranges."""
         check_settings(self)
 
 
 @dataclass(frozen=True, slots=True)
 class RoomObject:
-    """Something that stands in the room.
+    """Object in the room.
 
     Attributes:
         kind: "red box", "blue box" or "white figure".
-        x: Where it stands, in [m]; -20 to 20.
-        y: Likewise; -20 to 20.
+        x: Position, x in the world, in [m]; -20 to 20.
+        y: Position, y in the world, in [m]; -20 to 20.
     """
 
     kind: str
@@ -201,30 +209,31 @@ class RoomObject:
     y: float
 
     ranges: ClassVar[Ranges] = {
-        "x": Range(-20.0, 20.0, "m", "outside of any room"),
-        "y": Range(-20.0, 20.0, "m", "outside of any room"),
+        "x": Range(-20.0, 20.0, "m", "beyond, outside any room"),
+        "y": Range(-20.0, 20.0, "m", "beyond, outside any room"),
     }
 
     def __post_init__(self) -> None:
-        """Refuse unknown things and places outside of any room."""
+        """Check the kind and the ranges."""
         if self.kind not in KINDS:
             raise ConfigurationError(
-                f"a thing must be one of {', '.join(KINDS)}, got {self.kind!r}"
+                f"an object must be one of {', '.join(KINDS)}, got "
+                f"{self.kind!r}"
             )
         check_settings(self, prefix=f"{self.kind} ")
 
 
 @dataclass(frozen=True, slots=True)
 class SceneSettings:
-    """What stands around the robots.
+    """Walls, objects and floor plan around the robots.
 
     Attributes:
-        walls: Distance of the walls that cameras see from the middle, in [m];
-            where a player begins beyond, or less than 1 m inside, they stand
-            3.5 m beyond that player; 0 for none; 2 to 20 or 0.
-        things: Boxes and figures that stand about.
-        plan: Floor plan of the room that they play in, whatever they see
-            with; none by default.
+        walls: Distance from the origin to the walls that cameras see, in [m];
+            if a player starts beyond, or less than 1 m inside, they are moved
+            to 3.5 m beyond that player; 0 for none; 2 to 20 or 0.
+        things: Objects.
+        plan: Floor plan of the room of the game, with any kind of sensing;
+            None for an open floor.
     """
 
     walls: float = 5.0
@@ -233,19 +242,21 @@ class SceneSettings:
 
     ranges: ClassVar[Ranges] = {
         "walls": Range(
-            *(2.0, 20.0, "m"),
-            "nearer, nobody gets by; farther, nobody sees them",
+            2.0,
+            20.0,
+            "m",
+            "nearer, no way past them; farther, out of sight",
             also=(0.0,),
         ),
     }
 
     def __post_init__(self) -> None:
-        """Refuse walls that are too near."""
+        """Check the ranges."""
         check_settings(self)
-        check_count(self.things, MOST_THINGS, "things")
+        check_count(self.things, MAX_OBJECTS, "things")
 
 
-# In the way of nobody, but in view of both.
+# Outside the path of a duel, but in view of both robots.
 CLUTTER = (
     RoomObject("red box", 3.4, 1.6),
     RoomObject("blue box", -1.6, -2.0),

@@ -1,4 +1,4 @@
-"""The floor that robots walk on."""
+"""Floor of the simulated world: slope, friction and unevenness."""
 
 from math import cos, sin
 
@@ -7,13 +7,13 @@ import numpy as np
 
 from .physics_settings import PhysicsSettings
 
-HALF_SIZE = 4.0  # of an uneven floor, in [m]
-GRAIN = 0.1  # between independent heights of an uneven floor, in [m]
-CELLS = 2  # grid cells in a grain
+HALF_SIDE = 4.0  # of an uneven floor, in [m]
+GRAIN = 0.1  # spacing of independent heights of an uneven floor, in [m]
+CELLS = 2  # grid cells per grain
 
 
 def tilt_gravity(spec: mujoco.MjSpec, physics: PhysicsSettings) -> None:
-    """Turn gravity instead of the floor: a slope in the floor's frame."""
+    """Tilt gravity instead of the floor, to simulate a slope."""
     s, c = sin(physics.slope), cos(physics.slope)
     g = float(np.linalg.norm(spec.option.gravity))
     down = physics.slope_direction
@@ -29,9 +29,9 @@ def add_floor(
     """Add floor, sky and light.
 
     Args:
-        spec: Specification to add to.
+        spec: Specification of the world.
         physics: Friction and unevenness.
-        generator: Of the heights of an uneven floor.
+        generator: Random generator of the heights of an uneven floor.
         bit: Contact type of the floor.
     """
     spec.add_texture(
@@ -84,18 +84,15 @@ def add_floor(
 def _add_heights(
     spec: mujoco.MjSpec, unevenness: float, generator: np.random.Generator
 ) -> None:
-    """Heights between minus and plus half the unevenness, level at rest.
+    """Add a height field, random at every grain and linear in between."""
+    from scipy.ndimage import zoom  # slow to import, rarely needed
 
-    They are independent every grain and smooth between.
-    """
-    from scipy.ndimage import zoom  # takes as long to import as all the rest
-
-    grains = round(2.0 * HALF_SIZE / GRAIN) + 1
+    grains = round(2.0 * HALF_SIDE / GRAIN) + 1
     coarse = generator.uniform(0.0, 1.0, (grains, grains))
     heights = np.clip(zoom(coarse, CELLS, order=1), 0.0, 1.0)
     spec.add_hfield(
         name="floor",
-        size=[HALF_SIZE, HALF_SIZE, unevenness, 0.1],
+        size=[HALF_SIDE, HALF_SIDE, unevenness, 0.1],
         nrow=heights.shape[0],
         ncol=heights.shape[1],
         userdata=heights.astype(np.float32).ravel().tolist(),

@@ -1,4 +1,4 @@
-"""What only the simulator knows of a robot."""
+"""True state of players, known to the simulator only."""
 
 from math import atan2, cos, hypot, radians, sin
 from typing import Protocol
@@ -12,35 +12,35 @@ FALLEN = cos(radians(45.0))  # upward component of the torso's axis
 
 
 class GroundTruth(Protocol):
-    """Where a player really is, whatever it is."""
+    """True state of a player: a robot, a person or a template."""
 
     @property
     def reach(self) -> float:
-        """Distance from the torso within which all of it lies, in [m]."""
+        """Radius around the torso that contains the whole body, in [m]."""
 
     @property
     def com(self) -> Array:
-        """CoM, or what stands for it, in [m]. Shape (3,)."""
+        """CoM, or an equivalent point, in the world, in [m]. Shape (3,)."""
 
     @property
     def position(self) -> tuple[float, float]:
-        """Place of the torso in the world, in [m]."""
+        """Position of the torso in the world, in [m]."""
 
     @property
     def place(self) -> tuple[float, float]:
-        """Point that stands for the player in the game, in [m]."""
+        """Reference point of the player in the world, in [m]."""
 
     @property
     def heading(self) -> float:
-        """Where it heads in the world, in [rad]."""
+        """Heading in the world, in [rad]."""
 
     @property
     def has_fallen(self) -> bool:
-        """Whether it lies."""
+        """Whether the player has fallen."""
 
 
 def torsos_apart(one: GroundTruth, other: GroundTruth) -> float:
-    """Horizontal distance between two torsos, in [m]."""
+    """Return the horizontal distance between two torsos, in [m]."""
     (x, y), (u, v) = one.position, other.position
     return hypot(u - x, v - y)
 
@@ -48,13 +48,13 @@ def torsos_apart(one: GroundTruth, other: GroundTruth) -> float:
 class TrueRobotState:
     """True state of one robot in its world.
 
-    Its place stands for it in the game: midway between the feet of one that
-    stands, and moving on with the CoM of one that walks. The origin of the
-    torso is elsewhere, for it is wherever the CoM of the posture wants it.
+    The reference point is midway between the feet of a standing robot, and
+    moves with the CoM of a walking one. The origin of the torso is elsewhere:
+    its position follows from the posture with the CoM over the feet.
 
     Attributes:
-        com: CoM of the robot, in [m], as a view. Shape (3,).
-        reach: Distance from its torso within which all of it lies, in [m].
+        com: CoM of the robot in the world, in [m], as a view. Shape (3,).
+        reach: Radius around the torso that contains the whole robot, in [m].
     """
 
     def __init__(
@@ -66,16 +66,16 @@ class TrueRobotState:
         com_forward: float = 0.0,
         place: ReferencePoint | None = None,
     ) -> None:
-        """Watch a robot.
+        """Read the state of a robot.
 
         Args:
             model: Compiled model.
             data: Its state.
-            torso: Body with its torso.
-            com_forward: How far its gait keeps the CoM ahead of the place,
-                in [m].
-            place: Where the hips are in the torso's frame, and how far the
-                robot reaches.
+            torso: Name of its torso body.
+            com_forward: Offset of the CoM ahead of the reference point in
+                its gait, in [m].
+            place: Position of the hips in the torso frame, and reach of the
+                robot.
         """
         self._com_forward = com_forward
         place = place or ReferencePoint()
@@ -87,7 +87,7 @@ class TrueRobotState:
 
     @property
     def position(self) -> tuple[float, float]:
-        """Point of the torso midway between the hips, in the world [m]."""
+        """Point midway between the hips in the world, in [m]."""
         x, y, _ = self._position.tolist()
         ahead = self._forward
         if ahead == 0.0:
@@ -97,7 +97,7 @@ class TrueRobotState:
 
     @property
     def place(self) -> tuple[float, float]:
-        """Point that stands for the robot in the world, in [m]."""
+        """Reference point in the world, in [m]."""
         x, y, _ = self.com.tolist()
         ahead, heading = self._com_forward, self.heading
         return x - ahead * cos(heading), y - ahead * sin(heading)

@@ -1,4 +1,4 @@
-"""Ideal sensors of other and place: they know the truth and say so."""
+"""Ideal sensors of the opponent and of the own pose."""
 
 from collections import deque
 from math import atan2, hypot
@@ -12,44 +12,44 @@ from .physics_settings import SightSettings
 
 
 class IdealLineOfSight:
-    """Bearing and distance of the other's place from the own, by the truth.
+    """Sensor of the true bearing and distance of the opponent.
 
-    The bearing counts from the heading of the own torso. It stands in for
-    cameras: noise, delay and rate are the only ways in which it is not
-    ideal.
+    The bearing is measured from the heading of the own torso, between the
+    reference points. The sensor replaces cameras; its settings add noise,
+    delay and a rate.
     """
 
     def __init__(
         self,
         own: GroundTruth,
-        other: GroundTruth,
+        opponent: GroundTruth,
         settings: SightSettings,
         generator: np.random.Generator,
     ) -> None:
-        """Look from one robot at another."""
-        self._own, self._other = own, other
+        """Measure the opponent from a robot."""
+        self._own, self._opponent = own, opponent
         self._settings = settings
         self._generator = generator
         self._pending: deque[Sighting] = deque()
-        self._newest: Sighting | None = None
-        self._taken = 0
+        self._latest: Sighting | None = None
+        self._count = 0
 
     def read(self, now: float) -> Sighting | None:
-        """Newest sighting that has arrived by ``now``, in [s]."""
+        """Return the latest sighting that has arrived at a time, in [s]."""
         settings = self._settings
-        if now * settings.rate >= self._taken - 1e-9 or now == 0.0:
-            self._taken = 1 if now == 0.0 else self._taken + 1
-            self._pending.append(self._look(now))
+        if now * settings.rate >= self._count - 1e-9 or now == 0.0:
+            self._count = 1 if now == 0.0 else self._count + 1
+            self._pending.append(self._measure(now))
         while (
             self._pending
             and self._pending[0].time <= now - settings.delay + 1e-9
         ):
-            self._newest = self._pending.popleft()
-        return self._newest
+            self._latest = self._pending.popleft()
+        return self._latest
 
-    def _look(self, now: float) -> Sighting:
+    def _measure(self, now: float) -> Sighting:
         x, y = self._own.place
-        u, v = self._other.place
+        u, v = self._opponent.place
         bearing = atan2(v - y, u - x) - self._own.heading
         distance = hypot(u - x, v - y)
         settings = self._settings
@@ -61,17 +61,16 @@ class IdealLineOfSight:
 
 
 class IdealPose:
-    """CoM and heading of a robot in its room, by the truth.
+    """Sensor of the true CoM and heading of a robot in its room.
 
-    It stands in for whatever tells a robot where it is on a map that it was
-    given.
+    It replaces localisation on a given map.
     """
 
     def __init__(self, own: GroundTruth) -> None:
-        """Tell the place of a robot."""
+        """Measure the pose of a robot."""
         self._own = own
 
     def read(self) -> Pose:
-        """CoM over the floor, in [m], and heading of the torso, in [rad]."""
+        """Return the CoM on the floor, [m], and the torso heading, [rad]."""
         x, y, _ = self._own.com.tolist()
         return Pose(x, y, self._own.heading)

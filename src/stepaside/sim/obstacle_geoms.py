@@ -1,4 +1,4 @@
-"""The solids of a room, in MuJoCo: pillars, boxes and walls."""
+"""Geoms of the obstacles and walls of a room."""
 
 from collections.abc import Callable
 from math import cos, sin
@@ -9,18 +9,18 @@ import numpy as np
 
 from ..arena import Box, Disc, Obstacle, Polygon, Room
 
-FLOOR_BIT = 1  # as of the floor: robots run into it
-HEIGHT = 0.6  # of all of them, a little above a NAO's head, in [m]
+FLOOR_BIT = 1  # contact type of the floor, with which robots collide
+HEIGHT = 0.6  # of all obstacles, a little above a NAO's head, in [m]
 GREY = (0.54, 0.56, 0.60, 1.0)
-BROWN = (0.60, 0.44, 0.28, 1.0)  # of what moves
+BROWN = (0.60, 0.44, 0.28, 1.0)  # of moving boxes
 PALE = (0.78, 0.79, 0.81, 1.0)  # of walls
 
 
 def add_solids(spec: mujoco.MjSpec, room: Room) -> None:
-    """Put all that stands in a room into a world.
+    """Add the obstacles and walls of a room to a world.
 
-    Each is a body of its own, so that a contact has its name: "disc 1",
-    "box 1", "polygon 1" and "wall 1", each counted from one.
+    Each is a separate body, which names its contacts: "disc 1", "box 1",
+    "polygon 1", "wall 1" and so on.
 
     Args:
         spec: Specification of the world.
@@ -36,12 +36,15 @@ def add_solids(spec: mujoco.MjSpec, room: Room) -> None:
 def mover_of(
     model: mujoco.MjModel, data: mujoco.MjData, room: Room
 ) -> Callable[[float], None]:
-    """What puts the moving boxes of a room where they are at a time, in [s].
+    """Return the function that moves the moving boxes of a room.
 
     Args:
-        model: World that has them.
+        model: Model of the world.
         data: Its state.
         room: The room.
+
+    Returns:
+        Function of the time, in [s].
     """
     numbers = [
         int(model.body(_name(number)).mocapid[0])
@@ -60,13 +63,13 @@ def _name(number: int) -> str:
 
 
 def is_room_wall(model: mujoco.MjModel, geom: int) -> bool:
-    """Whether a geom is a wall of a room that :func:`add_solids` put there."""
+    """Return whether :func:`add_solids` added a geom as a wall."""
     name: str = model.body(int(model.geom_bodyid[geom])).name
     return name.startswith("wall ")
 
 
 def named_solids(room: Room) -> tuple[tuple[str, Obstacle], ...]:
-    """Solids of a room with the names of their bodies."""
+    """Return the obstacles and walls of a room with their body names."""
     counts: dict[str, int] = {}
     named = []
     for number, solid in enumerate(room.solids):
@@ -124,7 +127,7 @@ def _prism(spec: mujoco.MjSpec, name: str, polygon: Polygon) -> dict[str, Any]:
     }
 
 
-# What a model is made of, for each kind of obstacle.
+# Geom of each kind of obstacle.
 _GEOMS: dict[str, Callable[..., dict[str, Any]]] = {
     Disc.kind: _cylinder,
     Box.kind: _cuboid,

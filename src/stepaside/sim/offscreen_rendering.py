@@ -1,4 +1,4 @@
-"""Off-screen graphics, where the machine has any."""
+"""Off-screen rendering, and the choice of its backend."""
 
 import os
 import subprocess
@@ -18,25 +18,24 @@ from .camera_settings import RAYCAST as RAYCAST
 from .camera_settings import RENDERERS
 
 PROBE = (
-    "import mujoco; "
-    "from stepaside.sim.offscreen_rendering import OffscreenRenderer; "
+    "import mujoco; from {module} import {renderer}; "
     'm = mujoco.MjModel.from_xml_string(\'<mujoco><worldbody><geom size="1"/>'
-    "</worldbody></mujoco>'); OffscreenRenderer(m, 16, 16, {backend!r})"
+    "</worldbody></mujoco>'); {renderer}(m, 16, 16, {backend!r})"
 )
-GEOMS = 2000  # that a scene can hold
+MAX_GEOMS = 2000  # in a scene
 GRID = 10.0  # spacing of the vertices of a plane, in [m]
 
 
 class RenderQuality(NamedTuple):
-    """How much trouble is taken over a picture.
+    """Quality settings of a rendered image.
 
     Attributes:
-        samples: Of each pixel, against jagged edges; 0 for one.
-        shadow: Side of the map of shadows, in [pixels]; 0 for none.
-        reach: Half side of the square that has shadows, in [m].
-        slices: Of round shapes.
-        stacks: Likewise, along their axes.
-        groups: How many groups of shapes are drawn, from the first.
+        samples: Samples per pixel for antialiasing; 0 for one.
+        shadow: Side of the shadow map, in [pixels]; 0 for none.
+        reach: Half side of the square with shadows, in [m].
+        slices: Slices of round geoms around their axis.
+        stacks: Slices of round geoms along their axis.
+        groups: Number of geom groups that are drawn.
     """
 
     samples: int = 0
@@ -47,21 +46,21 @@ class RenderQuality(NamedTuple):
     groups: int = 3
 
 
-PLAIN = RenderQuality()  # quick, for sensors
+PLAIN = RenderQuality()  # fast, for sensors
 
 
 def choose_renderer(wanted: str = "auto") -> str:
-    """Renderer of colour images on this machine.
+    """Return a renderer of colour images that works on this machine.
 
-    Graphics that do not work can end the process that tries them: another
-    process tries.
+    A broken graphics driver can crash the process, so each backend is tried
+    in another process.
 
     Args:
         wanted: "auto", or one of "egl", "osmesa" and "raycast". MUJOCO_GL
             narrows down what "auto" tries.
 
     Raises:
-        ConfigurationError: If it does not work here.
+        ConfigurationError: If it does not work on this machine.
     """
     if wanted == RAYCAST:
         return RAYCAST
@@ -77,8 +76,8 @@ def choose_renderer(wanted: str = "auto") -> str:
                 "auto finds one that does"
             )
         return wanted
-    asked = os.environ.get("MUJOCO_GL", "").lower()
-    tried = BACKENDS if asked in ("", "glfw", "glx") else (asked,)
+    variable = os.environ.get("MUJOCO_GL", "").lower()
+    tried = BACKENDS if variable in ("", "glfw", "glx") else (variable,)
     for backend in tried:
         if backend in BACKENDS and _works(backend):
             return backend
@@ -88,7 +87,11 @@ def choose_renderer(wanted: str = "auto") -> str:
 @lru_cache(maxsize=4)
 def _works(backend: str) -> bool:
     environment = _environment(backend) | {"OPENBLAS_NUM_THREADS": "1"}
-    probe = PROBE.format(backend=backend)
+    probe = PROBE.format(
+        module=__name__,
+        renderer=OffscreenRenderer.__name__,
+        backend=backend,
+    )
     try:
         done = subprocess.run(
             [sys.executable, "-c", probe],
@@ -107,7 +110,7 @@ def _environment(backend: str) -> dict[str, str]:
 
 
 class OffscreenRenderer:
-    """An off-screen picture of one size, that any camera can draw on."""
+    """Off-screen renderer of images of one size, for any camera."""
 
     def __init__(
         self,
@@ -117,7 +120,7 @@ class OffscreenRenderer:
         backend: str,
         look: RenderQuality = PLAIN,
     ) -> None:
-        """Set up graphics; only ever one backend in a process."""
+        """Create the graphics context; a process can use one backend only."""
         os.environ.update(_environment(backend))
         context: Any = import_module(f"mujoco.{backend}").GLContext
         self._model = model
@@ -128,7 +131,7 @@ class OffscreenRenderer:
         quality.numslices, quality.numstacks = look.slices, look.stacks
         if look.shadow:
             model.vis.map.shadowclip = look.reach / model.stat.extent
-        # The third size of a plane is how fine its grid is drawn.
+        # The third size of a plane is the spacing of its rendered grid.
         planes = model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE
         model.geom_size[planes, 2] = GRID
         model.vis.global_.offwidth = width
@@ -137,7 +140,7 @@ class OffscreenRenderer:
         self._context = mujoco.MjrContext(model, scale)
         offscreen = mujoco.mjtFramebuffer.mjFB_OFFSCREEN
         mujoco.mjr_setBuffer(offscreen, self._context)
-        self._scene = mujoco.MjvScene(model, GEOMS)
+        self._scene = mujoco.MjvScene(model, MAX_GEOMS)
         flags = self._scene.flags
         flags[mujoco.mjtRndFlag.mjRND_SHADOW] = look.shadow > 0
         flags[mujoco.mjtRndFlag.mjRND_REFLECTION] = 0
@@ -153,12 +156,12 @@ class OffscreenRenderer:
         camera: int | mujoco.MjvCamera,
         decorate: Callable[[mujoco.MjvScene], None] | None = None,
     ) -> Pixels:
-        """Draw what a camera sees. Shape (height, width, 3).
+        """Render the image of a camera. Shape (height, width, 3).
 
         Args:
             data: State of the model.
-            camera: Number of a camera of the model, or one of its own.
-            decorate: Adds to the scene before it is drawn.
+            camera: Index of a camera of the model, or a free camera.
+            decorate: Function that adds to the scene before rendering.
         """
         self._gl.make_current()
         view = camera
@@ -182,7 +185,7 @@ class OffscreenRenderer:
         return self._pixels[::-1].copy()
 
     def close(self) -> None:
-        """Let go of the graphics."""
+        """Release the graphics context."""
         self._gl.make_current()
         self._context.free()
         self._gl.free()

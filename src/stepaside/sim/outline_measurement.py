@@ -1,4 +1,4 @@
-"""What a robot covers of the floor, measured on its model."""
+"""Outline of a robot on the floor, measured on its model."""
 
 import mujoco
 import numpy as np
@@ -11,24 +11,26 @@ from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.leg_kinematics import LegKinematics
 
-SIDES = 32  # of the polygon around the body
+SIDES = 32  # of the polygon around the trunk
 
 
 def measure_outline(
     description: RobotDescription, gait: GaitSettings
 ) -> BodyOutline:
-    """Measure the outline of a robot that stands as it walks.
+    """Measure the outline of a robot in the stance of its gait.
 
-    It goes around all shapes that can collide: by the directions of a
-    polygon for the trunk with head, arms and legs, and by a rectangle for
-    each foot.
+    It contains all colliding geoms: a polygon around trunk, head, arms and
+    legs, and a rectangle around each foot.
 
     Args:
-        description: The robot.
-        gait: Its gait, which says how it stands.
+        description: Description of the robot.
+        gait: Gait with the standing posture.
+
+    Returns:
+        Outline in the frames of the body and of the feet, in [m].
 
     Raises:
-        ReachError: If the robot cannot stand as the gait asks.
+        ReachError: If the robot cannot stand in this posture.
     """
     half = 0.5 * gait.foot_spacing
     left, right = Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0)
@@ -43,7 +45,7 @@ def measure_outline(
     bodies = [int(model.site(foot).bodyid[0]) for foot in feet]
     solid = np.flatnonzero((model.geom_contype | model.geom_conaffinity) != 0)
     owners = model.geom_bodyid[solid]
-    # The legs at a stance lie between trunk and soles.
+    # The legs of a standing robot lie between trunk and soles.
     root = model.body(description.torso).id
     trunk = _outline_of(
         model,
@@ -70,14 +72,14 @@ def _outline_of(
     axes: Array,
     sides: int,
 ) -> Array:
-    """Corners of a polygon around shapes, in a frame. Shape (sides, 2)."""
+    """Return the polygon around geoms in a frame. Shape (sides, 2)."""
     angles = np.arange(sides) * (2.0 * np.pi / sides)
     normals = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
     level = np.zeros((sides, 3))
     level[:, :2] = normals @ axes.T
     reach = np.max([_reach(model, data, g, level) for g in geoms], axis=0)
     reach = reach - level[:, :2] @ origin
-    # Each corner lies on two lines that follow each other.
+    # Each corner is the intersection of two consecutive lines.
     after, farther = np.roll(normals, -1, axis=0), np.roll(reach, -1)
     lines = np.stack([normals, after], axis=1)
     corners: Array = np.linalg.solve(
@@ -89,7 +91,7 @@ def _outline_of(
 def _reach(
     model: mujoco.MjModel, data: mujoco.MjData, geom: int, along: Array
 ) -> Array:
-    """How far a shape reaches along directions. Shapes (n, 3), (n,)."""
+    """Return the extent of a geom along directions. Shapes (n, 3), (n,)."""
     kind = mujoco.mjtGeom(model.geom_type[geom])
     turned = along @ data.geom_xmat[geom].reshape(3, 3)
     a, b, c = model.geom_size[geom].tolist()

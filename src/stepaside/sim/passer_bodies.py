@@ -1,4 +1,4 @@
-"""Figures of those who pass, where their walks have them."""
+"""Bodies of passers-by in a world, moved along their walks."""
 
 from collections.abc import Callable, Sequence
 
@@ -11,11 +11,11 @@ from .person_body import add_person, parts_of, pose_figure
 
 
 def add_passers(spec: mujoco.MjSpec, passers: Sequence[Passer]) -> None:
-    """Put their figures into a world, to be moved.
+    """Add the bodies of passers-by to a world.
 
     Args:
-        spec: World.
-        passers: Who they are.
+        spec: Specification of the world.
+        passers: The passers-by.
     """
     for number, passer in enumerate(passers, start=1):
         add_person(spec, _name(number), FIGURES[passer.figure])
@@ -27,24 +27,28 @@ def passer_mover(
     passers: Sequence[Passer],
     evader: Pose,
 ) -> Callable[[float], None]:
-    """What puts them where they are at a time, in [s].
+    """Return the function that moves the bodies of passers-by.
 
     Args:
-        model: World that has them.
+        model: Model of the world.
         data: Its state.
-        passers: Who they are.
-        evader: Where the evader stands at first, in the world.
+        passers: The passers-by.
+        evader: Initial pose of the evader in the world.
+
+    Returns:
+        Function of the time, in [s].
     """
     parts = [parts_of(model, _name(i + 1)) for i in range(len(passers))]
 
     def move(time: float) -> None:
         for own, passer in zip(parts, passers, strict=True):
-            pose, way = passer.pose_at(time, evader), passer.speed * time
-            pose_figure(data, own, pose, way, FIGURES[passer.figure])
+            pose = passer.pose_at(time, evader)
+            walked = passer.speed * time
+            pose_figure(data, own, pose, walked, FIGURES[passer.figure])
 
     return move
 
 
 def _name(number: int) -> str:
-    """Prefix of the bodies of a passer; what touches one is told so."""
+    """Return the prefix of the bodies of a passer-by, shown in contacts."""
     return f"passer {number}"

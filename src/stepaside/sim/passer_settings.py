@@ -1,4 +1,4 @@
-"""Somebody who goes another way while a person comes."""
+"""Settings of people who walk past the evader."""
 
 from dataclasses import dataclass
 from math import atan2, cos, pi, sin
@@ -10,20 +10,20 @@ from ..core.ranges import Range, Ranges, check_settings
 from .pedestrian_models import FIGURES
 
 MOST_PASSERS = 20  # of one game
-METRES = Range(-20.0, 20.0, "m", "farther by is out of sight")
+METRES = Range(-20.0, 20.0, "m", "beyond, out of sight")
 
 
 @dataclass(frozen=True, slots=True)
 class Passer:
-    """Somebody who walks straight on, past where the evader stands at first.
+    """Person who walks straight past the initial position of the evader.
 
     Attributes:
-        speed: Of the walk, in [m/s]; 0 stands; 0 to 3.
-        distance: From the evader at first, in [m]; 0 to 100.
-        bearing: Where from, seen from the evader's heading at first, in
-            [rad], positive to its left; -3.14159 to 3.14159.
-        miss: How far beside the evader the walk aims, to the left as it
-            comes, in [m]; -20 to 20.
+        speed: Walking speed, in [m/s]; 0 stands still; 0 to 3.
+        distance: Initial distance from the evader, in [m]; 0 to 100.
+        bearing: Initial bearing from the evader's heading, in [rad], positive
+            leftward; -3.14159 to 3.14159.
+        miss: Lateral offset of the walk from the evader, positive to the left
+            of the walk, in [m]; -20 to 20.
         figure: "adult" or "child".
     """
 
@@ -34,14 +34,14 @@ class Passer:
     figure: str = "adult"
 
     ranges: ClassVar[Ranges] = {
-        "speed": Range(0.0, 3.0, "m/s", "whoever is faster runs"),
-        "distance": Range(0.0, 100.0, "m", "as far as anybody comes from"),
+        "speed": Range(0.0, 3.0, "m/s", "faster is running"),
+        "distance": Range(0.0, 100.0, "m", "the farthest start of a walk"),
         "bearing": Range(-pi, pi, "rad", "half a turn"),
         "miss": METRES,
     }
 
     def __post_init__(self) -> None:
-        """Refuse a walk that is none."""
+        """Check the ranges and the figure."""
         check_settings(self, prefix="passer ")
         if self.figure not in FIGURES:
             raise ConfigurationError(
@@ -50,22 +50,24 @@ class Passer:
             )
 
     def pose_at(self, time: float, evader: Pose) -> Pose:
-        """Where this one is, and heads.
+        """Return the pose at a time, in the world.
 
         Args:
-            time: Since the game began, in [s].
-            evader: Where the evader stood then, in the world.
+            time: Time since the start of the game, in [s].
+            evader: Initial pose of the evader in the world.
         """
-        away = self.distance
-        start = Pose(away * cos(self.bearing), away * sin(self.bearing), 0.0)
+        distance = self.distance
+        start = Pose(
+            distance * cos(self.bearing), distance * sin(self.bearing), 0.0
+        )
         ahead = self.bearing + pi
         aim = -self.miss * sin(ahead), self.miss * cos(ahead)
         course = atan2(aim[1] - start.y, aim[0] - start.x)
-        way = self.speed * time
+        walked = self.speed * time
         return evader.compose(
             Pose(
-                start.x + way * cos(course),
-                start.y + way * sin(course),
+                start.x + walked * cos(course),
+                start.y + walked * sin(course),
                 course,
             )
         )

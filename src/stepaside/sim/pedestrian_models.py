@@ -1,4 +1,4 @@
-"""How persons look: their size, their clothes and their steps."""
+"""Pedestrian models: size, clothes and step length."""
 
 from dataclasses import dataclass
 
@@ -8,14 +8,14 @@ HIP = 0.9  # height of an adult's hips, in [m]
 
 @dataclass(frozen=True, slots=True)
 class PedestrianModel:
-    """One person's look.
+    """Appearance and gait of a pedestrian.
 
     Attributes:
-        size: Of all lengths, those of an adult of 1.74 m being 1.
-        step: Way from one foot to the other, in [m].
-        swing: Of a leg to either side, in [rad], which leads over a step.
-        shirt: Colour, of red, green, blue and opacity.
-        trousers: Likewise.
+        size: Scale of all lengths; 1 for an adult of 1.74 m.
+        step: Step length, in [m].
+        swing: Amplitude of the leg angle, in [rad], which gives that step.
+        shirt: Colour of the shirt: red, green, blue and opacity.
+        trousers: Colour of the trousers.
     """
 
     size: float

@@ -1,4 +1,4 @@
-"""A person: a figure of human size that walks by itself."""
+"""Body of a person in a world, moved along a walk."""
 
 from math import cos, hypot, pi, sin
 
@@ -14,19 +14,20 @@ from .world import FLOOR_BIT, World
 SKIN = (0.85, 0.68, 0.56, 1.0)
 ADULT = FIGURES["adult"]
 PARTS = ("trunk", "left leg", "right leg", "left arm", "right arm")
-SHOULDER = 1.42  # height of an adult's, in [m]
-TRUNK = 0.15  # half depth of the trunk, in [m]
+SHOULDER = 1.42  # height of an adult's shoulders, in [m]
+TRUNK = 0.15  # half depth of an adult's trunk, in [m]
+REACH = 0.4  # of an adult around the trunk with arms hanging, in [m]
 
 
 def add_person(
     spec: mujoco.MjSpec, name: str, figure: PedestrianModel = ADULT
 ) -> None:
-    """Put a figure into a world, as bodies that are moved, not pushed.
+    """Add the bodies of a person to a world; physics does not move them.
 
     Args:
-        spec: World.
-        name: Prefix of its bodies.
-        figure: How it looks.
+        spec: Specification of the world.
+        name: Prefix of the bodies.
+        figure: Pedestrian model.
     """
 
     def capsule(
@@ -61,7 +62,7 @@ def add_person(
 
 
 def parts_of(model: mujoco.MjModel, name: str) -> dict[str, int]:
-    """Numbers of the moved bodies of a figure, by part."""
+    """Return the mocap indices of the bodies of a person, by part."""
     return {
         part: int(model.body(f"{name}/{part}").mocapid[0]) for part in PARTS
     }
@@ -74,32 +75,29 @@ def pose_figure(
     way: float,
     figure: PedestrianModel = ADULT,
 ) -> None:
-    """Put a figure somewhere, in the middle of a step.
+    """Set the poses of the bodies of a person.
 
     Args:
         data: State of the world.
-        parts: As of :func:`parts_of`.
-        frame: Where the figure is and heads.
-        way: How far it has walked, in [m].
-        figure: How it looks.
+        parts: Mocap indices, from :func:`parts_of`.
+        frame: Pose of the person in the world.
+        way: Distance walked, which is the phase of the step, in [m].
+        figure: Pedestrian model.
     """
     size = figure.size
     swing = figure.swing * sin(pi * way / figure.step)
-    spots = {
+    positions = {
         "trunk": (0.0, 0.0, 0.0, 0.0),
         "left leg": (0.0, 0.09, HIP, swing),
         "right leg": (0.0, -0.09, HIP, -swing),
         "left arm": (0.0, 0.2, SHOULDER, -0.7 * swing),
         "right arm": (0.0, -0.2, SHOULDER, 0.7 * swing),
     }
-    for part, (x, y, z, pitch) in spots.items():
-        at = parts[part]
+    for part, (x, y, z, pitch) in positions.items():
+        index = parts[part]
         place = frame.compose(Pose(size * x, size * y, 0.0))
-        data.mocap_pos[at] = place.x, place.y, size * z
-        data.mocap_quat[at] = _turned(frame.theta, pitch)
-
-
-REACH = 0.4  # arms of an adult, who keeps them down, [m]
+        data.mocap_pos[index] = place.x, place.y, size * z
+        data.mocap_quat[index] = _quaternion(frame.theta, pitch)
 
 
 class PersonTruth:
@@ -108,43 +106,43 @@ class PersonTruth:
     def __init__(
         self, motion: PersonMotion, figure: PedestrianModel = ADULT
     ) -> None:
-        """Watch the walk of somebody."""
+        """Read the state from the walk of a person."""
         self._motion, self._size = motion, figure.size
         self.reach = REACH * figure.size
 
     @property
     def com(self) -> Array:
-        """A point in the middle of the trunk, in [m]. Shape (3,)."""
+        """Middle of the trunk in the world, in [m]. Shape (3,)."""
         return np.array([*self._motion.pose[:2], self._size])
 
     @property
     def position(self) -> tuple[float, float]:
-        """Place of the trunk's axis, in [m]."""
+        """Position of the axis of the trunk in the world, in [m]."""
         return self._motion.pose[:2]
 
     @property
     def place(self) -> tuple[float, float]:
-        """Point that stands for the person: the trunk's axis, in [m]."""
+        """Reference point: the axis of the trunk in the world, in [m]."""
         return self.position
 
     @property
     def heading(self) -> float:
-        """Direction in which the person faces, in [rad]."""
+        """Heading of the person in the world, in [rad]."""
         return self._motion.pose.theta
 
     @property
     def has_fallen(self) -> bool:
-        """Return false: this person does not fall."""
+        """Return false: a person does not fall."""
         return False
 
 
 class PersonBody:
-    """The figure of a person in a world, where a walk has it.
+    """Person in a world who follows a walk.
 
     Attributes:
         world: The world.
-        name: Its name there.
-        truth: Where it is.
+        name: Name of the person in the world.
+        truth: True state.
     """
 
     def __init__(
@@ -154,42 +152,42 @@ class PersonBody:
         motion: PersonMotion,
         figure: PedestrianModel = ADULT,
     ) -> None:
-        """Stand a figure where its walk begins."""
+        """Set the bodies to the start of the walk."""
         self.world, self.name = world, name
         self.truth = PersonTruth(motion, figure)
         self._figure = figure
         self._motion = motion
-        self._way = 0.0
+        self._walked = 0.0
         self._parts = parts_of(world.model, name)
-        self._place()
+        self._update_bodies()
 
     @property
     def visits(self) -> RepeatedVisits:
-        """Its visits, if it comes and goes."""
+        """Repeated visits of the walk."""
         return self._motion.visits
 
     def step(self, other: tuple[float, float]) -> None:
-        """Walk for one tick.
+        """Advance the walk by one tick.
 
         Args:
-            other: Place of whom the person may walk to, in [m].
+            other: Position of the evader in the world, in [m].
         """
         before = self._motion.pose
         tick = self.world.physics.tick
         self._motion.advance(self.world.time + tick, tick, other)
         x, y, _ = self._motion.pose
-        self._way += hypot(x - before.x, y - before.y)
-        self._place()
+        self._walked += hypot(x - before.x, y - before.y)
+        self._update_bodies()
 
-    def _place(self) -> None:
-        """Put trunk, legs and arms where the walk has them."""
+    def _update_bodies(self) -> None:
+        """Set the poses of trunk, legs and arms."""
         data = self.world.data
         pose = self._motion.pose
-        pose_figure(data, self._parts, pose, self._way, self._figure)
+        pose_figure(data, self._parts, pose, self._walked, self._figure)
 
 
-def _turned(heading: float, pitch: float) -> tuple[float, ...]:
-    """Quaternion of a heading, and a pitch after it."""
+def _quaternion(heading: float, pitch: float) -> tuple[float, ...]:
+    """Return the quaternion of a heading followed by a pitch."""
     ch, sh = cos(0.5 * heading), sin(0.5 * heading)
     cp, sp = cos(0.5 * pitch), sin(0.5 * pitch)
     return ch * cp, -sh * sp, ch * sp, sh * cp

@@ -1,4 +1,4 @@
-"""Where a person walks."""
+"""Walks of a person: steering, straight, repeated or recorded."""
 
 import csv
 from collections.abc import Callable
@@ -17,23 +17,22 @@ Place = tuple[float, float]
 
 
 class PersonMotion:
-    """A walk, step by step.
+    """Walk of a person, integrated step by step.
 
     Attributes:
-        pose: Where the person is and faces, in the world.
-        visits: Of somebody who comes and goes.
+        pose: Pose of the person in the world.
+        visits: State of repeated visits.
     """
 
     def __init__(
         self, settings: PersonSettings, start: Pose, evader: Place
     ) -> None:
-        """Begin a walk.
+        """Start a walk.
 
         Args:
-            settings: How the person walks.
-            start: Where the walk begins; a recorded path begins where it
-                says itself.
-            evader: Place of the evader then, in [m].
+            settings: Settings of the walk.
+            start: Initial pose in the world; a recorded path ignores it.
+            evader: Initial position of the evader in the world, in [m].
 
         Raises:
             ConfigurationError: If a recorded path cannot be read.
@@ -42,38 +41,41 @@ class PersonMotion:
         self._recorded: Array | None = None
         heading = start.theta
         if settings.path in ("straight", "visits"):
-            away = atan2(evader[1] - start.y, evader[0] - start.x)
+            sight = atan2(evader[1] - start.y, evader[0] - start.x)
             aim = (
-                evader[0] - settings.miss * sin(away),
-                evader[1] + settings.miss * cos(away),
+                evader[0] - settings.miss * sin(sight),
+                evader[1] + settings.miss * cos(sight),
             )
             heading = atan2(aim[1] - start.y, aim[0] - start.x)
         self._course = heading
         self.visits = RepeatedVisits(settings.miss)
-        self._way, self._turned = 0.0, False
-        self.pose = self._facing(start.x, start.y)
+        self._walked, self._has_turned = 0.0, False
+        self.pose = self._pose_facing(start.x, start.y)
         if settings.path not in PATHS:
             self._recorded = read_path(Path(settings.path))
-            self.pose = self._at(0.0)
+            self.pose = self._recorded_pose(0.0)
 
     def advance(self, time: float, duration: float, evader: Place) -> None:
-        """Walk on.
+        """Advance the walk by one step.
 
         Args:
             time: Time at the end of the step, in [s].
-            duration: Of the step, in [s].
-            evader: Place of the evader, in [m].
+            duration: Duration of the step, in [s].
+            evader: Position of the evader in the world, in [m].
         """
         if self._recorded is not None:
-            self.pose = self._at(time)
+            self.pose = self._recorded_pose(time)
             return
         x, y, _ = self.pose
         settings = self._settings
-        way = settings.speed * duration
-        if self._way + 0.5 * way > settings.halt_after:
+        step_length = settings.speed * duration
+        if self._walked + 0.5 * step_length > settings.halt_after:
             return
-        if not self._turned and self._way + 0.5 * way > settings.turn_after:
-            self._turned = True
+        if (
+            not self._has_turned
+            and self._walked + 0.5 * step_length > settings.turn_after
+        ):
+            self._has_turned = True
             self._course += settings.turn
         if settings.path == "visits":
             self._course = self.visits.course((x, y), self._course, evader)
@@ -83,26 +85,28 @@ class PersonMotion:
             aim = laws.pursuit_heading(wrap_angle(sight - self._course))
             rate = laws.proportional_rate(aim, settings.gain)
             self._course += rate * duration
-        self._way += way
+        self._walked += step_length
         course = self._course
-        self.pose = self._facing(x + way * cos(course), y + way * sin(course))
+        self.pose = self._pose_facing(
+            x + step_length * cos(course), y + step_length * sin(course)
+        )
 
-    def _facing(self, x: float, y: float) -> Pose:
-        """Somewhere, facing where the walk goes or away from it."""
+    def _pose_facing(self, x: float, y: float) -> Pose:
+        """Return the pose at a position, facing along the walk or backward."""
         if self._settings.backward:
             return Pose(x, y, wrap_angle(self._course + pi))
         return Pose(x, y, self._course)
 
-    def _at(self, time: float) -> Pose:
+    def _recorded_pose(self, time: float) -> Pose:
         assert self._recorded is not None
         times, x, y = self._recorded.T
         later = min(time, float(times[-1]) - 0.1) + 0.1
         u = np.interp([time, later - 0.1, later], times, x)
         v = np.interp([time, later - 0.1, later], times, y)
-        here = float(u[0]), float(v[0])
+        position = float(u[0]), float(v[0])
         dx, dy = float(u[2] - u[1]), float(v[2] - v[1])
         heading = atan2(dy, dx) if (dx, dy) != (0.0, 0.0) else 0.0
-        return Pose(*here, heading)
+        return Pose(*position, heading)
 
 
 def read_path(file: Path) -> Array:
@@ -112,13 +116,13 @@ def read_path(file: Path) -> Array:
         Rows of time [s], x [m] and y [m]. Shape (n, 3).
 
     Raises:
-        ConfigurationError: If it is no such file.
+        ConfigurationError: If the file is unreadable or invalid.
     """
     try:
         with file.open(encoding="utf-8", newline="") as lines:
             rows = list(csv.reader(lines))
         if not rows or [c.strip() for c in rows[0]] != ["time", "x", "y"]:
-            raise ValueError("its first line is not time,x,y")
+            raise ValueError("the first line must be time,x,y")
         table = np.array([[float(cell) for cell in row] for row in rows[1:]])
     except (OSError, ValueError) as error:
         raise ConfigurationError(
@@ -132,8 +136,8 @@ def read_path(file: Path) -> Array:
         )
     if not (np.isfinite(table).all() and (np.diff(table[:, 0]) > 0.0).all()):
         raise ConfigurationError(
-            f"times of a recorded path must be finite and rise [s], {file} "
-            "does not keep that"
+            "times and positions of a recorded path must be finite, and times "
+            f"must increase [s, m, m], those in {file} are not or do not"
         )
     return table
 
@@ -150,41 +154,41 @@ def template_approach(
     duration: float,
     step: float = 0.01,
 ) -> float:
-    """Closest approach of the person to the template of the evader.
+    """Compute the closest approach of a person to the evader's template.
 
-    The evader is a unicycle in gait time: it stands until the person is in
-    the safety area, and then walks backward across the line of sight.
+    The evader is a unicycle: it stands until the person is within the safety
+    radius, and then walks backward across the line of sight.
 
     Args:
-        motion: Begins a walk of the person.
-        start: Where it begins.
-        evader: Where the evader stands and heads.
-        speed: Of the evader, in [m/s] of real time.
-        gain: Of its turning, in [1/s] of real time.
-        angle: Its strategy, in [rad].
-        safety_radius: In [m].
-        duration: How long to look, in [s].
-        step: Of the integration, in [s].
+        motion: Function that starts a walk of the person.
+        start: Initial pose of the person in the world.
+        evader: Initial pose of the evader in the world.
+        speed: Speed of the evader, in [m/s].
+        gain: Steering gain of the evader, in [1/s].
+        angle: Evasion angle, in [rad].
+        safety_radius: Safety radius, in [m].
+        duration: Duration of the game, in [s].
+        step: Time step of the integration, in [s].
 
     Returns:
-        Least distance, in [m].
+        Smallest distance, in [m].
     """
     x, y, theta = evader
     walk = motion(start, (x, y))
     side = 0
-    least = float(np.hypot(walk.pose.x - x, walk.pose.y - y))
+    closest = float(np.hypot(walk.pose.x - x, walk.pose.y - y))
     for i in range(round(duration / step)):
         walk.advance((i + 1) * step, step, (x, y))
         px, py, _ = walk.pose
-        away = float(np.hypot(px - x, py - y))
-        least = min(least, away)
-        if not laws.is_evading(side != 0, away, safety_radius, inf):
+        distance = float(np.hypot(px - x, py - y))
+        closest = min(closest, distance)
+        if not laws.is_evading(side != 0, distance, safety_radius, inf):
             continue
-        seen = wrap_angle(atan2(py - y, px - x) - theta)
-        side = side or laws.side_behind(seen)
-        aim = laws.evasion_heading(seen, side, angle)
+        bearing = wrap_angle(atan2(py - y, px - x) - theta)
+        side = side or laws.side_behind(bearing)
+        aim = laws.evasion_heading(bearing, side, angle)
         theta += laws.proportional_rate(aim, gain) * step
         x -= step * speed * cos(theta)
         y -= step * speed * sin(theta)
         theta = wrap_angle(theta) if abs(theta) > pi else theta
-    return least
+    return closest

@@ -1,4 +1,4 @@
-"""A person instead of the pursuing robot."""
+"""Settings of a person who plays the pursuer."""
 
 from dataclasses import dataclass
 from math import inf, pi
@@ -14,26 +14,26 @@ PURSUERS = ("robot", "person")
 
 @dataclass(frozen=True, slots=True)
 class PersonSettings:
-    """How a person walks.
+    """Settings of the walk of a person.
 
     Attributes:
-        path: "steer" turns towards the evader by (1)-(2), "straight" walks
-            on in the direction in which the walk begins, "visits" comes and
-            goes, each time from elsewhere, and everything else is a file of a
-            recorded path: CSV lines of time [s], x [m] and y [m] with a head
-            line ``time,x,y``.
-        speed: Of the walk, in [m/s]; 0.001 to 3.
-        gain: Of the steering (1)-(2), in [1/s] of real time; 0.0001 to 100.
-        miss: How far to the left of the evader a straight walk aims, and the
-            first of many visits, [m]; -10 to 10.
-        halt_after: Way after which the person stands still, in [m]; 0 to 100
-            or inf.
-        turn_after: Way after which the person turns once, in [m]; 0 to 100
-            or inf.
-        turn: By how much, in [rad], positive leftward; -3.14159 to 3.14159.
-        backward: Whether the person walks backward, and so faces away from
-            where the walk goes.
-        figure: "adult" or "child", who differ in size, clothes and steps.
+        path: "steer" steers towards the evader by (1)-(2), "straight" keeps
+            the initial direction, "visits" crosses the room repeatedly from
+            changing directions; any other text is the file of a recorded
+            path: CSV lines of time [s], x [m] and y [m] with the header
+            ``time,x,y``.
+        speed: Walking speed, in [m/s]; 0.001 to 3.
+        gain: Steering gain of (1)-(2), in [1/s]; 0.0001 to 100.
+        miss: Lateral offset to the left of the evader at which a straight
+            walk or the first visit aims, in [m]; -10 to 10.
+        halt_after: Distance after which the person stands still, in [m]; 0 to
+            100 or inf.
+        turn_after: Distance after which the person turns once, in [m]; 0 to
+            100 or inf.
+        turn: Angle of that turn, in [rad], positive leftward; -3.14159 to
+            3.14159.
+        backward: Whether the person walks backward.
+        figure: "adult" or "child", with different size, clothes and steps.
     """
 
     path: str = "steer"
@@ -47,20 +47,16 @@ class PersonSettings:
     figure: str = "adult"
 
     ranges: ClassVar[Ranges] = {
-        "speed": Range(1e-3, 3.0, "m/s", "whoever is faster runs"),
-        "gain": Range(1e-4, 100.0, "1/s", "as a robot's"),
-        "miss": Range(-10.0, 10.0, "m", "farther by is out of sight"),
-        "halt_after": Range(
-            *(0.0, 100.0, "m"), "farther on it is another walk", also=(inf,)
-        ),
-        "turn_after": Range(
-            *(0.0, 100.0, "m"), "farther on it is another walk", also=(inf,)
-        ),
-        "turn": Range(-pi, pi, "rad", "more is less to the other side"),
+        "speed": Range(1e-3, 3.0, "m/s", "faster is running"),
+        "gain": Range(1e-4, 100.0, "1/s", "as of a robot"),
+        "miss": Range(-10.0, 10.0, "m", "beyond, out of sight"),
+        "halt_after": Range(0.0, 100.0, "m", "the longest walk", also=(inf,)),
+        "turn_after": Range(0.0, 100.0, "m", "the longest walk", also=(inf,)),
+        "turn": Range(-pi, pi, "rad", "half a turn"),
     }
 
     def __post_init__(self) -> None:
-        """Refuse a walk that is none."""
+        """Check the ranges, the path and the figure."""
         check_settings(self, prefix="person.")
         if not self.path:
             raise ConfigurationError(
@@ -74,10 +70,10 @@ class PersonSettings:
 
 
 def check_pursuer(pursuer: str) -> None:
-    """Refuse an unknown pursuer.
+    """Check the kind of pursuer.
 
     Raises:
-        ConfigurationError: If it is none.
+        ConfigurationError: If it is unknown.
     """
     if pursuer not in PURSUERS:
         raise ConfigurationError(

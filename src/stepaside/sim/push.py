@@ -1,4 +1,4 @@
-"""Somebody bumps into a robot."""
+"""Pushes of robots."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,20 +8,21 @@ from typing import ClassVar, NamedTuple
 from ..core.errors import ConfigurationError
 from ..core.ranges import Range, Ranges, check_settings
 
-MOST_PUSHES = 1000  # of one game
+MOST_PUSHES = 1000  # in one game
 
 
 @dataclass(frozen=True, slots=True)
 class Push:
-    """A constant force at the torso for a short while.
+    """Constant horizontal force at the torso for a short time.
 
     Attributes:
         impulse: Force times duration, in [N s]; 0 to 1000.
-        time: When it begins, in [s]; 0 to 86400.
-        direction: Where it pushes to, from the robot's heading at that time,
-            in [rad]: 0 forward, pi/2 to the left; -6.28319 to 6.28319.
-        duration: How long it lasts, in [s]; 0.0001 to 100.
-        player: Who is pushed; by default the walker, or a duel's evader.
+        time: Start time, in [s]; 0 to 86400.
+        direction: Direction of the force from the robot's heading at that
+            time, in [rad]: 0 forward, pi/2 to the left; -6.28319 to 6.28319.
+        duration: Duration, in [s]; 0.0001 to 100.
+        player: Name of the pushed robot; by default the walker, or the evader
+            of a duel.
     """
 
     impulse: float
@@ -31,27 +32,29 @@ class Push:
     player: str = ""
 
     ranges: ClassVar[Ranges] = {
-        "impulse": Range(0.0, 1000.0, "N s", "a car does not give more"),
-        "time": Range(0.0, 86400.0, "s", "as long as a walk may be"),
-        "direction": Range(-2 * pi, 2 * pi, "rad", "a whole turn"),
-        "duration": Range(1e-4, 100.0, "s", "some steps of the physics"),
+        "impulse": Range(
+            0.0, 1000.0, "N s", "far beyond what a humanoid survives"
+        ),
+        "time": Range(0.0, 86400.0, "s", "the longest walk"),
+        "direction": Range(-2 * pi, 2 * pi, "rad", "a full turn"),
+        "duration": Range(1e-4, 100.0, "s", "at least a physics step"),
     }
 
     def __post_init__(self) -> None:
-        """Refuse pushes that nobody can give."""
+        """Check the ranges."""
         check_settings(self, prefix="push ")
 
 
 class ScheduledPush(NamedTuple):
-    """A push as it was given, in the world.
+    """Push with its impulse in the world.
 
     Attributes:
-        time: When it began, in [s].
-        duration: How long it lasts, in [s].
-        x: Place of the torso when it began, in [m].
-        y: Likewise.
-        impulse_x: Impulse, in [N s].
-        impulse_y: Likewise.
+        time: Start time, in [s].
+        duration: Duration, in [s].
+        x: Position of the torso at the start, x in the world, in [m].
+        y: Position of the torso at the start, y in the world, in [m].
+        impulse_x: Impulse along x of the world, in [N s].
+        impulse_y: Impulse along y of the world, in [N s].
     """
 
     time: float
@@ -63,30 +66,28 @@ class ScheduledPush(NamedTuple):
 
 
 def check_pushes(pushes: Sequence[Push], robots: Sequence[str]) -> None:
-    """Refuse pushes of somebody who is no robot of a game.
+    """Check that pushes name robots of a game.
 
     Args:
-        pushes: Whoever bumps into whom.
-        robots: Names of those who can be pushed; the last is meant by a push
-            that names nobody.
+        pushes: Pushes of a game.
+        robots: Names of the robots; a push without a name is of the last.
 
     Raises:
-        ConfigurationError: If a push names somebody else.
+        ConfigurationError: If a push names any other player.
     """
     for push in pushes:
         if push.player not in ("", *robots):
             raise ConfigurationError(
-                f"push player must be one of {', '.join(robots)}, who can be "
-                f"pushed, got {push.player!r}"
+                f"push player must be one of {', '.join(robots)}, got "
+                f"{push.player!r}"
             )
 
 
 def pushes_of(
     pushes: Sequence[Push], robots: Sequence[str]
 ) -> dict[str, tuple[Push, ...]]:
-    """Pushes by name of who is pushed; see :func:`check_pushes`."""
-    named = [(push.player or robots[-1], push) for push in pushes]
+    """Group pushes by the name of the robot; see :func:`check_pushes`."""
     return {
-        name: tuple(push for who, push in named if who == name)
+        name: tuple(p for p in pushes if (p.player or robots[-1]) == name)
         for name in robots
     }

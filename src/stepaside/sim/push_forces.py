@@ -1,4 +1,4 @@
-"""What lets pushes act on a body of the world."""
+"""Forces of pushes on a body of the world."""
 
 from collections import deque
 from math import cos, sin
@@ -7,15 +7,15 @@ import mujoco
 
 from .push import Push, ScheduledPush
 
-KEPT = 1000  # pushes that are remembered; a live game has no end
+MAX_STORED = 1000  # pushes; a live game may run without end
 
 
 class PushApplier:
     """Applies pushes to one body of a world.
 
     Attributes:
-        impulse: Impulse given so far in the world, in [N s].
-        given: The last pushes that began.
+        impulse: Total impulse so far in the world, in [N s].
+        given: Most recent pushes that have started.
     """
 
     def __init__(
@@ -24,27 +24,28 @@ class PushApplier:
         data: mujoco.MjData,
         torso: int,
     ) -> None:
-        """Prepare pushes of the body with a given number."""
+        """Prepare pushes of the body with an index."""
         self._force = data.xfrc_applied[torso]
-        self._frame, self._place = data.xmat[torso], data.xpos[torso]
+        self._frame = data.xmat[torso]
+        self._position = data.xpos[torso]
         self._time_step = model.opt.timestep
-        self._waiting: list[Push] = []
+        self._scheduled: list[Push] = []
         self._active: list[tuple[float, float, float]] = []
         self.impulse = (0.0, 0.0)
-        self.given: deque[ScheduledPush] = deque(maxlen=KEPT)
+        self.given: deque[ScheduledPush] = deque(maxlen=MAX_STORED)
 
     def add(self, push: Push) -> None:
-        """Take one more push."""
-        self._waiting = sorted(
-            [*self._waiting, push], key=lambda push: push.time
+        """Schedule a push."""
+        self._scheduled = sorted(
+            [*self._scheduled, push], key=lambda push: push.time
         )
 
     def before_step(self, time: float) -> None:
-        """Set the force for the physics step that begins at a time, [s]."""
-        if not self._waiting and not self._active:
+        """Set the force for the physics step that starts at a time, [s]."""
+        if not self._scheduled and not self._active:
             return
-        while self._waiting and self._waiting[0].time <= time + 1e-9:
-            self._begin(self._waiting.pop(0), time)
+        while self._scheduled and self._scheduled[0].time <= time + 1e-9:
+            self._start(self._scheduled.pop(0), time)
         self._active = [a for a in self._active if a[0] > time + 1e-9]
         fx = sum(a[1] for a in self._active)
         fy = sum(a[2] for a in self._active)
@@ -52,8 +53,8 @@ class PushApplier:
         given, h = self.impulse, self._time_step
         self.impulse = given[0] + fx * h, given[1] + fy * h
 
-    def _begin(self, push: Push, time: float) -> None:
-        """Turn a push with the torso, and let it act from now on."""
+    def _start(self, push: Push, time: float) -> None:
+        """Start a push, in the direction of the torso's heading."""
         x, y = self._frame[0], self._frame[3]
         length = (x * x + y * y) ** 0.5 or 1.0
         x, y = x / length, y / length
@@ -61,7 +62,14 @@ class PushApplier:
         force = push.impulse / push.duration
         fx, fy = force * (c * x - s * y), force * (c * y + s * x)
         self._active.append((time + push.duration, fx, fy))
-        at, lasts = self._place.tolist(), push.duration
+        position = self._position.tolist()
         self.given.append(
-            ScheduledPush(time, lasts, at[0], at[1], fx * lasts, fy * lasts)
+            ScheduledPush(
+                time,
+                push.duration,
+                position[0],
+                position[1],
+                fx * push.duration,
+                fy * push.duration,
+            )
         )

@@ -1,4 +1,4 @@
-"""Cameras and sonars by casting rays: no graphics needed."""
+"""Cameras and sonars by ray casting, without graphics."""
 
 import mujoco
 import numpy as np
@@ -9,18 +9,28 @@ from ..perception.images import Depths, Pixels
 from ..robots.head import Mount
 from .camera_settings import DepthSettings, SonarSettings
 
-SEEN = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)  # groups with a look
+VISIBLE = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)  # geom groups
 SKY = np.array([0.78, 0.84, 0.90])
-SUN = np.array([-0.2, -0.3, 1.0]) / np.sqrt(1.13)  # where light comes from
+SUN = np.array([-0.2, -0.3, 1.0]) / np.sqrt(1.13)  # direction to the light
 AMBIENT, DIFFUSE = 0.55, 0.45
 TILE = 0.5  # side of a square of the floor, in [m]
-SLANT = 0.12  # least cosine at which a surface sends anything back
+MIN_COSINE = 0.12  # of the incidence angle for a return to depth cameras
+MIN_COSINE_SONAR = 0.5  # of the incidence angle for an echo
 CONE_RAYS = 6  # across the cone of a sonar
 UP = np.array([0.0, 0.0, 1.0])
 
 
 class RayCaster:
-    """Casts rays from a mount on a body, which itself is not hit."""
+    """Ray caster from a mount on a body, which the rays ignore.
+
+    Attributes:
+        along: Depth along the mount axis per distance. Shape (n,).
+        geoms: Indices of the geoms hit; -1 for none. Shape (n,).
+        distances: Distances to the hits, in [m]; -1 for none. Shape (n,).
+        normals: Surface normals in the world. Shape (n, 3).
+        directions: Ray directions in the world. Shape (n, 3).
+        origin: Origin of the rays in the world, in [m]. Shape (3,).
+    """
 
     def __init__(
         self,
@@ -33,18 +43,18 @@ class RayCaster:
         """Prepare rays.
 
         Args:
-            model: The world.
+            model: Model of the world.
             data: Its state.
-            body: Body that carries the mount.
-            mount: Place and axes on it.
-            rays: Directions in the mount's axes; any length. Shape (n, 3).
+            body: Name of the body that carries the mount.
+            mount: Position and axes on that body.
+            rays: Directions in the mount frame, of any length. Shape (n, 3).
         """
         self._model, self._data = model, data
         self._body = model.body(body).id
         self._mount = mount
         lengths = np.linalg.norm(rays, axis=1)
         self._rays = rays / lengths[:, None]
-        self.along = 1.0 / lengths  # depth along the axis per distance
+        self.along = 1.0 / lengths
         count = len(rays)
         self.geoms = np.zeros(count, dtype=np.int32)
         self.distances = np.zeros(count)
@@ -53,7 +63,7 @@ class RayCaster:
         self.origin = np.zeros(3)
 
     def cast(self, cutoff: float) -> None:
-        """Cast all rays as far as ``cutoff``, in [m]; misses are -1."""
+        """Cast all rays up to a distance, in [m]; misses are -1."""
         data = self._data
         axes = data.xmat[self._body].reshape(3, 3)
         self.origin = data.xpos[self._body] + axes @ self._mount.place
@@ -64,7 +74,7 @@ class RayCaster:
             data,
             self.origin,
             turned.reshape(-1),
-            SEEN,
+            VISIBLE,
             True,
             self._body,
             self.geoms,
@@ -76,7 +86,7 @@ class RayCaster:
 
     @property
     def slants(self) -> Array:
-        """Cosine between each ray and the surface it hits. Shape (n,)."""
+        """Cosines of the angles of incidence. Shape (n,)."""
         slants: Array = np.abs(
             np.einsum("ij,ij->i", self.directions, self.normals)
         )
@@ -84,7 +94,7 @@ class RayCaster:
 
 
 class DepthCaster:
-    """A depth camera with the faults of a structured-light one."""
+    """Depth camera with the errors of structured light."""
 
     def __init__(
         self,
@@ -93,25 +103,25 @@ class DepthCaster:
         settings: DepthSettings,
         generator: np.random.Generator,
     ) -> None:
-        """Take images of a camera through its rays."""
+        """Use the rays of a camera."""
         self._caster, self._camera = caster, camera
         self._settings, self._generator = settings, generator
 
     def take(self) -> Depths:
-        """Take an image: depths in [m], 0 where nothing came back."""
+        """Return a depth image, in [m]; 0 without return."""
         caster, settings = self._caster, self._settings
         caster.cast(2.0 * settings.far)
         hit = caster.distances > 0.0
         depth = caster.distances * caster.along
-        square = depth**2
+        squared = depth**2
         draw = self._generator.standard_normal(depth.size)
-        depth = depth + settings.noise * square * draw
-        quantum = settings.step * square + 1e-6
+        depth = depth + settings.noise * squared * draw
+        quantum = settings.step * squared + 1e-6
         depth = np.round(depth / quantum) * quantum
-        lost = self._generator.random(depth.size) < settings.missing
-        lost |= ~hit | (caster.slants < SLANT)
-        lost |= (depth < settings.near) | (depth > settings.far)
-        depth[lost] = 0.0
+        missing = self._generator.random(depth.size) < settings.missing
+        missing |= ~hit | (caster.slants < MIN_COSINE)
+        missing |= (depth < settings.near) | (depth > settings.far)
+        depth[missing] = 0.0
         shape = self._camera.height, self._camera.width
         image: Depths = depth.reshape(shape).astype(np.float32)
         image[_edges(image)] = 0.0
@@ -119,9 +129,10 @@ class DepthCaster:
 
 
 def _edges(image: Depths) -> np.ndarray:
-    """Pixels in the shadow of a nearer neighbour: the projector's parallax.
+    """Return pixels in the shadow of a nearer neighbour.
 
-    The projector sits to the right: what is left of a near edge is dark.
+    The projector is to the right of the camera, so the pixels left of a near
+    edge have no return.
     """
     edge = np.zeros(image.shape, dtype=bool)
     jump = image[:, :-1] - image[:, 1:]
@@ -130,23 +141,25 @@ def _edges(image: Depths) -> np.ndarray:
 
 
 class ColourCaster:
-    """A colour camera where no graphics are: flat colours, one light."""
+    """Colour camera with flat colours and one light."""
 
     def __init__(
         self, model: mujoco.MjModel, caster: RayCaster, camera: CameraModel
     ) -> None:
-        """Take images of a camera through its rays."""
+        """Use the rays of a camera."""
         self._caster, self._camera = caster, camera
         colours = model.geom_rgba[:, :3].copy()
-        worn = model.geom_matid >= 0
-        colours[worn] = model.mat_rgba[model.geom_matid[worn], :3]
+        has_material = model.geom_matid >= 0
+        colours[has_material] = model.mat_rgba[
+            model.geom_matid[has_material], :3
+        ]
         self._colours = colours
         self._floor = model.geom("floor").id
         walls = [i for i in range(model.ngeom) if "wall" in model.geom(i).name]
         self._colours[walls] = (0.74, 0.75, 0.73)
 
     def take(self) -> Pixels:
-        """Take an image. Shape (height, width, 3)."""
+        """Return a colour image. Shape (height, width, 3)."""
         caster = self._caster
         caster.cast(40.0)
         geoms = caster.geoms
@@ -171,7 +184,7 @@ class ColourCaster:
 
 
 class SonarCaster:
-    """A sonar: the nearest thing in a cone that faces it well enough."""
+    """Sonar: distance of the nearest surface in a cone that faces it."""
 
     def __init__(
         self,
@@ -179,20 +192,20 @@ class SonarCaster:
         settings: SonarSettings,
         generator: np.random.Generator,
     ) -> None:
-        """Listen through the rays of a cone."""
+        """Use the rays of a cone."""
         self._caster, self._settings = caster, settings
         self._generator = generator
 
     def listen(self) -> float | None:
-        """Distance of the nearest echo, in [m]; None if all is silent."""
+        """Return the distance of the nearest echo, in [m]; None without."""
         settings, caster = self._settings, self._caster
         caster.cast(settings.far + 0.1)
-        heard = (caster.distances > 0.0) & (caster.slants > 0.5)
-        # The floor throws sound away from the robot.
-        heard &= np.abs(caster.normals @ UP) < 0.9
-        if not heard.any():
+        echoes = (caster.distances > 0.0) & (caster.slants > MIN_COSINE_SONAR)
+        # The floor reflects sound away from the robot.
+        echoes &= np.abs(caster.normals @ UP) < 0.9
+        if not echoes.any():
             return None
-        distance = float(caster.distances[heard].min())
+        distance = float(caster.distances[echoes].min())
         distance += settings.noise * float(self._generator.standard_normal())
         distance = round(distance / settings.step) * settings.step
         if distance > settings.far:
@@ -201,7 +214,7 @@ class SonarCaster:
 
 
 def cone(opening: float) -> Array:
-    """Rays that fill a cone about x. Shape (n, 3)."""
+    """Return rays that fill a cone about x. Shape (n, 3)."""
     reach = np.tan(0.5 * opening)
     across = np.linspace(-reach, reach, CONE_RAYS)
     y, z = np.meshgrid(across, across)

@@ -1,4 +1,4 @@
-"""Walls, things that stand about, and what robots wear to see."""
+"""Walls, objects and robot-mounted cameras of a simulated room."""
 
 from collections.abc import Callable, Sequence
 
@@ -8,10 +8,10 @@ import numpy as np
 from ..robots.head import HeadDescription, Mount
 from .camera_settings import SceneSettings
 
-FLOOR_BIT = 1  # as of the floor: robots run into it
-LOWER = "lower_camera"  # of a head, as the world calls it
-HIDDEN = 3  # group of shapes that only the robots' cameras are drawn with
-WALL_HEIGHT = 1.2  # half of it, in [m]
+FLOOR_BIT = 1  # contact type of the floor, with which robots collide
+LOWER = "lower_camera"  # name of the bottom camera of a head in the model
+HIDDEN = 3  # geom group that only the cameras of robots render
+HALF_WALL_HEIGHT = 1.2  # in [m]
 SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))
 TONES = ((0.78, 0.76, 0.72), (0.70, 0.74, 0.74))
 BOXES = {
@@ -19,7 +19,7 @@ BOXES = {
     "blue box": (0.12, 0.34, 0.72, 1.0),
 }
 WHITE = (0.95, 0.95, 0.94, 1.0)
-# Ellipsoids of a figure as tall as a NAO: place and half axes, in [m].
+# Ellipsoids of a figure as tall as a NAO: position and half axes, in [m].
 FIGURE = (
     ((0.0, 0.0, 0.50), (0.062, 0.066, 0.064)),
     ((0.0, 0.0, 0.35), (0.060, 0.080, 0.100)),
@@ -39,14 +39,14 @@ def furnisher(
     walls: float,
     lower: Sequence[str] = (),
 ) -> Furnish:
-    """What turns an empty world into a room.
+    """Return the function that adds walls, objects and cameras to a world.
 
     Args:
-        room: Things in it.
-        wearer: Robot that wears the depth camera.
-        head: Its head.
-        walls: Distance of the walls from the middle, in [m]; 0 for none.
-        lower: Robots that use the lower camera of their heads, too.
+        room: Scene with the objects.
+        wearer: Name of the robot with the depth camera.
+        head: Description of its head.
+        walls: Distance of the walls from the origin, in [m]; 0 for none.
+        lower: Names of robots that use the bottom camera of their heads.
     """
 
     def furnish(spec: mujoco.MjSpec) -> None:
@@ -67,7 +67,7 @@ def furnisher(
 
 
 def _add_lower(body: mujoco.MjsBody, wearer: str, mount: Mount) -> None:
-    """Put a camera on a head, which looks along its own -z axis."""
+    """Add the bottom camera to a head; MuJoCo cameras look along -z."""
     forward, left, up = mount.axes.T
     axes = np.column_stack([-left, up, -forward])
     turn = np.zeros(4)
@@ -78,7 +78,7 @@ def _add_lower(body: mujoco.MjsBody, wearer: str, mount: Mount) -> None:
 
 
 def hide_walls(model: mujoco.MjModel) -> None:
-    """Keep walls that cameras see from whoever looks in from outside."""
+    """Hide the walls in views from outside the room."""
     for x, y in SIDES:
         number = mujoco.mj_name2id(
             model, mujoco.mjtObj.mjOBJ_GEOM, _wall(x, y)
@@ -91,7 +91,7 @@ def _wall(x: int, y: int) -> str:
     return f"wall {x} {y}"
 
 
-def _add_walls(spec: mujoco.MjSpec, away: float) -> None:
+def _add_walls(spec: mujoco.MjSpec, distance: float) -> None:
     spec.add_texture(
         name="wall",
         type=mujoco.mjtTexture.mjTEXTURE_2D,
@@ -109,11 +109,11 @@ def _add_walls(spec: mujoco.MjSpec, away: float) -> None:
         spec.worldbody.add_geom(
             name=_wall(x, y),
             type=mujoco.mjtGeom.mjGEOM_BOX,
-            pos=[x * away, y * away, WALL_HEIGHT],
+            pos=[x * distance, y * distance, HALF_WALL_HEIGHT],
             size=[
-                0.05 if x else away,
-                0.05 if y else away,
-                WALL_HEIGHT,
+                0.05 if x else distance,
+                0.05 if y else distance,
+                HALF_WALL_HEIGHT,
             ],
             material="wall",
             contype=FLOOR_BIT,
@@ -146,12 +146,12 @@ def _add_thing(body: mujoco.MjsBody, kind: str) -> None:
 def _add_housing(
     spec: mujoco.MjSpec, wearer: str, head: HeadDescription
 ) -> None:
-    """Put a depth camera on a head: seen, but without weight."""
+    """Add the massless housing of the depth camera to a head."""
     depth, width, height = head.housing
     x, y, z = head.depth.place.tolist()
     spec.body(f"{wearer}/{head.body}").add_geom(
         type=mujoco.mjtGeom.mjGEOM_BOX,
-        # Its window is in front.
+        # The mount is at the front face of the housing.
         pos=[x - 0.5 * depth, y, z],
         size=[0.5 * depth, 0.5 * width, 0.5 * height],
         rgba=[0.1, 0.1, 0.1, 1.0],

@@ -1,4 +1,4 @@
-"""What encoders, IMU and foot sensors make of the truth."""
+"""Errors of encoders, IMU, foot sensors and of the mass model."""
 
 from collections import deque
 
@@ -10,29 +10,29 @@ from .body_settings import BodySettings
 
 
 class AveragedImu:
-    """Gyro and accelerometer averaged from one reading to the next.
+    """Gyro and accelerometer averaged between readings.
 
-    Read once in a control tick alone they would alias the shocks of
-    landings, which comes out as a tilt of half a degree.
+    One sample per control tick would alias landing impacts, which causes an
+    error of half a degree in the estimated tilt.
     """
 
     def __init__(
         self, data: mujoco.MjData, gyro: slice, accelerometer: slice
     ) -> None:
-        """Watch two sensors of a world."""
+        """Average two sensors of a world."""
         self._sensors = data.sensordata
         self._gyro, self._accelerometer = gyro, accelerometer
         self._sum = np.zeros(6)
         self._count = 0
 
     def before_step(self, time: float) -> None:
-        """Take the readings of the last physics step."""
+        """Add the readings of the last physics step."""
         self._sum[:3] += self._sensors[self._gyro]
         self._sum[3:] += self._sensors[self._accelerometer]
         self._count += 1
 
     def read(self) -> tuple[Array, Array]:
-        """Means since the last reading, in [rad/s] and [m/s^2]."""
+        """Return the means since the last call, in [rad/s] and [m/s^2]."""
         if self._count == 0:
             self.before_step(0.0)
         mean = self._sum / self._count
@@ -42,7 +42,7 @@ class AveragedImu:
 
 
 class SensorErrors:
-    """Noise, bias, resolution and lag of one robot's sensors."""
+    """Noise, bias, resolution and delay of the sensors of one robot."""
 
     def __init__(
         self,
@@ -54,9 +54,9 @@ class SensorErrors:
         """Draw the constant errors of one robot.
 
         Args:
-            body: Size of the errors.
-            generator: Of the errors.
-            force_unit: Force of the robot for one of NAO's.
+            body: Magnitudes of the errors.
+            generator: Random generator of the errors.
+            force_unit: Weight of the robot relative to NAO's.
         """
         self._body = body
         self._force_noise = body.force_noise * force_unit  # in [N]
@@ -71,12 +71,12 @@ class SensorErrors:
         )
 
     def encoders(self, angles: Array) -> Array:
-        """Joint angles as encoded, in [rad]. Shape (joints,)."""
+        """Return quantised joint angles, in [rad]. Shape (joints,)."""
         step = self._body.encoder_step
         return angles if step == 0.0 else np.round(angles / step) * step
 
     def imu(self, gyro: Array, force: Array) -> tuple[Array, Array]:
-        """Angular velocity [rad/s] and specific force [m/s^2], late."""
+        """Return noisy, delayed gyro [rad/s] and accelerometer [m/s^2]."""
         body, draw = self._body, self._generator.standard_normal
         gyro = gyro + self._gyro_bias + body.gyro_noise * draw(3)
         force = force + self._specific_force_bias
@@ -85,10 +85,10 @@ class SensorErrors:
         return self._imu[0]
 
     def foot_forces(self, forces: Array) -> Array:
-        """Pressing forces, in [N], never below zero. Shape (8,)."""
+        """Return noisy normal forces, in [N], at least zero. Shape (8,)."""
         noise = self._force_noise * self._generator.standard_normal(8)
-        spoilt: Array = np.maximum(forces * self._gains + noise, 0.0)
-        return spoilt
+        noisy: Array = np.maximum(forces * self._gains + noise, 0.0)
+        return noisy
 
 
 def perturb_masses(
@@ -99,14 +99,14 @@ def perturb_masses(
     *,
     length_unit: float = 1.0,
 ) -> None:
-    """Give a robot's links other masses than its description has.
+    """Perturb the masses of the links of a robot in place.
 
     Args:
         spec_bodies: Bodies of a MuJoCo specification.
-        body: Size of the errors.
+        body: Magnitudes of the errors.
         torso: Name of the torso, whose CoM is shifted.
-        generator: Of the errors.
-        length_unit: Length of the robot for one of NAO's.
+        generator: Random generator of the errors.
+        length_unit: Size of the robot relative to NAO's.
     """
     for part in spec_bodies:  # type: ignore[attr-defined]
         error = generator.uniform(-1, 1)

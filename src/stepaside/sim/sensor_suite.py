@@ -1,4 +1,4 @@
-"""A robot's cameras and sonars: when they look and when it learns."""
+"""Simulated cameras and sonars of a robot, with rates and latencies."""
 
 from collections import deque
 from collections.abc import Callable
@@ -29,22 +29,22 @@ from .ray_casting import (
 from .room_furnishing import LOWER
 from .world import World
 
-RAYCAST_WIDTH = 160  # columns of an image made of rays, at most
+RAYCAST_WIDTH = 160  # largest width of a ray-cast image, in [pixels]
 Take = Callable[[float], Percept]
 
 
 @dataclass(slots=True, eq=False)
 class SensorStream:
-    """A sensor with its clock.
+    """Sensor with a rate, a latency and losses.
 
     Attributes:
-        take: Takes a percept at a time.
-        period: Between exposures, in [s].
-        latency: From exposure to arrival, in [s].
-        drop: Share that never arrives.
-        generator: Draws what is dropped.
-        taken: Exposures so far.
-        pending: Percepts on their way, with their time of arrival.
+        take: Function that returns a percept at a time.
+        period: Period of the exposures, in [s].
+        latency: Delay from exposure to arrival, in [s].
+        drop: Fraction of lost percepts.
+        generator: Random generator of the losses.
+        taken: Number of exposures.
+        pending: Times of arrival and percepts that have not arrived.
     """
 
     take: Take
@@ -56,11 +56,11 @@ class SensorStream:
     pending: deque[tuple[float, Percept]]
 
     def read(self, now: float, exposed: list[Percept]) -> list[Percept]:
-        """Percepts that arrive by ``now``, exposing one when it is due.
+        """Return percepts that have arrived; take one when it is due.
 
         Args:
             now: Time, in [s].
-            exposed: Gets what is taken now.
+            exposed: List to which a new percept is appended.
         """
         if now >= self.taken * self.period - 1e-9:
             self.taken += 1
@@ -75,12 +75,11 @@ class SensorStream:
 
 
 class SensorSuite:
-    """Everything that one robot perceives with.
+    """All cameras and sonars of one robot.
 
     Attributes:
-        camera: Its colour camera.
-        exposed: Percepts that were taken at the last tick, which the robot
-            may not have yet.
+        camera: Model of its colour camera.
+        exposed: Percepts taken at the last tick, before their latency.
     """
 
     def __init__(
@@ -96,26 +95,25 @@ class SensorSuite:
         with_depth: bool,
         looks_low: Callable[[], bool] | None = None,
     ) -> None:
-        """Open the eyes of a robot.
+        """Create the sensors of a robot.
 
         Args:
-            world: World that has it.
-            name: Its name there.
-            torso: Its torso body, unprefixed.
-            head: Its head.
-            settings: What it sees with.
-            renderer: What draws colour images.
+            world: World with the robot.
+            name: Name of the robot in the world.
+            torso: Name of its torso body, without prefix.
+            head: Description of its head.
+            settings: Settings of the sensors.
+            renderer: Renderer of colour images.
             seed: Seed of the run.
-            with_depth: Whether it wears the depth camera and listens.
-            looks_low: Whether the robot asks for images of the lower camera
-                of its head instead of the upper one; None for one that
-                never does.
+            with_depth: Whether it has a depth camera and sonars.
+            looks_low: Function that returns whether the next colour image is
+                from the bottom camera; None for always the top camera.
         """
         self._looks_low = looks_low
         self._world, self._name = world, name
         self._settings, self._seed = settings, seed
         self._head = head
-        self._screen: OffscreenRenderer | None = None
+        self._renderer: OffscreenRenderer | None = None
         self.exposed: list[Percept] = []
         self.camera = _size_for(renderer, settings.colour.model())
         body = f"{name}/{head.body}"
@@ -125,7 +123,7 @@ class SensorSuite:
             self._streams += self._sonars(f"{name}/{torso}")
 
     def read(self, now: float) -> tuple[Percept, ...]:
-        """Percepts that arrive at a tick."""
+        """Return the percepts that arrive at a tick."""
         arrived: list[Percept] = []
         self.exposed.clear()
         for stream in self._streams:
@@ -133,10 +131,10 @@ class SensorSuite:
         return tuple(arrived)
 
     def close(self) -> None:
-        """Let go of the graphics, if there are any."""
-        if self._screen is not None:
-            self._screen.close()
-            self._screen = None
+        """Release the graphics context, if any."""
+        if self._renderer is not None:
+            self._renderer.close()
+            self._renderer = None
 
     def _generator(self, purpose: str) -> np.random.Generator:
         return named_generator(self._seed, f"eyes/{self._name}/{purpose}")
@@ -160,35 +158,35 @@ class SensorSuite:
         settings, camera = self._settings.colour, self.camera
         head, low = self._head, self._looks_low
         if renderer != RAYCAST:
-            self._screen = OffscreenRenderer(
+            self._renderer = OffscreenRenderer(
                 self._world.model, camera.width, camera.height, renderer
             )
         upper = self._pixels(body, renderer, head.top, head.camera)
         lower = None
         if low is not None and head.bottom is not None:
             lower = self._pixels(body, renderer, head.bottom, LOWER)
-        grain = ImageNoise(camera, settings.noise, self._generator("grain"))
+        noise = ImageNoise(camera, settings.noise, self._generator("grain"))
 
         def take(now: float) -> Percept:
             if lower is not None and low is not None and low():
-                return ColourImage(now, camera, grain.spoil(lower()), True)
-            return ColourImage(now, camera, grain.spoil(upper()))
+                return ColourImage(now, camera, noise.add_to(lower()), True)
+            return ColourImage(now, camera, noise.add_to(upper()))
 
         return self._stream("colour", take, settings.rate, settings.latency)
 
     def _pixels(
         self, body: str, renderer: str, mount: Mount, name: str
     ) -> Callable[[], Pixels]:
-        """What takes images of one camera of the head.
+        """Return the function that takes images of one camera of the head.
 
         Args:
-            body: The head.
-            renderer: What draws them.
-            mount: Of the camera on the head.
-            name: Of the camera in the model.
+            body: Name of the head body.
+            renderer: Renderer of the images.
+            mount: Mount of the camera on the head.
+            name: Name of the camera in the model.
         """
         model, data, camera = self._world.model, self._world.data, self.camera
-        screen = self._screen
+        screen = self._renderer
         if screen is None:
             rays = camera.rays().reshape(-1, 3)
             caster = RayCaster(model, data, body, mount, rays)
@@ -205,11 +203,11 @@ class SensorSuite:
         mount = self._head.depth
         caster = RayCaster(world.model, world.data, body, mount, rays)
         generator = self._generator("depth")
-        eye = DepthCaster(caster, camera, settings, generator)
+        depth_caster = DepthCaster(caster, camera, settings, generator)
 
         def take(now: float) -> Percept:
             return DepthImage(
-                now, camera, eye.take(), settings.near, settings.far
+                now, camera, depth_caster.take(), settings.near, settings.far
             )
 
         return self._stream("depth", take, settings.rate, settings.latency)
@@ -221,12 +219,14 @@ class SensorSuite:
             rays = cone(settings.cone)
             caster = RayCaster(world.model, world.data, torso, mount, rays)
             generator = self._generator(f"sonar {key}")
-            ear = SonarCaster(caster, settings, generator)
+            sonar_caster = SonarCaster(caster, settings, generator)
 
             def take(
-                now: float, key: str = key, ear: SonarCaster = ear
+                now: float,
+                key: str = key,
+                sonar_caster: SonarCaster = sonar_caster,
             ) -> Percept:
-                return SonarEcho(now, key, ear.listen())
+                return SonarEcho(now, key, sonar_caster.listen())
 
             streams.append(
                 self._stream(f"sonar {key}", take, settings.rate, 0.0)
@@ -235,7 +235,7 @@ class SensorSuite:
 
 
 class ImageNoise:
-    """Noise of pixels: one tile of it, shifted at random for each image."""
+    """Pixel noise: one tile of noise, shifted at random for each image."""
 
     def __init__(
         self,
@@ -243,32 +243,32 @@ class ImageNoise:
         deviation: float,
         generator: np.random.Generator,
     ) -> None:
-        """Draw the tile."""
+        """Generate the tile."""
         self._generator = generator
         self._height, self._width = camera.height, camera.width
         shape = 2 * camera.height, 2 * camera.width, 3
         tile = np.rint(deviation * generator.standard_normal(shape))
         self._tile = tile.astype(np.int16)
 
-    def spoil(self, pixels: Pixels) -> Pixels:
+    def add_to(self, pixels: Pixels) -> Pixels:
         """Add noise to an image. Shape (height, width, 3)."""
         row = int(self._generator.integers(self._height))
         column = int(self._generator.integers(self._width))
         noise = self._tile[
             row : row + self._height, column : column + self._width
         ]
-        spoilt = cv2.add(pixels, noise, dtype=cv2.CV_8U)
-        return np.asarray(spoilt, dtype=np.uint8)
+        noisy = cv2.add(pixels, noise, dtype=cv2.CV_8U)
+        return np.asarray(noisy, dtype=np.uint8)
 
 
 def _size_for(renderer: str, camera: CameraModel) -> CameraModel:
-    """Camera at the size that a renderer can afford."""
+    """Return the camera model, reduced for ray casting."""
     if renderer != RAYCAST or camera.width <= RAYCAST_WIDTH:
         return camera
-    share = RAYCAST_WIDTH / camera.width
+    scale = RAYCAST_WIDTH / camera.width
     return CameraModel(
         RAYCAST_WIDTH,
-        round(camera.height * share),
-        camera.focal_x * share,
-        camera.focal_y * share,
+        round(camera.height * scale),
+        camera.focal_x * scale,
+        camera.focal_y * scale,
     )

@@ -1,4 +1,4 @@
-"""Servos between what control asks and what the joints do."""
+"""Servo models between joint targets and actuators."""
 
 from collections import deque
 
@@ -10,10 +10,10 @@ from .body_settings import BodySettings
 
 
 class IdealServos:
-    """Servos that take their targets at once.
+    """Position servos without delay.
 
-    They follow no faster than the joints' speed limits and feed the
-    targets' own speed forward.
+    Targets are limited to the speed limits of the joints, and their velocity
+    is fed forward.
     """
 
     def __init__(
@@ -24,13 +24,13 @@ class IdealServos:
         speed_limits: Array,
         cycle: float,
     ) -> None:
-        """Drive neighbouring actuators of a model.
+        """Drive consecutive actuators of a model.
 
         Args:
             model: Compiled model.
             data: Its state.
-            actuators: Their numbers, without gaps.
-            speed_limits: Of their joints, in [rad/s].
+            actuators: Indices of the actuators, without gaps.
+            speed_limits: Speed limits of their joints, in [rad/s].
             cycle: Control period, in [s].
         """
         self._data = data
@@ -45,17 +45,17 @@ class IdealServos:
         self._full = self._range[:, 1].copy()
 
     def soften(self, stiffness: Array) -> None:
-        """Let joints push with a share of their torque, 0 to 1 each."""
+        """Limit the torques to fractions of their maximum, 0 to 1."""
         self._range[:, 1] = self._full * stiffness
         self._range[:, 0] = -self._range[:, 1]
 
     def reset(self, targets: Array) -> None:
-        """Take targets, in [rad], as the ones that were always there."""
+        """Set targets, in [rad], without motion towards them."""
         self._target = targets
         self._sent[:] = targets
 
     def write(self, targets: Array) -> None:
-        """Follow new targets, in [rad]. Shape (joints,)."""
+        """Set new targets, in [rad]. Shape (joints,)."""
         change = self._limited(targets)
         self._target = self._target + change
         change *= self._lead
@@ -69,11 +69,12 @@ class IdealServos:
 
 
 class RealisticServos(IdealServos):
-    """Servos with delay, backlash and motors that tire with speed.
+    """Servos with delay, backlash and speed-dependent torque.
 
-    A request arrives some cycles late, and the servo ramps to it in one
-    cycle. Within the backlash the motor turns without the joint. The torque
-    falls linearly with the joint's speed, to zero at the no-load speed.
+    A target takes effect after a number of cycles, and the servo ramps to it
+    in one cycle. Within the backlash the motor turns without the joint. The
+    torque limit falls linearly with the speed of the joint, to zero at the
+    no-load speed.
     """
 
     def __init__(
@@ -86,15 +87,15 @@ class RealisticServos(IdealServos):
         body: BodySettings,
         backlash: Array,
     ) -> None:
-        """Drive neighbouring actuators; see :class:`IdealServos`.
+        """Drive consecutive actuators; see :class:`IdealServos`.
 
         Args:
             model: Compiled model, whose gains and torque limits are set.
             data: Its state.
-            actuators: Their numbers, without gaps.
+            actuators: Indices of the actuators, without gaps.
             speed_limits: No-load speeds of their joints, in [rad/s].
             cycle: Control period, in [s].
-            body: The body's effects.
+            body: Settings of the body.
             backlash: Width of the dead zone of each joint, in [rad].
         """
         model.actuator_gainprm[actuators, 0] *= body.servo_gain
@@ -104,8 +105,8 @@ class RealisticServos(IdealServos):
         self._qpos = model.jnt_qposadr[joints]
         self._dofs = model.jnt_dofadr[joints]
         self._half_backlash = 0.5 * backlash
-        share = body.efficiency * body.stiffness
-        self._stall = model.actuator_forcerange[actuators, 1] * share
+        fraction = body.efficiency * body.stiffness
+        self._stall = model.actuator_forcerange[actuators, 1] * fraction
         self._full = self._stall.copy()
         self._range[:, 0], self._range[:, 1] = -self._stall, self._stall
         self._no_load = speed_limits if body.torque_speed else None
@@ -119,20 +120,20 @@ class RealisticServos(IdealServos):
         self._elapsed = 0.0
 
     def soften(self, stiffness: Array) -> None:
-        """Let joints push with a share of their torque, 0 to 1 each."""
+        """Limit the torques to fractions of their maximum, 0 to 1."""
         super().soften(stiffness)
         self._stall = self._full * stiffness
         if self._no_load is not None:
             self._slope = self._stall / self._no_load
 
     def reset(self, targets: Array) -> None:
-        """Take targets, in [rad], as the ones that were always there."""
+        """Set targets, in [rad], without motion towards them."""
         super().reset(targets)
         self._pending = deque([targets] * self._delay)
         self._change = np.zeros(targets.size)
 
     def write(self, targets: Array) -> None:
-        """Send new targets, in [rad], on their way. Shape (joints,)."""
+        """Queue new targets, in [rad]. Shape (joints,)."""
         self._target = self._target + self._change
         self._pending.append(targets)
         self._change = self._limited(self._pending.popleft())

@@ -1,4 +1,4 @@
-"""A simulated robot behind the interface that control moves."""
+"""Simulated robot behind the body interface of control."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ if TYPE_CHECKING:
 
 
 def motor_of(model: mujoco.MjModel, joint: int) -> int:
-    """Number of the actuator that moves a joint, by the joint's number.
+    """Return the index of the actuator of a joint, by the joint's index.
 
     Raises:
-        ModelError: If none does, or several do.
+        ModelError: If the joint has no actuator or several.
     """
     moving = (model.actuator_trnid[:, 0] == joint) & (
         model.actuator_trntype == mujoco.mjtTrn.mjTRN_JOINT
@@ -47,15 +47,15 @@ def motor_of(model: mujoco.MjModel, joint: int) -> int:
 
 
 class SimulatedRobot:
-    """One robot of a world, through its own sensors and servos.
+    """Robot in a world, with its sensors and servos.
 
     Attributes:
-        name: Its name in the world.
+        name: Name of the robot in the world.
         tick: Control period, in [s].
-        sight: Ideal sensor of the other robot, if it has one.
-        eyes: Cameras and sonars, if it sees with those.
-        place: Ideal sensor of its place in a room, if it has one.
-        truth: Its true state, for sensors that say so and for the record.
+        sight: Ideal line of sight to the opponent, if any.
+        eyes: Cameras and sonars, if any.
+        place: Ideal sensor of its pose in a room, if any.
+        truth: True state, for ideal sensors and for records.
     """
 
     def __init__(
@@ -74,22 +74,22 @@ class SimulatedRobot:
         truth: TrueRobotState | None = None,
         knows_place: bool = False,
     ) -> None:
-        """Stand a robot in the posture of its kinematics.
+        """Place a robot in the posture of its kinematics.
 
         Args:
-            world: World that has it.
-            name: Its name there.
-            description: Its description.
-            kinematics: Kinematics in standing posture.
-            pose: Pose of the robot's odometry in the world.
-            body: How far it is from an ideal one; not at all by default.
-            generator: Of its errors and noise.
-            sight: Ideal sensor of the other, if it has one.
-            eyes: Cameras and sonars, if it sees with those.
+            world: World with the robot.
+            name: Name of the robot in the world.
+            description: Description of the robot.
+            kinematics: Kinematics in the standing posture.
+            pose: Pose of the odometry frame in the world.
+            body: Errors of the body; none by default.
+            generator: Random generator of errors and noise.
+            sight: Ideal line of sight to the opponent, if any.
+            eyes: Cameras and sonars, if any.
             averages_imu: Whether the IMU averages between readings, as real
                 ones do, instead of sampling.
-            truth: Its true state, if somebody watches that already.
-            knows_place: Whether a sensor tells it its place in the room.
+            truth: True state, if it exists already.
+            knows_place: Whether it has an ideal sensor of its pose.
         """
         body = body or BodySettings()
         self.world = world
@@ -121,17 +121,19 @@ class SimulatedRobot:
         sensors = description.sensors
         self._gyro = self._sensor(sensors.gyro)
         self._accelerometer = self._sensor(sensors.accelerometer)
-        # Views of the state, which stays where it is: slicing takes time.
-        self._angles: Array = data.qpos
-        self._sensed: Array = data.sensordata
-        self._turning: Array = data.sensordata[self._gyro]
-        self._pushing: Array = data.sensordata[self._accelerometer]
+        # Views of the state, made once: slicing takes time.
+        self._qpos_view: Array = data.qpos
+        self._sensordata: Array = data.sensordata
+        self._gyro_view: Array = data.sensordata[self._gyro]
+        self._accelerometer_view: Array = data.sensordata[self._accelerometer]
         pressing = [self._sensor(foot).start for foot in sensors.feet]
-        self._pressing = np.array(pressing)
+        self._force_addresses = np.array(pressing)
         sites = [model.site(f"{name}/{f}").id for f in sensors.feet]
-        self._corners = np.array(sites)
+        self._corner_sites = np.array(sites)
         root = model.body(f"{name}/{description.torso}")
-        self._place(kinematics, pose, int(model.jnt_qposadr[root.jntadr[0]]))
+        self._place_in_world(
+            kinematics, pose, int(model.jnt_qposadr[root.jntadr[0]])
+        )
         self.servos.reset(kinematics.joint_targets)
         self._torso = root.id
         self.pusher: PushApplier | None = None
@@ -151,7 +153,9 @@ class SimulatedRobot:
             ) from None
         return slice(int(found.adr[0]), int(found.adr[0] + found.dim[0]))
 
-    def _place(self, kinematics: LegKinematics, pose: Pose, at: int) -> None:
+    def _place_in_world(
+        self, kinematics: LegKinematics, pose: Pose, at: int
+    ) -> None:
         posture = kinematics.posture
         qpos = self.world.data.qpos
         self.qpos_slice = slice(at, at + posture.size)
@@ -160,7 +164,7 @@ class SimulatedRobot:
 
     @property
     def weight(self) -> float:
-        """Of the whole robot, in [N]."""
+        """Weight of the robot, in [N]."""
         mass = self.world.model.body_subtreemass[self._torso]
         return GRAVITY * float(mass)
 
@@ -168,20 +172,30 @@ class SimulatedRobot:
         """Read the sensors."""
         now = self.world.time
         sighting = None if self.sight is None else self.sight.read(now)
-        angles = self._angles.take(self._qpos)
+        angles = self._qpos_view.take(self._qpos)
         if self._imu is None:
-            gyro, force = self._turning.copy(), self._pushing.copy()
+            gyro, specific_force = (
+                self._gyro_view.copy(),
+                self._accelerometer_view.copy(),
+            )
         else:
-            gyro, force = self._imu.read()
-        forces = self._sensed.take(self._pressing)
+            gyro, specific_force = self._imu.read()
+        forces = self._sensordata.take(self._force_addresses)
         if self._errors is not None:
             angles = self._errors.encoders(angles)
-            gyro, force = self._errors.imu(gyro, force)
+            gyro, specific_force = self._errors.imu(gyro, specific_force)
             forces = self._errors.foot_forces(forces)
         percepts = () if self.eyes is None else self.eyes.read(now)
         place = None if self.place is None else self.place.read()
         return Measurement(
-            now, angles, gyro, force, forces, sighting, percepts, place
+            now,
+            angles,
+            gyro,
+            specific_force,
+            forces,
+            sighting,
+            percepts,
+            place,
         )
 
     def write(self, joint_targets: Array) -> None:
@@ -189,7 +203,7 @@ class SimulatedRobot:
         self.servos.write(joint_targets)
 
     def push(self, *pushes: Push) -> None:
-        """Let somebody push the torso, now or later."""
+        """Schedule pushes of the torso."""
         if self.pusher is None:
             world = self.world
             self.pusher = PushApplier(world.model, world.data, self._torso)
@@ -199,36 +213,36 @@ class SimulatedRobot:
 
     @property
     def stance(self) -> TrueStance:
-        """How it truly stands at this instant."""
+        """True stance at this instant."""
         return self._stance.read()
 
     @property
     def pushes(self) -> tuple[ScheduledPush, ...]:
-        """Last pushes that began."""
+        """Most recent pushes that have started."""
         return () if self.pusher is None else tuple(self.pusher.given)
 
     def step(self) -> None:
-        """Let time pass until the next control tick."""
+        """Advance the world to the next control tick."""
         self.world.advance()
 
     @property
     def posture(self) -> Array:
-        """Position and quaternion of the torso, then all joints; a copy."""
+        """Copy of qpos: torso position, quaternion, joint angles."""
         posture: Array = self.world.data.qpos[self.qpos_slice].copy()
         return posture
 
     def measured_zmp(self) -> tuple[float, float]:
-        """Center of the foot forces in the world, in [m]; NaN in flight."""
+        """Return the centre of pressure in the world, [m]; NaN in flight."""
         data = self.world.data
-        forces = self._sensed.take(self._pressing)
+        forces = self._sensordata.take(self._force_addresses)
         total = float(forces.sum())
         if total <= 0.0:
             return nan, nan
-        corners = data.site_xpos[self._corners]
+        corners = data.site_xpos[self._corner_sites]
         x, y, _ = (forces @ corners / total).tolist()
         return x, y
 
     def close(self) -> None:
-        """Let go of the eyes."""
+        """Release the graphics of the cameras."""
         if self.eyes is not None:
             self.eyes.close()

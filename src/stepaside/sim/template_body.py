@@ -1,4 +1,4 @@
-"""The body of a template: a disc with a mast that shows where it heads."""
+"""Marker of a template: a disc with a mast and a heading arrow."""
 
 from math import cos, sin
 
@@ -6,33 +6,47 @@ import mujoco
 
 from ..core.poses import Pose
 
-DISC, FLAT = 0.07, 0.006  # radius and half height, in [m]
-MAST, TOP = 0.012, 0.5  # radius and height, in [m]
-ARM = 0.12  # of the arrow ahead, in [m]
+DISC_RADIUS = 0.07  # in [m]
+DISC_HALF_HEIGHT = 0.006  # in [m]
+MAST_RADIUS = 0.012  # in [m]
+MAST_HEIGHT = 0.5  # in [m]
+ARROW = 0.12  # length, in [m]
 COLOURS = {
     "pursuer": (0.73, 0.17, 0.10, 1.0),
     "evader": (0.12, 0.37, 0.75, 1.0),
 }
-OTHERS = (0.35, 0.35, 0.38, 1.0)
+OTHER_COLOUR = (0.35, 0.35, 0.38, 1.0)
 
 
 def add_template(spec: mujoco.MjSpec, name: str) -> None:
-    """Put a template into a world, as a body that is moved and touches none.
+    """Add the marker of a template to a world, without contacts.
 
     Args:
-        spec: World.
-        name: Of the player; prefix of its body.
+        spec: Specification of the world.
+        name: Name of the player, which is the prefix of the body.
     """
-    colour = COLOURS.get(name, OTHERS)
+    colour = COLOURS.get(name, OTHER_COLOUR)
     body = spec.worldbody.add_body(name=f"{name}/trunk", mocap=True)
     kinds = mujoco.mjtGeom
-    _part(body, kinds.mjGEOM_CYLINDER, (0, 0, FLAT), (DISC, FLAT, 0), colour)
-    arrow = (0.5 * ARM, 0.2 * DISC, FLAT)
-    _part(body, kinds.mjGEOM_BOX, (0.5 * ARM, 0, FLAT), arrow, colour)
-    mast = (MAST, 0.5 * TOP, 0.0)
-    _part(body, kinds.mjGEOM_CYLINDER, (0, 0, 0.5 * TOP), mast, colour)
-    arm = (0.25 * ARM, MAST, MAST)
-    _part(body, kinds.mjGEOM_BOX, (0.25 * ARM, 0, TOP), arm, colour)
+    _part(
+        body,
+        kinds.mjGEOM_CYLINDER,
+        (0, 0, DISC_HALF_HEIGHT),
+        (DISC_RADIUS, DISC_HALF_HEIGHT, 0),
+        colour,
+    )
+    arrow = (0.5 * ARROW, 0.2 * DISC_RADIUS, DISC_HALF_HEIGHT)
+    _part(
+        body,
+        kinds.mjGEOM_BOX,
+        (0.5 * ARROW, 0, DISC_HALF_HEIGHT),
+        arrow,
+        colour,
+    )
+    mast = (MAST_RADIUS, 0.5 * MAST_HEIGHT, 0.0)
+    _part(body, kinds.mjGEOM_CYLINDER, (0, 0, 0.5 * MAST_HEIGHT), mast, colour)
+    arm = (0.25 * ARROW, MAST_RADIUS, MAST_RADIUS)
+    _part(body, kinds.mjGEOM_BOX, (0.25 * ARROW, 0, MAST_HEIGHT), arm, colour)
 
 
 def _part(
@@ -56,13 +70,13 @@ def _part(
 def pose_template(
     model: mujoco.MjModel, data: mujoco.MjData, name: str, pose: Pose
 ) -> None:
-    """Put a template somewhere.
+    """Set the pose of a template.
 
     Args:
-        model: Of the world.
+        model: Model of the world.
         data: Its state.
-        name: Of the player.
-        pose: Where it is and heads.
+        name: Name of the player.
+        pose: Pose of the template in the world.
     """
     at = int(model.body(f"{name}/trunk").mocapid[0])
     data.mocap_pos[at] = pose.x, pose.y, 0.0

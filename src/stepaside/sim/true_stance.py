@@ -1,4 +1,4 @@
-"""How a robot truly stands: what no sensor of its own tells it."""
+"""True stance of a robot: velocity, tilt and sole poses."""
 
 from math import asin, atan2
 from typing import NamedTuple
@@ -13,10 +13,10 @@ class TrueStance(NamedTuple):
     """Torso, feet and velocity of a robot in its world.
 
     Attributes:
-        velocity: Of the CoM (x, y), in [m/s].
+        velocity: CoM velocity (x, y) in the world, in [m/s].
         tilt: Roll and pitch of the torso, in [rad].
-        left_sole: Place and heading of the left sole.
-        right_sole: Likewise.
+        left_sole: Pose of the left sole in the world.
+        right_sole: Pose of the right sole in the world.
     """
 
     velocity: tuple[float, float]
@@ -26,7 +26,7 @@ class TrueStance(NamedTuple):
 
 
 class StanceWatch:
-    """Looks how one robot of a world stands."""
+    """Reader of the true stance of one robot."""
 
     def __init__(
         self,
@@ -35,14 +35,14 @@ class StanceWatch:
         name: str,
         description: RobotDescription,
     ) -> None:
-        """Watch the robot with a name."""
+        """Read the robot with a name."""
         self._model, self._data = model, data
         self._torso = model.body(f"{name}/{description.torso}").id
         feet = description.left_foot, description.right_foot
         self._soles = [model.site(f"{name}/{foot}").id for foot in feet]
 
     def read(self) -> TrueStance:
-        """How it stands at this instant."""
+        """Return the stance at this instant."""
         data, torso = self._data, self._torso
         mujoco.mj_subtreeVel(self._model, data)
         vx, vy, _ = data.subtree_linvel[torso].tolist()

@@ -1,4 +1,4 @@
-"""A floor with robots on it, in MuJoCo."""
+"""MuJoCo world with a floor and robots."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations
@@ -38,10 +38,9 @@ def build_model(
         robots: Robots by name; the names become prefixes, as in
             ``pursuer/torso``.
         physics: Time step and floor.
-        body: How far the robots are from their descriptions; not at all by
-            default.
-        seed: Seed of the floor and of the robots' errors.
-        furnish: Puts more into the world, once the robots are in it.
+        body: Errors of the robots; none by default.
+        seed: Seed of the floor and of the errors of the robots.
+        furnish: Function that adds to the world after the robots.
     """
     spec = mujoco.MjSpec()
     spec.option.timestep = physics.time_step
@@ -60,7 +59,7 @@ def build_model(
         for geom in part.geoms:
             if geom.contype or geom.conaffinity:
                 geom.contype = own
-                # Floor and all other robots, not itself.
+                # Collides with the floor and all other robots.
                 geom.conaffinity = CONTACT_BITS & ~own
                 geom.friction[0] = physics.friction
         if body is not None and body.mass_error + body.com_error > 0.0:
@@ -73,8 +72,8 @@ def build_model(
                 length_unit=description.game.get("length_unit", 1.0),
             )
         if name in COLOURS:
-            _dye(part, description, COLOURS[name])
-        # What the world has of its own wins, without a word about it.
+            _set_colour(part, description, COLOURS[name])
+        # Otherwise MuJoCo warns that the options differ.
         part.option = spec.option
         frame = spec.worldbody.add_frame()
         spec.attach(part, prefix=f"{name}/", frame=frame)
@@ -84,22 +83,23 @@ def build_model(
 
 
 def _contact_types() -> Iterator[int]:
-    """Yield contact types of robots, each with a bit that the others lack.
+    """Yield contact types of robots, none of which contains another.
 
-    They are halves of the bits, so no type holds another: a type meets the
-    complement of every other, but not its own. 30 bits have 1.6e8 halves.
+    Each type is a different half of the bits. It therefore shares a bit with
+    the complement of every other type, but not with its own. 30 bits have
+    1.6e8 halves.
     """
-    bits = range(1, CONTACT_BITS.bit_length())  # the first is the floor's
+    bits = range(1, CONTACT_BITS.bit_length())  # bit 0 is the floor's
     for half in combinations(bits, len(bits) // 2):
         yield sum(1 << bit for bit in half)
 
 
-def _dye(
+def _set_colour(
     part: mujoco.MjSpec,
     description: RobotDescription,
     colour: tuple[float, float, float, float],
 ) -> None:
-    """Give a robot the colour of its role: its accent, or else its torso."""
+    """Set the colour of a role on the accent of a robot, or its torso."""
     if description.accent:
         accent = part.material(description.accent)
         if accent is not None:
@@ -110,17 +110,18 @@ def _dye(
 
 
 class World:
-    """Physics of a model whose robots advance it together.
+    """Physics of a model that its robots advance together.
 
-    Time passes when every robot has asked for it, so that each can be
-    driven through its own interface.
+    Time advances when every robot has called :meth:`advance`, so that each
+    can be driven through its own interface.
 
     Attributes:
         model: Compiled model.
         data: Its state.
         physics: Time step and control period.
-        ticks: Control ticks that have passed.
-        before_step: Called with the time, in [s], before each physics step.
+        ticks: Number of control ticks so far.
+        before_step: Functions called with the time, in [s], before each
+            physics step.
     """
 
     def __init__(
@@ -131,7 +132,7 @@ class World:
         seed: int = 0,
         furnish: Callable[[mujoco.MjSpec], None] | None = None,
     ) -> None:
-        """Compile a world in which every robot still has to be placed.
+        """Compile a world whose robots are not placed yet.
 
         Args are those of :func:`build_model`.
 
@@ -139,7 +140,7 @@ class World:
             ModelError: If a model lacks what its description names.
         """
         for robot in robots.values():
-            load_tree(robot)  # refuses a model that lacks what is described
+            load_tree(robot)  # raises if model and description differ
         self.physics = physics
         self.model = build_model(robots, physics, body, seed, furnish)
         self.data = mujoco.MjData(self.model)
@@ -150,7 +151,7 @@ class World:
             self.model.body(f"{name}/{robot.torso}").id
             for name, robot in robots.items()
         ]
-        # Floor and walls are nobody's; other things are strangers.
+        # Owner 0 is floor and walls; one further owner is all objects.
         owner = np.full(self.model.nbody, self._robots + 1)
         owner[0] = 0
         for number, root in enumerate(roots, start=1):
@@ -161,18 +162,18 @@ class World:
 
     @property
     def time(self) -> float:
-        """Simulated time: a count of ticks, so that sums are exact. [s]."""
+        """Simulated time, in [s], from the number of ticks."""
         return self.ticks * self.physics.tick
 
     def advance(self) -> None:
-        """Note that one robot is done; step when all of them are."""
+        """Count a robot as done; step when all of them are."""
         self._waiting -= 1
         if self._waiting == 0:
             self._waiting = self._robots
             self.step()
 
     def step(self) -> None:
-        """Let one control tick pass."""
+        """Advance by one control tick."""
         steps = self.physics.steps_per_tick
         if self.before_step:
             self._step_singly(steps)
@@ -188,18 +189,18 @@ class World:
             mujoco.mj_step(self.model, self.data)
 
     def robots_touch(self) -> bool:
-        """Whether two robots, or one and a thing, are in contact."""
+        """Return whether robots touch each other or an object."""
         return bool(self._touching().any())
 
     def touching(self) -> tuple[str, ...]:
-        """Names of who and what is in contact with each other, sorted."""
+        """Return the sorted names of players and objects in contact."""
         pairs = self.data.contact.geom[self._touching()]
         bodies = self.model.geom_bodyid[pairs.ravel()]
         names = {self.model.body(body).name for body in bodies}
         return tuple(sorted({n.split("/")[0] or "a thing" for n in names}))
 
     def _touching(self) -> NDArray[np.bool_]:
-        """Which contacts are between different owners. Shape (ncon,)."""
+        """Return the mask of contacts between owners. Shape (ncon,)."""
         if self.data.ncon == 0:
             return np.zeros(0, dtype=bool)
         owners = self._owner_of_geom[self.data.contact.geom]
@@ -209,11 +210,11 @@ class World:
 
 
 def place_free_body(qpos: Sequence[float], pose: Pose) -> list[float]:
-    """Move the free joint of a robot to where its odometry begins.
+    """Transform the free joint of a robot from odometry to the world.
 
     Args:
         qpos: Position and quaternion in odometry. Shape (7,).
-        pose: Pose of odometry in the world.
+        pose: Pose of the odometry frame in the world.
 
     Returns:
         Position and quaternion in the world. Shape (7,).
