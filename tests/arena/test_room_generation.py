@@ -159,3 +159,11 @@ def test_path_around_obstacles_rotates_with_the_frame(
     assert path_exists(room, start, end, 0.2) and path_exists(
         room, end, start, 0.2
     )
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_initial_headings_lie_within_one_turn(seed: int) -> None:
+    """So that the poses can be those of a room, and stored in its file."""
+    starts = draw_starts(Room(None, None), seed)
+    assert max(abs(pose.theta) for pose in starts) <= 2.0 * pi
+    assert Room(starts=starts).starts == starts

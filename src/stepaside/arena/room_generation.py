@@ -1,7 +1,7 @@
 """Random rooms and random initial poses in a room."""
 
 from dataclasses import dataclass
-from math import pi, radians
+from math import pi, radians, tau
 
 import numpy as np
 
@@ -158,9 +158,12 @@ def draw_starts(
             or not room.sees(both[:1], both[1:])[0]
         ):
             continue
+        heading = sight + pi + evader_turn
+        if heading > tau:  # poses of a room lie within one turn
+            heading -= tau
         starts = (
             Pose(float(place[0]), float(place[1]), sight + pursuer_turn),
-            Pose(float(other[0]), float(other[1]), sight + pi + evader_turn),
+            Pose(float(other[0]), float(other[1]), heading),
         )
         if path_exists(room, starts[0][:2], starts[1][:2], radius):
             return starts
