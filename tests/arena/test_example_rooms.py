@@ -1,4 +1,4 @@
-"""The rooms of the examples, walked by a pursuer on its plans."""
+"""Test the example rooms with a pursuer that follows its plans exactly."""
 
 from math import atan2, hypot
 from pathlib import Path
@@ -28,8 +28,8 @@ MARGIN = 0.02
 @pytest.mark.parametrize(
     "file", sorted(ROOMS.glob("*.toml")), ids=lambda f: f.stem
 )
-def test_a_pursuer_reaches_who_stands_and_touches_nothing(file: Path) -> None:
-    """Around the pillar, through the door, into the dead end."""
+def test_pursuer_reaches_a_standing_evader_without_contact(file: Path) -> None:
+    """It passes the pillar, the door and the dead end."""
     room = load_room(file)
     assert room.starts is not None
     check_starts(room, room.starts)

@@ -1,4 +1,4 @@
-"""Test rooms by seed by laws: where things and players stand in them."""
+"""Test laws of random rooms: obstacles, initial poses, areas and paths."""
 
 from math import atan2, hypot, pi, radians
 
@@ -16,7 +16,7 @@ from stepaside.arena import (
     make_room,
 )
 from stepaside.arena.moving_box import MovingBox
-from stepaside.arena.reachability import has_way
+from stepaside.arena.reachability import path_exists
 from stepaside.arena.room_generation import FARTHEST, NEAREST
 from stepaside.arena.room_metrics import CELL, measure_room
 from stepaside.arena.shortest_path import first_point
@@ -26,8 +26,8 @@ RECIPE = RoomRecipe(4.0, 3.0, discs=2, boxes=1, polygons=1, doors=1)
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_players_start_as_in_a_duel(seed: int) -> None:
-    """The pursuer sees the evader ahead of it, which nearly faces it."""
+def test_initial_poses_lie_within_the_ranges_of_a_duel(seed: int) -> None:
+    """The evader is ahead of the pursuer and nearly faces it."""
     for recipe in (RECIPE, RoomRecipe(None, None)):
         room = make_room(recipe, seed)
         assert room.starts is not None
@@ -40,8 +40,8 @@ def test_players_start_as_in_a_duel(seed: int) -> None:
         assert abs(back) <= radians(30.0) + 1e-9
 
 
-def test_starts_are_spread_over_all_that_is_drawn() -> None:
-    """Within a draw's bounds as likely here as there, to either side."""
+def test_initial_poses_are_uniform_over_their_ranges() -> None:
+    """Extremes are reached; mean and deviation are those of a uniform law."""
     room, turns, faces, sights = Room(None, None), [], [], []
     for seed in range(300):
         pursuer, evader = draw_starts(room, seed)
@@ -56,7 +56,7 @@ def test_starts_are_spread_over_all_that_is_drawn() -> None:
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_obstacles_are_of_the_size_asked_for_and_apart(seed: int) -> None:
+def test_obstacles_have_the_given_sizes_and_do_not_overlap(seed: int) -> None:
     room = make_room(RECIPE, seed)
     assert len(room.obstacles) == 4 and len(room.doors) == 1
     for one in room.obstacles:
@@ -75,12 +75,12 @@ def test_obstacles_are_of_the_size_asked_for_and_apart(seed: int) -> None:
                 if isinstance(other, Disc)
                 else other.points
             )
-            room_left = other.radius if isinstance(other, Disc) else 0.0
-            assert float(one.clearance(points).min()) >= room_left - 1e-9
+            radius = other.radius if isinstance(other, Disc) else 0.0
+            assert float(one.clearance(points).min()) >= radius - 1e-9
 
 
 def _circle_around(polygon: Obstacle) -> tuple[np.ndarray, float]:
-    """Circle on which all corners lie."""
+    """Return centre and radius of the circumcircle."""
     a, b, c = polygon.points[:3]
     matrix = 2.0 * np.array([b - a, c - a])
     middle = np.linalg.solve(matrix, [b @ b - a @ a, c @ c - a @ a])
@@ -91,7 +91,7 @@ def _circle_around(polygon: Obstacle) -> tuple[np.ndarray, float]:
 
 @settings(max_examples=8)
 @given(st.floats(0.05, 0.4), st.floats(-0.5, 0.5), st.floats(0.05, 0.3))
-def test_areas_of_a_room_are_those_of_its_shapes(
+def test_areas_match_the_closed_form(
     radius: float, x: float, body: float
 ) -> None:
     room = Room(3.0, 2.0, (Disc(x, 0.1, radius),))
@@ -100,7 +100,7 @@ def test_areas_of_a_room_are_those_of_its_shapes(
     free = 6.0 - pi * radius**2
     assert found["free_m2"] == pytest.approx(free, abs=0.02)
     grown = (3.0 - 2 * body) * (2.0 - 2 * body) - pi * (radius + body) ** 2
-    # The grid tells areas to half a cell on either side of every edge.
+    # Areas on the grid are off by up to half a cell along every edge.
     edge = 2.0 * (3.0 + 2.0 - 4.0 * body) + 2.0 * pi * (radius + body)
     off = 0.5 * CELL * edge
     assert found["free_for_body_m2"] == pytest.approx(grown, abs=off)
@@ -111,16 +111,16 @@ def test_areas_of_a_room_are_those_of_its_shapes(
 
 @settings(max_examples=40)
 @given(st.floats(0.0, 200.0), st.floats(0.5, 5.0), st.floats(-pi, pi))
-def test_a_box_is_pushed_at_its_speed_and_does_not_turn(
+def test_moving_box_keeps_its_speed_and_heading(
     time: float, later: float, heading: float
 ) -> None:
     box = MovingBox(0.2, -0.3, 0.4, 0.2, (1.2, 0.5), 0.08, heading)
     before, after = box.place_at(time), box.place_at(time + later)
-    way = hypot(after[0] - before[0], after[1] - before[1])
-    assert way <= 0.08 * later + 1e-9
-    share = (before[0] - 0.2) / 1.0
-    assert -1e-9 <= share <= 1.0 + 1e-9
-    assert before[1] == pytest.approx(-0.3 + 0.8 * share, abs=1e-9)
+    distance = hypot(after[0] - before[0], after[1] - before[1])
+    assert distance <= 0.08 * later + 1e-9
+    fraction = (before[0] - 0.2) / 1.0
+    assert -1e-9 <= fraction <= 1.0 + 1e-9
+    assert before[1] == pytest.approx(-0.3 + 0.8 * fraction, abs=1e-9)
     there_and_back = 2.0 * box.length / 0.08
     again = box.place_at(time + there_and_back)
     assert again == pytest.approx(before, abs=1e-6)
@@ -135,25 +135,35 @@ def test_a_box_is_pushed_at_its_speed_and_does_not_turn(
 
 @settings(max_examples=25)
 @given(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), st.floats(-pi, pi))
-def test_the_way_around_things_turns_with_them(
+def test_path_around_obstacles_rotates_with_the_frame(
     x: float, y: float, turn: float
 ) -> None:
     frame = Pose(x, y, turn)
 
-    def put(point: tuple[float, float]) -> tuple[float, float]:
+    def transform(point: tuple[float, float]) -> tuple[float, float]:
         moved = frame.compose(Pose(*point, 0.0))
         return moved.x, moved.y
 
     solids = (Disc(0.0, 0.1, 0.3), Disc(0.4, -0.9, 0.2))
-    moved = tuple(Disc(*put(s.centre), s.radius) for s in solids)
+    moved = tuple(Disc(*transform(s.centre), s.radius) for s in solids)
     start, end = (-1.0, 0.0), (1.0, 0.05)
     first = first_point(solids, start, end, 0.2)
-    other = first_point(moved, put(start), put(end), 0.2)
-    # On the same side, though corners of a disc lie at certain angles.
+    other = first_point(moved, transform(start), transform(end), 0.2)
+    # Same side only: corners around a disc lie at fixed angles.
     back = frame.inverse().compose(Pose(*other, 0.0))
     assert first != end and first[1] * back.y > 0.0
-    off = np.array(other) - np.array([put(s.centre) for s in solids])
+    off = np.array(other) - np.array([transform(s.centre) for s in solids])
     clear = np.hypot(*off.T) - [0.3, 0.2]
     assert clear.min() >= 0.2 - 1e-9
     room = Room(None, None, solids)
-    assert has_way(room, start, end, 0.2) and has_way(room, end, start, 0.2)
+    assert path_exists(room, start, end, 0.2) and path_exists(
+        room, end, start, 0.2
+    )
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_initial_headings_lie_within_one_turn(seed: int) -> None:
+    """So that the poses can be those of a room, and stored in its file."""
+    starts = draw_starts(Room(None, None), seed)
+    assert max(abs(pose.theta) for pose in starts) <= 2.0 * pi
+    assert Room(starts=starts).starts == starts

@@ -1,4 +1,4 @@
-"""Test rooms: walls, doors, ways, starts, files and seeds."""
+"""Test rooms: walls, doors, paths, initial poses, files and seeds."""
 
 import json
 from dataclasses import replace
@@ -21,9 +21,9 @@ from stepaside.arena import (
     check_starts,
     clearance_between,
     draw_starts,
-    has_way,
     load_room,
     make_room,
+    path_exists,
     room_entries,
     room_of_entries,
     room_text,
@@ -39,7 +39,7 @@ APART = (Pose(-1.0, 0.0, 0.0), Pose(1.0, 0.0, 3.0))
 
 
 def two_rooms(gap: float) -> Room:
-    """A room that a wall with a door in it divides."""
+    """Room divided by a wall with a gap in [m]."""
     half = 0.5 * gap
     walls = (
         wall_between((0.0, -1.5), (0.0, -half)),
@@ -48,18 +48,18 @@ def two_rooms(gap: float) -> Room:
     return Room(3.0, 3.0, walls)
 
 
-def test_clearance_is_that_of_the_nearest_thing() -> None:
-    asked = [[0.0, 0.8], [1.9, 0.0], [0.1, 0.0], [0.5, 0.0], [0.0, 1.2]]
+def test_clearance_is_the_distance_to_the_nearest_solid() -> None:
+    points = [[0.0, 0.8], [1.9, 0.0], [0.1, 0.0], [0.5, 0.0], [0.0, 1.2]]
     np.testing.assert_allclose(
-        PILLAR.clearance(asked), [0.2, 0.1, -0.2, 0.2, -0.2]
+        PILLAR.clearance(points), [0.2, 0.1, -0.2, 0.2, -0.2]
     )
 
 
-def test_nobody_is_near_anything_on_an_open_floor() -> None:
+def test_clearance_on_an_open_floor_is_infinite() -> None:
     assert OPEN_FLOOR.clearance([[0.0, 0.0]])[0] == inf
 
 
-def test_walls_stand_around_the_floor_and_doors_are_gaps() -> None:
+def test_walls_surround_the_floor_and_doors_are_gaps() -> None:
     room = Room(4.0, 2.0, (), (Door("east", 0.2, 0.6), Door("north", -1.0)))
     assert not room.is_closed
     closed = Room(4.0, 2.0)
@@ -78,14 +78,14 @@ def test_walls_stand_around_the_floor_and_doors_are_gaps() -> None:
     assert area == pytest.approx(2 * 0.6 * 0.1)
 
 
-def test_a_pillar_hides_what_stands_behind_it() -> None:
+def test_pillar_blocks_the_line_of_sight() -> None:
     starts, ends = [[-1.0, 0.0], [-1.0, 0.0]], [[1.0, 0.0], [0.0, 0.9]]
-    seen = PILLAR.sees(starts, ends)
-    assert seen.tolist() == [False, True]
+    visible = PILLAR.sees(starts, ends)
+    assert visible.tolist() == [False, True]
 
 
 @pytest.mark.parametrize(
-    ("gap", "radius", "there_is"),
+    ("gap", "radius", "exists"),
     [
         (0.6, 0.2, True),
         (0.44, 0.2, True),
@@ -93,31 +93,33 @@ def test_a_pillar_hides_what_stands_behind_it() -> None:
         (0.0, 0.01, False),
     ],
 )
-def test_a_way_leads_through_gaps_that_are_wide_enough(
-    gap: float, radius: float, there_is: int
+def test_path_leads_through_gaps_that_are_wide_enough(
+    gap: float, radius: float, exists: bool
 ) -> None:
-    found = has_way(two_rooms(gap), (-1.0, 1.0), (1.0, 0.7), radius)
-    assert found == bool(there_is)
+    found = path_exists(two_rooms(gap), (-1.0, 1.0), (1.0, 0.7), radius)
+    assert found == exists
 
 
-def test_a_disc_goes_through_a_corridor_that_is_as_wide() -> None:
+def test_disc_passes_a_corridor_of_its_own_width() -> None:
     ends = (0.0, -1.0), (0.0, 1.0)
-    assert has_way(Room(0.6, 3.0), *ends, 0.3)
-    assert not has_way(Room(0.6, 3.0), *ends, 0.3 + 1e-6)
+    assert path_exists(Room(0.6, 3.0), *ends, 0.3)
+    assert not path_exists(Room(0.6, 3.0), *ends, 0.3 + 1e-6)
 
 
-def test_a_way_leads_around_corners_and_out_of_doors() -> None:
-    """Both halves have a door of their own, so there is a way outside."""
+def test_path_leads_around_corners_and_through_doors() -> None:
+    """Each half has a door; the path leads outside around the wall."""
     shut = two_rooms(0.0)
     doors = (Door("north", -0.8), Door("north", 0.8))
-    assert not has_way(shut, (-1.0, 0.0), (1.0, 0.0), 0.2)
-    assert has_way(replace(shut, doors=doors), (-1.0, 0.0), (1.0, 0.0), 0.2)
-    assert has_way(OPEN_FLOOR, (-1.0, 0.0), (1.0, 0.0), 0.2)
+    assert not path_exists(shut, (-1.0, 0.0), (1.0, 0.0), 0.2)
+    assert path_exists(
+        replace(shut, doors=doors), (-1.0, 0.0), (1.0, 0.0), 0.2
+    )
+    assert path_exists(OPEN_FLOOR, (-1.0, 0.0), (1.0, 0.0), 0.2)
 
 
-def test_a_way_leads_around_the_whole_of_a_disc() -> None:
+def test_path_leads_around_a_disc() -> None:
     floor = Room(obstacles=(Disc(0.0, 0.0, 1.0),))
-    assert has_way(floor, (-1.5, 0.0), (1.5, 0.0), 0.2)
+    assert path_exists(floor, (-1.5, 0.0), (1.5, 0.0), 0.2)
 
 
 @pytest.mark.parametrize(
@@ -126,10 +128,10 @@ def test_a_way_leads_around_the_whole_of_a_disc() -> None:
         (PILLAR, (Pose(-0.4, 0.0, 0.0), APART[1]), "pursuer must start at"),
         (PILLAR, (APART[0], Pose(2.5, 0.0, 0.0)), "evader must start between"),
         (PILLAR, (APART[0], Pose(-0.7, 0.0, 0.0)), "0.4 .m. apart, got 0.3"),
-        (two_rooms(0.3), APART, "a way of 0.4 .m. between"),
+        (two_rooms(0.3), APART, "a path at least 0.4 .m. wide"),
     ],
 )
-def test_no_game_starts_where_none_can(
+def test_invalid_initial_poses_are_refused(
     room: Room, starts: tuple[Pose, Pose], rule: str
 ) -> None:
     check_starts(PILLAR, APART)
@@ -140,7 +142,7 @@ def test_no_game_starts_where_none_can(
 RECIPE = RoomRecipe(3.0, 3.0, discs=3, boxes=2, polygons=2, doors=2)
 
 
-def test_a_room_of_a_seed_is_what_its_recipe_says() -> None:
+def test_generated_room_follows_its_recipe() -> None:
     for seed in range(8):
         room = make_room(RECIPE, seed)
         assert make_room(RECIPE, seed) == room
@@ -161,14 +163,14 @@ def test_a_room_of_a_seed_is_what_its_recipe_says() -> None:
     assert make_room(RECIPE, 1) != make_room(RECIPE, 2)
 
 
-def test_starts_of_one_seed_do_not_depend_on_what_else_it_draws() -> None:
+def test_initial_poses_do_not_depend_on_other_draws_of_the_seed() -> None:
     assert draw_starts(Room(9.0, 9.0), 5) == draw_starts(
         Room(9.0, 9.0, (Disc(4.4, 4.4, 0.05),)), 5
     )
 
 
-def test_a_file_keeps_boxes_and_walls_as_they_are() -> None:
-    """As boxes, in whatever order a room is given them."""
+def test_file_preserves_boxes_and_walls() -> None:
+    """Walls become boxes, in any order of the given obstacles."""
     triangle = Polygon(((0.5, 0.5), (0.9, 0.5), (0.7, 0.9)))
     box, wall = Box(0.4, -0.7, 0.3, 0.2, 0.5), wall_between((0, 0), (0, 1))
     room = Room(3.0, 3.0, (triangle, wall, Disc(-0.6, 0.2, 0.15), box))
@@ -181,14 +183,14 @@ def test_a_file_keeps_boxes_and_walls_as_they_are() -> None:
     assert room_of_entries(entries) == room
 
 
-def test_what_has_no_place_is_refused() -> None:
+def test_recipe_that_does_not_fit_is_refused() -> None:
     with pytest.raises(ConfigurationError, match="too full"):
         make_room(RoomRecipe(2.0, 2.0, discs=60), 1)
     with pytest.raises(ConfigurationError, match="two players"):
         make_room(RoomRecipe(0.8, 0.8), 1)
 
 
-def test_a_file_gives_the_room_again(tmp_path: Path) -> None:
+def test_room_survives_a_round_trip_through_a_file(tmp_path: Path) -> None:
     room = make_room(RECIPE, 3)
     file = tmp_path / "room.toml"
     file.write_text(room_text(room), encoding="utf-8")
@@ -238,7 +240,7 @@ def test_a_file_gives_the_room_again(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_a_bad_file_is_refused_in_one_line(
+def test_invalid_file_is_refused_in_one_line(
     text: str, rule: str, tmp_path: Path
 ) -> None:
     file = tmp_path / "room.toml"
@@ -264,7 +266,7 @@ def test_a_bad_file_is_refused_in_one_line(
         ["--size", "open", "--doors", "1"],
     ],
 )
-def test_what_makes_no_room_is_refused_in_one_line(
+def test_invalid_recipe_is_refused_in_one_line(
     arguments: list[str],
 ) -> None:
     answer = CliRunner().invoke(main, ["room", *arguments])
@@ -272,27 +274,27 @@ def test_what_makes_no_room_is_refused_in_one_line(
     assert len(answer.output.splitlines()) == 1
 
 
-def test_the_command_measures_and_draws(tmp_path: Path) -> None:
+def test_command_prints_metrics_and_writes_a_figure(tmp_path: Path) -> None:
     figure = tmp_path / "room.svg"
     arguments = ["--discs", "1", "--figure", str(figure), "--json"]
     answer = CliRunner().invoke(main, ["room", *arguments])
-    told: dict[str, Any] = json.loads(answer.output)
-    disc = told["room"]["discs"][0]
-    assert told["free_m2"] == pytest.approx(
+    metrics: dict[str, Any] = json.loads(answer.output)
+    disc = metrics["room"]["discs"][0]
+    assert metrics["free_m2"] == pytest.approx(
         9.0 - np.pi * disc["radius"] ** 2, abs=0.01
     )
-    assert told["free_for_body_m2"] < 2.6**2
+    assert metrics["free_for_body_m2"] < 2.6**2
     assert figure.read_text(encoding="utf-8").startswith("<?xml")
 
 
-def test_a_body_has_the_floor_that_its_radius_leaves() -> None:
-    told = measure_room(PILLAR, 0.24)
-    assert told["body_radius_m"] == 0.24 and told["floor_m2"] == 8.0
+def test_free_area_shrinks_by_the_radius_of_the_body() -> None:
+    metrics = measure_room(PILLAR, 0.24)
+    assert metrics["body_radius_m"] == 0.24 and metrics["floor_m2"] == 8.0
     left = 3.52 * 1.52 - np.pi * 0.54**2
-    assert told["free_for_body_m2"] == pytest.approx(left, abs=0.02)
+    assert metrics["free_for_body_m2"] == pytest.approx(left, abs=0.02)
 
 
 @pytest.mark.parametrize("value", [nan, inf, 0.0, -1.0])
-def test_no_other_size_is_taken(value: float) -> None:
+def test_invalid_width_is_refused(value: float) -> None:
     with pytest.raises(ConfigurationError, match="room width must lie"):
         Room(value, 3.0)

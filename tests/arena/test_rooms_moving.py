@@ -1,4 +1,4 @@
-"""Boxes that are pushed to and fro: laws, files, world, map and stage."""
+"""Test moving boxes: motion, files, simulation, map and replay."""
 
 from math import hypot
 from pathlib import Path
@@ -40,7 +40,7 @@ ROOM = Room(
 HALF = BOX.length / BOX.speed  # time from one end to the other, in [s]
 
 
-def test_it_goes_straight_at_its_speed_and_comes_back() -> None:
+def test_box_moves_along_a_line_at_its_speed_and_returns() -> None:
     assert BOX.place_at(0.0) == pytest.approx((0.2, -0.9))
     assert BOX.place_at(HALF) == pytest.approx((0.5, 0.6))
     for time in np.linspace(0.0, 2.0 * HALF, 23).tolist():
@@ -56,22 +56,22 @@ def test_it_goes_straight_at_its_speed_and_comes_back() -> None:
     ("begin", "end"),
     [(0.0, 0.0), (1.0, 4.0), (HALF - 1, HALF + 2), (0.5, 5 * HALF)],
 )
-def test_what_it_sweeps_holds_it_at_all_times(
+def test_swept_floor_contains_the_box_at_all_times(
     begin: float, end: float
 ) -> None:
-    """Also where it turns back between."""
+    """Also with turning points in between."""
     swept = BOX.swept(begin, end)
     corners = []
     for time in np.linspace(begin, end, 301).tolist():
         corners.append(BOX.at(time).points)
         assert swept.clearance(corners[-1]).max() < 1e-9
     farthest = np.concatenate(corners)
-    for corner in swept.points:  # and nothing else
+    for corner in swept.points:  # the hull is tight
         assert np.hypot(*(farthest - corner).T).min() < 0.02
 
 
 @pytest.mark.parametrize(
-    ("changes", "says"),
+    ("changes", "message"),
     [
         ({"to": (0.2, -0.9)}, "at least 0.001"),
         ({"to": (0.2,)}, "pair"),
@@ -81,8 +81,8 @@ def test_what_it_sweeps_holds_it_at_all_times(
         ({"width": -1.0}, "width"),
     ],
 )
-def test_what_is_no_moving_box_is_refused(
-    changes: dict[str, Any], says: str
+def test_invalid_moving_box_is_refused(
+    changes: dict[str, Any], message: str
 ) -> None:
     values: dict[str, Any] = {
         "x": 0.2,
@@ -91,11 +91,11 @@ def test_what_is_no_moving_box_is_refused(
         "depth": 0.2,
         "to": (1, 1),
     }
-    with pytest.raises(ConfigurationError, match=says):
+    with pytest.raises(ConfigurationError, match=message):
         MovingBox(**values | changes)
 
 
-def test_it_stays_between_the_walls_and_off_the_starts() -> None:
+def test_box_stays_between_the_walls_and_off_the_initial_poses() -> None:
     with pytest.raises(ConfigurationError, match="between the walls"):
         Room(3.0, 3.0, moving=(MovingBox(0, 0, 0.2, 0.2, (1.6, 0)),))
     assert ROOM.starts is not None
@@ -105,7 +105,9 @@ def test_it_stays_between_the_walls_and_off_the_starts() -> None:
         check_starts(ROOM, on_it)
 
 
-def test_a_file_holds_it(tmp_path: Path) -> None:
+def test_moving_box_survives_a_round_trip_through_a_file(
+    tmp_path: Path,
+) -> None:
     assert room_of_entries(room_entries(ROOM)) == ROOM
     file = tmp_path / "room.toml"
     file.write_text(
@@ -116,7 +118,7 @@ def test_a_file_holds_it(tmp_path: Path) -> None:
         load_room(file)
 
 
-def test_it_stands_in_the_world_where_the_room_has_it() -> None:
+def test_simulated_box_follows_the_room() -> None:
     spec = mujoco.MjSpec()
     add_solids(spec, ROOM)
     model = spec.compile()
@@ -140,12 +142,14 @@ def test_it_stands_in_the_world_where_the_room_has_it() -> None:
         assert down == pytest.approx(1.4)
 
 
-def test_a_given_map_tells_where_it_is_and_soon_will_be() -> None:
+def test_given_map_covers_the_floor_swept_in_the_near_future() -> None:
     around, nothing = KnownRoom(ROOM, Pose(0.0, 0.0, 0.0)), np.zeros(3)
     body: Any = BodyReference
     for now in (0.0, 1.0, 5.0):
-        told = Measurement(now, nothing, nothing, nothing, np.zeros(8), None)
-        around.note(told, body)
+        measurement = Measurement(
+            now, nothing, nothing, nothing, np.zeros(8), None
+        )
+        around.note(measurement, body)
         known = around.solids.shapes[-1]
         for ahead in (0.0, 0.5 * AHEAD, AHEAD):
             corners = BOX.at(now + ahead).points
@@ -154,7 +158,7 @@ def test_a_given_map_tells_where_it_is_and_soon_will_be() -> None:
         assert known.clearance([far])[0] > 0.1
 
 
-def test_a_run_shows_it_where_it_was() -> None:
+def test_replay_shows_the_box_at_its_recorded_position() -> None:
     settings = DuelSettings(duration=0.6, room=SceneSettings(plan=ROOM))
     duel = Duel(settings)
     run = duel.run(*play(duel, 0.6, None))
@@ -169,7 +173,7 @@ def test_a_run_shows_it_where_it_was() -> None:
     assert stage.model.body("wall 4").id > 0
 
 
-def test_a_figure_shows_it_where_it_is_and_where_it_turns() -> None:
+def test_figure_shows_the_box_and_its_turning_points() -> None:
     for time in (0.0, 3.0, HALF):
         patches = room_patches(ROOM, time)
         shown = (BOX.at(time), *BOX.ends)
@@ -179,7 +183,7 @@ def test_a_figure_shows_it_where_it_is_and_where_it_turns() -> None:
     assert len(patches) == len(ROOM.solids) + 3
 
 
-def test_only_humanoids_play_where_boxes_move() -> None:
+def test_moving_boxes_need_the_physics_level() -> None:
     with pytest.raises(ConfigurationError, match="level must be 'physics'"):
         TournamentSettings(room=ROOM)
     assert TournamentSettings("physics", ROOM).room is ROOM

@@ -1,4 +1,4 @@
-"""Test discs, polygons and the distances between them."""
+"""Test discs, polygons and distances between them."""
 
 from math import cos, hypot, nan, pi, sin, sqrt
 
@@ -31,17 +31,17 @@ RING = np.linspace(0.0, 2.0 * pi, 721)
 
 
 def outline(shape: Obstacle, count: int = 400) -> np.ndarray:
-    """Points along the edge, shape (m * count, 2)."""
-    share = np.linspace(0.0, 1.0, count, endpoint=False)[:, None]
+    """Return points along the edge. Shape (m * count, 2)."""
+    fraction = np.linspace(0.0, 1.0, count, endpoint=False)[:, None]
     ends = np.roll(shape.outline, -1, axis=0)
     pairs = zip(shape.outline, ends, strict=True)
-    return np.concatenate([a + share * (b - a) for a, b in pairs])
+    return np.concatenate([a + fraction * (b - a) for a, b in pairs])
 
 
-def test_clearance_of_a_square_has_three_closed_forms() -> None:
-    asked = [[3.0, 0.5], [2.0, 2.0], [0.3, 0.0], [1.0, 0.0]]
+def test_clearance_of_a_square_has_closed_forms() -> None:
+    points = [[3.0, 0.5], [2.0, 2.0], [0.3, 0.0], [1.0, 0.0]]
     np.testing.assert_allclose(
-        SQUARE.clearance(asked), [2.0, sqrt(2.0), -0.7, 0.0], atol=1e-15
+        SQUARE.clearance(points), [2.0, sqrt(2.0), -0.7, 0.0], atol=1e-15
     )
 
 
@@ -53,8 +53,8 @@ def test_clearance_of_a_square_has_three_closed_forms() -> None:
         Polygon(((0.0, 0.0), (1.0, 0.2), (0.3, 0.9))),
     ],
 )
-def test_clearance_changes_as_far_as_one_walks(shape: Obstacle) -> None:
-    """A signed distance has slope one, but where the nearest point jumps."""
+def test_clearance_has_a_gradient_of_one(shape: Obstacle) -> None:
+    """By finite differences at random points."""
     points = np.random.default_rng(1).uniform(-2.0, 2.0, (500, 2))
     small = 1e-6
     slopes = [
@@ -65,14 +65,14 @@ def test_clearance_changes_as_far_as_one_walks(shape: Obstacle) -> None:
     np.testing.assert_allclose(np.hypot(*slopes), 1.0, atol=1e-6)
 
 
-def test_a_clockwise_polygon_is_the_same_polygon() -> None:
+def test_orientation_of_the_corners_does_not_matter() -> None:
     corners = ((0.0, 0.0), (1.0, 0.2), (0.3, 0.9))
     assert Polygon(corners).area == Polygon(corners[::-1]).area > 0.0
     inside = [[0.4, 0.4]]
     assert Polygon(corners[::-1]).clearance(inside)[0] < 0.0
 
 
-def test_polygon_clearance_between_is_that_of_their_outlines() -> None:
+def test_clearance_between_boxes_is_that_of_their_outlines() -> None:
     random = np.random.default_rng(2)
     for _ in range(30):
         x, y, turn = random.uniform(-2.0, 2.0, 3)
@@ -86,7 +86,7 @@ def test_polygon_clearance_between_is_that_of_their_outlines() -> None:
         assert found == pytest.approx(clearance_between(other, SQUARE))
 
 
-def test_overlap_is_the_least_way_out() -> None:
+def test_overlap_is_minus_the_penetration_depth() -> None:
     other = Box(1.4, 0.2, 1.0, 1.0)
     assert clearance_between(SQUARE, other) == pytest.approx(-0.1)
     assert clearance_between(
@@ -100,34 +100,34 @@ def test_overlap_is_the_least_way_out() -> None:
 
 
 @pytest.mark.parametrize("shape", [Disc(0.0, 0.0, 1.0), SQUARE])
-def test_a_line_crosses_what_one_of_its_points_lies_in(
+def test_segment_intersects_a_shape_that_contains_one_of_its_points(
     shape: Obstacle,
 ) -> None:
     random = np.random.default_rng(3)
     starts = random.uniform(-3.0, 3.0, (300, 2))
     ends = random.uniform(-3.0, 3.0, (300, 2))
-    share = np.linspace(0.0, 1.0, 2001)[:, None]
+    fraction = np.linspace(0.0, 1.0, 2001)[:, None]
     nearest = np.array(
         [
-            shape.clearance(a + share * (b - a)).min()
+            shape.clearance(a + fraction * (b - a)).min()
             for a, b in zip(starts, ends, strict=True)
         ]
     )
-    clear = np.abs(nearest) > 0.01  # what samples decide
-    found = ObstacleSet((shape,)).crossed(starts, ends)[:, 0]
+    clear = np.abs(nearest) > 0.01  # decidable by samples
+    found = ObstacleSet((shape,)).segments_intersect(starts, ends)[:, 0]
     assert 50 < found[clear].sum() < 250
     np.testing.assert_array_equal(found[clear], nearest[clear] < 0.0)
 
 
-def test_a_line_along_an_edge_and_one_of_no_length() -> None:
+def test_segments_along_an_edge_and_of_zero_length() -> None:
     starts = [[-2.0, 1.0 + 1e-9], [-2.0, 0.99], [0.5, 0.5], [1.5, 0.5]]
     ends = [[2.0, 1.0 + 1e-9], [2.0, 0.99], [0.5, 0.5], [1.5, 0.5]]
-    assert ObstacleSet((SQUARE,)).crossed(starts, ends)[:, 0].tolist() == [
-        *(False, True, True, False)
-    ]
+    assert ObstacleSet((SQUARE,)).segments_intersect(starts, ends)[
+        :, 0
+    ].tolist() == [False, True, True, False]
 
 
-def test_moved_shapes_keep_their_distances() -> None:
+def test_clearance_is_invariant_under_transformations() -> None:
     pose = Pose(0.7, -0.4, 1.1)
     points = np.random.default_rng(4).uniform(-2.0, 2.0, (50, 2))
     for shape in (Disc(0.2, 0.1, 0.3), Box(0.1, 0.5, 0.6, 0.2, 0.3)):
@@ -138,7 +138,7 @@ def test_moved_shapes_keep_their_distances() -> None:
         )
 
 
-def test_a_wall_runs_from_point_to_point() -> None:
+def test_wall_runs_from_point_to_point() -> None:
     wall = wall_between((1.0, 1.0), (1.0, 3.0), 0.2)
     np.testing.assert_allclose(
         wall.clearance([[1.0, 2.0], [1.5, 2.0], [1.0, 3.5]]), [-0.1, 0.4, 0.5]
@@ -146,7 +146,7 @@ def test_a_wall_runs_from_point_to_point() -> None:
     assert wall.area == pytest.approx(0.4)
 
 
-def test_the_hull_holds_its_points_and_no_more() -> None:
+def test_hull_contains_its_points_and_has_corners_among_them() -> None:
     points = np.random.default_rng(5).normal(size=(60, 2))
     found = hull(points)
     assert found.clearance(points).max() < 1e-12
@@ -172,19 +172,19 @@ PENTAGRAM = tuple((cos(4 * pi * i / 5), sin(4 * pi * i / 5)) for i in range(5))
         (((0, 0), (1, 0), (1, 1e-5)), "edges >= 0.001"),
     ],
 )
-def test_no_other_polygon_is_taken(corners: object, rule: str) -> None:
+def test_invalid_polygon_is_refused(corners: object, rule: str) -> None:
     with pytest.raises(ConfigurationError, match=rule) as caught:
         Polygon(corners)  # type: ignore[arg-type]
     assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize("value", [nan, -0.1, 0.0, True, 1e6])
-def test_no_other_radius_is_taken(value: float) -> None:
+def test_invalid_radius_is_refused(value: float) -> None:
     with pytest.raises(ConfigurationError, match="disc radius must"):
         Disc(0.0, 0.0, value)
 
 
-def test_a_disc_is_what_is_near_its_centre() -> None:
+def test_disc_is_the_set_of_points_within_its_radius() -> None:
     disc = Disc(1.0, -2.0, 0.5)
     ring = np.stack([1.0 + np.cos(RING), -2.0 + np.sin(RING)], axis=-1)
     np.testing.assert_allclose(disc.clearance(ring), 0.5, atol=1e-14)
@@ -193,14 +193,14 @@ def test_a_disc_is_what_is_near_its_centre() -> None:
     assert hypot(*disc.centre) == pytest.approx(sqrt(5.0))
 
 
-@pytest.mark.parametrize(("height", "taken"), [(1.1, True), (0.9, False)])
+@pytest.mark.parametrize(("height", "valid"), [(1.1, True), (0.9, False)])
 @pytest.mark.parametrize("at", [0.003, 5.0])
-def test_a_polygon_is_nowhere_thinner_than_an_edge_may_be_short(
-    at: float, height: float, taken: bool
+def test_polygon_has_a_least_thickness(
+    at: float, height: float, valid: bool
 ) -> None:
-    """A triangle over 10 m, however short its other edges are."""
+    """Triangle over a side of 10 m, with any other edges."""
     corners = ((0.0, 0.0), (10.0, 0.0), (at, height * SMALLEST))
-    if taken:
+    if valid:
         assert Polygon(corners).area == pytest.approx(5e-3 * height)
         return
     with pytest.raises(ConfigurationError, match="must have an inside"):
@@ -208,27 +208,27 @@ def test_a_polygon_is_nowhere_thinner_than_an_edge_may_be_short(
 
 
 @pytest.mark.parametrize("name", ["points", "normals", "offsets"])
-def test_nobody_changes_a_polygon(name: str) -> None:
+def test_hull_arrays_are_read_only(name: str) -> None:
     with pytest.raises(ValueError, match="read-only"):
         getattr(SQUARE.hull, name)[0] = 0.0
 
 
 @pytest.mark.parametrize("name", ["x", "y", "width", "depth", "heading"])
 @pytest.mark.parametrize("value", [nan, 1e4, -1e4])
-def test_what_is_wrong_with_a_box_is_named(name: str, value: float) -> None:
+def test_invalid_value_of_a_box_is_named(name: str, value: float) -> None:
     given = {"x": 0.1, "y": 0.2, "width": 0.3, "depth": 0.4} | {name: value}
     with pytest.raises(ConfigurationError, match=f"box {name} must"):
         Box(**given)
 
 
 @pytest.mark.parametrize("name", ["width", "depth"])
-def test_a_side_of_a_box_is_an_edge(name: str) -> None:
+def test_side_of_a_box_has_a_least_length(name: str) -> None:
     given = {"width": 0.3, "depth": 0.4, name: 0.9 * SMALLEST}
     with pytest.raises(ConfigurationError, match=f"box {name} must"):
         Box(0.0, 0.0, **given)
 
 
-def test_a_box_that_is_moved_stays_a_box() -> None:
+def test_transformed_box_is_a_box() -> None:
     box, pose = Box(0.4, -0.2, 0.6, 0.3, 2.0), Pose(0.7, 1.1, 2.5)
     moved = box.moved(pose)
     assert (moved.width, moved.depth) == (0.6, 0.3)
@@ -238,15 +238,15 @@ def test_a_box_that_is_moved_stays_a_box() -> None:
     )
 
 
-def test_a_corner_of_a_box_lies_no_farther_than_anything_may() -> None:
+def test_corner_of_a_box_out_of_range_is_refused() -> None:
     with pytest.raises(ConfigurationError, match="box corner x must"):
         Box(999.0, 0.0, 3.0, 1.0)
 
 
 @pytest.mark.parametrize("one", range(len(SHAPES)))
 @pytest.mark.parametrize("other", range(len(SHAPES)))
-def test_clearance_between_is_the_same_both_ways(one: int, other: int) -> None:
-    """And that of outlines, whatever both are."""
+def test_clearance_between_is_symmetric(one: int, other: int) -> None:
+    """It equals the distance of the outlines."""
     first, second = SHAPES[one], SHAPES[other].moved(Pose(1.6, 0.9, 0.4))
     found = clearance_between(first, second)
     assert found == pytest.approx(clearance_between(second, first), abs=1e-14)
@@ -257,8 +257,8 @@ def test_clearance_between_is_the_same_both_ways(one: int, other: int) -> None:
     assert found == pytest.approx(nearest, abs=3e-3)
 
 
-def test_the_way_out_is_the_slope_of_the_clearance() -> None:
-    """By finite differences; at the edge of a solid it is its normal."""
+def test_direction_out_is_the_gradient_of_the_clearance() -> None:
+    """By finite differences."""
     points = np.random.default_rng(6).uniform(-1.5, 1.5, (200, 2))
     known, small = ObstacleSet(SHAPES), 1e-6
     slopes = [
@@ -271,7 +271,7 @@ def test_the_way_out_is_the_slope_of_the_clearance() -> None:
     )
 
 
-def test_a_set_measures_as_each_of_its_shapes() -> None:
+def test_set_agrees_with_each_of_its_shapes() -> None:
     points = np.random.default_rng(7).uniform(-2.0, 2.0, (300, 2))
     starts, ends = points[:150], points[150:]
     known = ObstacleSet(SHAPES)
@@ -280,25 +280,29 @@ def test_a_set_measures_as_each_of_its_shapes() -> None:
     np.testing.assert_allclose(known.clearances(points), each, atol=1e-12)
     np.testing.assert_allclose(known.clearance(points), each.min(axis=1))
     np.testing.assert_array_equal(
-        known.crossed(starts, ends),
-        np.concatenate([s.crossed(starts, ends) for s in alone], axis=1),
+        known.segments_intersect(starts, ends),
+        np.concatenate(
+            [s.segments_intersect(starts, ends) for s in alone], axis=1
+        ),
     )
     assert NO_OBSTACLES.clearance(points).min() == np.inf
-    assert not NO_OBSTACLES.crossed(starts, ends).any()
+    assert not NO_OBSTACLES.segments_intersect(starts, ends).any()
 
 
 @pytest.mark.parametrize("radius", [0.0, 0.2])
-def test_a_line_keeps_clear_if_all_its_points_do(radius: float) -> None:
+def test_segment_keeps_clear_if_all_its_points_do(radius: float) -> None:
     random = np.random.default_rng(8)
     known = ObstacleSet(SHAPES)
     points = random.uniform(-2.0, 2.0, (400, 2))
     points = points[known.clearance(points) > radius + 1e-3]
     start, ends = points[0], points[1:]
-    share = np.linspace(0.0, 1.0, 2001)[:, None]
+    fraction = np.linspace(0.0, 1.0, 2001)[:, None]
     least = np.array(
-        [known.clearance(start + share * (e - start)).min() for e in ends]
+        [known.clearance(start + fraction * (e - start)).min() for e in ends]
     )
     decided = np.abs(least - radius) > 0.01
-    found = known.keep_clear(np.full(len(SHAPES), radius), start, ends)
+    found = known.segments_keep_clear(
+        np.full(len(SHAPES), radius), start, ends
+    )
     assert 20 < found[decided].sum() < decided.sum() - 20
     np.testing.assert_array_equal(found[decided], least[decided] > radius)

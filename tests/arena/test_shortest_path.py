@@ -1,4 +1,4 @@
-"""The shortest way around what stands on a floor."""
+"""Test shortest paths around obstacles."""
 
 from math import acos, atan2, hypot, pi, sqrt
 
@@ -23,7 +23,9 @@ LIMITS = Limits(0.1, 0.2, 0.04, 0.547)
 Point = tuple[float, float]
 
 
-def way(solids: tuple[Obstacle, ...], start: Point, end: Point) -> list[Point]:
+def path(
+    solids: tuple[Obstacle, ...], start: Point, end: Point
+) -> list[Point]:
     points = [start]
     while points[-1] != end:
         points.append(first_point(solids, points[-1], end, RADIUS))
@@ -36,16 +38,16 @@ def length(points: list[Point]) -> float:
     return float(np.hypot(*legs.T).sum())
 
 
-def test_a_way_with_nothing_on_it_is_straight() -> None:
+def test_free_path_is_straight() -> None:
     assert first_point((), (0.0, 0.0), (1.0, 2.0), RADIUS) == (1.0, 2.0)
     beside = (Disc(0.5, 0.31, 0.1),)
     assert first_point(beside, (0.0, 0.0), (1.0, 0.0), RADIUS) == (1.0, 0.0)
 
 
-def test_the_way_around_a_disc_is_tangents_and_an_arc() -> None:
+def test_path_around_a_disc_is_tangents_and_an_arc() -> None:
     disc, away = Disc(0.0, 0.0, 0.3), 0.3 + RADIUS
     start, end = (-1.0, 0.05), (1.2, 0.05)
-    found = length(way((disc,), start, end))
+    found = length(path((disc,), start, end))
     arc = pi
     exact = 0.0
     for x, y in (start, end):
@@ -56,17 +58,17 @@ def test_the_way_around_a_disc_is_tangents_and_an_arc() -> None:
     assert exact < found < 1.03 * exact
 
 
-def test_the_way_around_a_wall_goes_by_its_nearer_end() -> None:
+def test_path_around_a_wall_passes_its_nearer_end() -> None:
     wall = Box(0.0, 0.3, 0.1, 1.0)  # from y = -0.2 to 0.8
-    points = way((wall,), (-0.5, 0.0), (0.5, 0.0))
+    points = path((wall,), (-0.5, 0.0), (0.5, 0.0))
     assert min(y for _, y in points) < -0.2 - 0.9 * RADIUS
-    mirrored = way((Box(0.0, -0.3, 0.1, 1.0),), (-0.5, 0.0), (0.5, 0.0))
+    mirrored = path((Box(0.0, -0.3, 0.1, 1.0),), (-0.5, 0.0), (0.5, 0.0))
     np.testing.assert_allclose(
         np.array(mirrored), np.array(points) * [1, -1], atol=1e-12
     )
 
 
-def test_ways_keep_their_distance_in_any_room() -> None:
+def test_paths_keep_their_clearance_in_random_rooms() -> None:
     recipe = RoomRecipe(discs=3, boxes=2, polygons=1)
     for seed in range(3):
         room = make_room(recipe, seed)
@@ -75,13 +77,13 @@ def test_ways_keep_their_distance_in_any_room() -> None:
         for goal in (end, (-end[0], -end[1])):
             if room.clearance([goal])[0] < RADIUS:
                 continue
-            points = np.array(way(room.solids, start, goal))
+            points = np.array(path(room.solids, start, goal))
             for a, b in zip(points[:-1], points[1:], strict=True):
                 line = a + np.linspace(0.0, 1.0, 200)[:, None] * (b - a)
                 assert room.clearance(line).min() > RADIUS - 1e-6
 
 
-def test_where_there_is_no_way_it_heads_straight() -> None:
+def test_without_a_path_the_waypoint_is_the_goal() -> None:
     cage = tuple(
         Box(x, y, w, d)
         for x, y, w, d in (
@@ -95,8 +97,8 @@ def test_where_there_is_no_way_it_heads_straight() -> None:
 
 
 @pytest.mark.parametrize("side", [1, -1])
-def test_a_pursuer_goes_around_a_pillar(side: int) -> None:
-    """Seen straight ahead behind a pillar, the other is not headed for."""
+def test_pursuer_goes_around_a_pillar(side: int) -> None:
+    """It does not head for an opponent straight behind a pillar."""
     pillar = Disc(0.6, -0.02 * side, 0.15)
     here = Pose(0.3, -0.2, 0.7)
     placed = pillar.moved(here)
@@ -107,8 +109,8 @@ def test_a_pursuer_goes_around_a_pillar(side: int) -> None:
     assert Pursuit().decide(free, None)[0].heading == 0.4
 
 
-def test_who_goes_around_something_turns_as_soon_as_it_can() -> None:
-    """By (2) it would walk into a pillar that it heads by."""
+def test_pursuer_turns_at_its_full_rate_around_a_pillar() -> None:
+    """By (2) it would walk into the pillar."""
     pillar = Disc(0.6, 0.02, 0.15)
     here = Pose(0.0, 0.0, 0.0)
     known = Knowledge(0.0, 0.0, 1.5, LIMITS, pose=here, obstacles=(pillar,))
@@ -119,8 +121,8 @@ def test_who_goes_around_something_turns_as_soon_as_it_can() -> None:
     assert turn == pytest.approx(-0.08 * pi / 2)
 
 
-def test_who_sees_the_other_past_a_pillar_does_not_walk_into_it() -> None:
-    """The line of sight is free, the way straight ahead is not."""
+def test_pursuer_with_a_free_line_of_sight_avoids_a_pillar_ahead() -> None:
+    """The line of sight is free, the path straight ahead is not."""
     pillar = Disc(0.45, 0.0, 0.15)
     here = Pose(0.0, 0.0, 0.0)
     other = atan2(-1.0, 0.1)
@@ -132,7 +134,7 @@ def test_who_sees_the_other_past_a_pillar_does_not_walk_into_it() -> None:
     assert Pursuit().decide(free, None)[0].heading == other
 
 
-def test_all_that_stands_is_as_far_as_each_of_it() -> None:
+def test_solids_of_a_room_have_the_clearance_of_each() -> None:
     room = make_room(RoomRecipe(discs=2, boxes=1, polygons=2, doors=1), 3)
     points = np.random.default_rng(4).uniform(-1.6, 1.6, (300, 2))
     expected = np.stack([s.clearance(points) for s in room.solids], axis=1)
@@ -143,10 +145,9 @@ def test_all_that_stands_is_as_far_as_each_of_it() -> None:
 
 @pytest.mark.parametrize("side", [-1, 0, 1])
 @pytest.mark.parametrize("seed", range(8))
-def test_a_way_is_the_same_wherever_its_floor_lies(
+def test_path_is_equivariant_under_transformations_and_mirroring(
     side: int, seed: int
 ) -> None:
-    """And mirrored, the way on the other side."""
     random = np.random.default_rng(seed)
     turn, beside = random.uniform(-0.2, 0.2, 2).tolist()
     walls = (Box(0.0, beside, 0.1, 1.0, turn), Box(0.8, -0.4, 0.3, 0.4))
@@ -154,13 +155,13 @@ def test_a_way_is_the_same_wherever_its_floor_lies(
     found = first_point(walls, start, end, RADIUS, side)
     frame = Pose(*random.uniform(-3.0, 3.0, 3).tolist())
 
-    def there(point: Point) -> Point:
+    def transform(point: Point) -> Point:
         x, y = frame.transform_points([point])[0].tolist()
         return x, y
 
     moved = tuple(wall.moved(frame) for wall in walls)
-    again = first_point(moved, there(start), there(end), RADIUS, side)
-    assert again == pytest.approx(there(found), abs=1e-9)
+    again = first_point(moved, transform(start), transform(end), RADIUS, side)
+    assert again == pytest.approx(transform(found), abs=1e-9)
     mirrored = (Box(0.0, -beside, 0.1, 1.0, -turn), Box(0.8, 0.4, 0.3, 0.4))
     ends = (start[0], -start[1]), (end[0], -end[1])
     x, y = first_point(mirrored, *ends, RADIUS, -side)
@@ -169,10 +170,8 @@ def test_a_way_is_the_same_wherever_its_floor_lies(
 
 @pytest.mark.parametrize("side", [-1, 1])
 @pytest.mark.parametrize("turn", [0.0, 2.0, -2.5])
-def test_it_goes_around_on_the_side_that_it_prefers(
-    side: int, turn: float
-) -> None:
-    """Unless that is 0.4 m longer; wherever start and end are."""
+def test_path_takes_the_preferred_side(side: int, turn: float) -> None:
+    """Unless the other side is 0.4 m shorter."""
     here = Pose(1.3, -0.7, turn)
     goal = here.compose(Pose(1.0, 0.0, 0.0))
     for beside, preferred in ((0.05, True), (0.3, False)):

@@ -1,4 +1,4 @@
-"""Test distances of moving outlines from solids, along some directions."""
+"""Test lower bounds of the clearance of moving outlines."""
 
 from math import cos, pi, radians
 
@@ -20,7 +20,7 @@ COARSE = radians(3.0)  # to the nearest direction, at most
 
 
 def scene(seed: int) -> tuple[Obstacle, Array]:
-    """Something, and an outline that does not touch it."""
+    """Return a solid and an outline at a distance from it."""
     random = np.random.default_rng(seed)
     x, y, turn = random.uniform(-1.0, 1.0, 3).tolist()
     away = Pose(x, y, pi * turn).compose(Pose(1.0, 0.0, 2.0 * turn))
@@ -34,30 +34,29 @@ def found(solids: tuple[Obstacle, ...], corners: Array) -> float:
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_what_it_calls_clear_is_clear(seed: int) -> None:
-    """By less than the distance, but for what 3 degrees make of it."""
+def test_bound_is_below_the_distance_and_close_to_it(seed: int) -> None:
+    """The gap is that of directions 3 degrees off."""
     solid, corners = scene(seed)
     foot = Polygon(tuple(map(tuple, corners.tolist())))
     exact = clearance_between(foot, solid)
     assert exact > 0.2
-    # Both reach at most so far from the line of their nearest points.
+    # Largest extent of both across the line of their nearest points.
     aside = 2.0 * COARSE * 0.5
-    told = found((solid,), corners)
-    assert exact * cos(COARSE) - aside <= told <= exact + 1e-12
+    bound = found((solid,), corners)
+    assert exact * cos(COARSE) - aside <= bound <= exact + 1e-12
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_a_quarter_turn_of_everything_changes_no_distance(seed: int) -> None:
-    """No side is seen better than another."""
+def test_bound_is_invariant_under_quarter_turns(seed: int) -> None:
     solid, corners = scene(seed)
-    told = found((solid,), corners)
+    bound = found((solid,), corners)
     for quarters in (1, 2, 3):
         turn = Pose(0.0, 0.0, 0.5 * pi * quarters)
         turned = found((solid.moved(turn),), turn.transform_points(corners))
-        assert turned == pytest.approx(told, abs=1e-9)
+        assert turned == pytest.approx(bound, abs=1e-9)
 
 
-def test_the_nearest_solid_counts() -> None:
+def test_bound_is_that_of_the_nearest_solid() -> None:
     (one, corners), (other, _) = scene(2), scene(5)
-    apart = [found((solid,), corners) for solid in (one, other)]
-    assert found((one, other), corners) == pytest.approx(min(apart), abs=2e-3)
+    bounds = [found((solid,), corners) for solid in (one, other)]
+    assert found((one, other), corners) == pytest.approx(min(bounds), abs=2e-3)

@@ -1,4 +1,4 @@
-"""Test how the claims on the bounded CoM measure a plan's errors."""
+"""Test the measures of the claims on the bounded CoM."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -19,8 +19,8 @@ PLAN = ManeuverPlanner(GAIT).plan(
 )
 
 
-def missed_by(off: float) -> Any:
-    """The plan, with another CoM and DCM above the same ZMP."""
+def shifted_by(off: float) -> Any:
+    """Return the plan with CoM and DCM shifted over the same ZMP."""
 
     def sample(times: Any) -> PlanSamples:
         found = PLAN.sample(times)
@@ -29,15 +29,15 @@ def missed_by(off: float) -> Any:
     return SimpleNamespace(schedule=PLAN.schedule, sample=sample)
 
 
-def test_a_plan_has_no_errors() -> None:
+def test_plan_has_no_errors() -> None:
     assert 0.0 <= quadrature_error(PLAN) < 1e-6
     assert 0.0 <= pendulum_error(PLAN) < 1e-4
 
 
 @pytest.mark.parametrize("off", [3e-3, -3e-3])
-def test_errors_are_told_in_their_size(off: float) -> None:
-    """Eqs. (15) and (16), missed by as much to either side."""
-    found = missed_by(off)
+def test_errors_have_their_size(off: float) -> None:
+    """For a constant error of (15) and (16) to either side."""
+    found = shifted_by(off)
     assert quadrature_error(found) == pytest.approx(3e-3, abs=1e-6)
     pulled = GAIT.eta**2 * 3e-3
     assert pendulum_error(found) == pytest.approx(pulled, abs=1e-4)

@@ -1,4 +1,4 @@
-"""Test the study of claims: verdicts, what is kept, command and page."""
+"""Test the campaign of claims: verdicts, stored readings, command, page."""
 
 import json
 from collections.abc import Callable
@@ -42,8 +42,8 @@ def claim(relation: Any = "=", key: str = "it") -> Claim:
         ("=", (1.15,), False),
         ("=", (0.85,), False),
         ("=", (-5.0,), False),
-        ("=", (1.15, 0.95), True),  # the mean counts,
-        ("=", (1.25, 0.75), False),  # but none may be far off
+        ("=", (1.15, 0.95), True),  # the mean is within the tolerance
+        ("=", (1.25, 0.75), False),  # single runs are too far off
         ("=", (0.75, 1.19), False),
         ("=", (1.12, 1.12), False),
         ("<", (0.9, 0.99), True),
@@ -64,7 +64,7 @@ def test_verdict(
     assert row.to_json()["verdict"] == ("holds" if holds else "fails")
 
 
-def test_a_row_tells_mean_spread_and_runs() -> None:
+def test_row_has_mean_spread_and_runs() -> None:
     row = ClaimRow("a.it", claim(), (1.0, 1.02, 0.98), "v").to_json()
     assert row["measured"] == pytest.approx(1.0)
     assert row["spread"] == pytest.approx(0.02)
@@ -76,18 +76,18 @@ def test_a_row_tells_mean_spread_and_runs() -> None:
     assert fallen["runs"] == 2
 
 
-def test_the_value_farthest_off_is_on_either_side() -> None:
+def test_farthest_value_may_be_on_either_side() -> None:
     assert farthest([1.0, 0.5, 1.4], 1.0) == 0.5
     assert farthest([1.0, 0.9, 1.4], 1.0) == 1.4
     assert farthest([1.0, INF], 1.0) == INF
     assert farthest([], 1.0) != farthest([], 1.0)  # NaN
 
 
-# --- what is kept ---------------------------------------------------------
+# --- stored readings ---------------------------------------------------------
 
 
 class Bench:
-    """Two jobs that count how often they measure."""
+    """Two jobs that record their measurements."""
 
     def __init__(self) -> None:
         self.measured: list[tuple[str, int]] = []
@@ -98,8 +98,10 @@ class Bench:
             "once": self.job("once", ("theory/unicycle",), False),
         }
 
-    def job(self, name: str, rooms: tuple[str, ...], seeded: bool) -> ClaimJob:
-        """One that depends on some rooms."""
+    def job(
+        self, name: str, modules: tuple[str, ...], seeded: bool
+    ) -> ClaimJob:
+        """Return a job that depends on some modules."""
 
         def measure(seed: int) -> Readings:
             if seed == self.stop_at:
@@ -110,7 +112,7 @@ class Bench:
         return ClaimJob(
             (claim(),),
             measure,
-            rooms,
+            modules,
             ("numpy",),
             lambda _: self.settings if seeded else "",
             seeded,
@@ -125,7 +127,7 @@ def bench(monkeypatch: pytest.MonkeyPatch) -> Bench:
 
 
 def again(bench: Bench, folder: Path, *seeds: int) -> list[tuple[str, int]]:
-    """What a folder makes it measure."""
+    """Run the campaign on a folder; return what it measured."""
     bench.measured.clear()
     reproduce.reproduce(folder, seeds)
     return sorted(bench.measured)
@@ -134,15 +136,15 @@ def again(bench: Bench, folder: Path, *seeds: int) -> list[tuple[str, int]]:
 ALL = [("once", 0), ("seeded", 1), ("seeded", 2)]
 
 
-def test_what_is_kept_is_not_measured_again(
+def test_stored_reading_is_not_measured_again(
     bench: Bench, tmp_path: Path
 ) -> None:
-    told: list[tuple[int, int]] = []
+    reports: list[tuple[int, int]] = []
     rows = reproduce.reproduce(
-        tmp_path, (1, 2), report=lambda *numbers: told.append(numbers)
+        tmp_path, (1, 2), report=lambda *numbers: reports.append(numbers)
     )
     assert sorted(bench.measured) == ALL
-    assert told == [(0, 3), (1, 3), (2, 3), (3, 3)]
+    assert reports == [(0, 3), (1, 3), (2, 3), (3, 3)]
     assert [row["name"] for row in rows] == ["seeded.it", "once.it"]
     assert [row["runs"] for row in rows] == [2, 1]
     assert again(bench, tmp_path, 1, 2) == []
@@ -151,7 +153,7 @@ def test_what_is_kept_is_not_measured_again(
     assert reproduce.reproduce(None, (1, 2)) == rows
 
 
-def test_an_edit_of_planning_moves_what_depends_on_it_only(
+def test_changed_module_affects_only_jobs_that_depend_on_it(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     versions = {("planning",): "a", ("theory/unicycle",): "b"}
@@ -163,7 +165,7 @@ def test_an_edit_of_planning_moves_what_depends_on_it_only(
     assert [row["version"] for row in rows] == ["c", "b"]
 
 
-def test_other_settings_or_libraries_are_measured_again(
+def test_changed_settings_or_libraries_are_measured_again(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert again(bench, tmp_path, 1, 2) == ALL
@@ -177,7 +179,7 @@ def test_other_settings_or_libraries_are_measured_again(
 
 
 @pytest.mark.parametrize(
-    "spoil",
+    "corrupt",
     [
         lambda text: text[: len(text) // 2],
         lambda text: "[]",
@@ -188,16 +190,16 @@ def test_other_settings_or_libraries_are_measured_again(
         lambda text: text.replace('"key"', '"lock"'),
     ],
 )
-def test_a_torn_or_foreign_file_is_set_aside(
-    bench: Bench, tmp_path: Path, spoil: Callable[[str], str]
+def test_invalid_file_is_set_aside(
+    bench: Bench, tmp_path: Path, corrupt: Callable[[str], str]
 ) -> None:
     assert again(bench, tmp_path, 1, 2) == ALL
     file = tmp_path / "seeded-seed1.json"
-    spoilt = spoil(file.read_text())
-    assert spoilt != file.read_text()
-    file.write_text(spoilt)
+    corrupted = corrupt(file.read_text())
+    assert corrupted != file.read_text()
+    file.write_text(corrupted)
     assert again(bench, tmp_path, 1, 2) == [("seeded", 1)]
-    assert (tmp_path / "seeded-seed1.json.aside").read_text() == spoilt
+    assert (tmp_path / "seeded-seed1.json.aside").read_text() == corrupted
     assert again(bench, tmp_path, 1, 2) == []
 
 
@@ -209,21 +211,25 @@ def test_a_torn_or_foreign_file_is_set_aside(
         ('"settings": "as they are"', '"settings": "as they were"'),
     ],
 )
-def test_what_another_version_made_is_replaced_without_a_copy(
+def test_file_of_another_version_is_replaced_without_a_copy(
     bench: Bench, tmp_path: Path, ours: str, others: str
 ) -> None:
     again(bench, tmp_path, 1, 2)
     file = tmp_path / "seeded-seed1.json"
-    whole = file.read_text()
-    older = json.loads(whole.replace(ours, others).replace('"it"', '"it_was"'))
-    assert whole.replace(ours, others) != whole
+    original = file.read_text()
+    older = json.loads(
+        original.replace(ours, others).replace('"it"', '"it_was"')
+    )
+    assert original.replace(ours, others) != original
     ReadingStore(tmp_path).store(file.stem, older["key"], older["readings"])
     assert again(bench, tmp_path, 1, 2) == [("seeded", 1)]
-    assert file.read_text() == whole
+    assert file.read_text() == original
     assert not list(tmp_path.glob("*.aside"))
 
 
-def test_who_stops_it_keeps_what_is_done(bench: Bench, tmp_path: Path) -> None:
+def test_interrupted_campaign_keeps_finished_readings(
+    bench: Bench, tmp_path: Path
+) -> None:
     bench.stop_at = 2
     with pytest.raises(KeyboardInterrupt):
         reproduce.reproduce(tmp_path, (1, 2, 3))
@@ -232,7 +238,7 @@ def test_who_stops_it_keeps_what_is_done(bench: Bench, tmp_path: Path) -> None:
     assert again(bench, tmp_path, 1, 2, 3) == [("seeded", 2), ("seeded", 3)]
 
 
-def test_a_reading_that_is_missing_stays_missing_and_fails(
+def test_missing_reading_stays_missing_and_fails(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     job = replace(bench.jobs["once"], measure=lambda _: {"it": NAN})
@@ -242,7 +248,7 @@ def test_a_reading_that_is_missing_stays_missing_and_fails(
         assert (row["verdict"], row["measured"]) == ("fails", None)
 
 
-def test_processes_measure_the_same(
+def test_worker_process_measures_the_same(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(reproduce, "JOBS", {"path": JOBS["path"]})
@@ -253,14 +259,14 @@ def test_processes_measure_the_same(
     assert (tmp_path / "path-seed0.json").exists()
 
 
-def test_each_job_names_each_of_its_claims_once() -> None:
+def test_keys_of_a_job_are_unique() -> None:
     for name, job in JOBS.items():
         keys = [claim.key for claim in job.claims]
         assert len(set(keys)) == len(keys) > 0, name
         assert reproduce.key_of(reproduce.ClaimTrial(name, 1), job)["version"]
 
 
-def test_settings_of_a_physical_job_name_seed_and_gait() -> None:
+def test_settings_of_a_physical_job_contain_seed_and_gait() -> None:
     for name in ("humanoids", "durations", "slip"):
         first, second = (JOBS[name].settings(seed) for seed in (1, 2))
         assert first != second
@@ -280,7 +286,7 @@ MADE = {
 }
 
 
-def test_the_page_tells_values_runs_and_how_it_was_made() -> None:
+def test_page_contains_values_runs_and_provenance() -> None:
     rows = [
         ClaimRow("a.it", claim(), (1.0, 1.02, 0.98), "v").to_json(),
         ClaimRow("b.it", claim("<"), (0.5,), "v").to_json(),
@@ -297,7 +303,7 @@ def test_the_page_tells_values_runs_and_how_it_was_made() -> None:
     assert "| path, com | `abc` | numpy 2 |" in page
 
 
-def test_figures_of_the_paper_stand_beside_what_was_measured() -> None:
+def test_figures_of_the_paper_are_compared_with_measurements() -> None:
     rows: list[dict[str, Any]] = [
         {"name": "circle.pursuer_radius", "measured": 2.5},
         {"name": "slip.smaller", "measured": 0.9},
@@ -318,7 +324,9 @@ def test_figures_of_the_paper_stand_beside_what_was_measured() -> None:
     assert found["5", "circle"].ours == "not measured"
     one = [{"name": "humanoids.pursuer_radius", "measured": 0.65}]
     part = {(f.figure, f.what): f for f in paper_figures(one, 1.5, 36.0)}
-    assert part["5", "circle"].ours == "not measured"  # one of three is not
+    assert (
+        part["5", "circle"].ours == "not measured"
+    )  # two of three claims are missing
     assert {figure for figure, _ in found} == {"2", "5", "6"}
 
 
@@ -336,68 +344,68 @@ def test_command_prints_rows_and_writes_the_page(
     for row in rows:
         assert row["measured"] is not None
         assert (row["runs"], row["spread"]) == (1, 0.0)
-        assert row["version"] == code_version(JOBS["path"].rooms)
+        assert row["version"] == code_version(JOBS["path"].modules)
         assert row["verdict"] == "holds"
-    kept = json.loads((tmp_path / "claims.json").read_text())
-    assert kept["rows"] == rows
-    assert (kept["seed"], kept["runs"]) == (1, 10)
-    job = kept["jobs"]["path"]
+    stored = json.loads((tmp_path / "claims.json").read_text())
+    assert stored["rows"] == rows
+    assert (stored["seed"], stored["runs"]) == (1, 10)
+    job = stored["jobs"]["path"]
     assert job["version"] == rows[0]["version"]
     assert "'single_support': 0.425" in job["settings"]
     html = (tmp_path / "claims.html").read_text()
     first = html.split("</table>")[0]
     assert first.count("<tr>") == len(rows) + 1
-    assert first.count("<td") == 10 * len(rows)  # bars split no cell
+    assert first.count("<td") == 10 * len(rows)  # bars do not split cells
     assert "|theta*|" in html
-    told = CliRunner().invoke(main, call)
-    assert f"{len(rows)} of {len(rows)} hold" in told.stdout
+    text = CliRunner().invoke(main, call)
+    assert f"{len(rows)} of {len(rows)} hold" in text.stdout
 
 
 @pytest.mark.parametrize(
     ("value", "status"), [(1.0, 0), (NAN, 1)], ids=["holds", "fails"]
 )
-@pytest.mark.parametrize("json_asked", [True, False])
-def test_the_exit_status_says_whether_every_claim_holds(
+@pytest.mark.parametrize("as_json", [True, False])
+def test_exit_status_is_0_if_every_claim_holds_else_1(
     bench: Bench,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     value: float,
     status: int,
-    json_asked: bool,
+    as_json: bool,
 ) -> None:
     job = replace(bench.jobs["once"], measure=lambda _: {"it": value})
     bench.jobs["once"] = job
     monkeypatch.setattr(workers, "worker_pool", ThreadPoolExecutor)
     monkeypatch.setattr(reproduce_figures, "draw_figures", lambda *_: [])
     call = ["reproduce", "--runs", "1", "--output", str(tmp_path)]
-    result = CliRunner().invoke(main, [*call, *["--json"] * json_asked])
+    result = CliRunner().invoke(main, [*call, *["--json"] * as_json])
     assert result.exit_code == status, result.output
-    if json_asked:
+    if as_json:
         assert len(json.loads(result.stdout)) == 2
     else:
         assert f"{2 - status} of 2 hold" in result.stdout
     assert (tmp_path / "claims.html").exists()
 
 
-def test_ctrl_c_ends_processes_with_status_130(
+def test_interrupt_ends_worker_processes_with_status_130(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Even one works in a process: a duel cut short here would be kept."""
-    asked: list[int | None] = []
+    """Also with one worker, which runs in its own process."""
+    requests: list[int | None] = []
 
     def pool(number: int | None) -> ThreadPoolExecutor:
-        asked.append(number)
+        requests.append(number)
         return ThreadPoolExecutor(number)
 
     bench.stop_at = 1
     monkeypatch.setattr(workers, "worker_pool", pool)
     call = ["reproduce", "--workers", "1", "--output", str(tmp_path)]
     result = CliRunner().invoke(main, call)
-    assert (result.exit_code, asked) == (130, [1])
+    assert (result.exit_code, requests) == (130, [1])
     assert not (tmp_path / "claims.json").exists()
 
 
-def test_figures_are_drawn_and_drawn_again_when_they_must_be(
+def test_figures_are_drawn_once_and_again_if_settings_change(
     tmp_path: Path,
 ) -> None:
     def draw(duration: float = 1.0) -> list[tuple[str, str]]:
@@ -425,7 +433,7 @@ def test_figures_are_drawn_and_drawn_again_when_they_must_be(
     }
 
 
-def test_our_fig_2_shows_the_circle_more_than_once_round() -> None:
+def test_our_fig_2_shows_more_than_one_turn() -> None:
     turns, end = reproduce_figures.turns_shown()
     assert 1.0 < turns < 3.0
     assert end == pytest.approx(36.0)  # five time constants and one turn

@@ -1,4 +1,4 @@
-"""Test the claims on evading: every row is red under a fault."""
+"""Test the claims on evading: each fails under a synthetic fault."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -35,7 +35,7 @@ def game(
     clear: float = 0.205,
     decision: float = 5e-4,
 ) -> StepTrack:
-    """A game of three steps, the second of which is the nearest."""
+    """Return a game of three steps, closest at the second."""
     pursuer, evader = np.zeros((3, 3)), np.zeros((3, 3))
     evader[:, 0] = 1.2, closest, 1.1
     clearances = np.array([0.5, clear, 0.4])
@@ -49,7 +49,7 @@ CAPTURED = game(0.34, StepOutcome.CAPTURED)
 
 
 def played() -> PlayedGames:
-    """What five games of each are like."""
+    """Return five games of each evader."""
     return PlayedGames(
         {
             "open": {
@@ -66,12 +66,12 @@ def played() -> PlayedGames:
     )
 
 
-def with_games(world: str, evader: str, *games: StepTrack) -> Fault:
-    """Let an evader play other games in a world."""
+def with_games(tournament: str, evader: str, *games: StepTrack) -> Fault:
+    """Replace the games of an evader in a tournament."""
 
     def fault(found: PlayedGames) -> PlayedGames:
-        changed = found.games[world] | {evader: games}
-        return replace(found, games=found.games | {world: changed})
+        changed = found.games[tournament] | {evader: games}
+        return replace(found, games=found.games | {tournament: changed})
 
     return fault
 
@@ -114,7 +114,7 @@ def duel(
     duration: float = DURATION,
     captured_at: float | None = None,
 ) -> Any:
-    """What is read of a duel in a room."""
+    """Return the attributes of a duel that the readings use."""
     return SimpleNamespace(
         outcome=outcome,
         duration=duration,
@@ -154,24 +154,24 @@ def test_every_claim_in_rooms_holds_and_fails(key: str) -> None:
         assert not claim.holds([reading(run, least)])
 
 
-def test_games_of_a_seed_are_of_its_own_rooms(
+def test_seeds_have_disjoint_rooms(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    asked: list[tuple[str, int]] = []
+    requests: list[tuple[str, int]] = []
 
     def one(world: Any, pairing: tuple[str, str], seed: int) -> Any:
-        asked.append((pairing[0], seed))
+        requests.append((pairing[0], seed))
         assert world.game is GAME and pairing[1] == "pure"
         return None, game()
 
     monkeypatch.setattr(read, "play_track", one)
     found = read.play(3)
-    assert {seed for _, seed in asked} == set(range(15, 20))
+    assert {seed for _, seed in requests} == set(range(15, 20))
     assert found.survived("aside") == 1.0
     assert found.closest("look-ahead") == pytest.approx(0.7)
 
 
-def test_the_duels_in_rooms_are_those_of_the_claim() -> None:
+def test_duels_in_rooms_have_the_settings_of_the_claim() -> None:
     settings = read.room_settings(4)
     assert settings.seed == 4 and settings.duration == DURATION
     assert settings.map.source == "given"

@@ -1,4 +1,4 @@
-"""What each claim is held to, reckoned from the paper's own numbers."""
+"""Test expected values and tolerances against the numbers of the paper."""
 
 from math import degrees, pi, sqrt
 from statistics import fmean, stdev
@@ -18,8 +18,8 @@ APART = sqrt(2.0) * RADIUS  # of the players on the circle, in [m]
 UNIT = 4.0 / (pi * 0.5)  # the same with speeds of 1 m/s, gains of 1/2
 EXACT = 1e-3
 
-# Expected value, and how far off the mean of the runs may be.
-HELD_TO = {
+# Expected value, and tolerance of the mean of the runs.
+EXPECTED = {
     "circle.pursuer_radius": (UNIT, EXACT),
     "circle.evader_radius": (UNIT, EXACT),
     "circle.one_circle": (0.0, EXACT),
@@ -91,10 +91,12 @@ CLAIMS = {
 
 
 @pytest.mark.parametrize("name", CLAIMS)
-def test_a_claim_is_held_to_what_the_paper_says(name: str) -> None:
+def test_expected_value_and_tolerance_are_those_of_the_paper(
+    name: str,
+) -> None:
     claim = CLAIMS[name]
     found = claim.expected, claim.tolerance
-    assert found == pytest.approx(HELD_TO[name], rel=1e-9, abs=1e-15)
+    assert found == pytest.approx(EXPECTED[name], rel=1e-9, abs=1e-15)
     assert (claim.tolerance > 0.0) is (claim.relation == "=") or (
         name in ("humanoids.both_feet", "rooms.touched")  # counts
     )
@@ -107,23 +109,26 @@ def test_a_claim_is_held_to_what_the_paper_says(name: str) -> None:
         *("humanoids.landings", "evading.decision"),
     ],
 )
-def test_what_a_claim_names_is_what_it_is_held_to(name: str) -> None:
+def test_text_names_the_expected_value(name: str) -> None:
     claim = CLAIMS[name]
     assert f"{claim.expected:.3g} {claim.unit}" in claim.text
 
 
 @settings(max_examples=40)
 @given(st.lists(st.floats(-5.0, 5.0), min_size=1, max_size=9))
-def test_what_is_measured_is_the_mean_of_all_runs(
+def test_measured_value_is_the_mean_of_all_runs(
     values: list[float],
 ) -> None:
-    """Also of those that a claim would fail by; with their spread."""
+    """Whether the claim holds or not; with the standard deviation."""
     claim = Claim("x", "is one", "I", "steps", 1.0, "m", 0.1)
     row = ClaimRow("job.x", claim, tuple(values), "1")
     assert row.measured == pytest.approx(fmean(values))
     spread = stdev(values) if len(values) > 1 else 0.0
     assert row.spread == pytest.approx(spread, abs=1e-9)
-    plain = row.to_json()
-    assert (plain["least"], plain["greatest"]) == (min(values), max(values))
-    assert plain["runs"] == len(values)
-    assert (plain["verdict"] == "holds") == row.holds
+    entries = row.to_json()
+    assert (entries["least"], entries["greatest"]) == (
+        min(values),
+        max(values),
+    )
+    assert entries["runs"] == len(values)
+    assert (entries["verdict"] == "holds") == row.holds

@@ -1,4 +1,4 @@
-"""Test the claims in physics: every row is red under a fault."""
+"""Test the claims in physics: each fails under a synthetic fault."""
 
 from collections.abc import Callable, Mapping, Sized
 from dataclasses import replace
@@ -7,6 +7,7 @@ from math import isnan, radians
 import numpy as np
 import pytest
 
+from instrumented_duels import RADIUS, changed, standing_duel, walked_duel
 from stepaside.core.poses import Array
 from stepaside.games import DuelSettings, run_duel
 from stepaside.games.duel_settings import PLAYERS
@@ -15,11 +16,14 @@ from stepaside.studies import physics_readings as read
 from stepaside.studies import walk_measures
 from stepaside.studies.claim_jobs import JOBS
 from stepaside.studies.claims import Claim, Readings
-from stepaside.studies.walk_measures import swings
-from stepaside.studies.watched_duel import WalkedPlan, WatchedDuel, watch
-from watched import RADIUS, changed, standing_duel, walked_duel
+from stepaside.studies.instrumented_duel import (
+    InstrumentedDuel,
+    WalkedPlan,
+    play_instrumented,
+)
+from stepaside.studies.walk_measures import swing_intervals
 
-Fault = Callable[[WatchedDuel], WatchedDuel]
+Fault = Callable[[InstrumentedDuel], InstrumentedDuel]
 
 
 def claims(job: str) -> dict[str, Claim]:
@@ -29,43 +33,46 @@ def claims(job: str) -> dict[str, Claim]:
 # --- the duel of Fig. 5 ---------------------------------------------------
 
 
-def far_until_late(duel: WatchedDuel) -> WatchedDuel:
-    """They come to the circle at the very end only."""
+def converge_late(duel: InstrumentedDuel) -> InstrumentedDuel:
+    """Let the robots reach the circle only at the end."""
     late = duel.times < 27.0
     return changed(
         duel, evader_torso=lambda t: t * np.where(late, 2, 1)[:, None]
     )
 
 
-def later_plans(by: float) -> Fault:
-    """Let the evader replace its plans at another time."""
+def shift_replans(by: float) -> Fault:
+    """Shift the replans of the evader by a time, in [s]."""
 
-    def fault(duel: WatchedDuel) -> WatchedDuel:
+    def fault(duel: InstrumentedDuel) -> InstrumentedDuel:
         walked = duel.plans["evader"]
-        later = tuple(plan._replace(sent=plan.sent + by) for plan in walked)
+        later = tuple(
+            plan._replace(first_sent_time=plan.first_sent_time + by)
+            for plan in walked
+        )
         return replace(duel, plans={**duel.plans, "evader": later})
 
     return fault
 
 
-def seldom_plans(duel: WatchedDuel) -> WatchedDuel:
-    """Plans are walked for fifteen steps, well onto the straight part."""
+def replan_rarely(duel: InstrumentedDuel) -> InstrumentedDuel:
+    """Walk every plan for fifteen steps, beyond its arc."""
     plans = {name: walked[::15] for name, walked in duel.plans.items()}
     return replace(duel, plans=plans)
 
 
-def one_long_plan(duel: WatchedDuel) -> WatchedDuel:
-    """One plan only is walked well onto the straight part."""
+def walk_one_plan_long(duel: InstrumentedDuel) -> InstrumentedDuel:
+    """Walk a single plan beyond its arc."""
     walked = duel.plans["evader"]
     plans = {**duel.plans, "evader": walked[:5] + walked[20:]}
     return replace(duel, plans=plans)
 
 
-def from_a_plan_on(change: Callable[[Array], Array]) -> Fault:
-    """Change the evader's reference from one of its plans on."""
+def change_reference(change: Callable[[Array], Array]) -> Fault:
+    """Change the evader's reference from a replan on."""
 
-    def fault(duel: WatchedDuel) -> WatchedDuel:
-        started = duel.plans["evader"][7].started
+    def fault(duel: InstrumentedDuel) -> InstrumentedDuel:
+        started = duel.plans["evader"][7].start_time
         since = np.maximum(duel.ticks - started, 0.0)[:, None]
         moved = duel.references["evader"] + change(since)
         return replace(duel, references={**duel.references, "evader": moved})
@@ -73,18 +80,18 @@ def from_a_plan_on(change: Callable[[Array], Array]) -> Fault:
     return fault
 
 
-def feet_of(change: Callable[[Array], Array]) -> Fault:
-    """Change what the evader's feet bear."""
+def change_loads(change: Callable[[Array], Array]) -> Fault:
+    """Change the foot loads of the evader."""
 
-    def fault(duel: WatchedDuel) -> WatchedDuel:
+    def fault(duel: InstrumentedDuel) -> InstrumentedDuel:
         loads = change(duel.loads["evader"].copy())
         return replace(duel, loads={**duel.loads, "evader": loads})
 
     return fault
 
 
-def evader_stands(duel: WatchedDuel) -> WatchedDuel:
-    """Only the pursuer walks."""
+def evader_stands(duel: InstrumentedDuel) -> InstrumentedDuel:
+    """Let the evader stand."""
     still = standing_duel()
     return replace(
         duel,
@@ -93,7 +100,7 @@ def evader_stands(duel: WatchedDuel) -> WatchedDuel:
     )
 
 
-def limping(loads: Array) -> Array:
+def limp(loads: Array) -> Array:
     """Hold the left foot up for another 0.1 s at each step."""
     air = loads[:, 0] == 0.0
     for shift in range(1, 26):
@@ -102,7 +109,7 @@ def limping(loads: Array) -> Array:
 
 
 CIRCLE: dict[str, tuple[Fault, ...]] = {
-    "settled": (far_until_late,),
+    "settled": (converge_late,),
     "pursuer_radius": (
         lambda d: changed(d, pursuer_torso=lambda t: t * (1.05, 1.05, 1.0)),
         lambda d: changed(d, pursuer_torso=lambda t: t * (0.95, 0.95, 1.0)),
@@ -130,27 +137,27 @@ CIRCLE: dict[str, tuple[Fault, ...]] = {
         lambda _: standing_duel(),
     ),
     "landings": (
-        feet_of(limping),
-        feet_of(lambda loads: 0.0 * loads + 26.0),
-        feet_of(lambda loads: 0.0 * loads),
+        change_loads(limp),
+        change_loads(lambda loads: 0.0 * loads + 26.0),
+        change_loads(lambda loads: 0.0 * loads),
         evader_stands,
     ),
     "both_feet": (
-        later_plans(0.15),
-        later_plans(-0.2),
+        shift_replans(0.15),
+        shift_replans(-0.2),
         lambda d: replace(
             d, plans={name: p[::2] for name, p in d.plans.items()}
         ),
         evader_stands,
     ),
-    "at_its_end": (later_plans(-0.08), evader_stands),
-    "straight_part": (seldom_plans, one_long_plan, evader_stands),
+    "at_its_end": (shift_replans(-0.08), evader_stands),
+    "straight_part": (replan_rarely, walk_one_plan_long, evader_stands),
     "place_jump": (
-        from_a_plan_on(lambda t: np.where(t > 0.0, 1e-6, 0.0)),
+        change_reference(lambda t: np.where(t > 0.0, 1e-6, 0.0)),
         evader_stands,
     ),
     "velocity_jump": (
-        from_a_plan_on(lambda t: 1e-4 * t),
+        change_reference(lambda t: 1e-4 * t),
         evader_stands,
     ),
 }
@@ -166,7 +173,7 @@ def test_every_claim_on_the_circle_holds_and_fails(key: str) -> None:
 
 
 @pytest.mark.parametrize("outcome", [Outcome.FALL, Outcome.CONTACT])
-def test_who_falls_or_touches_is_on_no_circle(outcome: Outcome) -> None:
+def test_interrupted_duel_has_no_circle(outcome: Outcome) -> None:
     found = read.read_circle(walked_duel(outcome=outcome))
     for key in ("settled", "pursuer_radius", "distance", "orientation"):
         assert isnan(found[key])
@@ -175,19 +182,21 @@ def test_who_falls_or_touches_is_on_no_circle(outcome: Outcome) -> None:
 # --- the durations --------------------------------------------------------
 
 
-def tosses(tilt: float = radians(6.0), slide: float = 0.02) -> WatchedDuel:
-    """Feet that are dragged, and a torso that tosses."""
+def sways(tilt: float = radians(6.0), slide: float = 0.02) -> InstrumentedDuel:
+    """Return a duel with slipping feet and swaying torsos."""
     return walked_duel(tilt=tilt, slide=slide)
 
 
-def falls(tilt: float = radians(50.0), duration: float = 4.0) -> WatchedDuel:
+def falls(
+    tilt: float = radians(50.0), duration: float = 4.0
+) -> InstrumentedDuel:
     return walked_duel(duration, outcome=Outcome.FALL, tilt=tilt)
 
 
-Duels = tuple[WatchedDuel, ...]
-TOSSES: dict[str, Duels] = {
-    "printed_slide": (walked_duel(), tosses(slide=0.0015)),
-    "printed_tilt": (walked_duel(), tosses(tilt=radians(2.9))),
+Duels = tuple[InstrumentedDuel, ...]
+SWAYS: dict[str, Duels] = {
+    "printed_slide": (walked_duel(), sways(slide=0.0015)),
+    "printed_tilt": (walked_duel(), sways(tilt=radians(2.9))),
 }
 WALKS: dict[str, Duels] = {
     "upright_for": (walked_duel(29.0), falls()),
@@ -209,16 +218,16 @@ WALKS: dict[str, Duels] = {
 def test_every_claim_on_the_durations_holds_and_fails(key: str) -> None:
     claim = claims("durations")[key]
 
-    def reading(printed: WatchedDuel, walked: WatchedDuel) -> float:
+    def reading(printed: InstrumentedDuel, walked: InstrumentedDuel) -> float:
         return read.read_durations(printed, walked)[key]
 
-    assert claim.holds([reading(tosses(), walked_duel())])
-    faults = TOSSES.get(key, ()) + WALKS.get(key, ())
+    assert claim.holds([reading(sways(), walked_duel())])
+    faults = SWAYS.get(key, ()) + WALKS.get(key, ())
     assert faults
-    for printed in TOSSES.get(key, ()):
+    for printed in SWAYS.get(key, ()):
         assert not claim.holds([reading(printed, walked_duel())])
     for walked in WALKS.get(key, ()):
-        assert not claim.holds([reading(tosses(), walked)])
+        assert not claim.holds([reading(sways(), walked)])
 
 
 # --- the slippery floor ---------------------------------------------------
@@ -251,64 +260,68 @@ def test_every_claim_on_slip_holds_and_fails(key: str) -> None:
 # --- measures -------------------------------------------------------------
 
 
-def test_a_foot_that_bounces_has_not_swung() -> None:
+def test_bounce_is_not_a_swing() -> None:
     ticks = np.arange(500, dtype=np.float64) * 0.004
     load = np.full(500, 26.0)
     load[100:200] = 0.0
     load[210:230] = 0.0
-    assert swings(ticks, load, 0.425).tolist() == [[ticks[100], ticks[200]]]
+    assert swing_intervals(ticks, load, 0.425).tolist() == [
+        [ticks[100], ticks[200]]
+    ]
 
 
-def test_a_foot_slides_by_what_it_moves_while_it_bears() -> None:
+def test_slip_is_the_motion_during_contact() -> None:
     for slide in (0.0, 0.005):
-        found = walk_measures.mean_slide(walked_duel(slide=slide))
+        found = walk_measures.mean_foot_slip(walked_duel(slide=slide))
         assert found == pytest.approx(slide, abs=1e-12)
 
 
-def test_share_of_the_arc_is_in_path_time_after_the_start_support() -> None:
+def test_walked_arc_fraction_is_in_path_time_after_the_start_support() -> None:
     gait = DuelSettings().gait
     first = WalkedPlan(0.0, 0.0, True)
     second = WalkedPlan(1.347, 0.8 + 0.547, False)
-    assert walk_measures.plan_share((first, second), gait) == pytest.approx(
-        0.4 / 5.0
+    assert walk_measures.walked_arc_fraction(
+        (first, second), gait
+    ) == pytest.approx(0.4 / 5.0)
+    assert isnan(walk_measures.walked_arc_fraction((first,), gait))
+
+
+def test_reference_jump_has_its_size() -> None:
+    fault = change_reference(
+        lambda t: np.where(t > 0.0, 0.002, 0.0) + 0.03 * t
     )
-    assert isnan(walk_measures.plan_share((first,), gait))
-
-
-def test_jumps_are_found_in_their_size() -> None:
-    fault = from_a_plan_on(lambda t: np.where(t > 0.0, 0.002, 0.0) + 0.03 * t)
     jump = walk_measures.reference_jumps(fault(walked_duel()), "evader")
-    assert jump.place == pytest.approx(0.002, rel=1e-6)
+    assert jump.position == pytest.approx(0.002, rel=1e-6)
     assert jump.velocity == pytest.approx(0.03, rel=1e-6)
 
 
 # --- real duels, for a few seconds ----------------------------------------
 
 
-def test_watching_changes_nothing() -> None:
+def test_recording_does_not_change_the_duel() -> None:
     settings = DuelSettings(seed=5, duration=2.0)
-    duel, watched = run_duel(settings), watch(settings)
-    assert watched.outcome is duel.outcome
-    assert watched.duration == duel.duration
-    np.testing.assert_array_equal(watched.times, duel.times)
-    assert set(watched.tracks) == set(duel.tracks) == set(PLAYERS)
+    duel, recorded = run_duel(settings), play_instrumented(settings)
+    assert recorded.outcome is duel.outcome
+    assert recorded.duration == duel.duration
+    np.testing.assert_array_equal(recorded.times, duel.times)
+    assert set(recorded.tracks) == set(duel.tracks) == set(PLAYERS)
     for name in PLAYERS:
         arrays = duel.tracks[name].arrays(name)
-        found = watched.tracks[name].arrays(name)
+        found = recorded.tracks[name].arrays(name)
         assert set(found) == set(arrays)
         for key, values in arrays.items():
             np.testing.assert_array_equal(found[key], values)
-    for name in PLAYERS:  # one stands on its left foot as on its right one
-        weight = watched.loads[name].sum(axis=1)[50:100].mean()
+    for name in PLAYERS:  # loads and positions of standing feet
+        weight = recorded.loads[name].sum(axis=1)[50:100].mean()
         assert weight == pytest.approx(5.3 * 9.81, rel=0.05)
-        left, right = watched.feet[name][0]
+        left, right = recorded.feet[name][0]
         facing = duel.tracks[name].torso[0, 2]
         across = np.array([-np.sin(facing), np.cos(facing)])
         assert (left - right) @ across == pytest.approx(0.1, abs=1e-3)
 
 
-def shortly(seconds: float) -> Callable[..., DuelSettings]:
-    """Settings of a duel in which both walk at once, for a short time."""
+def short_duel(seconds: float) -> Callable[..., DuelSettings]:
+    """Return settings of a short duel in which both walk from the begin."""
 
     def settings(seed: int, *, slippery: bool = False) -> DuelSettings:
         short = read.walk_settings(seed, duration=seconds)
@@ -325,10 +338,10 @@ def holding(job: str, found: Readings) -> set[str]:
     return {k for k, c in claims(job).items() if c.holds([found[k]])}
 
 
-def test_humanoids_walk_as_their_forces_and_references_tell(
+def test_claims_on_replanning_hold_in_a_short_duel(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(read, "circle_settings", shortly(5.0))
+    monkeypatch.setattr(read, "circle_settings", short_duel(5.0))
     replanning = {
         *("landings", "both_feet", "at_its_end"),
         *("straight_part", "place_jump", "velocity_jump"),
@@ -337,7 +350,7 @@ def test_humanoids_walk_as_their_forces_and_references_tell(
     assert replanning <= holding("humanoids", found)
 
 
-def test_as_printed_feet_are_dragged_and_exchanged_they_walk(
+def test_claims_on_durations_hold_in_short_duels(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     right = read.walk_settings
@@ -353,14 +366,14 @@ def test_as_printed_feet_are_dragged_and_exchanged_they_walk(
     assert found["upright_for"] == pytest.approx(4.0)
 
 
-def test_on_a_slippery_floor_feet_slip_and_robots_are_slower(
+def test_claims_on_slip_hold_in_short_duels(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(read, "slip_settings", shortly(5.0))
+    monkeypatch.setattr(read, "slip_settings", short_duel(5.0))
     assert {"slide", "slower"} <= holding("slip", read.measure_slip(1))
 
 
-def test_settings_of_the_studies_are_what_they_say() -> None:
+def test_settings_have_the_friction_and_durations_of_the_claims() -> None:
     grip, slip = (
         read.slip_settings(3, slippery=slippery) for slippery in (False, True)
     )
@@ -374,20 +387,20 @@ def test_settings_of_the_studies_are_what_they_say() -> None:
     assert set(PLAYERS) == {"pursuer", "evader"}
 
 
-def test_they_have_settled_before_what_is_measured_of_them() -> None:
-    """Radii and distance are those of the last third."""
+def test_settling_is_required_before_the_last_third() -> None:
+    """Radii and distance are measured over the last third."""
     third = read.circle_settings(1).duration * 2.0 / 3.0
     assert claims("humanoids")["settled"].expected == third
 
 
-def test_no_claim_in_physics_is_without_a_fault() -> None:
+def test_every_claim_in_physics_has_a_fault() -> None:
     faults: dict[str, Mapping[str, Sized]] = {
         "humanoids": CIRCLE,
-        "durations": TOSSES | WALKS,
+        "durations": SWAYS | WALKS,
         "slip": NO_SLIP,
     }
     seeded = {name for name, job in JOBS.items() if job.seeded}
-    # Those of games in rooms are in test_claims_evading.
+    # Claims on games in rooms are tested in test_claims_evading.
     assert set(faults) == seeded - {"evading", "rooms"}
     for name, by_key in faults.items():
         assert set(by_key) == set(claims(name))

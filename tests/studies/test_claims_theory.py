@@ -1,4 +1,4 @@
-"""Test the claims on unicycles and plans: every row is red under a fault."""
+"""Test claims on unicycles and plans: each fails under a fault."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -30,7 +30,9 @@ from stepaside.theory.unicycle.unicycle_game import Game
 Patch = Callable[[pytest.MonkeyPatch], None]
 Pair = tuple[Array, Array]
 
-play = cache(unicycle_claims.play)  # a game is played once for all faults
+play = cache(
+    unicycle_claims.play
+)  # each game is simulated once for all faults
 sampled = cache(simulate_sampled)
 
 
@@ -41,7 +43,7 @@ def games_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def seen_as(change: Callable[[Game, Array, Array, Array], Pair]) -> Patch:
-    """Falsify the poses of every game that is played."""
+    """Falsify the poses of every simulated game."""
 
     def patch(monkeypatch: pytest.MonkeyPatch) -> None:
         def false(game: Game) -> Any:
@@ -65,7 +67,7 @@ def seen_as(change: Callable[[Game, Array, Array, Array], Pair]) -> Patch:
 
 
 def played_as(change: Callable[[Game], Game]) -> Patch:
-    """Play another game than the one that was asked for."""
+    """Simulate a modified game."""
 
     def patch(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(
@@ -103,7 +105,7 @@ def poses_as(
 
 
 def placed_as(change: Callable[[Array], Array], **other: float) -> Patch:
-    """Falsify the footsteps beside a right path."""
+    """Falsify the footsteps along a correct path."""
 
     def false(path: UnicycleTrajectory, **kwargs: Any) -> Array:
         factors = {name: kwargs[name] * by for name, by in other.items()}
@@ -113,7 +115,7 @@ def placed_as(change: Callable[[Array], Array], **other: float) -> Patch:
 
 
 def samples_as(change: Callable[[PlanSamples], PlanSamples]) -> Patch:
-    """Falsify what plans ask for over time."""
+    """Falsify the samples of plans."""
     right = ManeuverPlan.sample
 
     def false(self: ManeuverPlan, times: Any) -> PlanSamples:
@@ -123,13 +125,13 @@ def samples_as(change: Callable[[PlanSamples], PlanSamples]) -> Patch:
 
 
 def slow_clock(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let each look at the clock take 20 ms."""
+    """Advance the clock by 20 ms at every reading."""
     clock = iter(np.arange(0.0, 1e3, 0.02))
     monkeypatch.setattr(balance_claims, "process_time", lambda: next(clock))
 
 
 def one_side(path: UnicycleTrajectory, _: Array, poses: Array) -> Array:
-    """Eq. (10) as printed."""
+    """Apply eq. (10) as printed."""
     poses[..., 1] *= np.sign(path.bearing)
     return poses
 
@@ -137,7 +139,7 @@ def one_side(path: UnicycleTrajectory, _: Array, poses: Array) -> Array:
 def printed_heading(
     path: UnicycleTrajectory, times: Array, poses: Array
 ) -> Array:
-    """Eq. (11) as printed."""
+    """Apply eq. (11) as printed."""
     turning = np.minimum(times, 1.0 / path.gain)
     poses[..., 2] = path.gain * np.sign(path.bearing) * turning
     return poses
@@ -150,7 +152,7 @@ def drifting(path: UnicycleTrajectory, times: Array, poses: Array) -> Array:
 
 
 def clockwise(path: UnicycleTrajectory, _: Array, poses: Array) -> Array:
-    """Turn the paths to the left a little to the right."""
+    """Rotate left-turning paths clockwise by 1 mrad."""
     if path.bearing < 0.0:
         return poses
     x, y = poses[..., 0].copy(), poses[..., 1].copy()
@@ -160,7 +162,7 @@ def clockwise(path: UnicycleTrajectory, _: Array, poses: Array) -> Array:
 
 
 def all_left(steps: Array) -> Array:
-    """Put the right feet on the left of the path, too."""
+    """Place the right feet on the left of the path."""
     steps[1::2, 0] -= 0.1 * np.sin(steps[1::2, 2])
     steps[1::2, 1] += 0.1 * np.cos(steps[1::2, 2])
     return steps
@@ -175,17 +177,17 @@ def turned(by: float) -> Patch:
 
 
 def scaled(poses: Array, by: float) -> Array:
-    """Scale the way, not the heading."""
+    """Scale positions, not headings."""
     return poses * (by, by, 1.0)
 
 
 def as_at(end: float, poses: Array) -> Array:
-    """Stand where one was at the first time asked for."""
+    """Hold the first pose, scaled."""
     return np.repeat(poses[:1], len(poses), axis=0) * end
 
 
 def aslant(times: Array, poses: Array, speed: float) -> Array:
-    """Drift aside, in [m/s], from where one is going."""
+    """Drift sideways at a speed, in [m/s]."""
     way = poses[-1, :2] - poses[0, :2]
     aside = np.array([-way[1], way[0]]) / np.hypot(*way)
     shift = speed * (times - times[0])[:, None] * aside
@@ -329,7 +331,7 @@ def holds(name: str) -> bool:
 def test_every_claim_holds_and_fails_under_a_fault(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    if name == "timing.planning":  # what a clock says is no matter of a test
+    if name == "timing.planning":  # depends on the speed of the computer
         monkeypatch.setattr(balance_claims, "process_time", lambda: 0.0)
     assert holds(name)
     for fault in FAULTS[name]:
@@ -339,12 +341,12 @@ def test_every_claim_holds_and_fails_under_a_fault(
     assert holds(name)
 
 
-def test_no_fault_is_left_without_its_claim() -> None:
+def test_every_fault_has_a_claim() -> None:
     assert set(FAULTS) == set(CLAIMS)
     assert all(FAULTS.values())
 
 
-def test_the_evader_that_turns_the_wrong_way_ends_on_no_such_circle(
+def test_evader_with_the_opposite_turn_misses_the_circle(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     def wrong(game: Game) -> PlayedGame:
@@ -355,7 +357,7 @@ def test_the_evader_that_turns_the_wrong_way_ends_on_no_such_circle(
         assert not holds(f"circle.{key}")
 
 
-def test_planners_are_asked_to_both_sides_and_both_ways(
+def test_plans_cover_both_sides_and_both_directions(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     right, asked = ManeuverPlanner.plan, set()

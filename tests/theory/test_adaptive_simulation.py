@@ -110,7 +110,7 @@ def test_sliding_ends_where_the_line_of_sight_outruns_the_evader() -> None:
     assert np.abs(rate[sliding]).max() <= 0.3 + 1e-9
 
 
-def test_capture_is_an_event_at_the_asked_distance() -> None:
+def test_capture_is_an_event_at_the_given_distance() -> None:
     game = make_game(1.0, 1.0, 0.5, 0.5, pi)
     run = simulate(
         game, RelativeStart(3.0, 0.0, pi), 10.0, capture_distance=0.4
@@ -120,7 +120,7 @@ def test_capture_is_an_event_at_the_asked_distance() -> None:
     assert last_state(run)[0] == pytest.approx(0.4)
 
 
-def test_start_within_the_capture_distance_is_captured_at_once() -> None:
+def test_start_within_the_capture_distance_is_captured_immediately() -> None:
     run = simulate(GAMES[0], RelativeStart(0.3), 5.0, capture_distance=0.4)
     assert run.captured and run.end_time == 0.0
     assert run.states([0.0])[0, 0] == 0.3
@@ -186,7 +186,7 @@ def test_whole_turns_of_a_start_change_nothing() -> None:
     assert wrapped == pytest.approx((3.0, 0.5, -1.1))
 
 
-def test_side_asked_for_is_the_first() -> None:
+def test_given_side_is_the_first() -> None:
     for side in (1, -1):
         run = simulate(LATCHED, RelativeStart(3.0, 0.5, -1.1), 1.0, side=side)
         assert run.sides == (side,) and run.switches == ()
@@ -194,7 +194,7 @@ def test_side_asked_for_is_the_first() -> None:
     assert behind.sides == (-1,)
 
 
-def test_distance_that_only_grows_is_least_at_the_start() -> None:
+def test_closest_approach_of_a_growing_distance_is_at_the_start() -> None:
     run = simulate(LATCHED, RelativeStart(2.0, pi - 0.1, 0.0), 0.5)
     assert (run.closest_distance, run.closest_time) == (2.0, 0.0)
     assert run.states([0.0, 0.5])[1, 0] > 2.5
@@ -239,7 +239,7 @@ def test_circle_fit_finds_a_circle() -> None:
     np.testing.assert_allclose([*center, radius], (3.0, -1.0, 2.0))
 
 
-def test_distance_that_only_falls_is_least_at_the_end() -> None:
+def test_closest_approach_of_a_falling_distance_is_at_the_end() -> None:
     """Straight on, at a speed of 2 behind one of 1."""
     run = simulate(make_game(2.0, 1.0, 0.5, 0.5, 0.0), RelativeStart(5.0), 3.0)
     assert run.closest_distance == pytest.approx(2.0)
@@ -271,9 +271,7 @@ def test_hysteresis_is_bounded_by_the_nearer_end_of_the_angle(
             make_game(1, 1, 1, 1, angle, hysteresis=value)
 
 
-def test_side_that_the_rule_forbids_is_given_up_before_anything_moves() -> (
-    None
-):
+def test_side_that_the_rule_forbids_changes_immediately() -> None:
     """Then the game is the one that asks for no side."""
     game, start = make_game(1.0, 1.0, 0.5, 0.5), RelativeStart(3.0, 0.2, 0.8)
     asked = simulate(game, start, 10.0, side=1)

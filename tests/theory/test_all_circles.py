@@ -21,7 +21,7 @@ from stepaside.theory.unicycle.circle_fit import (
 )
 from stepaside.theory.unicycle.equilibria import (
     GameParameters,
-    find_rests,
+    find_equilibria,
     growth_rates,
 )
 from stepaside.theory.unicycle.kernel import play_games
@@ -86,7 +86,7 @@ def test_faster_pursuer_has_a_close_reversed_circle_too() -> None:
 
 @pytest.mark.parametrize("rule", ["behind", "latched"])
 @pytest.mark.parametrize("law", list(TurningLaw))
-def test_every_circle_rests_under_the_printed_law(
+def test_every_circle_is_an_equilibrium_of_the_printed_law(
     law: TurningLaw, rule: str
 ) -> None:
     seen = 0
@@ -153,7 +153,7 @@ def test_dense_search_finds_no_other_circle(law: TurningLaw) -> None:
         assert ours == pytest.approx(searched(game), abs=1e-6), values
 
 
-def test_two_circles_a_hair_apart_are_both_found() -> None:
+def test_two_nearly_coincident_circles_are_both_found() -> None:
     """Up to the speed at which two of one direction meet and are gone."""
     gaps = []
     for speed in np.linspace(1.2629, 1.26545, 60):
@@ -189,7 +189,7 @@ def test_eigenvalues_are_those_of_the_printed_law(law: TurningLaw) -> None:
         GameParameters.of(*values.T),
         law is TurningLaw.SATURATED,
     )
-    rests = find_rests(games, saturated=saturated)
+    rests = find_equilibria(games, saturated=saturated)
     growth = growth_rates(rests, games, saturated=saturated)
     assert set(np.unique(rests.game)) <= set(range(25))
     for i, number in enumerate(rests.game):
@@ -250,7 +250,7 @@ def test_hysteresis_lets_circles_beyond_the_axis_stay() -> None:
 
 
 @pytest.mark.parametrize("game", [FAST, FAST_6])
-def test_nothing_is_left_unsettled_beside_two_circles(game: Game) -> None:
+def test_every_game_settles_on_one_of_two_circles(game: Game) -> None:
     starts = random_starts(game, 150, seed=3)
     found = find_basins(game, starts)
     assert found.unsettled == pytest.approx(0.0, abs=1e-12)

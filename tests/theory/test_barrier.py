@@ -56,7 +56,9 @@ def drive(state: Array, pursuer: float, evader: float, time: float) -> Array:
 
 @pytest.mark.parametrize("pursuer", [-1.0, 0.0, 1.0])
 @pytest.mark.parametrize("evader", [-1.0, 0.0, 1.0])
-def test_turning_back_undoes_driving(pursuer: float, evader: float) -> None:
+def test_backward_integration_inverts_driving(
+    pursuer: float, evader: float
+) -> None:
     now = np.array([0.4, -1.3, 0.7])
     x, y, theta = now[:, None]
     then = turn_back((x, y, theta), pursuer, evader, np.array([1.7]))
@@ -66,7 +68,7 @@ def test_turning_back_undoes_driving(pursuer: float, evader: float) -> None:
 
 @pytest.mark.parametrize("capture", CAPTURES)
 @pytest.mark.parametrize("theta", [0.4, 1.5, pi, 4.5])
-def test_what_is_played_on_the_barrier_grazes_the_circle(
+def test_optimal_play_from_the_barrier_grazes_the_capture_circle(
     capture: float, theta: float
 ) -> None:
     """Played forward, each point ends at the distance of capture."""
@@ -156,7 +158,7 @@ def test_the_table_has_the_capture_distance_on_its_barrier(
     assert np.median(np.abs(found.distance_errors)) < 5e-3
 
 
-def test_refining_the_grid_closes_in_on_the_barrier(table: Bound) -> None:
+def test_barrier_errors_fall_with_the_grid_spacing(table: Bound) -> None:
     coarse = solve_bound(CARS, Grid(0.5, 7.0, 25, 24, 24))
     errors = [
         np.abs(check_barrier(bound, 1.0).value_errors).mean()
@@ -178,7 +180,7 @@ def test_barrier_of_the_table_is_that_of_the_closed_form(
     assert (reach >= 1.0).all() and reach.max() < nose + 0.3
 
 
-def test_cars_that_differ_are_refused() -> None:
+def test_different_cars_are_refused() -> None:
     other = against_any(1.0, 1.0, 1.0, 1.1)
     assert CARS.identical and not other.identical
     with pytest.raises(PlanError, match="identical"):

@@ -42,7 +42,7 @@ def test_games_last_until_the_slower_player_has_settled(game: Game) -> None:
     assert 3.9 * unit < drawn[:, 0].max() <= 4.0 * unit
 
 
-def test_wait_is_bounded_and_needs_no_circle() -> None:
+def test_duration_is_bounded_and_needs_no_circle() -> None:
     starts = np.array(STARTS)
     assert find_basins(NO_CIRCLE, starts).duration == pytest.approx(80.0)
     wide = make_game(1.0, 1.0, 0.5, 2.0, 0.02)
@@ -53,7 +53,7 @@ def test_wait_is_bounded_and_needs_no_circle() -> None:
     assert asked.captured == 0.0 and asked.shares == (0.0, 0.0)
 
 
-def test_shares_count_games_per_circle() -> None:
+def test_fractions_count_games_per_circle() -> None:
     out = play_games(FAST, STARTS, 0.1)
     some = replace(out, circle=np.array([1, -1, 1, 0]))
     assert shares_of(some, 3) == (0.25, 0.5, 0.0)
@@ -67,7 +67,7 @@ def test_mean_closest_approach_is_that_of_the_games() -> None:
     assert found.closest_distance == pytest.approx(expected, abs=1e-5)
 
 
-def test_alternatives_change_one_thing_each() -> None:
+def test_each_alternative_changes_one_parameter() -> None:
     game = make_game(2.0, 1.0, 1.0, 4.0, 2.0, hysteresis=0.3)
     found = alternatives(game)
     slower, half, double = (
@@ -122,7 +122,7 @@ def test_step_is_short_for_both_players(
     assert asked[0]["capture_distance"] == 0.2
 
 
-def test_seed_decides_the_random_starts() -> None:
+def test_random_starts_depend_on_the_seed() -> None:
     one, other = (random_starts(FAST, 5, seed=seed) for seed in (1, 2))
     np.testing.assert_array_equal(one, random_starts(FAST, 5, seed=1))
     assert np.all(one != other)
@@ -141,7 +141,7 @@ def test_end_distance_counts_only_circles_that_are_reached() -> None:
         assert remedy.end_distance_m == distance
 
 
-def test_shares_are_of_all_starts_and_so_is_the_closest_approach() -> None:
+def test_fractions_and_closest_approach_are_over_all_starts() -> None:
     """Captured games, and those that settle nowhere, count as well."""
     game, capture = FAST, 0.5
     starts = random_starts(game, 60, seed=2)

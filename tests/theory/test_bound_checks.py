@@ -35,7 +35,7 @@ def table(grid: Grid, offset: float = 0.0, rise: float = 0.0) -> Bound:
     return Bound(GAME, grid, plain, 10.0, "weno", 0.0, 0.0, 1.0)
 
 
-def test_errors_of_played_games_are_over_all_of_them(
+def test_errors_of_simulated_games_are_over_all_games(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     bound, random = table(SMALL), np.random.default_rng(3)
@@ -64,7 +64,7 @@ def test_errors_of_played_games_are_over_all_of_them(
         assert row.over_bound == pytest.approx(ratio)
 
 
-def test_a_game_that_ends_above_the_bound_is_not_below_it(
+def test_game_above_the_bound_is_not_below_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     bound = table(SMALL)
@@ -78,7 +78,7 @@ def test_a_game_that_ends_above_the_bound_is_not_below_it(
         assert worse == pytest.approx(0.3) and better == 0.0
 
 
-def test_what_a_finer_grid_changes_is_measured_at_every_node(
+def test_refinement_measures_differences_at_every_node(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Mean, 95 % and worst; the order is that by which the mean falls."""
@@ -109,7 +109,7 @@ def test_what_a_finer_grid_changes_is_measured_at_every_node(
 @pytest.mark.parametrize(
     "scheme", [DiscretisationScheme.FIRST, DiscretisationScheme.WENO]
 )
-def test_a_solved_table_is_the_last_of_the_march_and_stays_so(
+def test_table_holds_the_final_values_of_the_march(
     scheme: DiscretisationScheme,
 ) -> None:
     """What fell late is the change over the last tenth of the horizon."""
@@ -133,7 +133,7 @@ def test_a_solved_table_is_the_last_of_the_march_and_stays_so(
         found.values[0, 0, 0] = 9.0
 
 
-def test_lengths_and_times_of_a_bound_go_with_its_units() -> None:
+def test_lengths_and_times_of_a_bound_scale_with_its_units() -> None:
     """Twice the speed is twice the length; twice the rates, half the time."""
     plain = solve_bound(GAME, SMALL, horizon=6.0)
     fast = solve_bound(
@@ -150,7 +150,7 @@ def test_lengths_and_times_of_a_bound_go_with_its_units() -> None:
         assert game.unit * game.rate == pytest.approx(game.evader_speed)
 
 
-def test_the_best_turns_are_held_within_their_limits_and_mirrored() -> None:
+def test_optimal_turning_rates_keep_their_limits_and_are_mirrored() -> None:
     bound = solve_bound(against_any(0.12, 0.1, 0.4, 0.5), SMALL, horizon=6.0)
     random = np.random.default_rng(1)
     r = random.uniform(0.2, 1.9, 100)
@@ -162,6 +162,6 @@ def test_the_best_turns_are_held_within_their_limits_and_mirrored() -> None:
     np.testing.assert_allclose(
         bound.value(r, a, psi), bound.value(r, -a, -psi), atol=1e-6
     )
-    whole = 2.0 * np.pi * np.sign([a, psi])  # the other way round
-    turned = bound.value(r, a - whole[0], psi - whole[1])
+    turn_a, turn_psi = (2.0 * np.pi * np.sign(angle) for angle in (a, psi))
+    turned = bound.value(r, a - turn_a, psi - turn_psi)
     np.testing.assert_allclose(turned, bound.value(r, a, psi), atol=1e-6)

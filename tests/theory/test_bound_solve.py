@@ -74,7 +74,9 @@ def step_back(
 
 
 @pytest.mark.parametrize("game", [PURSUIT, CARS], ids=["pursuit", "cars"])
-def test_a_second_solver_tends_to_the_same_value(game: BoundGame) -> None:
+def test_independent_solver_converges_to_the_same_value(
+    game: BoundGame,
+) -> None:
     """Semi-Lagrangian steps in NumPy err by their time step, and only so."""
     fine = solve_bound(game, Grid(0.4, 3.4, 46, 48, 48), horizon=2.0)
     a, r, psi = SMALL.axes()
@@ -100,14 +102,14 @@ def test_running_straight_away_keeps_the_distance(
         assert (bound.values >= bound.grid.near).all()
 
 
-def test_the_further_to_turn_the_closer_the_pursuer_comes(
+def test_closest_approach_falls_with_the_angle_to_turn(
     cars: Bound,
 ) -> None:
     values = cars.value(2.5, 0.0, np.linspace(0.0, pi, 7))
     assert (np.diff(values) < 0.0).all()
 
 
-def test_value_is_its_own_mirror_image(cars: Bound) -> None:
+def test_value_is_symmetric_under_mirroring(cars: Bound) -> None:
     r, a, psi = (
         np.random.default_rng(3)
         .uniform([0.5, -pi, -pi], [3.3, pi, pi], (200, 3))
@@ -119,7 +121,7 @@ def test_value_is_its_own_mirror_image(cars: Bound) -> None:
     np.testing.assert_allclose(turned, here, atol=1e-6)
 
 
-def test_a_free_pursuer_is_no_worse_than_one_with_a_law(
+def test_free_pursuer_is_no_worse_than_one_with_a_law(
     pursuit: Bound,
 ) -> None:
     free = solve_bound(against_any(1.0, 1.0, pi), SMALL, horizon=3.0)
@@ -136,7 +138,7 @@ def test_a_free_pursuer_is_no_worse_than_one_with_a_law(
     ],
     ids=["evader turns", "pursuer speed", "pursuer turns"],
 )
-def test_who_can_do_more_gets_more(
+def test_value_is_monotone_in_the_capabilities(
     pursuit: Bound, better: dict[str, float], sign: int
 ) -> None:
     other = solve_bound(replace(PURSUIT, **better), SMALL, horizon=3.0)
@@ -155,7 +157,7 @@ def test_lengths_scale_with_speed_over_gain(pursuit: Bound) -> None:
     np.testing.assert_allclose(2 * small.values, pursuit.values, atol=2e-3)
 
 
-def test_value_falls_with_the_horizon_and_settles() -> None:
+def test_value_falls_with_the_horizon_and_converges() -> None:
     values = [
         solve_bound(PURSUIT, SMALL, horizon=T).values for T in (0.3, 1.0, 3.0)
     ]
@@ -164,7 +166,7 @@ def test_value_falls_with_the_horizon_and_settles() -> None:
     assert 0.0 < second.mean() < 1e-2 * first.mean()
 
 
-def test_rows_left_alone_would_not_have_changed(
+def test_skipped_rows_would_not_have_changed(
     cars: Bound, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("stepaside.theory.bound.value_solver.STILL", -1.0)
@@ -190,7 +192,7 @@ def test_single_precision_suffices(pursuit: Bound) -> None:
 
 
 @pytest.mark.parametrize("scheme", DiscretisationScheme)
-def test_every_scheme_closes_in_on_the_value(
+def test_every_scheme_converges_to_the_value(
     scheme: DiscretisationScheme,
 ) -> None:
     grid = Grid(0.4, 3.4, 25, 24, 24)
@@ -255,7 +257,7 @@ def test_bad_values_are_refused_by_name(make: Any, words: str) -> None:
         make()
 
 
-def test_what_does_not_end_is_refused_before_it_begins() -> None:
+def test_too_many_steps_are_refused_before_the_computation() -> None:
     game = against_pursuit(1.0, 1.0, 0.5, 1e9)
-    with pytest.raises(PlanError, match="horizon must be at most .* it does"):
+    with pytest.raises(PlanError, match="horizon must be at most .* steps"):
         solve_bound(game, Grid.cube(0.3, 4.0, 16), horizon=1.0)

@@ -41,7 +41,7 @@ def cars() -> Bound:
     return solve_bound(game, replace(GRID, far=6.0))
 
 
-def test_lookup_returns_what_stands_at_the_nodes(pursuit: Bound) -> None:
+def test_lookup_returns_the_values_at_the_nodes(pursuit: Bound) -> None:
     a, r, psi = pursuit.grid.axes()
     found = pursuit.value(r[:, None], a[:, None, None], psi)
     np.testing.assert_allclose(found, pursuit.values, atol=1e-5)
@@ -67,12 +67,12 @@ def test_pursuer_turns_towards_and_evader_away(cars: Bound) -> None:
     assert cars.evader_turn(2.0, 0.0, -1.0) == pytest.approx(-1.0)
 
 
-def test_a_pursuer_with_a_law_obeys_it(pursuit: Bound) -> None:
+def test_pursuer_with_a_law_follows_it(pursuit: Bound) -> None:
     turns = pursuit.pursuer_turn(2.0, np.array([0.5, -1.0, 4.0]), 0.0)
     np.testing.assert_allclose(turns, [0.5, -1.0, 4.0 - 2 * pi])
 
 
-def test_the_best_evader_keeps_what_the_table_says(
+def test_optimal_evader_reaches_the_value_of_the_table(
     pursuit: Bound, cars: Bound
 ) -> None:
     """And no other keeps more, beyond the error of these coarse grids."""
@@ -85,7 +85,7 @@ def test_the_best_evader_keeps_what_the_table_says(
             assert other.over_bound < best.over_bound - 0.02
 
 
-def test_no_pursuer_comes_closer_than_the_best(cars: Bound) -> None:
+def test_no_pursuer_comes_closer_than_the_optimal_one(cars: Bound) -> None:
     starts = draw_starts(cars, 200, 1)
     promised = cars.value(*starts.T)
 
@@ -97,7 +97,7 @@ def test_no_pursuer_comes_closer_than_the_best(cars: Bound) -> None:
     assert (kept - promised).mean() > 0.0
 
 
-def test_games_on_the_floor_are_those_of_the_kernel(pursuit: Bound) -> None:
+def test_simulated_games_agree_with_the_kernel(pursuit: Bound) -> None:
     """Moving aside by eq. (4), played twice by independent code."""
     starts = draw_starts(pursuit, 100, 2)
     free = replace(pursuit, game=replace(pursuit.game, evader_turn=1e3))
@@ -109,7 +109,7 @@ def test_games_on_the_floor_are_those_of_the_kernel(pursuit: Bound) -> None:
     assert np.quantile(off, 0.95) < 0.01
 
 
-def test_a_table_is_read_as_it_was_written(
+def test_table_survives_a_round_trip_through_a_file(
     cars: Bound, tmp_path: Path
 ) -> None:
     path = tmp_path / "cars.npz"
@@ -133,11 +133,11 @@ def test_other_files_are_refused(
         np.savez(path, values=np.zeros(3))
     else:
         path.write_bytes(content)
-    with pytest.raises(PlanError, match="no table of a bound"):
+    with pytest.raises(PlanError, match="not a valid table of a bound"):
         load_bound(path)
 
 
-def test_command_writes_table_figure_and_answer(tmp_path: Path) -> None:
+def test_command_writes_table_and_figure(tmp_path: Path) -> None:
     table, figure = tmp_path / "cars.npz", tmp_path / "cars.png"
     words = "--against any --pursuer-turn 1 --capture 1 --grid 24 --games 50"
     words += f" --output {table} --figure {figure} --json"

@@ -15,7 +15,10 @@ from stepaside.theory.unicycle.circle_equations import circle_of
 from stepaside.theory.unicycle.game_parameters import rules_of
 from stepaside.theory.unicycle.kernel import play_games
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
-from stepaside.theory.unicycle.relative_motion import RelativeState, look
+from stepaside.theory.unicycle.relative_motion import (
+    RelativeState,
+    geometry_of,
+)
 from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 ASIDE = make_game(1.0, 1.0, 1.0, 1.0)
@@ -45,7 +48,7 @@ def test_no_game_comes_closer_than_certified(game: Game) -> None:
     assert np.all(out.circle == 0)  # and all are on the main circle
 
 
-def test_nothing_is_shown_as_a_bound_where_it_does_not_hold() -> None:
+def test_no_bound_is_given_where_the_certificate_does_not_hold() -> None:
     starts = random_starts(ASIDE, 200)
     proofs = [certify(ASIDE, RelativeStart(*start)) for start in starts]
     assert 0 < sum(p.holds for p in proofs) < 200
@@ -136,7 +139,7 @@ def test_bound_is_tight_on_the_circle() -> None:
     assert proof.distance_m == pytest.approx(circle.distance_m, abs=1e-5)
 
 
-def test_lyapunov_rate_is_the_one_of_the_proof() -> None:
+def test_lyapunov_rate_matches_the_proof() -> None:
     """Along the printed law, by the chain rule at random states."""
     rng = np.random.default_rng(5)
     v, k, alpha = 0.8, 0.6, 1.1
@@ -144,7 +147,7 @@ def test_lyapunov_rate_is_the_one_of_the_proof() -> None:
     radius, rules = circle_of(game).distance_m, rules_of(game, 1e-6)
     for r, a, b in rng.uniform([0.2, -2, -2], [3, 2, 2], (100, 3)):
         psi = b - alpha
-        *_, r_dot, omega = look(RelativeState(r, a, psi), rules)
+        *_, r_dot, omega = geometry_of(RelativeState(r, a, psi), rules)
         a_dot, b_dot = omega - k * a, omega - k * b
         d, x = a - b, 0.5 * (a + b - alpha)
         z = r * np.exp(1j * x)
@@ -165,7 +168,7 @@ def test_dulac_function_has_a_divergence_of_one_sign() -> None:
     def field(r: float, x: float) -> np.ndarray:
         a = x + alpha / 2
         psi = a - alpha
-        *_, rate, omega = look(RelativeState(r, a, psi), rules)
+        *_, rate, omega = geometry_of(RelativeState(r, a, psi), rules)
         return r * np.array([rate, omega - k * a])
 
     for r, x in [(0.5, 0.3), (2.0, -1.0), (4.0, 2.0)]:
@@ -174,7 +177,7 @@ def test_dulac_function_has_a_divergence_of_one_sign() -> None:
         assert by_r + by_x == pytest.approx(-k * r, abs=1e-8)
 
 
-def test_other_games_are_refused() -> None:
+def test_unequal_players_are_refused() -> None:
     with pytest.raises(PlanError, match="equal speeds and gains"):
         certify(make_game(1.0, 1.1, 1.0, 1.0), RelativeStart(1.0))
 

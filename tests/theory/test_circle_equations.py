@@ -162,7 +162,7 @@ def test_angle_out_of_range_is_refused(angle: float) -> None:
         find_circle(1, 1, 1, 1, angle)
 
 
-def test_a_game_and_its_values_have_the_same_circle() -> None:
+def test_circle_of_values_equals_circle_of_the_game() -> None:
     values = (1.2, 1.0, 0.5, 0.9)
     named = {"angle": 2.4, "law": "saturated", "side_rule": "latched"}
     game = make_game(*values, **named)  # type: ignore[arg-type]

@@ -52,7 +52,7 @@ def test_circle_is_named_within_two_percent_on_either_side() -> None:
                 assert circle_at(circles, far, side) is None
 
 
-def test_game_that_reaches_no_circle_is_measured_over_its_last_tenth() -> None:
+def test_game_without_a_circle_is_measured_over_its_last_tenth() -> None:
     run = simulate(NO_CIRCLE, RelativeStart(3.0, 0.4, 0.3), 20.0)
     seen = measure(run)
     (before, after), _ = run.poses([18.0, 20.0])

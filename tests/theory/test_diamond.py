@@ -28,7 +28,7 @@ def diamond(count: int, seed: int, near: float, far: float) -> np.ndarray:
 
 @pytest.mark.parametrize("angle", [0.3, pi / 2, 2.4])
 @pytest.mark.parametrize("rule", ["behind", "at random"])
-def test_no_game_leaves_the_diamond_whatever_its_sides(
+def test_no_game_leaves_the_diamond_for_any_sequence_of_sides(
     rule: str, angle: float
 ) -> None:
     """The printed law by Runge and Kutta's rule, sides as they please."""
@@ -103,7 +103,7 @@ def test_wide_angle_spirals_inward_where_the_side_keeps_changing() -> None:
     assert ends[0] >= least_distance(game, start, 20.0)
 
 
-def test_the_bound_is_refused_outside_its_reach() -> None:
+def test_bound_is_refused_outside_the_diamond() -> None:
     inside = RelativeStart(1.0, 0.3, -0.3)
     for game in (
         make_game(1.0, 1.1, 1.0, 1.0),
@@ -131,7 +131,7 @@ def test_the_bound_is_refused_outside_its_reach() -> None:
         (make_game(1, 1, 1, 1, 2.0), 0.5, -0.5, True),
     ],
 )
-def test_what_is_proved_unwrapped(
+def test_starts_proved_not_to_wrap(
     game: Game, a: float, psi: float, expected: bool
 ) -> None:
     assert stays_unwrapped(game, a, psi) == expected

@@ -13,7 +13,10 @@ from stepaside.theory.unicycle.event_location import (
     time_of,
 )
 from stepaside.theory.unicycle.game_parameters import FlatParameters, rules_of
-from stepaside.theory.unicycle.relative_motion import RelativeState, look
+from stepaside.theory.unicycle.relative_motion import (
+    RelativeState,
+    geometry_of,
+)
 from stepaside.theory.unicycle.smooth_pieces import (
     Branch,
     Mode,
@@ -47,12 +50,12 @@ def test_margins_fall_to_zero_at_their_events() -> None:
         Event.CLOSEST: closing,
         Event.CAPTURE: 1.3,
     }
-    now = StateView(state, look(state, rules))
+    now = StateView(state, geometry_of(state, rules))
     got = {event: margin(event, now, piece, rules) for event in expected}
     assert got == pytest.approx(expected)
 
 
-def test_step_tells_the_closest_approach_and_its_time() -> None:
+def test_step_returns_the_closest_approach_and_its_time() -> None:
     """A pursuer drives straight past an evader that stands still."""
     a, r = np.arctan2(0.3, 0.5), np.hypot(0.3, 0.5)
     past, apart = RelativeState(r, a, -a), RelativeState(r, pi - a, -a)
@@ -66,14 +69,14 @@ def test_step_tells_the_closest_approach_and_its_time() -> None:
     assert step[2:] == pytest.approx((0.5, when, when))
 
 
-def test_edge_that_a_game_stands_on_is_met_when_it_comes_back() -> None:
+def test_return_to_an_edge_is_located() -> None:
     """The line of sight outruns the evader for some milliseconds only."""
     rules = rules_of(make_game(1.0, 1.0, 0.5, 0.5, law="saturated"), 0.2)
     state = RelativeState(1.2787314540990418, -2.7776696801482905, -0.5 * pi)
     left = Mode(1, Branch.LEFT)
-    assert 0.5 < look(state, rules).sight < 0.51
+    assert 0.5 < geometry_of(state, rules).sight < 0.51
     piece = piece_of(left, rules)
-    now = StateView(state, look(state, rules))
+    now = StateView(state, geometry_of(state, rules))
     for length in (0.007, 0.03, 0.1):
         time = time_of(Event.LOW, now, length, piece, rules)
         assert 0.003 < time < 0.005

@@ -65,7 +65,7 @@ def test_numpy_gives_the_same_answers(game: Game) -> None:
     np.testing.assert_allclose(fast.states, slow.states, atol=1e-8)
 
 
-def test_all_works_where_numba_is_missing() -> None:
+def test_games_are_simulated_without_numba() -> None:
     code = (
         "import sys; sys.modules['numba'] = None\n"
         "import numpy as np\n"
@@ -95,7 +95,7 @@ def test_branchless_sine_and_cosine_are_exact() -> None:
     assert np.abs(ours[:, 1] - np.cos(x)).max() < 5e-16
 
 
-def test_settled_time_is_when_the_circle_is_reached_for_good() -> None:
+def test_settled_time_is_the_last_arrival_at_the_circle() -> None:
     out = play_games(GAMES[0], [[5.0, 0.2, 0.4], [3.6, 0.0, 0.0]], 60.0)
     run = simulate(GAMES[0], RelativeStart(5.0, 0.2, 0.4), 60.0)
     before, after = run.states(out.settled_time[0] + [-0.05, 0.05])
@@ -143,7 +143,7 @@ def test_pursuer_straight_behind_is_not_turned_round() -> None:
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
-def test_start_within_the_capture_distance_is_captured_at_once(
+def test_start_within_the_capture_distance_is_captured_immediately(
     backend: str,
 ) -> None:
     """Also where it would be out of reach after one step."""
@@ -180,7 +180,7 @@ def test_duration_is_rounded_up_to_whole_steps(backend: str) -> None:
         assert out.closest_time[0] == pytest.approx(expected)
 
 
-def test_progress_tells_every_chunk_and_chunks_change_nothing() -> None:
+def test_progress_reports_every_chunk_and_chunks_change_nothing() -> None:
     starts = random_starts(7, seed=4)
     counts: list[int] = []
     some = play_games(GAMES[1], starts, 0.5, chunk=3, progress=counts.append)
@@ -191,7 +191,7 @@ def test_progress_tells_every_chunk_and_chunks_change_nothing() -> None:
 
 
 @pytest.mark.parametrize("side", [1, -1])
-def test_side_asked_for_is_kept_where_the_rule_keeps_it(side: int) -> None:
+def test_given_side_is_kept_by_the_latched_rule(side: int) -> None:
     out = play_games(GAMES[3], random_starts(5), 0.5, side=side)
     assert out.sides.tolist() == [side] * 5
 

@@ -21,7 +21,7 @@ def test_wrapping_once_is_wrapping(angle: float) -> None:
         assert wrapped == wrap_angle(angle)
 
 
-def test_the_pursuer_heads_for_the_evader() -> None:
+def test_pursuer_heads_for_the_evader() -> None:
     """Eq. (2)."""
     assert laws.pursuit_heading(0.4) == 0.4
     assert laws.pursuit_heading(-0.4) == -0.4
@@ -69,7 +69,7 @@ def test_motions_are_the_strategy_angle_apart_on_the_line_of_sight(
 
 
 @given(ANGLES, st.sampled_from([-1, 1]), st.floats(0.0, pi))
-def test_a_mirrored_evader_heads_the_mirrored_way(
+def test_mirrored_evader_has_the_mirrored_heading(
     bearing: float, side: int, angle: float
 ) -> None:
     left = laws.evasion_heading(bearing, side, angle)
@@ -117,13 +117,13 @@ def test_without_hysteresis_the_side_is_the_one_behind(
             assert kept == laws.side_behind(bearing)
 
 
-def test_who_has_no_side_yet_takes_the_one_behind() -> None:
+def test_first_side_is_the_one_behind() -> None:
     assert laws.keep_side(0, 0.1, 1.0) == -1
     assert laws.keep_side(0, -0.1, 1.0) == 1
 
 
 @given(ANGLES, st.floats(0.0, pi))
-def test_a_side_once_chosen_is_kept_by_the_same_bearing(
+def test_chosen_side_is_stable_at_the_same_bearing(
     bearing: float, hysteresis: float
 ) -> None:
     side = laws.keep_side(0, bearing, hysteresis)

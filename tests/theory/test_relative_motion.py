@@ -9,12 +9,12 @@ from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.relative_motion import (
     RelativeState,
     derivative,
-    look,
-    look_anew,
-    look_many,
+    geometry_of,
+    geometry_of_arrays,
+    recomputed_geometry,
     rk4,
 )
-from stepaside.theory.unicycle.sampled_game import walk_arc
+from stepaside.theory.unicycle.sampled_game import drive_along_arc
 from stepaside.theory.unicycle.smooth_pieces import (
     Branch,
     Mode,
@@ -36,14 +36,14 @@ def test_rates_are_those_of_two_unicycles_on_a_floor(
     """One drives forward, one backward; both turn as their laws say."""
     state, short = HERE, 1e-5
     piece = SmoothPiece(-9.0, 9.0, constant, slope, 1.0)
-    found = derivative(state, look(state, RULES), piece, RULES)
+    found = derivative(state, geometry_of(state, RULES), piece, RULES)
     pursuer = Pose(0.3, -0.2, 0.9)
     evader = RelativeStart(*state).evader_pose(pursuer)
     turns = 0.5 * state.a, constant + slope * state.psi
     ends = [
         RelativeStart.from_world(
-            walk_arc(pursuer, 1.2, turns[0], time),
-            walk_arc(evader, -0.9, turns[1], time),
+            drive_along_arc(pursuer, 1.2, turns[0], time),
+            drive_along_arc(evader, -0.9, turns[1], time),
         ).wrapped()
         for time in (short, -short)
     ]
@@ -51,11 +51,9 @@ def test_rates_are_those_of_two_unicycles_on_a_floor(
     assert found == pytest.approx(tuple(expected), abs=1e-9)
 
 
-def test_who_slides_keeps_its_bearing_and_turns_with_the_line_of_sight() -> (
-    None
-):
+def test_sliding_evader_turns_with_the_line_of_sight() -> None:
     piece = piece_of(Mode(1, Branch.SLIDING), RULES)
-    view = look(HERE, RULES)
+    view = geometry_of(HERE, RULES)
     assert view.sight != 0.0
     assert derivative(HERE, view, piece, RULES).psi == 0.0
 
@@ -67,8 +65,10 @@ def test_error_of_a_step_falls_by_the_fifth_power_of_its_length() -> None:
     def advance(length: float, count: int) -> np.ndarray:
         state = HERE
         for _ in range(count):
-            view = look(state, RULES)
-            state = rk4(look_anew, state, view, length / count, piece, RULES)
+            view = geometry_of(state, RULES)
+            state = rk4(
+                recomputed_geometry, state, view, length / count, piece, RULES
+            )
         return np.array(state)
 
     errors = [
@@ -79,8 +79,10 @@ def test_error_of_a_step_falls_by_the_fifth_power_of_its_length() -> None:
     assert errors[1] / errors[2] == pytest.approx(32.0, rel=0.15)
 
 
-def test_arrays_are_seen_as_numbers_are() -> None:
+def test_geometry_of_arrays_equals_that_of_numbers() -> None:
     states = np.random.default_rng(3).uniform(0.2, 3.0, (3, 7))
-    many = np.array(look_many(RelativeState(*states), RULES))
-    ones = [look(RelativeState(*one), RULES) for one in states.T.tolist()]
+    many = np.array(geometry_of_arrays(RelativeState(*states), RULES))
+    ones = [
+        geometry_of(RelativeState(*one), RULES) for one in states.T.tolist()
+    ]
     np.testing.assert_allclose(many.T, ones, rtol=0.0, atol=1e-14)

@@ -10,8 +10,8 @@ from stepaside.theory.unicycle.circle_equations import circle_of
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.sampled_game import (
     choose_turning,
+    drive_along_arc,
     simulate_sampled,
-    walk_arc,
 )
 from stepaside.theory.unicycle.sampled_stability import (
     delayed_eigenvalues,
@@ -34,7 +34,7 @@ def on_circle(game: Game = NAO) -> np.ndarray:
 
 @pytest.mark.parametrize("game", [NAO, UNEVEN])
 @pytest.mark.parametrize("delay", [0.0, 0.3, 1.7])
-def test_sampling_and_delay_leave_the_circle_as_it_is(
+def test_sampling_and_delay_do_not_change_the_circle(
     game: Game, delay: float
 ) -> None:
     run = simulate_sampled(game, RelativeStart(*on_circle(game)), 0.4, 0.4)
@@ -47,7 +47,7 @@ def test_sampling_and_delay_leave_the_circle_as_it_is(
 
 
 @pytest.mark.parametrize("delay", [0.0, 0.25, 0.5, 1.0, 1.3])
-def test_step_map_foretells_the_next_sample_of_a_game(delay: float) -> None:
+def test_step_map_predicts_the_next_sample_of_a_game(delay: float) -> None:
     """State and the rates chosen before, newest first, near the circle."""
     period = 0.5
     rest = on_circle(UNEVEN)
@@ -88,7 +88,7 @@ def test_short_periods_tend_to_the_continuous_law() -> None:
 
 
 @pytest.mark.parametrize("delay", [0.0, 0.6])
-def test_largest_sample_time_parts_decay_from_growth(delay: float) -> None:
+def test_largest_sample_time_separates_decay_from_growth(delay: float) -> None:
     limit = largest_stable_sample_time(UNEVEN, delay)
     start = RelativeStart(*(on_circle(UNEVEN) + [0.0, 1e-4, 0.0]))
     spreads = []
@@ -135,14 +135,14 @@ def test_side_follows_the_rule_with_its_hysteresis() -> None:
     assert choose_turning(kept, RelativeStart(1.0, 0.0, 2.0), 1)[2] == 1
 
 
-def test_no_linearisation_where_the_evader_slides_or_nothing_circles() -> None:
+def test_no_linearisation_for_a_sliding_evader_or_without_a_circle() -> None:
     with pytest.raises(PlanError, match="slides"):
         step_map(make_game(1, 1, 1, 1, 0.3, "saturated"), 0.1)
     with pytest.raises(PlanError, match="no circle"):
         step_map(make_game(1, 1, 1, 1, 0.0), 0.1)
 
 
-def test_equal_players_bear_1_7_of_sampling_and_1_1_of_delay() -> None:
+def test_equal_players_tolerate_sampling_of_1_7_and_delay_of_1_1() -> None:
     """In units of 1/k, at an angle of pi / 2."""
     assert 0.2 * largest_stable_sample_time(NAO) == pytest.approx(
         1.70, abs=0.005
@@ -154,14 +154,14 @@ def test_equal_players_bear_1_7_of_sampling_and_1_1_of_delay() -> None:
 UNSTABLE = make_game(1.4, 1.75, 0.9, 2.8, 2.65, "saturated")
 
 
-def test_unstable_circle_bears_no_sampling_and_no_delay() -> None:
+def test_unstable_circle_tolerates_no_sampling_and_no_delay() -> None:
     assert not circle_of(UNSTABLE).stable
     assert largest_stable_sample_time(UNSTABLE) == 0.0
     assert largest_stable_delay(UNSTABLE) == 0.0
     assert largest_stable_delay(UNSTABLE, 0.1) == 0.0
 
 
-def test_delay_past_the_largest_leaves_no_sample_time() -> None:
+def test_delay_beyond_the_largest_allows_no_sample_time() -> None:
     quick = make_game(1.0, 1.0, 4.0, 4.0)
     limit = largest_stable_delay(quick)
     assert limit == pytest.approx(0.275, abs=0.001)
@@ -170,7 +170,7 @@ def test_delay_past_the_largest_leaves_no_sample_time() -> None:
 
 
 @pytest.mark.parametrize("delay", [0.0, 1.0])
-def test_step_map_is_on_the_edge_at_the_largest_sample_time(
+def test_step_map_is_marginal_at_the_largest_sample_time(
     delay: float,
 ) -> None:
     limit = largest_stable_sample_time(NAO, delay)
@@ -218,12 +218,12 @@ def test_perception_takes_effect_when_its_delay_is_over() -> None:
 
 
 def test_arc_has_the_radius_speed_over_turning_rate() -> None:
-    arc = walk_arc(Pose(1.0, 2.0, np.pi / 2), 0.6, -0.3, np.pi / 0.6)
+    arc = drive_along_arc(Pose(1.0, 2.0, np.pi / 2), 0.6, -0.3, np.pi / 0.6)
     np.testing.assert_allclose(arc, (3.0, 4.0, 0.0), atol=1e-12)
-    back = walk_arc(arc, -0.6, 0.3, np.pi / 0.6)
+    back = drive_along_arc(arc, -0.6, 0.3, np.pi / 0.6)
     np.testing.assert_allclose(back, (1.0, 2.0, np.pi / 2), atol=1e-12)
     np.testing.assert_allclose(
-        walk_arc(Pose(0, 0, 0), 0.5, 0.0, 2.0), (1.0, 0.0, 0.0)
+        drive_along_arc(Pose(0, 0, 0), 0.5, 0.0, 2.0), (1.0, 0.0, 0.0)
     )
 
 

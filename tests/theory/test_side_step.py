@@ -10,7 +10,7 @@ from stepaside.theory.unicycle.side_step import side_clearance, side_step
 
 
 @pytest.mark.parametrize("time", [0.3, 1.9, 4.0])
-def test_the_way_is_that_of_the_unicycle(time: float) -> None:
+def test_displacement_solves_the_unicycle_equations(time: float) -> None:
     """Y' = v sin(theta), theta' = omega until a quarter turn."""
     count, way = 20_000, 0.0
     for i in range(count):
@@ -19,14 +19,16 @@ def test_the_way_is_that_of_the_unicycle(time: float) -> None:
     assert found == pytest.approx(way * time / count, rel=1e-6)
 
 
-def test_at_first_it_only_turns_and_at_last_it_only_drives() -> None:
+def test_limits_of_short_and_long_times() -> None:
     assert side_step(0.25, 0.8, 1e-3) == pytest.approx(0.25 * 0.8e-6 / 2)
     late = side_step(0.25, 0.8, 11.0) - side_step(0.25, 0.8, 10.0)
     assert late == pytest.approx(0.25)
     assert side_step(0.25, 1e6, 2.0) == pytest.approx(0.5, rel=1e-4)
 
 
-def test_the_fast_gait_clears_a_person_where_the_paper_s_does_not() -> None:
+def test_fast_gait_clears_a_person_and_the_gait_of_the_paper_does_not() -> (
+    None
+):
     """At 1 m/s, seen at 3.5 m; the paper's gait below 0.4 m/s only."""
 
     def room(name: str, person: float) -> float:

@@ -10,10 +10,10 @@ from stepaside.theory.unicycle.smooth_pieces import (
     Branch,
     Edge,
     Mode,
-    branch_at,
-    enter,
-    leave,
-    opposite,
+    branch_from_code,
+    initial_mode,
+    next_mode,
+    opposite_branch,
     piece_of,
 )
 from stepaside.theory.unicycle.unicycle_game import make_game
@@ -39,18 +39,20 @@ def test_kept_side_starts_with_a_wrapped_error(
 ) -> None:
     """The bearing moves by a whole turn or not at all."""
     for bearing in np.linspace(-pi, pi, 41).tolist():
-        found, mode = enter(bearing, 0.0, side, rules(angle=angle, keeps=True))
+        found, mode = initial_mode(
+            bearing, 0.0, side, rules(angle=angle, keeps=True)
+        )
         assert mode == (side, Branch.PROPORTIONAL)
         assert abs(found + side * angle) <= pi + 1e-12
         assert remainder(found - bearing, tau) == pytest.approx(0.0, abs=1e-12)
 
 
-def test_side_not_asked_for_is_the_one_behind_the_evader() -> None:
+def test_default_side_is_the_one_behind_the_evader() -> None:
     for bearing, side in ((0.3, -1), (pi, -1), (-0.3, 1), (-pi, 1), (0.0, 1)):
-        found, mode = enter(bearing, 0.0, 0, rules())
+        found, mode = initial_mode(bearing, 0.0, 0, rules())
         assert found == pytest.approx(bearing)
         assert mode == (side, Branch.PROPORTIONAL)
-    found, mode = enter(0.3, 0.0, 1, rules())
+    found, mode = initial_mode(0.3, 0.0, 1, rules())
     assert found == pytest.approx(0.3)
     assert mode == (1, Branch.PROPORTIONAL)
 
@@ -66,7 +68,9 @@ def test_saturated_evader_turns_towards_its_error(side: int) -> None:
         (0.0, 1.1 * GAIN, Branch.LEFT),
         (0.0, -1.1 * GAIN, Branch.RIGHT),
     ):
-        found, mode = enter(zero + off, rate, side, rules(saturated=True))
+        found, mode = initial_mode(
+            zero + off, rate, side, rules(saturated=True)
+        )
         assert found == pytest.approx(zero + off)
         assert mode == (side, branch)
 
@@ -94,7 +98,7 @@ def test_pieces_reach_from_edge_to_edge(side: int) -> None:
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("branch", [Branch.PROPORTIONAL, *FULL])
 @pytest.mark.parametrize("edge", EDGES)
-def test_piece_that_follows_holds_the_same_direction(
+def test_next_mode_has_the_same_direction(
     side: int, branch: Branch, edge: Edge, keeps: bool
 ) -> None:
     here = rules(keeps=keeps)
@@ -102,14 +106,14 @@ def test_piece_that_follows_holds_the_same_direction(
     left = piece.high if edge is Edge.HIGH else piece.low
     at_zero = (branch, edge) in zip(FULL, EDGES, strict=True)
     for rate in (0.0, 1.1 * GAIN, -1.1 * GAIN):
-        bearing, mode = leave(left, rate, Mode(side, branch), edge, here)
+        bearing, mode = next_mode(left, rate, Mode(side, branch), edge, here)
         assert remainder(bearing - left, tau) == pytest.approx(0.0, abs=1e-12)
         low, high, *_ = piece_of(mode, here)
         assert low - 1e-12 <= bearing <= high + 1e-12
         assert mode.side == (side if keeps or at_zero else -side)
         if at_zero:
             slides = abs(rate) <= GAIN
-            after = Branch.SLIDING if slides else opposite(branch)
+            after = Branch.SLIDING if slides else opposite_branch(branch)
             assert mode.branch == after
         elif branch is not Branch.PROPORTIONAL:
             error = bearing + mode.side * ANGLE
@@ -120,10 +124,14 @@ def test_piece_that_follows_holds_the_same_direction(
 def test_sliding_ends_towards_the_line_of_sight(sign: int) -> None:
     mode = Mode(1, Branch.SLIDING)
     for edge in EDGES:
-        found = leave(-ANGLE + 1e-9, sign * 1.1 * GAIN, mode, edge, rules())
+        found = next_mode(
+            -ANGLE + 1e-9, sign * 1.1 * GAIN, mode, edge, rules()
+        )
         assert found == (-ANGLE, (1, FULL[sign < 0]))
 
 
-def test_branches_survive_as_numbers_in_arrays() -> None:
-    assert [branch_at(int(branch)) for branch in Branch] == list(Branch)
-    assert [opposite(opposite(branch)) for branch in Branch] == list(Branch)
+def test_branches_survive_a_round_trip_through_numbers() -> None:
+    assert [branch_from_code(int(branch)) for branch in Branch] == list(Branch)
+    assert [
+        opposite_branch(opposite_branch(branch)) for branch in Branch
+    ] == list(Branch)

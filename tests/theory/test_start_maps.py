@@ -95,7 +95,7 @@ def test_bad_boxes_are_refused() -> None:
         ("facing", (1.0, 2.0, 1.0, -0.1)),
     ],
 )
-def test_boxes_name_the_value_they_refuse(
+def test_refused_value_of_a_box_is_named(
     name: str, values: tuple[float, ...]
 ) -> None:
     with pytest.raises(PlanError, match=f"^{name} must"):

@@ -103,7 +103,7 @@ def integrate(
 
 
 @pytest.mark.parametrize(("game", "start", "between"), COUNTEREXAMPLES)
-def test_a_faster_pursuer_may_keep_the_side_changing_for_ever(
+def test_side_may_change_without_end_against_a_faster_pursuer(
     game: Game, start: State, between: tuple[float, float]
 ) -> None:
     """As a motion between two distances, which neither end nor settle."""
@@ -123,7 +123,9 @@ def test_a_faster_pursuer_may_keep_the_side_changing_for_ever(
     assert sum(a != b for a, b in pairs) == len(first.changes)
 
 
-def test_one_counterexample_has_no_circle_and_one_lies_beside_one() -> None:
+def test_one_counterexample_has_no_circle_and_one_has_a_stable_circle() -> (
+    None
+):
     assert not circles_of(NO_CIRCLE)
     (circle,) = circles_of(ONE_CIRCLE)
     assert circle.stable and circle.behind
@@ -132,7 +134,7 @@ def test_one_counterexample_has_no_circle_and_one_lies_beside_one() -> None:
     assert out.circle[0] == 0
 
 
-def test_without_a_stable_circle_every_start_keeps_changing_sides() -> None:
+def test_without_a_stable_circle_the_side_changes_without_end() -> None:
     """Games of the parameter box of docs/unicycles.md."""
     rng = np.random.default_rng(5)
     found = 0

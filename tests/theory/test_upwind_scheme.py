@@ -6,18 +6,21 @@ import numpy as np
 import pytest
 
 from stepaside.theory.bound import DiscretisationScheme, Grid, against_any
-from stepaside.theory.bound.compiled_stage import stage_blocks, wake_neighbours
+from stepaside.theory.bound.compiled_stage import (
+    mark_active_rows,
+    stage_blocks,
+)
 from stepaside.theory.bound.numpy_stage import stage_arrays
 from stepaside.theory.bound.state_grid import fill_ghosts
 from stepaside.theory.bound.upwind_scheme import (
-    blow,
-    larger,
     lax_friedrichs,
-    smaller,
+    maximum,
+    minimum,
     upwind,
+    upwind_product,
     weno5,
 )
-from stepaside.theory.bound.value_solver import make_setting
+from stepaside.theory.bound.value_solver import make_stage_parameters
 from stepaside.theory.unicycle.compilation import load_numba
 
 EPS = 12e-6
@@ -50,7 +53,7 @@ def test_slopes_are_of_fifth_order_where_smooth() -> None:
     assert (ratio > 20.0).all(), ratio
 
 
-def test_a_kink_is_not_smeared() -> None:
+def test_kink_is_not_smoothed() -> None:
     """Each side takes its slope from its own side of the kink."""
     values = np.abs(np.arange(-3.0, 4.0) - 0.5)
     left, right = slopes_of(values, 1e-9)
@@ -67,10 +70,10 @@ def test_mirrored_values_have_mirrored_slopes() -> None:
     assert back == pytest.approx(-right) and forth == pytest.approx(-left)
 
 
-def test_flux_takes_the_slope_that_the_motion_goes_to() -> None:
-    assert blow(2.0, 10.0, 1.0) == pytest.approx(2.0)
-    assert blow(-2.0, 10.0, 1.0) == pytest.approx(-20.0)
-    assert larger(2.0, -3.0) == 2.0 and smaller(2.0, -3.0) == -3.0
+def test_flux_takes_the_upwind_slope() -> None:
+    assert upwind_product(2.0, 10.0, 1.0) == pytest.approx(2.0)
+    assert upwind_product(-2.0, 10.0, 1.0) == pytest.approx(-20.0)
+    assert maximum(2.0, -3.0) == 2.0 and minimum(2.0, -3.0) == -3.0
 
 
 def test_both_fluxes_agree_with_the_hamiltonian_where_smooth() -> None:
@@ -89,7 +92,7 @@ def test_both_fluxes_agree_with_the_hamiltonian_where_smooth() -> None:
             assert found == pytest.approx(true, rel=1e-6, abs=1e-6)
 
 
-def test_godunov_is_monotone_and_fills_valleys_less_than_lax() -> None:
+def test_godunov_is_monotone_and_less_dissipative_than_lax() -> None:
     """More to either side never lowers the new value."""
     rng = np.random.default_rng(2)
     for _ in range(200):
@@ -110,7 +113,7 @@ def test_godunov_is_monotone_and_fills_valleys_less_than_lax() -> None:
 
 @pytest.mark.parametrize("scheme", DiscretisationScheme)
 @pytest.mark.skipif(load_numba() is None, reason="needs Numba")
-def test_plain_numpy_does_the_same_step(
+def test_numpy_stage_equals_the_compiled_stage(
     scheme: DiscretisationScheme, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from stepaside.theory.bound import (
@@ -120,40 +123,40 @@ def test_plain_numpy_does_the_same_step(
         upwind_scheme as numerics,
     )
 
-    for name in ("blow", "larger", "smaller"):
+    for name in ("upwind_product", "maximum", "minimum"):
         monkeypatch.setattr(numerics, name, plain(getattr(numerics, name)))
     for name in ("weno5", "upwind", "lax_friedrichs"):
         monkeypatch.setattr(arrays, name, plain(getattr(numerics, name)))
     grid = Grid(0.4, 3.4, 10, 12, 10)
-    setting, rate = make_setting(
+    setting, rate = make_stage_parameters(
         against_any(1.0, 1.2, 0.9, 1.1), grid, scheme, np.float64
     )
     rng = np.random.default_rng(4)
     first: Any = rng.uniform(0.4, 3.0, tuple(n + 6 for n in grid.shape))
     fill_ghosts(first)
-    awake = rng.random(grid.shape[:2]) > 0.2
+    active = rng.random(grid.shape[:2]) > 0.2
     outs, moves = [], []
     for stage in (stage_blocks, stage_arrays):
         out, moved = np.zeros_like(first), np.ones(grid.shape[:2], bool)
         stage(
-            first, first + 0.01, out, 0.75, 0.7 / rate, True, setting, awake,
+            first, first + 0.01, out, 0.75, 0.7 / rate, True, setting, active,
             moved, 1e-9,
         )  # fmt: skip
         outs.append(out[3:-3, 3:-3, 3:-3])
         moves.append(moved)
     np.testing.assert_allclose(outs[0], outs[1], rtol=1e-9)
     np.testing.assert_array_equal(moves[0], moves[1])
-    asleep = first[3:-3, 3:-3, 3:-3][~awake]
-    np.testing.assert_array_equal(outs[0][~awake], asleep)
+    inactive = first[3:-3, 3:-3, 3:-3][~active]
+    np.testing.assert_array_equal(outs[0][~active], inactive)
 
 
-def test_waking_reaches_one_stencil_a_stage() -> None:
-    moved, awake = np.zeros((8, 20), bool), np.ones((8, 20), bool)
-    assert not wake_neighbours(moved, awake, 3, 3) and not awake.any()
+def test_active_rows_extend_by_one_stencil_per_stage() -> None:
+    moved, active = np.zeros((8, 20), bool), np.ones((8, 20), bool)
+    assert not mark_active_rows(moved, active, 3, 3) and not active.any()
     moved[1, 10] = True
-    assert wake_neighbours(moved, awake, 3, 1)
-    assert set(np.flatnonzero(awake[:, 10])) == {0, 1, 2, 3, 4}
-    assert set(np.flatnonzero(awake[1])) == {7, 8, 9, 10, 11, 12, 13}
-    assert awake.sum() == 5 + 6
-    assert wake_neighbours(moved, awake, 3, 3)
-    assert awake[1].sum() == 19 and awake[:, 10].all()
+    assert mark_active_rows(moved, active, 3, 1)
+    assert set(np.flatnonzero(active[:, 10])) == {0, 1, 2, 3, 4}
+    assert set(np.flatnonzero(active[1])) == {7, 8, 9, 10, 11, 12, 13}
+    assert active.sum() == 5 + 6
+    assert mark_active_rows(moved, active, 3, 3)
+    assert active[1].sum() == 19 and active[:, 10].all()

@@ -1,4 +1,4 @@
-"""Rooms: walls, discs, boxes and polygons that stand on the floor."""
+"""Rooms: walls, discs, boxes and polygons on the floor."""
 
 from .moving_box import MovingBox
 from .obstacles import (
@@ -8,7 +8,7 @@ from .obstacles import (
     clearance_between,
     obstacle_set,
 )
-from .reachability import has_way
+from .reachability import path_exists
 from .room import OPEN_FLOOR, Door, Room
 from .room_file import load_room, room_entries, room_of_entries, room_text
 from .room_generation import RoomRecipe, draw_starts, make_room
@@ -31,7 +31,7 @@ __all__ = [
     "check_starts",
     "clearance_between",
     "draw_starts",
-    "has_way",
+    "path_exists",
     "hull",
     "load_room",
     "make_room",

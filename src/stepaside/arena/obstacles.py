@@ -1,4 +1,4 @@
-"""Obstacles on the floor: what every shape has, and sets of them."""
+"""Obstacles on the floor: the base class of shapes, and sets of them."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable
@@ -20,7 +20,7 @@ class Obstacle(ABC):
     """Convex shape on the floor.
 
     Attributes:
-        kind: Name of its sort: "disc", "box" or "polygon".
+        kind: "disc", "box" or "polygon".
     """
 
     kind: ClassVar[str]
@@ -28,11 +28,15 @@ class Obstacle(ABC):
     @property
     @abstractmethod
     def hull(self) -> RoundedHull:
-        """Points, half planes and radius."""
+        """The shape as points, half planes and a radius."""
 
     @abstractmethod
     def moved(self, pose: Pose) -> "Obstacle":
-        """Return the shape in the frame in which its own has a pose."""
+        """Transform the shape.
+
+        Args:
+            pose: Pose of the shape's frame in the target frame.
+        """
 
     @property
     def centre(self) -> tuple[float, float]:
@@ -42,44 +46,43 @@ class Obstacle(ABC):
 
     @property
     def outline(self) -> Array:
-        """Corners of a polygon to draw, in [m]. Shape (n, 2)."""
+        """Corners of a polygon for drawing, in [m]. Shape (n, 2)."""
         return self.points
 
     @property
     def points(self) -> Array:
-        """Corners, counter-clockwise, in [m], read-only; a disc's centre."""
+        """Corners, counter-clockwise, or the centre of a disc, in [m]."""
         return self.hull.points
 
     @property
     def area(self) -> float:
-        """Floor that it covers, in [m^2]."""
+        """Area of the footprint, in [m^2]."""
         return signed_area(self.points) + pi * self.hull.radius**2
 
     @cached_property
-    def _alone(self) -> HullSet:
+    def _hull_set(self) -> HullSet:
         return HullSet((self.hull,))
 
     def clearance(self, points: ArrayLike) -> Array:
-        """Return the distances of points from the edge, negative inside.
+        """Return the signed distances of points from the edge.
 
         Args:
             points: Points (x, y), in [m]. Shape (n, 2).
 
         Returns:
-            Signed distances, in [m]. Shape (n,).
+            Distances, negative inside, in [m]. Shape (n,).
         """
-        return self._alone.clearances(points)[:, 0]
+        return self._hull_set.clearances(points)[:, 0]
 
 
 def clearance_between(one: Obstacle, other: Obstacle) -> float:
-    """Return the distance between two shapes in one frame, in [m].
+    """Return the signed distance between two shapes in one frame, in [m].
 
-    Where they overlap it is minus the least way by which one of them would
-    have to move for them not to.
+    Where they overlap it is minus the penetration depth.
     """
-    # Convex sets that lie apart do so along the normal of an edge; that
-    # of two corners is found from the points of each to the other, and so
-    # is that of a disc, which has no edges.
+    # Disjoint convex sets are separated along the normal of an edge, or
+    # between two corners, which the distances of the points of each to the
+    # other one cover; so do they for discs, which have no edges.
     a, b = one.hull, other.hull
     overlap = max(
         float((p.points @ q.normals.T - q.offsets).min(axis=0).max())
@@ -87,22 +90,21 @@ def clearance_between(one: Obstacle, other: Obstacle) -> float:
     )
     if overlap <= 0.0:
         return overlap
-    apart = one.clearance(b.points).min() - b.radius
-    return float(min(apart, other.clearance(a.points).min() - a.radius))
+    distance = one.clearance(b.points).min() - b.radius
+    return float(min(distance, other.clearance(a.points).min() - a.radius))
 
 
 class PackedObstacles(NamedTuple):
-    """Discs and convex polygons in arrays, for compiled loops.
+    """Discs and convex polygons as arrays, for compiled loops.
 
     Attributes:
         discs: Centre x, y and radius, in [m]. Shape (n, 3).
-        edges: Of all polygons, one after the other: outward unit normal,
-            offset [m], corner x, y where it begins [m], its length [m].
-            Shape (m, 6).
-        firsts: Where each polygon begins in them, and where the last ends.
-            Shape (polygons + 1,).
-        rounds: Centre x, y and radius of a circle around each polygon, in
-            [m]. Shape (polygons, 3).
+        edges: Edges of all polygons, concatenated: outward unit normal,
+            offset [m], first corner x, y [m], length [m]. Shape (m, 6).
+        firsts: Index of the first edge of each polygon, and the number of
+            edges. Shape (polygons + 1,).
+        rounds: Centre x, y and radius of a bounding circle of each polygon,
+            in [m]. Shape (polygons, 3).
     """
 
     discs: Any
@@ -112,24 +114,24 @@ class PackedObstacles(NamedTuple):
 
 
 class ObstacleSet(HullSet):
-    """Obstacles in one frame, for many points, lines and outlines at once.
+    """Obstacles in one frame, with vectorised distance queries.
 
     Attributes:
         shapes: The obstacles.
     """
 
     def __init__(self, shapes: Iterable[Obstacle]) -> None:
-        """Lay them out.
+        """Concatenate the edges of the obstacles.
 
         Args:
-            shapes: In one frame.
+            shapes: Obstacles in one frame.
         """
         self.shapes = tuple(shapes)
         super().__init__(shape.hull for shape in self.shapes)
 
     @cached_property
     def packed(self) -> PackedObstacles:
-        """The same obstacles for compiled loops."""
+        """The obstacles as arrays for compiled loops."""
         polygons = [s for s in self.shapes if len(s.points) > 1]
         rounds = [
             (*s.centre, np.hypot(*(s.points - s.centre).T).max())
@@ -137,11 +139,13 @@ class ObstacleSet(HullSet):
         ]
         lengths = np.hypot(self._edges[:, 0], self._edges[:, 1])
         edges = np.column_stack(
-            [self._normals, self._offsets, self._begins, lengths]
+            [self._normals, self._offsets, self._edge_starts, lengths]
         )
         sides = np.isfinite(self._offsets)
         return PackedObstacles(
-            np.column_stack([self._begins, self._radii[self._owners]])[~sides],
+            np.column_stack(
+                [self._edge_starts, self._radii[self._hull_of_edge]]
+            )[~sides],
             edges[sides],
             np.cumsum([0, *(len(s.points) for s in polygons)]),
             np.array(rounds, dtype=np.float64).reshape(-1, 3),
@@ -149,7 +153,7 @@ class ObstacleSet(HullSet):
 
 
 obstacle_set = lru_cache(maxsize=64)(ObstacleSet)
-"""The set of a tuple of obstacles, laid out once."""
+"""Return the set of a tuple of obstacles, cached."""
 
 NO_OBSTACLES = ObstacleSet(())
-"""An open floor."""
+"""Obstacle set of an open floor."""

@@ -1,4 +1,4 @@
-"""What the corners of a polygon must be."""
+"""Validation of coordinates and of the corners of polygons."""
 
 from collections.abc import Sequence
 
@@ -8,18 +8,19 @@ from ..core.errors import ConfigurationError, check_finite, check_within
 from ..core.poses import Array
 
 ERROR = ConfigurationError
-FARTHEST = 1000.0  # coordinate of anything, in [m]
-SMALLEST, MOST_CORNERS = 1e-3, 64  # radius or edge [m], corners
+FARTHEST = 1000.0  # largest magnitude of a coordinate, in [m]
+SMALLEST = 1e-3  # least radius or edge, in [m]
+MOST_CORNERS = 64
 
 
 def check_coordinate(value: float, name: str) -> None:
-    """Refuse what is no place on any floor."""
+    """Raise unless a coordinate in [m] is finite and within 1000 m."""
     check_finite(value, name, "m", ERROR)
     check_within(value, -FARTHEST, FARTHEST, name, "m", ERROR)
 
 
-def checked_corners(corners: object) -> tuple[tuple[float, float], ...]:
-    """Corners as pairs of finite numbers."""
+def parse_corners(corners: object) -> tuple[tuple[float, float], ...]:
+    """Return corners as pairs of finite numbers, or raise."""
     if not isinstance(corners, Sequence) or isinstance(corners, str):
         raise ERROR(f"polygon corners must be a list, got {corners!r:.40}")
     if not 3 <= len(corners) <= MOST_CORNERS:
@@ -43,7 +44,7 @@ def checked_corners(corners: object) -> tuple[tuple[float, float], ...]:
 
 
 def crosses_itself(points: Array) -> bool:
-    """Whether two edges that are no neighbours meet."""
+    """Return whether two edges that are not adjacent intersect."""
     count = len(points)
     for i in range(count):
         for j in range(i + 2, count):
@@ -63,7 +64,7 @@ def _side(a: Array, b: Array, p: Array) -> float:
     return float(np.sign(turn))
 
 
-def told_corners(corners: tuple[tuple[float, float], ...]) -> str:
-    """Corners for a message."""
+def format_corners(corners: tuple[tuple[float, float], ...]) -> str:
+    """Return the corners as text for a message, 80 characters at most."""
     text = ", ".join(f"({x:g}, {y:g})" for x, y in corners)
     return text if len(text) <= 80 else f"{text[:77]}..."

@@ -1,11 +1,13 @@
-"""Few convex polygons for many cells of a grid."""
+"""Cover of grid cells by a few convex polygons."""
 
 import numpy as np
 
 from ..core.poses import Array
 from .shapes import Polygon, hull
 
-LOOSE = 2.2  # area of a hull over that of its cells; 2 along a diagonal
+# Largest area of a hull over that of its cells; a diagonal line of cells
+# has 2.
+LOOSE = 2.2
 
 
 def cover(
@@ -13,18 +15,19 @@ def cover(
 ) -> tuple[Polygon, ...]:
     """Cover cells of a grid with convex polygons.
 
-    Cells that fill their hull badly are parted across their longer axis,
-    in the widest gap if there is one: a corner of two walls becomes two.
+    A set of cells that fills its hull poorly is split across its longer
+    principal axis, at the widest gap if there is one: a corner of two walls
+    becomes two polygons.
 
     Args:
-        centres: Of the cells, in [m]. Shape (n, 2).
+        centres: Centres of the cells, in [m]. Shape (n, 2).
         cell: Side of a cell, along the axes, in [m].
-        loose: Area that a polygon may have over that of its cells.
+        loose: Largest ratio of the area of a polygon to that of its cells.
 
     Returns:
-        Polygons that together hold every cell.
+        Polygons whose union contains every cell.
     """
-    found: list[Polygon] = []
+    polygons: list[Polygon] = []
     waiting = [np.asarray(centres, dtype=np.float64)]
     signs = 0.5 * cell * np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]])
     while waiting:
@@ -34,14 +37,14 @@ def cover(
         corners = (cells[:, None, :] + signs).reshape(-1, 2)
         around = hull(np.round(corners, 9))
         if len(cells) < 2 or around.area <= loose * len(cells) * cell**2:
-            found.append(around)
+            polygons.append(around)
             continue
-        waiting += _parted(cells, cell)
-    return tuple(found)
+        waiting += _split(cells, cell)
+    return tuple(polygons)
 
 
-def _parted(cells: Array, cell: float) -> list[Array]:
-    """Two parts of at least two cells."""
+def _split(cells: Array, cell: float) -> list[Array]:
+    """Split two or more cells into two sets."""
     about = cells - cells.mean(axis=0)
     axis = np.linalg.eigh(about.T @ about)[1][:, -1]
     along = about @ axis

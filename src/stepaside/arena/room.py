@@ -1,4 +1,4 @@
-"""A room: walls around it, doors in them, and what stands in it."""
+"""Rooms: walls with doors, obstacles and moving boxes."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,19 +18,19 @@ Solids = tuple[Obstacle, ...]
 SIDES = ("east", "north", "west", "south")
 KINDS = ("disc", "box", "polygon")  # of obstacles, in the order of files
 SMALLEST, LARGEST = 0.5, 100.0  # of a room, in [m]
-MOST = 500  # obstacles, doors
+MAX_COUNT = 500  # of obstacles, of doors and of moving boxes
 
 
 @dataclass(frozen=True, slots=True)
 class Door:
-    """A gap in a wall.
+    """Gap in a wall.
 
     Attributes:
-        side: Wall that it is in: "east" is at positive x, "north" at
+        side: Wall of the door: "east" is at positive x, "north" at
             positive y.
-        at: Where its middle is, from the middle of the wall, in [m],
-            positive in the direction of x or of y.
-        width: In [m].
+        at: Position of its middle along x or y, from the middle of the
+            wall, in [m].
+        width: Width, in [m].
     """
 
     side: str
@@ -38,7 +38,7 @@ class Door:
     width: float = 0.6
 
     def __post_init__(self) -> None:
-        """Refuse other sides, and what is not finite."""
+        """Validate side, position and width."""
         if self.side not in SIDES:
             raise ERROR(
                 f"door side must be one of {', '.join(SIDES)}, "
@@ -50,19 +50,19 @@ class Door:
 
 @dataclass(frozen=True)
 class Room:
-    """A room in its own frame: x along its width, y along its depth.
+    """Room in its own frame: x along its width, y along its depth.
 
     The origin is in the middle. Walls stand around the floor, so all of
-    width and depth is free. Without both there are no walls.
+    width and depth is free. Without width and depth there are no walls.
 
     Attributes:
-        width: Of the floor, along x, in [m]; None for no walls.
-        depth: Of the floor, along y, in [m]; None for no walls.
-        obstacles: What stands in it; obstacles may touch each other. Kept as
-            files have them: discs, then boxes, then polygons.
-        doors: Gaps in the walls, beyond which the floor goes on.
-        starts: Where pursuer and evader stand at first, if it says so.
-        moving: Boxes that are pushed to and fro in it.
+        width: Width of the floor, along x, in [m]; None for no walls.
+        depth: Depth of the floor, along y, in [m]; None for no walls.
+        obstacles: Obstacles at rest, which may touch each other. They are
+            sorted as in files: discs, then boxes, then polygons.
+        doors: Gaps in the walls; the floor continues beyond them.
+        starts: Initial poses of pursuer and evader, or None.
+        moving: Boxes that move back and forth.
     """
 
     width: float | None = None
@@ -73,7 +73,7 @@ class Room:
     moving: tuple[MovingBox, ...] = ()
 
     def __post_init__(self) -> None:
-        """Refuse sizes, doors and obstacles that are not of a room."""
+        """Validate sizes, doors, obstacles and initial poses."""
         if (self.width is None) != (self.depth is None):
             raise ERROR("a room must have both width and depth, or neither")
         for name in ("width", "depth"):
@@ -82,11 +82,12 @@ class Room:
                 check_within(
                     value, SMALLEST, LARGEST, f"room {name}", "m", ERROR
                 )
-        for what in ("obstacles", "doors", "moving"):
-            count = len(getattr(self, what))
-            if count > MOST:
+        for name in ("obstacles", "doors", "moving"):
+            count = len(getattr(self, name))
+            if count > MAX_COUNT:
                 raise ERROR(
-                    f"a room must have at most {MOST} {what} [1], got {count}"
+                    f"a room must have at most {MAX_COUNT} {name} [1], "
+                    f"got {count}"
                 )
         self._check_doors()
         ordered = sorted(self.obstacles, key=lambda o: KINDS.index(o.kind))
@@ -132,7 +133,7 @@ class Room:
 
     @property
     def is_closed(self) -> bool:
-        """Whether nobody gets out."""
+        """Whether it has walls without doors."""
         return self.has_walls and not self.doors
 
     @cached_property
@@ -146,7 +147,7 @@ class Room:
             along = self.depth if upright else self.width
             away = 0.5 * ((self.width if upright else self.depth) + WALL)
             away = away if side in ("east", "north") else -away
-            # Those to the east and west reach around the corners.
+            # The east and west walls include the corners.
             low = -0.5 * along - (WALL if upright else 0.0)
             gaps = sorted(
                 (door.at - 0.5 * door.width, door.at + 0.5 * door.width)
@@ -166,59 +167,68 @@ class Room:
 
     @property
     def solids(self) -> tuple[Obstacle, ...]:
-        """All that nobody can walk through: obstacles, then walls."""
+        """Obstacles at rest, then walls."""
         return (*self.obstacles, *self.walls)
 
     def solids_at(self, time: float, ahead: float = 0.0) -> Solids:
-        """Solids, and the floor that boxes cover which are pushed about.
+        """Return the solids and the floor that moving boxes cover.
 
         Args:
-            time: Time, in [s].
-            ahead: For how long from then on, in [s].
+            time: Begin of the interval, in [s].
+            ahead: Length of the interval, in [s].
         """
         end = time + ahead
         return (*self.solids, *(b.swept(time, end) for b in self.moving))
 
     def is_inside(self, points: ArrayLike) -> NDArray[np.bool_]:
-        """Whether points lie between the walls; all do without. (n,)."""
-        asked = np.asarray(points, dtype=np.float64)
-        if self.width is None or self.depth is None:
-            return np.ones(len(asked), dtype=np.bool_)
-        half = 0.5 * np.array([self.width, self.depth])
-        found: NDArray[np.bool_] = np.all(np.abs(asked) <= half, axis=1)
-        return found
-
-    def clearance(self, points: ArrayLike) -> Array:
-        """Distance of points to the nearest solid, in [m].
+        """Return whether points lie between the walls.
 
         Args:
             points: Points (x, y) in the room, in [m]. Shape (n, 2).
 
         Returns:
-            Signed distances: negative inside a solid and beyond the walls
-            of a closed room, infinite on a floor without anything. Shape
+            Shape (n,); all True without walls.
+        """
+        queries = np.asarray(points, dtype=np.float64)
+        if self.width is None or self.depth is None:
+            return np.ones(len(queries), dtype=np.bool_)
+        half = 0.5 * np.array([self.width, self.depth])
+        inside: NDArray[np.bool_] = np.all(np.abs(queries) <= half, axis=1)
+        return inside
+
+    def clearance(self, points: ArrayLike) -> Array:
+        """Return the signed distances of points to the nearest solid.
+
+        Args:
+            points: Points (x, y) in the room, in [m]. Shape (n, 2).
+
+        Returns:
+            Distances, in [m]: negative inside a solid and beyond the walls
+            of a closed room, inf on an empty floor without walls. Shape
             (n,).
         """
-        asked = np.asarray(points, dtype=np.float64)
-        known = self._obstacle_set if self.is_closed else self._solid_set
-        found = known.clearance(asked)
+        queries = np.asarray(points, dtype=np.float64)
+        shapes = self._obstacle_set if self.is_closed else self._solid_set
+        least = shapes.clearance(queries)
         if self.is_closed:
             half = 0.5 * np.array([self.width, self.depth])
-            np.minimum(found, (half - np.abs(asked)).min(axis=1), out=found)
-        return found
+            np.minimum(least, (half - np.abs(queries)).min(axis=1), out=least)
+        return least
 
     def sees(self, starts: ArrayLike, ends: ArrayLike) -> NDArray[np.bool_]:
-        """Whether nothing stands between points.
+        """Return whether lines of sight are free of solids.
 
         Args:
             starts: Points (x, y) in the room, in [m]. Shape (n, 2).
-            ends: Other points, likewise.
+            ends: Points (x, y) in the room, in [m]. Shape (n, 2).
 
         Returns:
-            Whether the line between each two touches no solid. Shape (n,).
+            Whether each segment touches no solid. Shape (n,).
         """
         hidden: NDArray[np.bool_]
-        hidden = np.any(self._solid_set.crossed(starts, ends), axis=1)
+        hidden = np.any(
+            self._solid_set.segments_intersect(starts, ends), axis=1
+        )
         return ~hidden
 
     @cached_property
@@ -231,4 +241,4 @@ class Room:
 
 
 OPEN_FLOOR = Room()
-"""A floor without end on which nothing stands."""
+"""Unbounded floor without obstacles."""

@@ -1,4 +1,4 @@
-"""Rooms as files: TOML or JSON in, TOML out."""
+"""Room files: read from TOML or JSON, written as TOML."""
 
 import json
 import tomllib
@@ -17,7 +17,7 @@ from .room import Door, Room
 from .shapes import Box, Disc, Polygon, wall_between
 
 ERROR = ConfigurationError
-LONGEST = 2**20  # text of a room, in [characters]
+MAX_CHARACTERS = 2**20  # of a room file
 LISTED = {"disc": "discs", "box": "boxes", "polygon": "polygons"}
 SOLIDS = (*LISTED.values(), "walls")
 LISTS = (*SOLIDS, "doors", "moving")
@@ -28,25 +28,27 @@ def load_room(file: AnyPath) -> Room:
     """Read a room.
 
     Args:
-        file: TOML, or JSON if its name ends so.
+        file: TOML file, or a JSON file with the suffix ".json".
 
     Raises:
-        ConfigurationError: If it is neither, or no room.
+        ConfigurationError: If the file cannot be read, or is invalid.
     """
     file = as_path(file, "file")
     try:
         with file.open("rb") as stream:
-            text = stream.read(LONGEST + 1).decode("utf-8")
+            text = stream.read(MAX_CHARACTERS + 1).decode("utf-8")
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise ERROR(f"room {file}: {reason.lower()}") from error
-    if len(text) > LONGEST:
-        raise ERROR(f"room {file} must have at most {LONGEST} characters")
+    if len(text) > MAX_CHARACTERS:
+        raise ERROR(
+            f"room {file} must have at most {MAX_CHARACTERS} characters"
+        )
     read = json.loads if file.suffix.lower() == ".json" else tomllib.loads
     try:
         entries = read(text)
     except RecursionError as error:
-        raise ERROR(f"room {file} is nested too deep") from error
+        raise ERROR(f"room {file} is nested too deeply") from error
     except ValueError as error:
         raise ERROR(f"room {file}: {error}") from error
     if not isinstance(entries, dict):
@@ -58,7 +60,7 @@ def load_room(file: AnyPath) -> Room:
 
 
 def room_of_entries(entries: Mapping[str, Any]) -> Room:
-    """Turn entries of a file into a room.
+    """Build a room from the entries of a file.
 
     Args:
         entries: ``width`` and ``depth``; lists ``discs`` (x, y, radius),
@@ -71,10 +73,10 @@ def room_of_entries(entries: Mapping[str, Any]) -> Room:
         ConfigurationError: If an entry is unknown, missing, of the wrong
             type or out of its range.
     """
-    strange = sorted(set(entries) - set(KNOWN))
-    if strange:
+    unknown = sorted(set(entries) - set(KNOWN))
+    if unknown:
         raise ERROR(
-            f"unknown entry {strange[0]!r:.40}; there are {', '.join(KNOWN)}"
+            f"unknown entry {unknown[0]!r:.40}; there are {', '.join(KNOWN)}"
         )
     made: dict[str, list[Any]] = {}
     for name in LISTS:
@@ -82,7 +84,7 @@ def room_of_entries(entries: Mapping[str, Any]) -> Room:
         if not isinstance(listed, list):
             raise ERROR(f"{name} must be a list, got {listed!r:.40}")
         made[name] = [
-            _made(name, number, e) for number, e in _numbered(listed)
+            _build(name, number, e) for number, e in enumerate(listed, start=1)
         ]
     obstacles: list[Obstacle] = []
     for name in SOLIDS:
@@ -91,8 +93,11 @@ def room_of_entries(entries: Mapping[str, Any]) -> Room:
     if "pursuer" in entries or "evader" in entries:
         for name in ("pursuer", "evader"):
             if name not in entries:
-                raise ERROR(f"a start must be that of both, got no {name}")
-        pursuer, evader = (_made(n, 0, entries[n]) for n in KNOWN[-2:])
+                raise ERROR(
+                    "initial poses must be given for both players, "
+                    f"got no {name}"
+                )
+        pursuer, evader = (_build(n, 0, entries[n]) for n in KNOWN[-2:])
         starts = (pursuer, evader)
     return Room(
         _number(entries, "width"),
@@ -105,7 +110,7 @@ def room_of_entries(entries: Mapping[str, Any]) -> Room:
 
 
 def room_entries(room: Room) -> dict[str, Any]:
-    """Entries of a file that gives a room again."""
+    """Return the entries of a file from which the room can be rebuilt."""
     entries: dict[str, Any] = {}
     if room.has_walls:
         entries |= {"width": room.width, "depth": room.depth}
@@ -125,7 +130,7 @@ def room_entries(room: Room) -> dict[str, Any]:
 
 
 def room_text(room: Room) -> str:
-    """Text of a file, in TOML, that gives a room again."""
+    """Return the room as the text of a TOML file."""
     return tomli_w.dumps(room_entries(room))
 
 
@@ -135,12 +140,12 @@ def _pair(given: Any, name: str) -> tuple[float, float]:
     return _real(given[0], f"{name} x"), _real(given[1], f"{name} y")
 
 
-def _start(x: float, y: float, theta: float = 0.0) -> Pose:
+def _initial_pose(x: float, y: float, theta: float = 0.0) -> Pose:
     return Pose(x, y, theta)
 
 
-# What makes each; its parameters are the entries, those without a default
-# must be there.
+# Constructors. Their parameters are the entries; those without a default
+# are required.
 _MAKERS: dict[str, Callable[..., Any]] = {
     "discs": Disc,
     "boxes": Box,
@@ -148,42 +153,38 @@ _MAKERS: dict[str, Callable[..., Any]] = {
     "walls": wall_between,
     "doors": Door,
     "moving": MovingBox,
-    "pursuer": _start,
-    "evader": _start,
+    "pursuer": _initial_pose,
+    "evader": _initial_pose,
 }
 
 
-def _made(name: str, number: int, given: Any) -> Any:
-    """Make one thing of a list; messages say which."""
+def _build(name: str, number: int, given: Any) -> Any:
+    """Build one entry of a list; messages name the list and the number."""
     maker = _MAKERS[name]
     parameters = signature(maker).parameters.values()
-    needed = {p.name for p in parameters if p.default is p.empty}
+    required = {p.name for p in parameters if p.default is p.empty}
     known = {p.name for p in parameters}
-    place = f"{name} {number}" if number else name
+    label = f"{name} {number}" if number else name
     if not isinstance(given, dict):
-        raise ERROR(f"{place} must be a table, got {given!r:.40}")
-    missing = sorted(needed - set(given))
-    strange = sorted(set(given) - known)
-    if missing or strange:
-        wrong = f"no {missing[0]}" if missing else f"{strange[0]!r:.40}"
+        raise ERROR(f"{label} must be a table, got {given!r:.40}")
+    missing = sorted(required - set(given))
+    unknown = sorted(set(given) - known)
+    if missing or unknown:
+        wrong = f"no {missing[0]}" if missing else f"{unknown[0]!r:.40}"
         raise ERROR(
-            f"{place} must have {', '.join(sorted(known))}, got {wrong}"
+            f"{label} must have {', '.join(sorted(known))}, got {wrong}"
         )
     try:
-        return maker(**{key: _read(key, given[key]) for key in given})
+        return maker(**{key: _parse(key, given[key]) for key in given})
     except ConfigurationError as error:
-        raise ERROR(f"{place}: {error}") from error
+        raise ERROR(f"{label}: {error}") from error
 
 
-def _read(key: str, value: Any) -> Any:
-    """Return the value of an entry: a pair, a number, or as it is."""
+def _parse(key: str, value: Any) -> Any:
+    """Return the value of an entry: a pair, a number, or unchanged."""
     if key in ("start", "end", "to"):
         return _pair(value, key)
     return value if key in ("corners", "side") else _real(value, key)
-
-
-def _numbered(listed: list[Any]) -> list[tuple[int, Any]]:
-    return list(enumerate(listed, start=1))
 
 
 def _number(entries: Mapping[str, Any], name: str) -> float | None:
@@ -196,4 +197,4 @@ def _real(value: Any, name: str) -> float:
     try:
         return float(value)
     except OverflowError as error:
-        raise ERROR(f"{name} must be a number, got one too long") from error
+        raise ERROR(f"{name} must be a number, got one too large") from error

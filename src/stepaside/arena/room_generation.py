@@ -1,4 +1,4 @@
-"""Rooms by seed: how large, with how much in them."""
+"""Random rooms and random initial poses in a room."""
 
 from dataclasses import dataclass
 from math import pi, radians, tau
@@ -10,32 +10,34 @@ from ..core.poses import Array, Pose
 from ..core.random_streams import named_generator
 from .obstacles import Obstacle, clearance_between
 from .polygon_checks import check_coordinate
-from .reachability import has_way
-from .room import LARGEST, MOST, SIDES, SMALLEST, Door, Room
+from .reachability import path_exists
+from .room import LARGEST, MAX_COUNT, SIDES, SMALLEST, Door, Room
 from .shapes import Box, Disc, Polygon
 from .start_checks import BODY_RADIUS
 
 ERROR = ConfigurationError
-TRIES = 2000  # at one draw, before a room counts as full
-CLEAR = 0.16  # of a body at its start, to turn away from anything, [m]
-NEAREST, FARTHEST = 0.6, 1.5  # from pursuer to evader, as in a duel, [m]
+MAX_DRAWS = 2000  # of one obstacle, before a room counts as full
+# Clearance of a body at its initial pose, in [m]: the radius of the tightest
+# turn by (2).
+TURN_CLEARANCE = 0.16
+NEAREST, FARTHEST = 0.6, 1.5  # initial distance, as in a duel, in [m]
 
 
 @dataclass(frozen=True, slots=True)
 class RoomRecipe:
-    """What a seed makes a room of.
+    """Size of random rooms and number of obstacles in them.
 
     Attributes:
-        width: Of the floor, along x, in [m]; None for no walls.
-        depth: Of the floor, along y, in [m]; None for no walls.
-        discs: How many discs stand in it.
-        boxes: How many boxes.
-        polygons: How many polygons of three to six corners.
-        doors: How many doors its walls have.
-        smallest: Least radius of an obstacle, in [m]; of boxes and
-            polygons that of the circle around them.
-        largest: Largest radius, likewise.
-        door_width: In [m].
+        width: Width of the floor, along x, in [m]; None for no walls.
+        depth: Depth of the floor, along y, in [m]; None for no walls.
+        discs: Number of discs.
+        boxes: Number of boxes.
+        polygons: Number of polygons of three to six corners.
+        doors: Number of doors.
+        smallest: Least radius of an obstacle, of its circumcircle for boxes
+            and polygons, in [m].
+        largest: Largest radius of an obstacle, in [m].
+        door_width: Width of a door, in [m].
     """
 
     width: float | None = 3.0
@@ -49,13 +51,13 @@ class RoomRecipe:
     door_width: float = 0.6
 
     def __post_init__(self) -> None:
-        """Refuse what makes no room."""
+        """Validate sizes and numbers."""
         Room(self.width, self.depth)
         for name in ("discs", "boxes", "polygons", "doors"):
             value = getattr(self, name)
             if type(value) is not int:
                 raise ERROR(f"{name} must be an integer [1], got {value!r}")
-            check_within(value, 0, MOST, name, "1", ERROR)
+            check_within(value, 0, MAX_COUNT, name, "1", ERROR)
         check_within(self.smallest, 0.01, LARGEST, "smallest", "m", ERROR)
         check_within(
             self.largest, self.smallest, LARGEST, "largest", "m", ERROR
@@ -68,22 +70,23 @@ class RoomRecipe:
 
     @property
     def floor(self) -> tuple[float, float]:
-        """Where obstacles stand, of a room or of an open floor, in [m]."""
+        """Sides of the floor that obstacles are drawn on, in [m]."""
         return self.width or 2 * FARTHEST, self.depth or 2 * FARTHEST
 
 
 def make_room(recipe: RoomRecipe, seed: int) -> Room:
-    """Make the room of a seed, with starts in it.
+    """Draw a random room with initial poses.
 
-    Obstacles do not overlap. The players start as far apart and as turned
-    as in a duel, see each other, and have a way to each other.
+    Obstacles do not overlap. Initial distance and headings are drawn as in a
+    duel; the line of sight is free, and a path leads from one player to the
+    other.
 
     Args:
-        recipe: What it is made of.
-        seed: Seed of the draws.
+        recipe: Size of the room and number of obstacles.
+        seed: Seed of the random numbers.
 
     Raises:
-        ConfigurationError: If there is no place for all of it.
+        ConfigurationError: If the obstacles do not fit into the room.
     """
     random = named_generator(seed, "room")
     doors: list[Door] = []
@@ -96,7 +99,7 @@ def make_room(recipe: RoomRecipe, seed: int) -> Room:
         + [_polygon] * recipe.polygons
     )
     for kind in kinds:
-        for _ in range(TRIES):
+        for _ in range(MAX_DRAWS):
             radius = random.uniform(recipe.smallest, recipe.largest)
             x, y = (
                 random.uniform(-1.0, 1.0) * (0.5 * side - radius)
@@ -123,25 +126,25 @@ def make_room(recipe: RoomRecipe, seed: int) -> Room:
 def draw_starts(
     room: Room, seed: int, radius: float = BODY_RADIUS
 ) -> tuple[Pose, Pose]:
-    """Draw where pursuer and evader start in a room.
+    """Draw initial poses of pursuer and evader in a room.
 
     Args:
         room: The room.
-        seed: Seed of the draws.
-        radius: Of their bodies, in [m]; they start 16 cm further from
-            everything, the radius of the tightest turn by (2).
+        seed: Seed of the random numbers.
+        radius: Radius of their bodies, in [m]; their clearance is at least
+            16 cm more, the radius of the tightest turn by (2).
 
     Returns:
         Poses of pursuer and evader in the room: 0.6 m to 1.5 m apart, the
         pursuer within 90 degrees of facing the evader, the evader within
-        30 degrees of facing the pursuer, in each other's sight.
+        30 degrees of facing the pursuer, with a free line of sight.
 
     Raises:
-        ConfigurationError: If no place is found for them.
+        ConfigurationError: If no such poses are found.
     """
     random = named_generator(seed, "room starts")
     half = 0.5 * np.array([room.width or 0.0, room.depth or 0.0])
-    for _ in range(TRIES):
+    for _ in range(MAX_DRAWS):
         place = half * random.uniform(-1.0, 1.0, 2)
         sight = random.uniform(-pi, pi)
         apart = random.uniform(NEAREST, FARTHEST)
@@ -150,23 +153,23 @@ def draw_starts(
         other: Array = place + apart * np.array([np.cos(sight), np.sin(sight)])
         both = np.stack([place, other])
         if (
-            room.clearance(both).min() < radius + CLEAR
+            room.clearance(both).min() < radius + TURN_CLEARANCE
             or not room.is_inside(both).all()
             or not room.sees(both[:1], both[1:])[0]
         ):
             continue
-        facing = sight + pi + evader_turn
-        if facing > tau:  # headings of initial poses lie within one turn
-            facing -= tau
+        heading = sight + pi + evader_turn
+        if heading > tau:  # poses of a room lie within one turn
+            heading -= tau
         starts = (
             Pose(float(place[0]), float(place[1]), sight + pursuer_turn),
-            Pose(float(other[0]), float(other[1]), facing),
+            Pose(float(other[0]), float(other[1]), heading),
         )
-        if has_way(room, starts[0][:2], starts[1][:2], radius):
+        if path_exists(room, starts[0][:2], starts[1][:2], radius):
             return starts
     raise ConfigurationError(
-        f"a room must have place for two players of radius {radius:g} [m], "
-        f"{NEAREST:g} to {FARTHEST:g} apart, got one that is too full"
+        f"a room must have space for two players of radius {radius:g} [m], "
+        f"{NEAREST:g} to {FARTHEST:g} [m] apart, got one that is too full"
     )
 
 
@@ -185,7 +188,7 @@ def _polygon(
     x: float, y: float, r: float, random: np.random.Generator
 ) -> Polygon:
     count = int(random.integers(3, 7))
-    # Corners on the circle, no two of which are close to each other.
+    # Corners on the circle, at least 0.4 of an equal spacing apart.
     angles = np.arange(count) + random.uniform(-0.3, 0.3, count)
     angles = 2 * pi * angles / count + random.uniform(-pi, pi)
     ring = np.stack([x + r * np.cos(angles), y + r * np.sin(angles)], axis=-1)
@@ -195,13 +198,13 @@ def _polygon(
 def _draw_door(
     recipe: RoomRecipe, doors: list[Door], random: np.random.Generator
 ) -> Door:
-    for _ in range(TRIES):
+    for _ in range(MAX_DRAWS):
         side = SIDES[random.integers(len(SIDES))]
         along = recipe.depth if side in ("east", "west") else recipe.width
-        room = 0.5 * ((along or 0.0) - recipe.door_width)
-        if room < 0.0:
+        reach = 0.5 * ((along or 0.0) - recipe.door_width)
+        if reach < 0.0:
             continue
-        door = Door(side, room * random.uniform(-1.0, 1.0), recipe.door_width)
+        door = Door(side, reach * random.uniform(-1.0, 1.0), recipe.door_width)
         check_coordinate(door.at, "door at")
         if all(
             other.side != side or abs(other.at - door.at) > recipe.door_width
@@ -214,6 +217,6 @@ def _draw_door(
 def _full(recipe: RoomRecipe, what: str) -> ConfigurationError:
     width, depth = recipe.floor
     return ConfigurationError(
-        f"a room of {width:g} x {depth:g} [m] must have place for {what}, "
+        f"a room of {width:g} x {depth:g} [m] must have space for {what}, "
         "got one that is too full"
     )

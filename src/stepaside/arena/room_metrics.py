@@ -1,4 +1,4 @@
-"""What can be said of a room."""
+"""Areas, gaps and counts of a room."""
 
 from itertools import combinations
 from typing import Any
@@ -14,15 +14,16 @@ CELL = 0.02  # of the grid that measures areas, in [m]
 
 
 def measure_room(room: Room, radius: float = BODY_RADIUS) -> dict[str, Any]:
-    """Measure a room, as an object for other programs.
+    """Measure a room, as a JSON object.
 
     Args:
         room: The room.
-        radius: Of a body in it, in [m].
+        radius: Radius of a body in the room, in [m].
 
     Returns:
-        Numbers of things, the areas [m^2] of floor and of where the centre
-        of a body may be, the narrowest gap [m] between solids, its entries.
+        Numbers of obstacles and doors, narrowest gap between solids [m],
+        areas [m^2] of the floor, of the free floor and of the positions of
+        the centre of a body, and the entries of the room's file.
     """
     result: dict[str, Any] = {
         "obstacles": len(room.obstacles),
@@ -47,6 +48,6 @@ def measure_room(room: Room, radius: float = BODY_RADIUS) -> dict[str, Any]:
 
 
 def _narrowest_gap(room: Room) -> float | None:
-    """Least distance between two solids that do not touch, in [m]."""
-    apart = (clearance_between(*pair) for pair in combinations(room.solids, 2))
-    return min((gap for gap in apart if gap > 1e-6), default=None)
+    """Return the least distance of two solids that do not touch, in [m]."""
+    gaps = (clearance_between(*pair) for pair in combinations(room.solids, 2))
+    return min((gap for gap in gaps if gap > 1e-6), default=None)

@@ -18,13 +18,13 @@ from .polygon_checks import (
     FARTHEST,
     SMALLEST,
     check_coordinate,
-    checked_corners,
     crosses_itself,
-    told_corners,
+    format_corners,
+    parse_corners,
 )
 
 WALL = 0.1  # thickness of a wall, in [m]
-RING = 72  # corners of a disc that is drawn
+CIRCLE_CORNERS = 72  # of the polygon that a disc is drawn as
 
 
 @dataclass(frozen=True)
@@ -32,9 +32,9 @@ class Disc(Obstacle):
     """Round obstacle: a pillar, a bin.
 
     Attributes:
-        x: Of its centre, in [m].
-        y: Of its centre, in [m].
-        radius: In [m].
+        x: x of its centre, in [m].
+        y: y of its centre, in [m].
+        radius: Radius, in [m].
     """
 
     x: float
@@ -44,7 +44,7 @@ class Disc(Obstacle):
     kind: ClassVar[str] = "disc"
 
     def __post_init__(self) -> None:
-        """Refuse what is not finite, or no disc."""
+        """Validate centre and radius."""
         check_coordinate(self.x, "disc x")
         check_coordinate(self.y, "disc y")
         check_within(
@@ -53,30 +53,30 @@ class Disc(Obstacle):
 
     @cached_property
     def hull(self) -> RoundedHull:
-        """Its centre, grown by its radius."""
+        """The centre, grown by the radius."""
         return rounded_hull([(self.x, self.y)], self.radius)
 
     @property
     def outline(self) -> Array:
-        """Corners on its edge, in [m]. Shape (72, 2)."""
-        angles = np.arange(RING) * (tau / RING)
+        """Points on the circle, in [m]. Shape (72, 2)."""
+        angles = np.arange(CIRCLE_CORNERS) * (tau / CIRCLE_CORNERS)
         ring = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
         outline: Array = self.points + self.radius * ring
         return outline
 
     def moved(self, pose: Pose) -> "Disc":
-        """Return the disc in the frame in which its own has a pose."""
+        """Transform the disc; see :meth:`.Obstacle.moved`."""
         moved = pose.compose(Pose(self.x, self.y, 0.0))
         return Disc(moved.x, moved.y, self.radius)
 
 
 @dataclass(frozen=True)
 class Polygon(Obstacle):
-    """Convex obstacle with corners: a table.
+    """Convex polygonal obstacle: a table.
 
     Attributes:
-        corners: Corners (x, y), in [m], one after the other along the
-            edge; kept counter-clockwise, whichever way they are given.
+        corners: Corners (x, y) in order along the edge, in [m]; stored
+            counter-clockwise.
     """
 
     corners: tuple[tuple[float, float], ...]
@@ -84,13 +84,13 @@ class Polygon(Obstacle):
     kind: ClassVar[str] = "polygon"
 
     def __post_init__(self) -> None:
-        """Refuse what crosses itself, is not convex or has no inside."""
-        corners = checked_corners(self.corners)
+        """Validate that the polygon is simple, convex and not degenerate."""
+        corners = parse_corners(self.corners)
         points = np.array(corners)
         if crosses_itself(points):
             raise ERROR(
                 "polygon must not cross itself, got corners "
-                f"{told_corners(corners)}"
+                f"{format_corners(corners)}"
             )
         if signed_area(points) < 0.0:
             corners, points = corners[::-1], points[::-1]
@@ -99,28 +99,29 @@ class Polygon(Obstacle):
         if lengths.min() < SMALLEST:
             raise ERROR(
                 f"polygon must have edges >= {SMALLEST:g} [m], got corners "
-                f"{told_corners(corners)}"
+                f"{format_corners(corners)}"
             )
         after = np.roll(edges, -1, axis=0)
         turns = edges[:, 0] * after[:, 1] - edges[:, 1] * after[:, 0]
         if turns.min() < -1e-9 * lengths.max() ** 2:
             raise ERROR(
-                f"polygon must be convex, got corners {told_corners(corners)}"
+                "polygon must be convex, got corners "
+                f"{format_corners(corners)}"
             )
         if signed_area(points) < 0.5 * SMALLEST * lengths.max():
             raise ERROR(
                 "polygon must have an inside, got corners "
-                f"{told_corners(corners)}"
+                f"{format_corners(corners)}"
             )
         object.__setattr__(self, "corners", corners)
 
     @cached_property
     def hull(self) -> RoundedHull:
-        """Its corners."""
+        """The corners, without a radius."""
         return rounded_hull(self.corners)
 
     def moved(self, pose: Pose) -> "Polygon":
-        """Return the polygon in the frame in which its own has a pose."""
+        """Transform the polygon; see :meth:`.Obstacle.moved`."""
         moved = pose.transform_points(self.points).tolist()
         return Polygon(tuple((x, y) for x, y in moved))
 
@@ -130,11 +131,11 @@ class Box(Obstacle):
     """Rectangular obstacle: a crate, a wall.
 
     Attributes:
-        x: Of its centre, in [m].
-        y: Of its centre, in [m].
-        width: Along its heading, in [m].
-        depth: Across its heading, in [m].
-        heading: Of its width, in [rad].
+        x: x of its centre, in [m].
+        y: y of its centre, in [m].
+        width: Side along its heading, in [m].
+        depth: Side across its heading, in [m].
+        heading: Direction of its width, in [rad].
     """
 
     x: float
@@ -146,7 +147,7 @@ class Box(Obstacle):
     kind: ClassVar[str] = "box"
 
     def __post_init__(self) -> None:
-        """Refuse sizes and places out of their ranges."""
+        """Validate centre, sides, heading and corners."""
         check_coordinate(self.x, "box x")
         check_coordinate(self.y, "box y")
         check_within(self.width, SMALLEST, FARTHEST, "box width", "m", ERROR)
@@ -158,7 +159,7 @@ class Box(Obstacle):
 
     @cached_property
     def hull(self) -> RoundedHull:
-        """Its four corners."""
+        """The four corners, without a radius."""
         c, s = cos(self.heading), sin(self.heading)
         corners = []
         for along, across in ((1, 1), (-1, 1), (-1, -1), (1, -1)):
@@ -168,11 +169,11 @@ class Box(Obstacle):
 
     @property
     def centre(self) -> tuple[float, float]:
-        """Its centre (x, y), in [m]."""
+        """Centre (x, y), in [m]."""
         return self.x, self.y
 
     def moved(self, pose: Pose) -> "Box":
-        """Return the box in the frame in which its own has a pose."""
+        """Transform the box; see :meth:`.Obstacle.moved`."""
         x, y, heading = pose.compose(Pose(self.x, self.y, self.heading))
         return Box(x, y, self.width, self.depth, wrap_angle(heading))
 
@@ -182,12 +183,12 @@ def wall_between(
     end: tuple[float, float],
     thickness: float = WALL,
 ) -> Box:
-    """Return the wall whose middle runs from one point to another.
+    """Return the wall whose centre line runs from one point to another.
 
     Args:
-        start: Where it begins, (x, y), in [m].
-        end: Where it ends, likewise.
-        thickness: In [m].
+        start: First end (x, y) of the centre line, in [m].
+        end: Second end (x, y) of the centre line, in [m].
+        thickness: Thickness, in [m].
 
     Raises:
         ConfigurationError: If a value is out of its range.
@@ -205,13 +206,13 @@ def wall_between(
 
 
 def hull(points: ArrayLike) -> Polygon:
-    """Return the least convex polygon that holds all of some points.
+    """Return the convex hull of points.
 
     Args:
         points: Points (x, y), in [m]. Shape (n, 2).
 
     Raises:
-        ConfigurationError: If they all lie on a line.
+        ConfigurationError: If they are collinear.
     """
     corners = convex_hull(np.asarray(points, dtype=np.float64), 1e-12)
     return Polygon(tuple((x, y) for x, y in corners.tolist()))

@@ -1,10 +1,10 @@
-"""Whether two players can stand, and meet, where they shall start."""
+"""Validation of initial poses in a room."""
 
 import numpy as np
 
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
-from .reachability import has_way
+from .reachability import path_exists
 from .room import Room
 
 BODY_RADIUS = 0.20  # of a player among obstacles, in [m]
@@ -14,16 +14,16 @@ PLAYERS = ("pursuer", "evader")
 def check_starts(
     room: Room, starts: tuple[Pose, Pose], radius: float = BODY_RADIUS
 ) -> None:
-    """Refuse starts in an obstacle, or between which there is no way.
+    """Check that initial poses are free and connected by a path.
 
     Args:
         room: The room.
-        starts: Poses of pursuer and evader in the room.
-        radius: Of their bodies, in [m].
+        starts: Initial poses of pursuer and evader in the room.
+        radius: Radius of their bodies, in [m].
 
     Raises:
-        ConfigurationError: If one overlaps something, both overlap each
-            other, or neither can come to the other.
+        ConfigurationError: If a body overlaps an obstacle or a wall, the
+            bodies overlap each other, or no path connects them.
     """
     for name, pose in zip(PLAYERS, starts, strict=True):
         place = f"({pose.x:g}, {pose.y:g})"
@@ -41,14 +41,14 @@ def check_starts(
                 f"the {name} must start at least {radius:g} [m] from "
                 f"obstacles and walls, got {clearance:.3g} at {place}"
             )
-    apart = float(np.hypot(*np.subtract(starts[0][:2], starts[1][:2])))
-    if apart < 2.0 * radius - 1e-9:
+    distance = float(np.hypot(*np.subtract(starts[0][:2], starts[1][:2])))
+    if distance < 2.0 * radius - 1e-9:
         raise ConfigurationError(
             f"the players must start at least {2 * radius:g} [m] apart, "
-            f"got {apart:.3g}"
+            f"got {distance:.3g}"
         )
-    if not has_way(room, starts[0][:2], starts[1][:2], radius):
+    if not path_exists(room, starts[0][:2], starts[1][:2], radius):
         raise ConfigurationError(
-            f"there must be a way of {2 * radius:g} [m] between the starts "
-            "of pursuer and evader, got a room without one"
+            f"a path at least {2 * radius:g} [m] wide must connect the "
+            "initial poses of pursuer and evader, got a room without one"
         )

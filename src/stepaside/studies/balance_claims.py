@@ -10,12 +10,12 @@ from ..planning.maneuver import ManeuverPlanner
 from .claims import Claim, Readings, farthest
 from .planner_claims import BEARING, COUNT, GAIT
 
-REST = 4.0  # how long the end of a plan is looked at, in [s]
-PLANS = 400  # that are timed
+REST = 4.0  # time after the last step that is evaluated, in [s]
+PLANS = 400  # number of timed plans
 
 
 def read_com() -> Readings:
-    """The bounded CoM (15)-(17) of a plan, and the headings it reaches."""
+    """Measure the bounded CoM (15)-(17) of a plan, and its final heading."""
     planner = ManeuverPlanner(GAIT)
     left, right = (
         planner.plan(
@@ -41,10 +41,10 @@ def read_com() -> Readings:
 
 
 def pendulum_error(plan: ManeuverPlan) -> float:
-    """Greatest miss of x'' = eta^2 (x - z) by differences, in [m/s^2].
+    """Return the largest residual of x'' = eta^2 (x - z), in [m/s^2].
 
-    Looked at in the middle of each piece of the plan, where the CoM has all
-    its derivatives.
+    By finite differences in the middle of each phase of the plan, where the
+    CoM is smooth.
     """
     h = 1e-3
     starts = plan.schedule.starts
@@ -53,12 +53,12 @@ def pendulum_error(plan: ManeuverPlan) -> float:
         plan.sample(middles + shift) for shift in (-h, 0.0, h)
     )
     rate = (after.com - 2.0 * here.com + before.com) / h**2
-    asked = GAIT.eta**2 * (here.com - here.zmp)
-    return float(np.abs(rate - asked).max())
+    expected = GAIT.eta**2 * (here.com - here.zmp)
+    return float(np.abs(rate - expected).max())
 
 
 def quadrature_error(plan: ManeuverPlan) -> float:
-    """Greatest difference of the DCM to (16), by a fine midpoint rule."""
+    """Return the largest difference of the DCM to (16), by midpoint rule."""
     h = 5e-4
     middles = np.arange(0.5 * h, plan.schedule.duration + REST, h)
     zmp = plan.sample(middles).zmp
@@ -79,7 +79,7 @@ def quadrature_error(plan: ManeuverPlan) -> float:
 COM = (
     Claim(
         "bounded",
-        "the CoM is bounded (its greatest distance from the ZMP, to "
+        "the CoM is bounded (its greatest distance from the ZMP, until "
         f"{REST:g} s after the last step)",
         "III-D",
         "planner",
@@ -119,7 +119,7 @@ COM = (
 
 
 def read_timing() -> Readings:
-    """Processor time of plans from a walk, in [ms]."""
+    """Measure the processor time of plans of a walking robot, in [ms]."""
     planner = ManeuverPlanner(GAIT)
     state = CenterState((0.0, 0.03), (0.05, -0.1))
     spent = []
@@ -135,8 +135,8 @@ def read_timing() -> Readings:
 TIMING = (
     Claim(
         "planning",
-        "planning takes less than 10 ms (99th percentile; on the machine "
-        "that made this page, not on the NAO's)",
+        "planning takes less than 10 ms (99th percentile, on the computer "
+        "that made this report, not on a NAO)",
         "IV",
         "planner",
         10.0,

@@ -1,4 +1,4 @@
-"""Every claim of the paper beside its measurement, over many runs."""
+"""Campaign that measures every claim of the paper over many runs."""
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor, Future, as_completed
@@ -26,17 +26,17 @@ class ClaimTrial(NamedTuple):
 
     @property
     def file(self) -> str:
-        """Name of the file that keeps its readings, less the suffix."""
+        """Name of the file of its readings, without suffix."""
         return f"{self.job}-seed{self.seed}"
 
 
 def key_of(trial: ClaimTrial, job: ClaimJob) -> Key:
-    """All that the readings of a trial depend on."""
+    """Return everything that the readings of a trial depend on."""
     return {
         "job": trial.job,
         "seed": trial.seed,
         "settings": job.settings(trial.seed),
-        "version": code_version(job.rooms),
+        "version": code_version(job.modules),
         "libraries": library_versions(job.libraries),
     }
 
@@ -49,7 +49,7 @@ def run_trial(trial: ClaimTrial) -> Readings:
 def trials(
     seeds: Sequence[int], jobs: Mapping[str, ClaimJob]
 ) -> dict[str, list[ClaimTrial]]:
-    """Runs of each job: one for each seed where the seed matters, else one."""
+    """Return the runs of each job: one per seed, or one if not seeded."""
     return {
         name: [
             ClaimTrial(name, seed) for seed in (seeds if job.seeded else (0,))
@@ -63,30 +63,34 @@ def reproduce(
     seeds: Sequence[int],
     executor: Executor | None = None,
     report: Callable[[int, int], None] | None = None,
-    tell: Callable[[Path], None] = lambda file: None,
-    lost: Callable[[OutputError], None] | None = None,
+    on_set_aside: Callable[[Path], None] = lambda file: None,
+    on_store_error: Callable[[OutputError], None] | None = None,
 ) -> list[dict[str, Any]]:
-    """Measure every claim; what a folder holds already is kept.
+    """Measure every claim; readings stored in the folder are reused.
 
-    A reading is measured again when the code, the settings or the libraries
-    change that it depends on. Readings are kept as they come, so that a run
-    that was stopped goes on where it was.
+    A reading is measured again if the code, the settings or the libraries
+    that it depends on have changed. Readings are stored one by one, so an
+    interrupted campaign continues where it stopped.
 
     Args:
-        folder: Where readings are kept; None keeps nothing.
+        folder: Folder of the readings; None stores nothing.
         seeds: Seeds of the physical runs.
-        executor: Any executor of ``concurrent.futures``; None measures here.
-        report: Called with the number of runs done and of all runs.
-        tell: Told which files were torn or foreign, and set aside.
-        lost: Told why readings could not be kept, which goes on then.
+        executor: Any executor of ``concurrent.futures``; None measures in
+            this process.
+        report: Called with the number of finished runs and of all runs.
+        on_set_aside: Called with each invalid file that was set aside.
+        on_store_error: Called with the error if readings cannot be stored;
+            the campaign continues.
 
     Returns:
         Rows, as JSON objects.
 
     Raises:
-        OutputError: If readings cannot be kept and nobody is told.
+        OutputError: If readings cannot be stored, without
+            ``on_store_error``.
     """
-    kept, plan = ReadingStore(folder, tell), trials(seeds, JOBS)
+    store = ReadingStore(folder, on_set_aside)
+    plan = trials(seeds, JOBS)
     found: dict[ClaimTrial, Readings] = {}
     missing: list[ClaimTrial] = []
     total = sum(len(runs) for runs in plan.values())
@@ -94,7 +98,7 @@ def reproduce(
         wanted = [claim.key for claim in JOBS[name].claims]
         for trial in runs:
             key = key_of(trial, JOBS[name])
-            readings = kept.load(trial.file, key, wanted)
+            readings = store.load(trial.file, key, wanted)
             if readings is None:
                 missing.append(trial)
             else:
@@ -105,21 +109,21 @@ def reproduce(
     def done(trial: ClaimTrial, readings: Readings) -> None:
         found[trial] = readings
         try:
-            kept.store(trial.file, key_of(trial, JOBS[trial.job]), readings)
+            store.store(trial.file, key_of(trial, JOBS[trial.job]), readings)
         except OutputError as error:
-            if lost is None:
+            if on_store_error is None:
                 raise
-            lost(error)
+            on_store_error(error)
         if report is not None:
             report(len(found), total)
 
-    # Seed by seed, so that a run that is stopped has whole seeds.
+    # Seed by seed, so that an interrupted campaign has complete seeds.
     _run(sorted(missing, key=lambda trial: trial.seed), executor, done)
     rows: list[ClaimRow] = []
     for name, runs in plan.items():
         job = JOBS[name]
         readings_of_runs = [found[trial] for trial in runs]
-        rows += job.rows(name, readings_of_runs, code_version(job.rooms))
+        rows += job.rows(name, readings_of_runs, code_version(job.modules))
     return [row.to_json() for row in rows]
 
 
@@ -128,7 +132,7 @@ def _run(
     executor: Executor | None,
     done: Callable[[ClaimTrial, Readings], None],
 ) -> None:
-    """Run trials, and tell of each as it comes."""
+    """Run trials and report each when it is finished."""
     if executor is None:
         for trial in missing:
             done(trial, run_trial(trial))
@@ -145,10 +149,10 @@ def _run(
 
 
 def provenance(seed: int) -> dict[str, dict[str, Any]]:
-    """Version, libraries and settings of each job, for a first seed."""
+    """Return version, libraries and settings of each job, for one seed."""
     return {
         name: {
-            "version": code_version(job.rooms),
+            "version": code_version(job.modules),
             "libraries": library_versions(job.libraries),
             "settings": job.settings(seed if job.seeded else 0),
         }

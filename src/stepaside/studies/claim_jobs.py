@@ -1,4 +1,4 @@
-"""What measures the claims of the paper, job by job."""
+"""Jobs that measure the claims of the paper."""
 
 from collections.abc import Callable
 from dataclasses import asdict
@@ -14,13 +14,13 @@ from . import unicycle_claims as unicycle
 from .claims import Claim, ClaimJob, Readings
 from .code_version import LIBRARIES
 from .evading_readings import (
-    WORLDS,
+    TOURNAMENTS,
     measure_evading,
     measure_room,
     room_settings,
 )
 
-# Modules that take readings. Verdicts are found anew each time.
+# Modules that take readings; claims and tolerances are not part of them.
 GAMES = ("studies/unicycle_claims",)
 PLANS = ("studies/planner_claims",)
 BALANCE = ("studies/balance_claims",)
@@ -31,19 +31,19 @@ EVADING = ("studies/evading_readings",)
 def _game(
     claims: tuple[Claim, ...], measure: Callable[[], Readings]
 ) -> ClaimJob:
-    """Job on unicycles; its settings are in the code."""
+    """Return a job on unicycles; its settings are constants of the code."""
     return ClaimJob(claims, lambda _: measure(), GAMES, ("numpy", "scipy"))
 
 
 def _plan(
     claims: tuple[Claim, ...],
     measure: Callable[[], Readings],
-    rooms: tuple[str, ...],
+    modules: tuple[str, ...],
 ) -> ClaimJob:
-    """Job on the planner, with the gait of Sec. IV."""
+    """Return a job on the planner, with the gait of Sec. IV."""
     settings = repr(asdict(planner.GAIT))
     return ClaimJob(
-        claims, lambda _: measure(), rooms, ("numpy",), lambda _: settings
+        claims, lambda _: measure(), modules, ("numpy",), lambda _: settings
     )
 
 
@@ -52,12 +52,14 @@ def _duel(
     measure: Callable[[int], Readings],
     *settings: Callable[[int], DuelSettings],
 ) -> ClaimJob:
-    """Job on two NAOs in physics, from the random starts of its seeds."""
+    """Return a job on two NAOs in physics, from random initial poses."""
 
-    def in_words(seed: int) -> str:
+    def settings_text(seed: int) -> str:
         return "; ".join(dump_configuration(each(seed)) for each in settings)
 
-    return ClaimJob(claims, measure, DUELS, LIBRARIES, in_words, seeded=True)
+    return ClaimJob(
+        claims, measure, DUELS, LIBRARIES, settings_text, seeded=True
+    )
 
 
 JOBS: dict[str, ClaimJob] = {
@@ -89,7 +91,7 @@ JOBS: dict[str, ClaimJob] = {
         measure_evading,
         EVADING,
         ("numba", "numpy"),
-        lambda _: repr(WORLDS),
+        lambda _: repr(TOURNAMENTS),
         seeded=True,
     ),
     "rooms": ClaimJob(

@@ -1,4 +1,4 @@
-"""A claim of the paper beside what was measured."""
+"""Claims of the paper and their measurements."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -11,19 +11,19 @@ Readings = dict[str, float]
 
 
 def farthest(values: Sequence[float], expected: float) -> float:
-    """Value that is farthest from an expected one; NaN if there is none."""
+    """Return the value farthest from an expected one; NaN without values."""
     if not len(values):
         return nan
-    return float(max(values, key=lambda value: _off(value, expected)))
+    return float(max(values, key=lambda value: _deviation(value, expected)))
 
 
-def _off(value: float, expected: float) -> float:
-    """Distance from an expected value; a missing value is farthest off."""
+def _deviation(value: float, expected: float) -> float:
+    """Return the distance from an expected value; inf for NaN and inf."""
     return abs(value - expected) if isfinite(value) else inf
 
 
 Relation = Literal["=", "<", ">"]
-WIDER = 2.0  # times the tolerance: where every single run must lie
+RUN_FACTOR = 2.0  # tolerance of a single run over that of the mean
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,17 +32,17 @@ class Claim:
 
     Attributes:
         key: Name of its reading in the job that measures it.
-        text: What the paper says, as it should read.
-        section: Where it says so.
-        level: At which level it is measured: closed form, unicycles,
+        text: Claim of the paper, corrected where necessary.
+        section: Section or figure of the paper.
+        level: Level at which it is measured: closed form, unicycles,
             sampled, planner or physics.
-        expected: Value that it stands for.
+        expected: Expected value.
         unit: Unit of the values.
-        tolerance: Greatest difference at which the claim holds; for an
-            inequality, zero.
+        tolerance: Largest difference at which the claim holds; zero for an
+            inequality.
         relation: Whether the measured value must equal, be below or be
             above the expected one.
-        as_printed: The text where it reads otherwise.
+        as_printed: The printed text, where it differs.
     """
 
     key: str
@@ -56,38 +56,39 @@ class Claim:
     as_printed: str | None = None
 
     def holds(self, values: Sequence[float]) -> bool:
-        """Whether the runs bear the claim out.
+        """Return whether the runs confirm the claim.
 
-        Every run must have a finite value. For an inequality every run must
-        be on its side. For an equality the mean must be within the
-        tolerance, and every single run within twice the tolerance.
+        Every run must have a finite value. An inequality must hold in every
+        run. For an equality the mean must be within the tolerance, and every
+        single run within twice the tolerance.
 
         Args:
             values: Measured value of each run; at least one.
         """
         if not values or not all(isfinite(value) for value in values):
             return False
-        off = [value - self.expected for value in values]
+        differences = [value - self.expected for value in values]
         if self.relation == "<":
-            return max(off) < 0.0
+            return max(differences) < 0.0
         if self.relation == ">":
-            return min(off) > 0.0
+            return min(differences) > 0.0
         mean = float(np.mean(values)) - self.expected
-        farthest = max(abs(difference) for difference in off)
+        largest = max(abs(difference) for difference in differences)
         return (
-            abs(mean) <= self.tolerance and farthest <= WIDER * self.tolerance
+            abs(mean) <= self.tolerance
+            and largest <= RUN_FACTOR * self.tolerance
         )
 
 
 @dataclass(frozen=True, slots=True)
 class ClaimRow:
-    """A claim and what was measured of it.
+    """Claim with its measured values.
 
     Attributes:
         name: Job and key of the claim, as in ``footsteps.stepsize``.
         claim: The claim.
         values: Measured value of each run.
-        version: Fingerprint of the code that they depend on.
+        version: Fingerprint of the code that the values depend on.
     """
 
     name: str
@@ -97,27 +98,27 @@ class ClaimRow:
 
     @property
     def measured(self) -> float:
-        """Mean of the runs; NaN if one of them has no value."""
+        """Mean of the runs; NaN if one of them has no finite value."""
         if not self.values or not all(isfinite(v) for v in self.values):
             return nan
         return float(np.mean(self.values))
 
     @property
     def spread(self) -> float:
-        """Standard deviation of the runs; 0 of a single one."""
+        """Standard deviation of the runs; 0 for a single run."""
         if len(self.values) < 2 or not isfinite(self.measured):
             return 0.0 if len(self.values) == 1 else nan
         return float(np.std(self.values, ddof=1))
 
     @property
     def holds(self) -> bool:
-        """Whether the runs bear the claim out; see :meth:`Claim.holds`."""
+        """Whether the runs confirm the claim; see :meth:`Claim.holds`."""
         return self.claim.holds(self.values)
 
     def to_json(self) -> dict[str, Any]:
-        """Row as one JSON object, with its verdict; null where no value."""
+        """Return the row as a JSON object; null for missing values."""
         claim = self.claim
-        found = [value for value in self.values if isfinite(value)]
+        finite = [value for value in self.values if isfinite(value)]
         return {
             "name": self.name,
             "claim": claim.text,
@@ -129,8 +130,8 @@ class ClaimRow:
             "unit": claim.unit,
             "measured": _number(self.measured),
             "spread": _number(self.spread),
-            "least": min(found, default=None),
-            "greatest": max(found, default=None),
+            "least": min(finite, default=None),
+            "greatest": max(finite, default=None),
             "runs": len(self.values),
             "version": self.version,
             "verdict": "holds" if self.holds else "fails",
@@ -140,22 +141,23 @@ class ClaimRow:
 
 @dataclass(frozen=True, slots=True)
 class ClaimJob:
-    """What measures some claims in one go.
+    """Measurement of several claims in one run.
 
     Attributes:
         claims: The claims.
-        measure: From a seed to a reading for each claim.
-        rooms: Code that the readings depend on; see
+        measure: Function from a seed to a reading for each claim.
+        modules: Modules or folders that the readings depend on; see
             :func:`~stepaside.studies.code_version.code_version`.
-        libraries: Libraries that they depend on.
-        settings: From a seed to what else decides the readings, in words;
-            nothing by default.
-        seeded: Whether the seed matters; without, one run says it all.
+        libraries: Libraries that the readings depend on.
+        settings: Function from a seed to the settings, as text; empty by
+            default.
+        seeded: Whether the readings depend on the seed; if not, one run is
+            enough.
     """
 
     claims: tuple[Claim, ...]
     measure: Callable[[int], Readings]
-    rooms: tuple[str, ...]
+    modules: tuple[str, ...]
     libraries: tuple[str, ...]
     settings: Callable[[int], str] = lambda _: ""
     seeded: bool = False
@@ -163,7 +165,7 @@ class ClaimJob:
     def rows(
         self, name: str, runs: Sequence[Mapping[str, float]], version: str
     ) -> list[ClaimRow]:
-        """Rows of the readings of some runs."""
+        """Return one row per claim from the readings of runs."""
         return [
             ClaimRow(
                 f"{name}.{claim.key}",

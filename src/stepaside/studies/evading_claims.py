@@ -1,4 +1,4 @@
-"""Claims of the conclusion (Sec. V) and of the paper's sequel."""
+"""Claims of the conclusion (Sec. V) and of the follow-up paper."""
 
 from .claims import Claim
 
@@ -10,9 +10,9 @@ DURATION = 40.0  # of the duels in rooms, in [s]
 EVADING = (
     Claim(
         "farther",
-        "against the paper's pursuer there are better strategies than moving "
-        "aside (closest approach of looking ahead over that of moving aside, "
-        "on an open floor)",
+        "against the paper's pursuer there are better strategies than "
+        "moving aside (closest approach of look-ahead over that of moving "
+        "aside, on an open floor)",
         CONCLUSION,
         STEPS,
         1.2,
@@ -21,8 +21,8 @@ EVADING = (
     ),
     Claim(
         "best",
-        "and none is much better than looking ahead (its closest approach "
-        "over the best that there is against this pursuer)",
+        "and none is much better than look-ahead (its closest approach over "
+        "the best possible one against this pursuer)",
         CONCLUSION,
         STEPS,
         0.95,
@@ -31,10 +31,10 @@ EVADING = (
     ),
     Claim(
         "survives",
-        "an evader plays among obstacles (share of games of two minutes "
-        "against the paper's pursuer in rooms of 3 x 3 m with three discs "
-        "that looking ahead survives; survived is not captured, which is a "
-        "distance of 0.35 m, and no obstacle touched)",
+        "an evader plays among obstacles (fraction of games of two minutes "
+        "against the paper's pursuer, in rooms of 3 x 3 m with three discs, "
+        "that look-ahead survives: without capture, at 0.35 m, and without "
+        "contact with an obstacle)",
         SEQUEL,
         STEPS,
         1.0,
@@ -43,8 +43,8 @@ EVADING = (
     ),
     Claim(
         "clear",
-        "and touches none (least clearance of its centre, less what its body "
-        "needs)",
+        "and touches none (least clearance of its centre, less its body "
+        "radius)",
         SEQUEL,
         STEPS,
         -1e-9,
@@ -53,7 +53,7 @@ EVADING = (
     ),
     Claim(
         "aside",
-        "where moving aside walks into them (share that looking ahead "
+        "where moving aside walks into them (fraction that look-ahead "
         "survives against the paper's pursuer, less that of moving aside)",
         SEQUEL,
         STEPS,
@@ -63,9 +63,9 @@ EVADING = (
     ),
     Claim(
         "deflected",
-        "a direction that obstacles deflect does not do (share that looking "
-        "ahead survives against the paper's pursuer, less that of a deflected "
-        "evader)",
+        "deflecting the direction at obstacles does not suffice (fraction "
+        "that look-ahead survives against the paper's pursuer, less that of "
+        "a deflected evader)",
         SEQUEL,
         STEPS,
         0.0,
@@ -74,8 +74,8 @@ EVADING = (
     ),
     Claim(
         "decision",
-        "in the 10 ms that planning may take (mean of its decisions; on the "
-        "machine that made this page, not on the NAO's)",
+        "in the 10 ms that planning may take (mean time of its decisions, "
+        "on the computer that made this report, not on a NAO)",
         CONCLUSION,
         STEPS,
         10.0,
@@ -95,8 +95,8 @@ ROOM = (
     ),
     Claim(
         "clear",
-        "and both keep clear (least distance of a trunk from what stands "
-        "there)",
+        "and both keep clear (least distance of a trunk from obstacles and "
+        "walls)",
         SEQUEL,
         PHYSICS,
         0.0,
@@ -106,7 +106,7 @@ ROOM = (
     Claim(
         "free",
         "nor does the paper's pursuer capture the evader, at 0.35 m, or "
-        "touch it (time that it plays and is free)",
+        "touch it (time for which the evader is free)",
         SEQUEL,
         PHYSICS,
         DURATION,

@@ -1,4 +1,4 @@
-"""What games in rooms say about the conclusion (Sec. V) and the sequel."""
+"""Readings of games in rooms for the conclusion (Sec. V) and its sequel."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -19,9 +19,9 @@ from .physics_game import clearance, outcome_of, players_touched
 from .tournament_campaign import bound_of, play_track
 from .tournament_settings import TournamentSettings
 
-EACH = 5  # games of each evader in each world, for one seed
+GAMES_PER_SEED = 5  # of each evader in each setting
 GAME = StepGame(duration=120.0)
-WORLDS = {
+TOURNAMENTS = {
     "open": TournamentSettings(room=RoomRecipe(None, None), game=GAME),
     "room": TournamentSettings(room=RoomRecipe(discs=3), game=GAME),
 }
@@ -30,27 +30,28 @@ EVADERS = ("aside", "deflected", "look-ahead")
 
 @dataclass(frozen=True, slots=True)
 class PlayedGames:
-    """Games of one seed in steps, of each evader in each world.
+    """Games of one seed at the level of steps.
 
     Attributes:
-        games: By world and evader, all from the same starts.
+        games: Games by tournament ("open", "room") and evader, all from the
+            same initial poses.
     """
 
     games: dict[str, dict[str, tuple[StepTrack, ...]]]
 
     def survived(self, evader: str) -> float:
-        """Share of the rooms that an evader survives."""
+        """Return the fraction of games in rooms that an evader survives."""
         outcomes = [g.outcome for g in self.games["room"][evader]]
         return outcomes.count(StepOutcome.SURVIVED) / len(outcomes)
 
     def closest(self, evader: str) -> float:
-        """Mean closest approach to an evader on the open floor, in [m]."""
+        """Return the mean closest approach on the open floor, in [m]."""
         games = self.games["open"][evader]
         return float(np.mean([g.distances.min() for g in games]))
 
     @property
     def bound(self) -> float:
-        """Mean best least distance from the same starts, in [m]."""
+        """Mean upper bound of the closest approach, in [m]."""
         games = self.games["open"]["look-ahead"]
         return float(
             np.mean([bound_of(g.pursuer[0], g.evader[0], GAME) for g in games])
@@ -58,24 +59,24 @@ class PlayedGames:
 
 
 def play(seed: int) -> PlayedGames:
-    """Play what one seed stands for."""
-    seeds = range(EACH * seed, EACH * (seed + 1))
+    """Play the games of one seed."""
+    seeds = range(GAMES_PER_SEED * seed, GAMES_PER_SEED * (seed + 1))
     return PlayedGames(
         {
             name: {
                 evader: tuple(
-                    play_track(world, (evader, "pure"), each)[1]
+                    play_track(tournament, (evader, "pure"), each)[1]
                     for each in seeds
                 )
                 for evader in EVADERS
             }
-            for name, world in WORLDS.items()
+            for name, tournament in TOURNAMENTS.items()
         }
     )
 
 
 def read_evading(played: PlayedGames) -> Readings:
-    """Better strategies, and what stands around, in steps."""
+    """Compare evaders on the open floor and among obstacles."""
     ahead = played.games["room"]["look-ahead"]
     clear = min(float(g.clearances.min()) for g in ahead)
     decisions = [g.decision for g in ahead]
@@ -93,7 +94,7 @@ def read_evading(played: PlayedGames) -> Readings:
 
 
 def room_settings(seed: int, duration: float = DURATION) -> DuelSettings:
-    """Duel of two humanoids in a room that they know."""
+    """Return the settings of a duel in a room with a given map."""
     return DuelSettings(
         seed=seed,
         duration=duration,
@@ -106,27 +107,27 @@ Clear = Callable[[DuelRun, str], float | None]
 
 
 def read_room(run: DuelRun, clear: Clear = clearance) -> Readings:
-    """What two humanoids touched in a room, and whether one was captured.
+    """Read contacts, clearance and free time of a duel in a room.
 
     Args:
         run: The duel.
-        clear: How clear a player kept by the record, in [m].
+        clear: Function from duel and player to the least clearance, in [m].
     """
-    kept: Sequence[float | None] = [clear(run, name) for name in PLAYERS]
+    least: Sequence[float | None] = [clear(run, name) for name in PLAYERS]
     ended = outcome_of(run)
     clean = run.outcome is Outcome.COMPLETED or players_touched(run)
     return {
         "touched": float(not clean),
-        "clear": min(inf if k is None else k for k in kept),
+        "clear": min(inf if k is None else k for k in least),
         "free": run.duration if ended == "survived" else 0.0,
     }
 
 
 def measure_evading(seed: int) -> Readings:
-    """Play and read."""
+    """Play the games of a seed and return their readings."""
     return read_evading(play(seed))
 
 
 def measure_room(seed: int) -> Readings:
-    """Play and read."""
+    """Play a duel in the room of a seed and return its readings."""
     return read_room(run_duel(room_settings(seed)))

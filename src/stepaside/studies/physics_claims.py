@@ -34,14 +34,14 @@ CIRCLE = tuple(
         ),
         (
             "one_circle",
-            "it is one circle (distance of the centres)",
+            "both circles coincide (distance of the centres)",
             0.0,
             "m",
             0.02,
         ),
         (
             "distance",
-            "their distance settles",
+            "their distance converges",
             DISTANCE,
             "m",
             0.04 * DISTANCE,
@@ -65,8 +65,8 @@ CIRCLE = tuple(
 REPLANNING = (
     Claim(
         "settled",
-        "they are on it before the last third (time from which distance and "
-        "orientation stay within 5 % and 5 deg of theory)",
+        "they converge before the last third of the run (time from which "
+        "distance and orientation stay within 5 % and 5 deg of theory)",
         "IV, Fig. 5",
         LEVEL,
         80.0,
@@ -75,7 +75,8 @@ REPLANNING = (
     ),
     Claim(
         "landings",
-        "feet land every 0.547 s (by the foot forces; the time farthest off)",
+        "feet land every 0.547 s (by the foot forces; the interval farthest "
+        "from it)",
         "III-E, IV",
         LEVEL,
         STEP,
@@ -85,9 +86,9 @@ REPLANNING = (
     Claim(
         "both_feet",
         "a new plan follows each landing, and replaces the old one while "
-        "both feet are on the ground (share of the plans, by the foot "
-        "forces; the plan unloads one foot at that very moment, so one "
-        "that was unloaded less than 30 ms before counts as on the ground)",
+        "both feet are on the ground (fraction of the plans, by the foot "
+        "forces; the plan unloads one foot at that moment, so a foot "
+        "unloaded less than 30 ms before counts as on the ground)",
         "III-E",
         LEVEL,
         1.0,
@@ -105,8 +106,8 @@ REPLANNING = (
     ),
     Claim(
         "straight_part",
-        "the straight part is never travelled (greatest share of t_s that a "
-        "plan was walked before another replaced it)",
+        "the straight part is never travelled (largest fraction of t_s for "
+        "which a plan was walked before it was replaced)",
         "III-E",
         LEVEL,
         1.0,
@@ -115,8 +116,8 @@ REPLANNING = (
     ),
     Claim(
         "place_jump",
-        "replanning does not destabilise (greatest jump of the CoM "
-        "reference that the joints are sent)",
+        "replanning does not destabilise (largest jump of the CoM reference "
+        "of the joint targets)",
         "III-E",
         LEVEL,
         0.0,
@@ -140,8 +141,8 @@ DURATIONS = (
     Claim(
         "printed_slide",
         "with single support 0.122 s and double support 0.425 s the joints "
-        "are too slow, and the feet that stand are dragged (ratio of their "
-        "ways on the floor in a step to those with the durations exchanged)",
+        "are too slow, and the stance feet slip (ratio of their slip "
+        "distance per step to that with the durations exchanged)",
         "IV",
         LEVEL,
         1.0,
@@ -151,8 +152,7 @@ DURATIONS = (
     ),
     Claim(
         "printed_tilt",
-        "and the torso tosses (ratio of its greatest angles from the "
-        "vertical, likewise)",
+        "and the torso sways (ratio of its largest tilt angles, likewise)",
         "IV",
         LEVEL,
         3.0,
@@ -161,7 +161,7 @@ DURATIONS = (
     ),
     Claim(
         "upright_for",
-        "exchanged, they walk to the end (time walked)",
+        "with the durations exchanged they walk to the end (time walked)",
         "IV",
         LEVEL,
         WALK,
@@ -179,7 +179,7 @@ DURATIONS = (
     ),
     Claim(
         "distance",
-        "and get on (way of the one that gets less far)",
+        "and advance (distance walked by the robot that walks less far)",
         "IV",
         LEVEL,
         STRIDE / STEP * (WALK - START),
@@ -189,7 +189,7 @@ DURATIONS = (
     Claim(
         "speed",
         "at 0.04 m every 0.547 s, slower than the path's 0.1 m/s (the speed "
-        "farther off)",
+        "farther from it)",
         "IV",
         LEVEL,
         STRIDE / STEP,
@@ -202,7 +202,7 @@ SLIP = (
     Claim(
         "slide",
         f"on a floor with friction {SLIPPERY} feet slip more than on one "
-        "with 0.8 (ratio of their ways on the floor in a step)",
+        "with 0.8 (ratio of their slip distances per step)",
         "IV, Fig. 6",
         LEVEL,
         1.0,

@@ -26,33 +26,33 @@ COUNT = 20  # footsteps: some on the arc, some on the straight line
 
 
 def path_of(bearing: float, direction: Direction) -> UnicycleTrajectory:
-    """Path of the gait to a desired heading, in [rad]."""
+    """Return the path of the gait to a desired heading, in [rad]."""
     return UnicycleTrajectory(bearing, GAIT.speed, GAIT.gain, direction)
 
 
 def read_path() -> Readings:
-    """The Cartesian trajectory (9)-(14), to both sides, forth and back."""
-    off, ways, headings, bent = [], [], [], []
+    """Measure the trajectory (9)-(14) to both sides and in both directions."""
+    deviations, lengths, headings, angles = [], [], [], []
     for bearing, direction in CASES:
         path = path_of(bearing, direction)
         velocity = direction.value * GAIT.speed
         arc = path.poses(np.linspace(0.0, ARC, 2001))
-        # The centre lies to the left, at v/omega, with the signs of both.
+        # The centre is at v/omega to the left, with the signs of both.
         radius = velocity / (GAIT.gain * bearing)
         to_centre = np.hypot(arc[:, 0], arc[:, 1] - radius)
-        off.append(float(np.abs(to_centre - abs(radius)).max()))
+        deviations.append(float(np.abs(to_centre - abs(radius)).max()))
         chords = np.diff(arc[:, :2], axis=0)
-        ways.append(float(np.hypot(*chords.T).sum()))
+        lengths.append(float(np.hypot(*chords.T).sum()))
         headings.append(float(arc[-1, 2]) / bearing)
         line = path.poses(np.linspace(ARC, ARC + 10.0, 101))
         steps = direction.value * np.diff(line[:, :2], axis=0)
         towards = np.arctan2(steps[:, 1], steps[:, 0])
-        bent.append(float(np.abs(wrap_angles(towards - bearing)).max()))
+        angles.append(float(np.abs(wrap_angles(towards - bearing)).max()))
     return {
-        "arc": max(off),
-        "way": farthest(ways, GAIT.speed * ARC),
+        "arc": max(deviations),
+        "way": farthest(lengths, GAIT.speed * ARC),
         "heading": farthest(headings, 1.0),
-        "line": max(bent),
+        "line": max(angles),
     }
 
 
@@ -71,7 +71,7 @@ PATH = (
     ),
     Claim(
         "way",
-        "it is travelled at v (way until t_s)",
+        "it is travelled at v (path length until t_s)",
         "III-B",
         "closed form",
         GAIT.speed * ARC,
@@ -91,7 +91,7 @@ PATH = (
     Claim(
         "line",
         "after it the path is a straight line along theta* (greatest angle "
-        "between the way and theta*)",
+        "between the path and theta*)",
         "III-B",
         "closed form",
         0.0,
@@ -102,21 +102,21 @@ PATH = (
 
 
 class FootstepOffset(NamedTuple):
-    """Where a footstep stands beside the path.
+    """Pose of a footstep relative to the path.
 
     Attributes:
-        way: Arc length of the path to the point nearest to it, in [m].
-        aside: Distance from that point, positive to the left, in [m].
-        turned: Its heading less that of the tangent there, in [rad].
+        arc_length: Arc length of the path up to its nearest point, in [m].
+        lateral: Offset from that point, positive to the left, in [m].
+        heading: Heading minus that of the tangent, in [rad].
     """
 
-    way: float
-    aside: float
-    turned: float
+    arc_length: float
+    lateral: float
+    heading: float
 
 
 def footholds(bearing: float, direction: Direction) -> list[FootstepOffset]:
-    """Footsteps of a plan beside its path, found from their positions."""
+    """Return the offsets of the footsteps of a plan from its path."""
     plan = ManeuverPlanner(GAIT).plan(
         bearing,
         direction,
@@ -127,52 +127,55 @@ def footholds(bearing: float, direction: Direction) -> list[FootstepOffset]:
     path = path_of(bearing, direction)
     times = np.linspace(0.0, (COUNT + 4) * GAIT.path_interval, 4001)
     line = path.poses(times)[:, :2]
-    # It begins midway between the feet; the frame is the right foot's.
-    beside = np.array([0.0, 0.5 * GAIT.foot_spacing])
-    ways = np.concatenate([[0.0], np.hypot(*np.diff(line, axis=0).T).cumsum()])
-    found = []
+    # The path begins midway between the feet, in the frame of the right one.
+    origin = np.array([0.0, 0.5 * GAIT.foot_spacing])
+    chords = np.hypot(*np.diff(line, axis=0).T)
+    lengths = np.concatenate([[0.0], chords.cumsum()])
+    offsets = []
     for x, y, theta in plan.placements[2:].tolist():
-        place = np.array([x, y]) - beside
-        time, h = _nearest(path, times, place), 1e-5
+        position = np.array([x, y]) - origin
+        time, h = _nearest(path, times, position), 1e-5
         after, before = path.poses([time + h, time - h])[:, :2]
         tangent = direction.value * (after - before)
         tangent /= max(float(np.hypot(*tangent)), 1e-12)
-        aside = place - path.poses([time])[0, :2]
+        aside = position - path.poses([time])[0, :2]
         heading = float(np.arctan2(tangent[1], tangent[0]))
-        found.append(
+        offsets.append(
             FootstepOffset(
-                float(np.interp(time, times, ways)),
+                float(np.interp(time, times, lengths)),
                 float(tangent[0] * aside[1] - tangent[1] * aside[0]),
                 wrap_angle(theta - heading),
             )
         )
-    return found
+    return offsets
 
 
-def _nearest(path: UnicycleTrajectory, times: Array, place: Array) -> float:
-    """Time at which a path comes nearest to a place, in [s]."""
-    for _ in range(3):  # each time between the neighbours found
-        apart = path.poses(times)[:, :2] - place
-        best = int((apart**2).sum(axis=1).argmin())
+def _nearest(path: UnicycleTrajectory, times: Array, point: Array) -> float:
+    """Return the time at which a path is nearest to a point, in [s]."""
+    for _ in range(3):  # refinements between the neighbouring samples
+        differences = path.poses(times)[:, :2] - point
+        best = int((differences**2).sum(axis=1).argmin())
         low, high = max(best - 1, 0), min(best + 1, len(times) - 1)
         times = np.linspace(times[low], times[high], 201)
     return float(times[100])
 
 
 def read_footsteps() -> Readings:
-    """Footsteps of Sec. III-C, to both sides, forth and back."""
-    strides, asides, turns = [], [], []
+    """Measure footsteps (Sec. III-C) to both sides and in both directions."""
+    strides, laterals, headings = [], [], []
     sides = np.where(np.arange(COUNT) % 2 == 0, 1.0, -1.0)  # left foot first
     for bearing, direction in CASES:
-        found = footholds(bearing, direction)
-        ways = [0.0, *(foothold.way for foothold in found)]
-        strides += np.diff(ways).tolist()
-        asides += [s * f.aside for s, f in zip(sides, found, strict=True)]
-        turns += [abs(foothold.turned) for foothold in found]
+        offsets = footholds(bearing, direction)
+        lengths = [0.0, *(offset.arc_length for offset in offsets)]
+        strides += np.diff(lengths).tolist()
+        laterals += [
+            s * o.lateral for s, o in zip(sides, offsets, strict=True)
+        ]
+        headings += [abs(offset.heading) for offset in offsets]
     return {
         "stepsize": farthest(strides, GAIT.stride),
-        "sides": farthest(asides, 0.5 * GAIT.foot_spacing),
-        "tangent": max(turns),
+        "sides": farthest(laterals, 0.5 * GAIT.foot_spacing),
+        "tangent": max(headings),
     }
 
 
@@ -180,7 +183,8 @@ FOOTSTEPS = (
     Claim(
         "stepsize",
         "footsteps lie at a constant stepsize along the path (arc length "
-        "between neighbours, the one farthest off)",
+        "between successive footsteps; the value farthest from the expected "
+        "one)",
         "III-C",
         "planner",
         GAIT.stride,
@@ -189,8 +193,8 @@ FOOTSTEPS = (
     ),
     Claim(
         "sides",
-        "displaced alternately to the left and to the right of it (distance "
-        "to the foot's own side, the one farthest off)",
+        "displaced alternately to its left and right (lateral offset to the "
+        "foot's side; the value farthest from the expected one)",
         "III-C",
         "planner",
         0.5 * GAIT.foot_spacing,

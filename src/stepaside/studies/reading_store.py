@@ -1,4 +1,4 @@
-"""Readings that a folder keeps, each with the key of what it depends on."""
+"""Store of readings in a folder, each with a key of its dependencies."""
 
 import json
 from collections.abc import Callable, Collection, Mapping
@@ -14,37 +14,38 @@ Key = dict[str, Any]
 
 
 class ReadingStore:
-    """Readings by name in a folder; one file each, written at one stroke.
+    """Readings by name in a folder, one file each, written atomically.
 
-    A file that was made from another key is not used, and is replaced. One
-    that is torn or not ours is set aside, as ``NAME.json.aside``.
+    A file with another key is not used, and is replaced. An invalid file is
+    set aside as ``NAME.json.aside``.
 
     Attributes:
-        folder: Where they lie; None if nothing is kept.
+        folder: Folder of the files; None stores nothing.
     """
 
     def __init__(
         self,
         folder: Path | None,
-        tell: Callable[[Path], None] = lambda file: None,
+        on_set_aside: Callable[[Path], None] = lambda file: None,
     ) -> None:
-        """Keep readings.
+        """Open a store.
 
         Args:
-            folder: It need not exist yet; None keeps nothing.
-            tell: Told which files are set aside.
+            folder: Folder, which need not exist yet; None stores nothing.
+            on_set_aside: Called with each file that is set aside.
         """
-        self.folder, self._tell = folder, tell
+        self.folder = folder
+        self._on_set_aside = on_set_aside
 
     def load(
         self, name: str, key: Key, wanted: Collection[str]
     ) -> Readings | None:
-        """Readings of a name, if they were made from this very key.
+        """Return the readings of a name if they have the given key.
 
         Args:
-            name: Name of the file, less its suffix.
-            key: All that the readings depend on, as JSON values.
-            wanted: Names of the readings that must be there.
+            name: Name of the file, without suffix.
+            key: Everything that the readings depend on, as JSON values.
+            wanted: Names of the readings that must be present.
         """
         file = self._file(name)
         if file is None or not file.exists():
@@ -55,20 +56,24 @@ class ReadingStore:
         if found is None or set(found[1]) != set(wanted):
             aside = free_file(file.with_name(file.name + ".aside"))
             file.replace(aside)
-            self._tell(aside)
+            self._on_set_aside(aside)
             return None
         return found[1]
 
     def store(
         self, name: str, key: Key, readings: Mapping[str, float]
     ) -> None:
-        """Keep readings; what is not finite becomes null."""
+        """Write readings; NaN and inf become null."""
         file = self._file(name)
         if file is None:
             return
         values = {k: v if isfinite(v) else None for k, v in readings.items()}
-        whole = {"key": key, "readings": values, "check": _check(key, values)}
-        text = json.dumps(whole, indent=1)
+        entries = {
+            "key": key,
+            "readings": values,
+            "check": _check(key, values),
+        }
+        text = json.dumps(entries, indent=1)
         with writing(file) as draft:
             draft.write_text(text, encoding="utf-8")
 
@@ -77,13 +82,13 @@ class ReadingStore:
 
 
 def _check(key: Key, values: Mapping[str, Any]) -> str:
-    """Checksum of a key and its readings."""
+    """Return the checksum of a key and its readings."""
     text = json.dumps([key, values], sort_keys=True)
     return sha256(text.encode()).hexdigest()[:12]
 
 
 def _parse(file: Path) -> tuple[Key, Readings] | None:
-    """Key and readings of a file; None unless it is whole and ours."""
+    """Return key and readings of a file; None if it is invalid."""
     try:
         found = json.loads(file.read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):

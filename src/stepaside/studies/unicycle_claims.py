@@ -21,7 +21,7 @@ from .claims import Claim, Readings
 FIG_2 = Game(Unicycle(1.0, 0.5), Unicycle(1.0, 0.5))
 START = RelativeStart(5.0, 0.4, -0.2)
 ANGLES = tuple(np.radians([15.0, 30.0, 45.0, 60.0, 75.0, 90.0]).tolist())
-SMALL = 0.1  # evasion angle near "move back", in [rad]
+SMALL_ANGLE = 0.1  # evasion angle near "move back", in [rad]
 NAO = Game(Unicycle(0.1, 0.2), Unicycle(0.1, 0.2))
 NAO_START = RelativeStart(1.0, 0.3, -0.1)
 STEP = 0.4  # path time of a step, in [s]
@@ -30,31 +30,32 @@ NAO_RADIUS = 4.0 * 0.1 / (pi * 0.2)
 
 
 def play(game: Game) -> PlayedGame:
-    """Play a game until its last turn is the circle."""
+    """Simulate a game until its last turn is the circle."""
     return simulate(game, START, settling_time(game))
 
 
 def _speeds(run: PlayedGame) -> tuple[float, float]:
-    """Speeds on the floor over the last tenth, in [m/s]."""
+    """Return the speeds of both players over the last tenth, in [m/s]."""
     times = np.linspace(0.9 * run.end_time, run.end_time, 2001)
-    ways = [
+    lengths = [
         float(np.hypot(*np.diff(poses[:, :2], axis=0).T).sum())
         for poses in run.poses(times)
     ]
-    return ways[0] / float(np.ptp(times)), ways[1] / float(np.ptp(times))
+    duration = float(np.ptp(times))
+    return lengths[0] / duration, lengths[1] / duration
 
 
 def read_circle() -> Readings:
-    """The circle of Fig. 2."""
+    """Measure the circle of Fig. 2."""
     run = play(FIG_2)
-    seen = measure(run)
+    circle = measure(run)
     pursuer, evader = _speeds(run)
     return {
-        "pursuer_radius": seen.radius_pursuer_m,
-        "evader_radius": seen.radius_evader_m,
-        "one_circle": seen.centers_apart_m,
-        "distance": seen.distance_m,
-        "orientation": seen.headings_apart_rad,
+        "pursuer_radius": circle.radius_pursuer_m,
+        "evader_radius": circle.radius_evader_m,
+        "one_circle": circle.centers_apart_m,
+        "distance": circle.distance_m,
+        "orientation": circle.headings_apart_rad,
         "pursuer_speed": pursuer,
         "same_speed": evader / pursuer if pursuer > 0.0 else nan,
     }
@@ -65,8 +66,13 @@ CIRCLE = tuple(
     for key, text, expected, unit in (
         ("pursuer_radius", "the pursuer settles on a circle", RADIUS, "m"),
         ("evader_radius", "the evader settles on a circle", RADIUS, "m"),
-        ("one_circle", "it is one circle (distance of the centres)", 0, "m"),
-        ("distance", "their distance settles", sqrt(2.0) * RADIUS, "m"),
+        (
+            "one_circle",
+            "both circles coincide (distance of the centres)",
+            0,
+            "m",
+        ),
+        ("distance", "their distance converges", sqrt(2.0) * RADIUS, "m"),
         ("orientation", "their relative orientation is pi/2", pi / 2, "rad"),
         ("pursuer_speed", "the pursuer travels at 1 m/s", 1.0, "m/s"),
         ("same_speed", "both travel at the same speed (ratio)", 1.0, "1"),
@@ -75,14 +81,14 @@ CIRCLE = tuple(
 
 
 def read_saturated() -> Readings:
-    """The saturated law (6) beside the proportional one."""
-    seen = measure(play(replace(FIG_2, law=TurningLaw.SATURATED)))
-    beside = measure(play(FIG_2))
+    """Compare the saturated law (6) with the proportional one."""
+    saturated = measure(play(replace(FIG_2, law=TurningLaw.SATURATED)))
+    proportional = measure(play(FIG_2))
     return {
-        "radius": seen.radius_evader_m,
-        "smaller": seen.radius_evader_m / beside.radius_evader_m,
-        "less": seen.headings_apart_rad,
-        "namely": seen.headings_apart_rad,
+        "radius": saturated.radius_evader_m,
+        "smaller": saturated.radius_evader_m / proportional.radius_evader_m,
+        "less": saturated.headings_apart_rad,
+        "namely": saturated.headings_apart_rad,
     }
 
 
@@ -129,41 +135,41 @@ SATURATED = (
 
 
 def read_strategies() -> Readings:
-    """The family of strategies between moving back and moving aside."""
-    seen: list[FittedCircle] = [
+    """Measure the strategies between moving back and moving aside."""
+    circles: list[FittedCircle] = [
         measure(play(replace(FIG_2, angle=angle))) for angle in ANGLES
     ]
-    radii = [circle.radius_evader_m for circle in seen]
+    radii = [circle.radius_evader_m for circle in circles]
+    small = measure(play(replace(FIG_2, angle=SMALL_ANGLE)))
     back = play(replace(FIG_2, angle=0.0))
     times = [back.end_time - 1.0, back.end_time]
     pursuer, evader = back.poses(times)
     return {
         "apart": max(
             abs(circle.motions_apart_rad - angle)
-            for circle, angle in zip(seen, ANGLES, strict=True)
+            for circle, angle in zip(circles, ANGLES, strict=True)
         ),
         "grows": min(a / b for a, b in zip(radii, radii[1:], strict=False)),
-        "unbounded": measure(play(replace(FIG_2, angle=SMALL))).radius_evader_m
-        * SMALL,
-        "back": _off_line(pursuer, evader),
+        "unbounded": small.radius_evader_m * SMALL_ANGLE,
+        "back": _deviation_from_sight(pursuer, evader),
     }
 
 
-def _off_line(pursuer: Array, evader: Array) -> float:
-    """Angle between the evader's way and the line of sight, in [rad].
+def _deviation_from_sight(pursuer: Array, evader: Array) -> float:
+    """Return the angle between the evader's motion and the line of sight.
 
     Zero if it moves straight away from the pursuer.
 
     Args:
-        pursuer: Its poses at two times. Shape (2, 3).
-        evader: Likewise. Shape (2, 3).
+        pursuer: Poses at two times. Shape (2, 3).
+        evader: Poses at two times. Shape (2, 3).
     """
     sight = evader[0, :2] - pursuer[0, :2]
-    way = evader[1, :2] - evader[0, :2]
-    if not np.hypot(*way) > 0.5:
+    motion = evader[1, :2] - evader[0, :2]
+    if not np.hypot(*motion) > 0.5:
         return nan
-    off = np.arctan2(way[1], way[0]) - np.arctan2(sight[1], sight[0])
-    return abs(wrap_angle(float(off)))
+    angle = np.arctan2(motion[1], motion[0]) - np.arctan2(sight[1], sight[0])
+    return abs(wrap_angle(float(angle)))
 
 
 STRATEGIES = (
@@ -199,8 +205,8 @@ STRATEGIES = (
     ),
     Claim(
         "back",
-        "alpha = 0 moves back (angle between the evader's way and the line "
-        "of sight, at the end)",
+        "alpha = 0 moves back (angle between the evader's direction of "
+        "motion and the line of sight, at the end)",
         "II-C",
         "unicycles",
         0.0,
@@ -211,15 +217,15 @@ STRATEGIES = (
 
 
 def read_sampled() -> Readings:
-    """The circle of Sec. IV with turning rates held from step to step."""
+    """Measure the circle of Sec. IV with turning rates held between steps."""
     run: SampledRun = simulate_sampled(NAO, NAO_START, 400.0, STEP)
     turns = np.diff(run.pursuer[-200:, 2])
     last = max(2, round(2.0 * pi / max(abs(float(turns[-1])), 1e-3)))
-    apart = run.evader[-1] - run.pursuer[-1]
+    difference = run.evader[-1] - run.pursuer[-1]
     return {
         "radius": fit_circle(run.pursuer[-last:, :2])[1],
-        "distance": float(np.hypot(apart[0], apart[1])),
-        "orientation": abs(wrap_angle(float(apart[2]))),
+        "distance": float(np.hypot(difference[0], difference[1])),
+        "orientation": abs(wrap_angle(float(difference[2]))),
     }
 
 
@@ -228,17 +234,17 @@ SAMPLED = tuple(
     for key, text, expected, unit in (
         (
             "radius",
-            "holding the turning rate from step to step leaves the circle "
-            "as it is",
+            "holding the turning rate between steps does not change the "
+            "circle",
             NAO_RADIUS,
             "m",
         ),
         (
             "distance",
-            "and the distance",
+            "nor the distance",
             4.0 * 0.1 * sin(pi / 4) / (pi / 2 * 0.2),
             "m",
         ),
-        ("orientation", "and the relative orientation", pi / 2, "rad"),
+        ("orientation", "nor the relative orientation", pi / 2, "rad"),
     )
 )

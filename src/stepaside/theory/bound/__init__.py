@@ -1,4 +1,4 @@
-"""How well anybody can evade: games of two unicycles solved on a grid."""
+"""Optimal evasion: differential games of two unicycles solved on a grid."""
 
 from .relative_game import BoundGame, against_any, against_pursuit
 from .state_grid import Grid

@@ -1,19 +1,19 @@
-r"""The barrier of two identical cars, in closed form.
+r"""Barrier of the game of two identical cars, in closed form.
 
-Derived here by following the characteristics backwards in time from where
-capture grazes; ``docs/bound.md`` has the derivation. In units of speed and
-turning radius, with the evader at :math:`(x, y)` in the pursuer's frame and
+Derived by following the characteristics backwards in time from grazing
+capture; ``docs/bound.md`` has the derivation. In units of speed and turning
+radius, with the evader at :math:`(x, y)` in the pursuer's frame and
 :math:`\theta` between the directions of motion, the left half of the barrier
 at one :math:`\theta` is a curve of three pieces:
 
 1. both turn into the line of sight (pursuer left, evader right) until
-   capture grazes at the bearing :math:`a_0 \in (0, \theta/2]`;
-2. the same for a while, then the pursuer drives straight and the evader
-   turns on until it is straight ahead;
-3. as 2, but the pursuer turns right first, as the evader does.
+   grazing capture at the bearing :math:`a_0 \in (0, \theta/2]`;
+2. as 1 for some time, then the pursuer drives straight and the evader
+   continues its turn until it is straight ahead;
+3. as 2, but the pursuer first turns right, like the evader.
 
-The right half is the left one at :math:`2\pi - \theta`, mirrored. What lies
-between both, up to where they cross, can be captured.
+The right half is the mirror image of the left one at :math:`2\pi - \theta`.
+States between both halves, up to their crossing, can be captured.
 """
 
 from math import pi, tau
@@ -31,16 +31,16 @@ COUNT = 60  # points on each piece
 def turn_back(
     state: tuple[Array, Array, Array], pursuer: float, evader: float, t: Array
 ) -> tuple[Array, Array, Array]:
-    """Where the evader was, if both have turned steadily since.
+    """Integrate the motion backwards in time with constant turning rates.
 
     Args:
-        state: x, y and theta now, in units of the turning radius and [rad].
+        state: Final x, y and theta, in turning radii and [rad].
         pursuer: Turning rate of the pursuer: -1, 0 or 1.
-        evader: The same of the evader.
-        t: How long ago, in units of one over the turning rate.
+        evader: Turning rate of the evader: -1, 0 or 1.
+        t: Duration, in units of one over the turning rate.
 
     Returns:
-        x, y and theta then.
+        Earlier x, y and theta.
     """
     x, y, theta = state
     forward, aside = _car_ago(evader, t)
@@ -55,17 +55,17 @@ def turn_back(
 def left_half(
     capture: float, theta: float, count: int = COUNT
 ) -> tuple[Array, Array]:
-    """Left half of the barrier at one angle between the motions.
+    """Compute the left half of the barrier at one angle between the motions.
 
     Args:
         capture: Distance of capture, in turning radii.
-        theta: Direction of the evader's motion less that of the pursuer's,
+        theta: Direction of the evader's motion minus that of the pursuer's,
             in (0, 2 pi), in [rad].
         count: Points on each piece.
 
     Returns:
-        Points (x, y), in turning radii, shape (3 count, 2), and the number
-        of the piece that each is on, 1 to 3.
+        Points (x, y), in turning radii, shape (3 count, 2), and the piece
+        of each point, 1 to 3.
     """
     zero, one = np.zeros(count), np.ones(count)
     ago = np.linspace(0.0, theta / 2.0, count)
@@ -86,7 +86,7 @@ def left_half(
 def barrier_slice(
     capture: float, theta: float, count: int = COUNT
 ) -> tuple[Array, Array]:
-    """Barrier at one angle: both halves up to where they cross.
+    """Compute the barrier at one angle: both halves up to their crossing.
 
     Args:
         capture: As in :func:`left_half`.
@@ -94,8 +94,8 @@ def barrier_slice(
         count: As in :func:`left_half`.
 
     Returns:
-        Points (x, y) from one end on the circle of capture to the other, in
-        turning radii, shape (n, 2), and the pieces, negative on the right.
+        Points (x, y) from one end on the capture circle to the other, in
+        turning radii, shape (n, 2), and their pieces, negative on the right.
 
     Raises:
         PlanError: If the halves do not cross.
@@ -112,17 +112,17 @@ def barrier_slice(
 def barrier_states(
     game: BoundGame, capture: float, angles: int = 18, count: int = COUNT
 ) -> tuple[Array, Array]:
-    """Relative states on the barrier of two identical cars.
+    """Compute relative states on the barrier of two identical cars.
 
     Args:
-        game: Two identical cars.
-        capture: Distance of capture, in [m].
+        game: Game of two identical cars.
+        capture: Capture distance, in [m].
         angles: Number of angles between the motions, over (0, pi]; the rest
-            is the mirror image.
+            follows by symmetry.
         count: Points on each piece.
 
     Returns:
-        Rows of r [m], a, psi [rad], and the pieces; see
+        Rows of r [m], a, psi [rad], and their pieces; see
         :func:`barrier_slice`.
 
     Raises:
@@ -144,14 +144,14 @@ def barrier_states(
 
 
 def _car_ago(rate: float, t: Array) -> tuple[Array, Array]:
-    """Where a car was, in its frame now: ahead of it and to its left."""
+    """Return the earlier position of a car in its current frame."""
     if rate == 0.0:
         return -t, np.zeros_like(t)
     return -np.sin(rate * t) / rate, (1.0 - np.cos(rate * t)) / rate
 
 
 def _first_crossing(first: Array, second: Array) -> tuple[int, int, Array]:
-    """Segments at which two polylines cross first, and the point."""
+    """Return the segments of the first crossing of two polylines, and it."""
     p, d = first[:-1, None], np.diff(first, axis=0)[:, None]
     q, e = second[None, :-1], np.diff(second, axis=0)[None]
     w = q - p

@@ -1,4 +1,4 @@
-"""A bound beside closed forms and beside games that are played."""
+"""Verification of a bound by closed forms and by simulated games."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -25,19 +25,20 @@ def play_bound(
     duration: float | None = None,
     steps: int = 1200,
 ) -> Array:
-    """Play games with unicycles that drive along exact arcs.
+    """Simulate games of unicycles along exact arcs.
 
     Args:
-        bound: Table whose game is played.
+        bound: Table of the game.
         starts: Rows of r [m], a, psi [rad]. Shape (n, 3).
-        evader: Who evades; by default the best one of the table.
-        pursuer: Who pursues; by default the best one, or the law.
-        duration: Of a game, in [s]; by default the table's horizon.
-        steps: Into which it is divided; turning rates are held in each.
+        evader: Steering of the evader; by default the table's optimum.
+        pursuer: Steering of the pursuer; by default the table's optimum, or
+            its law.
+        duration: Duration of a game, in [s]; by default the table's horizon.
+        steps: Number of time steps, in which turning rates are held.
 
     Returns:
-        Least distance of each game, in [m]; games end at the least distance
-        of the table. Shape (n,).
+        Closest approach of each game, in [m]; games end at the least
+        distance of the table. Shape (n,).
     """
     game = bound.game
     evader = bound.evader_turn if evader is None else evader
@@ -45,34 +46,34 @@ def play_bound(
     duration = bound.horizon if duration is None else duration
     step = duration / steps
     r, a, psi = np.array(starts, dtype=np.float64).T
-    hunter = np.zeros((len(r), 3))
-    prey = np.column_stack([r * np.cos(a), r * np.sin(a), a - psi])
+    pursuer_pose = np.zeros((len(r), 3))
+    evader_pose = np.column_stack([r * np.cos(a), r * np.sin(a), a - psi])
     least = r.copy()
     for _ in range(steps):
         turn_e, turn_p = evader(r, a, psi), pursuer(r, a, psi)
         limit = game.evader_turn
-        _drive(prey, game.evader_speed, np.clip(turn_e, -limit, limit), step)
-        _drive(hunter, game.pursuer_speed, turn_p, step)
-        dx, dy = (prey[:, :2] - hunter[:, :2]).T
+        turn_e = np.clip(turn_e, -limit, limit)
+        _drive(evader_pose, game.evader_speed, turn_e, step)
+        _drive(pursuer_pose, game.pursuer_speed, turn_p, step)
+        dx, dy = (evader_pose[:, :2] - pursuer_pose[:, :2]).T
         r, sight = np.hypot(dx, dy), np.arctan2(dy, dx)
-        a, psi = (
-            wrap_angles(sight - hunter[:, 2]),
-            wrap_angles(sight - prey[:, 2]),
-        )
+        a = wrap_angles(sight - pursuer_pose[:, 2])
+        psi = wrap_angles(sight - evader_pose[:, 2])
         least = np.where(least > bound.grid.near, np.minimum(least, r), least)
-    kept: Array = np.maximum(least, bound.grid.near)
-    return kept
+    closest: Array = np.maximum(least, bound.grid.near)
+    return closest
 
 
 def moving(bound: Bound, angle: float) -> Steering:
-    """Evader of eq. (4) with the side behind it, within its turning limit.
+    """Return the evader of eq. (4) with the side behind it.
 
     Args:
-        bound: Table whose game is played.
+        bound: Table of the game.
         angle: Evasion angle, in [rad]; MOVE_ASIDE is the paper's.
 
     Returns:
-        The evader, with the pursuer's gain or one that goes with its limit.
+        Steering with the pursuer's gain, or with the gain that reaches the
+        evader's limit at an error of pi.
     """
     gain = bound.game.pursuer_gain or bound.game.evader_turn / np.pi
 
@@ -84,13 +85,13 @@ def moving(bound: Bound, angle: float) -> Steering:
     return steer
 
 
-def wandering(bound: Bound, seed: int, hold: int = 60) -> Steering:
-    """Evader that draws a turning rate, holds it, and draws again.
+def random_evader(bound: Bound, seed: int, hold: int = 60) -> Steering:
+    """Return an evader with piecewise constant random turning rates.
 
     Args:
-        bound: Table whose game is played.
-        seed: Of the draws.
-        hold: Decisions between two draws.
+        bound: Table of the game.
+        seed: Seed of the random numbers.
+        hold: Number of decisions between two draws.
     """
     rng, limit = np.random.default_rng(seed), bound.game.evader_turn
     drawn: list[Array] = []
@@ -106,18 +107,18 @@ def wandering(bound: Bound, seed: int, hold: int = 60) -> Steering:
     return steer
 
 
-def other_evaders(bound: Bound) -> dict[str, Steering]:
-    """Evaders that cannot do better than the bound, by name."""
+def reference_evaders(bound: Bound) -> dict[str, Steering]:
+    """Return evaders for comparison with the bound, by name."""
     return {
         "move aside": moving(bound, MOVE_ASIDE),
         "move back": moving(bound, MOVE_BACK),
         "straight on": lambda r, a, psi: np.zeros_like(r),
-        "random": wandering(bound, 0),
+        "random": random_evader(bound, 0),
     }
 
 
 def draw_starts(bound: Bound, count: int, seed: int) -> Array:
-    """Random states inside the grid, all bearings alike; shape (n, 3)."""
+    """Draw states inside the grid, uniform in r, a and psi. Shape (n, 3)."""
     rng, grid = np.random.default_rng(seed), bound.grid
     reach = grid.near + 0.75 * (grid.far - grid.near)
     r = rng.uniform(grid.near, reach, count)
@@ -139,14 +140,14 @@ PIECES = {1: "both turn in", 2: "straight last", 3: "same turn first"}
 
 @dataclass(frozen=True, slots=True)
 class BarrierCheck:
-    """The table at points of the barrier of two identical cars.
+    """Errors of a table on the barrier of two identical cars.
 
     Attributes:
         states: Rows of r [m], a, psi [rad] on the closed-form barrier.
-        pieces: Piece of each, negative on the right half.
-        value_errors: Value less the distance of capture, in [m].
-        distance_errors: How far the table's barrier is from the point, in
-            the pursuer's plane, to first order, in [m].
+        pieces: Piece of each state, negative on the right half.
+        value_errors: Value minus capture distance, in [m].
+        distance_errors: Signed distance of the table's barrier from the
+            state, in the pursuer's plane, to first order, in [m].
     """
 
     states: Array
@@ -162,8 +163,8 @@ def check_barrier(
 
     Args:
         bound: Table of two identical cars.
-        capture: Distance of capture, in [m].
-        angles: Number of slices of equal angle between the motions.
+        capture: Capture distance, in [m].
+        angles: Number of slices at constant angle between the motions.
 
     Raises:
         PlanError: If the cars differ.
@@ -173,7 +174,7 @@ def check_barrier(
     states, pieces = states[inside], pieces[inside]
     r, a, psi = states.T
     errors = bound.value(r, a, psi) - capture
-    # slope in the plane at constant angle between the motions
+    # Gradient in the plane at constant angle between the motions.
     step = bound.grid.spacings[0]
     x, y, theta = r * np.cos(a), r * np.sin(a), a - psi
 
@@ -185,22 +186,22 @@ def check_barrier(
         value(x + step, y) - value(x - step, y),
         value(x, y + step) - value(x, y - step),
     ) / (2.0 * step)
-    apart = errors / np.maximum(slope, 1e-3)
-    return BarrierCheck(states, pieces, errors, apart)
+    distances = errors / np.maximum(slope, 1e-3)
+    return BarrierCheck(states, pieces, errors, distances)
 
 
 @dataclass(frozen=True, slots=True)
 class BoundComparison:
-    """Games of one evader beside the table.
+    """Simulated games of one evader compared with the bound.
 
     Attributes:
-        name: Of the evader.
-        closest: Mean least distance, in [m].
-        over_bound: The same over the mean of the bound.
-        mean_error: Mean of the least distance less the bound, in [m].
-        most: What 95 % of its magnitudes keep below, in [m].
-        below: Most that a game ends below the bound, in [m].
-        above: Most that a game ends above it, in [m].
+        name: Name of the evader.
+        closest: Mean closest approach, in [m].
+        over_bound: Mean closest approach over the mean bound.
+        mean_error: Mean of closest approach minus bound, in [m].
+        most: 95th percentile of the magnitude of that difference, in [m].
+        below: Largest shortfall below the bound, in [m].
+        above: Largest excess above the bound, in [m].
     """
 
     name: str
@@ -215,33 +216,34 @@ class BoundComparison:
 def check_by_playing(
     bound: Bound, games: int, seed: int = 0, starts: Array | None = None
 ) -> tuple[BoundComparison, ...]:
-    """Play the best evader of a table, and others that must not beat it.
+    """Simulate the optimal evader of a table, and others for comparison.
 
     Args:
         bound: Table to be checked.
-        games: Number of random starts.
-        seed: Of the starts.
-        starts: Starts instead of random ones: rows of r [m], a, psi [rad].
+        games: Number of random initial states.
+        seed: Seed of the initial states.
+        starts: Initial states instead of random ones: rows of r [m], a, psi
+            [rad].
 
     Returns:
-        The best evader first.
+        Comparisons, the optimal evader first.
     """
     if starts is None:
         starts = draw_starts(bound, games, seed)
-    promised = bound.value(*starts.T)
+    expected = bound.value(*starts.T)
     rows = []
-    for name, evader in {"optimal": None, **other_evaders(bound)}.items():
-        kept = play_bound(bound, starts, evader)
-        off = kept - promised
+    for name, evader in {"optimal": None, **reference_evaders(bound)}.items():
+        closest = play_bound(bound, starts, evader)
+        errors = closest - expected
         rows.append(
             BoundComparison(
                 name,
-                float(kept.mean()),
-                float(kept.mean() / promised.mean()),
-                float(off.mean()),
-                float(np.quantile(np.abs(off), 0.95)),
-                float(np.maximum(-off, 0.0).max()),
-                float(np.maximum(off, 0.0).max()),
+                float(closest.mean()),
+                float(closest.mean() / expected.mean()),
+                float(errors.mean()),
+                float(np.quantile(np.abs(errors), 0.95)),
+                float(np.maximum(-errors, 0.0).max()),
+                float(np.maximum(errors, 0.0).max()),
             )
         )
     return tuple(rows)

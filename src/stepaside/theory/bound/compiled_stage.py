@@ -1,8 +1,8 @@
-"""Compiled loops over the grid: planes of equal a on all cores.
+"""Compiled Runge-Kutta stage over the grid, in parallel over planes of a.
 
-Arrays have ghost cells around them (:mod:`.grid`). The innermost loops run
-along psi, without a branch, so that the compiler turns them into vector
-instructions; the rows of slopes between them stay in the first cache.
+Arrays have ghost cells (:mod:`.state_grid`). The innermost loops run along
+psi without branches, so that the compiler vectorises them; the rows of
+slopes between them stay in the first-level cache.
 """
 
 from typing import Any, NamedTuple
@@ -17,22 +17,22 @@ prange = parallel_range()
 
 
 class StageParameters(NamedTuple):
-    """What a game and a grid are to the loops.
+    """Parameters of a game on a grid, for compiled loops.
 
     Attributes:
         pursuer: Forward and sideways speed of the pursuer along the line of
             sight, its turning rate by its law, how far it may deviate.
             Shape (a, 4).
         distance: Distances of the rows. Shape (r,).
-        inverse: One over them. Shape (r,).
+        inverse: Inverse distances of the rows. Shape (r,).
         forward: Speed of the evader along the line of sight. Shape (psi,).
-        sideways: The same across it. Shape (psi,).
+        sideways: Speed of the evader across it. Shape (psi,).
         reach: Largest turning rate of the evader.
         scale: One over the spacings along r, a and psi. Shape (3,).
         smooth: Twelve times the squares of differences that count as smooth.
             Shape (3,).
         order: FIRST or FIFTH.
-        godunov: Whether the flux is Godunov's rather than Lax's.
+        godunov: Whether the flux is Godunov's rather than Lax-Friedrichs'.
     """
 
     pursuer: Any
@@ -51,15 +51,15 @@ class StageParameters(NamedTuple):
 def first_slopes(
     v: Any, at: int, stride: int, scale: Any, left: Any, right: Any
 ) -> None:
-    """Write one-sided slopes of first order of one row.
+    """Compute one-sided slopes of first order of one row.
 
     Args:
         v: All values, flat.
-        at: Where the row begins in them.
-        stride: How far neighbours along the axis are apart in them.
+        at: Index of the first value of the row.
+        stride: Index distance of neighbours along the axis.
         scale: One over the spacing.
-        left: Where the slopes to the left are written.
-        right: The same to the right.
+        left: Output: slopes to the left.
+        right: Output: slopes to the right.
     """
     n = left.shape[0]
     a, b = v[at - stride : at - stride + n], v[at : at + n]
@@ -73,7 +73,7 @@ def fifth_slopes(
     v: Any, at: int, stride: int, scale: Any, smooth: Any, left: Any,
     right: Any,
 ) -> None:  # fmt: skip
-    """Write one-sided slopes of fifth order; see :func:`first_slopes`."""
+    """Compute one-sided slopes of fifth order; see :func:`first_slopes`."""
     n = left.shape[0]
     begin = at - 3 * stride
     a, b = v[begin : begin + n], v[begin + stride : begin + stride + n]
@@ -92,7 +92,7 @@ def row_rates(
     s: Any, pursuer: Any, inverse: Any, forward: Any, sideways: Any,
     reach: Any, godunov: bool, out: Any,
 ) -> None:  # fmt: skip
-    """Write how fast the values of one row change."""
+    """Compute the rates of the values of one row."""
     ahead, across, turn, freedom = pursuer
     if godunov:
         for k in range(out.shape[0]):
@@ -114,7 +114,7 @@ def row_rates(
 def blend(
     first: Any, now: Any, rate: Any, keep: Any, step: Any, out: Any
 ) -> None:
-    """Write one stage of Runge's and Kutta's method for one row."""
+    """Compute one Runge-Kutta stage of one row."""
     gain = np.float32(1.0) - keep
     for k in range(rate.shape[0]):
         m = k + 3
@@ -122,39 +122,39 @@ def blend(
 
 
 @compiled
-def confine(first: Any, out: Any, low: Any, high: Any, still: Any) -> bool:
-    """Hold a row between two values; say whether it has moved.
+def clip_row(first: Any, out: Any, low: Any, high: Any, still: Any) -> bool:
+    """Clip a row between two values; return whether it has changed.
 
-    The least distance so far is at most the distance now, and a game that
-    has ended keeps what it ended with.
+    The least distance of a game is at most its current distance, and at
+    least the distance at which the game ends.
     """
-    moved = False
+    changed = False
     for k in range(3, out.shape[0] - 3):
         x = out[k]
         x = x if x < high else high
         x = x if x > low else low
         out[k] = x
-        moved |= abs(x - first[k]) > still
-    return moved
+        changed |= abs(x - first[k]) > still
+    return changed
 
 
 @compiled_parallel
 def stage_blocks(
     first: Any, now: Any, out: Any, keep: Any, step: Any, last: bool,
-    setting: StageParameters, awake: Any, moved: Any, still: Any,
+    setting: StageParameters, active: Any, changed: Any, still: Any,
 ) -> None:  # fmt: skip
-    """Do one stage of a step for the rows that are awake.
+    """Compute one Runge-Kutta stage for the active rows.
 
     Args:
-        first: Values at the beginning of the step, with ghosts.
-        now: Values of the stage before, with ghosts.
-        out: Where the new ones are written; its ghosts are not.
-        keep: Share of ``first`` in them.
-        step: Step, in [s].
-        last: Whether the step ends with this stage.
-        setting: The game on the grid.
-        awake: Which rows may change in this step. Shape (a, r).
-        moved: Which rows did; written by the last stage. Shape (a, r).
+        first: Values at the begin of the step, with ghosts.
+        now: Values of the previous stage, with ghosts.
+        out: Output: new values; ghosts are not written.
+        keep: Weight of ``first`` in the new values.
+        step: Time step, in [s].
+        last: Whether this is the last stage of the step.
+        setting: Parameters of the game on the grid.
+        active: Rows that may change in this step. Shape (a, r).
+        changed: Output of the last stage: rows that changed. Shape (a, r).
         still: Change that counts as none, in [m].
     """
     flat = now.reshape(-1)
@@ -168,9 +168,9 @@ def stage_blocks(
         pursuer = (p[0], p[1], p[2], p[3])
         for j in range(now.shape[1] - 6):
             before, after = first[i + 3, j + 3], out[i + 3, j + 3]
-            if not awake[i, j]:
+            if not active[i, j]:
                 after[:] = before
-                moved[i, j] = False
+                changed[i, j] = False
                 continue
             at = (i + 3) * plane + (j + 3) * line + 3
             for axis in range(3):
@@ -187,40 +187,40 @@ def stage_blocks(
             )  # fmt: skip
             blend(before, now[i + 3, j + 3], rate, keep, step, after)
             if last:
-                moved[i, j] = confine(
+                changed[i, j] = clip_row(
                     before, after, setting.distance[0], setting.distance[j],
                     still,
                 )  # fmt: skip
 
 
 @compiled
-def wake_neighbours(moved: Any, awake: Any, arm: int, times: int) -> bool:
-    """Find the rows that a step may change, given those that just moved.
+def mark_active_rows(changed: Any, active: Any, arm: int, times: int) -> bool:
+    """Find the rows that a step may change, from those of the last step.
 
-    A stage looks ``arm`` rows far along a and r, and a step has ``times`` of
-    them. Beyond the edges of a lies the mirror image, which reaches no row
-    that is not reached on this side.
+    The stencil of a stage reaches ``arm`` rows along a and r, and a step has
+    ``times`` stages. The mirror image beyond the edges of a reaches no
+    further row.
 
     Args:
-        moved: Rows that changed in the step before. Shape (a, r).
-        awake: Rows that may change in this one; written. Shape (a, r).
-        arm: Reach of one stage, in rows.
+        changed: Rows that changed in the previous step. Shape (a, r).
+        active: Output: rows that may change in this step. Shape (a, r).
+        arm: Reach of the stencil, in rows.
         times: Stages of a step.
 
     Returns:
-        Whether there is any.
+        Whether any row is active.
     """
-    planes, rows = moved.shape
-    awake[:] = moved
+    planes, rows = changed.shape
+    active[:] = changed
     for _ in range(times):
-        reached = awake.copy()
+        reached = active.copy()
         for i in range(planes):
             for j in range(rows):
                 if not reached[i, j]:
                     continue
                 for n in range(-arm, arm + 1):
                     if 0 <= i + n < planes:
-                        awake[i + n, j] = True
+                        active[i + n, j] = True
                     if 0 <= j + n < rows:
-                        awake[i, j + n] = True
-    return bool(awake.any())
+                        active[i, j + n] = True
+    return bool(active.any())

@@ -1,4 +1,4 @@
-"""The same game on coarser grids: how far off is the table?"""
+"""Grid refinement: error estimates from coarser grids."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,18 +17,18 @@ Progress = Callable[[float], object]
 
 @dataclass(frozen=True, slots=True)
 class Refinement:
-    """One grid beside the next finer one.
+    """Differences between a grid and the next finer one.
 
     Attributes:
         grid: The coarser grid.
-        seconds: What it took to solve, in [s].
-        mean: Mean distance of its values from the finer ones, in [m].
-        most: What 95 % of them keep below, in [m].
-        worst: The largest, in [m].
-        above_mean: Share of its nodes that differ by more than the mean, in
-            [1].
-        order: Power of the spacing with which the mean falls, by this grid
-            and the next coarser one; None for the coarsest.
+        seconds: Computing time of the coarser grid, in [s].
+        mean: Mean absolute difference of the values, in [m].
+        most: 95th percentile of the absolute differences, in [m].
+        worst: Largest absolute difference, in [m].
+        above_mean: Fraction of the nodes that differ by more than the mean,
+            in [1].
+        order: Order of convergence of the mean, from this grid and the next
+            coarser one; None for the coarsest.
     """
 
     grid: Grid
@@ -51,25 +51,26 @@ def refine_bound(
 ) -> tuple[Bound, tuple[Refinement, ...]]:
     """Solve a game on a grid and on coarser ones.
 
-    The mean difference to the grid of half as many cells is quoted as grid
-    error: where the order is one or more, the finer table is no further off
-    in the mean. It bounds no single value: :attr:`Refinement.above_mean`
-    is the share of nodes that differ by more.
+    The mean difference to the grid with half as many cells is reported as
+    grid error: for orders of at least one, the mean error of the finer table
+    is not larger. It is no bound of single values:
+    :attr:`Refinement.above_mean` is the fraction of nodes that differ by
+    more.
 
     Args:
-        game: What the players can do.
+        game: Speeds and turning limits of the players.
         grid: The finest grid.
-        levels: How many coarser ones, each of half as many cells.
+        levels: Number of coarser grids, each with half as many cells.
         horizon: Duration of the game, in [s].
-        scheme: How the equation is discretised.
-        progress: Called with the share of the work done since the last call.
+        scheme: Discretisation of the equation.
+        progress: Called with the fraction of the work done since the last
+            call.
 
     Returns:
-        The table on the finest grid, and the coarser ones from the coarsest
-        on.
+        The table on the finest grid, and the refinements, coarsest first.
 
     Raises:
-        PlanError: If a value is out of its range, or a grid too coarse.
+        PlanError: If a value is out of range, or a grid is too coarse.
     """
     if levels < 0:
         raise PlanError(f"refine must be >= 0 levels, got {levels}")
@@ -87,12 +88,12 @@ def refine_bound(
         )
     rows: list[Refinement] = []
     for coarse, fine in zip(solved, solved[1:], strict=False):
-        off = differences(coarse, fine)
-        mean, most = float(off.mean()), float(np.quantile(off, 0.95))
+        errors = differences(coarse, fine)
+        mean, most = float(errors.mean()), float(np.quantile(errors, 0.95))
         order = None
         if rows and mean > 0.0 and rows[-1].mean > 0.0:
             order = log2(rows[-1].mean / mean)
-        worst = float(off.max())
+        worst = float(errors.max())
         rows.append(
             Refinement(
                 coarse.grid,
@@ -100,7 +101,7 @@ def refine_bound(
                 mean,
                 most,
                 worst,
-                float((off > mean).mean()),
+                float((errors > mean).mean()),
                 order,
             )
         )
@@ -108,11 +109,11 @@ def refine_bound(
 
 
 def differences(coarse: Bound, fine: Bound) -> Array:
-    """How far two tables are apart at the nodes of the first, in [m]."""
+    """Return absolute differences at the nodes of the coarser table, [m]."""
     a, r, psi = coarse.grid.axes()
-    found = fine.value(r[:, None], a[:, None, None], psi)
-    off: Array = np.abs(found - coarse.values)
-    return off
+    values = fine.value(r[:, None], a[:, None, None], psi)
+    errors: Array = np.abs(values - coarse.values)
+    return errors
 
 
 def _scaled(

@@ -1,4 +1,4 @@
-"""The same stage in plain NumPy, for where Numba is not installed."""
+"""Runge-Kutta stage over the grid in NumPy, without Numba."""
 
 from typing import Any
 
@@ -10,9 +10,9 @@ from .upwind_scheme import lax_friedrichs, upwind, weno5
 
 def stage_arrays(
     first: Any, now: Any, out: Any, keep: Any, step: Any, last: bool,
-    setting: StageParameters, awake: Any, moved: Any, still: Any,
+    setting: StageParameters, active: Any, changed: Any, still: Any,
 ) -> None:  # fmt: skip
-    """Do one stage of a step; see :func:`.blocks.stage_blocks`."""
+    """Compute one stage; see :func:`.compiled_stage.stage_blocks`."""
     inner = (slice(3, -3),) * 3
     slopes: list[Any] = []
     for axis, number in ((1, 0), (0, 1), (2, 2)):
@@ -36,12 +36,12 @@ def stage_arrays(
     if last:
         high = setting.distance[:, None]
         made = np.maximum(np.minimum(made, high), setting.distance[0])
-        moved[:] = awake & (np.abs(made - first[inner]) > still).any(axis=2)
-    out[inner] = np.where(awake[:, :, None], made, first[inner])
+        changed[:] = active & (np.abs(made - first[inner]) > still).any(axis=2)
+    out[inner] = np.where(active[:, :, None], made, first[inner])
 
 
 def _shifted(v: Any, axis: int, by: int) -> Any:
-    """View without ghosts, moved along one axis."""
+    """Return the view without ghosts, shifted along one axis."""
     window = [slice(3, -3)] * 3
     end = v.shape[axis] - 3 + by
     window[axis] = slice(3 + by, end)

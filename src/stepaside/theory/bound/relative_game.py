@@ -1,7 +1,8 @@
-r"""The relative game whose value is computed.
+r"""Differential game in relative coordinates.
 
 An evader that walks backwards is a car that drives forwards along its
-direction of motion; in the coordinates of :mod:`..unicycle.relative`,
+direction of motion; in the coordinates of
+:mod:`..unicycle.relative_coordinates`,
 
 .. math::
     \dot r = v_e \cos\psi - v_p \cos a, \qquad
@@ -19,7 +20,7 @@ from ...core.errors import check_not_negative, check_positive
 
 @dataclass(frozen=True, slots=True)
 class BoundGame:
-    r"""What each player can do.
+    r"""Speeds and turning limits of the players.
 
     The pursuer turns by :math:`u_p = k a + d` with :math:`|d| \le \omega_p`,
     where :math:`a`, wrapped to :math:`[-\pi, \pi]`, is the bearing of the
@@ -30,8 +31,8 @@ class BoundGame:
         evader_speed: Speed of the evader, in [m/s].
         pursuer_gain: Gain :math:`k` of the pursuer's law, in [1/s]; zero for
             a pursuer without a law.
-        pursuer_turn: How far the pursuer may deviate from its law
-            :math:`\omega_p`, in [rad/s]; zero for one that obeys it.
+        pursuer_turn: Largest deviation :math:`\omega_p` of the pursuer from
+            its law, in [rad/s]; zero for one that follows it.
         evader_turn: Largest turning rate of the evader, in [rad/s].
     """
 
@@ -61,7 +62,7 @@ class BoundGame:
 
     @property
     def unit(self) -> float:
-        """Length that goes with that rate: speed over rate, in [m]."""
+        """Unit of length: speed of the evader over that rate, in [m]."""
         return self.evader_speed / self.rate
 
     @property
@@ -80,7 +81,7 @@ def against_pursuit(
     gain: float,
     evader_turn: float | None = None,
 ) -> BoundGame:
-    r"""Any evader against the paper's pursuer, eqs. (1)-(2).
+    r"""Return the game of any evader against the pursuer of eqs. (1)-(2).
 
     Args:
         pursuer_speed: Speed of the pursuer, in [m/s].
@@ -90,7 +91,7 @@ def against_pursuit(
             default :math:`k \pi`, the pursuer's own.
 
     Raises:
-        PlanError: If a value is out of its range.
+        PlanError: If a value is out of range.
     """
     check_positive(gain, "pursuer_gain", "1/s")
     turn = gain * pi if evader_turn is None else evader_turn
@@ -103,16 +104,17 @@ def against_any(
     pursuer_turn: float,
     evader_turn: float | None = None,
 ) -> BoundGame:
-    """Any evader against any pursuer: the game of two cars.
+    """Return the game of any evader against any pursuer, of two cars.
 
     Args:
         pursuer_speed: Speed of the pursuer, in [m/s].
         evader_speed: Speed of the evader, in [m/s].
         pursuer_turn: Largest turning rate of the pursuer, in [rad/s].
-        evader_turn: The same of the evader; by default the pursuer's.
+        evader_turn: Largest turning rate of the evader, in [rad/s]; by
+            default the pursuer's.
 
     Raises:
-        PlanError: If a value is out of its range.
+        PlanError: If a value is out of range.
     """
     turn = pursuer_turn if evader_turn is None else evader_turn
     return BoundGame(pursuer_speed, evader_speed, 0.0, pursuer_turn, turn)

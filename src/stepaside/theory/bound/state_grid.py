@@ -1,8 +1,8 @@
-r"""The grid of relative states, and what lies beyond its edges.
+r"""Grid of relative states, with its boundary conditions.
 
-Angles are sampled at the middles of their cells, so that no node lies on
-:math:`a = \pm\pi`, where the pursuer's law jumps. The game is its own mirror
-image, :math:`V(r, -a, -\psi) = V(r, a, \psi)`, so only :math:`a > 0` is kept.
+Angles are sampled at the centres of their cells, so that no node lies on
+:math:`a = \pm\pi`, where the pursuer's law is discontinuous. By the symmetry
+:math:`V(r, -a, -\psi) = V(r, a, \psi)` only :math:`a > 0` is stored.
 """
 
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from ...core.errors import PlanError, check_positive
 Array = NDArray[np.float64]
 Values = NDArray[np.float32]
 PAD = 3  # ghost cells on each side
-LEAST = 8  # cells along an angle, so that stencils do not meet themselves
+LEAST = 8  # cells along an angle, so that stencils do not overlap
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,12 +51,12 @@ class Grid:
 
     @classmethod
     def cube(cls, near: float, far: float, cells: int) -> "Grid":
-        """Take about as many cells along every axis."""
+        """Return a grid with about ``cells`` cells along every axis."""
         even = cells + cells % 2
         return cls(near, far, cells + 1, even, even)
 
     def coarser(self) -> "Grid":
-        """Half as many cells along every axis."""
+        """Return the grid with half as many cells along every axis."""
         even = 2 * (self.errors // 4)
         return Grid(
             self.near,
@@ -68,7 +68,7 @@ class Grid:
 
     @property
     def spacings(self) -> tuple[float, float, float]:
-        """Along r [m], a and psi [rad]."""
+        """Spacings along r [m], a and psi [rad]."""
         return (
             (self.far - self.near) / (self.distances - 1),
             tau / self.errors,
@@ -81,7 +81,7 @@ class Grid:
         return self.errors // 2, self.distances, self.bearings
 
     def axes(self) -> tuple[Array, Array, Array]:
-        """Nodes a > 0 [rad], r [m] and psi [rad], in the layout's order."""
+        """Return the nodes a > 0 [rad], r [m] and psi [rad]."""
         _, step_a, step_psi = self.spacings
         a: Array = (
             np.arange(self.errors // 2, dtype=np.float64) + 0.5
@@ -93,10 +93,11 @@ class Grid:
 
 
 def fill_ghosts(v: Values) -> None:
-    """Write the ghost cells around an array, in place.
+    """Fill the ghost cells of an array in place.
 
-    Around a and psi the game repeats itself, mirrored; below the least
-    distance it has ended; beyond the largest the value goes on straight.
+    Beyond a and psi the values are periodic and mirrored; below the least
+    distance they are constant; beyond the largest they are extrapolated
+    linearly.
 
     Args:
         v: Values with ghosts. Shape (a + 6, r + 6, psi + 6).

@@ -1,7 +1,7 @@
-r"""One cell of the grid: slopes and the numerical Hamiltonian.
+r"""Upwind scheme of one cell: slopes and the numerical Hamiltonian.
 
-Every function takes numbers or arrays alike, so that the compiled loops and
-plain NumPy are the same formulas; the precision is that of the values.
+Every function takes numbers or arrays, so that compiled loops and NumPy
+share the same formulas; the precision is that of the values.
 
 With :math:`\Omega` the rate of the line of sight, the value obeys
 
@@ -9,8 +9,8 @@ With :math:`\Omega` the rate of the line of sight, the value obeys
     V_\tau = \min_{u_p} \max_{u_e} \; \dot r V_r
         + (\Omega - u_p) V_a + (\Omega - u_e) V_\psi, \qquad V \le r
 
-Each turning rate moves one coordinate only, so the Hamiltonian falls apart
-into three of one dimension, and Godunov's flux is exact for each.
+Each turning rate affects one coordinate only, so the Hamiltonian separates
+into three one-dimensional ones, and Godunov's flux is exact for each.
 """
 
 from pathlib import Path
@@ -26,7 +26,7 @@ if load_numba() is not None:
 
 HALF = np.float32(0.5)
 ZERO = np.float32(0.0)
-# small integers only: exact in single precision
+# Small integers are exact in single precision.
 _TWO, _THREE, _FOUR = np.float32(2), np.float32(3), np.float32(4)
 _FIVE, _SIX, _BEND = np.float32(5), np.float32(6), np.float32(13)
 
@@ -35,16 +35,16 @@ _FIVE, _SIX, _BEND = np.float32(5), np.float32(6), np.float32(13)
 def weno5(
     m3: Any, m2: Any, m1: Any, c: Any, p1: Any, p2: Any, p3: Any, eps: Any
 ) -> tuple[Any, Any]:
-    """Differences to the left and to the right, to fifth order.
+    """Compute one-sided differences to fifth order.
 
-    Weighted essentially non-oscillatory (Jiang and Peng, SIAM J. Sci.
-    Comput. 21, 2000): three parabolas each, weighted by how smooth they are.
+    Weighted essentially non-oscillatory scheme (Jiang and Peng, SIAM J. Sci.
+    Comput. 21, 2000): three parabolas on each side, weighted by smoothness.
 
     Args:
         m3: Value three cells to the left.
         m2: Value two cells to the left.
         m1: Value one cell to the left.
-        c: Value here.
+        c: Value at the cell.
         p1: Value one cell to the right.
         p2: Value two cells to the right.
         p3: Value three cells to the right.
@@ -59,7 +59,7 @@ def weno5(
     e0, e1, e2, e3 = h1 - h0, h2 - h1, h3 - h2, h4 - h3
     e0, e1 = _BEND * e0 * e0 + eps, _BEND * e1 * e1 + eps
     e2, e3 = _BEND * e2 * e2 + eps, _BEND * e3 * e3 + eps
-    # smoothness of the outer, middle and inner parabola on either side
+    # Smoothness of the outer, middle and inner parabola on either side.
     g = _THREE * h1 - h0
     s0 = e0 + _THREE * g * g
     g = h1 + h2
@@ -72,7 +72,7 @@ def weno5(
     t1 = e2 + _THREE * g * g
     g = h1 - _THREE * h2
     t2 = e1 + _THREE * g * g
-    # weights 1, 6, 3 over s**2, brought to one denominator
+    # Weights 1, 6, 3 over s**2, with a common denominator.
     x, y, z = s1 * s2, s0 * s2, s0 * s1
     x, y, z = x * x, _SIX * y * y, _THREE * z * z
     d = x * (_FIVE * h1 - _TWO * h0) + y * (h1 + _TWO * h2)
@@ -85,20 +85,20 @@ def weno5(
 
 
 @inlined
-def blow(speed: Any, left: Any, right: Any) -> Any:
-    """Speed times the slope on the side that the motion goes to."""
+def upwind_product(speed: Any, left: Any, right: Any) -> Any:
+    """Return the speed times the slope on the side of the motion."""
     return HALF * (speed * (left + right) + abs(speed) * (right - left))
 
 
 @inlined
-def larger(a: Any, b: Any) -> Any:
-    """The larger of two, of numbers or arrays."""
+def maximum(a: Any, b: Any) -> Any:
+    """Return the elementwise maximum."""
     return HALF * (a + b + abs(a - b))
 
 
 @inlined
-def smaller(a: Any, b: Any) -> Any:
-    """The smaller of two, of numbers or arrays."""
+def minimum(a: Any, b: Any) -> Any:
+    """Return the elementwise minimum."""
     return HALF * (a + b - abs(a - b))
 
 
@@ -111,15 +111,15 @@ def upwind(
     reach_e: Any,
     slopes: tuple[Any, Any, Any, Any, Any, Any],
 ) -> Any:
-    """Godunov's Hamiltonian: the least smearing that is stable.
+    """Return Godunov's Hamiltonian, the least dissipative monotone one.
 
     Args:
         closing: Rate of the distance, in [m/s].
-        swing: Rate of the line of sight, in [rad/s].
+        swing: Turning rate of the line of sight, in [rad/s].
         turn: Turning rate of the pursuer by its law, in [rad/s].
-        reach_p: How far the pursuer may deviate from it, in [rad/s].
+        reach_p: Largest deviation of the pursuer from its law, in [rad/s].
         reach_e: Largest turning rate of the evader, in [rad/s].
-        slopes: Of the value along r, a, psi: left and right of each.
+        slopes: Left and right slopes of the value along r, a and psi.
 
     Returns:
         Rate of the value, in [m/s].
@@ -127,14 +127,14 @@ def upwind(
     rl, rr, al, ar, pl, pr = slopes
     drift = swing - turn
     low, high = drift - reach_p, drift + reach_p
-    still = smaller(larger(low, ZERO), high)
-    chase = smaller(blow(low, al, ar), blow(high, al, ar))
-    chase = smaller(chase, blow(still, al, ar))
+    stall = minimum(maximum(low, ZERO), high)
+    chase = minimum(upwind_product(low, al, ar), upwind_product(high, al, ar))
+    chase = minimum(chase, upwind_product(stall, al, ar))
     low, high = swing - reach_e, swing + reach_e
-    still = smaller(larger(low, ZERO), high)
-    evade = larger(blow(low, pl, pr), blow(high, pl, pr))
-    evade = larger(evade, blow(still, pl, pr))
-    return blow(closing, rl, rr) + chase + evade
+    stall = minimum(maximum(low, ZERO), high)
+    evade = maximum(upwind_product(low, pl, pr), upwind_product(high, pl, pr))
+    evade = maximum(evade, upwind_product(stall, pl, pr))
+    return upwind_product(closing, rl, rr) + chase + evade
 
 
 @inlined
@@ -146,10 +146,7 @@ def lax_friedrichs(
     reach_e: Any,
     slopes: tuple[Any, Any, Any, Any, Any, Any],
 ) -> Any:
-    """Hamiltonian of the mean slope, smeared by the largest speed.
-
-    Arguments and result are those of :func:`upwind`.
-    """
+    """Return the local Lax-Friedrichs Hamiltonian; see :func:`upwind`."""
     rl, rr, al, ar, pl, pr = slopes
     drift = swing - turn
     value = closing * (rl + rr) + abs(closing) * (rr - rl)

@@ -1,4 +1,4 @@
-"""Marching the value backwards in time from the distance itself."""
+"""Solver of the value, marching backwards in time from the distance."""
 
 from collections.abc import Callable, Iterator
 from enum import StrEnum
@@ -14,23 +14,23 @@ from .compiled_stage import (
     FIFTH,
     FIRST,
     StageParameters,
+    mark_active_rows,
     stage_blocks,
-    wake_neighbours,
 )
 from .numpy_stage import stage_arrays
 from .relative_game import BoundGame
 from .state_grid import PAD, Grid, Values, fill_ghosts
 from .value_table import Bound
 
-MOST_STEPS = 1_000_000  # in time: more never end
-COURANT = 0.75  # share of the largest stable step
-SMOOTH = 1e-6  # square of a slope below which WENO sees no kink
-STILL = 2e-3  # rate of the value that counts as none, in speeds
+MAX_STEPS = 1_000_000  # in time
+COURANT = 0.75  # fraction of the largest stable step
+SMOOTH = 1e-6  # square of a slope that WENO treats as smooth
+STILL = 2e-3  # rate of the value that counts as none, in evader speeds
 INNER = (slice(PAD, -PAD),) * 3
 
 
 class DiscretisationScheme(StrEnum):
-    """How the equation is discretised.
+    """Discretisation of the equation.
 
     ``WENO`` has slopes of fifth order, Godunov's flux and Runge-Kutta steps
     of third order; ``LAX`` has the local Lax-Friedrichs flux instead;
@@ -65,23 +65,23 @@ def solve_bound(
     double: bool = False,
     progress: Callable[[float], object] | None = None,
 ) -> Bound:
-    """Compute the best least distance from every relative state.
+    """Compute the value: the optimal closest approach of every state.
 
     Args:
-        game: What the players can do.
-        grid: Where the value is computed.
+        game: Speeds and turning limits of the players.
+        grid: Grid of relative states.
         horizon: Duration of the game, in [s]; :func:`default_horizon` by
-            default. What falls later shows in ``Bound.falling_mean``.
-        scheme: How the equation is discretised.
+            default. ``Bound.falling_mean`` measures the remaining decrease.
+        scheme: Discretisation of the equation.
         double: Whether to compute in double precision, half as fast.
-        progress: Called with the seconds of the game done since the last
-            call.
+        progress: Called with the duration solved since the last call, in
+            [s].
 
     Returns:
-        The value as a table.
+        Table of the value.
 
     Raises:
-        PlanError: If a value is out of its range.
+        PlanError: If a value is out of range.
     """
     horizon = default_horizon(game) if horizon is None else horizon
     check_positive(horizon, "horizon", "s")
@@ -94,7 +94,7 @@ def solve_bound(
         done = now
         if late is None and now >= 0.9 * horizon:
             late = values.copy()
-    assert values is not None and late is not None  # a step at least
+    assert values is not None and late is not None  # at least one step
     falling = np.abs(values - late)
     return Bound(
         game,
@@ -109,7 +109,7 @@ def solve_bound(
 
 
 def default_horizon(game: BoundGame) -> float:
-    """One turn at the slowest of the rates, in [s]."""
+    """Return the time of one turn at the slowest rate, in [s]."""
     return tau / game.rate
 
 
@@ -120,20 +120,20 @@ def march(
     scheme: DiscretisationScheme,
     precision: type[Any] = np.float32,
 ) -> Iterator[tuple[float, Values]]:
-    """Yield the time reached [s] and the values, step by step.
+    """Yield time [s] and values after every step.
 
-    Rows that no change can have reached are left alone. The values yielded
-    are a view that the next step overwrites; shape (a, r, psi), in [m].
+    Rows that no change can have reached are skipped. The values are a view,
+    shape (a, r, psi), in [m], that the next step overwrites.
     """
-    setting, rate = make_setting(game, grid, scheme, precision)
+    setting, rate = make_stage_parameters(game, grid, scheme, precision)
     stage = stage_blocks if load_numba() is not None else stage_arrays
     count = _count(horizon, rate)
     stable = precision(COURANT / rate)
     times = 1 if scheme.first_order else 3
     arm = 3 if setting.order == FIFTH else 1
     still = precision(STILL * game.evader_speed * float(stable))
-    moved = np.ones(grid.shape[:2], bool)
-    awake = np.empty_like(moved)
+    changed = np.ones(grid.shape[:2], bool)
+    active = np.empty_like(changed)
     v, w1, w2 = np.zeros((3, *(n + 2 * PAD for n in grid.shape)), precision)
     v[INNER] = setting.distance[:, None]
 
@@ -142,13 +142,13 @@ def march(
     ) -> None:
         fill_ghosts(now)
         stage(
-            first, now, out, precision(keep), step, last, setting, awake,
-            moved, still,
+            first, now, out, precision(keep), step, last, setting, active,
+            changed, still,
         )  # fmt: skip
 
     for n in range(1, count + 1):
         step = stable if n < count else precision(horizon - (n - 1) * stable)
-        if wake_neighbours(moved, awake, arm, times):
+        if mark_active_rows(changed, active, arm, times):
             advance(v, v, w1, 0.0, times == 1)
             if times == 3:
                 advance(v, w1, w2, 0.75, False)
@@ -163,37 +163,39 @@ def count_steps(
     horizon: float | None = None,
     scheme: DiscretisationScheme = DiscretisationScheme.WENO,
 ) -> int:
-    """How many steps in time :func:`solve_bound` takes.
+    """Return the number of time steps of :func:`solve_bound`.
 
     Raises:
-        PlanError: If it would not end, or a value is out of its range.
+        PlanError: If there are too many, or a value is out of range.
     """
     horizon = default_horizon(game) if horizon is None else horizon
     check_positive(horizon, "horizon", "s")
-    return _count(horizon, make_setting(game, grid, scheme, np.float64)[1])
+    return _count(
+        horizon, make_stage_parameters(game, grid, scheme, np.float64)[1]
+    )
 
 
 def _count(horizon: float, rate: float) -> int:
     count = max(1, ceil(horizon * rate / COURANT - 1e-6))
-    if count > MOST_STEPS:
+    if count > MAX_STEPS:
         raise PlanError(
-            f"horizon must be at most {MOST_STEPS * COURANT / rate:g} [s] for "
-            f"these speeds and rates on this grid, {MOST_STEPS} steps, or it "
-            f"does not end, got {horizon:g}"
+            f"horizon must be at most {MAX_STEPS * COURANT / rate:g} [s] for "
+            f"these speeds and rates on this grid, {MAX_STEPS} steps, "
+            f"got {horizon:g} [s]"
         )
     return count
 
 
-def make_setting(
+def make_stage_parameters(
     game: BoundGame,
     grid: Grid,
     scheme: DiscretisationScheme,
     precision: type[Any],
 ) -> tuple[StageParameters, float]:
-    """Put a game on a grid.
+    """Compute the parameters of the stages.
 
     Returns:
-        What the loops need, and one over the largest stable step, in [1/s].
+        Parameters, and one over the largest stable step, in [1/s].
     """
     a, r, psi = grid.axes()
     steps = np.array(grid.spacings)
@@ -209,7 +211,7 @@ def make_setting(
         axis=1,
     )
     ahead, across, turn, freedom = pursuer.T[:, :, None, None]
-    # Each part is convex in 1/r, so the largest rate is at an end of r.
+    # Each term is convex in 1/r, so the largest rate is at an end of r.
     swing = (across - sideways) / r[[0, -1], None]
     rate = np.abs(forward - ahead) / steps[0]
     rate = rate + (np.abs(swing - turn) + freedom) / steps[1]

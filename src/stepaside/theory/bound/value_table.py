@@ -1,4 +1,4 @@
-"""The solved game: value, barrier and strategies, in a file and at a point."""
+"""Table of a solved game: value, barrier and optimal turning rates."""
 
 from dataclasses import asdict, dataclass
 from functools import cached_property
@@ -19,27 +19,28 @@ from .state_grid import Grid, Values
 
 Array = NDArray[np.float64]
 FORMAT = 1  # of the files
-FLAT = 1e-3  # slope over a cell that says nothing, in game units a radian
+FLAT = 1e-3  # slope that counts as zero, in game units per radian
 
 
 @dataclass(frozen=True)
 class Bound:
-    r"""Best least distance over relative states, and how to reach it.
+    r"""Optimal closest approach over relative states.
 
-    Tables have the layout of :class:`.grid.Grid`, (a > 0, r, psi); the other
-    half follows by :math:`V(r, -a, -\psi) = V(r, a, \psi)`.
+    Tables have the layout of :class:`.state_grid.Grid`, (a > 0, r, psi); the
+    other half follows by :math:`V(r, -a, -\psi) = V(r, a, \psi)`.
 
     Attributes:
         game: The game that was solved.
-        grid: The grid it was solved on.
-        values: Least distance that the best evader keeps against the
-            pursuer, in [m]. Shape ``grid.shape``.
+        grid: The grid of the solution.
+        values: Closest approach of the optimal evader, in [m]. Shape
+            ``grid.shape``.
         horizon: Duration of the game, in [s].
-        scheme: How it was discretised; see :class:`.solve.Scheme`.
-        falling_mean: How far the value fell in the last tenth of the
-            horizon, in the mean, in [m].
-        falling_worst: The same at worst, in [m].
-        seconds: Time that the solution took, in [s].
+        scheme: Discretisation; see
+            :class:`.value_solver.DiscretisationScheme`.
+        falling_mean: Mean decrease of the value over the last tenth of the
+            horizon, in [m].
+        falling_worst: Largest decrease over the last tenth, in [m].
+        seconds: Computing time of the solution, in [s].
     """
 
     game: BoundGame
@@ -60,24 +61,24 @@ class Bound:
     def value(
         self, distance: ArrayLike, error: ArrayLike, bearing: ArrayLike
     ) -> Array:
-        """Best least distance, interpolated linearly.
+        """Interpolate the optimal closest approach linearly.
 
         Args:
-            distance: Distance r, in [m]. Below the grid it is returned as it
-                is; beyond, the value rises with it.
-            error: Bearing of the evader seen by the pursuer, in [rad].
-            bearing: Bearing of the pursuer seen by the evader, in [rad].
+            distance: Distance r, in [m]. Below the grid the value is the
+                distance; beyond the grid it increases with the distance.
+            error: Bearing of the evader in the pursuer's frame, in [rad].
+            bearing: Bearing of the pursuer in the evader's frame, in [rad].
 
         Returns:
-            Values of the shape that the arguments have together, in [m].
+            Values, in [m], of the broadcast shape of the arguments.
 
         Raises:
-            PlanError: If an angle lies outside of one turn either way.
+            PlanError: If an angle is outside [-2 pi, 2 pi].
         """
         return self._value(*_checked(distance, error, bearing))
 
     def _value(self, r: Array, error: Array, bearing: Array) -> Array:
-        """Value at angles that may lie beyond a turn."""
+        """Interpolate at angles that may lie beyond a turn."""
         found = self._look_up(r, error, bearing)
         beyond = np.maximum(r - self.grid.far, 0.0)
         value: Array = np.where(r < self.grid.near, r, found + beyond)
@@ -86,10 +87,13 @@ class Bound:
     def evader_turn(
         self, distance: ArrayLike, error: ArrayLike, bearing: ArrayLike
     ) -> Array:
-        """Turning rate of the best evader, in [rad/s]; see :meth:`value`.
+        """Return the optimal turning rate of the evader; see :meth:`value`.
 
-        It turns as fast as it can to where the value rises, and holds its
-        bearing on a ridge. Where turning does not matter it turns away.
+        The evader turns at its full rate towards larger values, and holds
+        its bearing on a ridge. Where the value is flat it turns away.
+
+        Returns:
+            Turning rates, in [rad/s].
         """
         r, a, psi = np.broadcast_arrays(*_checked(distance, error, bearing))
         step = self.grid.spacings[2]
@@ -105,10 +109,13 @@ class Bound:
     def pursuer_turn(
         self, distance: ArrayLike, error: ArrayLike, bearing: ArrayLike
     ) -> Array:
-        """Turning rate of the best pursuer, in [rad/s]; see :meth:`value`.
+        """Return the optimal turning rate of the pursuer; see :meth:`value`.
 
-        A pursuer that obeys a law turns by that law; any other turns to the
-        evader where turning does not matter.
+        A pursuer with a law follows that law; any other turns towards the
+        evader where the value is flat.
+
+        Returns:
+            Turning rates, in [rad/s].
         """
         r, a, psi = np.broadcast_arrays(*_checked(distance, error, bearing))
         law = self.game.pursuer_gain * _wrapped(a)
@@ -125,36 +132,35 @@ class Bound:
         return law + _steer(-before, -here, -after, swing, limit, habit, flat)
 
     def barrier(self, capture: float) -> Array:
-        """Largest distance from which the pursuer can come that close.
+        """Return the largest distance from which capture is possible.
 
         Args:
-            capture: Distance of capture, in [m].
+            capture: Capture distance, in [m].
 
         Returns:
-            For each pair of bearings the distance where the value crosses
-            the capture distance for the last time, in [m]; the capture
-            distance itself where the evader gets away from any. Shape
-            (a, psi) of the grid.
+            For each pair of bearings the largest distance at which the value
+            crosses the capture distance, in [m]; the capture distance itself
+            where the evader always escapes. Shape (a, psi) of the grid.
 
         Raises:
-            PlanError: If the capture distance lies outside of the grid.
+            PlanError: If the capture distance is outside the grid.
         """
         near, far = self.grid.near, self.grid.far
         check_within(capture, near, far, "capture", "m")
         r = self.grid.axes()[1]
-        caught = self.values < capture
-        caught[:, r < capture] = True
-        last = len(r) - 1 - caught[:, ::-1].argmax(axis=1)
+        captured = self.values < capture
+        captured[:, r < capture] = True
+        last = len(r) - 1 - captured[:, ::-1].argmax(axis=1)
         after = np.minimum(last + 1, len(r) - 1)
         low, high = (
             np.take_along_axis(self.values, n[:, None], axis=1)[:, 0]
             for n in (last, after)
         )
         rise = np.maximum(high - low, 1e-12)
-        share = np.clip((capture - low) / rise, 0.0, 1.0)
-        reach = r[last] + share * (r[after] - r[last])
-        found: Array = np.maximum(reach, capture)
-        return found
+        fraction = np.clip((capture - low) / rise, 0.0, 1.0)
+        reach = r[last] + fraction * (r[after] - r[last])
+        distances: Array = np.maximum(reach, capture)
+        return distances
 
     def save(self, path: AnyPath) -> None:
         """Write the tables and all settings to one ``.npz`` file."""
@@ -184,12 +190,12 @@ class Bound:
 
     @cached_property
     def _around(self) -> Values:
-        """Values over all bearings, one node more on every side."""
+        """Values over all bearings, with one more node on every side."""
         whole = np.concatenate([self.values[::-1, :, ::-1], self.values])
         return np.pad(whole, ((1, 1), (0, 0), (1, 1)), mode="wrap")
 
     def _swing(self, r: Array, a: Array, psi: Array) -> Array:
-        """Rate of the line of sight, in [rad/s]."""
+        """Return the turning rate of the line of sight, in [rad/s]."""
         vp, ve = self.game.pursuer_speed, self.game.evader_speed
         swing: Array = (vp * np.sin(a) - ve * np.sin(psi)) / r
         return swing
@@ -197,7 +203,7 @@ class Bound:
     def _look_up(self, distance: Array, error: Array, bearing: Array) -> Array:
         grid, (step_r, step_a, step_psi) = self.grid, self.grid.spacings
         table = self._around
-        places = (
+        indices = (
             (error + pi) % tau / step_a + 0.5,
             np.clip(
                 (distance - grid.near) / step_r,
@@ -208,26 +214,26 @@ class Bound:
         )
         found: Any = 0.0
         cells = [
-            np.minimum(place.astype(np.int64), length - 2)
-            for place, length in zip(places, table.shape, strict=True)
+            np.minimum(position.astype(np.int64), length - 2)
+            for position, length in zip(indices, table.shape, strict=True)
         ]
-        shares = [p - c for p, c in zip(places, cells, strict=True)]
+        weights = [p - c for p, c in zip(indices, cells, strict=True)]
         for corner in range(8):
             weight: Any = 1.0
             index = []
             for axis in range(3):
                 up = corner >> axis & 1
-                weight = weight * (shares[axis] if up else 1 - shares[axis])
+                weight = weight * (weights[axis] if up else 1 - weights[axis])
                 index.append(cells[axis] + up)
             found = found + weight * table[tuple(index)]
         return np.asarray(found, dtype=np.float64)
 
 
 def load_bound(path: AnyPath) -> Bound:
-    """Read what :meth:`Bound.save` wrote.
+    """Read a table written by :meth:`Bound.save`.
 
     Raises:
-        PlanError: If the file is no such table.
+        PlanError: If the file is not a valid table.
     """
     path = as_path(path, "path", PlanError)
     try:
@@ -252,13 +258,15 @@ def load_bound(path: AnyPath) -> Bound:
     ) as error:
         if isinstance(error, PlanError):
             raise
-        raise PlanError(f"{path} is no table of a bound: {error}") from error
+        raise PlanError(
+            f"{path} is not a valid table of a bound: {error}"
+        ) from error
 
 
 def _checked(
     distance: ArrayLike, error: ArrayLike, bearing: ArrayLike
 ) -> tuple[Array, Array, Array]:
-    """Distances, errors and bearings as arrays, the latter within a turn."""
+    """Return distances, errors and bearings as arrays, or raise."""
     angles = np.asarray(error, np.float64), np.asarray(bearing, np.float64)
     check_bearings(angles[0], "error")
     check_bearings(angles[1], "bearing")
@@ -266,7 +274,7 @@ def _checked(
 
 
 def _wrapped(angle: Array) -> Array:
-    """Angles in [-pi, pi), in [rad]."""
+    """Return angles wrapped to [-pi, pi), in [rad]."""
     wrapped: Array = (angle + pi) % tau - pi
     return wrapped
 
@@ -280,11 +288,12 @@ def _steer(
     habit: Array,
     flat: float,
 ) -> Array:
-    """Turn towards larger values, given those a cell before and after.
+    """Return turning rates towards larger values.
 
-    A turn to the left lowers a bearing. Near the top of a parabola through
+    The values are those at the bearing and one cell before and after it. A
+    turn to the left decreases a bearing. Near the top of a parabola through
     the three values the bearing is brought to the top and held there; where
-    they differ by less than ``flat`` the turn is ``habit``.
+    they differ by less than ``flat`` the rate is ``habit``.
     """
     slope, bend = after - before, after - 2.0 * here + before
     top = -0.5 * slope / np.minimum(bend, -1e-12)  # in cells

@@ -1,4 +1,4 @@
-"""Pursuit and evasion with unicycles (paper, Sec. II)."""
+"""Pursuit and evasion of two unicycles (paper, Sec. II)."""
 
 from .adaptive_simulation import PlayedGame, simulate
 from .all_circles import circles_of, find_circles

@@ -1,9 +1,9 @@
-"""One game by an adaptive integrator, piece by piece.
+"""Adaptive simulation of one game, smooth piece by smooth piece.
 
 The integrator is SciPy's DOP853 with dense output. The end of each smooth
-piece (see :mod:`.modes`), the capture and the closest approach are located
-on the dense output; the saturated evader that slides on zero error turns
-with the line of sight, as Filippov's rule says, so nothing chatters.
+piece (see :mod:`.smooth_pieces`), the capture and the closest approach are
+located on the dense output. A saturated evader that slides on zero error
+turns with the line of sight, by Filippov's rule, so there is no chattering.
 """
 
 from collections.abc import Callable
@@ -21,29 +21,35 @@ from ...core.poses import Pose
 from .event_location import EDGES, Event, StateView, cross, margin
 from .game_parameters import FlatParameters, rules_of
 from .relative_coordinates import RelativeStart, world_poses
-from .relative_motion import RelativeState, derivative, look, look_many
-from .smooth_pieces import Branch, Mode, SmoothPiece, enter, piece_of
+from .relative_motion import (
+    RelativeState,
+    derivative,
+    geometry_of,
+    geometry_of_arrays,
+)
+from .smooth_pieces import Branch, Mode, SmoothPiece, initial_mode, piece_of
 from .unicycle_game import Game
 
 Array = NDArray[np.float64]
 _EVENTS = (Event.CAPTURE, *EDGES)
-_PROBES = np.linspace(0.0, 1.0, 9)  # of each step, where events are looked for
-_PARTS = (0.0, *(0.5**k for k in range(1, 49)))  # of a step, tried in turn
-_SLACK = 1e-12  # how far beyond an edge counts as left
+_PROBES = np.linspace(0.0, 1.0, 9)  # fractions of a step probed for events
+# Fractions of an interval at which a positive margin is searched.
+_FRACTIONS = (0.0, *(0.5**k for k in range(1, 49)))
+_SLACK = 1e-12  # margin below which an edge has been crossed
 
 
 @dataclass(frozen=True)
 class PlayedGame:
-    """A game that was played.
+    """Simulated game with dense output.
 
     Attributes:
         game: Parameters of the game.
-        times: Knots of the integration, rising, in [s]. Shape (n + 1,).
+        times: Knots of the integration, increasing, in [s]. Shape (n + 1,).
         captured: Whether the distance fell to the capture distance.
         end_time: Time of capture or end of the game, in [s].
-        closest_distance: Least distance reached, in [m].
-        closest_time: When that was, in [s].
-        switches: Times at which a law changed its piece, in [s].
+        closest_distance: Closest approach, in [m].
+        closest_time: Time of the closest approach, in [s].
+        switches: Times of transitions between smooth pieces, in [s].
         sides: Side at the start and after each switch.
     """
 
@@ -60,52 +66,60 @@ class PlayedGame:
     _pieces: tuple[Callable[[float], Array], ...] = field(repr=False)
 
     def states(self, times: ArrayLike) -> Array:
-        """Evaluate r [m], a, psi, line of sight [rad], pursuer x, y [m].
+        """Evaluate the states.
 
         Args:
             times: Times between 0 and ``end_time``, in [s]. Shape (n,).
 
         Returns:
-            States. Shape (n, 6). The bearing psi may lie outside
+            Columns r [m], a, psi, direction of the line of sight [rad], x, y
+            of the pursuer [m]. Shape (n, 6). The bearing psi may lie outside
             [-pi, pi] by less than a turn.
         """
-        asked = np.atleast_1d(np.asarray(times, dtype=np.float64))
+        queries = np.atleast_1d(np.asarray(times, dtype=np.float64))
         last = len(self._pieces) - 1
-        index = np.searchsorted(self.times, asked, side="right") - 1
+        index = np.searchsorted(self.times, queries, side="right") - 1
         index = np.clip(index, 0, last)
-        pairs = zip(asked, index, strict=True)
+        pairs = zip(queries, index, strict=True)
         return np.array([self._pieces[i](t) for t, i in pairs])
 
     def poses(self, times: ArrayLike) -> tuple[Array, Array]:
-        """Evaluate the poses of pursuer and evader; shape (n, 3) each."""
+        """Evaluate the poses of pursuer and evader.
+
+        Args:
+            times: Times between 0 and ``end_time``, in [s]. Shape (n,).
+
+        Returns:
+            Poses (x [m], y [m], theta [rad]) in the world. Shape (n, 3) each.
+        """
         return world_poses(self.states(times))
 
 
 @dataclass
-class _Play:
-    """The piece that a game under way is on."""
+class _PiecewiseGame:
+    """Game on its current smooth piece."""
 
     rules: FlatParameters
     mode: Mode
     piece: SmoothPiece
 
     def rates(self, _: float, state: Array) -> list[float]:
-        """Rates of (r, a, psi, line of sight, x, y)."""
+        """Return the rates of (r, a, psi, line of sight, x, y)."""
         r, a, psi, sight, _x, _y = state.tolist()
         here = RelativeState(r, a, psi)
-        view = look(here, self.rules)
+        geometry = geometry_of(here, self.rules)
         heading, speed = sight - a, self.rules.pursuer_speed
         return [
-            *derivative(here, view, self.piece, self.rules),
-            view.sight,
+            *derivative(here, geometry, self.piece, self.rules),
+            geometry.sight,
             speed * cos(heading),
             speed * sin(heading),
         ]
 
     def margins(self, states: Array) -> Array:
-        """How far states are from each event, in the order of the events."""
+        """Return the margins of states to each event, in order of _EVENTS."""
         here = RelativeState(*states[:3])
-        now = StateView(here, look_many(here, self.rules))
+        now = StateView(here, geometry_of_arrays(here, self.rules))
         found = [margin(e, now, self.piece, self.rules) for e in _EVENTS]
         if self.mode.branch != Branch.SLIDING:
             found[_EVENTS.index(Event.RELEASE)] = np.full_like(here.r, np.inf)
@@ -114,7 +128,7 @@ class _Play:
     def first_event(
         self, dense: Any, begin: float, end: float
     ) -> tuple[Event, float]:
-        """First event of a step and its time, or none and the end."""
+        """Return the first event of a step and its time, or none and end."""
         from scipy.optimize import brentq
 
         probes = begin + (end - begin) * _PROBES
@@ -130,9 +144,9 @@ class _Play:
             def margin_at(time: float, e: int = e) -> float:
                 return float(self.margins(dense(time))[e])
 
-            # From an edge a game may come in first and then leave.
-            tried = (hit + (out - hit) * part for part in _PARTS)
-            inside = next((t for t in tried if margin_at(t) > 0.0), None)
+            # A game that starts on an edge may enter the piece and leave it.
+            trials = (hit + (out - hit) * part for part in _FRACTIONS)
+            inside = next((t for t in trials if margin_at(t) > 0.0), None)
             if inside is not None:
                 xtol = 1e-14 * max(1.0, end)
                 hit = brentq(margin_at, inside, out, xtol=xtol)
@@ -143,11 +157,11 @@ class _Play:
     def closest(
         self, dense: Any, begin: float, step_end: float, end: float
     ) -> tuple[float, float]:
-        """Least distance of a step until its end, and its time."""
+        """Return the closest approach of a step before end, and its time."""
         from scipy.optimize import brentq
 
         def opening(times: Any) -> Any:
-            return look_many(
+            return geometry_of_arrays(
                 RelativeState(*dense(times)[:3]), self.rules
             ).opening
 
@@ -162,7 +176,7 @@ class _Play:
         return best
 
     def switch(self, state: Array, event: Event) -> Array:
-        """Pass an edge; return the state on the other side."""
+        """Cross an edge; return the state on the next piece."""
         here = RelativeState(*state[:3].tolist())
         here, self.mode = cross(event, here, self.mode, self.rules)
         self.piece = piece_of(self.mode, self.rules)
@@ -170,8 +184,8 @@ class _Play:
 
 
 @dataclass
-class _Kept:
-    """What is kept of a game under way; see :class:`PlayedGame`."""
+class _GameRecord:
+    """Record of a running game; see :class:`PlayedGame`."""
 
     best: tuple[float, float]
     times: list[float]
@@ -180,7 +194,7 @@ class _Kept:
     pieces: list[Callable[[float], Array]] = field(default_factory=list)
 
     def run(self, game: Game, state: Array, captured: bool) -> PlayedGame:
-        """The game as it was played."""
+        """Return the finished game."""
         times, pieces = list(self.times), list(self.pieces)
         if not pieces:
             pieces.append(lambda _: state)
@@ -207,40 +221,44 @@ def simulate(
     pursuer: Pose = Pose(0.0, 0.0, 0.0),  # noqa: B008 (immutable)
     tolerance: float = 1e-11,
 ) -> PlayedGame:
-    """Play one game.
+    """Simulate one game.
 
     Args:
         game: Parameters of the game.
-        start: Relative coordinates at the start.
+        start: Initial relative coordinates.
         duration: Time after which the game ends, in [s].
-        side: Side at the start, +1 or -1; the one behind the evader if None.
+        side: Initial side, +1 or -1; the one behind the evader if None.
         capture_distance: Distance at which the game ends, in [m].
-        pursuer: Pose of the pursuer at the start.
-        tolerance: Relative error allowed to each step; the absolute one is
-            a tenth of it.
+        pursuer: Initial pose of the pursuer in the world.
+        tolerance: Relative tolerance of a step; the absolute tolerance is a
+            tenth of it.
 
     Returns:
-        The game played, with dense output.
+        The game, with dense output.
 
     Raises:
         PlanError: If a duration or distance is not finite and positive.
-        StepAsideError: If the integrator gives up.
+        StepAsideError: If the integrator fails.
     """
     check_positive(duration, "duration", "s")
     check_positive(capture_distance, "capture_distance", "m")
     rules = rules_of(game, capture_distance)
     r, a, psi = start.wrapped()
-    sight = look(RelativeState(r, a, psi), rules).sight
-    psi, mode = enter(psi, sight, side or 0, rules)
-    play = _Play(rules, mode, piece_of(mode, rules))
+    sight = geometry_of(RelativeState(r, a, psi), rules).sight
+    psi, mode = initial_mode(psi, sight, side or 0, rules)
+    play = _PiecewiseGame(rules, mode, piece_of(mode, rules))
     state = np.array([r, a, psi, pursuer.theta + a, pursuer.x, pursuer.y])
     return _integrate(play, game, state, duration, tolerance)
 
 
 def _integrate(
-    play: _Play, game: Game, state: Array, duration: float, tolerance: float
+    play: _PiecewiseGame,
+    game: Game,
+    state: Array,
+    duration: float,
+    tolerance: float,
 ) -> PlayedGame:
-    """Play a game from a state, piece by piece, until it ends."""
+    """Integrate a game from a state, piece by piece, until it ends."""
     from scipy.integrate import DOP853
 
     solve = partial(
@@ -252,7 +270,7 @@ def _integrate(
         max_step=4.0 / max(game.pursuer.gain, game.evader.gain),
     )
     time, distance = 0.0, float(state[0])
-    kept = _Kept((distance, time), [time], [play.mode.side])
+    record = _GameRecord((distance, time), [time], [play.mode.side])
     captured = distance <= play.rules.capture_distance
     steps = solve(time, state)
     while not captured and time < duration:
@@ -262,14 +280,14 @@ def _integrate(
         dense = steps.dense_output()
         event, end = play.first_event(dense, time, steps.t)
         state = steps.y if event == Event.NONE else dense(end)
-        kept.best = min(kept.best, play.closest(dense, time, steps.t, end))
+        record.best = min(record.best, play.closest(dense, time, steps.t, end))
         time = end
-        kept.times.append(time)
-        kept.pieces.append(dense)
+        record.times.append(time)
+        record.pieces.append(dense)
         captured = event == Event.CAPTURE
         if event in EDGES:
             state = play.switch(state, event)
-            kept.switches.append(time)
-            kept.sides.append(play.mode.side)
+            record.switches.append(time)
+            record.sides.append(play.mode.side)
             steps = solve(time, state)
-    return kept.run(game, state, captured)
+    return record.run(game, state, captured)

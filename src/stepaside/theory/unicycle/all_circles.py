@@ -1,30 +1,30 @@
-"""All circles of a game, the main one and the reversed."""
+"""All limit circles of a game: the main circle and the reversed ones."""
 
 from math import pi
 
 from .circle_equations import Circle, circle_of, describe_circle
-from .equilibria import GameParameters, find_rests
+from .equilibria import GameParameters, find_equilibria
 from .unicycle_game import Game, make_game, with_values
 
-_SAME = 1e-9  # relative difference of the rates of one and the same circle
+_SAME = 1e-9  # relative difference below which turning rates are equal
 
 
 def circles_of(game: Game) -> tuple[Circle, ...]:
-    r"""Find every rest of the relative motion that agrees with the side rule.
+    r"""Find all equilibria of the relative motion allowed by the side rule.
 
-    All are given for side +1 with errors in :math:`(-\pi, \pi]`; side -1 has
-    their mirror images. Under ``BEHIND`` the pursuer's bearing has to lie
-    behind its axis, by less than the hysteresis beyond it; an evader that
-    keeps its side has those circles and possibly others, which
-    ``Circle.behind`` tells apart. At angles 0 and pi both sides are one and
-    a circle and its mirror image both appear.
+    Circles are given for side +1, with errors in :math:`(-\pi, \pi]`; side
+    -1 has their mirror images. Under ``BEHIND`` side +1 must be the side
+    behind the evader, up to the hysteresis. An evader that keeps its side
+    has those circles and possibly others, which ``Circle.behind``
+    distinguishes. At angles 0 and pi both sides coincide, and a circle and
+    its mirror image both appear.
 
     Args:
         game: Parameters of the game.
 
     Returns:
-        The main circle first, if there is one, then those that turn its way
-        round, then the reversed ones, each group the slowest first.
+        The main circle first, if it exists, then those with the same sense
+        of rotation, then the reversed ones; slowest first in each group.
     """
     values = GameParameters.of(
         game.pursuer.speed,
@@ -33,14 +33,14 @@ def circles_of(game: Game) -> tuple[Circle, ...]:
         game.evader.gain,
         game.angle,
     )
-    rests = find_rests(values, saturated=game.saturated)
+    equilibria = find_equilibria(values, saturated=game.saturated)
     main = circle_of(game)
     found = [main] if main.exists else []
     rows = zip(
-        rests.turning_rate.tolist(),
-        rests.pursuer_error.tolist(),
-        rests.evader_error.tolist(),
-        rests.sliding.tolist(),
+        equilibria.turning_rate.tolist(),
+        equilibria.pursuer_error.tolist(),
+        equilibria.evader_error.tolist(),
+        equilibria.sliding.tolist(),
         strict=True,
     )
     for rate, a, b, sliding in sorted(
@@ -53,11 +53,11 @@ def circles_of(game: Game) -> tuple[Circle, ...]:
 
 
 find_circles = with_values("find_circles", make_game, circles_of)
-"""The same of the values that :func:`.laws.make_game` takes."""
+"""Variant of :func:`circles_of` with the parameters of ``make_game``."""
 
 
 def agrees(game: Game, circle: Circle) -> bool:
-    """Whether the side rule of a game leaves it on a circle."""
+    """Return whether the side rule of a game is consistent with a circle."""
     if game.keeps_side:
         return True
     slack = game.hysteresis
@@ -66,7 +66,7 @@ def agrees(game: Game, circle: Circle) -> bool:
 
 
 def _is_main(main: Circle, circle: Circle) -> bool:
-    """Whether a circle is the one that is listed first already."""
+    """Return whether a circle is the main circle."""
     if not main.exists or main.sliding != circle.sliding:
         return False
     difference = abs(main.turning_rate_rad_s - circle.turning_rate_rad_s)

@@ -1,4 +1,4 @@
-"""Which circle games end on, by playing them from random starts."""
+"""Basins of attraction of the limit circles, by random sampling."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,23 +12,23 @@ from .kernel import Outcomes, play_games
 from .unicycle_game import Game
 
 Array = NDArray[np.float64]
-NEAREST, FARTHEST = 0.3, 4.0  # of random starts, in units of the game
-_SETTLE = 8.0  # time constants of the slowest stable circle that are waited
-_LONGEST = 400.0  # at most, in units of the slower gain
+NEAREST, FARTHEST = 0.3, 4.0  # initial distances, in units of the game
+_SETTLE = 8.0  # simulated time constants of the slowest stable circle
+_LONGEST = 400.0  # longest game, in units of one over the smaller gain
 
 
 @dataclass(frozen=True, slots=True)
 class Basins:
-    """Where games from random starts ended.
+    """Final circles of games from many initial states.
 
     Attributes:
-        circles: Circles of the game, as ``circles_of`` gives them.
-        shares: Share of the starts that settled on each of them, in [1].
-        captured: Share that was captured, in [1].
-        unsettled: Share that did neither within the duration, in [1].
+        circles: Circles of the game, in the order of ``circles_of``.
+        shares: Fraction of the games that settled on each circle, in [1].
+        captured: Fraction of the games that ended by capture, in [1].
+        unsettled: Fraction with neither within the duration, in [1].
         closest_distance: Mean closest approach, in [m].
-        starts: Number of starts.
-        duration: Length of each game, in [s].
+        starts: Number of initial states.
+        duration: Duration of each game, in [s].
     """
 
     circles: tuple[Circle, ...]
@@ -48,18 +48,18 @@ def random_starts(
     nearest: float | None = None,
     farthest: float | None = None,
 ) -> Array:
-    """Draw starts with any headings.
+    """Draw initial states, uniform in distance and bearings.
 
     Args:
-        game: Its unit of distance is the evader's speed over the smaller
-            gain.
-        count: Number of starts.
-        seed: Of the random numbers.
+        game: Parameters of the game; its unit of distance is the evader's
+            speed over the smaller gain.
+        count: Number of initial states.
+        seed: Seed of the random numbers.
         nearest: Least distance, in [m]; 0.3 units if None.
         farthest: Largest distance, in [m]; 4 units if None.
 
     Returns:
-        Rows of r [m], a, psi [rad], all uniform. Shape (count, 3).
+        Rows of r [m], a, psi [rad]. Shape (count, 3).
     """
     unit = game.evader.speed / min(game.pursuer.gain, game.evader.gain)
     low = NEAREST * unit if nearest is None else nearest
@@ -77,18 +77,19 @@ def find_basins(
     duration: float | None = None,
     progress: Callable[[int], None] | None = None,
 ) -> Basins:
-    """Play a game from many starts and count what they end on.
+    """Play a game from many initial states and classify the outcomes.
 
     Args:
         game: Parameters of the game.
         starts: Rows of r [m], a, psi [rad]. Shape (n, 3).
         capture_distance: Distance at which a game ends, in [m].
-        duration: Length of each game, in [s]; if None, long enough for all
-            stable circles of the game to be reached.
-        progress: Called with numbers of games done.
+        duration: Duration of each game, in [s]; if None, long enough to
+            reach all stable circles of the game.
+        progress: Called with the number of games finished since the last
+            call.
 
     Returns:
-        The shares.
+        Fractions of the games that settled on each circle.
     """
     circles = circles_of(game)
     until_all, step = lengths_of(game)
@@ -114,18 +115,20 @@ def find_basins(
 
 
 def lengths_of(game: Game) -> tuple[float, float]:
-    """How long games are played, and their steps, in [s].
+    """Return duration and time step of games that reach stable circles.
 
-    They are long enough for all stable circles of the game to be reached.
+    Returns:
+        Duration, long enough to reach every stable circle of the game, and
+        time step, in [s].
     """
     slow = min(game.pursuer.gain, game.evader.gain)
     fast = max(game.pursuer.gain, game.evader.gain)
-    waits = [c.time_constant_s for c in circles_of(game) if c.stable]
-    wait = 40.0 / slow + _SETTLE * max(waits, default=0.0)
-    return min(wait, _LONGEST / slow), min(0.02 / slow, 0.1 / fast)
+    constants = [c.time_constant_s for c in circles_of(game) if c.stable]
+    duration = 40.0 / slow + _SETTLE * max(constants, default=0.0)
+    return min(duration, _LONGEST / slow), min(0.02 / slow, 0.1 / fast)
 
 
 def shares_of(outcomes: Outcomes, count: int) -> tuple[float, ...]:
-    """Share of games that settled on each of a number of circles."""
+    """Return the fraction of games that settled on each of the circles."""
     numbers = np.bincount(outcomes.circle + 1, minlength=count + 1)[1:]
     return tuple((numbers / len(outcomes.circle)).tolist())

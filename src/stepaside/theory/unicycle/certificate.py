@@ -1,4 +1,4 @@
-r"""A lower bound of the distance that holds for a whole game.
+r"""Certified lower bound of the distance over a whole game.
 
 Equal speeds :math:`v` and gains :math:`k`, proportional laws, side +1 (side
 -1 is the mirror image). With :math:`d = a - b`,
@@ -36,23 +36,23 @@ from .diamond import stays_unwrapped
 from .relative_coordinates import RelativeStart
 from .unicycle_game import Game
 
-_FACTOR = 0.98  # of |d| from one interval of the integration to the next
-_STOPS = 2000  # on the rim of the disc that holds the game
-_TAIL = 1e-6  # |d| below which the rest is bounded by v |d| / k, in [rad]
+_FACTOR = 0.98  # ratio of |d| at successive knots of the integration
+_STOPS = 2000  # points on the boundary of the disc that contains the game
+_TAIL = 1e-6  # |d| below which the remainder is at most v |d| / k, in [rad]
 
 
 @dataclass(frozen=True, slots=True)
 class Certificate:
-    """What is certain of a game before it is played.
+    """Certified lower bound of the distance of one game.
 
     Attributes:
-        holds: Whether a bound is proved for this start: it is positive, no
-            error wraps and no side changes. The game then ends on the
-            circle.
-        distance_m: Bound: the distance never falls below it, in [m]; None
-            where nothing is proved.
-        plain_distance_m: The bound with |c(d) - c(0)| <= v |d| only, which
-            is not above it, in [m]; None likewise.
+        holds: Whether a bound is proved for this initial state: it is
+            positive, no error wraps and no side changes. The game then
+            converges to the circle.
+        distance_m: Lower bound of the distance at all times, in [m]; None
+            if nothing is proved.
+        plain_distance_m: Weaker bound, which only uses
+            |c(d) - c(0)| <= v |d|, in [m]; None if nothing is proved.
     """
 
     holds: bool
@@ -64,16 +64,16 @@ def certify(game: Game, start: RelativeStart, *, side: int = 0) -> Certificate:
     """Bound the closest approach of a game from below.
 
     Args:
-        game: Parameters; equal speeds and gains, proportional law, and an
-            angle above zero.
-        start: Relative coordinates at the start.
-        side: Side at the start, +1 or -1; 0 for the one behind the evader.
+        game: Parameters, with equal speeds and gains, the proportional law,
+            and an angle above zero.
+        start: Initial relative coordinates.
+        side: Initial side, +1 or -1; 0 for the one behind the evader.
 
     Returns:
-        The bound, and whether it is proved for this start.
+        The bound, and whether it is proved for this initial state.
 
     Raises:
-        PlanError: If the game is not of that kind.
+        PlanError: If the parameters do not satisfy these assumptions.
     """
     if game.pursuer != game.evader or game.saturated or game.angle == 0.0:
         raise PlanError(
@@ -87,7 +87,7 @@ def certify(game: Game, start: RelativeStart, *, side: int = 0) -> Certificate:
         side = side_behind(psi)
     a, psi = side * a, side * psi
     if psi > 0.0 and not game.keeps_side:
-        return Certificate(False)  # the side changes at once
+        return Certificate(False)  # the side changes immediately
     b = evasion_heading(psi, 1, alpha)
     d, x = a - b, 0.5 * (a + b - alpha)
     spread = abs(r * exp(1j * x) - radius)
@@ -110,7 +110,7 @@ def _largest_spread(
     gain: float,
     radius: float,
 ) -> float:
-    """Upper sum of the comparison equation over the decay of ``d``."""
+    """Return an upper sum of the comparison equation over the decay of d."""
     size, sign = abs(d), 1.0 if d > 0.0 else -1.0
     while size > _TAIL:
         smaller = _FACTOR * size
@@ -126,26 +126,26 @@ def _largest_spread(
 
 
 def largest_change(alpha: float, low: float, high: float) -> float:
-    """Largest |sin((alpha + d) / 2) - sin(alpha / 2)| over an interval.
+    """Return the maximum of |sin((alpha + d) / 2) - sin(alpha / 2)|.
 
     Args:
         alpha: Evasion angle in [0, pi], in [rad].
-        low: Least d, above -2 pi, in [rad].
-        high: Largest d, below 2 pi, in [rad].
+        low: Least d of the interval, above -2 pi, in [rad].
+        high: Largest d of the interval, below 2 pi, in [rad].
     """
     # The sine has its maximum at pi - alpha and its minimum at -pi - alpha.
-    turns = [d for d in (pi - alpha, -pi - alpha) if low < d < high]
-    still = sin(0.5 * alpha)
+    extrema = [d for d in (pi - alpha, -pi - alpha) if low < d < high]
+    centre = sin(0.5 * alpha)
     return max(
-        abs(sin(0.5 * (alpha + d)) - still) for d in (low, high, *turns)
+        abs(sin(0.5 * (alpha + d)) - centre) for d in (low, high, *extrema)
     )
 
 
 def _unwrapped(game: Game, bound: float, radius: float, d: float) -> bool:
-    """Whether a bound rules out that an error wraps.
+    """Return whether a bound rules out that an error wraps.
 
-    An error reaches pi only where the line of sight turns at k pi, or where
-    it is that far out.
+    An error reaches pi only where the line of sight turns at a rate of k pi
+    or more, or where the state is far enough from the circle.
     """
     tilt = asin(min(1.0, (radius - bound) / radius))
     if tilt + 0.5 * (game.angle + abs(d)) < pi:
@@ -154,12 +154,12 @@ def _unwrapped(game: Game, bound: float, radius: float, d: float) -> bool:
 
 
 def _keeps_side(game: Game, bound: float, radius: float) -> bool:
-    """Whether a bound rules out that the side changes.
+    """Return whether a bound rules out that the side changes.
 
-    It changes only where the line of sight, which then turns at
-    v |sin 2 x| / r, outruns the evader; on every ray the nearest point of
-    the disc around r* is on its rim, which is walked with a Lipschitz bound
-    between the stops.
+    The side changes only where the line of sight, which then turns at
+    v |sin 2 x| / r, turns faster than the evader. On every ray the nearest
+    point of the disc around r* is on its boundary, which is sampled with a
+    Lipschitz bound between samples.
     """
     if game.keeps_side:
         return True

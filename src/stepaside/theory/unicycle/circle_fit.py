@@ -1,4 +1,4 @@
-"""What a played game ends on, measured on the floor."""
+"""Circles fitted to the final part of a simulated game."""
 
 from dataclasses import dataclass
 from math import pi
@@ -11,7 +11,7 @@ from .adaptive_simulation import PlayedGame
 from .all_circles import circles_of
 from .circle_equations import Circle
 from .game_batch import NEAR
-from .kernel import circle_states, circles_off
+from .kernel import circle_deviations, circle_states
 from .unicycle_game import Game
 
 Array = NDArray[np.float64]
@@ -19,12 +19,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class FittedCircle:
-    """Circle that two paths end on; the fields are those of ``Circle``.
+    """Circles fitted to two paths, with the quantities of ``Circle``.
 
     Attributes:
         radius_pursuer_m: Radius fitted to the pursuer's path, in [m].
         radius_evader_m: Radius fitted to the evader's path, in [m].
-        distance_m: Distance at the end, in [m].
+        distance_m: Final distance, in [m].
         turning_rate_rad_s: Mean turning rate of the pursuer, in [rad/s].
         headings_apart_rad: Angle between the headings, in [rad].
         motions_apart_rad: Angle between the directions of motion, in [rad].
@@ -41,7 +41,14 @@ class FittedCircle:
 
 
 def fit_circle(points: Array) -> tuple[Array, float]:
-    """Fit a circle to points of shape (n, 2): centre [m] and radius [m]."""
+    """Fit a circle to points by linear least squares.
+
+    Args:
+        points: Points (x, y), in [m]. Shape (n, 2).
+
+    Returns:
+        Centre, shape (2,), and radius, in [m].
+    """
     origin = points.mean(axis=0)
     local = points - origin
     matrix = np.column_stack([2.0 * local, np.ones(len(local))])
@@ -61,16 +68,17 @@ def circle_at(
         side: Side of the evader, +1 or -1.
 
     Returns:
-        The nearest of them, or None.
+        The nearest circle, or None.
     """
     if not circles:
         return None
-    off = circles_off(circle_states(circles), state[None], [side])[:, 0]
-    return circles[int(off.argmin())] if off.min() <= NEAR else None
+    errors = circle_deviations(circle_states(circles), state[None], [side])
+    nearest = int(errors[:, 0].argmin())
+    return circles[nearest] if errors[nearest, 0] <= NEAR else None
 
 
 def settling_time(game: Game, *, precision: float = 1e-6) -> float:
-    """Time of a game after which its last turn is a circle, in [s]."""
+    """Return the duration after which the last turn is a circle, in [s]."""
     gain = min(game.pursuer.gain, game.evader.gain)
     ends = [
         -np.log(precision) * circle.time_constant_s
@@ -87,8 +95,8 @@ def measure(run: PlayedGame, *, count: int = 361) -> FittedCircle:
     """Fit circles to the last turn of a game, or its last tenth if shorter.
 
     Args:
-        run: A game that was not captured.
-        count: Number of points of each path.
+        run: Game without capture.
+        count: Number of samples of each path.
     """
     last = run.states([run.end_time])[0, :3]
     circle = circle_at(circles_of(run.game), last, run.sides[-1])

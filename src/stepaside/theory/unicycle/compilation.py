@@ -1,8 +1,8 @@
-"""Optional compilation by Numba; without it functions stay as they are.
+"""Optional compilation by Numba; without Numba the decorators do nothing.
 
-Numba takes longer to import than all the rest. So functions that compiled
-code may call are only marked (:func:`shared`, :func:`inlined`), and Numba is
-imported where one is compiled.
+Importing Numba takes longer than importing everything else. So functions
+that compiled code may call are only registered (:func:`shared`,
+:func:`inlined`), and Numba is imported when a function is compiled.
 """
 
 from collections.abc import Callable, Iterable
@@ -21,7 +21,7 @@ _marked: list[tuple[Callable[..., Any], bool]] = []
 
 @cache
 def load_numba() -> Any:
-    """Numba, or None where the extra "fast" is not installed."""
+    """Return the module numba, or None without the extra "fast"."""
     try:
         import numba
         import numba.extending
@@ -33,14 +33,14 @@ def load_numba() -> Any:
 
 
 def forget_stale(folder: Path, sources: Iterable[Path]) -> None:
-    """Drop cached machine code of a folder that is older than any source.
+    """Delete cached machine code that is older than any source file.
 
-    Numba looks only at the file of a function, not at those of the
-    functions it calls.
+    Numba only checks the file of a function, not the files of the functions
+    that it calls.
 
     Args:
-        folder: Where the cached functions are written.
-        sources: Files that these functions, or those they call, lie in.
+        folder: Folder whose ``__pycache__`` holds the cached functions.
+        sources: Source files of these functions and of their callees.
     """
     with suppress(OSError):
         newest = max(file.stat().st_mtime for file in sources)
@@ -50,22 +50,22 @@ def forget_stale(folder: Path, sources: Iterable[Path]) -> None:
 
 
 def shared(function: F) -> F:
-    """Let compiled code call a function too, which Python calls as it is.
+    """Register a function that both compiled code and Python may call.
 
-    So one text serves numbers in compiled loops and arrays in NumPy.
+    One definition then serves numbers in compiled loops and arrays in NumPy.
     """
     _marked.append((function, False))
     return function
 
 
 def inlined(function: F) -> F:
-    """Share a function (:func:`shared`) and draw it into compiled loops."""
+    """Register a function (:func:`shared`) to be inlined in compiled code."""
     _marked.append((function, True))
     return function
 
 
 def compiled(function: F, **options: Any) -> F:
-    """Compile a function of numbers and arrays when it is first called."""
+    """Compile a function of numbers and arrays at its first call."""
     numba = load_numba()
     if numba is None:
         return function
@@ -83,6 +83,6 @@ def compiled_parallel(function: F) -> F:
 
 
 def parallel_range() -> Any:
-    """The range of a loop over cores, for :func:`compiled_parallel`."""
+    """Return the parallel range of :func:`compiled_parallel` functions."""
     numba = load_numba()
     return range if numba is None else numba.prange

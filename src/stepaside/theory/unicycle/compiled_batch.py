@@ -1,7 +1,7 @@
-"""Many games in blocks that fit the cache, several per instruction.
+"""Compiled simulation of many games, in blocks that fit the cache.
 
-The loop over the games of a block has no branch, so that the compiler turns
-it into vector instructions; sines come from polynomials for the same reason.
+The loop over the games of a block has no branches, so that the compiler
+vectorises it; sines are polynomials for the same reason.
 """
 
 from typing import Any
@@ -10,14 +10,14 @@ from .compilation import compiled, compiled_parallel, inlined, parallel_range
 from .event_location import event_located_step
 from .game_batch import (
     BatchTiming,
-    before_step,
-    compare_games,
-    settle_games,
+    compare_with_circle,
+    state_before_step,
     step_games,
-    take_over,
+    store_located_step,
+    update_settling_times,
 )
 from .game_parameters import FlatParameters
-from .relative_motion import RelativeState, SightGeometry, view_of
+from .relative_motion import RelativeState, SightGeometry, geometry_from_sines
 
 SIZE = 128  # games in a block
 prange = parallel_range()
@@ -27,13 +27,13 @@ _ROUND = 6755399441055744.0  # 1.5 * 2**52: adding it rounds to an integer
 
 @inlined
 def sine_cosine(x: float) -> tuple[float, float]:
-    """Sine and cosine to 2e-16 for moderate angles, without a branch."""
+    """Return sine and cosine to 2e-16 for moderate angles, branch-free."""
     q = (x * 0.3183098861837907 + _ROUND) - _ROUND
     y = (x - q * 3.141592653589793) - q * 1.2246467991473532e-16
     half = q - 2.0 * ((q * 0.5 + _ROUND) - _ROUND)
     sign = 1.0 - 2.0 * half * half
     z = y * y
-    # Estrin's scheme: short chains keep the vector units busy.
+    # Estrin's scheme: short dependency chains use the vector units better.
     z2 = z * z
     z4 = z2 * z2
     z8 = z4 * z4
@@ -52,7 +52,7 @@ def sine_cosine(x: float) -> tuple[float, float]:
 
 @inlined
 def turn(s: float, c: float, x: float) -> tuple[float, float]:
-    """Turn a sine and a cosine by a small angle, within a step."""
+    """Update a sine and a cosine by a small angle, within a step."""
     z = x * x
     sx = 8.333333333333333e-03 - z * 1.984126984126984e-04
     sx = -1.6666666666666666e-01 + z * (sx + z * z * 2.7557319223985893e-06)
@@ -63,47 +63,49 @@ def turn(s: float, c: float, x: float) -> tuple[float, float]:
 
 
 @inlined
-def look(state: RelativeState, rules: FlatParameters) -> SightGeometry:
-    """View of a state, without a branch."""
+def geometry_of(state: RelativeState, rules: FlatParameters) -> SightGeometry:
+    """Return the geometry of a state, branch-free."""
     sin_a, cos_a = sine_cosine(state.a)
     sin_psi, cos_psi = sine_cosine(state.psi)
-    return view_of(state.r, sin_a, cos_a, sin_psi, cos_psi, rules)
+    return geometry_from_sines(state.r, sin_a, cos_a, sin_psi, cos_psi, rules)
 
 
 @inlined
-def look_near(
+def nearby_geometry(
     state: RelativeState,
     near: RelativeState,
-    view: SightGeometry,
+    geometry: SightGeometry,
     rules: FlatParameters,
 ) -> SightGeometry:
-    """View of a state within a step of another."""
-    sin_a, cos_a = turn(view.sin_a, view.cos_a, state.a - near.a)
-    sin_psi, cos_psi = turn(view.sin_psi, view.cos_psi, state.psi - near.psi)
-    return view_of(state.r, sin_a, cos_a, sin_psi, cos_psi, rules)
+    """Return the geometry of a state within a step of another state."""
+    sin_a, cos_a = turn(geometry.sin_a, geometry.cos_a, state.a - near.a)
+    sin_psi, cos_psi = turn(
+        geometry.sin_psi, geometry.cos_psi, state.psi - near.psi
+    )
+    return geometry_from_sines(state.r, sin_a, cos_a, sin_psi, cos_psi, rules)
 
 
 @compiled
 def step_block(
     block: Any, circles: Any, begin: float, end: float, rules: FlatParameters
 ) -> None:
-    """Do one step of every game of a block."""
+    """Advance every game of a block by one step."""
     flagged = 0
     for i in range(SIZE):
-        care = step_games(look_near, look, block, i, rules)
-        flagged += 1 if care else 0
+        has_event = step_games(nearby_geometry, geometry_of, block, i, rules)
+        flagged += 1 if has_event else 0
     for c in range(len(circles)):
         circle = RelativeState(circles[c, 0], circles[c, 1], circles[c, 2])
         for i in range(SIZE):
-            compare_games(block, i, circle)
+            compare_with_circle(block, i, circle)
     for i in range(SIZE):
-        settle_games(block, i, end)
+        update_settling_times(block, i, end)
     if flagged > 0:
         for i in range(SIZE):
-            if block.care[i] > 0.0:
-                state, mode = before_step(block, i)
+            if block.flagged[i] > 0.0:
+                state, mode = state_before_step(block, i)
                 done = locate(state, mode, block.step[i], rules)
-                take_over(look, block, i, begin, done, rules)
+                store_located_step(geometry_of, block, i, begin, done, rules)
 
 
 @compiled_parallel
@@ -113,9 +115,9 @@ def play_blocks(
     """Play all games to the end, blocks in parallel.
 
     Args:
-        blocks: See :func:`.batch.block_type`. Shape (n,).
+        blocks: See :func:`.game_batch.block_type`. Shape (n,).
         circles: Rows of r [m], a, psi [rad] at side +1. Shape (m, 3).
-        clock: Number of steps, and their length.
+        clock: Number of steps and step size.
         rules: Rules of the game.
     """
     for number in prange(len(blocks)):

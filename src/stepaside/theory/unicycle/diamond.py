@@ -1,8 +1,8 @@
-r"""Starts from which equal players never meet, at whatever distance.
+r"""Initial states from which equal players never meet, at any distance.
 
 Equal speeds and gains, proportional laws. No game leaves the diamond
-:math:`|a| + |\psi| < \pi`, whichever side the evader takes and however often
-it changes, as long as its error does not wrap: with
+:math:`|a| + |\psi| < \pi`, for any sequence of sides, as long as the
+evader's error does not wrap: with
 :math:`x = (a + \psi) / 2` and :math:`e = a - \psi`,
 
 .. math::
@@ -22,18 +22,20 @@ from .unicycle_game import Game
 
 
 def stays_unwrapped(game: Game, pursuer_error: float, bearing: float) -> bool:
-    """Whether no error of a game between equal players ever wraps.
+    """Return whether no error of a game between equal players ever wraps.
 
     Args:
-        game: Parameters; equal speeds and gains, proportional law.
-        pursuer_error: Seen at side +1, in [-pi, pi], in [rad].
-        bearing: Seen at side +1, in [-pi, pi], in [rad].
+        game: Parameters, with equal speeds and gains, proportional law.
+        pursuer_error: Pursuer's error, mirrored to side +1, in [-pi, pi], in
+            [rad].
+        bearing: Bearing of the pursuer, mirrored to side +1, in [-pi, pi],
+            in [rad].
 
     Returns:
-        True where it is proved: inside the diamond, with an evader behind
-        whose back the side is (its error is then never above the angle), or
-        one that keeps its side at an angle of pi / 2 at most and whose
-        error is not beyond pi at the start.
+        True where it is proved: inside the diamond, for an evader with the
+        side rule "behind" (its error never exceeds the angle), or for one
+        that keeps its side at an angle of at most pi / 2 and whose initial
+        error is below pi.
     """
     if not abs(pursuer_error) + abs(bearing) < pi:
         return False
@@ -43,19 +45,20 @@ def stays_unwrapped(game: Game, pursuer_error: float, bearing: float) -> bool:
 
 
 def least_distance(game: Game, start: RelativeStart, time: float) -> float:
-    """Lower bound of the distance at a time; it is above zero.
+    """Return a positive lower bound of the distance at a time.
 
     Args:
-        game: Parameters; equal speeds and gains, proportional law, an angle
-            inside (0, pi), and at most pi / 2 where the side is kept.
-        start: Inside the diamond; a kept side is the one behind there.
-        time: Since the start, in [s].
+        game: Parameters, with equal speeds and gains, proportional law, an
+            angle inside (0, pi), and at most pi / 2 if the side is kept.
+        start: Initial state inside the diamond; a kept side is the one
+            behind at that state.
+        time: Time since the start, in [s].
 
     Returns:
         r(0) cos((a + psi) / 2) exp(-k t), in [m].
 
     Raises:
-        PlanError: If the game or the start is not of that kind.
+        PlanError: If game or initial state do not satisfy these assumptions.
     """
     _, a, psi = start.wrapped()
     equal = game.pursuer == game.evader and not game.saturated

@@ -1,14 +1,14 @@
-r"""Every rest of the relative motion, for many games at once.
+r"""Equilibria of the relative motion, for many games at once.
 
-In relative coordinates a circle is a rest: :math:`v_e \cos\psi = v_p \cos a`
-and both players turn with the line of sight, :math:`\omega = k_p a =
-\Omega = \omega_e`. All errors are wrapped to (-pi, pi], all quantities are
-those of side +1; side -1 is the mirror image. The evader keeps its side
-here: which of the circles lie behind the evader is for the reader to ask.
+In relative coordinates a circle is an equilibrium:
+:math:`v_e \cos\psi = v_p \cos a`, and both players turn with the line of
+sight, :math:`\omega = k_p a = \Omega = \omega_e`. All errors are wrapped to
+(-pi, pi]; all quantities are those of side +1, and side -1 is the mirror
+image. The evader keeps its side here; the side rule is applied elsewhere
+(:mod:`.all_circles`).
 
-Where a law jumps and drives the motion away on both sides (the errors at
-:math:`\pm\pi`, the change of side) nothing rests for longer than an
-instant; such places are no circles.
+Discontinuities that repel the motion on both sides (the errors at
+:math:`\pm\pi`, the change of side) are not equilibria.
 """
 
 from collections.abc import Callable
@@ -26,19 +26,20 @@ Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 Function = Callable[["GameParameters", Array], Array]
 Found = tuple[Indices, Array, Array, Flags]  # game, rate, b, sliding
-_PIECES = 96  # of the range of turning rates, where roots are looked for
-_HALVINGS = 64  # of a bracket: down to rounding
-_TOUCH = 1e-12  # m/s per m/s: below it the two stand on one spot
+_PIECES = 96  # intervals of the turning rate that are searched for roots
+_HALVINGS = 64  # of a bracket, down to rounding
+_COINCIDENT = 1e-12  # speed ratio below which the distance is zero
 
 
 class GameParameters(NamedTuple):
-    """Parameters of many games; arrays of one shape.
+    """Parameters of many games, as arrays of one shape.
 
     Attributes:
-        pursuer_speed: In [m/s].
-        evader_speed: In [m/s].
-        pursuer_gain: In [1/s].
-        evader_gain: In [1/s]; saturated, the turning rate in [rad/s].
+        pursuer_speed: Speed of the pursuer, in [m/s].
+        evader_speed: Speed of the evader, in [m/s].
+        pursuer_gain: Gain of the pursuer, in [1/s].
+        evader_gain: Gain of the evader, in [1/s]; saturated, its turning
+            rate, in [rad/s].
         angle: Evasion angle in [0, pi], in [rad].
     """
 
@@ -50,25 +51,25 @@ class GameParameters(NamedTuple):
 
     @classmethod
     def of(cls, *values: ArrayLike) -> "GameParameters":
-        """Games of values that broadcast to shape (n,)."""
+        """Broadcast values to games of shape (n,)."""
         arrays = [np.atleast_1d(np.asarray(v, np.float64)) for v in values]
         return cls(*np.broadcast_arrays(*arrays))
 
     def pick(self, index: Any) -> "GameParameters":
-        """Some of the games, or a view with another shape."""
+        """Return indexed games, or a view with another shape."""
         return GameParameters(*(values[index] for values in self))
 
 
 @dataclass(frozen=True, slots=True)
 class Equilibria:
-    """Rests of many games, in no order; every array has shape (n,).
+    """Equilibria of many games, unordered; every array has shape (n,).
 
     Attributes:
-        game: Which game it belongs to.
+        game: Index of the game.
         turning_rate: Common turning rate, signed, in [rad/s].
-        pursuer_error: In (-pi, pi], in [rad].
-        evader_error: In (-pi, pi], in [rad].
-        distance: In [m].
+        pursuer_error: Error of the pursuer, in (-pi, pi], in [rad].
+        evader_error: Error of the evader, in (-pi, pi], in [rad].
+        distance: Distance, in [m].
         sliding: Whether the saturated evader slides on zero error.
     """
 
@@ -80,23 +81,23 @@ class Equilibria:
     sliding: Flags
 
 
-def find_rests(games: GameParameters, *, saturated: bool) -> Equilibria:
-    """Find every circle of games whose evader keeps its side.
+def find_equilibria(games: GameParameters, *, saturated: bool) -> Equilibria:
+    """Find all equilibria of games whose evader keeps its side.
 
     Args:
-        games: The games, of shape (n,).
+        games: Parameters of the games, of shape (n,).
         saturated: Whether the evader turns by (6) rather than by (4).
 
     Returns:
-        The rests with a positive distance.
+        Equilibria with a positive distance.
     """
     found = _saturated(games) if saturated else _proportional(games)
     index, rate, b, sliding = found
     vp, ve, kp, _, alpha = games.pick(index)
     a = rate / kp
     across = vp * np.sin(a) - ve * np.sin(b - alpha)
-    apart = np.abs(across) > _TOUCH * np.maximum(vp, ve)
-    keep = apart & (across * rate > 0.0) & (a > -pi) & (a <= pi)
+    distant = np.abs(across) > _COINCIDENT * np.maximum(vp, ve)
+    keep = distant & (across * rate > 0.0) & (a > -pi) & (a <= pi)
     keep &= (b > -pi) & (b <= pi)
     distance = across[keep] / rate[keep]
     return Equilibria(
@@ -105,9 +106,9 @@ def find_rests(games: GameParameters, *, saturated: bool) -> Equilibria:
 
 
 def imbalance(games: GameParameters, rate: Array) -> Array:
-    """Rate of the distance at given turning rates under (4), in [m/s].
+    """Return the rate of the distance at turning rates under (4), in [m/s].
 
-    Written so that nothing cancels when the speeds are equal.
+    The form avoids cancellation for equal speeds.
     """
     vp, ve, kp, ke, alpha = games
     a, u = rate / kp, alpha - rate / ke
@@ -117,7 +118,7 @@ def imbalance(games: GameParameters, rate: Array) -> Array:
 
 
 def _slope(games: GameParameters, rate: Array) -> Array:
-    """Derivative of the imbalance by the turning rate, in [m]."""
+    """Return the derivative of the imbalance by the turning rate, in [m]."""
     vp, ve, kp, ke, alpha = games
     evader = ve / ke * np.sin(alpha - rate / ke)
     found: Array = evader + vp / kp * np.sin(rate / kp)
@@ -125,11 +126,11 @@ def _slope(games: GameParameters, rate: Array) -> Array:
 
 
 def _proportional(games: GameParameters) -> Found:
-    """Roots of the balance over all rates that the errors allow.
+    """Find the roots of the imbalance over all rates that errors allow.
 
-    It is a sum of two sinusoids, and the range holds one period of the
-    faster one, so pieces are short against what it can do between two
-    knots: cross zero once, or turn back before or behind it.
+    The imbalance is a sum of two sinusoids, and the range holds one period
+    of the faster one. So the intervals are short: between two knots it
+    crosses zero at most once, or has one extremum with two or no roots.
     """
     top = pi * np.minimum(games.pursuer_gain, games.evader_gain)
     knots = np.linspace(-1.0, 1.0, _PIECES + 1)[:, None] * top
@@ -162,7 +163,7 @@ def _bisect(
     low: Array,
     high: Array,
 ) -> Array:
-    """Halve brackets with a sign change until they are at rounding."""
+    """Bisect brackets with a sign change down to rounding."""
     rising = function(games, high) > 0.0
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
@@ -173,15 +174,15 @@ def _bisect(
 
 
 def _saturated(games: GameParameters) -> Found:
-    """Rests under (6): at full rate either way round, or sliding.
+    """Find equilibria under (6): at full rate in either sense, or sliding.
 
-    Where the two meet, the rest counts as one at full rate.
+    Where both coincide, the equilibrium counts as one at full rate.
     """
     vp, ve, kp, ke, alpha = games
     count = len(vp)
     rates, errors, slides = [], [], []
     with np.errstate(invalid="ignore"):
-        bearing = np.arccos(vp / ve * np.cos(ke / kp))  # NaN: none
+        bearing = np.arccos(vp / ve * np.cos(ke / kp))  # NaN if none
         slid = np.arccos(ve / vp * np.cos(alpha))
     for way in (1.0, -1.0):
         for sign in (-1.0, 1.0):
@@ -203,27 +204,31 @@ def _saturated(games: GameParameters) -> Found:
 
 
 def growth_rates(
-    rests: Equilibria, games: GameParameters, *, saturated: bool
+    equilibria: Equilibria, games: GameParameters, *, saturated: bool
 ) -> Array:
-    """Largest real part of the eigenvalues about each rest, in [1/s].
+    """Return the largest real part of the eigenvalues of each equilibrium.
 
     Args:
-        rests: Rests of the games.
-        games: The games.
+        equilibria: Equilibria of the games.
+        games: Parameters of the games.
         saturated: Whether the evader turns by (6) rather than by (4).
 
     Returns:
-        Rates, of the sliding motion where the evader slides; negative where
-        the circle is stable. Shape (m,) for m rests.
+        Rates, in [1/s], of the sliding motion where the evader slides;
+        negative where the circle is stable. Shape (m,) for m equilibria.
     """
-    vp, ve, kp, ke, alpha = games.pick(rests.game)
-    a, psi = rests.pursuer_error, rests.evader_error - alpha
+    vp, ve, kp, ke, alpha = games.pick(equilibria.game)
+    a, psi = equilibria.pursuer_error, equilibria.evader_error - alpha
     loops = loop_matrices(
-        (vp, ve), (kp, 0.0 * ke if saturated else ke), rests.distance, a, psi
+        (vp, ve),
+        (kp, 0.0 * ke if saturated else ke),
+        equilibria.distance,
+        a,
+        psi,
     )
     found = np.empty(len(a))
     for slides, size in ((False, 3), (True, 2)):
-        some = rests.sliding == slides
+        some = equilibria.sliding == slides
         values = np.linalg.eigvals(loops[some, :size, :size])
         found[some] = values.real.max(axis=-1)
     return found

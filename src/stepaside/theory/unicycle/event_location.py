@@ -1,8 +1,9 @@
-"""One step of one game past edges, closest approach and capture.
+"""Location of events within one step of one game.
 
-A step that meets an edge of its smooth piece (:mod:`.modes`), that holds the
-closest approach or the capture, or that is long against the distance is cut
-there, and each part is one step of :func:`.motion.rk4`.
+A step that crosses an edge of its smooth piece (:mod:`.smooth_pieces`), that
+contains the closest approach or the capture, or that is long relative to the
+distance is divided there; each part is one step of
+:func:`.relative_motion.rk4`.
 """
 
 from enum import IntEnum
@@ -11,15 +12,21 @@ from typing import Any, NamedTuple
 
 from .compilation import inlined, shared
 from .game_parameters import FlatParameters
-from .relative_motion import RelativeState, SightGeometry, look, look_anew, rk4
-from .smooth_pieces import Branch, Edge, Mode, SmoothPiece, leave, piece_of
+from .relative_motion import (
+    RelativeState,
+    SightGeometry,
+    geometry_of,
+    recomputed_geometry,
+    rk4,
+)
+from .smooth_pieces import Branch, Edge, Mode, SmoothPiece, next_mode, piece_of
 
 TURN_PER_STEP = 0.04  # longest step, in distances per sum of the speeds
-_SLACK = 1e-12  # how far beyond an edge counts as left
+_SLACK = 1e-12  # margin below which an edge has been crossed
 
 
 class Event(IntEnum):
-    """What a step may be cut at."""
+    """Events at which a step is divided."""
 
     NONE = -1
     WRAP = 0  # the pursuer's error passes pi
@@ -35,21 +42,22 @@ EDGES = (Event.WRAP, Event.LOW, Event.HIGH, Event.RELEASE)
 
 
 class StateView(NamedTuple):
-    """A state and its view."""
+    """State with its geometry."""
 
     state: RelativeState
-    seen: SightGeometry
+    geometry: SightGeometry
 
 
 class LocatedStep(NamedTuple):
-    """A game after one step.
+    """State of a game after one step, with the events of the step.
 
     Attributes:
         state: State at the end, or at the capture.
-        mode: Mode then.
-        closest: Least distance within the step, in [m].
-        closest_time: When that was, from the start of the step, in [s].
-        capture_time: When the capture was, likewise; -1 for none.
+        mode: Mode at that time.
+        closest: Closest approach within the step, in [m].
+        closest_time: Its time since the begin of the step, in [s].
+        capture_time: Time of the capture since the begin of the step, in
+            [s]; -1 for none.
     """
 
     state: RelativeState
@@ -63,7 +71,7 @@ class LocatedStep(NamedTuple):
 def margin(
     event: Event, now: StateView, piece: SmoothPiece, rules: FlatParameters
 ) -> Any:
-    """How far a state, or many, are from an event; zero there."""
+    """Return the margin of one or many states to an event; zero there."""
     if event == Event.WRAP:
         return pi - abs(now.state.a)
     if event == Event.LOW:
@@ -73,17 +81,19 @@ def margin(
     if event == Event.CAPTURE:
         return now.state.r - rules.capture_distance
     if event == Event.RELEASE:
-        return rules.evader_gain - abs(now.seen.sight)
-    return -now.seen.opening
+        return rules.evader_gain - abs(now.geometry.sight)
+    return -now.geometry.opening
 
 
 @inlined
 def advance(
     now: StateView, time: float, piece: SmoothPiece, rules: FlatParameters
 ) -> StateView:
-    """Advance on a piece by one step, with exact sines."""
-    state = rk4(look_anew, now.state, now.seen, time, piece, rules)
-    return StateView(state, look(state, rules))
+    """Advance on a smooth piece by one step, with exact sines."""
+    state = rk4(
+        recomputed_geometry, now.state, now.geometry, time, piece, rules
+    )
+    return StateView(state, geometry_of(state, rules))
 
 
 @shared
@@ -94,10 +104,10 @@ def time_of(
     piece: SmoothPiece,
     rules: FlatParameters,
 ) -> float:
-    """Part of a step until an event's margin falls to zero, in [s].
+    """Return the time within a step at which a margin reaches zero, in [s].
 
-    By false position, where the value at an end that stays twice is halved
-    (Illinois). From an edge a game may come in first and then leave.
+    The root is found by the Illinois variant of false position. A game that
+    starts on an edge may first enter the piece and then leave it.
     """
     short, long = 0.0, step
     above: float = margin(event, now, piece, rules)
@@ -111,7 +121,7 @@ def time_of(
     below: float = margin(
         event, advance(now, long, piece, rules), piece, rules
     )
-    moved = 0  # which end was moved last
+    moved = 0  # the end that was moved last
     for _ in range(60):
         middle = (short * below - long * above) / (below - above)
         if not short < middle < long:
@@ -138,7 +148,7 @@ def first_edge(
     piece: SmoothPiece,
     rules: FlatParameters,
 ) -> tuple[Event, float, StateView]:
-    """The first end of a piece within a step, its time, and what is then."""
+    """Return the first edge crossed in a step, its time and its state."""
     edge, part = Event.NONE, step
     then = advance(now, part, piece, rules)
     for event in EDGES:
@@ -158,8 +168,8 @@ def nearest(
     piece: SmoothPiece,
     rules: FlatParameters,
 ) -> tuple[float, float]:
-    """Least distance of a step, but for its start, and its time."""
-    if not now.seen.opening < 0.0 < then.seen.opening:
+    """Return the closest approach after the begin of a step, and its time."""
+    if not now.geometry.opening < 0.0 < then.geometry.opening:
         return then.state.r, step
     time = time_of(Event.CLOSEST, now, step, piece, rules)
     return advance(now, time, piece, rules).state.r, time
@@ -169,14 +179,16 @@ def nearest(
 def cross(
     event: Event, state: RelativeState, mode: Mode, rules: FlatParameters
 ) -> tuple[RelativeState, Mode]:
-    """Pass an edge: state and mode on its other side."""
+    """Return state and mode on the other side of an edge."""
     r, a, psi = state
     if event == Event.WRAP:
         return RelativeState(
             r, a - 2.0 * pi if a > 0.0 else a + 2.0 * pi, psi
         ), mode
     edge = Edge.LOW if event == Event.LOW else Edge.HIGH
-    psi, mode = leave(psi, look(state, rules).sight, mode, edge, rules)
+    psi, mode = next_mode(
+        psi, geometry_of(state, rules).sight, mode, edge, rules
+    )
     return RelativeState(r, a, psi), mode
 
 
@@ -184,11 +196,18 @@ def cross(
 def event_located_step(
     state: RelativeState, mode: Mode, step: float, rules: FlatParameters
 ) -> LocatedStep:
-    """Advance a game by one step, however many pieces it takes."""
+    """Advance a game by one step, across any number of smooth pieces.
+
+    Args:
+        state: State at the begin of the step.
+        mode: Mode at the begin of the step.
+        step: Step size, in [s].
+        rules: Rules of the game.
+    """
     done = 0.0
     best, best_time = state.r, 0.0
     speeds = rules.pursuer_speed + rules.evader_speed
-    now = StateView(state, look(state, rules))
+    now = StateView(state, geometry_of(state, rules))
     while done < step:
         piece = piece_of(mode, rules)
         reach = min(step - done, TURN_PER_STEP * now.state.r / speeds)
@@ -205,6 +224,6 @@ def event_located_step(
         done = step if last else done + part
         if edge != Event.NONE:
             state, mode = cross(edge, then.state, mode, rules)
-            then = StateView(state, look(state, rules))
+            then = StateView(state, geometry_of(state, rules))
         now = then
     return LocatedStep(now.state, mode, best, best_time, -1.0)

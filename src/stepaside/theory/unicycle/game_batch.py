@@ -1,10 +1,10 @@
-"""Many games side by side: how they lie in memory, and what plays them.
+"""Data layout and time step of many games.
 
-A block holds some games, quantity after quantity. What is done to every game
-at every step has no branch, so that one text serves one game of a compiled
-loop (``i`` a number) and all games of a block in NumPy (``i`` a slice). The
-few games that need care in a step are flagged and done one by one by
-:func:`.event_located.event_located_step`.
+A block is a structure of arrays over some games. Operations on every game at
+every step have no branches, so that one definition serves one game of a
+compiled loop (``i`` is an index) and all games of a block in NumPy (``i`` is
+a slice). The few games with an event in a step are flagged and repeated one
+by one by :func:`.event_location.event_located_step`.
 """
 
 from math import pi
@@ -16,31 +16,37 @@ from numpy.typing import NDArray
 from .compilation import inlined
 from .event_location import TURN_PER_STEP, LocatedStep
 from .game_parameters import FlatParameters
-from .relative_motion import Look, LookNear, RelativeState, SightGeometry, rk4
-from .smooth_pieces import Mode, SmoothPiece, branch_at, piece_of
+from .relative_motion import (
+    GeometryFunction,
+    NearbyGeometry,
+    RelativeState,
+    SightGeometry,
+    rk4,
+)
+from .smooth_pieces import Mode, SmoothPiece, branch_from_code, piece_of
 
 Array = NDArray[np.float64]
-NEAR = 0.02  # off a circle by less than 2 % and 0.02 rad is "on it"
-LOOSE = 2.0 * TURN_PER_STEP  # a step longer than this is done with care
+NEAR = 0.02  # tolerance of being on a circle: 2 % and 0.02 rad
+LONG_STEP = 2.0 * TURN_PER_STEP  # steps above this are divided
 QUANTITIES = (
     *RelativeState._fields,
     *SightGeometry._fields,
     *("was_r", "was_a", "was_psi"),  # before the last step
     *SmoothPiece._fields,
-    "step",  # its length, in [s]; 0 once the game is over
-    "care",  # whether it is to be done again with care
+    "step",  # step size, in [s]; 0 once the game is over
+    "flagged",  # whether the step has to be repeated with event location
     "side",
-    "apart",  # whether the game is under way and off all circles
+    "apart",  # whether the game is running and off all circles
     *("settled", "closest", "closest_time", "capture_time"),
 )
 
 
 class BatchTiming(NamedTuple):
-    """How long games are played.
+    """Duration of games.
 
     Attributes:
         steps: Number of steps.
-        step: Length of each, in [s].
+        step: Step size, in [s].
     """
 
     steps: int
@@ -48,13 +54,13 @@ class BatchTiming(NamedTuple):
 
 
 def block_type(size: int) -> np.dtype[Any]:
-    """Layout of a block of so many games."""
+    """Return the data type of a block of ``size`` games."""
     fields = [(name, np.float64, (size,)) for name in QUANTITIES]
     return np.dtype([*fields, ("branch", np.int64, (size,))])
 
 
 @inlined
-def needs_care(
+def needs_location(
     state: RelativeState,
     after: RelativeState,
     was: SightGeometry,
@@ -63,37 +69,38 @@ def needs_care(
     step: Any,
     rules: FlatParameters,
 ) -> Any:
-    """Whether a step holds an event, or is long against the distance."""
+    """Return whether a step has an event, or is long for the distance."""
     turned = (was.opening < 0.0) & (now.opening >= 0.0)
-    caught = after.r <= rules.capture_distance
+    captured = after.r <= rules.capture_distance
     wrapped = abs(after.a) > pi
     left = (after.psi < piece.low) | (after.psi > piece.high)
     released = (1.0 - piece.free) * abs(now.sight) > rules.evader_gain
     speeds = rules.pursuer_speed + rules.evader_speed
-    far = speeds * step > LOOSE * state.r
-    return (turned | caught | wrapped | left | released | far) & (step > 0.0)
+    far = speeds * step > LONG_STEP * state.r
+    event = turned | captured | wrapped | left | released | far
+    return event & (step > 0.0)
 
 
 @inlined
-def put_state(
-    block: Any, i: Any, state: RelativeState, view: SightGeometry
+def store_state(
+    block: Any, i: Any, state: RelativeState, geometry: SightGeometry
 ) -> None:
-    """Write states of games, and their views, into a block."""
+    """Write states of games, and their geometry, into a block."""
     block.r[i], block.a[i], block.psi[i] = state
-    block.sin_a[i], block.cos_a[i] = view.sin_a, view.cos_a
-    block.sin_psi[i], block.cos_psi[i] = view.sin_psi, view.cos_psi
-    block.opening[i], block.sight[i] = view.opening, view.sight
+    block.sin_a[i], block.cos_a[i] = geometry.sin_a, geometry.cos_a
+    block.sin_psi[i], block.cos_psi[i] = geometry.sin_psi, geometry.cos_psi
+    block.opening[i], block.sight[i] = geometry.opening, geometry.sight
 
 
 @inlined
 def step_games(
-    look_near: LookNear,
-    look: Look,
+    nearby_geometry: NearbyGeometry,
+    geometry_of: GeometryFunction,
     block: Any,
     i: Any,
     rules: FlatParameters,
 ) -> Any:
-    """Do one step of some games of a block; tell which need care."""
+    """Advance games of a block by one step; return which have events."""
     state = RelativeState(block.r[i], block.a[i], block.psi[i])
     was = SightGeometry(
         block.sin_a[i],
@@ -111,21 +118,21 @@ def step_games(
         block.free[i],
     )
     step = block.step[i]
-    after = rk4(look_near, state, was, step, piece, rules)
-    now = look(after, rules)
-    care = needs_care(state, after, was, now, piece, step, rules)
+    after = rk4(nearby_geometry, state, was, step, piece, rules)
+    now = geometry_of(after, rules)
+    flagged = needs_location(state, after, was, now, piece, step, rules)
     block.was_r[i], block.was_a[i], block.was_psi[i] = state
-    put_state(block, i, after, now)
-    block.care[i] = care
+    store_state(block, i, after, now)
+    block.flagged[i] = flagged
     block.apart[i] = step > 0.0
-    return care
+    return flagged
 
 
 @inlined
 def deviations(
     state: RelativeState, side: Any, circle: RelativeState
 ) -> RelativeState:
-    """How far states are off a circle.
+    """Return the absolute deviations of states from a circle.
 
     Args:
         state: States of games.
@@ -133,8 +140,7 @@ def deviations(
         circle: State on the circle at side +1.
 
     Returns:
-        Deviations of r, as a share of the circle's, and of a, psi, in
-        [rad]; none is negative.
+        Deviations of r, relative to the circle's, and of a, psi, in [rad].
     """
     return RelativeState(
         abs(state.r * (1.0 / circle.r) - 1.0),
@@ -144,8 +150,8 @@ def deviations(
 
 
 @inlined
-def compare_games(block: Any, i: Any, circle: RelativeState) -> None:
-    """Tell games of a block that are off one more circle from those on it."""
+def compare_with_circle(block: Any, i: Any, circle: RelativeState) -> None:
+    """Clear ``apart`` of the games of a block that are on a circle."""
     state = RelativeState(block.r[i], block.a[i], block.psi[i])
     off = deviations(state, block.side[i], circle)
     apart = (off.r > NEAR) | (off.a > NEAR) | (off.psi > NEAR)
@@ -153,40 +159,40 @@ def compare_games(block: Any, i: Any, circle: RelativeState) -> None:
 
 
 @inlined
-def settle_games(block: Any, i: Any, time: float) -> None:
-    """Take note of the time where games under way are off all circles."""
+def update_settling_times(block: Any, i: Any, time: float) -> None:
+    """Update the last time at which games are off all circles."""
     block.settled[i] = np.maximum(block.settled[i], block.apart[i] * time)
 
 
 @inlined
-def before_step(block: Any, i: int) -> tuple[RelativeState, Mode]:
-    """State and mode of one game before its last step."""
+def state_before_step(block: Any, i: int) -> tuple[RelativeState, Mode]:
+    """Return state and mode of one game before its last step."""
     r, a, psi = block.was_r[i], block.was_a[i], block.was_psi[i]
-    mode = Mode(int(block.side[i]), branch_at(block.branch[i]))
+    mode = Mode(int(block.side[i]), branch_from_code(block.branch[i]))
     return RelativeState(float(r), float(a), float(psi)), mode
 
 
 @inlined
-def take_over(
-    look: Look,
+def store_located_step(
+    geometry_of: GeometryFunction,
     block: Any,
     i: int,
     begin: float,
     done: LocatedStep,
     rules: FlatParameters,
 ) -> None:
-    """Put a step of one game that was done with care into its block.
+    """Store a step with event location of one game in its block.
 
     Args:
-        look: How a state is viewed.
-        block: See :func:`block_type`.
-        i: Place of the game in it.
-        begin: Time at the start of the step, in [s].
+        geometry_of: Computes the geometry of a state.
+        block: Block of type :func:`block_type`.
+        i: Index of the game.
+        begin: Time at the begin of the step, in [s].
         done: The game after the step.
         rules: Rules of the game.
     """
     state, mode = done.state, done.mode
-    put_state(block, i, state, look(state, rules))
+    store_state(block, i, state, geometry_of(state, rules))
     block.side[i], block.branch[i] = mode.side, mode.branch
     piece = piece_of(mode, rules)
     block.low[i], block.high[i] = piece.low, piece.high

@@ -1,4 +1,4 @@
-"""The parameters of a game as plain numbers, for loops and compilers."""
+"""Parameters of a game as plain numbers, for compiled loops."""
 
 from typing import NamedTuple
 
@@ -6,16 +6,17 @@ from .unicycle_game import Game
 
 
 class FlatParameters(NamedTuple):
-    """What stays the same during a game.
+    """Constants of a game.
 
     Attributes:
-        pursuer_speed: In [m/s].
-        evader_speed: In [m/s].
-        pursuer_gain: In [1/s].
-        evader_gain: In [1/s]; saturated, the turning rate in [rad/s].
+        pursuer_speed: Speed of the pursuer, in [m/s].
+        evader_speed: Speed of the evader, in [m/s].
+        pursuer_gain: Gain of the pursuer, in [1/s].
+        evader_gain: Gain of the evader, in [1/s]; saturated, its turning
+            rate, in [rad/s].
         angle: Evasion angle, in [rad].
-        hysteresis: How far beyond the evader's axis the pursuer's bearing
-            is when the side changes, in [rad].
+        hysteresis: Angle of the pursuer beyond the evader's axis at which
+            the side changes, in [rad].
         keeps_side: Whether the side never changes.
         saturated: Whether the evader turns by (6) rather than by (4).
         capture_distance: Distance at which a game ends, in [m].
@@ -33,7 +34,7 @@ class FlatParameters(NamedTuple):
 
 
 def rules_of(game: Game, capture_distance: float) -> FlatParameters:
-    """Write a game's parameters, and the distance that ends it, as numbers."""
+    """Return the parameters of a game and its capture distance as numbers."""
     return FlatParameters(
         pursuer_speed=float(game.pursuer.speed),
         evader_speed=float(game.evader.speed),

@@ -1,4 +1,4 @@
-"""Many games at once: compiled where Numba is installed, else NumPy."""
+"""Simulation of many games at once, by Numba if installed, else by NumPy."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ from .relative_coordinates import check_bearings
 from .relative_motion import RelativeState
 from .unicycle_game import Game
 
-MOST_STEPS = 1e8  # of one game: some seconds of a fast machine
+MAX_STEPS = 1e8  # of one game: some seconds of computing time
 _RESULTS = (
     *RelativeState._fields,
     *("side", "closest", "closest_time", "capture_time", "settled"),
@@ -28,18 +28,19 @@ _RESULTS = (
 
 @dataclass(frozen=True, slots=True)
 class Outcomes:
-    """How many games ended; every array has shape (n,).
+    """Outcomes of many games; every array has shape (n,).
 
     Attributes:
-        closest_distance: Least distance of each game, in [m].
-        closest_time: When that was, in [s].
+        closest_distance: Closest approach of each game, in [m].
+        closest_time: Time of the closest approach, in [s].
         captured: Whether the distance fell to the capture distance.
-        capture_time: When that was, in [s]; NaN where not.
+        capture_time: Time of capture, in [s]; NaN without capture.
         settled_time: Time after which the game stays within 2 % and 0.02 rad
-            of a circle, in [s]; inf where it does not, or was captured.
-        circle: Which of ``circles_of(game)`` it has settled on; -1 for none.
-        states: Last r [m], a, psi [rad]. Shape (n, 3).
-        sides: Last side. Shape (n,).
+            of a circle, in [s]; inf if it does not, or is captured.
+        circle: Index of the final circle in ``circles_of(game)``; -1 for
+            none.
+        states: Final r [m], a, psi [rad]. Shape (n, 3).
+        sides: Final side. Shape (n,).
     """
 
     __repr__ = brief_repr
@@ -66,39 +67,39 @@ def play_games(
     progress: Callable[[int], None] | None = None,
     chunk: int = 16384,
 ) -> Outcomes:
-    """Play one game from each of many starts.
+    """Simulate one game from each of many initial states.
 
     Args:
         game: Parameters of the game.
         starts: Rows of r [m], a, psi [rad]. Shape (n, 3).
         duration: Time after which a game ends, in [s]; rounded up to whole
             steps.
-        step: Step of the integration, in [s]. Steps near an edge, a capture
-            or a close pass are cut further.
+        step: Step size of the integration, in [s]. Steps near an edge, a
+            capture or a close pass are divided further.
         capture_distance: Distance at which a game ends, in [m].
-        side: Side at the start, +1 or -1; 0 for the one behind the evader.
-        backend: "numba", "numpy", or "auto" for the first that is there.
-        progress: Called with the number of games done after each chunk.
-        chunk: Games between two calls of ``progress``.
+        side: Initial side, +1 or -1; 0 for the one behind the evader.
+        backend: "numba", "numpy", or "auto" for the first one available.
+        progress: Called with the number of games of each finished chunk.
+        chunk: Number of games between two calls of ``progress``.
 
     Returns:
-        The outcome of every game, in the order of the starts.
+        Outcomes of the games, in the order of the initial states.
 
     Raises:
-        PlanError: If a value is out of its range, or a backend is not there.
+        PlanError: If a value is out of range, or the backend is missing.
     """
-    from . import compiled_batch, numpy_batch  # which import Numba
-    from .block_layout import lay_blocks
+    from . import compiled_batch, numpy_batch  # lazily: they import Numba
+    from .block_layout import make_blocks
 
     check_positive(duration, "duration", "s")
     check_positive(step, "step", "s")
     check_positive(capture_distance, "capture_distance", "m")
-    if duration > MOST_STEPS * step:
+    if duration > MAX_STEPS * step:
         raise PlanError(
-            f"duration must be at most {MOST_STEPS:g} steps of {step:g} [s], "
-            f"or it does not end, got {duration:g}"
+            f"duration must be at most {MAX_STEPS:g} steps of {step:g} [s], "
+            f"got {duration:g} [s]"
         )
-    fast = _compiles(backend)
+    fast = _is_compiled(backend)
     play = compiled_batch.play_blocks if fast else numpy_batch.play_blocks
     states = _wrapped(starts)
     circles = circles_of(game)
@@ -109,7 +110,7 @@ def play_games(
     for first in range(0, len(states), chunk):
         part = states[first : first + chunk]
         size = compiled_batch.SIZE if fast else len(part)
-        blocks = lay_blocks(part, side, size, clock.step, rules)
+        blocks = make_blocks(part, side, size, clock.step, rules)
         play(blocks, rows, clock, rules)
         for row, name in zip(played, _RESULTS, strict=True):
             row[first : first + chunk] = blocks[name].ravel()[: len(part)]
@@ -119,15 +120,17 @@ def play_games(
 
 
 def circle_states(circles: Sequence[Circle]) -> Array:
-    """Rows of r [m], a, psi [rad] on circles at side +1. Shape (n, 3)."""
+    """Return rows of r [m], a, psi [rad] at side +1. Shape (n, 3)."""
     rows = [
         (c.distance_m, c.pursuer_error_rad, c.bearing_rad) for c in circles
     ]
     return np.array(rows).reshape(-1, 3)
 
 
-def circles_off(circles: Array, states: Array, sides: ArrayLike) -> Array:
-    """How far states are off each circle, as a share of it or in [rad].
+def circle_deviations(
+    circles: Array, states: Array, sides: ArrayLike
+) -> Array:
+    """Return the deviations of states from circles, relative or in [rad].
 
     Args:
         circles: Rows of r [m], a, psi [rad] at side +1. Shape (n, 3).
@@ -138,13 +141,13 @@ def circles_off(circles: Array, states: Array, sides: ArrayLike) -> Array:
         The largest of the three deviations. Shape (n, m).
     """
     circle = RelativeState(*circles.T[..., None])
-    off = deviations(RelativeState(*states.T), np.asarray(sides), circle)
-    largest: Array = np.max(off, axis=0)
+    errors = deviations(RelativeState(*states.T), np.asarray(sides), circle)
+    largest: Array = np.max(errors, axis=0)
     return largest
 
 
-def _compiles(backend: str) -> bool:
-    """Whether a backend is the compiled one."""
+def _is_compiled(backend: str) -> bool:
+    """Return whether a backend is the compiled one."""
     if backend not in ("auto", "numba", "numpy"):
         raise PlanError(f"backend must be auto, numba or numpy, got {backend}")
     if backend == "numba" and load_numba() is None:
@@ -155,7 +158,7 @@ def _compiles(backend: str) -> bool:
 
 
 def _wrapped(starts: ArrayLike) -> Array:
-    """Starts with both angles wrapped. Shape (n, 3)."""
+    """Return initial states with wrapped angles. Shape (n, 3)."""
     try:
         states = np.array(starts, dtype=np.float64).reshape(-1, 3)
     except (TypeError, ValueError, OverflowError) as error:
@@ -173,7 +176,7 @@ def _wrapped(starts: ArrayLike) -> Array:
 
 
 def _outcomes(played: Array, circles: Array, clock: BatchTiming) -> Outcomes:
-    """Outcomes of games from what their blocks hold at the end."""
+    """Return the outcomes of games from their final blocks."""
     r, a, psi, side, closest, closest_time, capture_time, settled = played
     end = clock.steps * clock.step
     ends = r < closest
@@ -182,7 +185,7 @@ def _outcomes(played: Array, circles: Array, clock: BatchTiming) -> Outcomes:
     states = np.stack([r, a, psi], axis=-1)
     nearest = np.zeros(len(r), dtype=np.int64)
     if len(circles):
-        nearest = circles_off(circles, states, side).argmin(axis=0)
+        nearest = circle_deviations(circles, states, side).argmin(axis=0)
     return Outcomes(
         np.where(ends, r, closest),
         np.where(ends, end, closest_time),

@@ -1,4 +1,4 @@
-"""Many games at once in NumPy, where nothing is compiled."""
+"""Simulation of many games in NumPy, for installations without Numba."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -11,27 +11,32 @@ from .event_location import LocatedStep
 from .game_batch import (
     Array,
     BatchTiming,
-    before_step,
-    compare_games,
-    settle_games,
+    compare_with_circle,
+    state_before_step,
     step_games,
-    take_over,
+    store_located_step,
+    update_settling_times,
 )
 from .game_parameters import FlatParameters
-from .relative_motion import RelativeState, SightGeometry, look, look_many
-from .smooth_pieces import Mode, branch_at
+from .relative_motion import (
+    RelativeState,
+    SightGeometry,
+    geometry_of,
+    geometry_of_arrays,
+)
+from .smooth_pieces import Mode, branch_from_code
 
 _ALL = slice(None)
 
 
-def look_near(
+def nearby_geometry(
     state: RelativeState,
     near: RelativeState,
-    view: SightGeometry,
+    geometry: SightGeometry,
     rules: FlatParameters,
 ) -> SightGeometry:
-    """View of states, whatever is known nearby."""
-    return look_many(state, rules)
+    """Return the geometry of states, ignoring the nearby one."""
+    return geometry_of_arrays(state, rules)
 
 
 @compiled
@@ -42,12 +47,12 @@ def _plain_locate(
     step: float,
     rules: tuple[Any, ...],
 ) -> tuple[tuple[float, ...], tuple[int, int], float, float, float]:
-    """Do an event-located step from and to plain tuples.
+    """Compute a step with event location, from and to plain tuples.
 
-    Python hands them to compiled code a hundred times faster than named
-    ones.
+    Passing plain tuples to compiled code is a hundred times faster than
+    passing named tuples.
     """
-    mode = Mode(side, branch_at(code))
+    mode = Mode(side, branch_from_code(code))
     done = locate(RelativeState(*state), mode, step, FlatParameters(*rules))
     return (
         (done.state.r, done.state.a, done.state.psi),
@@ -58,35 +63,37 @@ def _plain_locate(
     )
 
 
-def step_again(block: Any, i: int, rules: FlatParameters) -> LocatedStep:
-    """Do the last step of one game again, from event to event."""
-    state, mode = before_step(block, i)
+def repeat_step(block: Any, i: int, rules: FlatParameters) -> LocatedStep:
+    """Repeat the last step of one game with event location."""
+    state, mode = state_before_step(block, i)
     step, code = float(block.step[i]), mode.branch.value
     numbers, (side, code), *times = _plain_locate(
         tuple(state), mode.side, code, step, tuple(rules)
     )
     return LocatedStep(
-        RelativeState(*numbers), Mode(side, branch_at(code)), *times
+        RelativeState(*numbers), Mode(side, branch_from_code(code)), *times
     )
 
 
 def step_block(
     block: Any, circles: Array, begin: float, end: float, rules: FlatParameters
 ) -> None:
-    """Do one step of every game of a block."""
-    care = step_games(look_near, look_many, block, _ALL, rules)
+    """Advance every game of a block by one step."""
+    flagged = step_games(
+        nearby_geometry, geometry_of_arrays, block, _ALL, rules
+    )
     for circle in circles.tolist():
-        compare_games(block, _ALL, RelativeState(*circle))
-    settle_games(block, _ALL, end)
-    for i in np.flatnonzero(care).tolist():
-        done = step_again(block, i, rules)
-        take_over(look, block, i, begin, done, rules)
+        compare_with_circle(block, _ALL, RelativeState(*circle))
+    update_settling_times(block, _ALL, end)
+    for i in np.flatnonzero(flagged).tolist():
+        done = repeat_step(block, i, rules)
+        store_located_step(geometry_of, block, i, begin, done, rules)
 
 
 def play_blocks(
     blocks: Any, circles: Array, clock: BatchTiming, rules: FlatParameters
 ) -> None:
-    """Play all games to the end; twin of the compiled ``play_blocks``."""
+    """Play all games to the end; see :func:`.compiled_batch.play_blocks`."""
     names = blocks.dtype.names
     with np.errstate(all="ignore"):
         for row in blocks:

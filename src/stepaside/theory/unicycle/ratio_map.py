@@ -1,4 +1,4 @@
-"""The circles of a game over the ratios of speeds and of gains."""
+"""Map of the limit circles over the ratios of speeds and gains."""
 
 from dataclasses import dataclass
 from math import pi
@@ -6,7 +6,7 @@ from math import pi
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .equilibria import GameParameters, find_rests, growth_rates
+from .equilibria import GameParameters, find_equilibria, growth_rates
 from .unicycle_game import TurningLaw
 
 Array = NDArray[np.float64]
@@ -14,16 +14,16 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class RatioMap:
-    """Distances on circles that agree with the side behind the evader.
+    """Distances on circles consistent with the side behind the evader.
 
     Lengths are in units of the evader's speed over the pursuer's gain. The
-    arrays over both ratios have shape (n, m); NaN where there is no such
-    circle.
+    arrays over both ratios have shape (n, m) and are NaN where no such
+    circle exists.
 
     Attributes:
         speed_ratios: Pursuer's over evader's speed. Shape (n,).
         gain_ratios: Evader's over pursuer's gain. Shape (m,).
-        main: Distance on the slowest circle that turns the main way round.
+        main: Distance on the slowest circle with the main sense of rotation.
         reversed_stable: Least distance on a stable reversed circle.
         reversed_unstable: Least distance on an unstable reversed circle.
     """
@@ -41,7 +41,7 @@ def map_ratios(
     speed_ratios: ArrayLike,
     gain_ratios: ArrayLike,
 ) -> RatioMap:
-    """Find the circles of all games on a grid of ratios.
+    """Compute the circles of all games on a grid of ratios.
 
     Args:
         angle: Evasion angle in [0, pi], in [rad].
@@ -50,7 +50,7 @@ def map_ratios(
         gain_ratios: Evader's over pursuer's gain. Shape (m,).
 
     Returns:
-        The map.
+        Distances over the grid.
     """
     speeds = np.asarray(speed_ratios, dtype=np.float64)
     gains = np.asarray(gain_ratios, dtype=np.float64)
@@ -58,26 +58,26 @@ def map_ratios(
     vp, ke = (axis.ravel() for axis in grid)
     games = GameParameters.of(vp, 1.0, 1.0, ke, angle)
     saturated = TurningLaw(law) is TurningLaw.SATURATED
-    rests = find_rests(games, saturated=saturated)
-    growth = growth_rates(rests, games, saturated=saturated)
-    bearing = rests.evader_error - angle
+    equilibria = find_equilibria(games, saturated=saturated)
+    growth = growth_rates(equilibria, games, saturated=saturated)
+    bearing = equilibria.evader_error - angle
     behind = (bearing > -pi) & (bearing < 0.0)
 
     def least(which: NDArray[np.bool_], values: Array) -> Array:
         found = np.full(len(vp), np.inf)
-        np.minimum.at(found, rests.game[which], values[which])
+        np.minimum.at(found, equilibria.game[which], values[which])
         found[np.isinf(found)] = np.nan
         return found
 
-    onward = behind & (rests.turning_rate > 0.0)
-    slowest = least(onward, rests.turning_rate)[rests.game]
-    first = onward & (rests.turning_rate == slowest)
-    backward = behind & (rests.turning_rate < 0.0)
+    onward = behind & (equilibria.turning_rate > 0.0)
+    slowest = least(onward, equilibria.turning_rate)[equilibria.game]
+    first = onward & (equilibria.turning_rate == slowest)
+    backward = behind & (equilibria.turning_rate < 0.0)
     shape = (len(speeds), len(gains))
     return RatioMap(
         speeds,
         gains,
-        least(first, rests.distance).reshape(shape),
-        least(backward & (growth < 0.0), rests.distance).reshape(shape),
-        least(backward & (growth >= 0.0), rests.distance).reshape(shape),
+        least(first, equilibria.distance).reshape(shape),
+        least(backward & (growth < 0.0), equilibria.distance).reshape(shape),
+        least(backward & (growth >= 0.0), equilibria.distance).reshape(shape),
     )

@@ -20,14 +20,14 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class RelativeStart:
-    r"""Where two unicycles stand to each other.
+    r"""Relative coordinates of two unicycles.
 
     Attributes:
         distance: Distance :math:`r`, in [m].
         pursuer_error: Bearing :math:`a` of the evader in the pursuer's
             frame, which is the error of (2), in [rad].
         bearing: Bearing :math:`\psi` of the pursuer in the evader's frame,
-            in [rad]; zero when the evader faces the pursuer.
+            in [rad]; zero if the evader faces the pursuer.
     """
 
     distance: float
@@ -42,7 +42,7 @@ class RelativeStart:
 
     @classmethod
     def from_world(cls, pursuer: Pose, evader: Pose) -> "RelativeStart":
-        """Take relative coordinates of two poses in one frame."""
+        """Compute relative coordinates of two poses in a common frame."""
         dx, dy = evader.x - pursuer.x, evader.y - pursuer.y
         sight = atan2(dy, dx)
         return cls(
@@ -52,12 +52,12 @@ class RelativeStart:
         )
 
     def wrapped(self) -> tuple[float, float, float]:
-        """Distance [m], and both angles wrapped to [-pi, pi] [rad]."""
+        """Return the distance [m] and both angles in [-pi, pi] [rad]."""
         a, psi = wrap_angle(self.pursuer_error), wrap_angle(self.bearing)
         return self.distance, a, psi
 
     def evader_pose(self, pursuer: Pose) -> Pose:
-        """Pose of the evader, in the frame of the pursuer's pose."""
+        """Return the pose of the evader in the frame of the pursuer's pose."""
         sight = pursuer.theta + self.pursuer_error
         return Pose(
             pursuer.x + self.distance * cos(sight),
@@ -70,8 +70,8 @@ def check_bearings(angles: ArrayLike, name: str) -> None:
     """Raise :class:`PlanError` unless all angles lie within one turn.
 
     Args:
-        angles: In [rad]. Of any shape.
-        name: What they are, for the message.
+        angles: Angles of any shape, in [rad].
+        name: Name of the angles, for the message.
     """
     flat = np.asarray(angles, dtype=np.float64).ravel()
     if flat.size:
@@ -79,11 +79,11 @@ def check_bearings(angles: ArrayLike, name: str) -> None:
 
 
 def world_poses(states: ArrayLike) -> tuple[Array, Array]:
-    """Place both players on the floor.
+    """Compute the poses of both players in the world.
 
     Args:
-        states: Columns r [m], a, psi, direction of the line of sight [rad],
-            x, y of the pursuer [m]. Shape (n, 6).
+        states: Columns r [m], a, psi, direction of the line of sight in the
+            world [rad], x, y of the pursuer in the world [m]. Shape (n, 6).
 
     Returns:
         Poses (x [m], y [m], theta [rad]) of pursuer and evader, each of

@@ -1,11 +1,11 @@
-r"""Relative motion of two unicycles on a smooth piece, and one step of it.
+r"""Relative motion of two unicycles on a smooth piece.
 
 .. math::
     \dot r = v_e \cos\psi - v_p \cos a, \qquad
     \Omega = (v_p \sin a - v_e \sin\psi) / r, \qquad
     \dot a = \Omega - \omega_p, \qquad \dot\psi = \Omega - \omega_e
 
-The functions take numbers, or arrays of one shape, and may be compiled.
+The functions take numbers, or arrays of one shape, and can be compiled.
 """
 
 from collections.abc import Callable
@@ -29,8 +29,8 @@ class RelativeState(NamedTuple):
 
     Attributes:
         r: Distance, in [m].
-        a: Bearing of the evader seen by the pursuer, its error, in [rad].
-        psi: Bearing of the pursuer seen by the evader, in [rad].
+        a: Bearing of the evader in the pursuer's frame, its error, in [rad].
+        psi: Bearing of the pursuer in the evader's frame, in [rad].
     """
 
     r: Any
@@ -39,15 +39,15 @@ class RelativeState(NamedTuple):
 
 
 class SightGeometry(NamedTuple):
-    """What is worked out of a state: sines, and how the line of sight moves.
+    """Sines of the bearings and motion of the line of sight.
 
     Attributes:
         sin_a: Sine of the bearing of the evader.
-        cos_a: Its cosine.
+        cos_a: Cosine of the bearing of the evader.
         sin_psi: Sine of the bearing of the pursuer.
-        cos_psi: Its cosine.
-        opening: Rate of the distance, in [m/s]; negative while it shrinks.
-        sight: Rate of the line of sight, in [rad/s].
+        cos_psi: Cosine of the bearing of the pursuer.
+        opening: Rate of the distance, in [m/s].
+        sight: Turning rate of the line of sight, in [rad/s].
     """
 
     sin_a: Any
@@ -58,17 +58,17 @@ class SightGeometry(NamedTuple):
     sight: Any
 
 
-Look = Callable[[RelativeState, FlatParameters], SightGeometry]
-"""Gives the view of a state."""
-LookNear = Callable[
+GeometryFunction = Callable[[RelativeState, FlatParameters], SightGeometry]
+"""Returns the geometry of a state."""
+NearbyGeometry = Callable[
     [RelativeState, RelativeState, SightGeometry, FlatParameters],
     SightGeometry,
 ]
-"""Gives the view of a state near another one whose view is known."""
+"""Returns the geometry of a state near another one with known geometry."""
 
 
 @inlined
-def view_of(
+def geometry_from_sines(
     r: Any,
     sin_a: Any,
     cos_a: Any,
@@ -76,7 +76,7 @@ def view_of(
     cos_psi: Any,
     rules: FlatParameters,
 ) -> SightGeometry:
-    """View from a distance and the sines and cosines of both bearings."""
+    """Return the geometry from distance, sines and cosines of bearings."""
     vp, ve = rules.pursuer_speed, rules.evader_speed
     opening = ve * cos_psi - vp * cos_a
     sight = (vp * sin_a - ve * sin_psi) / r
@@ -84,42 +84,46 @@ def view_of(
 
 
 @inlined
-def look(state: RelativeState, rules: FlatParameters) -> SightGeometry:
-    """View of one state."""
+def geometry_of(state: RelativeState, rules: FlatParameters) -> SightGeometry:
+    """Return the geometry of one state."""
     r, a, psi = state
-    return view_of(r, sin(a), cos(a), sin(psi), cos(psi), rules)
+    return geometry_from_sines(r, sin(a), cos(a), sin(psi), cos(psi), rules)
 
 
-def look_many(state: RelativeState, rules: FlatParameters) -> SightGeometry:
-    """View of states in arrays."""
+def geometry_of_arrays(
+    state: RelativeState, rules: FlatParameters
+) -> SightGeometry:
+    """Return the geometry of states in arrays."""
     r, a, psi = state
-    return view_of(r, np.sin(a), np.cos(a), np.sin(psi), np.cos(psi), rules)
+    return geometry_from_sines(
+        r, np.sin(a), np.cos(a), np.sin(psi), np.cos(psi), rules
+    )
 
 
 @inlined
-def look_anew(
+def recomputed_geometry(
     state: RelativeState,
     near: RelativeState,
-    view: SightGeometry,
+    geometry: SightGeometry,
     rules: FlatParameters,
 ) -> SightGeometry:
-    """View of one state, whatever is known nearby."""
-    return look(state, rules)
+    """Return the geometry of one state, ignoring the nearby one."""
+    return geometry_of(state, rules)
 
 
 @inlined
 def derivative(
     state: RelativeState,
-    view: SightGeometry,
+    geometry: SightGeometry,
     piece: SmoothPiece,
     rules: FlatParameters,
 ) -> RelativeState:
-    """Rates of the three coordinates on a piece."""
+    """Return the rates of the three coordinates on a smooth piece."""
     error = pursuit_heading(state.a)
     return RelativeState(
-        view.opening,
-        view.sight - proportional_rate(error, rules.pursuer_gain),
-        piece.free * view.sight - piece.slope * state.psi - piece.constant,
+        geometry.opening,
+        geometry.sight - proportional_rate(error, rules.pursuer_gain),
+        piece.free * geometry.sight - piece.slope * state.psi - piece.constant,
     )
 
 
@@ -127,7 +131,7 @@ def derivative(
 def moved(
     state: RelativeState, slope: RelativeState, time: Any
 ) -> RelativeState:
-    """State after a time at constant rates."""
+    """Return the state after a time in [s] at constant rates."""
     return RelativeState(
         state.r + time * slope.r,
         state.a + time * slope.a,
@@ -137,34 +141,34 @@ def moved(
 
 @inlined
 def rk4(
-    look_near: LookNear,
+    nearby_geometry: NearbyGeometry,
     state: RelativeState,
-    view: SightGeometry,
+    geometry: SightGeometry,
     step: Any,
     piece: SmoothPiece,
     rules: FlatParameters,
 ) -> RelativeState:
-    """Advance by one step of Runge and Kutta's rule of fourth order.
+    """Advance by one Runge-Kutta step of fourth order.
 
     Args:
-        look_near: How the views within the step are found.
-        state: State at the start of the step.
-        view: Its view.
-        step: Length of the step, in [s].
-        piece: Smooth piece; its law also holds beyond its edges.
+        nearby_geometry: Computes the geometry of the stages.
+        state: State at the begin of the step.
+        geometry: Geometry of that state.
+        step: Step size, in [s].
+        piece: Smooth piece; its law is extended beyond its edges.
         rules: Rules of the game.
     """
     half = 0.5 * step
-    first = derivative(state, view, piece, rules)
-    there = moved(state, first, half)
-    seen = look_near(there, state, view, rules)
-    second = derivative(there, seen, piece, rules)
-    there = moved(state, second, half)
-    seen = look_near(there, state, view, rules)
-    third = derivative(there, seen, piece, rules)
-    there = moved(state, third, step)
-    seen = look_near(there, state, view, rules)
-    fourth = derivative(there, seen, piece, rules)
+    first = derivative(state, geometry, piece, rules)
+    stage = moved(state, first, half)
+    stage_geometry = nearby_geometry(stage, state, geometry, rules)
+    second = derivative(stage, stage_geometry, piece, rules)
+    stage = moved(state, second, half)
+    stage_geometry = nearby_geometry(stage, state, geometry, rules)
+    third = derivative(stage, stage_geometry, piece, rules)
+    stage = moved(state, third, step)
+    stage_geometry = nearby_geometry(stage, state, geometry, rules)
+    fourth = derivative(stage, stage_geometry, piece, rules)
     mean = RelativeState(
         first.r + 2.0 * (second.r + third.r) + fourth.r,
         first.a + 2.0 * (second.a + third.a) + fourth.a,

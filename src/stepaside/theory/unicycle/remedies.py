@@ -1,9 +1,9 @@
-"""What an evader can do about a close reversed circle.
+"""Modifications of the evader against a close reversed circle.
 
-The rule "behind" cannot be bettered by taking the side of the smaller error:
-it is that rule. The desired bearings of the two sides, minus and plus the
-angle, mirror each other in the evader's axis, so that the one on the
-pursuer's own half is always the nearer.
+Choosing the side of the smaller error is not among them, because it is the
+rule "behind": the desired bearings of the two sides, minus and plus the
+angle, mirror each other in the evader's axis, so that the one in the
+pursuer's half plane is always nearer.
 """
 
 from collections.abc import Callable
@@ -13,17 +13,17 @@ from math import inf, pi, radians
 from .basins import Array, Basins, find_basins
 from .unicycle_game import Game, SideRule, TurningLaw
 
-_ANGLES = (30.0, 60.0, 120.0, 150.0)  # tried instead, in degrees
+_ANGLES_DEG = (30.0, 60.0, 120.0, 150.0)  # evasion angles that are tried
 
 
 @dataclass(frozen=True, slots=True)
 class Remedy:
-    """One thing that the evader can do, and what comes of it.
+    """One modification of the evader and its basins.
 
     Attributes:
-        name: What is done.
-        game: The game that is then played.
-        basins: Where it leads to.
+        name: Name of the modification.
+        game: Modified game.
+        basins: Fractions of the initial states that lead to each circle.
     """
 
     name: str
@@ -32,27 +32,27 @@ class Remedy:
 
     @property
     def reversed_share(self) -> float:
-        """Share of starts that end on a reversed circle, in [1]."""
+        """Fraction of games that end on a reversed circle, in [1]."""
         pairs = zip(self.basins.circles, self.basins.shares, strict=True)
         return sum(share for circle, share in pairs if circle.direction < 0)
 
     @property
     def end_distance_m(self) -> float:
-        """Least distance on a circle that starts end on; inf for none."""
+        """Least distance on a circle that games end on, in [m], or inf."""
         pairs = zip(self.basins.circles, self.basins.shares, strict=True)
         reached = (c.distance_m for c, share in pairs if share > 0.0)
         return min(reached, default=inf)
 
 
 def alternatives(game: Game) -> dict[str, Game]:
-    """Give the games that an evader can make of a game, by name."""
+    """Return the modified games by name, the unmodified game first."""
     widest = min(game.angle, pi - game.angle)
     found = {
         "as it is": game,
         "keeps its side": replace(game, side_rule=SideRule.LATCHED),
         "widest hysteresis": replace(game, hysteresis=widest),
     }
-    for degrees in _ANGLES:
+    for degrees in _ANGLES_DEG:
         angle = radians(degrees)
         changed = replace(game, angle=angle, hysteresis=0.0)
         found[f"angle {degrees:g} deg"] = changed
@@ -71,16 +71,17 @@ def try_remedies(
     capture_distance: float = 1e-6,
     progress: Callable[[int], None] | None = None,
 ) -> tuple[Remedy, ...]:
-    """Play every alternative from the same starts.
+    """Play every alternative from the same initial states.
 
     Args:
-        game: Parameters of the game as it is.
+        game: Parameters of the unmodified game.
         starts: Rows of r [m], a, psi [rad]. Shape (n, 3).
         capture_distance: Distance at which a game ends, in [m].
-        progress: Called with numbers of games done.
+        progress: Called with the number of games finished since the last
+            call.
 
     Returns:
-        What came of each, the game as it is first.
+        Results of each, the unmodified game first.
     """
     return tuple(
         Remedy(

@@ -1,4 +1,4 @@
-"""Roots of one smooth function on an interval."""
+"""Roots of a smooth function on an interval."""
 
 from collections.abc import Callable
 
@@ -6,7 +6,7 @@ Function = Callable[[float], float]
 
 
 def bisect(function: Function, low: float, high: float) -> float:
-    """Halve a bracket with a sign change until no number is left in it."""
+    """Bisect a bracket with a sign change down to adjacent doubles."""
     rising = function(high) > 0.0
     while True:
         middle = 0.5 * (low + high)
@@ -21,10 +21,10 @@ def bisect(function: Function, low: float, high: float) -> float:
 def sign_changes(
     function: Function, low: float, high: float, *, pieces: int = 720
 ) -> list[float]:
-    """Find the sign changes of a function, in rising order.
+    """Find the sign changes of a function, in increasing order.
 
-    The interval is cut into pieces; where the function comes near zero
-    without crossing, the extremum between is searched for a close pair.
+    The interval is divided into pieces. Where the function approaches zero
+    without crossing it, a close pair of roots is searched at the extremum.
 
     Args:
         function: Smooth function of one variable.
@@ -33,7 +33,7 @@ def sign_changes(
         pieces: Number of pieces.
 
     Returns:
-        Places where the sign changes, each to rounding.
+        Arguments at which the sign changes, to rounding.
     """
     if not high > low:
         return []
@@ -51,7 +51,7 @@ def sign_changes(
 
 
 def _close_pair(function: Function, low: float, high: float) -> list[float]:
-    """Two sign changes on either side of an extremum nearest zero."""
+    """Find two sign changes on either side of an extremum near zero."""
     sign = 1.0 if function(low) > 0.0 else -1.0
     left, right = low, high
     for _ in range(80):  # ternary search of the extremum

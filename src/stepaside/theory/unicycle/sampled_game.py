@@ -1,8 +1,8 @@
-"""Games in which the turning rates are held from step to step.
+"""Simulation of games with sampled, delayed steering.
 
-So do the humanoids: they replan when a step is done (Sec. III-E) and walk
-an arc in between (Sec. III-B). What was perceived may be late. Between
-samples both players move on arcs, which have closed form.
+Turning rates are held between samples, as for the humanoids, which replan
+once per step (Sec. III-E) and walk along an arc in between (Sec. III-B).
+Perception may be delayed. The arcs between samples have a closed form.
 """
 
 from collections import deque
@@ -20,23 +20,24 @@ from .relative_coordinates import RelativeStart
 from .unicycle_game import Game
 
 Array = NDArray[np.float64]
-_PARTS = 16  # of each arc, where the closest approach is looked for
+_PARTS = 16  # samples per arc for the closest approach
 
 
 @dataclass(frozen=True, slots=True)
 class SampledRun:
-    """A game with held turning rates.
+    """Simulated game with held turning rates.
 
     Attributes:
         times: Sampling times, in [s]. Shape (n + 1,).
         states: r [m], a, psi [rad] at those times. Shape (n + 1, 3).
-        pursuer: Poses of the pursuer (x, y [m], theta [rad]). (n + 1, 3).
-        evader: Poses of the evader, likewise.
-        turning_rates: Rates of pursuer and evader that are chosen at each
-            sample, in [rad/s]. Shape (n, 2).
-        sides: Side that is chosen at each sample. Shape (n,).
-        closest_distance: Least distance, in [m], looked for at 16 places
-            of every arc.
+        pursuer: Poses (x, y [m], theta [rad]) of the pursuer in the world.
+            Shape (n + 1, 3).
+        evader: Poses of the evader in the world. Shape (n + 1, 3).
+        turning_rates: Rates of pursuer and evader decided at each sample,
+            in [rad/s]. Shape (n, 2).
+        sides: Side decided at each sample. Shape (n,).
+        closest_distance: Closest approach over 16 samples of every arc, in
+            [m].
         captured: Whether the distance fell to the capture distance.
     """
 
@@ -52,8 +53,17 @@ class SampledRun:
     captured: bool
 
 
-def walk_arc(pose: Pose, speed: float, turning: float, time: float) -> Pose:
-    """Move along an arc at constant speed (negative: backward), eq. (9)."""
+def drive_along_arc(
+    pose: Pose, speed: float, turning: float, time: float
+) -> Pose:
+    """Move along an arc at constant speed (negative: backward), eq. (9).
+
+    Args:
+        pose: Initial pose in the world.
+        speed: Driving velocity, in [m/s].
+        turning: Turning rate, in [rad/s].
+        time: Duration, in [s].
+    """
     half = 0.5 * turning * time
     chord = speed * time * float(np.sinc(half / np.pi))
     step = Pose(chord * np.cos(half), chord * np.sin(half), 2.0 * half)
@@ -63,12 +73,12 @@ def walk_arc(pose: Pose, speed: float, turning: float, time: float) -> Pose:
 def choose_turning(
     game: Game, start: RelativeStart, side: int
 ) -> tuple[float, float, int]:
-    """Turning rates of both players, in [rad/s], and the side.
+    """Return the turning rates of both players, in [rad/s], and the side.
 
     Args:
         game: Parameters of the game.
-        start: What is perceived.
-        side: Side until now, or 0 for none yet.
+        start: Perceived relative coordinates.
+        side: Current side, or 0 if none has been chosen.
     """
     _, a, psi = start.wrapped()
     if side == 0 or not game.keeps_side:
@@ -90,11 +100,11 @@ def _drive(
     turns: tuple[float, float],
     span: float,
 ) -> tuple[Pose, Pose, float]:
-    """Move both along arcs: poses after a time, and the least distance [m]."""
+    """Move both players along arcs; also return the least distance [m]."""
     closest = inf
     for time in (span * np.arange(1, _PARTS + 1) / _PARTS).tolist():
-        p = walk_arc(pursuer, game.pursuer.speed, turns[0], time)
-        e = walk_arc(evader, -game.evader.speed, turns[1], time)
+        p = drive_along_arc(pursuer, game.pursuer.speed, turns[0], time)
+        e = drive_along_arc(evader, -game.evader.speed, turns[1], time)
         closest = min(closest, float(np.hypot(e.x - p.x, e.y - p.y)))
     return p, e, closest
 
@@ -110,18 +120,18 @@ def simulate_sampled(
     capture_distance: float = 1e-6,
     pursuer: Pose = Pose(0.0, 0.0, 0.0),  # noqa: B008 (immutable)
 ) -> SampledRun:
-    """Play one game with turning rates held between samples.
+    """Simulate one game with turning rates held between samples.
 
     Args:
         game: Parameters of the game.
-        start: Relative coordinates at the start.
+        start: Initial relative coordinates.
         duration: Time after which the game ends, in [s].
-        sample_time: Time between samples, in [s].
+        sample_time: Sampling period, in [s].
         delay: Age of a perception when it takes effect, in [s]. Before the
-            first one does, both players drive straight on.
-        side: Side at the start, +1 or -1; 0 for the one behind the evader.
+            first one does, both players drive straight.
+        side: Initial side, +1 or -1; 0 for the one behind the evader.
         capture_distance: Distance at which the game ends, in [m].
-        pursuer: Pose of the pursuer at the start.
+        pursuer: Initial pose of the pursuer in the world.
 
     Returns:
         The game at its sampling times.
@@ -137,7 +147,7 @@ def simulate_sampled(
     whole = floor(delay / sample_time + 1e-12)
     late = max(0.0, delay - whole * sample_time)
     count = ceil(duration / sample_time - 1e-9)
-    whole = min(whole, count)  # what is later than that takes no effect
+    whole = min(whole, count)  # longer delays outlast the game
     # Rates in effect before and after the change within a period.
     queue = deque([(0.0, 0.0)] * (whole + 1))
     poses_p, poses_e, states = [pursuer], [evader], [start.wrapped()]

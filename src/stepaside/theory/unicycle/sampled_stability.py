@@ -1,7 +1,7 @@
 r"""Stability of the circle under sampling and delay.
 
-The held arc is the circle itself, so sampling and delay leave the circle as
-it is; only the way back to it changes.
+The held arc is the circle itself, so sampling and delay do not change the
+circle; they only change the convergence to it.
 """
 
 from collections.abc import Callable
@@ -17,25 +17,26 @@ from .stability import feedback_matrix, geometry_jacobian, sorted_eigenvalues
 from .unicycle_game import Game
 
 Array = NDArray[np.float64]
-# Sample times in a delay: each is two rows more of a matrix whose eigenvalues
-# are searched for.
-DEEPEST = 200
+# Longest delay in sample times: each adds two rows to an eigenvalue problem.
+MAX_DEPTH = 200
 
 
 def smooth_circle(game: Game) -> Circle:
-    """Find a circle about which the law is smooth.
+    """Return the main circle if the law is smooth about it.
 
     Raises:
         PlanError: If there is no circle, or the saturated evader slides on
-            it: sampled, it chatters about zero error instead.
+            it: with sampling it chatters about zero error instead.
     """
     circle = circle_of(game)
     if not circle.exists:
-        raise PlanError("there is no circle for these speeds, gains, angle")
+        raise PlanError(
+            "there is no circle for these speeds, gains and this angle"
+        )
     if circle.sliding:
         raise PlanError(
-            "the saturated evader slides on this circle; sampled or delayed "
-            "it chatters about it, and no linearisation exists"
+            "the saturated evader slides on this circle; with sampling or "
+            "delay it chatters about it, and no linearisation exists"
         )
     return circle
 
@@ -47,8 +48,10 @@ def _geometry(game: Game, circle: Circle) -> tuple[Array, Array]:
     )
 
 
-def _held(state: Array, turning: Array, time: float) -> tuple[Array, Array]:
-    """Transition over a time with turning rates held (both exact)."""
+def _held_transition(
+    state: Array, turning: Array, time: float
+) -> tuple[Array, Array]:
+    """Return the exact transition over a time with held turning rates."""
     from scipy.linalg import expm
 
     joint = np.zeros((5, 5))
@@ -60,16 +63,16 @@ def _held(state: Array, turning: Array, time: float) -> tuple[Array, Array]:
 def step_map(game: Game, sample_time: float, delay: float = 0.0) -> Array:
     """Linearise one sampling period about the circle.
 
-    Along the circle the relative state rests, so the linearisation of the
-    held motion has constant coefficients and its exponential is exact.
+    Along the circle the relative state is constant, so the linearisation of
+    the held motion has constant coefficients and its exponential is exact.
 
     Args:
         game: Parameters of the game.
-        sample_time: Time between samples, in [s].
+        sample_time: Sampling period, in [s].
         delay: Age of a perception when it takes effect, in [s].
 
     Returns:
-        Map of (r, a, psi, turning rates in the pipe, newest first) over one
+        Map of (r, a, psi, queued turning rates, newest first) over one
         period. Shape (n, n) with n = 3, or more with a delay.
 
     Raises:
@@ -80,17 +83,17 @@ def step_map(game: Game, sample_time: float, delay: float = 0.0) -> Array:
     state, turning = _geometry(game, smooth_circle(game))
     feedback = feedback_matrix(game)
     whole = floor(delay / sample_time + 1e-12)
-    if whole > DEEPEST:
+    if whole > MAX_DEPTH:
         raise PlanError(
-            f"delay must be at most {DEEPEST} sample times, "
-            f"{DEEPEST * sample_time:g} [s], got {delay:g}"
+            f"delay must be at most {MAX_DEPTH} sample times, "
+            f"{MAX_DEPTH * sample_time:g} [s], got {delay:g} [s]"
         )
     late = max(0.0, delay - whole * sample_time)
-    early_state, early_turning = _held(state, turning, late)
-    rest_state, rest_turning = _held(state, turning, sample_time - late)
-    depth = (
-        whole + 1
-    )  # of the pipe; the last is in effect when a period starts
+    early_state, early_turning = _held_transition(state, turning, late)
+    rest_state, rest_turning = _held_transition(
+        state, turning, sample_time - late
+    )
+    depth = whole + 1  # of the queue; the last acts at the begin of a period
     size = 3 + 2 * depth
     full = np.zeros((size, size))
     full[:3, :3] = rest_state @ early_state
@@ -107,7 +110,7 @@ def step_map(game: Game, sample_time: float, delay: float = 0.0) -> Array:
 def step_eigenvalues(
     game: Game, sample_time: float, delay: float = 0.0
 ) -> tuple[complex, ...]:
-    """Eigenvalues of the step map, the largest modulus first."""
+    """Return the eigenvalues of the step map, the largest modulus first."""
     values = np.linalg.eigvals(step_map(game, sample_time, delay)).tolist()
     return tuple(
         sorted((complex(v) for v in values), key=lambda z: (-abs(z), -z.imag))
@@ -117,14 +120,14 @@ def step_eigenvalues(
 def delayed_eigenvalues(
     game: Game, delay: float, *, count: int = 3, nodes: int = 24
 ) -> tuple[complex, ...]:
-    """Rightmost eigenvalues of the law without sampling, with a delay.
+    """Return the rightmost eigenvalues of the delayed law without sampling.
 
     The history over one delay is collocated at Chebyshev points.
 
     Args:
         game: Parameters of the game.
-        delay: Age of what is perceived, in [s].
-        count: Number of eigenvalues wanted.
+        delay: Delay of the perception, in [s].
+        count: Number of eigenvalues to return.
         nodes: Number of intervals of the collocation.
 
     Returns:
@@ -147,11 +150,15 @@ def delayed_eigenvalues(
 
 
 def largest_stable_sample_time(game: Game, delay: float = 0.0) -> float:
-    """Sampling time at which the circle first loses stability, in [s].
+    """Return the sampling period at which the circle loses stability.
+
+    Args:
+        game: Parameters of the game.
+        delay: Age of a perception when it takes effect, in [s].
 
     Returns:
-        The time; 0 where none is found to be stable with this delay: with
-        a delay the search starts at a twentieth of it.
+        The period, in [s]; 0 if none is found to be stable with this delay.
+        With a delay the search starts at a twentieth of it.
     """
     gain = max(game.pursuer.gain, game.evader.gain)
 
@@ -165,14 +172,14 @@ def largest_stable_sample_time(game: Game, delay: float = 0.0) -> float:
 
 
 def largest_stable_delay(game: Game, sample_time: float = 0.0) -> float:
-    """Delay at which the circle first loses stability, in [s].
+    """Return the delay at which the circle loses stability.
 
     Args:
         game: Parameters of the game.
-        sample_time: Time between samples, in [s]; 0 for none.
+        sample_time: Sampling period, in [s]; 0 without sampling.
 
     Returns:
-        The delay; 0 where the circle is unstable even without one.
+        The delay, in [s]; 0 if the circle is unstable without delay.
     """
     circle = smooth_circle(game)
     gain = max(game.pursuer.gain, game.evader.gain)
@@ -191,7 +198,7 @@ def largest_stable_delay(game: Game, sample_time: float = 0.0) -> float:
 def _first_crossing(
     excess: Callable[[float], float], low: float, step: float, count: int
 ) -> float:
-    """Least argument at which an excess turns positive; inf if none."""
+    """Return the least argument with a positive excess; inf if none."""
     if excess(low) >= 0.0:
         return 0.0
     for _ in range(count):

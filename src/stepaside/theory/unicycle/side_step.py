@@ -1,29 +1,29 @@
-"""How far aside a unicycle gets that somebody walks straight at."""
+"""Lateral displacement of a unicycle that avoids an approaching person."""
 
 from math import cos, pi
 
 from ...core.errors import check_not_negative, check_positive
 
-HALF_WIDTHS = 0.55  # of a person and a NAO, arms and all, together, in [m]
+HALF_WIDTHS = 0.55  # sum for a person and a NAO, with arms, in [m]
 
 
 def side_step(speed: float, turning: float, time: float) -> float:
-    r"""Way to the side of a unicycle that faces whoever comes.
+    r"""Return the lateral displacement of a unicycle that moves aside.
 
-    It turns as fast as it can until it drives across the line of sight:
-    :math:`y = \frac{v}{\omega} (1 - \cos \omega t)` until
-    :math:`\omega t = \pi / 2`, then straight on.
+    It faces the person first and turns at its full rate until it drives
+    across the line of sight: :math:`y = \frac{v}{\omega} (1 - \cos \omega t)`
+    until :math:`\omega t = \pi / 2`, then straight.
 
     Args:
         speed: Driving speed v, in [m/s].
-        turning: Greatest turning rate, in [rad/s].
-        time: Since it began, in [s].
+        turning: Largest turning rate, in [rad/s].
+        time: Time since the begin of the motion, in [s].
 
     Returns:
-        Way, in [m].
+        Displacement, in [m].
 
     Raises:
-        PlanError: If an argument is out of its range.
+        PlanError: If an argument is out of range.
     """
     check_positive(speed, "speed", "m/s")
     check_positive(turning, "turning", "rad/s")
@@ -42,22 +42,22 @@ def side_clearance(
     first_step: float,
     half_widths: float = HALF_WIDTHS,
 ) -> float:
-    """Room left beside a person who walks straight at a unicycle.
+    """Return the clearance to a person who walks straight at a unicycle.
 
     Args:
         speed: Driving speed of the unicycle, in [m/s].
-        turning: Its greatest turning rate, in [rad/s].
-        person_speed: Of the person, in [m/s].
-        distance: From which it begins, in [m].
+        turning: Largest turning rate of the unicycle, in [rad/s].
+        person_speed: Speed of the person, in [m/s].
+        distance: Distance at which the unicycle reacts, in [m].
         first_step: Time until it moves, in [s].
-        half_widths: Of both together, in [m].
+        half_widths: Sum of the half widths of both, in [m].
 
     Returns:
-        Room when the person is as far as it was, in [m]; negative if they
-        touch.
+        Clearance when the person passes the initial position of the
+        unicycle, in [m]; negative for a contact.
 
     Raises:
-        PlanError: If an argument is out of its range.
+        PlanError: If an argument is out of range.
     """
     check_positive(person_speed, "person_speed", "m/s")
     check_not_negative(distance, "distance", "m")

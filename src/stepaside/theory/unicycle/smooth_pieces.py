@@ -1,14 +1,13 @@
-r"""Pieces on which the laws are smooth, and how one leads to the next.
+r"""Smooth pieces of the laws, and transitions between them.
 
-In relative coordinates :math:`(r, a, \psi)` the laws jump where a wrapped
-error passes :math:`\pm\pi`, where the evader changes side, and, saturated,
-where its error changes sign. Between those places
+In relative coordinates :math:`(r, a, \psi)` the laws are discontinuous where
+a wrapped error passes :math:`\pm\pi`, where the evader changes side, and,
+saturated, where its error changes sign. Between these discontinuities
 
 .. math:: \dot\psi = f \Omega - c_1 \psi - c_0,
     \qquad \psi \in [\text{low}, \text{high}].
 
-The functions take and return numbers, so that they can be compiled as they
-are.
+The functions take and return numbers, so that Numba can compile them.
 """
 
 from enum import IntEnum
@@ -19,7 +18,7 @@ from .. import laws
 from .compilation import inlined
 from .game_parameters import FlatParameters
 
-inlined(laws.wrap_once)  # the heading calls it
+inlined(laws.wrap_once)  # called by evasion_heading
 evasion_heading = inlined(laws.evasion_heading)
 proportional_rate = inlined(laws.proportional_rate)
 saturated_rate = inlined(laws.saturated_rate)
@@ -27,23 +26,23 @@ side_behind = inlined(laws.side_behind)
 
 
 class Branch(IntEnum):
-    """Which formula gives the evader's turning rate."""
+    """Branch of the evader's turning law."""
 
     PROPORTIONAL = 0  # eq. (4)
-    LEFT = 1  # eq. (6): full rate to the left,
-    RIGHT = 2  # to the right,
-    SLIDING = 3  # and what Filippov's rule gives between the two
+    LEFT = 1  # eq. (6), full rate to the left
+    RIGHT = 2  # eq. (6), full rate to the right
+    SLIDING = 3  # eq. (6), zero error by Filippov's rule
 
 
 class Edge(IntEnum):
-    """Which end of a piece's range of bearings."""
+    """End of the range of bearings of a smooth piece."""
 
     LOW = -1
     HIGH = 1
 
 
 class Mode(NamedTuple):
-    """What names a piece.
+    """Discrete state that identifies a smooth piece.
 
     Attributes:
         side: Side of the line of sight that the evader takes, +1 or -1.
@@ -55,14 +54,14 @@ class Mode(NamedTuple):
 
 
 class SmoothPiece(NamedTuple):
-    """The numbers of a piece, or of the pieces of many games.
+    """Coefficients of a smooth piece, or of the pieces of many games.
 
     Attributes:
         low: Least bearing, in [rad].
         high: Largest bearing, in [rad].
         constant: Turning rate of the evader at bearing zero, in [rad/s].
-        slope: Its derivative by the bearing, in [1/s].
-        free: 0 where the evader turns with the line of sight, else 1.
+        slope: Derivative of the turning rate by the bearing, in [1/s].
+        free: 0 if the evader turns with the line of sight, else 1.
     """
 
     low: Any
@@ -73,8 +72,8 @@ class SmoothPiece(NamedTuple):
 
 
 @inlined
-def branch_at(code: int) -> Branch:
-    """The branch of a number, which is what arrays hold."""
+def branch_from_code(code: int) -> Branch:
+    """Return the branch of a number, as stored in arrays."""
     if code == 0:
         return Branch.PROPORTIONAL
     if code == 1:
@@ -85,14 +84,14 @@ def branch_at(code: int) -> Branch:
 
 
 @inlined
-def towards(amount: float) -> Branch:
-    """Branch on which the evader turns to the side of a sign."""
+def branch_towards(amount: float) -> Branch:
+    """Return the branch that turns in the direction of a sign."""
     return Branch.LEFT if amount > 0.0 else Branch.RIGHT
 
 
 @inlined
-def opposite(branch: Branch) -> Branch:
-    """The branch that turns the other way."""
+def opposite_branch(branch: Branch) -> Branch:
+    """Return the branch with the opposite turning rate."""
     if branch == Branch.LEFT:
         return Branch.RIGHT
     if branch == Branch.RIGHT:
@@ -102,9 +101,9 @@ def opposite(branch: Branch) -> Branch:
 
 @inlined
 def piece_of(mode: Mode, rules: FlatParameters) -> SmoothPiece:
-    """Give the numbers of a piece."""
+    """Return the coefficients of a smooth piece."""
     gain, width = rules.evader_gain, rules.hysteresis
-    zero = -mode.side * rules.angle  # bearing where the evader's error is zero
+    zero = -mode.side * rules.angle  # bearing of zero error
     if mode.branch == Branch.SLIDING:
         return SmoothPiece(-inf, inf, 0.0, 0.0, 0.0)
     if rules.keeps_side:
@@ -123,19 +122,19 @@ def piece_of(mode: Mode, rules: FlatParameters) -> SmoothPiece:
 
 
 @inlined
-def enter(
+def initial_mode(
     bearing: float, sight_rate: float, side: int, rules: FlatParameters
 ) -> tuple[float, Mode]:
-    """Find the piece that a game starts in.
+    """Return the initial mode of a game.
 
     Args:
         bearing: Bearing of the pursuer, in [-pi, pi], in [rad].
-        sight_rate: Rate of the line of sight, in [rad/s].
+        sight_rate: Turning rate of the line of sight, in [rad/s].
         side: +1 or -1, or 0 for the side behind the evader.
         rules: Rules of the game.
 
     Returns:
-        Bearing (a whole turn away from the given one at most), and the mode.
+        Bearing, up to a whole turn away from the given one, and the mode.
     """
     if side == 0:
         side = side_behind(bearing)
@@ -145,30 +144,30 @@ def enter(
     branch = Branch.PROPORTIONAL
     if rules.saturated:
         if error != 0.0:
-            branch = towards(error)
+            branch = branch_towards(error)
         elif abs(sight_rate) <= rules.evader_gain:
             branch = Branch.SLIDING
         else:
-            branch = towards(sight_rate)
+            branch = branch_towards(sight_rate)
     return error - side * rules.angle, Mode(side, branch)
 
 
 @inlined
-def leave(
+def next_mode(
     bearing: float,
     sight_rate: float,
     mode: Mode,
     edge: Edge,
     rules: FlatParameters,
 ) -> tuple[float, Mode]:
-    """Find the piece that follows when a game leaves its piece.
+    """Return the mode after a game crosses an edge of its smooth piece.
 
     Args:
-        bearing: Bearing of the pursuer at that instant, in [rad].
-        sight_rate: Rate of the line of sight, in [rad/s].
-        mode: Mode of the piece left.
-        edge: Where the bearing leaves; of no meaning when sliding, which
-            ends where the line of sight outruns the evader.
+        bearing: Bearing of the pursuer at the edge, in [rad].
+        sight_rate: Turning rate of the line of sight, in [rad/s].
+        mode: Mode before the transition.
+        edge: Edge that is crossed; ignored when sliding, which ends where
+            the line of sight turns faster than the evader can.
         rules: Rules of the game.
 
     Returns:
@@ -177,19 +176,19 @@ def leave(
     side, branch = mode.side, mode.branch
     zero = -side * rules.angle
     if branch == Branch.SLIDING:
-        return zero, Mode(side, towards(sight_rate))
+        return zero, Mode(side, branch_towards(sight_rate))
     falls = branch == Branch.LEFT and edge == Edge.LOW
     if falls or (branch == Branch.RIGHT and edge == Edge.HIGH):
         # The saturated evader's error is zero.
         if abs(sight_rate) <= rules.evader_gain:
             return zero, Mode(side, Branch.SLIDING)
-        return zero, Mode(side, opposite(branch))
+        return zero, Mode(side, opposite_branch(branch))
     turned = bearing - (2.0 * pi if edge == Edge.HIGH else -2.0 * pi)
     if rules.keeps_side:
-        return turned, Mode(side, opposite(branch))
+        return turned, Mode(side, opposite_branch(branch))
     if (edge == Edge.HIGH) == (side < 0):
         bearing = turned  # the pursuer passes behind the evader's back
     side = -side
     if branch != Branch.PROPORTIONAL:
-        branch = towards(bearing + side * rules.angle)
+        branch = branch_towards(bearing + side * rules.angle)
     return bearing, Mode(side, branch)

@@ -17,7 +17,7 @@ def relative_jacobian(
     r"""Linearise the relative motion with the turning rates held.
 
     Args:
-        speeds: Of pursuer and evader, in [m/s]. These and the others are
+        speeds: Speeds of pursuer and evader, in [m/s]. All arguments are
             numbers, or arrays of one shape.
         distance: Distance :math:`r`, in [m].
         pursuer_error: Error :math:`a`, in [rad].
@@ -46,20 +46,20 @@ def loop_matrices(
     pursuer_error: Any,
     bearing: Any,
 ) -> Array:
-    """Linearise the closed loop, of one game or of many.
+    """Linearise the closed loop of one or many games.
 
     Args:
-        speeds: Of pursuer and evader, in [m/s].
+        speeds: Speeds of pursuer and evader, in [m/s].
         gains: Derivatives of the turning rates of pursuer and evader by
             their errors, in [1/s].
         distance: Distance, in [m].
         pursuer_error: Error of the pursuer, in [rad].
-        bearing: Bearing of the pursuer seen by the evader, in [rad].
+        bearing: Bearing of the pursuer in the evader's frame, in [rad].
 
     Returns:
         Derivative of the rates of (r, a, psi), in [1/s] and mixed units.
-        Shape (..., 3, 3). When sliding, the bearing is constant and its row
-        and column do not count.
+        Shape (..., 3, 3). When sliding, the bearing is constant; ignore its
+        row and column.
     """
     loop = relative_jacobian(speeds, distance, pursuer_error, bearing)
     loop[..., 1, 1] -= gains[0]
@@ -89,7 +89,7 @@ def geometry_jacobian(
 
 
 def feedback_matrix(game: Game) -> Array:
-    """Derivative of the turning rates by (r, a, psi). Shape (2, 3)."""
+    """Return the derivative of the turning rates by (r, a, psi), (2, 3)."""
     evader = 0.0 if game.saturated else game.evader.gain
     return np.array([[0.0, game.pursuer.gain, 0.0], [0.0, 0.0, evader]])
 
@@ -108,13 +108,13 @@ def jacobian(
         game: Parameters of the game.
         distance: Distance, in [m].
         pursuer_error: Error of the pursuer, in [rad].
-        bearing: Bearing of the pursuer seen by the evader, in [rad].
+        bearing: Bearing of the pursuer in the evader's frame, in [rad].
         sliding: Whether the saturated evader slides on zero error.
 
     Returns:
-        Derivative of the rates of (r, a, psi), shape (3, 3), in [1/s] and
-        mixed units; (r, a), shape (2, 2), when sliding, for the bearing
-        is then constant and reached in finite time.
+        Derivative of the rates of (r, a, psi), in [1/s] and mixed units,
+        shape (3, 3); when sliding, of (r, a), shape (2, 2), because the
+        bearing is then constant and reached in finite time.
     """
     speeds = game.pursuer.speed, game.evader.speed
     gains = game.pursuer.gain, 0.0 if game.saturated else game.evader.gain
@@ -124,12 +124,12 @@ def jacobian(
 
 
 def sorted_eigenvalues(matrix: NDArray[Any]) -> tuple[complex, ...]:
-    """Eigenvalues, the slowest (largest real part) first."""
+    """Return the eigenvalues, the slowest (largest real part) first."""
     values = [complex(value) for value in np.linalg.eigvals(matrix)]
     return tuple(sorted(values, key=lambda s: (-s.real, -s.imag)))
 
 
 def time_constant(eigenvalues: tuple[complex, ...]) -> float:
-    """Time in which the slowest mode falls by e, in [s]; inf if unstable."""
+    """Return the time constant of the slowest mode, in [s], or inf."""
     rate = -max(value.real for value in eigenvalues)
     return 1.0 / rate if rate > 0.0 else inf

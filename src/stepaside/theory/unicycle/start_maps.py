@@ -1,4 +1,4 @@
-"""Where games lead to from anywhere, and from where they go worst."""
+"""Maps of outcomes over initial states, and the worst initial state."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -15,20 +15,20 @@ from .unicycle_game import Game
 Array = NDArray[np.float64]
 _CANDIDATES = 8  # local minima of the grid that are refined
 _FINE = 5  # points along each axis of a refined cell
-_SHRINK = 0.6  # of a cell from one refinement to the next
-_LEVELS = 14
+_SHRINK = 0.6  # ratio of cell sizes of successive refinements
+_LEVELS = 14  # of refinement
 
 
 @dataclass(frozen=True, slots=True)
 class StartBox:
-    """Starts that a map covers.
+    """Box of initial states.
 
     Attributes:
         nearest: Least distance, in [m].
         farthest: Largest distance, in [m].
-        aim: Largest pursuer error to either side, in [rad].
-        facing: Largest bearing of the pursuer in the evader's frame to
-            either side, in [rad]; the half field of view, say.
+        aim: Largest magnitude of the pursuer's error, in [rad].
+        facing: Largest magnitude of the bearing of the pursuer in the
+            evader's frame, in [rad]; for example half the field of view.
     """
 
     nearest: float
@@ -61,13 +61,13 @@ class StartBox:
 
 @dataclass(frozen=True, slots=True)
 class StartMap:
-    """Outcomes of games on a grid of starts.
+    """Outcomes of games over a grid of initial states.
 
     Attributes:
-        distances: In [m]. Shape (n,).
-        pursuer_errors: In [rad]. Shape (m,).
-        bearings: In [rad]. Shape (l,).
-        outcomes: Of all games, in C order over (n, m, l).
+        distances: Distances, in [m]. Shape (n,).
+        pursuer_errors: Errors of the pursuer, in [rad]. Shape (m,).
+        bearings: Bearings of the pursuer, in [rad]. Shape (l,).
+        outcomes: Outcomes of all games, in C order over (n, m, l).
     """
 
     distances: Array
@@ -77,7 +77,7 @@ class StartMap:
 
     @property
     def shape(self) -> tuple[int, int, int]:
-        """Sizes of the grid."""
+        """Shape (n, m, l) of the grid."""
         return (
             len(self.distances),
             len(self.pursuer_errors),
@@ -85,21 +85,21 @@ class StartMap:
         )
 
     def grid(self, name: str) -> Array:
-        """One quantity of the outcomes over the grid. Shape (n, m, l)."""
+        """Return a field of the outcomes over the grid. Shape (n, m, l)."""
         values: Array = getattr(self.outcomes, name).reshape(self.shape)
         return values
 
 
 @dataclass(frozen=True, slots=True)
 class WorstStart:
-    """Start of the closest approach in a box.
+    """Initial state with the closest approach in a box.
 
     Attributes:
-        start: The start.
-        closest_distance: Its closest approach, in [m]; the capture distance
-            if it is captured.
-        captured: Whether it is.
-        games: Number of games played to find it.
+        start: The initial state.
+        closest_distance: Closest approach, in [m]; the capture distance if
+            the evader is captured.
+        captured: Whether the evader is captured.
+        games: Number of games of the search.
     """
 
     start: RelativeStart
@@ -118,16 +118,17 @@ def map_starts(
     capture_distance: float = 1e-6,
     progress: Callable[[int], None] | None = None,
 ) -> StartMap:
-    """Play a game from every point of a grid over a box of starts.
+    """Play a game from every point of a grid of initial states.
 
     Args:
         game: Parameters of the game.
-        box: Starts to cover.
-        duration: Length of each game, in [s].
+        box: Box of initial states.
+        duration: Duration of each game, in [s].
         shape: Points along distance, pursuer error and bearing.
-        step: Step of the integration, in [s].
+        step: Step size of the integration, in [s].
         capture_distance: Distance at which a game ends, in [m].
-        progress: Called with numbers of games done.
+        progress: Called with the number of games finished since the last
+            call.
     """
     bounds = zip(box.low, box.high, shape, strict=True)
     axes = [np.linspace(low, high, count) for low, high, count in bounds]
@@ -143,8 +144,8 @@ def map_starts(
     return StartMap(axes[0], axes[1], axes[2], outcomes)
 
 
-Lowest = Callable[[Array], Array]
-"""Closest approaches of games from starts of shape (n, 3); shape (n,)."""
+ClosestApproach = Callable[[Array], Array]
+"""Closest approaches, shape (n,), of games from states of shape (n, 3)."""
 
 
 def find_worst_start(
@@ -156,22 +157,22 @@ def find_worst_start(
     step: float = 0.01,
     capture_distance: float = 1e-6,
 ) -> WorstStart:
-    """Refine the local minima of a map down to the worst start.
+    """Search the worst initial state from the local minima of a map.
 
-    Around each of the lowest local minima of the grid a small grid is
-    played; it moves to its best point and shrinks, and the winner is
-    polished by Nelder and Mead's simplex.
+    A small grid around each of the lowest local minima is moved to its best
+    point and shrunk repeatedly; the best result is refined by the
+    Nelder-Mead simplex method.
 
     Args:
         game: Parameters of the game.
         start_map: Map over the same box.
-        box: Starts to cover.
-        duration: Length of each game, in [s].
-        step: Step of the integration, in [s].
+        box: Box of initial states.
+        duration: Duration of each game, in [s].
+        step: Step size of the integration, in [s].
         capture_distance: Distance at which a game ends, in [m].
 
     Returns:
-        The worst start found.
+        The worst initial state found.
     """
     played = start_map.outcomes.closest_distance.size
 
@@ -202,7 +203,7 @@ def find_worst_start(
 
 
 def _local_minima(start_map: StartMap) -> tuple[Array, Array]:
-    """Lowest local minima of a map: starts (n, 3) and distances (n,)."""
+    """Return the lowest local minima: states (n, 3) and distances (n,)."""
     from scipy.ndimage import minimum_filter
 
     values = start_map.grid("closest_distance")
@@ -216,7 +217,11 @@ def _local_minima(start_map: StartMap) -> tuple[Array, Array]:
 
 
 def _refine(
-    lowest: Lowest, box: StartBox, centers: Array, best: Array, cell: Array
+    lowest: ClosestApproach,
+    box: StartBox,
+    centers: Array,
+    best: Array,
+    cell: Array,
 ) -> tuple[Array, Array]:
     """Move each centre to the best point of a small grid around it."""
     spots = np.linspace(-1.0, 1.0, _FINE)
@@ -230,9 +235,13 @@ def _refine(
 
 
 def _polish(
-    lowest: Lowest, box: StartBox, winner: Array, worst: float, cell: Array
+    lowest: ClosestApproach,
+    box: StartBox,
+    winner: Array,
+    worst: float,
+    cell: Array,
 ) -> tuple[Array, float]:
-    """Better a start by a simplex, if that betters it."""
+    """Improve a state by a simplex search, if that succeeds."""
     from scipy.optimize import minimize
 
     simplex = winner + np.vstack([np.zeros(3), 2.0 * np.diag(cell)])

@@ -1,4 +1,4 @@
-"""The game of two unicycles and its laws, eqs. (1)-(6) of the paper."""
+"""Parameters of the game of two unicycles, eqs. (1)-(6) of the paper."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -20,18 +20,18 @@ MOVE_ASIDE = pi / 2
 
 
 class TurningLaw(StrEnum):
-    """How the evader turns its error into a turning rate."""
+    """Law from the evader's heading error to its turning rate."""
 
     PROPORTIONAL = "proportional"  # eq. (4)
     SATURATED = "saturated"  # eq. (6)
 
 
 class SideRule(StrEnum):
-    """On which side of the line of sight the evader moves aside.
+    """Rule for the side of the line of sight to which the evader moves.
 
     ``BEHIND`` takes, at every instant, the direction behind the evader
-    (Sec. II-B), with an optional hysteresis. ``LATCHED`` keeps the side that
-    the game starts with.
+    (Sec. II-B), with an optional hysteresis. ``LATCHED`` keeps the initial
+    side.
     """
 
     BEHIND = "behind"
@@ -40,7 +40,7 @@ class SideRule(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Unicycle:
-    """One player.
+    """Parameters of one player.
 
     Attributes:
         speed: Magnitude of the driving velocity, in [m/s]. The pursuer
@@ -82,7 +82,7 @@ class Game:
     hysteresis: float = 0.0
 
     def __post_init__(self) -> None:
-        """Check the parameters, naming them as options do."""
+        """Check the parameters; messages use the names of the options."""
         check_positive(self.pursuer.speed, "pursuer_speed", "m/s")
         check_positive(self.evader.speed, "evader_speed", "m/s")
         check_positive(self.pursuer.gain, "pursuer_gain", "1/s")
@@ -100,7 +100,7 @@ class Game:
     def keeps_side(self) -> bool:
         """Whether the side never changes.
 
-        At angles 0 and pi both sides name the same direction.
+        At angles 0 and pi both sides are the same direction.
         """
         ends = self.angle in (0.0, pi)
         return ends or self.side_rule is SideRule.LATCHED
@@ -131,11 +131,11 @@ def make_game(
 def with_values(
     name: str, make: Callable[Values, Game], find: Callable[[Game], Found]
 ) -> Callable[Values, Found]:
-    """Give a function of a game a twin that takes the values of one.
+    """Return a variant of a function of a game that takes plain values.
 
     Args:
-        name: Name of the twin.
-        make: Makes a game of values, as :func:`make_game` does.
+        name: Name of the variant.
+        make: Builds a game from values, as :func:`make_game` does.
         find: Function of a game.
     """
 
@@ -150,7 +150,7 @@ def with_values(
     found.__name__ = found.__qualname__ = name
     found.__module__ = find.__module__
     found.__doc__ = (
-        f"{first}\n\nSee :func:`{find.__name__}`; the game is that which "
-        f":func:`.laws.{make.__name__}` makes of the values."
+        f"{first}\n\nSee :func:`{find.__name__}`; the game is built by "
+        f":func:`.unicycle_game.{make.__name__}` from the values."
     )
     return found

@@ -1,4 +1,4 @@
-"""Watched duels made by hand: two robots that walk as theory says."""
+"""Synthetic instrumented duels: two robots on the circle of the theory."""
 
 from dataclasses import replace
 from math import pi, radians, sin, sqrt
@@ -10,7 +10,7 @@ from stepaside.core.poses import Array
 from stepaside.games.duel_settings import PLAYERS, DuelSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.trajectory import Trajectory
-from stepaside.studies.watched_duel import WalkedPlan, WatchedDuel
+from stepaside.studies.instrumented_duel import InstrumentedDuel, WalkedPlan
 
 RADIUS = 4.0 * 0.1 / (pi * 0.2)
 WEIGHT = 52.0  # of a robot, in [N]
@@ -25,16 +25,16 @@ def walked_duel(
     slide: float = 0.002,
     tilt: float = radians(1.0),
     outcome: Outcome = Outcome.COMPLETED,
-) -> WatchedDuel:
-    """Duel on the circle from its first moment on.
+) -> InstrumentedDuel:
+    """Return a duel on the circle from its begin.
 
     Args:
         duration: Simulated time, in [s].
-        radius: Of the circle, in [m].
-        speed: Of both robots, in [m/s].
-        slide: Way of a foot on the floor in a step, in [m].
-        tilt: Of both torsos at the end, in [rad].
-        outcome: How it ends.
+        radius: Radius of the circle, in [m].
+        speed: Speed of both robots, in [m/s].
+        slide: Slip of a stance foot per step, in [m].
+        tilt: Tilt of both torsos at the end, in [rad].
+        outcome: Outcome of the duel.
     """
     settings = DuelSettings(duration=duration)
     times = np.arange(0.0, duration + 1e-9, 0.02)
@@ -50,15 +50,15 @@ def walked_duel(
         ("evader", pi / 2, 0.0),  # it walks backward
     ):
         angle = along + ahead
-        place = radius * np.column_stack([np.cos(angle), np.sin(angle)])
+        position = radius * np.column_stack([np.cos(angle), np.sin(angle)])
         level = 0.0 * along
         tracks[name] = Trajectory(
-            com=np.column_stack([place, 0.268 + level]),
-            torso=np.column_stack([place, along + heading]),
-            qpos=np.column_stack([place, 0.33 + level, quaternion]),
+            com=np.column_stack([position, 0.268 + level]),
+            torso=np.column_stack([position, along + heading]),
+            qpos=np.column_stack([position, 0.33 + level, quaternion]),
         )
     sway = np.column_stack([0.07 * ticks, 0.03 * np.sin(5.0 * ticks)])
-    return WatchedDuel(
+    return InstrumentedDuel(
         settings=settings,
         outcome=outcome,
         duration=duration,
@@ -73,7 +73,7 @@ def walked_duel(
 
 
 def _plans(settings: DuelSettings, duration: float) -> tuple[WalkedPlan, ...]:
-    """One plan a step, the first from rest."""
+    """Return one plan per step, the first from standing."""
     gait = settings.gait
     begins = gait.start_support + gait.step_duration * np.arange(1.0, 1e3)
     walked = begins[begins < duration - gait.step_duration].tolist()
@@ -86,26 +86,26 @@ def _plans(settings: DuelSettings, duration: float) -> tuple[WalkedPlan, ...]:
 def _feet(
     ticks: Array, plans: tuple[WalkedPlan, ...], slide: float
 ) -> tuple[Array, Array]:
-    """Loads and places of the feet, left foot first."""
+    """Return loads and positions of the feet, left foot first."""
     loads = np.full((len(ticks), 2), 0.5 * WEIGHT)
     feet = np.zeros((len(ticks), 2, 2))
     for number, plan in enumerate(plans):
-        lift = plan.started + LATE + (0.8 if plan.from_rest else 0.0)
+        lift = plan.start_time + LATE + (0.8 if plan.from_standing else 0.0)
         air = (ticks >= lift) & (ticks < lift + AIR)
         side = number % 2
         loads[air, side], loads[air, 1 - side] = 0.0, WEIGHT
-        # It swings on for 40 mm; the other one slides meanwhile.
+        # The foot swings by 40 mm while the other one slips.
         feet[ticks >= lift + AIR, side, 0] += 0.04
         feet[ticks >= lift + 0.5 * AIR, 1 - side, 0] += slide
     return loads, feet
 
 
-def changed(duel: WatchedDuel, **arrays: Any) -> WatchedDuel:
-    """Duel with other arrays of its record; a function maps the old one.
+def changed(duel: InstrumentedDuel, **arrays: Any) -> InstrumentedDuel:
+    """Return the duel with trajectory arrays mapped by functions.
 
     Args:
         duel: The duel.
-        arrays: Changes by player and array, as in ``evader_torso``.
+        arrays: Functions by player and array, as in ``evader_torso``.
     """
     tracks = dict(duel.tracks)
     for full_name, change in arrays.items():
@@ -116,8 +116,8 @@ def changed(duel: WatchedDuel, **arrays: Any) -> WatchedDuel:
     return replace(duel, tracks=tracks)
 
 
-def standing_duel() -> WatchedDuel:
-    """Two robots that never move a foot."""
+def standing_duel() -> InstrumentedDuel:
+    """Return a duel of two robots that never lift a foot."""
     still = walked_duel(speed=0.0)
     loads = np.full_like(still.loads["pursuer"], 0.5 * WEIGHT)
     return replace(
@@ -128,5 +128,5 @@ def standing_duel() -> WatchedDuel:
 
 
 def apart(radius: float) -> float:
-    """Distance of the robots on a circle, in [m]."""
+    """Return the distance of the robots on a circle, in [m]."""
     return sqrt(2.0) * radius

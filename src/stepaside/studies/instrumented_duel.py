@@ -1,4 +1,4 @@
-"""A duel played under watch: what its record leaves out, tick by tick."""
+"""Duels with forces, feet, references and plans recorded at every tick."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -19,36 +19,36 @@ from ..robots.description import load_robot
 
 
 class WalkedPlan(NamedTuple):
-    """A plan that was walked until another one replaced it.
+    """Plan that was walked until it was replaced.
 
     Attributes:
-        started: When its motion began, which need not be on a tick, in [s].
-        sent: Tick at which the joints were first sent some of it, in [s].
-        from_rest: Whether the robot stood when it began.
+        start_time: Begin of its motion, not necessarily at a tick, in [s].
+        first_sent_time: Tick of the first joint targets of the plan, in [s].
+        from_standing: Whether the robot stood at its begin.
     """
 
-    started: float
-    sent: float
-    from_rest: bool
+    start_time: float
+    first_sent_time: float
+    from_standing: bool
 
 
 @dataclass(frozen=True, slots=True)
-class WatchedDuel:
-    """A duel and what it left behind.
+class InstrumentedDuel:
+    """Duel with records of every control tick.
 
     Attributes:
-        settings: What decided it, with the start that was drawn.
-        outcome: How it ended.
+        settings: Settings, with the initial poses that were drawn.
+        outcome: Outcome of the duel.
         duration: Simulated time, in [s].
-        times: Times of the samples of the record, in [s]. Shape (m,).
-        tracks: Record of each robot, by name.
+        times: Times of the samples of the trajectories, in [s]. Shape (m,).
+        tracks: Trajectory of each robot, by name.
         ticks: Times of the control ticks, in [s]. Shape (n,).
-        loads: By robot, what the sensors of left and right foot bear at the
-            end of each tick, in [N]. Shape (n, 2).
-        feet: By robot, where left and right foot are then, in [m].
-            Shape (n, 2, 2).
-        references: By robot, CoM reference that the joint targets of each
-            tick were computed from, in odometry, in [m]. Shape (n, 2).
+        loads: By robot, loads of left and right foot at the end of each
+            tick, in [N]. Shape (n, 2).
+        feet: By robot, positions of left and right foot in the world at the
+            end of each tick, in [m]. Shape (n, 2, 2).
+        references: By robot, CoM reference of the joint targets of each
+            tick, in the odometry frame, in [m]. Shape (n, 2).
         plans: By robot, the plans that were walked.
     """
 
@@ -64,18 +64,18 @@ class WatchedDuel:
     plans: Mapping[str, tuple[WalkedPlan, ...]]
 
 
-def watch(settings: DuelSettings) -> WatchedDuel:
-    """Play a duel to its end, as ``run_duel`` does, and watch it.
+def play_instrumented(settings: DuelSettings) -> InstrumentedDuel:
+    """Play a duel to its end, as ``run_duel`` does, recording every tick.
 
     Raises:
-        StepAsideError: If the settings ask for what cannot be.
+        StepAsideError: If the settings are invalid.
     """
     duel = Duel(settings)
     world = duel.world
     period = world.physics.tick
     count = ceil(settings.duration / period - 1e-9)
-    watchers = [
-        _Watcher(duel, player, count)
+    recorders = [
+        _TickRecorder(duel, player, count)
         for player in duel.players
         if isinstance(player, Walker)
     ]
@@ -83,31 +83,31 @@ def watch(settings: DuelSettings) -> WatchedDuel:
     while outcome is None and world.ticks < count:
         tick, now = world.ticks, world.time
         outcome = duel.tick()
-        for watcher in watchers:
-            watcher.note(tick, now)
+        for recorder in recorders:
+            recorder.record(tick, now)
     duel.close()
     outcome = outcome or Outcome.COMPLETED
     duel.recorder.ended(duel, outcome)
     done = world.ticks
-    return WatchedDuel(
+    return InstrumentedDuel(
         settings=duel.settings,
         outcome=outcome,
         duration=world.time,
         times=duel.recorder.times,
         tracks=duel.recorder.tracks(),
         ticks=np.arange(done, dtype=np.float64) * period,
-        loads={w.name: w.loads[:done] for w in watchers},
-        feet={w.name: w.feet[:done] for w in watchers},
-        references={w.name: w.references[:done] for w in watchers},
-        plans={w.name: tuple(w.plans) for w in watchers},
+        loads={r.name: r.loads[:done] for r in recorders},
+        feet={r.name: r.feet[:done] for r in recorders},
+        references={r.name: r.references[:done] for r in recorders},
+        plans={r.name: tuple(r.plans) for r in recorders},
     )
 
 
-class _Watcher:
-    """Watches one robot of a duel."""
+class _TickRecorder:
+    """Recorder of one robot of a duel at every tick."""
 
     def __init__(self, duel: Duel, walker: Walker, count: int) -> None:
-        """Find its sensors; make room for a number of ticks."""
+        """Find the sensors and allocate arrays for a number of ticks."""
         self.name = walker.name
         self._scheme: ControlScheme = walker.scheme
         self._plan: ManeuverPlan | None = None
@@ -124,8 +124,8 @@ class _Watcher:
         self.references = np.zeros((count, 2))
         self.plans: list[WalkedPlan] = []
 
-    def note(self, tick: int, now: float) -> None:
-        """Note what a tick, which began at a time, left behind."""
+    def record(self, tick: int, now: float) -> None:
+        """Record the state after a tick that began at ``now``, in [s]."""
         scheme, data = self._scheme, self._data
         self.loads[tick] = data.sensordata[self._sensors].sum(axis=1)
         self.feet[tick] = data.site_xpos[self._sites, :2]
@@ -133,6 +133,6 @@ class _Watcher:
         plan = scheme.plan
         if plan is not self._plan and plan is not None:
             standing = plan.schedule.standing
-            started = scheme.plan_started
-            self.plans.append(WalkedPlan(started, now, standing))
+            start_time = scheme.plan_started
+            self.plans.append(WalkedPlan(start_time, now, standing))
         self._plan = plan
