@@ -213,7 +213,7 @@ def test_interrupted_duel_reports_what_was_done(
     assert (folder / "trajectories.npz").exists()
     # Whoever presses Ctrl-C does not wait for a figure.
     assert not list(folder.glob("*.png")) and "figure:" not in result.stdout
-    assert f"what was played is kept in {folder}" in result.stderr
+    assert f"the run so far is saved in {folder}" in result.stderr
 
 
 def test_zero_is_a_value_and_not_an_absence() -> None:

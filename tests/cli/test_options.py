@@ -12,7 +12,7 @@ import pytest
 
 from stepaside.cli.bound import AGAINST
 from stepaside.cli.main import COMMANDS, main
-from stepaside.cli.options.connection_options import WAYS
+from stepaside.cli.options.connection_options import MOTION_INTERFACES
 from stepaside.cli.options.declaration import DeclaredOption, OptionDeclaration
 from stepaside.cli.options.print_config import meanings
 from stepaside.cli.options.room_options import RECIPE
@@ -68,7 +68,7 @@ REGISTRIES: dict[str, Iterable[str]] = {
     "--person-figure": FIGURES,
     "--level": LEVELS,
     "--role": ROLES,
-    "--by": WAYS,
+    "--by": MOTION_INTERFACES,
     "--first-foot": FEET,
     "--kind": robustness.KINDS,
     "--strategy": STRATEGIES,

@@ -9,7 +9,7 @@ from click.testing import CliRunner
 
 from stepaside.cli import progress
 from stepaside.cli.main import COMMANDS, main
-from stepaside.cli.value_labels import label_of, text_of, unit_of
+from stepaside.cli.tables import format_value, label_of, unit_of
 
 TABLES = [
     "duel --duration 1",
@@ -59,7 +59,7 @@ def test_a_name_becomes_words_and_its_end_a_unit(
     name: str, value: Any, label: str, text: str
 ) -> None:
     assert label_of(name) == label
-    assert text_of(name, value) == text
+    assert format_value(name, value) == text
     unit = unit_of(name)
     with_unit = f"{label} [{unit}]" if unit else label
     assert label_of(name, unit=True) == with_unit
