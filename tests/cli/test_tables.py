@@ -1,4 +1,4 @@
-"""What commands print for people: words with units, never raw keys."""
+"""Printed tables: labels with units, never raw keys; progress lines."""
 
 import re
 from pathlib import Path
@@ -30,7 +30,7 @@ TABLES = [
 
 
 @pytest.mark.parametrize("words", TABLES)
-def test_no_table_shows_a_raw_key(
+def test_tables_show_no_raw_keys(
     words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -55,7 +55,7 @@ def test_no_table_shows_a_raw_key(
         ("eigenvalues_per_s", [[-1.0, 2.0]], "eigenvalues", "-1+2i 1/s"),
     ],
 )
-def test_a_name_becomes_words_and_its_end_a_unit(
+def test_name_becomes_a_label_and_its_suffix_a_unit(
     name: str, value: Any, label: str, text: str
 ) -> None:
     assert label_of(name) == label
@@ -80,7 +80,7 @@ LONG = {
 
 @pytest.mark.parametrize("more", [[], ["--json"]])
 @pytest.mark.parametrize("words", LONG)
-def test_long_work_says_on_a_pipe_how_far_it_is(
+def test_long_work_prints_progress_lines_to_a_pipe(
     words: str,
     more: list[str],
     tmp_path: Path,
@@ -100,7 +100,7 @@ def test_long_work_says_on_a_pipe_how_far_it_is(
     assert "so far" not in shown.stdout
 
 
-def test_lines_come_now_and_then(
+def test_progress_lines_are_periodic(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """A thousand updates over a hundred seconds are ten lines at most."""
@@ -115,7 +115,7 @@ def test_lines_come_now_and_then(
     assert "about" in lines[0] and "left" in lines[0]
 
 
-def test_the_bare_command_prints_its_help() -> None:
+def test_bare_command_prints_help() -> None:
     bare = CliRunner().invoke(main, [])
     asked = CliRunner().invoke(main, ["--help"])
     assert bare.exit_code == asked.exit_code == 0
@@ -124,7 +124,7 @@ def test_the_bare_command_prints_its_help() -> None:
 
 
 @pytest.mark.parametrize("command", ["play", "serve"])
-def test_help_names_every_language_alike(command: str) -> None:
+def test_help_names_every_interface_alike(command: str) -> None:
     help_ = CliRunner().invoke(main, [command, "--help"]).stdout
     first = help_.partition("Options:")[0]
     for text in (COMMANDS[command], first):
