@@ -353,7 +353,8 @@ def test_a_file_of_a_room_holds_all_that_stands_in_it(tmp_path: Path) -> None:
     file = tmp_path / "room.toml"
     file.write_text("width=4.0\ndepth=4.0\n", encoding="utf-8")
     answer = call("--room", str(file), "--discs", "1", "--seeds", "1")
-    assert answer.exit_code == 2 and "cannot be combined with a room file" in answer.output
+    assert answer.exit_code == 2
+    assert "cannot be combined with a room file" in answer.output
 
 
 def test_no_other_level_is_taken() -> None:
