@@ -157,8 +157,8 @@ class MujocoLegs:
     def _step(self, reference: BodyReference, reach: Array | float) -> None:
         """Take one damped Newton step; store the error before it.
 
-        No joint moves by more than ``reach``, in [rad]: near a straight knee, an
-        unlimited step would reach the other branch of the leg.
+        No joint moves by more than ``reach``, in [rad]: near a straight knee
+        an unlimited step would reach the other branch of the leg.
         """
         model, data, q = self._model, self._data, self._qpos
         mujoco.mj_kinematics(model, data)
@@ -211,7 +211,7 @@ def _lean(tilt: tuple[float, float], yaw: float) -> tuple[float, float]:
 def _turn(frame: Array, yaw: float) -> tuple[float, float, float]:
     """Return the small rotation, in [rad], that levels a frame at a yaw angle.
 
-    Half the sum of the cross products of the axes with their desired directions.
+    Half the sum of cross products of the axes and their desired directions.
     """
     m00, m01, m02, m10, m11, m12, m20, m21, _ = frame.tolist()
     c, s = cos(yaw), sin(yaw)

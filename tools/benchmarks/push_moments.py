@@ -56,7 +56,7 @@ def ground(model: Any, data: Any, foot: int) -> tuple[Array, float]:
 def bound_with_landing(
     trial: RobustnessTrial, rest: float, mass: float
 ) -> float:
-    """Return the bound for another landing time of the swing foot, in [N s]."""
+    """Return the bound for another landing time, in [N s]."""
     passed = 2.0 * trial.phase * GAIT.step_duration
     foot = Foot.LEFT if passed < GAIT.step_duration else Foot.RIGHT
     walk = steady_plan(
@@ -81,8 +81,8 @@ def follow(trial: RobustnessTrial) -> dict[str, float | str | bool]:
     The push must be in single support.
 
     Means are weighted by exp(-eta t) from the beginning of the push, as in the
-    DCM dynamics. Lengths are from the ankle of the stance foot, in the direction
-    of the push, in [mm].
+    DCM dynamics. Lengths are from the ankle of the stance foot, along the
+    push, in [mm].
     """
     walking = WalkGame(settings_of(trial), recorded=False)
     world, walker = walking.world, walking.walker

@@ -20,7 +20,7 @@ from stepaside.sim.camera_settings import (
 )
 from stepaside.studies.result_files import header, write_result
 
-BEYOND = 0.85  # initial distance above which the trigger distance is meaningful, in [m]
+BEYOND = 0.85  # start distance for a meaningful trigger, in [m]
 LIBRARIES = ("mujoco", "numpy", "opencv-python-headless")
 PLAIN = (
     "detection_rate",

@@ -1,4 +1,4 @@
-"""Run served duels over NAOqi with footsteps or joints instead of velocities."""
+"""Run served duels over NAOqi with footsteps or joints, not velocities."""
 
 from asking import ask
 from driven import played
