@@ -1,4 +1,4 @@
-"""Faults put into the package, and those that no test noticed."""
+"""Mutation score, and survivors."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -11,7 +11,7 @@ PACKAGE = "src/stepaside/"
 
 
 def score(result: Mapping[str, Any]) -> str:
-    """How many faults were noticed, in all and by package."""
+    """List the number of detected faults, in total and by package."""
     outcomes = result["outcomes"]
     since = sum("noticed_by" in row for row in result["survivors"])
     later = (
@@ -46,7 +46,7 @@ def score(result: Mapping[str, Any]) -> str:
 
 
 def survivors(result: Mapping[str, Any]) -> str:
-    """Each fault that no test noticed, with the reason."""
+    """List each undetected fault with its reason."""
     if not result["survivors"]:
         return "None."
     rows = [

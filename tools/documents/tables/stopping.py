@@ -1,4 +1,4 @@
-"""Commands that Ctrl-C stopped."""
+"""Commands interrupted by Ctrl-C."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -7,7 +7,7 @@ from .markdown import number, table
 
 
 def stops(result: Mapping[str, Any]) -> str:
-    """How much each command still worked, at worst, and how it ended."""
+    """List how much each command still worked, at worst, and how it ended."""
     return table(
         (
             "command",
