@@ -119,7 +119,7 @@ def test_endless_work_is_refused(
         ("unicycles --duration 3e5", "a game of 300000 s"),
         ("unicycles --sample-time .01 --duration 3e4", "a game of 30000 s"),
         ("tournament --seeds 0:10000 --workers 1", "games of 180 s"),
-        ("replay RUN --video film.mp4 --speed 1e-4", "a film of about"),
+        ("replay RUN --video film.mp4 --speed 1e-4", "a video of about"),
     ],
 )
 def test_long_work_is_announced_before_it_begins(

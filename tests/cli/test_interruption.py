@@ -10,7 +10,6 @@ from click.testing import CliRunner, Result
 from stepaside.cli.interruption import resume_message
 from stepaside.cli.main import LazyGroup, all_commands, main
 from stepaside.cli.output_files import OutputFile, attempt, writes_files
-from stepaside.cli.reproduce import reproduce
 from stepaside.cli.run_output import SavedRun
 from stepaside.core.atomic_output import writing
 from stepaside.games.outcome import Outcome
@@ -92,8 +91,7 @@ def test_reproduce_interrupted_while_drawing_reports_saved_runs(
     def interrupt(*_: Any) -> None:
         raise KeyboardInterrupt
 
-    module = reproduce.callback.__globals__  # type: ignore[union-attr]
-    monkeypatch.setitem(module, "_measure", lambda *_: [])
+    monkeypatch.setattr("stepaside.cli.reproduce._measure", lambda *_: [])
     monkeypatch.setattr(reproduce_figures, "draw_figures", interrupt)
     result = CliRunner().invoke(main, ["reproduce", f"--output={tmp_path}"])
     assert result.exit_code == 130

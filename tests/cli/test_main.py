@@ -32,9 +32,9 @@ def test_every_command_has_help(command: str) -> None:
 
 def test_help_shows_defaults() -> None:
     for command in ("duel", "duels"):
-        told = " ".join(run(command, "--help").stdout.split())
-        assert "Distance [m] at which evasion ends; never by default." in told
-        assert "Friction of the soles [1]; 0.8 by default." in told
+        text = " ".join(run(command, "--help").stdout.split())
+        assert "which evasion ends [m]. [default: never]" in text
+        assert "between soles and floor [1]. [default: 0.8]" in text
 
 
 def test_plan_prints_footsteps_and_a_10_ms_grid() -> None:

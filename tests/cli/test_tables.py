@@ -48,7 +48,7 @@ def test_tables_show_no_raw_keys(
         ("turning_rate_rad_s", 0.25, "turning rate", "0.25 rad/s"),
         ("headings_apart_rad", 1.0, "angle between headings", "57.2958 deg"),
         ("other_share", 0.25, "other", "25 %"),
-        ("floor_m2", 9.0, "floor", "9 m^2"),
+        ("floor_m2", 9.0, "floor area", "9 m^2"),
         ("time_constant_s", None, "time constant", "-"),
         ("stable", False, "stable", "no"),
         ("games", 12, "games", "12"),

@@ -177,7 +177,7 @@ def test_map_names_the_worst_start() -> None:
         ("--angle north", "'north'"),
         ("--law hard", "'hard'"),
         ("--hysteresis 2", "2.0"),
-        ("--angle 1 --strategy move-back", "not both"),
+        ("--angle 1 --strategy move-back", "cannot be combined"),
     ],
 )
 def test_bad_input_is_one_line_and_status_2(
@@ -284,7 +284,7 @@ def test_unknown_strategy_is_refused() -> None:
     for words, message in (
         ("--evader-strategy dance", "strategy must be one of evasion"),
         ("--evader-strategy no.py:Nobody", "no file"),
-        ("--evader-strategy stand --figure x.png", "games of the paper"),
+        ("--evader-strategy stand --figure x.png", "cannot be combined with"),
     ):
         result = CliRunner().invoke(unicycles, words.split())
         assert result.exit_code != 0

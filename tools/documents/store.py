@@ -51,7 +51,7 @@ class Store:
         existing one counts.
 
         Raises:
-            DocumentError: If the value does not exist; names the existing keys.
+            DocumentError: If there is no such value; names the keys.
         """
         name, _, path = address.partition(":")
         value: Any = self.result(name)
