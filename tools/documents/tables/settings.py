@@ -85,7 +85,9 @@ def settings(_: Any) -> str:
         rows.append(
             (f"`{path}`", may_be, unit, _default(setting.default), why)
         )
-    return table(("setting", "range", "unit", "by default", "why"), rows)
+    return table(
+        ("setting", "range", "unit", "default", "reason for the range"), rows
+    )
 
 
 def _default(value: Any) -> str:
@@ -115,7 +117,7 @@ def options(_: Any) -> str:
         (f"`{name}`", words, unit, ", ".join(commands))
         for (name, words, unit), commands in sorted(found.items())
     ]
-    return table(("option", "range", "unit", "of"), rows)
+    return table(("option", "range", "unit", "commands"), rows)
 
 
 def _options(command: click.Command) -> list[click.Option]:

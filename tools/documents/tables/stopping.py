@@ -11,10 +11,10 @@ def stops(result: Mapping[str, Any]) -> str:
     return table(
         (
             "command",
-            "worked on, at most [s]",
-            "gone, at most [s]",
+            "processor time to end, at most [s]",
+            "time to end, at most [s]",
             "statuses",
-            "its last words",
+            "last line",
         ),
         (_row(row["command"], row["stops"]) for row in result["rows"]),
     )
