@@ -60,13 +60,14 @@ _OPTIONS = [
     ).option(default=TurningLaw.PROPORTIONAL.value, show_default=True),
     OptionDeclaration(
         "--side-rule",
-        "Side to which the evader turns: chosen at every instant (behind), "
-        "or kept until the hysteresis is exceeded (latched).",
+        "Side of the line of sight to which the evader moves: the side "
+        "behind it at every instant (behind), or its initial side (latched).",
         kind=NameType(lambda: [rule.value for rule in SideRule]),
     ).option(default=SideRule.BEHIND.value, show_default=True),
     OptionDeclaration(
         "--hysteresis",
-        "Angle beyond the evader's axis at which it changes side",
+        "Angle beyond the evader's axis at which it changes side, with "
+        "--side-rule behind",
         unit="rad",
         aliases=("--side-hysteresis", "hysteresis"),
     ).option(default=0.0, show_default=True),

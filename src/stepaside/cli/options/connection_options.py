@@ -12,9 +12,9 @@ DOMAIN = OptionDeclaration(
 )
 NETWORK = OptionDeclaration(
     "--network/--no-network",
-    "Open the ROS 2 topics to other machines; otherwise set "
-    "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST for ROS 2 programs on this "
-    "machine.",
+    "Make the ROS 2 topics visible to other machines. Without it, ROS 2 "
+    "programs on this machine require "
+    "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST.",
 )
 MAX_SPEED = OptionDeclaration(
     "--max-speed",
