@@ -122,7 +122,7 @@ def age() -> float:
 
 
 def resident() -> float:
-    """Return the resident memory of the process, with the emulator's, in [MB]."""
+    """Return the resident memory, including an emulator's, in [MB]."""
     pages = int(Path("/proc/self/statm").read_text().split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
 
