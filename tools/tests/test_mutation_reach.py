@@ -12,7 +12,7 @@ from tools.mutation.reach import load
 
 REPOSITORY = Path(__file__).parents[2]
 # Where decorators come from whose functions no tracer sees whenever they act.
-BLIND = {"functools", "compiled"}
+BLIND = {"functools", "compilation"}
 CODE = """def half(x: float) -> float:
     return 0.5 * x
 """
