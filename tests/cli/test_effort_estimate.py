@@ -1,4 +1,4 @@
-"""Long work says so before it begins, and endless work is refused."""
+"""Long work is announced before it begins; endless work is refused."""
 
 import re
 from pathlib import Path
@@ -7,7 +7,12 @@ import click
 import pytest
 from click.testing import CliRunner, Result
 
-from stepaside.cli.effort_estimate import ENDLESS, LONG, in_words, tell_effort
+from stepaside.cli.effort_estimate import (
+    ANNOUNCED,
+    LONGEST,
+    announce_effort,
+    duration_text,
+)
 from stepaside.cli.main import main
 from tools.fuzz.case import Reached
 from tools.fuzz.invoking import without_work
@@ -18,8 +23,8 @@ from tools.fuzz.kinds import make_run
 @click.argument("seconds", type=float)
 @click.argument("workers", type=int)
 def work(seconds: float, workers: int) -> None:
-    """Say how long it takes."""
-    tell_effort("work", seconds, workers)
+    """Announce work of some length."""
+    announce_effort("work", seconds, workers)
 
 
 @pytest.fixture(scope="module")
@@ -29,32 +34,39 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> str:
     return str(folder)
 
 
-def said(seconds: float, workers: int = 1) -> Result:
+def announce(seconds: float, workers: int = 1) -> Result:
     return CliRunner().invoke(work, [str(seconds), str(workers)])
 
 
-def test_only_what_is_long_is_said_and_what_never_ends_is_refused() -> None:
-    assert said(LONG).output == ""
-    assert said(LONG + 1).stderr == (
-        "stepaside: work, about 1 minutes; Ctrl-C stops\n"
+def test_only_long_work_is_announced_and_endless_work_is_refused() -> None:
+    assert announce(ANNOUNCED).output == ""
+    assert announce(ANNOUNCED + 1).stderr == (
+        "stepaside: work, about 1 minutes; press Ctrl-C to stop\n"
     )
-    assert said(ENDLESS).exit_code == 0
-    refused = said(ENDLESS * 1.01)
+    assert announce(LONGEST).exit_code == 0
+    refused = announce(LONGEST * 1.01)
     assert refused.exit_code == 2 and "30 days" in refused.stderr
 
 
-def test_workers_share_it() -> None:
-    assert said(3 * LONG, 4).output == ""
-    assert "45 minutes" in said(45 * 60 * 4, 4).stderr
+def test_workers_divide_the_time() -> None:
+    assert announce(3 * ANNOUNCED, 4).output == ""
+    assert "45 minutes" in announce(45 * 60 * 4, 4).stderr
 
 
 @pytest.mark.parametrize(
-    ("seconds", "words"),
-    [(61, "1 minutes"), (5400, "90 minutes"), (7200, "2 hours")]
-    + [(172800, "2 days"), (1e9, "1.2e+04 days")],
+    ("seconds", "text"),
+    [
+        (61, "1 minutes"),
+        (5400, "90 minutes"),
+        (7200, "2 hours"),
+        (172800, "2 days"),
+        (1e9, "1.2e+04 days"),
+    ],
 )
-def test_times_are_said_as_people_say_them(seconds: float, words: str) -> None:
-    assert in_words(seconds) == words
+def test_durations_have_the_largest_fitting_unit(
+    seconds: float, text: str
+) -> None:
+    assert duration_text(seconds) == text
 
 
 @pytest.mark.parametrize(
@@ -65,7 +77,7 @@ def test_times_are_said_as_people_say_them(seconds: float, words: str) -> None:
         ("reproduce --workers 1 --output x", "every claim of the paper"),
     ],
 )
-def test_campaigns_say_what_they_plan(
+def test_campaigns_announce_their_size(
     words: str, wanted: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     with without_work(), pytest.raises(Reached):
@@ -88,7 +100,7 @@ def test_campaigns_say_what_they_plan(
         "replay RUN --gif film.gif --speed 1e-9 --slow-motion",
     ],
 )
-def test_what_cannot_end_is_refused(
+def test_endless_work_is_refused(
     words: str, run: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -107,17 +119,17 @@ def test_what_cannot_end_is_refused(
         ("unicycles --duration 3e5", "a game of 300000 s"),
         ("unicycles --sample-time .01 --duration 3e4", "a game of 30000 s"),
         ("tournament --seeds 0:10000 --workers 1", "games of 180 s"),
-        ("replay RUN --video film.mp4 --speed 1e-4", "a film of about"),
+        ("replay RUN --video film.mp4 --speed 1e-4", "a video of about"),
     ],
 )
-def test_what_is_long_says_so_before_it_begins(
+def test_long_work_is_announced_before_it_begins(
     words: str, wanted: str, run: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """It is stopped where it has said so."""
+    """The first message ends the command."""
 
-    def told(*_: object, err: bool = False) -> None:
+    def end(*_: object, err: bool = False) -> None:
         raise Reached(_[0])
 
-    monkeypatch.setattr("stepaside.cli.effort_estimate.echo", told)
+    monkeypatch.setattr("stepaside.cli.effort_estimate.echo", end)
     with pytest.raises(Reached, match=wanted):
         main(words.replace("RUN", run).split())

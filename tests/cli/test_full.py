@@ -1,4 +1,4 @@
-"""A place that is full, read-only or gone: one line, nothing half-written."""
+"""Full, read-only or missing output: one line, nothing half-written."""
 
 import os
 import subprocess
@@ -28,7 +28,7 @@ QUICK = ("room", "robot show", "plan", "robot init", "compare", "tournament")
 
 @pytest.fixture
 def small(tmp_path: Path) -> Iterator[Path]:
-    """A file system with room for 8 kB, empty."""
+    """Mount an empty file system of 8 kB."""
     if not sys.platform.startswith("linux") or os.geteuid() != 0:
         pytest.skip("only root mounts file systems, on Linux")
     place = tmp_path / "small"
@@ -55,10 +55,10 @@ def said(words: list[str], place: Path) -> Result:
 
 
 @pytest.mark.parametrize("name", writers())
-def test_a_full_or_read_only_place_is_refused_before_work(
+def test_full_or_read_only_output_is_refused_before_work(
     name: str, small: Path, run: Path
 ) -> None:
-    """By every command, wherever it is told to write."""
+    """For every command and every output option."""
     words = words_of(name, run, small)
     result = said(words, small)
     assert result.stdout == "" and result.stderr.count("\n") == 1
@@ -70,10 +70,10 @@ def test_a_full_or_read_only_place_is_refused_before_work(
 
 
 @pytest.mark.parametrize("words", [DUEL, PLAN])
-def test_a_place_that_fills_meanwhile_costs_no_result(
+def test_disk_that_fills_during_work_loses_no_result(
     words: str, small: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """What was computed is printed; a run is kept where it says."""
+    """Results are printed; a run is saved where the message says."""
     monkeypatch.setattr(outputs, "MIN_FREE_SPACE", 0)
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     result = said(words.format(small).split(), small)
@@ -88,16 +88,16 @@ def test_a_place_that_fills_meanwhile_costs_no_result(
 @pytest.mark.parametrize(
     ("name", "fault"), [*zip(QUICK, cycle(FAULTS), strict=False)]
 )
-def test_a_place_that_changes_meanwhile_costs_no_result(
+def test_output_that_vanishes_during_work_loses_no_result(
     name: str, fault: str, run: Path
 ) -> None:
-    """``python -m tools.fuzz --kinds places`` tries all, at all moments."""
+    """``python -m tools.fuzz --kinds places`` tries all moments."""
     for part in (Random(name).random(), 0.7):
         assert complaint_of(place_case(name, run, fault, part)) == ""
 
 
-def test_every_option_that_says_where_to_write_is_tried() -> None:
-    """But for those of commands that others play with."""
+def test_every_output_option_is_fuzzed() -> None:
+    """Except those of commands that wait for clients."""
     told = {
         (name, option.opts[0])
         for name, command in all_commands().items()
@@ -136,7 +136,7 @@ WRONG: dict[Callable[[Path], None], str] = {
 
 
 @pytest.mark.parametrize("fault", WRONG)
-def test_what_is_wrong_is_noticed(
+def test_fuzzer_detects_broken_output(
     fault: Callable[[Path], None], run: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     calls = count()

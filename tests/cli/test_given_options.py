@@ -1,4 +1,4 @@
-"""Settings from defaults, a file, presets and single options, in order."""
+"""Priority of defaults, file, presets and single options."""
 
 import json
 import tomllib
@@ -56,7 +56,7 @@ def run(line: str) -> Result:
 
 
 def printed(line: str) -> dict[str, Any]:
-    """Entries of the configuration that a command would use."""
+    """Return the printed configuration of a command."""
     result = run(f"{line} --print-config")
     assert result.exit_code == 0, result.stderr
     return tomllib.loads(result.stdout)
@@ -74,12 +74,12 @@ def file(tmp_path: Path) -> Path:
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_what_nobody_changes_is_as_the_settings_have_it(name: str) -> None:
+def test_defaults_are_those_of_the_settings(name: str) -> None:
     assert settings(name) == KINDS[name]()
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_the_printed_configuration_explains_each_entry(name: str) -> None:
+def test_printed_configuration_has_a_comment_for_each_entry(name: str) -> None:
     lines = run(f"{name} --print-config").stdout.splitlines()
     for before, line in zip(lines, lines[1:], strict=False):
         if line and not line.startswith("# "):
@@ -89,7 +89,7 @@ def test_the_printed_configuration_explains_each_entry(name: str) -> None:
     assert step in text
 
 
-def test_the_printed_configuration_is_what_is_played(tmp_path: Path) -> None:
+def test_printed_configuration_repeats_the_run(tmp_path: Path) -> None:
     line = "duel --seed 3 --duration 0.2 --clutter --angle 45deg --gain 0.25"
     made = tmp_path / "duel.toml"
     made.write_text(run(f"{line} --print-config").stdout, encoding="utf-8")
@@ -103,7 +103,7 @@ def test_the_printed_configuration_is_what_is_played(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["duel", "view", "walk", "robustness"])
-def test_gait_body_and_floor_are_taken_by_every_command(name: str) -> None:
+def test_every_command_takes_gait_body_and_floor(name: str) -> None:
     found = settings(
         f"{name} --preset as-printed --single-support 0.2 --stride 0.03 "
         "--com-height 0.26 --body delayed --backlash 2deg --friction 0.5 "
@@ -120,8 +120,8 @@ def test_gait_body_and_floor_are_taken_by_every_command(name: str) -> None:
     assert found.control.mpc.steps == 3 and found.control.feedback
 
 
-def test_safety_and_release_change_together() -> None:
-    """Each alone would be refused beside the other's default."""
+def test_safety_radius_and_release_distance_change_together() -> None:
+    """Each alone would be invalid with the default of the other."""
     line = "--safety-radius 1.2 --release-distance 1.5 --side-hysteresis 5deg"
     for name in ("duel", "duels", "view"):
         strategy = settings(f"{name} {line}").strategy
@@ -135,7 +135,7 @@ def test_safety_and_release_change_together() -> None:
     assert "release_distance must exceed safety_radius" in refused.stderr
 
 
-def test_a_file_wins_over_defaults_and_options_over_a_file(
+def test_options_override_the_file_and_the_file_the_defaults(
     file: Path,
 ) -> None:
     given = settings(f"duel --config {file}")
@@ -147,15 +147,15 @@ def test_a_file_wins_over_defaults_and_options_over_a_file(
     assert beside.physics.slope == pytest.approx(pi / 180.0)
 
 
-def test_a_preset_wins_over_a_file_and_single_options_over_both(
+def test_options_override_presets_and_presets_the_file(
     file: Path,
 ) -> None:
-    """A file of a run names every entry: a preset below it did nothing."""
+    """The file of a run has every entry, so presets must override it."""
     found = settings(f"duel --config {file} --body delayed --delay-cycles 5")
     assert found.body == changed(BODIES["delayed"], {"delay_cycles": 5})
 
 
-def test_whatever_a_file_switches_on_can_be_switched_off(file: Path) -> None:
+def test_options_switch_off_flags_of_a_file(file: Path) -> None:
     found = settings(
         f"duel --config {file} --no-saturated --no-torque-speed "
         "--no-feedback --no-clutter --release-distance never "
@@ -167,9 +167,7 @@ def test_whatever_a_file_switches_on_can_be_switched_off(file: Path) -> None:
     assert clutter == list(CLUTTER)
 
 
-def test_a_body_that_is_not_ideal_is_stabilised_unless_told_otherwise() -> (
-    None
-):
+def test_feedback_is_the_default_for_imperfect_bodies() -> None:
     for line, method, feedback in (
         ("duel --body hardware", "measured", True),
         ("duel --body hardware --no-feedback", "closed-form", False),
@@ -183,7 +181,7 @@ def test_a_body_that_is_not_ideal_is_stabilised_unless_told_otherwise() -> (
         assert (control.method, control.feedback) == (method, feedback), line
 
 
-def test_the_fast_gait_brings_feedback_unless_it_is_refused() -> None:
+def test_fast_gait_implies_feedback() -> None:
     for line, method, feedback in (
         ("walk --gait fast", "closed-form", True),
         ("duel --gait fast --body hardware", "closed-form", True),
@@ -198,7 +196,7 @@ def test_the_fast_gait_brings_feedback_unless_it_is_refused() -> None:
         assert (control.method, control.feedback) == (method, feedback), line
 
 
-def test_a_person_and_a_fast_gait_bring_the_trigger_by_time() -> None:
+def test_person_and_fast_gait_imply_trigger_by_time() -> None:
     for line, trigger in (
         ("duel --gait fast --pursuer person", "time"),
         ("duel --gait fast --pursuer person --trigger distance", "distance"),
@@ -209,14 +207,14 @@ def test_a_person_and_a_fast_gait_bring_the_trigger_by_time() -> None:
         assert settings(line).strategy.trigger == trigger, line
 
 
-def test_feedback_of_a_file_stays_where_only_the_method_changes(
+def test_changing_the_method_keeps_feedback_of_the_file(
     file: Path,
 ) -> None:
     found = settings(f"duel --config {file} --method closed-form").control
     assert (found.method, found.feedback) == ("closed-form", True)
 
 
-def test_feedback_beside_a_file_changes_nothing_else_of_its_control(
+def test_feedback_option_keeps_other_control_settings_of_the_file(
     file: Path,
 ) -> None:
     for told, words, method, feedback in (
@@ -233,7 +231,7 @@ def test_feedback_beside_a_file_changes_nothing_else_of_its_control(
         assert found.mpc.steps == 3
 
 
-def test_a_file_of_a_walk_has_its_own_entries(tmp_path: Path) -> None:
+def test_walk_file_has_its_own_entries(tmp_path: Path) -> None:
     walk = WalkSettings(
         duration=3.0,
         bearing=0.2,
@@ -252,7 +250,7 @@ def test_a_file_of_a_walk_has_its_own_entries(tmp_path: Path) -> None:
     assert "unknown entry backward, bearing" in refused.stderr
 
 
-def test_pushes_are_replaced_or_taken_away_and_say_who_is_meant(
+def test_pushes_are_replaced_or_removed_and_name_the_player(
     file: Path,
 ) -> None:
     file.write_text(
@@ -280,7 +278,7 @@ def test_pushes_are_replaced_or_taken_away_and_say_who_is_meant(
         assert f"push player must be one of {who}," in refused.stderr
 
 
-def test_plans_and_campaigns_take_files_of_duels(file: Path) -> None:
+def test_plan_and_robustness_take_files_of_duels(file: Path) -> None:
     file.write_text(f"{SWITCHES}[gait]\nspeed = 0.08\n", encoding="utf-8")
     for name in ("plan", "robustness"):
         assert settings(f"{name} --config {file}").gait.speed == 0.08
@@ -289,7 +287,7 @@ def test_plans_and_campaigns_take_files_of_duels(file: Path) -> None:
     assert refused.exit_code == 2 and "unknown entry weather" in refused.stderr
 
 
-def test_entries_of_older_files_go_by_new_names_or_not_at_all(
+def test_old_entries_are_renamed_or_ignored(
     tmp_path: Path,
 ) -> None:
     file = tmp_path / "old.toml"
@@ -301,7 +299,7 @@ def test_entries_of_older_files_go_by_new_names_or_not_at_all(
     for name in ("duel", "walk"):
         found = settings(f"{name} --config {file}")
         assert found.body.backlash == 0.02
-        # Entries that mean nothing any more are passed over.
+        # Obsolete entries are ignored.
         stabiliser = changed(StabiliserSettings(), {"ankle": 0.2})
         assert found.control.stabiliser == stabiliser
     file.write_text("[body]\nplay = 0.02\nbacklash = 0.01", encoding="utf-8")
@@ -309,7 +307,7 @@ def test_entries_of_older_files_go_by_new_names_or_not_at_all(
         parse_settings(WalkSettings, tomllib.loads(file.read_text()), "here")
 
 
-def test_a_file_that_lacks_what_it_must_say_is_refused(
+def test_incomplete_file_is_refused(
     tmp_path: Path,
 ) -> None:
     file = tmp_path / "walk.toml"
@@ -337,7 +335,7 @@ def test_a_file_that_lacks_what_it_must_say_is_refused(
         ("view --walls 0.5", "walls must lie in"),
     ],
 )
-def test_what_no_settings_take_is_refused_in_one_line(
+def test_invalid_settings_are_refused_in_one_line(
     line: str, message: str
 ) -> None:
     result = run(line)
@@ -345,7 +343,7 @@ def test_what_no_settings_take_is_refused_in_one_line(
     assert len(result.stderr.splitlines()) == 1 and message in result.stderr
 
 
-def test_plan_answers_for_the_gait_that_was_asked_for() -> None:
+def test_plan_uses_the_requested_gait() -> None:
     line = "plan --role pursuer --bearing 0 --steps 4 --json"
     usual, long = (
         json.loads(run(f"{line}{more}").stdout)
@@ -364,7 +362,7 @@ def test_plan_answers_for_the_gait_that_was_asked_for() -> None:
         assert json.loads(run(f"{line} {more}").stdout)["preset"] == preset
 
 
-def test_changes_reach_the_deepest_section_after_whole_ones() -> None:
+def test_inner_sections_change_after_outer_ones() -> None:
     found = changed(
         DuelSettings(),
         {
@@ -379,7 +377,7 @@ def test_changes_reach_the_deepest_section_after_whole_ones() -> None:
 
 
 @pytest.mark.parametrize("command", ["duel", "duels", "view"])
-def test_who_is_to_see_the_map_sees(command: str, tmp_path: Path) -> None:
+def test_map_seen_implies_cameras(command: str, tmp_path: Path) -> None:
     room = f"{command} --room 3 --map seen"
     assert printed(room)["sensing"] == "cameras"
     assert printed(f"{command} --room 3 --map given")["sensing"] == "ideal"

@@ -1,6 +1,5 @@
-"""A command that is stopped says what is kept."""
+"""An interrupted command reports what is saved."""
 
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -8,7 +7,7 @@ import click
 import pytest
 from click.testing import CliRunner, Result
 
-from stepaside.cli.interruption import kept_in
+from stepaside.cli.interruption import resume_message
 from stepaside.cli.main import LazyGroup, all_commands, main
 from stepaside.cli.output_files import OutputFile, attempt, writes_files
 from stepaside.cli.run_output import SavedRun
@@ -22,7 +21,7 @@ from tools.fuzz import stopping
 @click.option("--map", type=OutputFile(".png"))
 @writes_files
 def draws(figure: str, map: str) -> None:  # noqa: A002 (an option's name)
-    """Draw one figure, and be stopped before the next is whole."""
+    """Write one figure; be interrupted while writing the next."""
 
     def draw() -> None:
         with writing(Path(figure)) as draft:
@@ -34,53 +33,57 @@ def draws(figure: str, map: str) -> None:  # noqa: A002 (an option's name)
         raise KeyboardInterrupt
 
 
-def stopped(words: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
+def interrupted(
+    arguments: str, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> Result:
     monkeypatch.chdir(folder)
-    return CliRunner().invoke(draws, words.split())
+    return CliRunner().invoke(draws, arguments.split())
 
 
-def test_files_that_are_whole_are_named_and_no_other_is_there(
+def test_only_completed_files_exist_and_are_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    words = "--figure=a.png --map=b.png"
-    result = stopped(words, tmp_path, monkeypatch)
+    arguments = "--figure=a.png --map=b.png"
+    result = interrupted(arguments, tmp_path, monkeypatch)
     assert result.exit_code == 130
-    assert result.stderr == "stepaside: interrupted; kept: a.png\n"
+    assert result.stderr == "stepaside: interrupted; saved: a.png\n"
     assert [file.name for file in tmp_path.iterdir()] == ["a.png"]
 
 
-def test_a_file_that_was_there_before_is_not_said_to_be_kept(
+def test_file_from_before_is_not_reported_as_saved(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "b.png").write_text("old")
-    words = "--figure=a.png --map=b.png --overwrite"
-    result = stopped(words, tmp_path, monkeypatch)
-    assert result.stderr == "stepaside: interrupted; kept: a.png\n"
+    arguments = "--figure=a.png --map=b.png --overwrite"
+    result = interrupted(arguments, tmp_path, monkeypatch)
+    assert result.stderr == "stepaside: interrupted; saved: a.png\n"
     assert (tmp_path / "b.png").read_text() == "old"
 
 
-def leave(kept: SavedRun, outcome: Outcome) -> Result:
-    command = click.Command("x", callback=lambda: kept.leave_if(outcome))
+def exit_after(saved: SavedRun, outcome: Outcome) -> Result:
+    command = click.Command(
+        "x", callback=lambda: saved.exit_if_interrupted(outcome)
+    )
     return CliRunner().invoke(command, [])
 
 
-def test_a_game_that_was_stopped_says_where_it_lies() -> None:
-    assert leave(SavedRun(Path("a")), Outcome.COMPLETED).exit_code == 0
-    result = leave(SavedRun(Path("a")), Outcome.INTERRUPTED)
+def test_interrupted_game_reports_its_run_folder() -> None:
+    assert exit_after(SavedRun(Path("a")), Outcome.COMPLETED).exit_code == 0
+    result = exit_after(SavedRun(Path("a")), Outcome.INTERRUPTED)
     assert result.exit_code == 130
-    assert result.stderr.endswith("what was played is kept in a\n")
-    result = leave(SavedRun(), Outcome.INTERRUPTED)
-    assert result.stderr.endswith("nothing is kept without --output\n")
+    assert result.stderr.endswith("the run so far is saved in a\n")
+    result = exit_after(SavedRun(), Outcome.INTERRUPTED)
+    assert result.stderr.endswith("nothing is saved without --output\n")
 
 
-def test_a_campaign_says_what_is_done_and_where_it_goes_on() -> None:
-    assert kept_in("3 of 9 duels", Path("out")) == (
-        "3 of 9 duels are kept in out, and the same command goes on"
+def test_interrupted_campaign_reports_how_to_resume() -> None:
+    assert resume_message("3 of 9 duels", Path("out")) == (
+        "3 of 9 duels are saved in out; run the same command to continue"
     )
-    assert "nothing is kept" in kept_in("3 of 9 duels", None)
+    assert "nothing is saved" in resume_message("3 of 9 duels", None)
 
 
-def test_the_paper_stopped_while_it_is_drawn_keeps_its_runs(
+def test_reproduce_interrupted_while_drawing_reports_saved_runs(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from stepaside.cli import reproduce_figures
@@ -88,26 +91,25 @@ def test_the_paper_stopped_while_it_is_drawn_keeps_its_runs(
     def interrupt(*_: Any) -> None:
         raise KeyboardInterrupt
 
-    module = import_module("stepaside.cli.reproduce")
-    monkeypatch.setattr(module, "_measure", lambda *_: [])
+    monkeypatch.setattr("stepaside.cli.reproduce._measure", lambda *_: [])
     monkeypatch.setattr(reproduce_figures, "draw_figures", interrupt)
     result = CliRunner().invoke(main, ["reproduce", f"--output={tmp_path}"])
     assert result.exit_code == 130
-    assert "all runs, and figures that are whole, are kept" in result.stderr
+    assert "all runs and completed figures are saved" in result.stderr
 
 
-def test_what_is_stopped_anywhere_else_says_so_in_one_line() -> None:
+def test_interruption_anywhere_else_is_one_line() -> None:
     group = LazyGroup()
     group.get_command = lambda *_: click.Command(  # type: ignore[method-assign]
         "x", callback=lambda: (_ for _ in ()).throw(KeyboardInterrupt)
     )
     result = CliRunner().invoke(group, ["x"])
     assert result.exit_code == 130
-    said = result.stderr.strip()  # behind the line that ^C begins
-    assert "not whole" in said and "\n" not in said
+    message = result.stderr.strip()  # without the newline after ^C
+    assert "partial output discarded" in message and "\n" not in message
 
 
-def test_every_command_is_measured_or_short() -> None:
-    """``python -m tools.fuzz.stopping`` stops all that are long."""
+def test_every_command_is_interrupted_by_the_fuzzer_or_short() -> None:
+    """``python -m tools.fuzz.stopping`` interrupts all long commands."""
     known = {*stopping.LONG, *stopping.SHORT, *stopping.APART}
     assert known == set(all_commands())

@@ -24,17 +24,17 @@ def run_json(*arguments: str) -> Any:
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_every_command_explains_itself(command: str) -> None:
+def test_every_command_has_help(command: str) -> None:
     result = run(command, "--help")
     assert result.exit_code == 0
     assert "Usage" in result.stdout
 
 
-def test_help_says_what_holds_by_default() -> None:
+def test_help_shows_defaults() -> None:
     for command in ("duel", "duels"):
-        told = " ".join(run(command, "--help").stdout.split())
-        assert "Distance [m] at which evasion ends; never by default." in told
-        assert "Friction of the soles [1]; 0.8 by default." in told
+        text = " ".join(run(command, "--help").stdout.split())
+        assert "which evasion ends [m]. [default: never]" in text
+        assert "between soles and floor [1]. [default: 0.8]" in text
 
 
 def test_plan_prints_footsteps_and_a_10_ms_grid() -> None:
@@ -174,7 +174,7 @@ def test_bad_configuration_is_refused(
     assert not output.exists()
 
 
-def test_output_that_holds_something_is_refused(tmp_path: Path) -> None:
+def test_nonempty_output_folder_is_refused(tmp_path: Path) -> None:
     (tmp_path / "mine.txt").write_text("keep me")
     result = run("duel", "--duration", "1", "--output", str(tmp_path))
     assert result.exit_code == 2
@@ -182,7 +182,7 @@ def test_output_that_holds_something_is_refused(tmp_path: Path) -> None:
     assert (tmp_path / "mine.txt").read_text() == "keep me"
 
 
-def test_robot_writes_a_model_that_mujoco_opens(tmp_path: Path) -> None:
+def test_robot_writes_a_valid_mujoco_model(tmp_path: Path) -> None:
     import mujoco
 
     file = tmp_path / "nao.xml"
@@ -193,7 +193,7 @@ def test_robot_writes_a_model_that_mujoco_opens(tmp_path: Path) -> None:
     assert run_json("robot", "nao")["hinges"] == 24
 
 
-def test_interrupted_duel_reports_what_was_done(
+def test_interrupted_duel_reports_its_run(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     from stepaside.games.duel import Duel
@@ -211,13 +211,13 @@ def test_interrupted_duel_reports_what_was_done(
     assert result.exit_code == 130
     assert "interrupted at 1.20 s" in result.stdout
     assert (folder / "trajectories.npz").exists()
-    # Whoever presses Ctrl-C does not wait for a figure.
+    # No figure is drawn after Ctrl-C.
     assert not list(folder.glob("*.png")) and "figure:" not in result.stdout
-    assert f"what was played is kept in {folder}" in result.stderr
+    assert f"the run so far is saved in {folder}" in result.stderr
 
 
-def test_zero_is_a_value_and_not_an_absence() -> None:
-    """Seed 0 and strategy angle 0 are asked for, not left out."""
+def test_zero_is_a_given_value() -> None:
+    """Seed 0 and evasion angle 0 differ from missing options."""
     found = run_json(
         "duel", "--seed", "0", "--angle", "0", "--duration", "0.2"
     )

@@ -1,8 +1,7 @@
-"""Everybody plays with everything: each combination of settings, briefly.
+"""Short duels with every combination of settings.
 
-What can be combined is written, read, shown and pushed, whoever plays. Each
-of these has its own tests elsewhere; here none of them may have forgotten a
-combination.
+Each duel is written, read, shown and pushed. All of this has its own tests
+elsewhere; these tests check that every combination is supported.
 """
 
 import re
@@ -60,7 +59,7 @@ CAMERAS = CameraSettings(  # as small as they still find each other
 
 
 class Case(NamedTuple):
-    """What is combined."""
+    """Combination of settings."""
 
     pursuer: str
     sensing: str
@@ -69,19 +68,19 @@ class Case(NamedTuple):
 
     @property
     def walkers(self) -> tuple[str, ...]:
-        """Who is a robot."""
+        """Players that are robots."""
         return PLAYERS if self.pursuer == "robot" else PLAYERS[1:]
 
     @property
     def cameras(self) -> set[str]:
-        """Labels of the cameras that there are."""
+        """Labels of all cameras."""
         if self.sensing == "ideal":
             return set()
         return {f"{name}, colour" for name in self.walkers} | {"evader, depth"}
 
     @property
     def duration(self) -> float:
-        """Time in which all begin to walk, in [s].
+        """Time until all players walk, in [s].
 
         Images have to arrive first, somebody who comes is watched for a
         while, and feedback stands still for a second.
@@ -90,7 +89,7 @@ class Case(NamedTuple):
         return 1.2 if self.body != "ideal" else 0.9 if watched else 0.2
 
     def settings(self) -> DuelSettings:
-        """Settings of its duel."""
+        """Settings of the duel."""
         method: Any = self.method
         return DuelSettings(
             duration=self.duration,
@@ -105,7 +104,7 @@ class Case(NamedTuple):
 
 
 def accepted() -> Iterator[Case]:
-    """Every combination that settings take."""
+    """Yield every valid combination."""
     for found in product(PURSUERS, SENSING, ("ideal", "hardware"), METHODS):
         case = Case(*found)
         try:
@@ -119,7 +118,7 @@ CASES = tuple(accepted())
 
 
 class Played(NamedTuple):
-    """A duel of a case, and where it was written."""
+    """Duel of a case, and its run folder."""
 
     case: Case
     run: DuelRun
@@ -128,7 +127,7 @@ class Played(NamedTuple):
 
 @pytest.fixture(scope="module", autouse=True)
 def plain_figures() -> Iterator[None]:
-    """Small figures that nobody lays out: what is drawn is the same."""
+    """Draw small figures without layout; their content is the same."""
     with plt.rc_context(
         {"savefig.dpi": 30, "figure.constrained_layout.use": False}
     ):
@@ -156,7 +155,7 @@ def played(
     return Played(case, run, folder)
 
 
-def test_only_what_needs_feedback_and_has_none_is_refused() -> None:
+def test_only_missing_feedback_is_refused() -> None:
     assert len(CASES) == 2 * 2 * 4
     for pursuer, sensing in product(PURSUERS, SENSING):
         own = {case[2:] for case in CASES if case[:2] == (pursuer, sensing)}
@@ -172,7 +171,7 @@ NEAR = {"velocity", "tilt", "sole", "support", "heading_reference"}
 NEAR |= {"estimate", "pushes", "command"}
 
 
-def test_everybody_leaves_what_it_has(played: Played) -> None:
+def test_summary_describes_each_player(played: Played) -> None:
     case, run, _ = played
     assert run.outcome is Outcome.COMPLETED
     assert run.summary.triggered_at_s is not None
@@ -209,7 +208,7 @@ def test_everybody_leaves_what_it_has(played: Played) -> None:
     assert told & seeing == (seeing if case.cameras else set())
 
 
-def test_a_run_folder_is_complete_and_read_as_it_was(
+def test_run_folder_is_complete_and_read_unchanged(
     played: Played, tmp_path: Path
 ) -> None:
     case, run, folder = played
@@ -229,7 +228,7 @@ def test_a_run_folder_is_complete_and_read_as_it_was(
     check_same(load_run(again), run)
 
 
-def test_figures_are_printed_beside_theory(
+def test_values_are_printed_beside_theory(
     played: Played, capsys: pytest.CaptureFixture[str]
 ) -> None:
     case, run, _ = played
@@ -245,7 +244,7 @@ def test_figures_are_printed_beside_theory(
         assert (f"{name}'s bearing error" in text) == told
 
 
-def test_an_offline_page_is_written(played: Played, tmp_path: Path) -> None:
+def test_offline_page_is_written(played: Played, tmp_path: Path) -> None:
     _, _, folder = played
     file = tmp_path / "run.html"
     write_page(load_run(folder), file)
@@ -258,7 +257,7 @@ def test_an_offline_page_is_written(played: Played, tmp_path: Path) -> None:
 @pytest.mark.skipif(
     choose_renderer() == RAYCAST, reason="neither EGL nor OSMesa works here"
 )
-def test_a_film_has_a_picture(played: Played) -> None:
+def test_film_has_a_frame(played: Played) -> None:
     run = load_run(played.folder)
     cinema = FilmRenderer(run, FilmSettings(64, 48), choose_renderer())
     shown = cinema.picture(0.5 * played.case.duration)
@@ -266,7 +265,7 @@ def test_a_film_has_a_picture(played: Played) -> None:
     assert shown.shape == (48, 64, 3) and shown.std() > 5.0
 
 
-def test_a_run_is_compared_with_itself(played: Played, tmp_path: Path) -> None:
+def test_run_is_compared_with_itself(played: Played, tmp_path: Path) -> None:
     file = tmp_path / "both.png"
     draw_comparison([load_run(played.folder), played.run], file)
     assert plt.imread(file).std() > 0.05
@@ -280,14 +279,14 @@ def session(played: Played) -> Iterator[LiveSession]:
 
 
 def stepped(session: LiveSession, duration: float) -> None:
-    """Let a while pass, and wait until it has."""
+    """Advance the session by a time in [s], and wait for it."""
     done = Event()
     session.step(duration)
     session.change(lambda duel: done.set())
     assert done.wait(LONG) and session.error is None, session.error
 
 
-def test_a_live_duel_is_played_pushed_and_drawn(
+def test_live_duel_is_stepped_pushed_and_drawn(
     played: Played, session: LiveSession
 ) -> None:
     case = played.case
@@ -328,10 +327,10 @@ def test_a_live_duel_is_played_pushed_and_drawn(
     drawn: set[tuple[str, str]] = set()
 
     class Noting:
-        """Layers that note what is drawn."""
+        """Layers that record what is drawn."""
 
         def draw(self, layer: str, owner: str, *_: Any) -> None:
-            """Note it."""
+            """Record a drawing."""
             drawn.add((layer, owner))
 
     layers: Any = Noting()

@@ -1,4 +1,4 @@
-"""Options of all commands: declared once, explained, taken from registries."""
+"""Options of all commands: declared once, documented, from registries."""
 
 import subprocess
 import sys
@@ -12,7 +12,7 @@ import pytest
 
 from stepaside.cli.bound import AGAINST
 from stepaside.cli.main import COMMANDS, main
-from stepaside.cli.options.connection_options import WAYS
+from stepaside.cli.options.connection_options import MOTION_INTERFACES
 from stepaside.cli.options.declaration import DeclaredOption, OptionDeclaration
 from stepaside.cli.options.print_config import meanings
 from stepaside.cli.options.room_options import RECIPE
@@ -49,7 +49,7 @@ SETTINGS = {
     "robustness": WalkSettings,
     "plan": PlanSettings,
 }
-# Where the names of each option must come from, whatever command takes it.
+# Registry of each option, for all commands.
 REGISTRIES: dict[str, Iterable[str]] = {
     "--figure-width": SHEETS,
     "--body": BODIES,
@@ -68,7 +68,7 @@ REGISTRIES: dict[str, Iterable[str]] = {
     "--person-figure": FIGURES,
     "--level": LEVELS,
     "--role": ROLES,
-    "--by": WAYS,
+    "--by": MOTION_INTERFACES,
     "--first-foot": FEET,
     "--kind": robustness.KINDS,
     "--strategy": STRATEGIES,
@@ -79,8 +79,8 @@ REGISTRIES: dict[str, Iterable[str]] = {
     "--against": AGAINST,
     "--scheme": [scheme.value for scheme in DiscretisationScheme],
 }
-# Names that say something else to games of unicycles, to films or to a
-# campaign than to a robot in physics; each is declared once in each sense.
+# Number of meanings of names that have another meaning for unicycles, films
+# or campaigns; each meaning is declared once.
 SENSES = {
     "--aim": 2,
     "--angle": 2,
@@ -145,7 +145,7 @@ DECLARED = {
 
 
 def told(name: str, option: click.Option) -> str:
-    """Help of an option, as it is shown."""
+    """Return the help of an option as it is shown."""
     command = main.get_command(click.Context(main), name)
     assert command is not None
     record = option.get_help_record(click.Context(command))
@@ -154,7 +154,7 @@ def told(name: str, option: click.Option) -> str:
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_every_option_says_what_it_means_and_in_which_unit(name: str) -> None:
+def test_every_option_has_a_meaning_and_a_unit(name: str) -> None:
     for option in options_of(name):
         text = told(name, option)
         assert len(text.split("[default")[0].strip()) > 5, option.opts
@@ -175,7 +175,7 @@ def test_every_flag_can_be_switched_off(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_every_choice_is_that_of_a_registry(name: str) -> None:
+def test_every_choice_comes_from_a_registry(name: str) -> None:
     for option in options_of(name):
         assert not isinstance(option.type, click.Choice), "typed by hand"
         if isinstance(option.type, NameType):
@@ -185,8 +185,8 @@ def test_every_choice_is_that_of_a_registry(name: str) -> None:
             assert option.type.choices == wanted, option.opts
 
 
-def test_what_commands_share_is_declared_once() -> None:
-    """One name, one sense, one declaration, but for the senses listed."""
+def test_shared_options_are_declared_once() -> None:
+    """One declaration per name and meaning; SENSES lists the exceptions."""
     by_name: dict[str, set[object]] = defaultdict(set)
     takers: dict[str, int] = defaultdict(int)
     by_path: dict[str, set[OptionDeclaration]] = defaultdict(set)
@@ -199,14 +199,14 @@ def test_what_commands_share_is_declared_once() -> None:
             by_path[declaration.path].add(declaration)
     found = {name: len(s) for name, s in by_name.items() if len(s) > 1}
     assert found == SENSES
-    # Declared once is not taken once: these are shared indeed.
+    # These are actually shared.
     for name in ("--friction", "--stride", "--config", "--workers"):
         assert takers[name] > 2, name
     assert all(len(s) == 1 for s in by_path.values())
 
 
 @pytest.mark.parametrize("name", SETTINGS)
-def test_commands_of_robots_take_a_file_and_the_gait(name: str) -> None:
+def test_commands_with_robots_take_a_file_and_the_gait(name: str) -> None:
     spelled = {word for option in options_of(name) for word in option.opts}
     assert spelled >= {"--config", "--print-config", "--gait"}
     assert spelled >= {
@@ -218,7 +218,7 @@ def test_commands_of_robots_take_a_file_and_the_gait(name: str) -> None:
 
 
 def entry(kind: Any, path: str) -> tuple[Any, str]:
-    """Type of an entry of settings, and what their docstring says of it."""
+    """Return type and description of a configuration entry."""
     for name in path.split("."):
         owner, kind = kind, get_type_hints(kind)[name]
     return kind, meanings(owner).get(path.split(".")[-1], "")
@@ -228,9 +228,9 @@ def test_declarations_agree_with_the_settings() -> None:
     assert len(DECLARED) > 60
     for declaration, settings in DECLARED.items():
         if declaration.path.startswith(RECIPE):
-            continue  # what a room is made of is no entry, but the room is
+            continue  # these generate the entry of the room
         hint, text = entry(settings, declaration.path)
-        assert text, f"{declaration.path}: the settings do not say what it is"
+        assert text, f"{declaration.path}: no description in the settings"
         kinds = set(get_args(hint)) or {hint}
         if float in kinds:
             assert declaration.unit, declaration.path
@@ -245,21 +245,21 @@ def test_declarations_agree_with_the_settings() -> None:
             assert declaration.type.choices == get_args(hint)
 
 
-def test_the_list_of_commands_loads_nothing() -> None:
-    """Not a command, not numpy: it is there at once."""
+def test_list_of_commands_imports_nothing() -> None:
+    """Neither a command nor numpy."""
     code = (
         "import sys; from stepaside.cli.main import main\n"
         "try: main(['--help'])\n"
         "except SystemExit: pass\n"
-        "bad = [m for m in sys.modules if m.startswith('stepaside.cli.')]\n"
-        "bad.remove('stepaside.cli.main')"
+        "bad = {m for m in sys.modules if m.startswith('stepaside.cli.')}"
+        "\nbad -= {'stepaside.cli.main'}"
         "\nassert not bad and 'numpy' not in sys.modules, bad"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-def test_commands_are_declared_without_physics() -> None:
-    """Settings, registries and MuJoCo are loaded when an option is used."""
+def test_commands_are_declared_without_heavy_imports() -> None:
+    """Settings, registries and MuJoCo are imported on use."""
     numeric = ("unicycles", "circle", "map", "bound")
     code = f"""if True:
         import sys
@@ -275,8 +275,8 @@ def test_commands_are_declared_without_physics() -> None:
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-def test_a_duel_that_nobody_draws_waits_for_no_figures() -> None:
-    """Matplotlib and SciPy are as much again as all that it needs."""
+def test_duel_without_figure_imports_no_plotting() -> None:
+    """Matplotlib and SciPy would double the import time."""
     code = """if True:
         import sys
         from stepaside.cli.main import main

@@ -1,4 +1,4 @@
-"""The command ``stepaside robustness``, without a single walk."""
+"""The command ``stepaside robustness``, with simulated walks replaced."""
 
 import json
 from dataclasses import replace
@@ -43,7 +43,7 @@ def run(*arguments: str) -> str:
     return result.stdout
 
 
-def test_pushes_are_printed_over_their_bound(tmp_path: Path) -> None:
+def test_push_limits_are_printed_with_their_bound(tmp_path: Path) -> None:
     asked = ("--kind", "push", "--method", "mpc", "--phases", "2")
     printed = run(*asked, "--output", str(tmp_path))
     cells = " ".join(f"1.0/{bound_at('left', x):.1f}" for x in (0.0, 0.5))
@@ -56,7 +56,9 @@ def test_pushes_are_printed_over_their_bound(tmp_path: Path) -> None:
         assert (tmp_path / name).read_bytes()[:4] == b"\x89PNG"
 
 
-def test_survival_says_what_made_it(tmp_path: Path) -> None:
+def test_survival_result_names_its_version_and_settings(
+    tmp_path: Path,
+) -> None:
     run(*ASKED, "--seed", "4", "--output", str(tmp_path))
     made = read_result(tmp_path / "survival.json")
     assert made["rooms"] == list(ROOMS)
@@ -71,7 +73,7 @@ def test_survival_says_what_made_it(tmp_path: Path) -> None:
     assert {row["method"] for row in made["survival"]} == {"mpc"}
 
 
-def test_other_kinds_are_counted_over_their_seeds() -> None:
+def test_other_disturbances_are_counted_over_seeds() -> None:
     answer = json.loads(
         run(
             *(
@@ -91,12 +93,12 @@ def test_other_kinds_are_counted_over_their_seeds() -> None:
     assert answer["done"] == {"trials": 15, "push_limits": 0, "push_walks": 0}
 
 
-def test_what_is_asked_twice_is_planned_once() -> None:
+def test_repeated_kinds_are_planned_once() -> None:
     answer = json.loads(run(*ASKED, *ASKED, "--json"))
     assert answer["planned"] == {"trials": 15, "push_limits": 4}
 
 
-def test_trials_and_pushes_are_counted_each_on_their_own() -> None:
+def test_trials_and_push_limits_are_counted_separately() -> None:
     answer = json.loads(run(*ASKED, "--json"))
     assert answer["planned"] == {"trials": 15, "push_limits": 4}
     walks = 4 * len((0.4, 0.8, 1.2, 1.0, 1.1))
@@ -107,7 +109,7 @@ def test_trials_and_pushes_are_counted_each_on_their_own() -> None:
     }
 
 
-def test_a_stopped_campaign_writes_no_result_over_another(
+def test_interrupted_campaign_overwrites_no_result(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run(*ASKED, "--output", str(tmp_path))
@@ -125,21 +127,21 @@ def test_a_stopped_campaign_writes_no_result_over_another(
     asked = ("robustness", *ASKED, "--output", str(tmp_path))
     result = CliRunner().invoke(main, asked)
     assert result.exit_code == 130
-    assert "7 of 15 trials and 1 of 4 limits" in result.stderr
-    assert f"are kept in {tmp_path}, and the same" in result.stderr
+    assert "7 of 15 trials and 1 of 4 push limits" in result.stderr
+    assert f"are saved in {tmp_path}; run the same" in result.stderr
     assert before == {file: file.read_bytes() for file in tmp_path.iterdir()}
 
 
-def test_the_help_says_which_walks_have_which_seed() -> None:
-    told = " ".join(run("--help").split())
+def test_help_explains_the_seeds_of_walks() -> None:
+    text = " ".join(run("--help").split())
     assert (
-        "Of the first walk; the others follow it. Pushes have only this one. "
-        "[default: 1" in told
+        "Random seed of the first walk; later walks increment it. Pushes use "
+        "this seed only. [default: 1" in text
     )
-    assert "How far the body is from an ideal one. [default: ideal]" in told
+    assert "or those of real hardware. [default: ideal]" in text
 
 
-def test_another_gait_and_robot_make_other_trials(tmp_path: Path) -> None:
+def test_gait_and_robot_are_part_of_the_trial_key(tmp_path: Path) -> None:
     """They share a folder: none is taken for the other."""
     asked = ("--kind", "push", "--method", "mpc", "--phases", "1")
     usual, low = (
@@ -158,7 +160,7 @@ def test_another_gait_and_robot_make_other_trials(tmp_path: Path) -> None:
     assert pushes["settings"]["robot"] == "nao"
 
 
-def test_a_kind_goes_by_its_former_name_too() -> None:
+def test_former_name_of_a_kind_is_accepted() -> None:
     asked = ("--method", "mpc", "--seeds", "1", "--json")
     old, new = (
         json.loads(run("--kind", kind, *asked))
@@ -167,7 +169,7 @@ def test_a_kind_goes_by_its_former_name_too() -> None:
     assert old == new and old["planned"]["trials"] > 0
 
 
-def test_a_body_that_is_no_preset_is_called_its_own() -> None:
+def test_changed_body_is_called_own() -> None:
     asked = ("--kind", "backlash", "--method", "mpc", "--seeds", "1", "--json")
     own = json.loads(run(*asked, "--stiffness", "0.5"))
     assert own["body"] == "own"

@@ -39,7 +39,7 @@ def loads(command: Any, words: str) -> dict[str, Any]:
     return found
 
 
-def test_circle_prints_the_figures_of_figure_2() -> None:
+def test_circle_prints_the_values_of_figure_2() -> None:
     found = loads(circle, "--speed 1 --gain 0.5 --angle 90deg")
     assert found["radius_m"] == pytest.approx(8 / pi)
     assert found["distance_m"] == pytest.approx(3.6012652646)
@@ -48,14 +48,14 @@ def test_circle_prints_the_figures_of_figure_2() -> None:
     assert 0 < found["largest_stable_delay_s"] < 10
 
 
-def test_circle_that_does_not_exist_is_an_answer() -> None:
+def test_missing_circle_is_a_valid_result() -> None:
     found = loads(circle, "--strategy move-back")
     assert found["exists"] is False and found["radius_m"] is None
     table = run(circle, "--strategy move-back")
     assert table.exit_code == 0 and "no circle" in table.output
 
 
-def test_sampling_and_delay_are_judged() -> None:
+def test_stability_under_sampling_and_delay_is_computed() -> None:
     words = "--speed 0.1 --gain 0.2 --sample-time 0.4 --delay 0.2"
     found = loads(circle, words)
     assert found["stable"]
@@ -90,7 +90,7 @@ def test_simulation_reaches_the_closed_form(words: str) -> None:
         assert played[name] == pytest.approx(theory[name], abs=1e-3), name
 
 
-def test_held_turning_rates_reach_it_too() -> None:
+def test_sampled_simulation_reaches_the_closed_form() -> None:
     words = "--speed 0.1 --gain 0.2 --sample-time 0.4 --delay 0.3"
     played = loads(unicycles, words)
     for name in COMPARED:
@@ -136,7 +136,7 @@ MAIN = {
 
 
 @pytest.mark.parametrize("circles", [[], [MAIN]])
-def test_table_says_what_ended_on_no_circle(
+def test_table_shows_games_that_ended_on_no_circle(
     capsys: pytest.CaptureFixture[str], circles: list[dict[str, Any]]
 ) -> None:
     starts = {"captured_share": 0.625, "unsettled_share": 0.125}
@@ -145,8 +145,8 @@ def test_table_says_what_ended_on_no_circle(
     printed = capsys.readouterr().out.splitlines()
     assert printed[-2].split() == ["games", "captured", "62.5", "%"]
     assert printed[-1].split()[-3:] == ["settled", "12.5", "%"]
-    other_way = "that turns the main way round." in printed
-    assert other_way is bool(circles)
+    names_main_circle = printed[0].startswith("There is no main circle")
+    assert names_main_circle is bool(circles)
     print_circles(found | {"starts": None})
     assert "captured" not in capsys.readouterr().out
 
@@ -177,7 +177,7 @@ def test_map_names_the_worst_start() -> None:
         ("--angle north", "'north'"),
         ("--law hard", "'hard'"),
         ("--hysteresis 2", "2.0"),
-        ("--angle 1 --strategy move-back", "not both"),
+        ("--angle 1 --strategy move-back", "cannot be combined"),
     ],
 )
 def test_bad_input_is_one_line_and_status_2(
@@ -201,7 +201,7 @@ def test_figure_that_cannot_be_written_is_refused_first(
 FAST = "--pursuer-speed 2 --evader-speed 1 --pursuer-gain 1 --evader-gain 4"
 
 
-def test_circle_lists_main_and_reversed_with_their_shares() -> None:
+def test_circle_lists_main_and_reversed_with_their_basins() -> None:
     found = loads(circle, f"{FAST} --angle 90deg")
     main, other = found["circles"]
     assert main["distance_m"] == found["distance_m"]
@@ -212,13 +212,13 @@ def test_circle_lists_main_and_reversed_with_their_shares() -> None:
     assert other["share"] == pytest.approx(0.25, abs=0.08)
     assert found["starts"]["unsettled_share"] == pytest.approx(0.0)
     table = run(circle, FAST).output
-    assert "starts that end on it" in table and "0.58758" in table
+    assert "basin" in table and "0.58758" in table
     kept = loads(circle, "--side-rule latched --starts 0")["circles"]
     assert [c["side_rule"] for c in kept] == ["behind", "latched"]
     assert [c["share"] for c in kept] == [None, None]
 
 
-def test_circle_tries_what_the_evader_could_do() -> None:
+def test_circle_simulates_remedies() -> None:
     words = f"{FAST} --remedies --starts 30 --seed 1"
     found = loads(circle, words)["remedies"]
     named = {row["name"]: row for row in found}
@@ -229,7 +229,7 @@ def test_circle_tries_what_the_evader_could_do() -> None:
     assert bad.exit_code == 2 and "--starts" in bad.stderr
 
 
-def test_map_of_a_faster_pursuer_knows_both_circles(tmp_path: Path) -> None:
+def test_map_of_a_faster_pursuer_has_both_circles(tmp_path: Path) -> None:
     words = f"{FAST} --grid 7 --distances 2 --figure {tmp_path / 'm.png'}"
     found = loads(map_command, words)
     shares = [c["share"] for c in found["circles"]]
@@ -254,13 +254,13 @@ def test_certified_distance_is_shown_only_where_it_holds() -> None:
     assert loads(unicycles, FAST)["certified"] is None
 
 
-def test_game_says_which_circle_it_ended_on() -> None:
+def test_game_reports_its_final_circle() -> None:
     words = f"{FAST} --distance 0.6 --aim -1.7 --bearing -2.1"
     assert loads(unicycles, words)["circle"]["direction"] == -1
     assert "the reversed circle" in run(unicycles, words).output
 
 
-def test_strategies_of_the_paper_play_the_same_game_by_name() -> None:
+def test_named_strategies_of_the_paper_play_the_same_game() -> None:
     words = "--speed 0.1 --gain 0.2 --sample-time 0.4 --duration 60"
     held = loads(unicycles, words)
     named = loads(unicycles, f"{words} --evader-strategy evasion")
@@ -275,24 +275,24 @@ def test_strategies_of_the_paper_play_the_same_game_by_name() -> None:
     )
 
 
-def test_who_stands_is_captured() -> None:
+def test_standing_evader_is_captured() -> None:
     words = "--evader-strategy stand --aim 0 --capture-distance 0.1"
     assert loads(unicycles, words)["captured"]
 
 
-def test_a_strategy_that_is_none_is_refused() -> None:
+def test_unknown_strategy_is_refused() -> None:
     for words, message in (
         ("--evader-strategy dance", "strategy must be one of evasion"),
         ("--evader-strategy no.py:Nobody", "no file"),
-        ("--evader-strategy stand --figure x.png", "games of the paper"),
+        ("--evader-strategy stand --figure x.png", "cannot be combined with"),
     ):
         result = CliRunner().invoke(unicycles, words.split())
         assert result.exit_code != 0
         assert message in result.output + str(result.exception)
 
 
-def test_a_circle_as_small_as_a_capture_has_no_marks() -> None:
-    """Nothing is left of such a game that could be measured."""
+def test_circle_within_capture_distance_has_no_marks() -> None:
+    """Such a game ends before anything can be measured."""
     game = Game(Unicycle(0.1, 1e9), Unicycle(0.1, 1e9))
     assert unicycle_sweep._simulated(game) is None
     large = Game(Unicycle(0.1, 0.2), Unicycle(0.1, 0.2))

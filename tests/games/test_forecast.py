@@ -213,7 +213,7 @@ def test_a_summary_says_what_was_expected(
     assert theory["exists"] is not none
     assert ("theory" in rows["distance"]) is not none
     assert (rows["on the circle"] == "not expected") is none
-    assert ("expected is" in result.stderr) is none
+    assert ("expected outcome" in result.stderr) is none
 
 
 def test_contact_is_said_beforehand(tmp_path: Path) -> None:
@@ -226,4 +226,7 @@ def test_contact_is_said_beforehand(tmp_path: Path) -> None:
     assert theory["distance_m"] is None
     assert theory["closest_approach_m"] < 0.4
     assert summary["min_distance_m"] < 0.6
-    assert result.stderr.strip() == f"stepaside: expected is {theory['words']}"
+    assert (
+        result.stderr.strip()
+        == f"stepaside: expected outcome: {theory['words']}"
+    )

@@ -128,7 +128,7 @@ def test_passers_stand_in_configurations(tmp_path: Any) -> None:
         ("fast@3:0", "speed must be a finite number [m/s], got 'fast'"),
         ("0.8@3:0:inf", "miss must be a finite number [m], got 'inf'"),
         ("9@3:0", "passer speed must lie in"),
-        ("0.8@3:x", "must be a finite angle"),
+        ("0.8@3:x", "must be an angle"),
     ],
 )
 def test_bad_passers_are_refused(given: str, message: str) -> None:

@@ -199,5 +199,5 @@ def test_bad_rooms_are_refused_in_one_line(tmp_path: Path) -> None:
         file.write_text(text)
         told = refusal("--room", str(file), "--json")
         assert words in told and "Traceback" not in told
-    assert "must stand beside --room SEED" in refusal("--discs", "2")
+    assert "requires a random room (--room SEED)" in refusal("--discs", "2")
     assert "a file, got 'no'" in refusal("--room", "no")

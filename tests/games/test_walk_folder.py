@@ -163,7 +163,7 @@ def test_a_walk_can_be_kept_compared_and_shown_again(tmp_path: Path) -> None:
     write_record(duel, run_duel(DuelSettings(duration=0.04)))
     mixed = call("compare", one, str(duel), "--output", f"{tmp_path}/d.png")
     assert mixed.exit_code == 2 and mixed.output.count("\n") == 1
-    assert "must be of one game, got duel and walk" in mixed.output
+    assert "must be of the same game, got duel and walk" in mixed.output
     assert not (tmp_path / "d.png").exists()
     taken = call(*walk, one)
     assert taken.exit_code == 2 and "new or an empty folder" in taken.output

@@ -356,7 +356,7 @@ def test_nothing_is_played_when_verified_duels_differ(
     line += ["--duration", "120", "--output", str(tmp_path)]
     answer = CliRunner().invoke(main, line)
     assert answer.exit_code == 1, answer.output
-    assert "1 of 3 duels came out the same" in answer.stderr
+    assert "1 of 3 repeated duels agree" in answer.stderr
     assert "seeds 1, 2" in answer.stderr
     assert answer.stdout == "" and len(quick.seeds) == 3
     assert [f.name for f in tmp_path.iterdir()] == ["duels.jsonl"]

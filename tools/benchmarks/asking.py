@@ -1,4 +1,4 @@
-"""What every measuring command asks, and what machine it runs on."""
+"""Common arguments of the benchmark commands, and the machine they run on."""
 
 import os
 import platform
@@ -14,14 +14,14 @@ RESULTS = Path(__file__).parents[2] / "docs" / "results"
 
 
 class _Asking(ArgumentParser):
-    """Parser that tells where the results go before they are measured."""
+    """Parser that checks the output file before anything is measured."""
 
     name_of: Callable[[Namespace], str]
 
     def parse_args(
         self, args: Iterable[str] | None = None, namespace: Any = None
     ) -> Any:
-        """Read the command line; exit with a message if it is wrong."""
+        """Parse the command line; exit with a message if it is invalid."""
         given = super().parse_args(args, namespace)
         try:
             given.output = _file_of(given.output, self.name_of(given))
@@ -33,15 +33,15 @@ class _Asking(ArgumentParser):
 def ask(
     description: str | None, name: str | Callable[[Namespace], str]
 ) -> ArgumentParser:
-    """Parser with the one option that all have.
+    """Return a parser with the option that all benchmarks share.
 
-    What it reads holds ``output``, the file of results: a place that can be
-    written, so that nothing is measured in vain.
+    The parsed arguments have ``output``, the file of results. It is checked to
+    be writable before anything is measured.
 
     Args:
-        description: Of the command.
-        name: Of the file of results, in the folder of results or in one
-            that is given; or what tells it from all that was asked.
+        description: Description of the command.
+        name: Name of the file of results within the folder of results, or a
+            function that derives it from the arguments.
     """
     parser = _Asking(
         description=description, formatter_class=RawDescriptionHelpFormatter
@@ -57,7 +57,7 @@ def ask(
 
 
 def _file_of(output: Path, name: str) -> Path:
-    """File of results that is meant by a file or folder.
+    """Return the file of results for a file or a folder.
 
     Raises:
         ConfigurationError: If it cannot be written.
@@ -68,10 +68,10 @@ def _file_of(output: Path, name: str) -> Path:
 
 
 def seeds_of(text: str) -> range:
-    """Seeds ``first:end``, the end not among them.
+    """Parse a range of seeds ``first:end``; the end is excluded.
 
     Raises:
-        ValueError: If the text is none.
+        ValueError: If the text is not a range.
     """
     first, end = map(int, text.split(":"))
     if not 0 <= first < end:
@@ -80,7 +80,7 @@ def seeds_of(text: str) -> range:
 
 
 def machine() -> dict[str, str | int | float | None]:
-    """Where times were measured, and how busy it was when they had been."""
+    """Return a description of the machine and its load."""
     return {
         "python": platform.python_version(),
         "processor": platform.machine(),

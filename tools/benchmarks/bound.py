@@ -1,8 +1,9 @@
-"""Solve the relative game beside ``hj_reachability``, on one core.
+"""Time the bound solver against ``hj_reachability``, on one core.
 
-The same game, grid, scheme and horizon in one process: slopes of fifth order,
-local Lax-Friedrichs flux, Runge-Kutta steps of third order. Both are compiled
-before they are timed; ours is timed three times, the best counts::
+Both solve the same game on the same grid with the same scheme and horizon in
+one process: fifth-order slopes, local Lax-Friedrichs flux, third-order
+Runge-Kutta steps. Both are compiled before they are timed; the best of three
+runs of ours counts::
 
     pip install "stepaside[fast]" hj_reachability
     python tools/benchmarks/bound.py
@@ -38,14 +39,14 @@ ACCURACY = {
     DiscretisationScheme.LAX: "very_high",
     DiscretisationScheme.FIRST_LAX: "low",
 }
-WITHIN = 5e-4  # difference that counts as none, in [m]
+WITHIN = 5e-4  # differences below this count as zero, in [m]
 LIBRARIES = ("numpy", "numba", "jax", "hj_reachability")
 
 
 def reference_solver(
     game: BoundGame, grid: Grid, accuracy: str
 ) -> Callable[[float], Array]:
-    """Make a function of the horizon that solves by ``hj_reachability``."""
+    """Return a solver by ``hj_reachability``, a function of the horizon."""
     import hj_reachability as hj
     import jax
     import jax.numpy as jnp
@@ -53,7 +54,7 @@ def reference_solver(
     class Relative(
         hj.ControlAndDisturbanceAffineDynamics  # type: ignore[misc]
     ):
-        """Distance and bearings of two unicycles."""
+        """Relative dynamics of two unicycles: distance and bearings."""
 
         def __init__(self) -> None:
             limits = [game.evader_turn, game.pursuer_turn]
@@ -64,7 +65,7 @@ def reference_solver(
             super().__init__("max", "min", *boxes)
 
         def open_loop_dynamics(self, state: Any, time: Any) -> Any:
-            """Rates when nobody turns but by the law."""
+            """Rates of the state without turning inputs."""
             r, a, psi = state
             vp, ve = game.pursuer_speed, game.evader_speed
             swing = (vp * jnp.sin(a) - ve * jnp.sin(psi)) / r
@@ -73,15 +74,15 @@ def reference_solver(
             return jnp.array([closing, swing - law, swing])
 
         def control_jacobian(self, state: Any, time: Any) -> Any:
-            """The evader turns."""
+            """Effect of the evader's turning rate."""
             return jnp.array([[0.0], [0.0], [-1.0]])
 
         def disturbance_jacobian(self, state: Any, time: Any) -> Any:
-            """The pursuer turns."""
+            """Effect of the pursuer's turning rate."""
             return jnp.array([[0.0], [-1.0], [0.0]])
 
     def ended(x: Any, width: int) -> Any:
-        """Beyond the edges: ended below, straight on above."""
+        """Boundary values: terminal below, extrapolation above."""
         low = jnp.full(width, x[0])
         high = x[-1] + (x[-1] - x[-2]) * jnp.arange(1, width + 1)
         return jnp.concatenate([low, x, high])
@@ -119,7 +120,7 @@ def reference_solver(
 
 
 def use_one_core() -> None:
-    """Keep this process on one core, where the system can."""
+    """Pin this process to one core, if the system supports it."""
     if hasattr(os, "sched_setaffinity"):
         core = max(os.sched_getaffinity(0))
         os.sched_setaffinity(0, {core})
@@ -128,7 +129,7 @@ def use_one_core() -> None:
 def measure(
     cells: int, horizon: float, scheme: DiscretisationScheme, *, double: bool
 ) -> dict[str, Any]:
-    """Times of both, their ratio, and how far their values are apart."""
+    """Return both times, their ratio, and the difference of the values."""
     import jax
 
     jax.config.update("jax_enable_x64", double)
@@ -164,7 +165,7 @@ def measure(
 
 
 def main() -> None:
-    """Measure, write and print."""
+    """Measure, write and print the results."""
     asked = ask(__doc__, "bound-speed.json")
     asked.add_argument("--cells", type=int, default=64)
     asked.add_argument("--horizon", type=float, default=3.0)

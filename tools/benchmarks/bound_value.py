@@ -1,7 +1,7 @@
-"""How good is moving aside? Solve both relative games and play them.
+"""Compare evaders with the optimal one of both relative games.
 
 Lengths are in units of speed over gain. Every evader starts from the same
-states as the best one::
+states as the optimal one::
 
     python tools/benchmarks/bound_value.py
 """
@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 ROOMS = ("bound", "unicycle")
 LIBRARIES = ("numpy", "numba")
 GAMES = 4000
-# least and largest distance [v/k], largest bearing of evader and pursuer
+# distance range [v/k], maximum bearings of evader and pursuer
 BOXES = {
     "all starts from 0.3 to 3 v/k": (0.3, 3.0, pi, pi),
     "starts of a duel": (1.2, 3.0, pi / 2, pi / 6),
@@ -42,14 +42,14 @@ ANGLES = {
 
 
 def saturated(r: Array, a: Array, psi: Array) -> Array:
-    """Evader of eq. (6) at a gain of one."""
+    """Return the evader of eq. (6) with a gain of one."""
     side = np.where(psi < 0.0, 1.0, -1.0)
     turn: Array = np.sign(psi + side * pi / 2)
     return turn
 
 
 def starts_in(box: tuple[float, float, float, float]) -> Array:
-    """Random starts of a box: rows of r, a, psi."""
+    """Draw random initial states (r, a, psi) from a box. Shape (n, 3)."""
     rng = np.random.default_rng(13)
     near, far, aim, facing = box
     low, high = [near, -aim, -facing], [far, aim, facing]
@@ -57,7 +57,7 @@ def starts_in(box: tuple[float, float, float, float]) -> Array:
 
 
 def compare(bound: Bound, starts: Array) -> list[dict[str, Any]]:
-    """Mean least distance of every evader, beside the table."""
+    """Return the mean closest approach of every evader and of the table."""
     evaders: dict[str, Steering | None] = {"optimal": None}
     evaders |= {name: moving(bound, angle) for name, angle in ANGLES.items()}
     evaders["saturated"] = saturated
@@ -82,7 +82,7 @@ def compare(bound: Bound, starts: Array) -> list[dict[str, Any]]:
 
 
 def refinement(rows: Any) -> list[dict[str, Any]]:
-    """Grids beside finer ones."""
+    """Return the differences between grids and finer ones."""
     return [
         {
             "cells": row.grid.distances - 1,
@@ -94,7 +94,7 @@ def refinement(rows: Any) -> list[dict[str, Any]]:
 
 
 def main() -> None:
-    """Solve, play, write."""
+    """Solve both games, simulate, and write the results."""
     asked = ask(__doc__, "bound.json")
     asked.add_argument("--cells", type=int, default=96)
     arguments = asked.parse_args()

@@ -1,6 +1,6 @@
-"""Share of random starts that the certificate covers, as docs/unicycles.md.
+"""Measure the fraction of random starts that the certificate covers.
 
-Writes ``docs/results/certificate.json``::
+Writes ``docs/results/certificate.json`` for docs/unicycles.md::
 
     python tools/benchmarks/certificate.py
 """

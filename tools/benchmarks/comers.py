@@ -1,14 +1,14 @@
-"""Let one person a seed come at a robot with the fast gait, or pass it.
+"""Simulate people approaching or passing a robot with the fast gait.
 
-The starts are those of ``stepaside duel --pursuer person --person-path
-straight --gait fast``: from ahead within 30 degrees, 5 s of walking away.
-Fifty seeds of each kind; records stand in ``runs/comers`` and are gone on
-with::
+The initial poses are those of ``stepaside duel --pursuer person --person-path
+straight --gait fast``: from ahead within 30 degrees, at a walking distance of
+5 s. Fifty seeds of each kind; an interrupted run continues from the records
+in ``runs/comers``::
 
     python tools/benchmarks/comers.py --seeds 0:50
 
-``--verify N`` first takes over what an older version of the code played, if
-N duels of each kind that are played again come out the same, to the bit.
+``--verify N`` repeats N recorded duels of each kind; if all agree to the bit,
+the records of an older version of the code are reused.
 """
 
 from dataclasses import replace
@@ -57,7 +57,7 @@ KINDS = {
 
 
 def row_of(kind: str, records: list[Record]) -> Record:
-    """What the duels of a kind came to."""
+    """Return the summary of the duels of one kind."""
     settings = KINDS[kind]
     begun = [r["triggered_at_distance_m"] for r in records]
     known = [away for away in begun if away is not None]
@@ -80,7 +80,7 @@ def row_of(kind: str, records: list[Record]) -> Record:
 
 
 def main() -> None:
-    """Play, and write what came out."""
+    """Simulate the duels and write the results."""
     parser = ask(__doc__, "comers.json")
     parser.add_argument("--seeds", type=seeds_of, default=range(0, 50))
     parser.add_argument("--kinds", nargs="+", choices=KINDS, default=KINDS)

@@ -1,8 +1,8 @@
-"""Let somebody come and go around a robot that sees, and count what happens.
+"""Count contacts and falls while a person walks around a robot with cameras.
 
-The robot has the hardware body, the fast gait and its cameras. A contact or a
-fall ends a game, and the next seed goes on; resident memory is taken each
-minute::
+The robot has the hardware body, the fast gait and cameras. A contact or a
+fall ends a game, and the next seed follows; resident memory is recorded
+every minute::
 
     python tools/benchmarks/coming_and_going.py --minutes 30
 """
@@ -28,11 +28,11 @@ from stepaside.strategies import Evasion
 from stepaside.studies.people_campaign import PASSING
 from stepaside.studies.result_files import header, write_result
 
-MINUTE = 60.0  # between two looks at the memory, in [s]
+MINUTE = 60.0  # between two memory measurements, in [s]
 
 
 def game(seed: int, speed: float, duration: float) -> DuelSettings:
-    """Somebody comes and goes at a speed, in [m/s], for a while, in [s]."""
+    """Return a game with a walking person; speed in [m/s], duration in [s]."""
     return DuelSettings(
         seed=seed,
         duration=duration,
@@ -50,13 +50,14 @@ def game(seed: int, speed: float, duration: float) -> DuelSettings:
 
 
 class Counts:
-    """What happened, as it happens.
+    """Observer that counts events.
 
     Attributes:
-        crossings: Begun.
-        triggers: How often the robot began to move.
-        false: Of them, those while nobody came within a passer's way.
-        closest: Least distance between the torsos, in [m].
+        crossings: Number of paths of the person begun.
+        triggers: Number of times that the robot began to move.
+        false: Number of triggers without a person approaching within the
+            lateral offset of a passing pedestrian.
+        closest: Closest approach of the torsos, in [m].
         memory: Resident memory at each minute, in [MB].
     """
 
@@ -67,7 +68,7 @@ class Counts:
         self._before, self._moved = 0.0, False
 
     def before(self, match: Match) -> None:
-        """Look at each tick."""
+        """Update the counts at each tick."""
         person, robot = match.players
         assert isinstance(person, PersonPlayer)
         visits = person.person.visits
@@ -81,10 +82,10 @@ class Counts:
             self.memory.append(resident())
 
     def acted(self, match: Match) -> None:
-        """Nothing is to be seen in between."""
+        """Do nothing: no event happens between ticks."""
 
     def ended(self, match: Match, outcome: Outcome) -> None:
-        """Add a game up."""
+        """Add the counts of a game to the total."""
         person = match.players[0]
         assert isinstance(person, PersonPlayer)
         self.crossings += person.person.visits.number
@@ -94,13 +95,13 @@ class Counts:
 
 
 def resident() -> float:
-    """Resident memory of this process, in [MB]."""
+    """Return the resident memory of this process, in [MB]."""
     pages = int(Path("/proc/self/statm").read_text("utf-8").split()[1])
     return pages * 4096 / 1e6
 
 
 def main() -> None:
-    """Play and write."""
+    """Simulate the games and write the results."""
     asked = ask(__doc__, "coming-and-going.json")
     asked.add_argument("--minutes", type=float, default=30.0)
     asked.add_argument("--speed", type=float, default=0.5)

@@ -1,6 +1,6 @@
-"""Play served duels of robots that walk by themselves.
+"""Run served duels of robots with their own walking controller.
 
-Players drive the robots by velocity, over ROS 2 topics or NAOqi calls.
+Players send velocities over ROS 2 topics or NAOqi calls.
 """
 
 import os
@@ -14,7 +14,7 @@ from asking import ask
 from processes import Ready, play_out, write_rows
 
 ROLES = ("pursuer", "evader")
-DUELS = (  # language, body, whether in lock step
+DUELS = (  # interface, body, whether in lockstep
     ("ros2", "delayed", True),
     ("ros2", "delayed", False),
     ("ros2", "hardware", False),
@@ -22,11 +22,11 @@ DUELS = (  # language, body, whether in lock step
     ("naoqi", "hardware", False),
 )
 FIRST_PORT = 29559
-DOMAIN = 77  # of ROS 2: meet nobody else there
+DOMAIN = 77  # ROS 2 domain that nothing else uses
 
 
 def places(way: str) -> dict[str, str]:
-    """Where each robot is offered."""
+    """Return the address of each robot."""
     if way == "ros2":
         return {role: f"/{role}" for role in ROLES}
     return {
@@ -45,7 +45,7 @@ def naoqi_ready(world: Any, folder: Path) -> None:
 
 
 def topics_ready(world: Any, folder: Path) -> None:
-    """On topics who comes first waits."""
+    """Do nothing: over topics, early clients wait by themselves."""
 
 
 READY: dict[str, Ready] = {"naoqi": naoqi_ready, "ros2": topics_ready}
@@ -58,7 +58,7 @@ def played(
     lock_step: bool,
     by: str = "velocity",
 ) -> dict[str, Any]:
-    """Play one duel in one language, by velocity or as it has other ways."""
+    """Run one duel over one interface, by velocities or another command."""
     offers, players = [], []
     offer = f"--{way}-joints" if by == "joints" else f"--{way}"
     for role, place in places(way).items():
@@ -71,7 +71,7 @@ def played(
 
 
 def main() -> None:
-    """Play each language, each body, in each time."""
+    """Run every interface with every body, in lockstep and in real time."""
     parser = ask(__doc__, "driven.json")
     parser.add_argument("--seed", type=int, default=7)
     parser.add_argument("--duration", type=float, default=120.0)

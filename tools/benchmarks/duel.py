@@ -1,7 +1,7 @@
-"""Time a whole duel, beside bare physics of the same motion.
+"""Time a whole duel against the bare physics of the same motion.
 
-Once with the formulas of the legs in Python, as a robot has them, and once
-as machine code, as long games and campaigns do.
+Measured twice: with the leg kinematics in Python, as on a robot, and as
+machine code, as in long games and campaigns.
 """
 
 from time import process_time
@@ -17,7 +17,7 @@ OURS = ("real_time_factor", "duel_over_bare_physics", "control_tick_us")
 
 
 def measure_duel(duration: float = 60.0) -> dict[str, float]:
-    """Times of a duel, in Python, then by machine code; see there."""
+    """Return the times of a duel in Python and as machine code."""
     plain = _measure_duel(duration)
     prefer(JitPreference.COMPILED)
     swift = _measure_duel(duration)
@@ -25,10 +25,10 @@ def measure_duel(duration: float = 60.0) -> dict[str, float]:
 
 
 def _measure_duel(duration: float) -> dict[str, float]:
-    """Real-time factor, ratio to mj_step, and control tick.
+    """Return real-time factor, ratio to mj_step, and control tick.
 
-    The bare run repeats the commands of the duel, tick by tick, from the
-    same start: the same model, the same motion, the same contacts.
+    The bare run repeats the commands of the duel tick by tick from the same
+    initial state, so that model, motion and contacts are the same.
     """
     settings = DuelSettings(seed=1, duration=duration)
     duel = Duel(settings)
@@ -60,7 +60,7 @@ def _measure_duel(duration: float) -> dict[str, float]:
 
 
 def _control_tick(settings: DuelSettings) -> float:
-    """Time to read, plan, move and write for one robot, in [s]."""
+    """Return the time to read, plan, move and write for one robot, in [s]."""
     duel = Duel(settings)
     spent, count = 0.0, 0
     for _ in range(5000):

@@ -1,15 +1,15 @@
-"""Play many duels of one kind for docs/duels.md.
+"""Run many duels of one kind for docs/duels.md.
 
-As ``stepaside duels``, with the records beside the file of results, so that
-more seeds can be added to those that are there::
+Like ``stepaside duels``, but with the records next to the file of results, so
+that more seeds can be added later::
 
     python tools/benchmarks/duels.py ideal --seeds 0:1000
     python tools/benchmarks/duels.py hardware --seeds 0:200
     python tools/benchmarks/duels.py cameras --seeds 0:100
 
-``--verify N`` first takes over what an older version of the code played, if
-N duels that are played again come out the same, to the bit. ``--summarise``
-plays nothing: it makes the summary again from the records that are there.
+``--verify N`` repeats N recorded duels; if all agree to the bit, the records
+of an older version of the code are reused. ``--summarise`` only recomputes
+the summary from the records.
 """
 
 from collections.abc import Sequence
@@ -46,17 +46,17 @@ KINDS = {
 
 
 def digest_of(records: Sequence[dict[str, Any]]) -> str:
-    """Fingerprint of the trajectories of some duels."""
+    """Return a hash of the trajectories of some duels."""
     digests = " ".join(record["digest"] for record in records)
     return sha256(digests.encode()).hexdigest()[:12]
 
 
 def summarise(output: Path, settings: DuelSettings) -> None:
-    """Write the summary of a result again, from the records beside it.
+    """Recompute the summary of a result from its records.
 
     Args:
-        output: The result, which says which records it is made from.
-        settings: Of its duels.
+        output: Result file, which names its records.
+        settings: Settings of its duels.
     """
     result = read_result(output)
     file = RecordStore(output.with_suffix(".jsonl"))
@@ -70,7 +70,7 @@ def summarise(output: Path, settings: DuelSettings) -> None:
 
 
 def main() -> None:
-    """Play, and write what came out."""
+    """Run the duels and write the results."""
     parser = ask(__doc__, lambda given: f"duels-{given.kind}.json")
     parser.add_argument("kind", choices=list(KINDS))
     parser.add_argument("--seeds", type=seeds_of, default=range(0, 40))

@@ -1,11 +1,11 @@
-"""Evaders in rooms: survival, closest approach and floor, by opponent.
+"""Measure evaders in rooms: survival, closest approach and floor area used.
 
-Plays tournaments in steps and writes what came out::
+Runs tournaments at the level of steps and writes the results::
 
     python tools/benchmarks/evading.py --seeds 1000:1300 --small 1000:1050
 
-Games that are kept in a folder (``--records``) are not played again. No
-setting of an evader was chosen by seeds from 1000 on.
+Games recorded in a folder (``--records``) are not repeated. No setting of an
+evader was tuned on seeds from 1000 on.
 """
 
 from pathlib import Path
@@ -27,20 +27,20 @@ WORLDS = {
     "3 x 3 m": RoomRecipe(),
     "3 x 3 m, 3 discs": RoomRecipe(discs=3),
 }
-SIZES = (1.8, 2.0, 2.2, 2.5, 3.0, 4.0, 6.0)  # of square rooms, in [m]
+SIZES = (1.8, 2.0, 2.2, 2.5, 3.0, 4.0, 6.0)  # sides of square rooms, in [m]
 IN_SMALL = ("look-ahead", "aside", "deflected")
 PURSUERS = (
     *("pure", "pure-x1.5", "pure-x2", "pure-x2.5", "pure-x2.8", "pure-x3"),
     *("pure-x4", "sharp", "herding", "lead", "optimal"),
 )
-MET = (  # world and evader that meet every one of them
+MET = (  # room and evader that play against all pursuers
     *(("open floor", "aside"), ("open floor", "look-ahead")),
     *(("3 x 3 m", "look-ahead"), ("3 x 3 m, 3 discs", "look-ahead")),
 )
 
 
 def main() -> None:
-    """Play, write."""
+    """Run the tournaments and write the results."""
     asked = ask(__doc__, "evading.json")
     asked.add_argument("--seeds", type=seeds_of, default=range(1000, 1300))
     asked.add_argument("--small", type=seeds_of, default=range(1000, 1050))

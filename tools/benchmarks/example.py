@@ -1,7 +1,7 @@
-"""Play the README's duel: what it prints, and what its figure shows.
+"""Run the duel of the README, for its printed output and its figure.
 
-The trajectories stand beside the results, every 40 ms and to 0.1 mm, which
-is what a figure shows::
+The trajectories are stored next to the results, every 40 ms and to 0.1 mm,
+which is sufficient for a figure::
 
     python tools/benchmarks/example.py --seed 7
 """
@@ -23,25 +23,25 @@ from stepaside.cli.main import main as stepaside
 from stepaside.core.poses import Array
 from stepaside.studies.result_files import header, write_result
 
-EVERY = 2  # samples of 20 ms
+EVERY = 2  # in samples of 20 ms
 DECIMALS = 4
-# What the figure does not show.
+# Columns that the figure does not show.
 LEFT_OUT = ("pursuer_qpos", "evader_qpos")
 
 
 def play(seed: int, run: Path) -> str:
-    """Play a duel into a run folder; what the command printed."""
+    """Run a duel into a run folder; return the printed output."""
     words = ["duel", "--seed", str(seed), "--output", str(run)]
     answer = CliRunner().invoke(stepaside, words)
     if answer.exit_code:
         raise SystemExit(answer.output)
     lines = answer.stdout.splitlines()
-    # Below an empty line it says where it wrote to.
+    # The paths below the empty line differ between machines.
     return "\n".join(lines[: lines.index("")])
 
 
 def thinned(run: Path) -> dict[str, Array]:
-    """Trajectories of a run folder, as a figure needs them."""
+    """Return the trajectories of a run folder at a figure's resolution."""
     tracks = {}
     with np.load(run / "trajectories.npz") as arrays:
         number = len(arrays["times_s"])
@@ -56,7 +56,7 @@ def thinned(run: Path) -> dict[str, Array]:
 
 
 def main() -> None:
-    """Play and write."""
+    """Run the duel and write the results."""
     asked = ask(__doc__, "duel-seed7.json")
     asked.add_argument("--seed", type=int, default=7)
     arguments = asked.parse_args()

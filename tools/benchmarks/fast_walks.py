@@ -1,4 +1,4 @@
-"""Let bodies walk the fast gait: forward, backward, straight and turning.
+"""Simulate walks with the fast gait: forward, backward, straight and turning.
 
 ::
 
@@ -31,7 +31,7 @@ BEARINGS = (-90, -45, 0, 45, 90)  # in [deg]
 
 
 def main() -> None:
-    """Walk and write."""
+    """Simulate the walks and write the results."""
     asked = ask(__doc__, "fast-walks.json")
     asked.add_argument("--seconds", type=float, default=60.0)
     asked.add_argument("--seeds", type=int, default=20)
@@ -53,7 +53,7 @@ def main() -> None:
             )
         )
         for body in ("ideal", "hardware")
-        # Nothing of an ideal body is drawn.
+        # The ideal body has no random parameters.
         for seed in range(1, 2 if body == "ideal" else 1 + arguments.seeds)
         for bearing in BEARINGS
         for backward in (False, True)

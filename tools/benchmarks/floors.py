@@ -1,4 +1,4 @@
-"""Duels of hardware-like bodies on a good floor and on a bad one.
+"""Run duels of hardware bodies on two floors of different friction.
 
 ::
 
@@ -26,14 +26,14 @@ FIGURES = ("distance_m", "relative_orientation_deg", "converged_at_s")
 
 
 class Played(NamedTuple):
-    """One duel to play."""
+    """Duel to run."""
 
     floor: str
     seed: int
 
 
 def play(played: Played) -> Row:
-    """Figures of one duel of 120 s with ``--body hardware``."""
+    """Return the values of one duel of 120 s with ``--body hardware``."""
     settings = DuelSettings(
         seed=played.seed,
         physics=FLOORS[played.floor],
@@ -52,7 +52,7 @@ def play(played: Played) -> Row:
 
 
 def together(rows: list[Row]) -> Row:
-    """Outcomes on one floor, and the range of each figure."""
+    """Return outcomes on one floor, and the range of each value."""
     outcomes = [row["outcome"] for row in rows]
     return {
         "number": len(rows),
@@ -65,7 +65,7 @@ def together(rows: list[Row]) -> Row:
 
 
 def main() -> None:
-    """Play and write."""
+    """Run the duels and write the results."""
     asked = ask(__doc__, "floors.json")
     asked.add_argument("--seeds", type=seeds_of, default="200:230")
     asked.add_argument("--workers", type=int)

@@ -1,4 +1,4 @@
-"""Many runs on several processes, which go on where they were stopped."""
+"""Parallel jobs that can be interrupted and continued."""
 
 import json
 import sys
@@ -25,21 +25,22 @@ def gather(
     do: Callable[[Job], Row],
     workers: int | None = None,
 ) -> dict[str, Row]:
-    """Do what is not done yet; what is done is kept beside the output.
+    """Run the jobs that are not done yet; record results next to the output.
 
     Args:
-        output: File of results that is being made. What is done stands in
-            a file of the same name that ends in ``.part``; it is taken up
-            again if the job, version, libraries and the command's own code
-            are the same, and deleted by :func:`finished`.
-        head: Of the results.
-        jobs: What to do, by name; values whose ``repr`` tells all of them.
-        do: Does one; a function of a module, as it runs in other processes.
-        workers: Processes; all cores by default, 0 for a thread of this
-            one.
+        output: File of results to be written. Finished jobs are recorded in a
+            file with the suffix ``.part``. They are reused if job, version,
+            libraries and the code of the command are the same, and deleted by
+            :func:`finished`.
+        head: Header of the results.
+        jobs: Arguments by name; their ``repr`` must be unique.
+        do: Runs one job; a module-level function, as it runs in other
+            processes.
+        workers: Number of processes; all cores by default, 0 for a thread of
+            this process.
 
     Returns:
-        What each gave, in the order of the jobs.
+        Results in the order of the jobs.
     """
     file = RecordStore(part_of(output))
     mark = {key: head[key] for key in ("version", "libraries")}
@@ -82,17 +83,17 @@ def gather(
 
 
 def finished(output: Path) -> None:
-    """Delete what was kept while the results were being made."""
+    """Delete the records of finished jobs, once the results are written."""
     part_of(output).unlink(missing_ok=True)
 
 
 def part_of(output: Path) -> Path:
-    """Where that is kept."""
+    """Return the file of the records."""
     return output.with_suffix(".part")
 
 
 def spread(values: Sequence[float | None]) -> dict[str, float | int | None]:
-    """Least, mean and greatest of the values that there are."""
+    """Return minimum, mean and maximum of the values that are not None."""
     found = [value for value in values if value is not None]
     if not found:
         return {"number": 0, "least": None, "mean": None, "greatest": None}

@@ -1,10 +1,9 @@
-"""Which heading and which point the line of sight refers to, and what of it.
+"""Compare definitions of the heading and the point of the line of sight.
 
-The desired heading is the line of sight less a heading. Taken is that of
-the path where the body was when it saw; tried beside it are that of the
-foot that has just landed and the mean of both feet. Sighted are the places,
-midway between the feet; tried beside them are the torsos. Writes
-docs/results/instants.json.
+The desired heading is the direction of the line of sight minus a heading: that
+of the path at the time of the sighting (used), that of the foot that landed
+last, or the mean of both feet. The sighted point is the midpoint between the
+feet (used) or the torso. Writes docs/results/instants.json.
 """
 
 import os
@@ -27,7 +26,7 @@ from stepaside.games.duel_settings import DuelSettings
 from stepaside.sim.ideal_sensors import IdealLineOfSight
 from stepaside.studies.result_files import header, write_result
 
-DURATION = 120.0  # of a duel, in [s]
+DURATION = 120.0  # duration of a duel, in [s]
 CHOICES = (  # heading that is subtracted, point that is sighted
     ("path", "place"),
     ("both feet", "place"),
@@ -38,10 +37,10 @@ CHOICES = (  # heading that is subtracted, point that is sighted
 
 
 class Job(NamedTuple):
-    """One duel with one pair of choices.
+    """Duel with one combination of definitions.
 
     Attributes:
-        seed: Of the duel.
+        seed: Random seed of the duel.
         heading: "path", "landed foot" or "both feet".
         point: "place" or "torso".
     """
@@ -52,26 +51,26 @@ class Job(NamedTuple):
 
 
 class Torso:
-    """True state of a robot whose place is its torso."""
+    """True state of a robot whose reference point is its torso."""
 
     def __init__(self, truth: Any) -> None:
-        """Take the place of a true state."""
+        """Wrap a true state."""
         self._truth = truth
 
     @property
     def heading(self) -> float:
-        """Heading of the torso, in [rad]."""
+        """Heading of the torso in the world frame, in [rad]."""
         return float(self._truth.heading)
 
     @property
     def place(self) -> tuple[float, float]:
-        """Origin of the torso, in [m]."""
+        """Position of the torso in the world frame, in [m]."""
         x, y = self._truth.position
         return x, y
 
 
 def play(job: Job) -> dict[str, Any]:
-    """Radii and distance of one duel, in the process of its own choices."""
+    """Return radii and distance of one duel; run in a process of its own."""
     look, replan = IdealLineOfSight._measure, ControlScheme._replan
 
     def look_at_torsos(sight: Any, now: float) -> Any:
@@ -119,14 +118,14 @@ def play(job: Job) -> dict[str, Any]:
 
 
 def _between_torsos(run: DuelRun) -> float:
-    """Mean distance of the torsos in the last third, in [m]."""
+    """Return the mean distance of the torsos in the last third, in [m]."""
     last = run.times >= run.times[-1] * 2.0 / 3.0
     apart = run.pursuer.torso[last] - run.evader.torso[last]
     return float(np.hypot(apart[:, 0], apart[:, 1]).mean())
 
 
 def main() -> None:
-    """Play every pair of choices with every seed."""
+    """Run every combination with every seed."""
     parser = ask(__doc__, "instants.json")
     parser.add_argument("--seeds", type=seeds_of, default=range(7, 11))
     asked = parser.parse_args()

@@ -1,7 +1,7 @@
-"""Time many games at once: compiled kernel beside plain NumPy.
+"""Time many games at once: compiled kernel against NumPy.
 
-Both play the same games in one process, in alternation; the best of two
-counts for either. Processor time on one core::
+Both simulate the same games in one process, alternately; the best of two
+counts for each. Processor time on one core::
 
     NUMBA_NUM_THREADS=1 python tools/benchmarks/kernel.py
 """
@@ -22,13 +22,13 @@ from stepaside.theory.unicycle.unicycle_game import make_game
 
 
 def measure_kernel(games: int, steps: int) -> dict[str, float]:
-    """Steps per second of both, their ratio and largest difference."""
+    """Return steps per second of both, their ratio and largest difference."""
     game = make_game(1.0, 1.0, 0.5, 0.5)
     rng = np.random.default_rng(0)
     angles = rng.uniform(-np.pi, np.pi, (games, 2))
     starts = np.column_stack([rng.uniform(0.3, 6.0, games), angles])
     duration = 0.01 * steps
-    play_games(game, starts[:10], 0.1)  # compile, or load what was compiled
+    play_games(game, starts[:10], 0.1)  # compile, or load from the cache
     best = {"numba": 0.0, "numpy": 0.0}
     closest = {}
     for _ in range(2):
@@ -50,7 +50,7 @@ def measure_kernel(games: int, steps: int) -> dict[str, float]:
 
 
 def main() -> None:
-    """Measure, write and print."""
+    """Measure, write and print the results."""
     asked = ask(__doc__, "kernel.json")
     asked.add_argument("--games", type=int, default=16_384)
     asked.add_argument("--steps", type=int, default=1000)

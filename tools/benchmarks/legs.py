@@ -1,7 +1,7 @@
-"""Time joint motion beside one that asks MuJoCo, in two duels at once.
+"""Time our inverse kinematics against one that calls MuJoCo, in two duels.
 
-Duels of the same seed, one with either, and bare physics of the same
-motion take turns, fifty ticks each, in one process on one core::
+The duels have the same seed. They and the bare physics of the same motion
+alternate, fifty ticks each, in one process on one core::
 
     python tools/benchmarks/legs.py --output legs.json
 """
@@ -27,9 +27,9 @@ from stepaside.games.walker import Walker
 from stepaside.robots.leg_kinematics import LegKinematics
 from stepaside.studies.result_files import header, write_result
 
-CHUNK = 50  # ticks in a turn
+CHUNK = 50  # ticks between two alternations
 LEGS = "stepaside.control.scheme_builder.LegKinematics"
-# What is added for the load is the same on both sides, and left out.
+# Load compensation is the same on both sides, and left out.
 LOAD = "stepaside.control.scheme_builder.LoadFeedforward"
 KINDS: dict[str, Callable[..., Any]] = {
     "mujoco": MujocoLegs,
@@ -38,14 +38,14 @@ KINDS: dict[str, Callable[..., Any]] = {
 
 
 def _no_load(*_: Any, **__: Any) -> None:
-    """Add nothing."""
+    """Return no load compensation."""
 
 
 class Side:
-    """A duel with one kind of legs, and bare physics of its motion."""
+    """Duel with one kind of legs, and the bare physics of its motion."""
 
     def __init__(self, kind: str, settings: DuelSettings) -> None:
-        """Stand the robots up."""
+        """Place the robots at their initial poses."""
         with patch(LEGS, KINDS[kind]), patch(LOAD, _no_load):
             self.duel = Duel(settings)
         self.walkers = [p for p in self.duel.players if isinstance(p, Walker)]
@@ -60,7 +60,7 @@ class Side:
         self.targets: list[Array] = []
 
     def play(self) -> None:
-        """Play a turn; then bare physics of it."""
+        """Run some ticks of the duel, then their bare physics."""
         commands = np.empty((CHUNK, self.model.nu))
         start = process_time()
         for tick in range(CHUNK):
@@ -77,7 +77,7 @@ class Side:
             raise SystemExit("the bare run went another way")
 
     def control(self) -> None:
-        """Play a turn, and note what control alone takes of a tick."""
+        """Run some ticks, and time the control part of each."""
         spent = 0.0
         for _ in range(CHUNK):
             for walker in self.walkers:
@@ -92,7 +92,7 @@ class Side:
 
 
 def measure_legs(duration: float) -> dict[str, float]:
-    """Ticks and duels of both sides, and their ratios."""
+    """Return tick and duel times of both sides, and their ratios."""
     settings = DuelSettings(seed=1, duration=duration)
     turns = round(duration / settings.physics.tick / CHUNK)
     played = {kind: Side(kind, settings) for kind in KINDS}
@@ -113,7 +113,7 @@ def measure_legs(duration: float) -> dict[str, float]:
 
 
 def main() -> None:
-    """Measure, write and print."""
+    """Measure, write and print the results."""
     asked = ask(__doc__, "legs.json")
     asked.add_argument("--duration", type=float, default=30.0)
     arguments = asked.parse_args()

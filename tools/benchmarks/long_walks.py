@@ -1,4 +1,4 @@
-"""Let hardware-like bodies walk for long: forward, backward and in circles.
+"""Simulate long walks of hardware bodies: forward, backward and in circles.
 
 ::
 
@@ -19,7 +19,7 @@ KEPT = ("outcome", "duration_s", "steps", "speed_ratio", "yaw_ratio")
 
 
 def main() -> None:
-    """Walk and write."""
+    """Simulate the walks and write the results."""
     asked = ask(__doc__, "long-walks.json")
     asked.add_argument("--minutes", type=float, default=60.0)
     asked.add_argument("--seed", type=int, default=7)

@@ -1,4 +1,4 @@
-"""Time the tick of the MPC beside the closed form's replan, in one run."""
+"""Time one MPC tick against a replan of the closed form, in one process."""
 
 import numpy as np
 from timing import time_call
@@ -14,12 +14,12 @@ from stepaside.planning import (
     ManeuverPlanner,
 )
 
-TIME = 0.1  # since the plan began, in [s]
-PUSHED = (0.02, 0.03)  # DCM less the plan's, in [m]: constraints act
+TIME = 0.1  # time since the plan began, in [s]
+PUSHED = (0.02, 0.03)  # DCM error in [m], large enough to activate constraints
 
 
 def measure_mpc() -> dict[str, float]:
-    """Times of one tick with a horizon of two steps, in [us]."""
+    """Return the times of one tick with a horizon of two steps, in [us]."""
     gait = GaitSettings()
     planner = ManeuverPlanner(gait)
 

@@ -1,7 +1,7 @@
-"""Joint motion that asks MuJoCo for transforms and Jacobians.
+"""Inverse kinematics that uses transforms and Jacobians of MuJoCo.
 
-What the package did before it had kinematics of its own: to compare with,
-in figures and in time. Joints at a limit stay in its solve.
+The former implementation of the package, as a reference for accuracy and
+time. Joints at a limit stay in its solve.
 """
 
 from math import atan2, cos, sin
@@ -15,10 +15,10 @@ from stepaside.core.poses import Array
 from stepaside.robots.description import RobotDescription
 from stepaside.robots.leg_kinematics import BodyReference
 
-DAMPING = 1e-4  # squared, of the pseudo-inverse; rows in [m] and [rad]
-LEAP = 0.3  # of a joint in one step while a stance is searched, in [rad]
-TOLERANCE = 1e-4  # residual at which a posture counts as reached
-LOST = 0.5  # residual, in [m] or [rad], beyond which a request is refused
+DAMPING = 1e-4  # damping squared of the pseudo-inverse; rows in [m] and [rad]
+LEAP = 0.3  # maximum joint step in the search for a posture, in [rad]
+TOLERANCE = 1e-4  # residual of a converged posture
+LOST = 0.5  # residual, in [m] or [rad], above which a reference is refused
 LEVEL = (0.0, 0.0)
 
 
@@ -31,11 +31,11 @@ class MujocoLegs:
     """
 
     def __init__(self, description: RobotDescription, *, tick: float) -> None:
-        """Compile the robot's model, alone and without physics.
+        """Compile the robot's model alone, without a scene.
 
         Args:
-            description: The robot.
-            tick: Time from one tracked reference to the next, in [s].
+            description: Robot.
+            tick: Time between two references, in [s].
         """
         self.description = description
         self._model = model = description.compile()
@@ -93,7 +93,7 @@ class MujocoLegs:
 
     @property
     def posture(self) -> Array:
-        """Position and quaternion of the torso, then all joints."""
+        """Return position and quaternion of the torso, then all joints."""
         posture: Array = self._qpos.copy()
         return posture
 
@@ -104,16 +104,16 @@ class MujocoLegs:
         return atan2(frame[3], frame[0])
 
     def stand(self, reference: BodyReference) -> Array:
-        """Take a posture from scratch.
+        """Find a posture from scratch.
 
         Args:
-            reference: What to reach.
+            reference: Reference to reach.
 
         Returns:
             Joint targets, in [rad]. Shape (joints,).
 
         Raises:
-            ReachError: If the legs cannot reach it; names what is missed.
+            ReachError: If the legs cannot reach it; names the residual.
         """
         if not self._try_stand(reference):
             raise ReachError(f"{self.description.name} cannot stand")
@@ -136,17 +136,17 @@ class MujocoLegs:
     def track(self, reference: BodyReference) -> Array:
         """Follow a reference by one damped step from the last posture.
 
-        A joint at a limit of its range or speed stays there and the others
-        do what they can.
+        A joint at a limit of its range or speed stays there; the other joints
+        minimise the error.
 
         Args:
-            reference: What to reach at this tick.
+            reference: Reference of this tick.
 
         Returns:
             Joint targets, in [rad]. Shape (joints,).
 
         Raises:
-            ReachError: If the legs are hopelessly short of it; names what is.
+            ReachError: If the residual is above the limit; names it.
         """
         self._step(reference, self._reach)
         error = self._error
@@ -155,10 +155,10 @@ class MujocoLegs:
         return self.joint_targets
 
     def _step(self, reference: BodyReference, reach: Array | float) -> None:
-        """One damped Newton step; leaves the error before it.
+        """Take one damped Newton step; store the error before it.
 
         No joint moves by more than ``reach``, in [rad]: near a straight knee
-        an unlimited step would land on the other branch of the leg.
+        an unlimited step would reach the other branch of the leg.
         """
         model, data, q = self._model, self._data, self._qpos
         mujoco.mj_kinematics(model, data)
@@ -187,7 +187,7 @@ class MujocoLegs:
         error[16] = -frame[0, 2]
         j = rows @ self._spread
         # J' (J J' + damping)^-1 e
-        # The matrix is positive definite; LAPACK called without ceremony.
+        # The matrix is positive definite; call LAPACK directly to save checks.
         _, weights, _ = dposv(j @ j.T + self._damping, error)
         step = j.T @ weights
         joints = step[6:]
@@ -203,15 +203,15 @@ class MujocoLegs:
 
 
 def _lean(tilt: tuple[float, float], yaw: float) -> tuple[float, float]:
-    """Roll and pitch about a heading as a small rotation, in [rad]."""
+    """Return roll and pitch about a heading as a small rotation, in [rad]."""
     c, s = cos(yaw), sin(yaw)
     return c * tilt[0] - s * tilt[1], s * tilt[0] + c * tilt[1]
 
 
 def _turn(frame: Array, yaw: float) -> tuple[float, float, float]:
-    """Small rotation, in [rad], that levels a frame and turns it to a yaw.
+    """Return the small rotation, in [rad], that levels a frame at a yaw angle.
 
-    Half the sum of the cross products of the axes with where they should be.
+    Half the sum of cross products of the axes and their desired directions.
     """
     m00, m01, m02, m10, m11, m12, m20, m21, _ = frame.tolist()
     c, s = cos(yaw), sin(yaw)

@@ -1,8 +1,8 @@
-"""Open and close pages of ``stepaside view`` for long, and watch its memory.
+"""Open and close pages of ``stepaside view`` and record its memory.
 
-The server is a process of its own, whose duel runs at real time. Pages are
-sockets that hear all and draw nothing, so that many come and go, four at a
-time; ``viewer.py`` opens real ones::
+The server is a separate process whose duel runs in real time. Pages are
+sockets that receive all messages and render nothing, four at a time;
+``viewer.py`` opens real pages::
 
     python tools/benchmarks/pages.py --minutes 60
 """
@@ -25,12 +25,12 @@ from stepaside.studies.result_files import header, write_result
 
 PORT = 8751
 AT_ONCE = 4
-WARM = 0.1  # part of the time after which memory counts
-HEARS = 3.0  # for which a page is open, in [s]
+WARM = 0.1  # fraction of the time after which memory counts
+HEARS = 3.0  # time for which a page is open, in [s]
 
 
 def resident(process: int) -> float:
-    """Resident memory of a process, in [MB]."""
+    """Return the resident memory of a process, in [MB]."""
     status = Path(f"/proc/{process}/status").read_text()
     line = next(e for e in status.splitlines() if e.startswith("VmRSS:"))
     return int(line.split()[1]) / 1024.0
@@ -53,7 +53,7 @@ def page() -> ClientConnection:
 
 
 def hear(pages: list[ClientConnection]) -> int:
-    """Hear what pages are told for a while, then close them."""
+    """Receive all messages for a while, then close the pages."""
     end, heard = monotonic() + HEARS, 0
     while monotonic() < end:
         for each in pages:
@@ -67,7 +67,7 @@ def hear(pages: list[ClientConnection]) -> int:
 
 
 def come_and_go(process: int, minutes: float) -> dict[str, Any]:
-    """Memory of the server while pages come and go."""
+    """Return the memory of the server while pages open and close."""
     began, opened, heard = monotonic(), 0, 0
     rows: list[dict[str, float]] = []
     while (passed := (monotonic() - began) / 60.0) < minutes:
@@ -91,7 +91,7 @@ def come_and_go(process: int, minutes: float) -> dict[str, Any]:
 
 
 def main() -> None:
-    """Serve, measure and write."""
+    """Serve, measure and write the results."""
     asked = ask(__doc__, "pages.json")
     asked.add_argument("--minutes", type=float, default=60.0)
     arguments = asked.parse_args()

@@ -1,7 +1,8 @@
-"""Let people come at, and pass, a robot with the fast gait that sees them.
+"""Simulate people approaching and passing a robot with cameras and fast gait.
 
-They wear no trim, so that colour images tell nothing of them: two a second
-are taken, made of rays. Depth images and echoes come as ever::
+They do not wear the colours of a robot, so colour images contain no
+detections: two images per second are ray cast. Depth images and sonar have
+their usual rates::
 
     python tools/benchmarks/people.py --speed 0.8 --seeds 1:6
     python tools/benchmarks/people.py --speed 0.5 --seeds 1:6 --body hardware
@@ -22,15 +23,15 @@ from stepaside.studies.people_campaign import Encounter, encounters, meet
 from stepaside.studies.people_statistics import passing_rows, people_rows
 from stepaside.studies.result_files import header, write_result
 
-AHEAD = (0, 45, -45, 90, -90)  # where they come from, in [deg]
+AHEAD = (0, 45, -45, 90, -90)  # directions they come from, in [deg]
 BEHIND = (135, -135, 180)
-AIMED = (0.0, 0.3)  # how far beside the robot, in [m]
+AIMED = (0.0, 0.3)  # lateral offset of the path from the robot, in [m]
 BY = (1.2, -1.2)
 CAMERAS = CameraSettings(colour=ColourSettings(renderer="raycast", rate=2.0))
 
 
 def play(encounter: Encounter) -> Row:
-    """What happened to one person."""
+    """Return the outcome of one encounter."""
     return meet(encounter)[1]
 
 
@@ -41,7 +42,7 @@ def grid(
     bearings: tuple[int, ...],
     *offsets: float,
 ) -> list[Encounter]:
-    """People at one speed from some directions."""
+    """Return encounters at one speed from several directions."""
     walk = WalkSettings(
         seed=seeds.start,
         gait=PRESETS["fast"],
@@ -67,7 +68,7 @@ def _name(asked: Namespace) -> str:
 
 
 def main() -> None:
-    """Play and write."""
+    """Simulate the encounters and write the results."""
     asked = ask(__doc__, _name)
     asked.add_argument("--speed", type=float, default=0.8)
     asked.add_argument("--seeds", type=seeds_of, default="1:3")

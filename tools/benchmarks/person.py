@@ -1,13 +1,13 @@
-"""Let persons walk at the evader, who is told where they are or sees them.
+"""Simulate people walking towards an evader with ideal sensing or cameras.
 
 ::
 
     python tools/benchmarks/person.py ideal --seeds 1:6
     python tools/benchmarks/person.py cameras --seeds 1:3
 
-A person wears no trim, so that colour images tell nothing of one: with
-cameras two a second are taken, made of rays. Depth images and echoes come as
-ever.
+A person does not wear the colours of a robot, so colour images contain no
+detections: with cameras, two images per second are ray cast. Depth images and
+sonar have their usual rates.
 """
 
 from typing import NamedTuple
@@ -20,7 +20,7 @@ from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.studies.result_files import header, write_result
 
-DURATION = 90.0  # of each, in [s]
+DURATION = 90.0  # duration of each duel, in [s]
 WALKS = {
     "steers-slowly": PersonSettings("steer", 0.073, 0.146),
     "steers": PersonSettings("steer", 0.15, 0.2),
@@ -32,7 +32,7 @@ FIGURES = ("triggered_at_distance_m", "min_distance_m", "theory_closest_m")
 
 
 class Walk(NamedTuple):
-    """Who walks, and how the evader knows."""
+    """Path of the person, and sensing of the evader."""
 
     name: str
     seed: int
@@ -40,7 +40,7 @@ class Walk(NamedTuple):
 
 
 def play(walk: Walk) -> Row:
-    """Figures of one duel with a person."""
+    """Return the values of one duel with a person."""
     settings = DuelSettings(
         seed=walk.seed,
         duration=DURATION,
@@ -62,7 +62,7 @@ def play(walk: Walk) -> Row:
 
 
 def together(rows: list[Row]) -> Row:
-    """Outcomes of some duels, and the range of each figure."""
+    """Return the outcomes of some duels, and the range of each value."""
     outcomes = [row["outcome"] for row in rows]
     return {
         "number": len(rows),
@@ -73,7 +73,7 @@ def together(rows: list[Row]) -> Row:
 
 
 def main() -> None:
-    """Play and write."""
+    """Simulate the duels and write the results."""
     asked = ask(__doc__, lambda given: f"person-{given.sensing}.json")
     asked.add_argument("sensing", choices=["ideal", "cameras"])
     asked.add_argument("--seeds", type=seeds_of, default="1:6")

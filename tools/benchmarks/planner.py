@@ -1,4 +1,4 @@
-"""Time the maneuver planner, beside Drake's ZMP planner on the same ZMP."""
+"""Time the maneuver planner against Drake's ZMP planner for the same ZMP."""
 
 import numpy as np
 from timing import time_call
@@ -17,7 +17,7 @@ BEARING = 0.7  # [rad]
 
 
 def measure_planner() -> dict[str, float]:
-    """Times of a replan, and of a long plan with its samples, in [us]."""
+    """Return the times of a replan and of a long sampled plan, in [us]."""
     planner = ManeuverPlanner(GaitSettings())
     state = CenterState((0.0, 0.03), (0.05, -0.1))
     swing = Pose(0.04, 0.1, 0.05)
@@ -54,10 +54,10 @@ def measure_planner() -> dict[str, float]:
 
 
 def _measure_drake(plan: ManeuverPlan) -> dict[str, float]:
-    """Both closed forms given this plan's ZMP; empty without Drake.
+    """Time both closed forms for the ZMP of this plan; empty without Drake.
 
-    Ours is the whole plan, from the bearing on; Drake's is the CoM alone.
-    The second pair adds CoM and its velocity every 10 ms.
+    Ours is the whole plan, from the bearing on; Drake's is the CoM alone. The
+    second pair adds samples of CoM and velocity every 10 ms.
     """
     try:
         from pydrake.planning import ZmpPlanner
@@ -71,7 +71,7 @@ def _measure_drake(plan: ManeuverPlan) -> dict[str, float]:
         np.array([[Polynomial(coefficients[:, i, axis])] for axis in range(2)])
         for i in range(schedule.durations.size)
     ]
-    # It wants an end at rest: say that the ZMP stays where it ends.
+    # Drake expects an end at rest: let the ZMP stay at its last value.
     end = plan.sample([schedule.duration]).zmp[0]
     pieces.append(np.array([[Polynomial(value)] for value in end]))
     knots = [*schedule.starts.tolist(), schedule.duration + 0.1]
@@ -79,7 +79,7 @@ def _measure_drake(plan: ManeuverPlan) -> dict[str, float]:
     start = plan.sample([0.0])
     state = np.concatenate([start.com[0], start.com_velocity[0]])
     gait = schedule.settings
-    weight = 1e-9 * np.eye(2)  # of the CoM acceleration: track the ZMP alone
+    weight = 1e-9 * np.eye(2)  # CoM acceleration: track the ZMP
     drake = ZmpPlanner()
 
     def solve() -> None:

@@ -1,9 +1,9 @@
-"""What a decision costs among the polygons of a map that was seen.
+"""Time a decision among the polygons of a sensed map.
 
-Cells of a map of a room of 3 x 3 m with discs, as a depth camera leaves them,
-are covered by convex polygons; the more discs, the more of them. Timed is
-the processor time of each part of a decision there, in a place and with a
-start of its own each time::
+Occupied cells of a map of a 3 x 3 m room with discs, as a depth camera leaves
+them, are covered by convex polygons; more discs make more polygons. Measured
+is the processor time of each part of a decision, at a new position and with
+a cold cache each time::
 
     python tools/benchmarks/polygons.py
 """
@@ -56,35 +56,35 @@ from stepaside.studies.result_files import header, write_result
 GAIT = GaitSettings()
 NAO = measure_outline(load_robot("nao"), GAIT)
 PLANNER = ManeuverPlanner(GAIT)
-MARGIN, CELL = 0.02, 0.05  # of the guard, and of a map, in [m]
+MARGIN, CELL = 0.02, 0.05  # margins of the guard and of a map, in [m]
 NEEDS = NAO.radius + MARGIN + sway_of(GAIT)
 ROOMS = ("planning", "rooms", "steps", "strategies", "control/clearance")
 RECIPES = (RoomRecipe(), RoomRecipe(discs=3), RoomRecipe(discs=6))
-WIDE = 2.0  # half of the side of a map, in [m]
+WIDE = 2.0  # half side of a map, in [m]
 
 
 class Taken:
-    """Surroundings of what a map holds.
+    """Fixed surroundings from a map.
 
     Attributes:
-        solids: All of it.
-        frame: Of odometry.
-        blur: How far off that may be, in [m].
+        solids: Obstacles.
+        frame: Odometry frame.
+        blur: Uncertainty of the frame, in [m].
     """
 
     frame = HERE
     blur = CELL
 
     def __init__(self, solids: ObstacleSet) -> None:
-        """Know it."""
+        """Store the obstacles."""
         self.solids = solids
 
     def note(self, measurement: Any, body: Any) -> None:
-        """Learn nothing more."""
+        """Ignore new measurements."""
 
 
 def seen(room: Room, fine: float) -> ObstacleSet:
-    """Polygons that cover the cells of a map within 10 cm of a surface."""
+    """Return polygons that cover all map cells within 10 cm of a surface."""
     ticks = np.arange(-WIDE, WIDE, CELL) + 0.5 * CELL
     cells = np.stack(np.meshgrid(ticks, ticks), axis=-1).reshape(-1, 2)
     clear = room.clearance(cells)
@@ -96,7 +96,7 @@ def seen(room: Room, fine: float) -> ObstacleSet:
 def knowledge(
     starts: tuple[Pose, Pose], own: int, solids: ObstacleSet
 ) -> Knowledge:
-    """What one of two players knows at its start."""
+    """Return the knowledge of one of two players at its initial pose."""
     here, other = starts[own], starts[1 - own]
     x, y = other.x - here.x, other.y - here.y
     limits = Limits(GAIT.speed, GAIT.gain, GAIT.stride, GAIT.step_duration)
@@ -107,7 +107,7 @@ def knowledge(
 
 
 def guarded(pose: Pose, solids: ObstacleSet) -> Callable[[], object]:
-    """A choice of the guard in a place."""
+    """Evaluate the guard once at a position."""
     guard = Guard(Taken(solids), NAO, PLANNER, margin=MARGIN)
     half = 0.5 * GAIT.foot_spacing
     support = pose.compose(Pose(0.0, -half, 0.0))
@@ -126,19 +126,19 @@ def guarded(pose: Pose, solids: ObstacleSet) -> Callable[[], object]:
 
 
 def decide(mind: Strategy, known: Knowledge) -> object:
-    """First decision of a strategy."""
+    """Evaluate the first decision of a strategy."""
     return mind.decide(known, mind.begin())
 
 
 def timed(do: Callable[[], object]) -> float:
-    """Processor time of one call, in [s]."""
+    """Return the processor time of one call, in [s]."""
     begun = process_time()
     do()
     return process_time() - begun
 
 
 def measure(recipe: RoomRecipe, fine: float, games: int) -> dict[str, Any]:
-    """Times of the parts of decisions in some rooms, each map new."""
+    """Return the times of the parts of decisions in rooms with new maps."""
     evader, pursuer = LookAhead(body_radius=NEEDS), Pursuit(body_radius=NEEDS)
     times: dict[str, list[float]] = {}
     counts: list[int] = []
@@ -169,12 +169,12 @@ def measure(recipe: RoomRecipe, fine: float, games: int) -> dict[str, Any]:
 
 
 def main() -> None:
-    """Measure and write."""
+    """Measure and write the results."""
     asked = ask(__doc__, "polygons.json")
     asked.add_argument("--games", type=int, default=40)
     arguments = asked.parse_args()
     head = header({"games": arguments.games}, rooms=ROOMS)
-    measure(RECIPES[0], 2.2, 2)  # code is loaded
+    measure(RECIPES[0], 2.2, 2)  # import all code
     rows = [
         measure(recipe, fine, arguments.games)
         for recipe, fine in zip(RECIPES, (2.2, 1.25, 1.15), strict=True)

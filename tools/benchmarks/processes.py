@@ -1,7 +1,7 @@
-"""Served duels: a world and two players, three processes each.
+"""Processes of served duels: one for the simulation, one for each player.
 
-Real time needs cores that are free when a tick is due: as root the processes
-are given real-time priority, which the result says.
+Real time requires free cores at every tick. As root, the processes are
+given real-time priority, which the result states.
 """
 
 import json
@@ -19,7 +19,7 @@ from asking import machine
 from stepaside.studies.code_version import PHYSICS
 from stepaside.studies.result_files import header, write_result
 
-PRIORITY = 10  # of the real-time scheduler; the least is 1
+PRIORITY = 10  # priority of the real-time scheduler; the lowest is 1
 RUN = "from stepaside.cli.main import main; main()"
 URGENT = os.geteuid() == 0
 Ready = Callable[[Any, Path], None]
@@ -27,7 +27,7 @@ Ready = Callable[[Any, Path], None]
 
 
 def start(words: list[str], folder: Path) -> Any:
-    """Start one process of stepaside."""
+    """Start one stepaside process."""
     program = [sys.executable, "-c", RUN, *words]
     if URGENT:
         program = ["chrt", "-f", str(PRIORITY), *program]
@@ -44,18 +44,18 @@ def play_out(
     players: Iterable[list[str]],
     ready: Ready,
 ) -> dict[str, Any]:
-    """Play one duel.
+    """Run one duel.
 
     Args:
-        arguments: Have seed and duration.
-        body: What both robots are like.
-        lock_step: Whether the world waits for its players.
-        offers: Words that say where the robots are offered.
-        players: Words that say whom each player drives.
-        ready: Waits for the world.
+        arguments: Parsed arguments with seed and duration.
+        body: Body preset of both robots.
+        lock_step: Whether the simulation waits for its players.
+        offers: Arguments with the address of each robot.
+        players: Arguments of each player.
+        ready: Waits for the server.
 
     Returns:
-        What is kept of what the world printed.
+        Row of the result.
     """
     words = ["serve", "--body", body, "--json", *offers]
     words += ["--seed", str(arguments.seed)]
@@ -75,7 +75,7 @@ def play_out(
 def row_of(
     body: str, lock_step: bool, found: dict[str, Any]
 ) -> dict[str, Any]:
-    """What is kept of a duel."""
+    """Return the stored values of a duel."""
     keys = "outcome duration_s distance_m converged_at_s late_ticks".split()
     return {
         "body": body,

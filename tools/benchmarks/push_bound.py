@@ -1,4 +1,4 @@
-"""Compare the bound of pushes with brute force, at 60 phases and directions.
+"""Compare the push bound with brute force, at 60 phases and directions.
 
 The linear programs are those of ``tests/brute_push.py``.
 """
@@ -23,7 +23,7 @@ from stepaside.planning import (
 from stepaside.planning.capturability import FootReach, push_bound
 from stepaside.planning.steady_gait import steady_plan
 
-MASS = 5.3  # [kg]
+MASS = 5.3  # mass, in [kg]
 CASES = 60
 REACHES = (FootReach(), FootReach(0.08, 0.08, 0.02, 0.012))
 
@@ -31,7 +31,7 @@ REACHES = (FootReach(), FootReach(0.08, 0.08, 0.02, 0.012))
 def case(
     generator: np.random.Generator,
 ) -> tuple[ManeuverPlan, float, float, FootReach, float]:
-    """One plan, time, direction, reach and length of the push."""
+    """Return a plan with time, direction, reach and duration of a push."""
     gait = replace(
         GaitSettings(), zmp_profile=("linear", "cubic")[generator.integers(2)]
     )
@@ -56,7 +56,7 @@ def case(
 
 
 def compare() -> float:
-    """Largest relative difference; each case is printed."""
+    """Return the largest relative difference; print each case."""
     generator, worst = np.random.default_rng(0), 0.0
     print("  time [s]  direction  lasts   bound  brute force [N s]")
     for _ in range(CASES):

@@ -1,10 +1,10 @@
-"""Where a push goes: into the ZMP, a turn of the body, an early landing.
+"""Decompose the effect of a push: ZMP, angular momentum, early landing.
 
-Of a pendulum the ground force points from the ZMP to the CoM. What a body
-does besides shows as the moment pivot: where a ground force through the CoM
-would meet the floor. Outside the feet it is out of reach for a pendulum; a
-body gets there by turning, ``m g`` times its distance from the ZMP being the
-rate of the angular momentum about the CoM.
+The ground force on a pendulum points from the ZMP to the CoM. For a body, the
+moment pivot is the point where a ground force through the CoM would meet the
+floor. Outside the feet it is unreachable for a pendulum; a body reaches it by
+rotating: ``m g`` times its distance from the ZMP is the rate of the angular
+momentum about the CoM.
 """
 
 from dataclasses import replace
@@ -41,7 +41,7 @@ GAIT = GaitSettings()
 
 
 def ground(model: Any, data: Any, foot: int) -> tuple[Array, float]:
-    """Center of all normal forces, in [m], and a foot's share of them."""
+    """Return the centre of pressure, in [m], and one foot's load fraction."""
     total, share, moment, force = 0.0, 0.0, np.zeros(2), np.zeros(6)
     for i, contact in enumerate(data.contact):
         mujoco.mj_contactForce(model, data, i, force)
@@ -56,7 +56,7 @@ def ground(model: Any, data: Any, foot: int) -> tuple[Array, float]:
 def bound_with_landing(
     trial: RobustnessTrial, rest: float, mass: float
 ) -> float:
-    """Bound if the foot in the air landed after another time, in [N s]."""
+    """Return the bound for another landing time, in [N s]."""
     passed = 2.0 * trial.phase * GAIT.step_duration
     foot = Foot.LEFT if passed < GAIT.step_duration else Foot.RIGHT
     walk = steady_plan(
@@ -76,13 +76,13 @@ def bound_with_landing(
 
 
 def follow(trial: RobustnessTrial) -> dict[str, float | str | bool]:
-    """Moment pivot and ZMP along the push, until the foot in the air lands.
+    """Return moment pivot and ZMP from the push until the swing foot lands.
 
-    The push has to come in single support.
+    The push must be in single support.
 
-    Means are weighted by exp(-eta t) from the begin of the push, as they
-    count for the DCM. Lengths are from the ankle of the foot that stands, in
-    the direction of the push, in [mm].
+    Means are weighted by exp(-eta t) from the beginning of the push, as in the
+    DCM dynamics. Lengths are from the ankle of the stance foot, along the
+    push, in [mm].
     """
     walking = WalkGame(settings_of(trial), recorded=False)
     world, walker = walking.world, walking.walker
@@ -168,7 +168,7 @@ def follow(trial: RobustnessTrial) -> dict[str, float | str | bool]:
 
 
 def trials_above(file: Path) -> list[RobustnessTrial]:
-    """Largest pushes survived that lie above their bound, from a result."""
+    """Return the largest survived pushes above their bound, from a result."""
     made = read_result(file)
     body, seed = made["settings"]["body"], made["settings"]["seed"]
     return [
@@ -182,7 +182,7 @@ def trials_above(file: Path) -> list[RobustnessTrial]:
 
 
 def main() -> None:
-    """Follow them, and write what happened."""
+    """Simulate the pushes and write the results."""
     parser = ask(__doc__, "push-moments.json")
     parser.add_argument("--pushes", type=Path, default=RESULTS / "pushes.json")
     asked = parser.parse_args()

@@ -1,9 +1,8 @@
-"""What the push bound leaves out: more footsteps, and earlier ones.
+"""Measure what the push bound omits: more footsteps, and earlier ones.
 
-At times and directions over a step of a walk under way, for an impulse, the
-bound for one footstep that lands when planned is compared with the bound for
-many footsteps, and with that for a footstep that may land at any time up to
-the planned one::
+At times and directions over a step of a steady walk, for an impulse, compare
+the bound for one footstep that lands as planned with the bounds for many
+footsteps and for a footstep that lands at any time up to the planned one::
 
     python tools/benchmarks/push_steps.py
 """
@@ -33,7 +32,7 @@ from stepaside.studies.result_files import header, write_result
 from stepaside.studies.survival import walking_reach
 
 TIMES, DIRECTIONS, LANDINGS = 60, 180, 24
-FOOTSTEPS = 4  # one more counts by exp(-eta T), 0.04 or less
+FOOTSTEPS = 4  # a further step is weighted by exp(-eta T), 0.04 or less
 GAITS = {"paper": GaitSettings(), "fast": PRESETS["fast"]}
 WALKS = {
     "forward": (0.0, Direction.FORWARD),
@@ -46,9 +45,9 @@ ANGLES = np.linspace(0.0, tau, DIRECTIONS, endpoint=False)
 def largest_shifts(
     plan: ManeuverPlan, time: float, regions: list[Array]
 ) -> Array:
-    """Largest shifts of the DCM that are held, in [m], by direction.
+    """Return the largest recoverable shifts of the DCM by direction, in [m].
 
-    Every smaller shift is held, too.
+    Every smaller shift is recoverable, too.
     """
     dcm = plan.sample([time]).dcm[0]
     found = []
@@ -65,7 +64,7 @@ def largest_shifts(
 
 
 def ratios(plan: ManeuverPlan, reach: FootReach) -> tuple[Array, Array]:
-    """Shifts held with more steps and by earlier ones, over the bound's.
+    """Return recoverable shifts with more and earlier steps, over the bound's.
 
     Returns:
         Ratios at all times of a step, and at those of its single support.
@@ -81,7 +80,7 @@ def ratios(plan: ManeuverPlan, reach: FootReach) -> tuple[Array, Array]:
         many.append(largest_shifts(plan, time, regions) / one)
         phase = next(p for p in plan.support() if p.end > time)
         if phase.single:
-            # A landing in place of the next is one of a plan further on.
+            # A landing instead of the next one belongs to a later plan.
             for later in np.linspace(time, phase.end, LANDINGS)[1:-1]:
                 planned += held_regions(plan, float(later), reach, 1)[1:]
             early.append(largest_shifts(plan, time, planned) / one)
@@ -89,7 +88,7 @@ def ratios(plan: ManeuverPlan, reach: FootReach) -> tuple[Array, Array]:
 
 
 def main() -> None:
-    """Compare bounds at all times and directions."""
+    """Compare the bounds at all times and directions."""
     output = ask(__doc__, "push-steps.json").parse_args().output
     reach = walking_reach()
     along, aside = (np.abs(f(ANGLES)) < 1e-9 for f in (np.sin, np.cos))

@@ -1,6 +1,6 @@
-"""What an evader can do about a close reversed circle, as docs/unicycles.md.
+"""Simulate remedies against a close reversed circle, for docs/unicycles.md.
 
-As ``stepaside circle --remedies``, into a file of results::
+Like ``stepaside circle --remedies``, into a file of results::
 
     python tools/benchmarks/remedies.py
 """
@@ -12,11 +12,11 @@ from stepaside.cli.unicycle_options import describe_game
 from stepaside.studies.result_files import header, write_result
 from stepaside.theory.unicycle.unicycle_game import make_game
 
-GAME = make_game(2.0, 1.0, 1.0, 4.0)  # twice as fast, turning a quarter
+GAME = make_game(2.0, 1.0, 1.0, 4.0)  # twice as fast, a quarter the gain
 
 
 def main() -> None:
-    """Play the same starts with every remedy."""
+    """Simulate the same initial poses with every remedy."""
     parser = ask(__doc__, "circle-remedies.json")
     parser.add_argument("--starts", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=0)

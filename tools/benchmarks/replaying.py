@@ -1,4 +1,4 @@
-"""Write a run as a page, a film and a GIF: how long, and how large.
+"""Measure time and size of a run written as a page, a video and a GIF.
 
 ::
 
@@ -32,14 +32,14 @@ FILES = {
 
 
 def call(*words: str) -> None:
-    """Call ``stepaside``, and stop where it fails."""
+    """Call ``stepaside``, and exit if it fails."""
     answer = CliRunner().invoke(stepaside, words)
     if answer.exit_code:
         raise SystemExit(answer.output)
 
 
 def main() -> None:
-    """Play, write each file, and the results."""
+    """Run a duel, write each file, and write the results."""
     asked = ask(__doc__, "replay.json")
     asked.add_argument("--seed", type=int, default=7)
     arguments = asked.parse_args()

@@ -1,8 +1,7 @@
-"""Take published humanoids from their file to the circle, by commands alone.
+"""Take published humanoids from their model file to the circle, by commands.
 
-The models are fetched by hand; see docs/robots.md. Each is looked for by its
-path under the folders that are given, and those that are not there keep the
-row that they had::
+The models are downloaded by hand; see docs/robots.md. Each is searched by its
+path below the given folders; missing models keep their former row::
 
     python tools/benchmarks/robots.py FOLDER...
 """
@@ -30,13 +29,13 @@ SEED, DURATION = 7, 120.0
 
 
 class Humanoid(NamedTuple):
-    """A published model.
+    """Published model.
 
     Attributes:
-        name: What people call it.
+        name: Common name.
         source: Where it is published.
         path: Its file there.
-        kinematics: What sets it apart.
+        kinematics: Distinctive features of its kinematics.
     """
 
     name: str
@@ -196,7 +195,7 @@ HUMANOIDS = (
 
 
 def find(humanoid: Humanoid, folders: list[Path]) -> Path | None:
-    """File of a model, wherever it lies under the folders."""
+    """Return the file of a model below the given folders."""
     return next(
         (
             file
@@ -209,7 +208,7 @@ def find(humanoid: Humanoid, folders: list[Path]) -> Path | None:
 
 
 def measure(humanoid: Humanoid, model: Path) -> dict[str, Any]:
-    """Derive, play a duel of two, and tell what came out."""
+    """Derive a description, run a duel of two, and return the results."""
     begun = monotonic()
     with TemporaryDirectory() as made:
         folder = Path(made)
@@ -247,7 +246,7 @@ def measure(humanoid: Humanoid, model: Path) -> dict[str, Any]:
 
 
 def main() -> None:
-    """Measure what is there, and write after each."""
+    """Measure all models found; write after each."""
     asked = ask(__doc__, "robots.json")
     asked.add_argument("folders", type=Path, nargs="+")
     asked.add_argument("--only", help="names that hold this, alone")

@@ -1,11 +1,11 @@
-r"""Play duels in rooms of 3 x 3 m with three discs, in physics.
+r"""Run duels in rooms of 3 x 3 m with three discs, in physics.
 
-Rows of other strategies and maps that stand in the output already stay::
+Rows of other strategies and maps in the output remain::
 
     python tools/benchmarks/rooms.py --strategy evasion --map given \
         --seeds 0:10
 
-``--summarise`` plays nothing: it makes the summary again from the rows.
+``--summarise`` only recomputes the summary from the rows.
 """
 
 import json
@@ -28,7 +28,7 @@ PLAYERS = ("pursuer", "evader")
 
 
 class Played(NamedTuple):
-    """One duel to play."""
+    """Duel to run."""
 
     strategy: str
     map: str
@@ -37,7 +37,7 @@ class Played(NamedTuple):
 
 
 def play(played: Played) -> Row:
-    """Outcome of one duel, who touched what, and how clear they kept."""
+    """Return outcome, contacts and clearances of one duel."""
     seen = played.map == "seen"
     settings = DuelSettings(
         seed=played.seed,
@@ -64,7 +64,7 @@ def play(played: Played) -> Row:
 
 
 def summary_of(rows: list[Row]) -> Row:
-    """What the duels of one strategy with one map came to."""
+    """Return the summary of the duels of one strategy with one map."""
     outcomes = [row["outcome"] for row in rows]
     contacts = [row for row in rows if row["outcome"] == "contact"]
     players = sum(set(row["touched"]) == set(PLAYERS) for row in contacts)
@@ -90,7 +90,7 @@ def summary_of(rows: list[Row]) -> Row:
 
 
 def others(output: Path, strategy: str, source: str) -> list[Row]:
-    """Rows of what else was played before."""
+    """Return the existing rows of other duels."""
     if not output.is_file():
         return []
     found: list[Row] = json.loads(output.read_text("utf-8"))["rows"]
@@ -100,7 +100,7 @@ def others(output: Path, strategy: str, source: str) -> list[Row]:
 
 
 def summaries(rows: list[Row]) -> list[Row]:
-    """Summary of the duels of each strategy with each map."""
+    """Return the summary for each strategy and map."""
     kinds: dict[tuple[str, str], list[Row]] = {}
     for row in rows:
         kinds.setdefault((row["strategy"], row["map"]), []).append(row)
@@ -108,7 +108,7 @@ def summaries(rows: list[Row]) -> list[Row]:
 
 
 def main() -> None:
-    """Play and write."""
+    """Run the duels and write the results."""
     asked = ask(__doc__, "rooms.json")
     asked.add_argument("--strategy", default="evasion")
     asked.add_argument("--map", choices=MAPS, default="given")

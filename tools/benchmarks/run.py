@@ -1,7 +1,7 @@
 """Time planner, MPC, control tick and duel in one process.
 
-Both sides of every ratio run here, on one core; processor times. Drake's
-planner is left out where it is not installed (``pip install .[bench]``)::
+Both sides of every ratio are timed here, on one core; processor times. Drake's
+planner is skipped if it is not installed (``pip install .[bench]``)::
 
     python tools/benchmarks/run.py --output docs/results/benchmark.json
 """
@@ -21,7 +21,7 @@ LIBRARIES = ("mujoco", "numpy", "drake", "daqp")
 
 
 def main() -> None:
-    """Measure, write and print."""
+    """Measure, write and print the results."""
     asked = ask(__doc__, "benchmark.json")
     asked.add_argument("--duration", type=float, default=60.0)
     arguments = asked.parse_args()

@@ -1,7 +1,7 @@
-"""Play duels of robots that see, in an empty room or under difficulties.
+"""Run duels of robots with cameras, in an empty or a degraded setting.
 
 Degraded means 30 % of the images dropped, 100 ms more latency, and boxes
-and a figure standing in the room::
+and a mannequin in the room::
 
     python tools/benchmarks/seeing.py plain --seeds 302:309
     python tools/benchmarks/seeing.py degraded --seeds 302:305
@@ -20,7 +20,7 @@ from stepaside.sim.camera_settings import (
 )
 from stepaside.studies.result_files import header, write_result
 
-BEYOND = 0.85  # start distance beyond which the trigger tells something, [m]
+BEYOND = 0.85  # start distance for a meaningful trigger, in [m]
 LIBRARIES = ("mujoco", "numpy", "opencv-python-headless")
 PLAIN = (
     "detection_rate",
@@ -34,14 +34,14 @@ PLAIN = (
 
 
 class Seen(NamedTuple):
-    """One duel to play."""
+    """Duel to run."""
 
     kind: str
     seed: int
 
 
 def play(seen: Seen) -> Row:
-    """Figures of one duel of 120 s."""
+    """Return the values of one duel of 120 s."""
     settings = DuelSettings(seed=seen.seed, sensing="cameras")
     if seen.kind == "degraded":
         settings = DuelSettings(
@@ -71,7 +71,7 @@ def play(seen: Seen) -> Row:
 
 
 def main() -> None:
-    """Play and write."""
+    """Run the duels and write the results."""
     asked = ask(__doc__, lambda given: f"seeing-{given.kind}.json")
     asked.add_argument("kind", choices=["plain", "degraded"])
     asked.add_argument("--seeds", type=seeds_of, default="302:309")

@@ -1,4 +1,4 @@
-"""Play served duels over LoLA: each body in lock step and in real time."""
+"""Run served duels over LoLA: each body in lockstep and in real time."""
 
 from pathlib import Path
 from time import sleep
@@ -16,14 +16,14 @@ DUELS = [
 
 
 def ready(world: Any, folder: Path) -> None:
-    """Wait until the last channel is there."""
+    """Wait until the last channel exists."""
     last = folder / f"{PLAYERS['evader']}.ideal-sight"
     while not last.exists() and world.poll() is None:
         sleep(0.05)
 
 
 def main() -> None:
-    """Play each body both ways."""
+    """Run each body in lockstep and in real time."""
     parser = ask(__doc__, "served.json")
     parser.add_argument("--seed", type=int, default=7)
     parser.add_argument("--duration", type=float, default=120.0)

@@ -1,7 +1,7 @@
-"""What games between unequal unicycles end in, as docs/unicycles.md.
+"""Classify the outcomes of games of unequal unicycles, for docs/unicycles.md.
 
-Random games from random starts: the shares that settle on a circle, are
-captured, change sides without end, or part::
+Random games from random initial poses: the fractions that settle on a circle,
+are captured, change sides forever, or diverge::
 
     python tools/benchmarks/side_changes.py
 """
@@ -20,25 +20,25 @@ from stepaside.theory.unicycle.basins import random_starts
 from stepaside.theory.unicycle.kernel import play_games
 from stepaside.theory.unicycle.unicycle_game import Game, TurningLaw, make_game
 
-SPREAD = 0.9  # logarithm of the largest speed and gain
+SPREAD = 0.9  # logarithm of the largest speed and gain ratio
 ANGLES = 0.05, 3.0  # [rad]
-PLAYED, STEP = 400.0, 0.04  # length of a game and its step, in 1/k
-SETTLING = 12.0  # least length in time constants of a stable circle
-WINDOW, WINDOWS = 1.37, 60  # that follow: their length, in 1/k, and number
+PLAYED, STEP = 400.0, 0.04  # duration of a game and its step, in 1/k
+SETTLING = 12.0  # minimum duration in time constants of a stable circle
+WINDOW, WINDOWS = 1.37, 60  # duration in 1/k, and number
 POINT = 1e-6  # capture distance, in units of the evader's speed over k
-NEAR = 0.1  # closest approach that is counted, likewise
-FAR = 20.0  # distance beyond which the evader has escaped, likewise
+NEAR = 0.1  # closest approach that is counted, in the same unit
+FAR = 20.0  # distance beyond which the evader has escaped, in the same unit
 
 
 @dataclass(frozen=True, slots=True)
 class End:
-    """How one game ended.
+    """Outcome of one game.
 
     Attributes:
         outcome: "settled", "captured", "changes sides", "escaped", or
             "other".
-        closest: Least distance while it was watched, in units of v_e / k.
-        farthest: Largest one.
+        closest: Minimum distance over the windows, in units of v_e / k.
+        farthest: Maximum distance over the windows, in the same unit.
     """
 
     outcome: str
@@ -47,7 +47,7 @@ class End:
 
 
 def main() -> None:
-    """Play the same draws of games under both laws."""
+    """Simulate the same random games under both laws."""
     parser = ask(__doc__, "side-changes.json")
     parser.add_argument("--games", type=int, default=300)
     parser.add_argument("--starts", type=int, default=5, help="of each game")
@@ -86,10 +86,10 @@ def main() -> None:
 
 
 def play(game: Game, starts: np.ndarray) -> list[End]:
-    """Play a game from many starts; look once in each of many windows.
+    """Simulate a game from many starts; sample it in each of many windows.
 
-    A game that has not settled changes sides if its side is not the same at
-    the ends of all windows. Distances are those of the windows.
+    A game that has not settled changes sides if its side differs between the
+    ends of the windows. Distances are those of the windows.
     """
     slow = min(game.pursuer.gain, game.evader.gain)
     fast = max(game.pursuer.gain, game.evader.gain)
@@ -128,7 +128,7 @@ def play(game: Game, starts: np.ndarray) -> list[End]:
 def row_of(
     key: tuple[str, str, bool], games: int, ends: list[End]
 ) -> dict[str, Any]:
-    """Shares of the outcomes of one kind of game."""
+    """Return the fractions of outcomes of one kind of game."""
     law, pursuer, held = key
     counts = Counter(end.outcome for end in ends)
     changing = [end for end in ends if end.outcome == "changes sides"]

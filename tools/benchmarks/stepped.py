@@ -1,17 +1,17 @@
-"""Play served duels over NAOqi in which robots are not moved by velocity."""
+"""Run served duels over NAOqi with footsteps or joints, not velocities."""
 
 from asking import ask
 from driven import played
 from processes import write_rows
 
-DUELS = (  # how robots are moved, body, whether in lock step
+DUELS = (  # motion interface, body, whether in lockstep
     ("footsteps", "delayed", False),
     ("joints", "delayed", False),
 )
 
 
 def main() -> None:
-    """Play each way."""
+    """Run every motion interface."""
     parser = ask(__doc__, "stepped.json")
     parser.add_argument("--seed", type=int, default=7)
     parser.add_argument("--duration", type=float, default=120.0)

@@ -1,6 +1,6 @@
-"""What a walk of the hardware body survives: docs/images' second campaign.
+"""Measure what a walk of the hardware body survives, as a second campaign.
 
-As ``stepaside robustness --body hardware``, into a file of results::
+Like ``stepaside robustness --body hardware``, into a file of results::
 
     python tools/benchmarks/survival.py --seeds 6 --phases 4
 """
@@ -28,7 +28,7 @@ BODY = "hardware"
 
 
 def by_strength(rows: list[Row]) -> dict[str, dict[str, Row]]:
-    """Trials and falls over all directions, by kind and strength."""
+    """Return trials and falls over all directions, by kind and strength."""
     found: dict[str, dict[str, Row]] = {}
     for row in rows:
         strengths = found.setdefault(row["kind"], {})
@@ -41,7 +41,7 @@ def by_strength(rows: list[Row]) -> dict[str, dict[str, Row]]:
 
 
 def main() -> None:
-    """Walk and write."""
+    """Simulate the walks and write the results."""
     asked = ask(__doc__, "survival-hardware.json")
     asked.add_argument("--seeds", type=int, default=6)
     asked.add_argument("--phases", type=int, default=4)

@@ -8,7 +8,7 @@ from time import process_time
 def time_call(
     call: Callable[[], object], *, calls: int = 200, rounds: int = 15
 ) -> float:
-    """Median over rounds of the mean processor time of a call, in [s]."""
+    """Return the median over rounds of the mean time of a call, in [s]."""
     call()
     means = []
     for _ in range(rounds):

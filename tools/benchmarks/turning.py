@@ -1,6 +1,6 @@
-"""How much of the planned turn and speed an ideal body walks, open loop.
+"""Measure which fraction of planned turn and speed an ideal body achieves.
 
-Walks with a constant bearing, forward and backward, to both sides::
+Open-loop walks with a constant bearing, forward and backward, to both sides::
 
     python tools/benchmarks/turning.py
 """
@@ -22,13 +22,13 @@ KEYS = ("speed_ratio", "yaw_ratio", "slip_per_step_m")
 
 
 def walk(settings: WalkSettings) -> Row:
-    """Figures of one walk."""
+    """Return the values of one walk."""
     summary = run_walk(settings).summary.to_json()
     return {key: summary[key] for key in ("outcome", *KEYS)}
 
 
 def main() -> None:
-    """Walk and write."""
+    """Simulate the walks and write the results."""
     parser = ask(__doc__, "turning.json")
     parser.add_argument("--workers", type=int)
     asked = parser.parse_args()

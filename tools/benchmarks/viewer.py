@@ -1,8 +1,8 @@
-"""Keep a live page open for long and measure what it costs.
+"""Keep a live page open for long and measure its cost.
 
 Two pages are opened and closed ten times over the given time while the duel
-runs at real time. Before that the duel runs as fast as it goes, without and
-with one page. Needs Chromium::
+runs in real time. Before that the duel runs at full speed, without and with
+one page. Requires Chromium::
 
     python tools/benchmarks/viewer.py --minutes 30
 """
@@ -26,11 +26,11 @@ from stepaside.studies.result_files import header, write_result
 
 PORT = 8741
 CYCLES = 10
-SPRINT = 10.0  # how long speed is measured, in [s]
+SPRINT = 10.0  # time over which speed is measured, in [s]
 
 
 class CountedPage(Page):
-    """A page that counts its updates."""
+    """Page that counts its updates."""
 
     updates = 0
 
@@ -40,7 +40,7 @@ class CountedPage(Page):
 
 
 def resident() -> float:
-    """Resident memory of this process, in [MB]."""
+    """Return the resident memory of this process, in [MB]."""
     for line in Path("/proc/self/status").read_text().splitlines():
         if line.startswith("VmRSS:"):
             return int(line.split()[1]) / 1024.0
@@ -48,7 +48,7 @@ def resident() -> float:
 
 
 def watch(page: CountedPage, duration: float) -> dict[str, float]:
-    """Real-time factor and updates a second over a while, in [s]."""
+    """Return real-time factor and updates per second over a time in [s]."""
     session = page.session
     began, updates = perf_counter(), page.updates
     time = session.duel.world.time
@@ -64,7 +64,7 @@ def watch(page: CountedPage, duration: float) -> dict[str, float]:
 
 
 def visit(browser: Any) -> Any:
-    """Open the page in a context of its own, and wait for its controls."""
+    """Open the page in a new browser context, and wait for its controls."""
     context = browser.new_context(viewport={"width": 640, "height": 420})
     tab = context.new_page()
     tab.goto(f"http://127.0.0.1:{PORT}")
@@ -75,7 +75,7 @@ def visit(browser: Any) -> Any:
 def come_and_go(
     page: CountedPage, browser: Any, minutes: float
 ) -> dict[str, Any]:
-    """Memory while two pages are opened and closed again and again."""
+    """Return the memory while two pages are opened and closed repeatedly."""
     first = most = resident()
     began, cycles = perf_counter(), []
     for cycle in range(1, CYCLES + 1):
@@ -101,7 +101,7 @@ def come_and_go(
 
 
 def main() -> None:
-    """Measure and write."""
+    """Measure and write the results."""
     asked = ask(__doc__, "viewer.json")
     asked.add_argument("--minutes", type=float, default=30.0)
     arguments = asked.parse_args()

@@ -1,8 +1,8 @@
-"""Let robots walk: errors of the estimates, and what each effect costs.
+"""Measure walks: estimation errors, and the effect of each imperfection.
 
-Rms errors of 30 s of turning walk on both bodies, with ``--feedback``; then
-speed, turning and slip of 25 s on the hardware body without the correction
-of the joints, with one effect of the body taken away at a time::
+Rms errors of 30 s of turning walk on both bodies with ``--feedback``; then
+speed, turning and slip of 25 s on the hardware body without joint correction,
+with one imperfection of the body removed at a time::
 
     python tools/benchmarks/walking.py --seeds 1:11
 """
@@ -23,8 +23,8 @@ from stepaside.sim.body_settings import BODIES, BodySettings
 from stepaside.studies.result_files import header, write_result
 
 BEARING = 0.3  # desired heading at every step, in [rad]
-ESTIMATED = 30.0  # duration of the walks whose estimates are judged, in [s]
-PACED = 25.0  # duration of the walks whose pace is, in [s]
+ESTIMATED = 30.0  # duration of the walks for estimation errors, in [s]
+PACED = 25.0  # duration of the walks for speed, in [s]
 HARDWARE, IDEAL = BODIES["hardware"], BODIES["ideal"]
 QUIET = {
     name: getattr(IDEAL, name)
@@ -48,7 +48,7 @@ PACE = ("speed_ratio", "yaw_ratio", "slip_per_step_m")
 
 
 def walk(settings: WalkSettings) -> Row:
-    """Figures of one walk."""
+    """Return the values of one walk."""
     summary = run_walk(settings).summary.to_json()
     errors = summary["estimation"]
     return {
@@ -59,7 +59,7 @@ def walk(settings: WalkSettings) -> Row:
 
 
 def walks(seeds: range) -> dict[str, WalkSettings]:
-    """Every walk, by ``kind/seed``."""
+    """Return all walks by ``kind/seed``."""
     feedback = STABILISED
     stiff = replace(feedback, stabiliser=StabiliserSettings(joint_gain=0.0))
     every = {}
@@ -77,7 +77,7 @@ def walks(seeds: range) -> dict[str, WalkSettings]:
 
 
 def main() -> None:
-    """Walk and write."""
+    """Simulate the walks and write the results."""
     asked = ask(__doc__, "walking.json")
     asked.add_argument("--seeds", type=seeds_of, default="1:11")
     asked.add_argument("--workers", type=int)

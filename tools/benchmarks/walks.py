@@ -1,4 +1,4 @@
-"""Many walks at once, and the figures that are kept of them."""
+"""Many walks in parallel, and the values stored of them."""
 
 from argparse import Namespace
 from collections.abc import Mapping
@@ -12,7 +12,7 @@ from stepaside.studies.result_files import header, write_result
 
 
 def walk(settings: WalkSettings) -> Row:
-    """Figures of one walk."""
+    """Return the values of one walk."""
     found: Row = run_walk(settings).summary.to_json()
     return found
 
@@ -23,13 +23,13 @@ def walk_all(
     jobs: Mapping[str, WalkSettings],
     kept: tuple[str, ...],
 ) -> None:
-    """Walk and write.
+    """Simulate the walks and write the results.
 
     Args:
-        arguments: Have output and workers.
-        settings: That the result names.
+        arguments: Parsed arguments with output and workers.
+        settings: Settings for the header of the result.
         jobs: Walks by name.
-        kept: Figures that the result keeps of each.
+        kept: Names of the values to store.
     """
     head = header(settings)
     whole = gather(arguments.output, head, jobs, walk, arguments.workers)

@@ -35,7 +35,7 @@ BLIND = """for (const kind of [WebGLRenderingContext, WebGL2RenderingContext])
 
 
 def look(page: Any, axe: str) -> list[tuple[str, list[str]]]:
-    """Rules that fail on a page, each with where it does."""
+    """Return the rules that fail on a page, with the failing elements."""
     page.evaluate(axe)
     found = page.evaluate("axe.run(document)")["violations"]
     return [
@@ -48,7 +48,7 @@ def look(page: Any, axe: str) -> list[tuple[str, list[str]]]:
 
 
 def where(node: Any) -> str:
-    """Place of something that fails, with its colours if they do."""
+    """Return a failing element, with its colours if they are the cause."""
     told = " ".join(map(str, node["target"]))
     data = node["any"][0].get("data") if node["any"] else None
     if isinstance(data, dict) and "contrastRatio" in data:
@@ -57,7 +57,7 @@ def where(node: Any) -> str:
 
 
 def tell(name: str, rules: list[tuple[str, list[str]]]) -> None:
-    """Print what fails on a page."""
+    """Print the failures of a page."""
     print(f"{name}: {len(rules)} rules fail")
     for rule, places in rules:
         print(f"  {rule}: {len(places)} places")
@@ -66,7 +66,7 @@ def tell(name: str, rules: list[tuple[str, list[str]]]) -> None:
 
 
 def main() -> int:
-    """Open each page in light and dark, on a desk and a phone, and look."""
+    """Check each page in light and dark mode, on a desktop and a phone."""
     asked = ArgumentParser(description=__doc__)
     asked.add_argument("--axe", type=Path, required=True)
     axe = asked.parse_args().axe.read_text(encoding="utf-8")

@@ -40,12 +40,12 @@ WAIT = 20.0  # of the world for who leaves the legs limp, in [s]
 
 
 def be_the_client(checkout: Path, program: str, told: Path) -> None:
-    """Run a program on the client as it is, but for the clock.
+    """Run a program on the unmodified client, except for its clock.
 
     Args:
-        checkout: Of the peer.
-        program: One of ``PROGRAMS``.
-        told: File for what it saw.
+        checkout: Checkout of the peer.
+        program: Key of ``PROGRAMS``.
+        told: File for the observations.
     """
     sys.path.insert(0, str(checkout / CLIENT))
     peer: Any = import_module("Nao")
@@ -53,14 +53,14 @@ def be_the_client(checkout: Path, program: str, told: Path) -> None:
     seen: dict[str, Any] = {"frames": 0}
 
     class Watched(peer.Nao):  # type: ignore[misc]
-        """Counts frames, whose number tells the time."""
+        """LoLA client that counts frames as its clock."""
 
         def getTime(self) -> float:  # noqa: N802
-            """Time of the frames, in [s]."""
+            """Return the time of the frames, in [s]."""
             return TICK * seen["frames"]
 
         def update(self) -> bool:
-            """Send and read as ever, and look at both."""
+            """Exchange a frame, and record both directions."""
             asked = self.jointMotorData["HeadYaw"]
             going: bool = super().update()
             seen["frames"] += 1
@@ -84,7 +84,7 @@ def be_the_client(checkout: Path, program: str, told: Path) -> None:
 
 
 def _hold(nao: Any) -> None:
-    """Hold whatever posture there is, and swing the head."""
+    """Hold the current posture, and swing the head."""
     for name in nao.joint_names:
         nao.jointMotorData[name] = nao.jointSensorData[name]
     while nao.update():
@@ -92,7 +92,7 @@ def _hold(nao: Any) -> None:
 
 
 def serve(folder: Path) -> "subprocess.Popen[str]":
-    """Our world, with the evader for others."""
+    """Serve a duel whose evader is the client's robot."""
     words = ["serve", f"--lola=evader={SOCKET}", "--lockstep", "--sight=none"]
     words += [f"--duration={DURATION:g}", "--distance=3", "--json"]
     words += [f"--output={folder / 'run'}", f"--wait={WAIT:g}"]

@@ -118,7 +118,7 @@ class Robot:
         return ord("C") if Path(os.environ["CHEST"]).exists() else -1
 
     def stepBegin(self, *_: Any) -> int:  # noqa: N802
-        """Keep time."""
+        """Advance the clock."""
         self._due = max(self._due + TICK, time.monotonic() - TICK)
         time.sleep(max(0.0, self._due - time.monotonic()))
         return 0

@@ -32,11 +32,11 @@ SEED = 7
 ROLES = ("pursuer", "evader")
 TICK = 0.012
 ABSENT = ("mujoco", "scipy", "matplotlib", "cv2", "numba")
-AMONG_TICKS = 0.99  # share of the ticks that are no slower than is told
+AMONG_TICKS = 0.99  # percentile of the tick times that is reported
 
 
 def record(file: Path) -> None:
-    """Write what two robots measured, and what they were asked for."""
+    """Record the measurements and joint targets of two robots."""
     from stepaside.games.duel import Duel
     from stepaside.games.duel_settings import DuelSettings
     from stepaside.games.walker import Walker
@@ -67,7 +67,7 @@ def record(file: Path) -> None:
 
 
 def play(file: Path) -> dict[str, Any]:
-    """Let control decide on what was measured."""
+    """Run the controller on recorded measurements."""
     for name in ABSENT:
         sys.modules[name] = None  # type: ignore[assignment]
     from stepaside.drivers.scheme_factory import mind_maker
@@ -115,20 +115,20 @@ def play(file: Path) -> dict[str, Any]:
 
 
 def age() -> float:
-    """Time since this process began, in [s]."""
+    """Return the time since this process began, in [s]."""
     words = Path("/proc/self/stat").read_text().rpartition(")")[2].split()
     began = int(words[19]) / os.sysconf("SC_CLK_TCK")
     return float(Path("/proc/uptime").read_text().split()[0]) - began
 
 
 def resident() -> float:
-    """Memory that the process holds, in [MB]; under emulation its, too."""
+    """Return the resident memory, including an emulator's, in [MB]."""
     pages = int(Path("/proc/self/statm").read_text().split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
 
 
 def has_avx() -> bool:
-    """Whether NumPy finds AVX on this processor."""
+    """Return whether NumPy detects AVX on this processor."""
     from numpy._core._multiarray_umath import __cpu_features__
 
     return bool(__cpu_features__["AVX"])

@@ -1,9 +1,9 @@
-"""A node of real ROS 2: a robot, or a commander of one.
+"""Node of real ROS 2: a robot, or a commander of one.
 
-``checks/ros2_peers.py`` starts it with a Python that has ``rclpy``, and ends
-it by closing its standard input. It prints what it has heard as lines of
-JSON, the last of which counts; ``"complete": true`` says that everything
-that it waits for has come.
+``tools/checks/ros2_peers.py`` starts it with a Python that has ``rclpy``, and
+ends it by closing its standard input. It prints the messages received as lines
+of JSON, the last of which counts; ``"complete": true`` means that all expected
+messages have arrived.
 """
 
 import argparse
@@ -19,8 +19,8 @@ ANGLES, RATES, EFFORTS = [0.1, -0.2], [1.5, -2.5], [0.25, 0.75]
 HEIGHT, WIDTH = 120, 160
 PIXELS = bytes(i % 251 for i in range(3 * HEIGHT * WIDTH))
 COVARIANCE = [0.25 * i for i in range(36)]
-START = (1.25, -0.5)  # of a robot, in [m]
-OTHER = (2.0, 0.5)  # the other in the robot's frame, in [m]
+START = (1.25, -0.5)  # position of the robot, in [m]
+OTHER = (2.0, 0.5)  # position of the opponent in the robot's frame, in [m]
 ASKED = (0.05, -0.25)  # velocity, in [m/s] and [rad/s]
 PERIOD = 0.05  # between two messages, in [s]
 ENOUGH = 5  # messages of each kind
@@ -28,12 +28,12 @@ FRAME = "theirs/base_link"
 
 
 def exact(found: Any, wanted: Any) -> bool:
-    """Whether numbers are the same, to the last bit."""
+    """Return whether numbers are equal to the last bit."""
     return list(found) == list(wanted)
 
 
 class Heard:
-    """What was heard: how often, and whether all of it was right."""
+    """Received messages: their number, and whether all were correct."""
 
     def __init__(self, *names: str) -> None:
         """Begin with nothing."""
@@ -47,18 +47,18 @@ class Heard:
 
     @property
     def complete(self) -> bool:
-        """Whether there is enough of each."""
+        """Return whether enough messages of each kind have arrived."""
         return min(self.count.values(), default=ENOUGH) >= ENOUGH
 
 
 def say(heard: Heard, **more: Any) -> None:
-    """Print what has been heard."""
+    """Print the received messages."""
     told = {"complete": heard.complete, "heard": heard.count}
     print(json.dumps({**told, "right": heard.right, **more}), flush=True)
 
 
 class Robot:
-    """A unicycle that takes velocities in one type, or takes none."""
+    """Unicycle that takes velocity commands of one type, or of none."""
 
     def __init__(self, node: Any, kind: str) -> None:
         """Publish what a robot publishes in its namespace."""
@@ -90,20 +90,20 @@ class Robot:
         node.create_timer(PERIOD, self.tell)
 
     def take(self, twist: Any) -> None:
-        """Do as one is told."""
+        """Apply a velocity command."""
         self.forward, self.turn = twist.linear.x, twist.angular.z
         asked = self.forward, self.turn
         if asked != (0.0, 0.0):
             self.heard.note(self.kind, exact(asked, ASKED))
 
     def take_stamped(self, message: Any) -> None:
-        """Do as one is told by a stamp of one's own."""
+        """Apply a stamped velocity command."""
         stamp = message.header.stamp.sec, message.header.stamp.nanosec
         if stamp in self.stamps and message.header.frame_id == FRAME:
             self.take(message.twist)
 
     def tell(self) -> None:
-        """Move on, and publish everything."""
+        """Move, and publish all topics."""
         from geometry_msgs.msg import PointStamped
         from nav_msgs.msg import Odometry
         from sensor_msgs.msg import CompressedImage, Image, JointState
@@ -140,12 +140,12 @@ class Robot:
 
     @property
     def more(self) -> dict[str, Any]:
-        """How far it went, in [m]."""
+        """Return the distance travelled, in [m]."""
         return {"way_m": self.way}
 
 
 class Commander:
-    """Commands a robot, and listens to all that it tells."""
+    """Commander of a robot that listens to all its topics."""
 
     def __init__(self, node: Any, kind: str) -> None:
         """Take part in the topics of a namespace."""
@@ -173,7 +173,7 @@ class Commander:
         node.create_timer(PERIOD, self.command)
 
     def command(self) -> None:
-        """Ask for a velocity."""
+        """Publish a velocity command."""
         stamped = self.kind == "TwistStamped"
         twist = self.message.twist if stamped else self.message
         twist.linear.x, twist.angular.z = ASKED
@@ -182,7 +182,7 @@ class Commander:
         self.writer.publish(self.message)
 
     def odometry(self, message: Any) -> None:
-        """Look at odometry: its place on the floor, and how it moves."""
+        """Check odometry: position on the floor, and velocity."""
         place = message.pose.pose.position
         self.places.append((place.x, place.y))
         twist = message.twist.twist
@@ -193,17 +193,17 @@ class Commander:
         self.heard.note("odom", ours and moves in ((0.0, 0.0), ASKED))
 
     def joints(self, message: Any) -> None:
-        """Look at joints."""
+        """Check joint states."""
         right = exact(message.name, NAMES) and exact(message.position, ANGLES)
         self.heard.note("joint_states", right)
 
     def sight(self, message: Any) -> None:
-        """Look at where the other is."""
+        """Check the position of the opponent."""
         away = hypot(message.point.x - OTHER[0], message.point.y - OTHER[1])
         self.heard.note("ideal_sight", away < 1e-12)
 
     def image(self, message: Any) -> None:
-        """Look at an image."""
+        """Check an image."""
         size = message.height, message.width, message.step, message.encoding
         right = size == (HEIGHT, WIDTH, 3 * WIDTH, "rgb8")
         self.heard.note(
@@ -211,19 +211,19 @@ class Commander:
         )
 
     def squeezed(self, message: Any) -> None:
-        """Look at an image as JPEG."""
+        """Check a JPEG image."""
         begins = bytes(message.data[:2]) == b"\xff\xd8"
         self.heard.note(
             "camera/image_raw/compressed", message.format == "jpeg" and begins
         )
 
     def clock(self, message: Any) -> None:
-        """Look at the time of the world."""
+        """Check the simulation time."""
         self.heard.note("/clock", message.clock.sec < 1000)
 
     @property
     def more(self) -> dict[str, Any]:
-        """How far the robot came from where it was first, in [m]."""
+        """Return the robot's distance from its first position, in [m]."""
         if not self.places:
             return {"way_m": 0.0}
         (x, y), (u, v) = self.places[0], self.places[-1]
@@ -231,14 +231,14 @@ class Commander:
 
 
 def versions() -> dict[str, str]:
-    """Versions of what speaks here."""
+    """Return the versions of the ROS 2 libraries."""
     found = {each.metadata["Name"]: each.version for each in distributions()}
     fast = found.get("ros-fastdds") or found.get("ros-fastrtps", "none")
     return {"fast_dds": fast, "rclpy": found.get("ros-rclpy", "none")}
 
 
 def main() -> None:
-    """Be a node until standard input is closed."""
+    """Run the node until standard input is closed."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("part", choices=("robot", "commander", "versions"))
     parser.add_argument("--namespace", default="/theirs")

@@ -1,17 +1,17 @@
-"""Check our ROS 2 topics against real ROS 2 nodes, both ways.
+"""Check our ROS 2 topics against real ROS 2 nodes, in both directions.
 
     make ros2-peers
 
-makes an environment of its own for each distribution (``.venv-ros2-jazzy``,
+creates an environment for each distribution (``.venv-ros2-jazzy``,
 ``.venv-ros2-kilted``: Python 3.12 and the wheels of ``rclpy``, Fast DDS and
 the standard messages), or
 
-    python checks/ros2_peers.py jazzy=/path/to/python
+    python tools/checks/ros2_peers.py jazzy=/path/to/python
 
-takes a Python that has them. Nodes and we meet in a domain of their own on
-the loopback interface (``ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST``). The
-result goes to ``docs/results/ros2-peers.json``, whose table is in
-``docs/robots-real.md``; the exit status is 1 if anything was not heard.
+uses a Python that has them. All nodes are in a separate domain on the
+loopback interface (``ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST``). The result is
+written to ``docs/results/ros2-peers.json``, whose table is in
+``docs/robots-real.md``; the exit status is 1 if a message was not received.
 """
 
 import argparse
@@ -55,9 +55,9 @@ from stepaside.studies.result_files import header, write_result
 RESULT = Path("docs/results/ros2-peers.json")
 ROOMS = ("errors", "poses", "sensing", "control", "drivers")
 LIBRARIES = ("cyclonedds", "numpy")
-DOMAIN = 60 + os.getpid() % 40  # of ROS 2: others are not met there
-LONGEST = 60.0  # for anything to be heard, in [s]
-WALKED = 2.0  # seconds of a walk by play, or in a served world
+DOMAIN = 60 + os.getpid() % 40  # separate ROS 2 domain
+LONGEST = 60.0  # timeout for messages, in [s]
+WALKED = 2.0  # duration of a walk of play, or of a served duel, in [s]
 TICK = 0.012
 KINDS = ("Twist", "TwistStamped")
 ASKED = VelocityCommand(*peer.ASKED)
@@ -73,7 +73,7 @@ TYPES = {
 
 
 class Peer:
-    """A node of ROS 2 in a process of its own."""
+    """ROS 2 node in a process of its own."""
 
     def __init__(self, python: str, part: str, *words: str) -> None:
         """Start it."""
@@ -94,7 +94,7 @@ class Peer:
 
     @property
     def complete(self) -> bool:
-        """Whether it has heard all that it waits for."""
+        """Return whether the node has received all expected messages."""
         try:
             while True:
                 self.told = json.loads(self._lines.get_nowait())
@@ -102,7 +102,7 @@ class Peer:
             return bool(self.told["complete"])
 
     def end(self) -> dict[str, Any]:
-        """End it, however it is; what it has heard."""
+        """End the node; return what it received."""
         assert self._process.stdin is not None
         try:
             self._process.stdin.close()
@@ -117,7 +117,7 @@ class Peer:
 
 @contextmanager
 def started(python: str, part: str, *words: str) -> Iterator[Peer]:
-    """A node, while it is needed."""
+    """Run a node within a context."""
     node = Peer(python, part, *words)
     try:
         yield node
@@ -126,7 +126,7 @@ def started(python: str, part: str, *words: str) -> Iterator[Peer]:
 
 
 def until(done: Callable[[], bool], longest: float = LONGEST) -> bool:
-    """Go on until something is so; whether it ever was."""
+    """Repeat until a condition holds; return whether it did."""
     end = monotonic() + longest
     while not done():
         if monotonic() > end:
@@ -138,14 +138,14 @@ def until(done: Callable[[], bool], longest: float = LONGEST) -> bool:
 def row(
     what: str, kind: str, way: str, heard: int | None, right: bool
 ) -> dict[str, Any]:
-    """One line of the result.
+    """Return one row of the result.
 
     Args:
-        what: Topic, or what was done.
-        kind: Type of its messages.
-        way: From whom to whom.
-        heard: Messages that came; None where none is to come.
-        right: Whether all is as it was sent.
+        what: Topic or action.
+        kind: Message type.
+        way: Sender and receiver.
+        heard: Number of messages; None if none is expected.
+        right: Whether all messages are as sent.
     """
     enough = heard is None or heard >= peer.ENOUGH
     return {
@@ -158,7 +158,7 @@ def row(
 
 
 class Sensors:
-    """What we hear of a robot of ROS 2, beside what a body reads."""
+    """Subscriptions to a ROS 2 robot beyond those of a body."""
 
     def __init__(self, dds: DdsParticipant) -> None:
         """Take part in its topics."""
@@ -175,7 +175,7 @@ class Sensors:
         self.heard = peer.Heard(*kinds, "other")
 
     def look(self) -> None:
-        """Take what has come."""
+        """Read all new messages."""
         for name, (reader, right) in self._readers.items():
             for message in taken(reader):
                 self.heard.note(name, right(message))
@@ -186,7 +186,7 @@ class Sensors:
 
     @staticmethod
     def odometry(message: Odometry) -> bool:
-        """Whether odometry is what was sent."""
+        """Return whether odometry is as sent."""
         return (
             message.child_frame_id == peer.FRAME
             and peer.exact(message.pose.covariance, peer.COVARIANCE)
@@ -195,7 +195,7 @@ class Sensors:
 
     @staticmethod
     def joints(message: JointState) -> bool:
-        """Whether joints are what was sent."""
+        """Return whether joint states are as sent."""
         return (
             peer.exact(message.name, peer.NAMES)
             and peer.exact(message.position, peer.ANGLES)
@@ -205,18 +205,18 @@ class Sensors:
 
     @staticmethod
     def image(message: Image) -> bool:
-        """Whether an image is what was sent."""
+        """Return whether an image is as sent."""
         pixels = pixels_of(message)
         return pixels is not None and pixels.tobytes() == peer.PIXELS
 
     @staticmethod
     def squeezed(message: CompressedImage) -> bool:
-        """Whether a compressed image is what was sent."""
+        """Return whether a compressed image is as sent."""
         return bytes(message.data) == peer.PIXELS[:1000]
 
 
 def their_robot(python: str, kind: str) -> Iterator[dict[str, Any]]:
-    """Our body at a robot of ROS 2 that takes one type of command."""
+    """Check our body at a ROS 2 robot that takes one type of command."""
     dds = DdsParticipant(DOMAIN)
     sensors = Sensors(dds)
     body = Ros2Body(dds, "/theirs")
@@ -249,7 +249,7 @@ def their_robot(python: str, kind: str) -> Iterator[dict[str, Any]]:
 
 
 class Walker:
-    """A robot to be served: it stands, and shows a pattern."""
+    """Robot to be served: it stands, and its camera shows a pattern."""
 
     def __init__(self) -> None:
         """Begin at a time and a place."""
@@ -259,7 +259,7 @@ class Walker:
         """Nothing to turn."""
 
     def state(self) -> WalkerState:
-        """What it says of itself."""
+        """Return the state of the robot."""
         shape = peer.HEIGHT, peer.WIDTH, 3
         pixels = np.frombuffer(peer.PIXELS, np.uint8).reshape(shape)
         x, y = peer.OTHER
@@ -275,7 +275,7 @@ class Walker:
 
 
 def our_robot(python: str, kind: str) -> Iterator[dict[str, Any]]:
-    """A commander of ROS 2 at our server."""
+    """Check a ROS 2 commander at our server."""
     dds = DdsParticipant(DOMAIN)
     walker: Any = Walker()
     server = Ros2Server(
@@ -318,7 +318,7 @@ def command(name: str, *words: str, **streams: Any) -> "subprocess.Popen[str]":
 
 
 def played(python: str, kind: str) -> dict[str, Any]:
-    """``stepaside play`` at a robot of ROS 2; with none, it says so."""
+    """Check ``stepaside play`` at a ROS 2 robot, and without one."""
     words = ("--role", "pursuer", "--robot", "ros2:/theirs")
     with TemporaryFile("w+") as said:
         with started(python, "robot", "--command", kind) as node:
@@ -351,7 +351,7 @@ def played(python: str, kind: str) -> dict[str, Any]:
 
 
 def served(python: str, kind: str) -> dict[str, Any]:
-    """``stepaside serve`` with a robot that ROS 2 commands."""
+    """Check ``stepaside serve`` with a robot that ROS 2 commands."""
     world = command(
         *("serve", "--ros2", "pursuer=/ours", "--json"),
         *("--duration", str(WALKED), "--wait", str(LONGEST)),
@@ -371,7 +371,7 @@ def served(python: str, kind: str) -> dict[str, Any]:
 
 
 def checked(python: str) -> Iterator[dict[str, Any]]:
-    """Everything with one distribution."""
+    """Run all checks with one distribution."""
     for kind in KINDS:
         yield from their_robot(python, kind)
         yield from our_robot(python, kind)
@@ -382,7 +382,7 @@ def checked(python: str) -> Iterator[dict[str, Any]]:
 
 
 def main() -> int:
-    """Check each distribution; the exit status is 1 if anything failed."""
+    """Check each distribution; return 1 if any check failed."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument(
         "pythons",

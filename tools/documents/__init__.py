@@ -1,1 +1,1 @@
-"""The parts of README and docs/ that are made from docs/results/."""
+"""Generated parts of README and docs/, from docs/results/."""

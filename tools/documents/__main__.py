@@ -1,7 +1,7 @@
-"""Write what is made in README and docs/ from docs/results/.
+"""Update the generated parts of README and docs/ from docs/results/.
 
-``make figures`` runs this; ``--check`` changes nothing and says what is out
-of date; ``--versions`` says which results were made with other code.
+``make figures`` runs this; ``--check`` changes nothing and reports what is out
+of date; ``--versions`` reports results made with other code.
 """
 
 import sys
@@ -15,7 +15,7 @@ from .store import ROOT, Store
 
 
 def main() -> int:
-    """Write or check; the exit status is 1 if something is out of date."""
+    """Update or check; return 1 if something is out of date."""
     parser = ArgumentParser(
         prog="python -m tools.documents", description=__doc__
     )
@@ -32,7 +32,7 @@ def main() -> int:
 
 
 def write_all(store: Store) -> None:
-    """Write every document and picture that is out of date."""
+    """Write every document and figure that is out of date."""
     for file in documents():
         text = file.read_text(encoding="utf-8")
         new = remade(text, store)
@@ -45,7 +45,7 @@ def write_all(store: Store) -> None:
 
 
 def check_all(store: Store) -> list[str]:
-    """What is out of date in documents and pictures."""
+    """Return messages about documents and figures that are out of date."""
     found = [c for file in documents() for c in complaints(file, store)]
     for name, picture in sorted(PICTURES.items()):
         if not measured(name, store):
@@ -58,12 +58,12 @@ def check_all(store: Store) -> list[str]:
 
 
 def measured(name: str, store: Store) -> bool:
-    """Whether all that a picture shows has been measured."""
+    """Return whether all results of a figure exist."""
     return set(PICTURES[name].results) <= set(store.names())
 
 
 def old_results(store: Store) -> list[str]:
-    """Results whose code has changed, with the commands that renew them."""
+    """Return messages about results made with other code, with commands."""
     results = {name: store.result(name) for name in store.names()}
     return [
         f"{name}: made with other code; again by: {result['command']}"

@@ -1,8 +1,8 @@
-"""Tables, lists and fences that are made whole, between two comments.
+"""Generated blocks of documents: tables, lists and code fences.
 
-``<!-- made: NAME.TABLE -->`` and ``<!-- /made -->``: TABLE is one of
-``documents.tables.TABLES``, NAME the result that it is made from; several
-results are joined by ``+``, and ``all`` stands for every one.
+A block stands between ``<!-- made: NAME.TABLE -->`` and ``<!-- /made -->``:
+TABLE is a key of ``documents.tables.TABLES``, NAME the result that it is made
+from. Several results are joined by ``+``; ``all`` stands for every one.
 """
 
 import re
@@ -21,10 +21,10 @@ BLOCK = re.compile(
 
 
 def block_parts(text: str, store: Store) -> Iterator[Part]:
-    """Every made block of a document.
+    """Yield every generated block of a document.
 
     Args:
-        text: Of the document.
+        text: Text of the document.
         store: Results that the blocks name.
     """
     read = set()
@@ -45,7 +45,7 @@ def block_parts(text: str, store: Store) -> Iterator[Part]:
 
 
 def make(names: str, table: str, store: Store) -> str:
-    """Text of one block.
+    """Return the text of one block.
 
     Args:
         names: Results, joined by ``+``; or ``all``.
@@ -53,8 +53,8 @@ def make(names: str, table: str, store: Store) -> str:
         store: Results.
 
     Raises:
-        DocumentError: If there is no such table or result, or if the result
-            lacks what the table shows.
+        DocumentError: If table or result does not exist, or the result lacks
+            an entry of the table.
     """
     if table not in TABLES:
         known = ", ".join(sorted(TABLES))

@@ -1,4 +1,4 @@
-"""A document: what is made in it, as it is and as it should be."""
+"""Generated parts of a document: current and expected text."""
 
 from pathlib import Path
 
@@ -9,13 +9,13 @@ from .store import ROOT, Store
 
 
 def documents() -> list[Path]:
-    """README and all pages of docs/ but the ones that studies write."""
+    """Return README and all pages of docs/ that no study writes."""
     pages = [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]
     return sorted([*pages, ROOT / "docs" / "results" / "README.md"])
 
 
 def parts_of(text: str, store: Store) -> list[Part]:
-    """Everything in a text that is made, in its order.
+    """Return all generated parts of a text, in order.
 
     A number inside a block belongs to the block.
     """
@@ -31,7 +31,7 @@ def parts_of(text: str, store: Store) -> list[Part]:
 
 
 def remade(text: str, store: Store) -> str:
-    """Text with everything as it should be; what is unknown stays."""
+    """Return a text with all parts as expected; keep unknown parts."""
     for part in reversed(parts_of(text, store)):
         if part.wanted is not None:
             end = part.start + len(part.got)
@@ -40,10 +40,10 @@ def remade(text: str, store: Store) -> str:
 
 
 def complaints(file: Path, store: Store) -> list[str]:
-    """What of a document is not as the results have it.
+    """Return messages about parts of a document that differ from the results.
 
     Returns:
-        Messages with document, line, wanted and got.
+        Messages with document, line, expected and current text.
     """
     text = file.read_text(encoding="utf-8")
     name = file.relative_to(ROOT) if file.is_relative_to(ROOT) else file.name

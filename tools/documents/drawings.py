@@ -1,4 +1,4 @@
-"""What each picture shows."""
+"""Drawing functions of the generated figures."""
 
 from pathlib import Path
 
@@ -8,7 +8,7 @@ from .store import Store
 
 
 def duel(store: Store, file: Path) -> None:
-    """The duel of the README, from its committed trajectories."""
+    """Draw the duel of the README from its stored trajectories."""
     from stepaside.games.duel_settings import DuelSettings
     from stepaside.games.run_archive import read_record
     from stepaside.report.duel_figure import draw_duel
@@ -22,14 +22,14 @@ def duel(store: Store, file: Path) -> None:
 
 
 def push_limits(store: Store, file: Path) -> None:
-    """Largest push survived over the phase, beside the pendulum's bound."""
+    """Draw push limits over the phase, with the pendulum's bound."""
     from stepaside.report.robustness_figure import draw_limits
 
     draw_limits(store.result("pushes")["rows"], file)
 
 
 def people(store: Store, file: Path) -> None:
-    """How near people come, by where they come from."""
+    """Draw the closest approach of people by the direction they come from."""
     from stepaside.report.people_figure import draw_people
 
     result = store.result("people-ideal")
@@ -37,13 +37,13 @@ def people(store: Store, file: Path) -> None:
 
 
 def survival_on_hardware(store: Store, file: Path) -> None:
-    """Survival over the strength of each disturbance."""
+    """Draw survival over the strength of each disturbance."""
     from stepaside.cli.robustness import OLD_KINDS
     from stepaside.report.robustness_figure import draw_survival
     from stepaside.studies.robustness_campaign import UNITS
 
     rows = [
-        # Results that were made before a kind had its name of today.
+        # Older results have former names of kinds.
         row | {"kind": OLD_KINDS.get(row["kind"], row["kind"])}
         for row in store.result("survival-hardware")["survival"]
     ]
@@ -51,7 +51,7 @@ def survival_on_hardware(store: Store, file: Path) -> None:
 
 
 def many_duels(store: Store, file: Path) -> None:
-    """How the figures of many duels are distributed, kind by kind."""
+    """Draw the distributions of the values of many duels, by kind."""
     from stepaside.report.duels_figure import draw_duels
     from stepaside.studies.record_store import RecordStore
 

@@ -1,9 +1,9 @@
-"""Numbers in the text, each followed by a comment that says whence it is.
+"""Generated numbers in the text, each followed by a comment with its source.
 
 ``0.655<!--= duel-seed7:summary.distance_m-->``: a code host shows the number
-alone. As many decimals are written as stand there. A factor turns units:
+alone. The number of decimals is kept. A factor converts units:
 ``66<!--= duel-seed7:summary.distance_m * 100--> cm``. The word "no" stands
-for zero as long as it is zero.
+for zero.
 """
 
 import re
@@ -21,11 +21,11 @@ NUMBER = re.compile(
 
 
 def number_parts(text: str, store: Store) -> Iterator[Part]:
-    """Every marked number of a document.
+    """Yield every generated number of a document.
 
     Args:
-        text: Of the document.
-        store: Results that the marks name.
+        text: Text of the document.
+        store: Results that the comments name.
     """
     read = set()
     for match in NUMBER.finditer(text):
@@ -47,12 +47,12 @@ def number_parts(text: str, store: Store) -> Iterator[Part]:
 
 
 def show(value: float, like: str) -> str:
-    """Write a number in the manner of another.
+    """Format a number like another one.
 
     Args:
-        value: The number.
-        like: Written number, whose decimals, thousands commas, plus and
-            minus signs are taken over; "no" keeps standing for zero.
+        value: Number.
+        like: Formatted number, whose decimals, thousands commas and signs are
+            used; "no" stands for zero.
     """
     if like.lower() == "no":
         return like if value == 0 else f"{value:g}"

@@ -1,4 +1,4 @@
-"""A part of a document that is made, and what it should be."""
+"""Generated part of a document, with its expected text."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A stretch of a document's text.
+    """Stretch of a document's text.
 
     Attributes:
-        start: Where it begins in the text.
-        got: What stands there.
-        wanted: What should stand there; None if that is unknown.
-        source: What it is made from, as the document names it.
-        problem: Why it is unknown what should stand there.
+        start: Offset in the text.
+        got: Current text.
+        wanted: Expected text; None if unknown.
+        source: Source of the part, as the document names it.
+        problem: Why the expected text is unknown.
     """
 
     start: int
@@ -23,10 +23,10 @@ class Part:
     problem: str = ""
 
     def complaints(self, text: str) -> Iterator[str]:
-        """Line, wanted and got of what is not as it should be.
+        """Yield line, expected and current text if they differ.
 
         Args:
-            text: Of the whole document.
+            text: Text of the whole document.
         """
         line = text.count("\n", 0, self.start) + 1
         if self.wanted is None:

@@ -1,13 +1,13 @@
-"""Photograph the pages for docs/images, in a browser without a screen.
+"""Take screenshots of the pages for docs/images, in a headless browser.
 
-One after the other, time standing still for each picture, so that they are
-the same on a machine that is slow at drawing::
+Simulation time stands still for each screenshot, so that the result does not
+depend on the speed of the machine::
 
     python -m tools.documents.photographs            # all of them
     python -m tools.documents.photographs page.gif   # some
 
-``view.png`` is a live page with cameras, ``page.gif`` a film of one on which
-the pursuer is pushed by hand, ``replay.png`` the page from disk.
+``view.png`` is a live page with cameras, ``page.gif`` an animation of one on
+which the pursuer is pushed by hand, ``replay.png`` the offline page.
 """
 
 from argparse import ArgumentParser
@@ -44,7 +44,7 @@ EACH, RATE = 0.2, 8  # time between pictures in [s]; pictures a second
 
 @contextmanager
 def live(browser: Any, settings: DuelSettings) -> Iterator[tuple[Page, Any]]:
-    """A page that is served, and the same opened."""
+    """Serve a page and open it."""
     served = Page(settings, host="127.0.0.1", port=8890)
     served.start()
     try:
@@ -57,7 +57,7 @@ def live(browser: Any, settings: DuelSettings) -> Iterator[tuple[Page, Any]]:
 
 
 def opened(browser: Any, link: str) -> Any:
-    """The page at a link."""
+    """Open the page at a link."""
     page = browser.new_page(viewport=DESK)
     page.set_default_timeout(WAIT)
     page.goto(link)
@@ -65,7 +65,7 @@ def opened(browser: Any, link: str) -> Any:
 
 
 def show(served: Page, page: Any, time: float) -> None:
-    """Let the duel go on until a time in [s], and the page draw it."""
+    """Advance the duel to a time in [s], and wait until the page shows it."""
     passed = time - served.session.duel.world.time
     if passed > 0.0:
         served.session.step(passed)
@@ -75,7 +75,7 @@ def show(served: Page, page: Any, time: float) -> None:
 
 
 def view(browser: Any) -> None:
-    """The live page while the robots see each other."""
+    """Take a screenshot of the live page with cameras."""
     seen = DuelSettings(seed=7, sensing="cameras")
     with live(browser, seen) as (served, page):
         show(served, page, SEEN_AT)
@@ -83,7 +83,7 @@ def view(browser: Any) -> None:
 
 
 def film(browser: Any) -> None:
-    """The live page while the evader steps aside and is pushed."""
+    """Record the live page while the evader moves aside and is pushed."""
     begin, end = FILMED
     times = [begin + k * EACH for k in range(round((end - begin) / EACH))]
     frames = []
@@ -108,7 +108,7 @@ def film(browser: Any) -> None:
 
 
 def replay(browser: Any) -> None:
-    """The page from disk, at its end."""
+    """Take a screenshot of the offline page at its end."""
     with TemporaryDirectory() as place:
         file = Path(place) / "run.html"
         write_page(run_duel(DuelSettings(seed=7, duration=60.0)), file)
@@ -124,7 +124,7 @@ TAKEN = {"view.png": view, "page.gif": film, "replay.png": replay}
 
 
 def main() -> None:
-    """Take those that are asked for."""
+    """Take the requested screenshots."""
     asked = ArgumentParser(prog="python -m tools.documents.photographs")
     asked.add_argument("names", nargs="*", choices=[*TAKEN, []])
     names = asked.parse_args().names or list(TAKEN)

@@ -1,8 +1,7 @@
-"""Pictures that are drawn from results, and say from which.
+"""Figures drawn from results, with their source inside the file.
 
-Each carries, as text inside the PNG, a fingerprint of the results that it
-shows; so it can be told without drawing whether it is out of date, and is
-drawn again only then.
+Each PNG file carries a hash of the results that it shows. A figure is
+redrawn only if that differs.
 """
 
 from collections.abc import Callable
@@ -23,18 +22,18 @@ FIELD = "Source"  # a text that PNG knows by this name
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """A picture of results.
+    """Figure of results.
 
     Attributes:
-        results: Names of what it shows.
-        draw: Draws the store's results into a file.
+        results: Names of the results.
+        draw: Draws results of the store into a file.
     """
 
     results: tuple[str, ...]
     draw: Callable[[Store, Path], None]
 
     def source(self, store: Store) -> str:
-        """What the picture says of where it is from."""
+        """Return the names and the hash of the results."""
         digest = sha256()
         for name in self.results:
             digest.update(dumps(store.result(name), sort_keys=True).encode())
@@ -57,18 +56,18 @@ PICTURES = {
 
 
 def drawn_from(file: Path) -> str:
-    """What a picture says of where it is from; empty if it does not."""
+    """Return the source stored in a figure; empty if there is none."""
     with Image.open(file) as image:
         return str(image.info.get(FIELD, ""))
 
 
 def draw_picture(name: str, store: Store, folder: Path = IMAGES) -> bool:
-    """Draw a picture unless it shows the results already.
+    """Draw a figure unless it is up to date.
 
     Args:
-        name: One of ``PICTURES``.
+        name: Key of ``PICTURES``.
         store: Results.
-        folder: Where pictures lie.
+        folder: Folder of the figures.
 
     Returns:
         Whether it was drawn.

@@ -1,4 +1,4 @@
-"""Results by name, and one value of them by its address."""
+"""Access to results by name, and to their values by address."""
 
 from pathlib import Path
 from typing import Any
@@ -12,14 +12,14 @@ SHOWN = 8  # keys that a message names
 
 
 class DocumentError(ValueError):
-    """A document asks for what no result holds."""
+    """Reference to a missing result or value."""
 
 
 class Store:
-    """The results in a folder; each file is read once.
+    """Results in a folder; each file is read once.
 
     Attributes:
-        folder: Where they lie.
+        folder: Folder of the results.
     """
 
     def __init__(self, folder: Path = RESULTS) -> None:
@@ -27,14 +27,14 @@ class Store:
         self._read: dict[str, dict[str, Any]] = {}
 
     def names(self) -> list[str]:
-        """Names of all results."""
+        """Return the names of all results."""
         return sorted(file.stem for file in self.folder.glob("*.json"))
 
     def result(self, name: str) -> dict[str, Any]:
-        """One result.
+        """Return one result.
 
         Raises:
-            DocumentError: If there is none of that name.
+            DocumentError: If it does not exist.
         """
         if name not in self._read:
             try:
@@ -45,13 +45,13 @@ class Store:
         return self._read[name]
 
     def value(self, address: str) -> Any:
-        """Value at ``name:key.key.0.key``; numbers are places in lists.
+        """Return the value at ``name:key.key.0.key``; numbers index lists.
 
-        A key may hold dots itself, as in ``by.push.0.8.falls``: the longest
-        one that is there counts.
+        A key may contain dots, as in ``by.push.0.8.falls``: the longest
+        existing one counts.
 
         Raises:
-            DocumentError: If nothing is there; the message names what is.
+            DocumentError: If there is no such value; names the keys.
         """
         name, _, path = address.partition(":")
         value: Any = self.result(name)

@@ -1,9 +1,9 @@
-"""Bad input, made up from what takes input: ``python -m tools.fuzz``.
+"""Fuzzing with invalid input: ``python -m tools.fuzz``.
 
-Nothing is listed here that the package knows itself: options come from the
-command tree, ranges from settings, names from registries, functions from the
-door. So whatever is added is tried without anyone thinking of it. ``BASES``
-in ``commands.py`` only says what makes a command short.
+Inputs are generated from the package itself: options from the command tree,
+ranges from the settings, names from the registries, functions from the public
+interface. New options are therefore covered without further work. ``BASES`` in
+``commands.py`` only lists arguments that keep commands short.
 """
 
 import sys

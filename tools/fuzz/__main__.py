@@ -1,4 +1,4 @@
-"""Try bad input for some minutes: ``python -m tools.fuzz --help``."""
+"""Fuzz for some minutes: ``python -m tools.fuzz --help``."""
 
 import argparse
 import tempfile
@@ -12,7 +12,7 @@ from .kinds import KINDS, all_cases
 
 
 def main() -> int:
-    """Read the command line, try, and count; 1 if anything was wrong."""
+    """Fuzz as the command line says; return 1 if any case failed."""
     parser = argparse.ArgumentParser(
         prog="python -m tools.fuzz", description=__doc__
     )
@@ -47,12 +47,12 @@ def main() -> int:
 
 
 def tell(kind: str, name: str, complaint: str) -> None:
-    """Print what is wrong with a case."""
+    """Print a failed case."""
     print(f"{kind}: {visible(name)}\n    {complaint}", flush=True)
 
 
 def visible(text: str) -> str:
-    """A name that a terminal shows and does not obey."""
+    """Return a name with control characters escaped."""
     return text.encode("unicode_escape").decode("ascii")
 
 

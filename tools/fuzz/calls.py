@@ -1,4 +1,4 @@
-"""What is at the package's door, called with what it should not be."""
+"""Public functions and classes, called with invalid arguments."""
 
 import warnings
 from collections.abc import Callable, Iterator, Mapping
@@ -100,7 +100,7 @@ CALLS: Mapping[str, tuple[Callable[..., Any], Mapping[str, Any]]] = {
 
 
 def call_cases(random: Random, _: Path) -> Iterator[Case]:
-    """Each argument with what it should not be, without end."""
+    """Yield calls with invalid arguments, without end."""
     known = [(name, arg) for name, (_, good) in CALLS.items() for arg in good]
     own = [
         (kind, field.name)
@@ -121,7 +121,7 @@ def call_cases(random: Random, _: Path) -> Iterator[Case]:
 
 
 def vars_of_door(name: str) -> Any:
-    """What a name at the door stands for."""
+    """Return the object of a public name."""
     return getattr(stepaside, name)
 
 

@@ -1,4 +1,4 @@
-"""One piece of bad input, and what may come of it."""
+"""One fuzz case, and the check of its outcome."""
 
 import os
 import signal
@@ -18,14 +18,14 @@ LOOK = 0.1  # how often its clock is looked at, in [s]
 
 
 class Case(NamedTuple):
-    """A piece of input.
+    """Fuzz case.
 
     Attributes:
-        kind: Class that it is counted in.
-        name: What is tried, so that somebody can try it by hand.
-        run: Tries it in a folder of its own, which is the current one; gives
-            what is wrong, or nothing.
-        deadline: In which it ends by itself, in [s].
+        kind: Class that the case is counted in.
+        name: Description from which the case can be repeated by hand.
+        run: Runs the case in a new folder, which is the current one; returns
+            a description of the failure, or an empty string.
+        deadline: Time in which the case must end by itself, in [s].
     """
 
     kind: str
@@ -35,22 +35,22 @@ class Case(NamedTuple):
 
 
 class Hang(BaseException):
-    """A case did not end though it was interrupted."""
+    """Raised in a case that does not end after an interruption."""
 
 
 class Reached(BaseException):
-    """Work began: what was given is taken."""
+    """Raised when work would begin: the input was accepted."""
 
 
 class Clock:
-    """Whether the time of a case is up: that it works, or that it waits.
+    """Time limit of a case, in processor time and in waiting time.
 
     Attributes:
-        interrupted: Whether it was interrupted.
+        interrupted: Whether the case was interrupted.
     """
 
     def __init__(self, limit: float) -> None:
-        """Begin with time left, in [s]."""
+        """Start the clock with a time limit, in [s]."""
         self.interrupted = False
         self._begin(limit)
 
@@ -59,7 +59,7 @@ class Clock:
         self._waited = monotonic() + limit * WAITS
 
     def ring(self, *_: Any) -> None:
-        """Interrupt as Ctrl-C does, and later for good."""
+        """Interrupt as Ctrl-C does; raise ``Hang`` after a second limit."""
         if process_time() < self._worked and monotonic() < self._waited:
             return
         if self.interrupted:
@@ -71,7 +71,7 @@ class Clock:
 
 @contextmanager
 def watched(deadline: float) -> Iterator[Clock]:
-    """Interrupt what lasts longer than its time."""
+    """Interrupt a case that exceeds its time limit."""
     clock = Clock(deadline)
     before = signal.signal(signal.SIGALRM, clock.ring)
     outer = signal.setitimer(signal.ITIMER_REAL, LOOK, LOOK)
@@ -87,7 +87,7 @@ def watched(deadline: float) -> Iterator[Clock]:
 
 
 def complaint_of(case: Case) -> str:
-    """Try a case; what is wrong with what came of it, or nothing."""
+    """Run a case; return a description of its failure, or an empty string."""
     here = os.getcwd()
     with tempfile.TemporaryDirectory(prefix="fuzz-") as name:
         os.chdir(name)
@@ -105,7 +105,7 @@ def complaint_of(case: Case) -> str:
 
 
 def told(error: BaseException) -> str:
-    """An error and where it came from, on one line."""
+    """Return an error and its origin, on one line."""
     frames = traceback.extract_tb(error.__traceback__)
     own = [f for f in frames if "stepaside" in f.filename] or frames[-1:]
     where = f"{Path(own[-1].filename).name}:{own[-1].lineno}" if own else ""

@@ -1,4 +1,4 @@
-"""Every option of every command, with every bad value."""
+"""Every option of every command, with every invalid value."""
 
 from collections.abc import Iterator
 from functools import cache
@@ -20,7 +20,7 @@ from .case import Case
 from .invoking import command_case
 from .values import ANGLES, NUMBERS, TEXTS, around
 
-# What makes a command short. One that is not named is tried as it is.
+# Arguments that keep commands short; other commands are short by themselves.
 SHORT = ["--duration=0.02", "--json"]
 BASES = {
     "duel": SHORT,
@@ -54,11 +54,11 @@ PATHS = (
 
 
 def command_cases(random: Random, run: Path) -> Iterator[Case]:
-    """Each option alone with each value, in an order that a seed decides.
+    """Yield each option alone with each value, in random order.
 
     Args:
-        random: Decides the order.
-        run: Folder of a run, for commands that read one.
+        random: Determines the order.
+        run: Run folder, for commands that read one.
     """
     cases = [
         (name, option, text)
@@ -78,7 +78,7 @@ def command_cases(random: Random, run: Path) -> Iterator[Case]:
 
 
 def combined_cases(random: Random, run: Path) -> Iterator[Case]:
-    """Several options at once, without end."""
+    """Yield combinations of several options, without end."""
     while True:
         name = random.choice(list(all_commands()))
         words = [*name.split(), *base_of(name, run)]
@@ -91,7 +91,7 @@ def combined_cases(random: Random, run: Path) -> Iterator[Case]:
 
 
 def base_of(name: str, run: Path) -> list[str]:
-    """Words that make a command short, with what it must be given."""
+    """Return the arguments that a command requires and that keep it short."""
     base = list(BASES.get(name, ()))
     for param in command_of(name).params:
         if isinstance(param, click.Argument) and param.required:
@@ -101,20 +101,20 @@ def base_of(name: str, run: Path) -> list[str]:
 
 @cache
 def command_of(name: str) -> click.Command:
-    """A command by its name."""
+    """Return a command by its name."""
     return all_commands()[name]
 
 
 @cache
 def options_of(name: str) -> list[click.Option]:
-    """Options of a command."""
+    """Return the options of a command."""
     found = command_of(name).params
     return [param for param in found if isinstance(param, click.Option)]
 
 
 @cache
 def texts_for(option: click.Option) -> tuple[str, ...]:
-    """Values to try for an option."""
+    """Return values to try for an option."""
     kind: Any = option.type
     more: list[str] = []
     if isinstance(kind, WordOrValueType):
@@ -135,7 +135,7 @@ def texts_for(option: click.Option) -> tuple[str, ...]:
 
 @cache
 def range_of(option: click.Option) -> Range | None:
-    """Range of an option's number; None if it takes none."""
+    """Return the range of a numeric option; None for other options."""
     kind: Any = option.type
     if isinstance(kind, WordOrValueType):
         kind = kind.kind
@@ -155,7 +155,7 @@ def range_of(option: click.Option) -> Range | None:
 
 
 def must_be_refused(option: click.Option, text: str) -> bool:
-    """Whether a value is out of the option's range, as we see it."""
+    """Return whether a value is outside the option's range, independently."""
     kind: Any = option.type
     if option.is_flag:
         return True

@@ -1,4 +1,4 @@
-"""Every setting of every configuration, with every bad value."""
+"""Every entry of every configuration, with every invalid value."""
 
 import tomllib
 from collections.abc import Iterator
@@ -28,7 +28,7 @@ VALUES = (
 
 
 def configuration_cases(random: Random) -> Iterator[Case]:
-    """Each setting alone with each value, in an order that a seed decides."""
+    """Yield each entry alone with each value, in random order."""
     cases = []
     for path, setting in all_settings().items():
         allowed = ranges_of(setting.kind).get(setting.name)
@@ -43,7 +43,7 @@ def configuration_cases(random: Random) -> Iterator[Case]:
 
 
 def _value(text: str) -> Any:
-    """What TOML means by a text; a text if it means nothing."""
+    """Return the TOML value of a text; the text if it is invalid TOML."""
     try:
         return tomllib.loads(f"x = {text}")["x"]
     except (ValueError, RecursionError):
@@ -67,7 +67,7 @@ def _case(name: str, kind: Any, path: str, text: str, bad: bool) -> Case:
 
 
 def _lines(path: str, text: str) -> str:
-    """The entry alone, as TOML."""
+    """Return the entry alone, as TOML."""
     for listed in LISTS:
         if path.startswith(f"{listed}[]."):
             entry = path.removeprefix(f"{listed}[].")

@@ -1,4 +1,4 @@
-"""What fuzzing came to, by class, and the result that is kept of it."""
+"""Counts of fuzz cases by class, and the stored result."""
 
 from collections import Counter
 from pathlib import Path
@@ -8,7 +8,7 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.studies.code_version import ROOT
 from stepaside.studies.result_files import header, read_result, write_result
 
-# How complaints begin, and what each is counted as.
+# First words of failures, and the column that each is counted in.
 FAULTS = {
     "traceback": "tracebacks",
     "hang": "hangs",
@@ -20,34 +20,34 @@ COLUMNS = ("tried", *FAULTS.values(), OTHER)
 
 
 class Counts:
-    """How many cases were tried of each class, and what was wrong.
+    """Number of cases and failures of each class.
 
     Attributes:
-        by_class: Of each class, how many cases count in each column.
+        by_class: Counts by class and column.
     """
 
     def __init__(self) -> None:
-        """Begin with nothing tried."""
+        """Start with empty counts."""
         self.by_class: dict[str, Counter[str]] = {}
 
     def add(self, kind: str, complaint: str) -> None:
-        """Count a case; the complaint is empty if nothing was wrong."""
+        """Count a case; the complaint is empty if it passed."""
         row = self.by_class.setdefault(kind, Counter())
         row["tried"] += 1
         if complaint:
             row[FAULTS.get(complaint.partition(":")[0], OTHER)] += 1
 
     def total(self) -> Counter[str]:
-        """Of all classes together."""
+        """Return the counts of all classes together."""
         return sum(self.by_class.values(), Counter())
 
     @property
     def wrong(self) -> int:
-        """Cases that were not as they should be."""
+        """Number of failed cases."""
         return wrong_in(self.total())
 
     def lines(self) -> list[str]:
-        """A line for each class and one for all."""
+        """Return one line per class, and one for the total."""
         rows = [*sorted(self.by_class.items()), ("all", self.total())]
         return [
             f"{kind:<28} {row['tried']:>7} tried {wrong_in(row):>5} wrong"
@@ -56,21 +56,21 @@ class Counts:
 
 
 def wrong_in(row: Counter[str]) -> int:
-    """What was wrong of some cases, of any sort."""
+    """Return the number of failures of any kind."""
     return row.total() - row["tried"]
 
 
 def keep(
     file: Path, counts: Counts, seed: int, kinds: list[str], minutes: float
 ) -> None:
-    """Add what a seed came to, in the place of what it came to before.
+    """Store the counts of a seed in a result; replace former counts of it.
 
     Args:
-        file: Result that holds the runs of all seeds; made if none is there.
-        counts: Of this run.
-        seed: That decided its order.
-        kinds: That were tried.
-        minutes: That it took.
+        file: Result with the counts of all seeds; created if missing.
+        counts: Counts of this run.
+        seed: Random seed of this run.
+        kinds: Kinds of cases.
+        minutes: Duration of this run.
     """
     head = header(
         {"seeds": [], "kinds": sorted(kinds)},
@@ -104,13 +104,13 @@ def keep(
 
 
 def all_rooms() -> tuple[str, ...]:
-    """All that the package has."""
+    """Return all modules and folders of the package."""
     names = (p.stem for p in ROOT.iterdir() if p.suffix in ("", ".py"))
     return tuple(sorted(name for name in names if name[0].isalpha()))
 
 
 def _others(file: Path, seed: int) -> list[dict[str, Any]]:
-    """Runs of other seeds that are kept already."""
+    """Return the stored counts of other seeds."""
     try:
         runs = read_result(file)["runs"]
     except ConfigurationError:

@@ -1,4 +1,4 @@
-"""Run folders that are not as they were written."""
+"""Damaged run folders."""
 
 import json
 import shutil
@@ -25,11 +25,11 @@ Damage = Callable[[Path, Random], None]
 
 
 def folder_cases(random: Random, run: Path) -> Iterator[Case]:
-    """Damage without end; the same seed damages in the same way.
+    """Yield damaged run folders without end, reproducible by seed.
 
     Args:
         random: Draws the damage.
-        run: Folder of a whole run.
+        run: Intact run folder.
     """
     while True:
         seed = random.getrandbits(32)
@@ -65,7 +65,7 @@ def _case(run: Path, name: str, seed: int) -> Case:
 
 
 def _pages(folder: Path) -> str:
-    """Show a run that is read in spite of the damage, in all ways."""
+    """Replay a run that is read in spite of the damage, in all ways."""
     words = ["replay", "run", "--html=page.html", "--json"]
     case = command_case("", words, refused=False)
     (folder / "case").mkdir()
@@ -81,14 +81,14 @@ def _file(folder: Path, draw: Random) -> Path:
 
 
 def cut(folder: Path, draw: Random) -> None:
-    """Lose the end of a file."""
+    """Truncate a file."""
     file = _file(folder, draw)
     raw = file.read_bytes()
     file.write_bytes(raw[: draw.randrange(len(raw))])
 
 
 def flip(folder: Path, draw: Random) -> None:
-    """Change some bytes."""
+    """Flip some bits."""
     file = _file(folder, draw)
     raw = bytearray(file.read_bytes())
     for _ in range(draw.choice([1, 1, 2, 50])):
@@ -97,7 +97,7 @@ def flip(folder: Path, draw: Random) -> None:
 
 
 def blank(folder: Path, draw: Random) -> None:
-    """Zero a block, as a file system does that lost one."""
+    """Zero a block, like a file system that lost one."""
     file = _file(folder, draw)
     raw = bytearray(file.read_bytes())
     begin = draw.randrange(len(raw))
@@ -107,7 +107,7 @@ def blank(folder: Path, draw: Random) -> None:
 
 
 def swap(folder: Path, draw: Random) -> None:
-    """Give two files each other's content."""
+    """Swap the contents of two files."""
     one, other = draw.sample(FILES, 2)
     (folder / one).rename(folder / "x")
     (folder / other).rename(folder / one)
@@ -115,7 +115,7 @@ def swap(folder: Path, draw: Random) -> None:
 
 
 def lose(folder: Path, draw: Random) -> None:
-    """Lose a file, or find a folder in its place."""
+    """Remove a file, or replace it by a folder."""
     file = _file(folder, draw)
     file.unlink()
     if draw.random() < 0.5:
@@ -123,7 +123,7 @@ def lose(folder: Path, draw: Random) -> None:
 
 
 def array(folder: Path, draw: Random) -> None:
-    """Write an array of another shape, type or content."""
+    """Replace an array by one of another shape, type or content."""
     with np.load(folder / TRAJECTORIES) as stored:
         arrays: dict[str, Any] = {n: stored[n] for n in stored.files}
     name = draw.choice(sorted(arrays))
@@ -152,7 +152,7 @@ def _spoilt(old: Any, draw: Random) -> Any:
 
 
 def entry(folder: Path, draw: Random) -> None:
-    """Write something else for an entry of the summary."""
+    """Replace or remove an entry of the summary."""
     plain = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
     place = plain
     while True:
@@ -175,7 +175,7 @@ def entry(folder: Path, draw: Random) -> None:
 
 
 def nested(folder: Path, draw: Random) -> None:
-    """Nest brackets deeper than anybody reads."""
+    """Write deeply nested brackets."""
     count = draw.choice([10, 900, 100_000])
     text = {0: "[" * count, 1: '{"a":' * count, 2: "a = " + "[" * count}
     _file(folder, draw).write_text(text[draw.randrange(3)])

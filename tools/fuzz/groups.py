@@ -1,4 +1,4 @@
-"""Processes of a group: what they have worked, and that they obey."""
+"""Process groups: processor time, and handling of Ctrl-C."""
 
 import os
 import resource
@@ -9,28 +9,28 @@ from pathlib import Path
 
 
 def obey_ctrl_c() -> None:
-    """Let Ctrl-C reach us and those that we start.
+    """Enable Ctrl-C for this process and its children.
 
-    A shell that starts us in the background lets it pass by, and so would
-    all that we start.
+    A shell that starts a process in the background disables it, and children
+    inherit that.
     """
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 class Worked:
-    """Processor time of a command and of those that it starts.
+    """Processor time of a command and its child processes.
 
     Attributes:
-        process: The command, which leads a group of its own.
+        process: Command, which leads a process group.
     """
 
     def __init__(self, process: "subprocess.Popen[str]") -> None:
-        """Take a command that has just begun; it is waited for by us."""
+        """Store a new child process, which this process must wait for."""
         self.process = process
         self._before = _of_the_ended()
 
     def until_now(self) -> float:
-        """Time that all have worked, while the command lives, in [s]."""
+        """Return the group's processor time while the command runs, in [s]."""
         ticks = sum(
             int(fields[number])
             for fields in members(self.process.pid)
@@ -39,12 +39,12 @@ class Worked:
         return ticks / os.sysconf("SC_CLK_TCK")
 
     def until_its_end(self) -> float:
-        """Time that all have worked, once the command was waited for [s]."""
+        """Return the group's processor time after waiting for it, in [s]."""
         return _of_the_ended() - self._before
 
 
 def members(group: int) -> Iterator[list[str]]:
-    """What the system says of the processes of a group, field by field."""
+    """Yield the fields of ``/proc/PID/stat`` of the processes of a group."""
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit():
             try:

@@ -1,4 +1,4 @@
-"""Commands, tried in this process."""
+"""Commands, run in this process."""
 
 import json
 import os
@@ -19,17 +19,17 @@ STATUSES = (0, 1, 2, 130)
 
 
 class Pool:
-    """A pool of workers that are never set to work."""
+    """Worker pool that raises ``Reached`` instead of working."""
 
     def __enter__(self) -> "Pool":
-        """Begin."""
+        """Return the pool."""
         return self
 
     def __exit__(self, *_: Any) -> None:
-        """End."""
+        """Do nothing."""
 
     def submit(self, *_: Any) -> None:
-        """Say that work would begin."""
+        """Raise: work would begin."""
         raise Reached
 
     map = submit
@@ -37,7 +37,7 @@ class Pool:
 
 @contextmanager
 def without_work() -> Iterator[None]:
-    """Stop campaigns and pages where they would begin."""
+    """Raise ``Reached`` where campaigns and servers would begin."""
     from stepaside.report.viewer import (
         live_page as page,
     )
@@ -61,7 +61,7 @@ def without_work() -> Iterator[None]:
 
 
 def spelled(words: list[str]) -> str:
-    """Words of a command line as a shell takes them, if not too long."""
+    """Return a command line quoted for a shell; shorten long arguments."""
     return " ".join(
         shlex.quote(w) if len(w) < 90 else f"{w[:40]!r}...({len(w)})"
         for w in words
@@ -71,13 +71,13 @@ def spelled(words: list[str]) -> str:
 def command_case(
     kind: str, words: list[str], *, refused: bool, deadline: float = 3.0
 ) -> Case:
-    """A command line.
+    """Return a case of one command line.
 
     Args:
-        kind: Class that it is counted in.
-        words: Of the line, less the program.
-        refused: Whether something in it is out of its range.
-        deadline: After which it is interrupted, in [s].
+        kind: Class that the case is counted in.
+        words: Arguments of the command line.
+        refused: Whether an argument is out of range.
+        deadline: Time after which the command is interrupted, in [s].
     """
 
     def run(folder: Path) -> str:
@@ -87,7 +87,7 @@ def command_case(
 
 
 def prepare(folder: Path) -> set[str]:
-    """Lay out what bad paths lead to; the names of all of it."""
+    """Create the files that bad paths lead to; return their names."""
     (folder / "file").write_text("kept")
     (folder / "folder").mkdir()
     (folder / "loop").symlink_to("loop")
@@ -136,7 +136,7 @@ def _judge(
 
 
 def _is_refusal(said: str) -> bool:
-    """Whether it is one line, behind no more than some lines of a log."""
+    """Return whether a text is one line, after at most a few log lines."""
     lines = said.splitlines()
     ours = all(line.startswith("stepaside: ") for line in lines[:-1])
     return 1 <= len(lines) <= 3 and ours and len(said) <= 2000

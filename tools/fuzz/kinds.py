@@ -1,4 +1,4 @@
-"""All kinds of cases, one of each in turn."""
+"""All kinds of cases, in turn."""
 
 from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
@@ -32,11 +32,11 @@ KINDS: dict[str, Callable[[Random, Path], Iterator[Case]]] = {
 def all_cases(
     seed: int, folder: Path, kinds: Collection[str]
 ) -> Iterator[Case]:
-    """Cases of all kinds by turns, until none has any more.
+    """Yield cases of all kinds in turn, until none is left.
 
     Args:
-        seed: Decides their order and what is drawn.
-        folder: For what they need: a run that is whole.
+        seed: Random seed of the order and of drawn values.
+        folder: Folder for an intact run.
         kinds: Names in ``KINDS``.
     """
     run = folder / "run"
@@ -56,7 +56,7 @@ def _by_turns(left: list[Iterator[Case]]) -> Iterator[Case]:
 
 
 def make_run(folder: Path) -> None:
-    """Play a short duel and write its folder."""
+    """Run a short duel and write its folder."""
     from stepaside.games.duel import run_duel
     from stepaside.games.duel_settings import DuelSettings
     from stepaside.report.run_folder import write_run
@@ -65,7 +65,7 @@ def make_run(folder: Path) -> None:
 
 
 def warm_up() -> None:
-    """Compile what is compiled when it is first called."""
+    """Compile functions that are compiled on first use."""
     from stepaside.theory.unicycle import make_game, play_games
     from stepaside.theory.unicycle.basins import random_starts
 

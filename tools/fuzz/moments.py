@@ -1,4 +1,4 @@
-"""Commands that are ended at a random moment, and started again."""
+"""Commands ended at a random moment, and started again."""
 
 import json
 import os
@@ -25,16 +25,16 @@ from .case import Case
 from .groups import Worked
 
 SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)
-STOPS = 2.0  # work in which Ctrl-C ends a command, and its workers, in [s]
-GIVEN_UP = 100.0  # time after which it is taken for one that never ends [s]
+STOPS = 2.0  # limit of processor time to end after Ctrl-C, in [s]
+GIVEN_UP = 100.0  # time after which a command counts as hanging, in [s]
 
 
 class Trial(NamedTuple):
-    """A command that is ended.
+    """Command to be ended.
 
     Attributes:
-        words: Of Python, which run it.
-        result: What it comes to in a folder; what it says differs by clocks.
+        words: Arguments of Python.
+        result: Returns the reproducible result in a folder.
     """
 
     words: tuple[str, ...]
@@ -100,7 +100,7 @@ TURNS = {"duel": 3, "map": 3, "duels": 1, "robustness": 1, "reproduce": 1}
 
 
 def moment_cases(random: Random, _: Path) -> Iterator[Case]:
-    """A command, ended at a moment and started again, without end."""
+    """Yield commands ended at random and started again, without end."""
     while True:
         (name,) = random.choices(list(TURNS), list(TURNS.values()))
         sign = random.choice(SIGNALS)
@@ -108,7 +108,7 @@ def moment_cases(random: Random, _: Path) -> Iterator[Case]:
 
 
 def moment_case(name: str, sign: signal.Signals, part: float) -> Case:
-    """A command that is ended after a part of the time that it takes."""
+    """Return a command that is ended after a fraction of its duration."""
     trial = TRIALS[name]
 
     def run(folder: Path) -> str:
@@ -126,7 +126,7 @@ def moment_case(name: str, sign: signal.Signals, part: float) -> Case:
 
 @cache
 def undisturbed(name: str) -> tuple[Any, float]:
-    """What a command comes to that nobody ends, and how long it takes [s]."""
+    """Return the result and duration in [s] of an uninterrupted command."""
     with TemporaryDirectory() as folder:
         began = monotonic()
         start(TRIALS[name], Path(folder)).communicate()
@@ -134,7 +134,7 @@ def undisturbed(name: str) -> tuple[Any, float]:
 
 
 def start(trial: Trial, folder: Path) -> "subprocess.Popen[str]":
-    """Start a command as a group of its own, as a terminal does."""
+    """Start a command as a new process group, as a terminal does."""
     root = Path(__file__).parents[2]
     paths = [str(root / "src"), str(root)]
     return subprocess.Popen(
@@ -155,7 +155,7 @@ def start(trial: Trial, folder: Path) -> "subprocess.Popen[str]":
 def _end(
     trial: Trial, folder: Path, sign: signal.Signals, after: float
 ) -> str:
-    """Start and end it; what is wrong with how it ended."""
+    """Start and end a command; return what is wrong with its end."""
     process = start(trial, folder)
     worked = Worked(process)
     try:
@@ -195,7 +195,7 @@ def _alive(group: int) -> bool:
 
 
 def unwhole(folder: Path, *, killed: bool) -> str:
-    """What of the files is not whole."""
+    """Return which file is incomplete, or an empty string."""
     for file in folder.rglob("*"):
         if DRAFT in str(file):
             if not killed:
@@ -217,7 +217,7 @@ def unwhole(folder: Path, *, killed: bool) -> str:
 
 
 def _again(trial: Trial, folder: Path, wanted: Any) -> str:
-    """Start it again and let it end; what is wrong with its result."""
+    """Start the command again; return what is wrong with its result."""
     try:
         if trial.result(folder) == wanted:
             return ""  # it was through before

@@ -1,4 +1,4 @@
-"""Where commands write: every option for it, from the command tree."""
+"""Output options of all commands, from the command tree."""
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future
@@ -34,12 +34,12 @@ APART = {"serve", "play"}
 
 
 def outlets(name: str) -> list[click.Option]:
-    """Options of a command that say where to write."""
+    """Return the output options of a command."""
     return [option for option in options_of(name) if is_outlet(option)]
 
 
 def is_outlet(option: click.Option) -> bool:
-    """Whether an option says where to write."""
+    """Return whether an option names an output."""
     kind = option.type
     if isinstance(kind, click.Path):
         return not kind.exists
@@ -47,12 +47,12 @@ def is_outlet(option: click.Option) -> bool:
 
 
 def writers() -> list[str]:
-    """Commands that write where they are told, and need nobody for it."""
+    """Return commands that write output without waiting for clients."""
     return [n for n in all_commands() if outlets(n) and n not in APART]
 
 
 def files_of(name: str, place: Path) -> list[Path]:
-    """What a command is told to write in a place, all that it can."""
+    """Return all output files of a command within a folder."""
     return [
         place / f"{option.name}{(*_suffixes(option), '')[0]}"
         for option in outlets(name)
@@ -60,13 +60,13 @@ def files_of(name: str, place: Path) -> list[Path]:
 
 
 def words_of(name: str, run: Path, place: Path) -> list[str]:
-    """Words of a short command that writes all that it can.
+    """Return the arguments of a short command that writes all its outputs.
 
     Args:
-        name: Of the command.
-        run: Folder of a run, for commands that read one; beside it lies what
-            others read.
-        place: Where it shall write.
+        name: Name of the command.
+        run: Run folder, for commands that read one; inputs of other commands
+            are created next to it.
+        place: Output folder.
     """
     read = READ[name](run.parent) if name in READ else run
     words = [*name.split(), *base_of(name, read), *LITTLE.get(name, ())]
@@ -81,10 +81,10 @@ def _suffixes(option: click.Option) -> tuple[str, ...]:
 
 
 class Here(Executor):
-    """Workers that are this process: what is handed in is done at once."""
+    """Executor that runs tasks immediately in this process."""
 
     def submit(self, *task: Any, **more: Any) -> Future[Any]:
-        """Do it."""
+        """Run a task."""
         future: Future[Any] = Future()
         try:
             future.set_result(task[0](*task[1:], **more))
@@ -95,7 +95,7 @@ class Here(Executor):
 
 @contextmanager
 def quickly() -> Iterator[None]:
-    """Let commands do a little of their work, and all in this process."""
+    """Reduce the work of commands, and run it in this process."""
     from stepaside.cli import robot_check
     from stepaside.report import film
     from stepaside.studies import robustness_campaign as robustness

@@ -1,7 +1,7 @@
-"""Places that are full, or gone, just as a command comes to write there.
+"""Output folders that become full or vanish just before a command writes.
 
-Each command writes all that it can be told to write, and one thing that it
-does to a file there, any of them, finds the place otherwise than before.
+Each command writes all its outputs; before one of its file operations, the
+folder is changed.
 """
 
 import json
@@ -41,7 +41,7 @@ def gone(place: Path) -> None:
 
 
 def all_gone(place: Path) -> None:
-    """Remove the folder above, too."""
+    """Remove the parent folder, too."""
     for entry in place.parent.iterdir():  # it may be a mounted one
         shutil.rmtree(entry)
     with suppress(OSError):
@@ -49,13 +49,13 @@ def all_gone(place: Path) -> None:
 
 
 def taken(place: Path) -> None:
-    """Put a file in a folder's place, so that none can be there again."""
+    """Replace a folder by a file, so that it cannot be created again."""
     shutil.rmtree(place)
     place.write_text("mine")
 
 
 def full(place: Path) -> None:
-    """Fill the small file system that a folder lies on."""
+    """Fill the small file system of a folder."""
     filler = os.open(place.parent / "filler", os.O_WRONLY | os.O_CREAT)
     try:
         for size in (2**16, 2**12):
@@ -67,7 +67,7 @@ def full(place: Path) -> None:
 
 
 def short_of(place: Path) -> None:
-    """Let no file grow beyond a few bytes, as on a full disk."""
+    """Limit the size of files to a few bytes, like a full disk."""
     limit = resource.getrlimit(resource.RLIMIT_FSIZE)[1]
     resource.setrlimit(resource.RLIMIT_FSIZE, (10, limit))
 
@@ -82,11 +82,11 @@ FAULTS: dict[str, Callable[[Path], None]] = {
 
 
 class Told(NamedTuple):
-    """What became of a command.
+    """Outcome of a command.
 
     Attributes:
-        result: What it said, and its status.
-        strike: What it did to files before and after it was struck.
+        result: Output and exit status.
+        strike: File operations before and after the fault.
     """
 
     result: Result
@@ -94,7 +94,7 @@ class Told(NamedTuple):
 
 
 def place_cases(random: Random, run: Path) -> Iterator[Case]:
-    """Each command, with any fault before any touch, without end."""
+    """Yield commands with a fault before a file operation, without end."""
     while True:
         for name in writers():
             fault = random.choice(sorted(FAULTS))
@@ -102,13 +102,13 @@ def place_cases(random: Random, run: Path) -> Iterator[Case]:
 
 
 def place_case(name: str, run: Path, fault: str, part: float) -> Case:
-    """A command whose place goes, or is full, before one of its touches.
+    """Return a command whose output folder fails before a file operation.
 
     Args:
-        name: Of the command.
-        run: Folder of a run, for commands that read one.
-        fault: One of ``FAULTS``.
-        part: Of its touches, that are done before, of 1.
+        name: Name of the command.
+        run: Run folder, for commands that read one.
+        fault: Name in ``FAULTS``.
+        part: Fraction of the file operations done before the fault.
     """
 
     def try_it(folder: Path) -> str:
@@ -126,7 +126,7 @@ def place_case(name: str, run: Path, fault: str, part: float) -> Case:
 
 @cache
 def undisturbed(name: str, run: Path) -> tuple[Told, list[str]]:
-    """What a command says and does whose place stays, and does not write."""
+    """Return the outcome of a command without a fault."""
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / TOP).mkdir()
         told = play(name, run, Path(folder), None, gone)
@@ -136,9 +136,9 @@ def undisturbed(name: str, run: Path) -> tuple[Told, list[str]]:
 
 @contextmanager
 def room_in(folder: Path, *, small: bool) -> Iterator[None]:
-    """Make the folder that the place lies in, a small file system if asked.
+    """Create the parent of the output folder, as a small file system if asked.
 
-    Where none can be mounted, no file may grow instead.
+    If none can be mounted, the size of files is limited instead.
     """
     (folder / TOP).mkdir()
     words = ["mount", "-t", "tmpfs", "-o", f"size={SIZE}", "none"]
@@ -166,7 +166,7 @@ def play(
     number: int | None,
     fault: Callable[[Path], None],
 ) -> Told:
-    """Run a command in this process, and strike at one of its touches."""
+    """Run a command in this process, with a fault at one file operation."""
     place, spare = folder / TOP / PLACE, folder / SPARE
     place.mkdir()
     spare.mkdir()
@@ -182,7 +182,7 @@ def play(
 def _wrong(
     name: str, folder: Path, fault: str, found: Told, whole: Told
 ) -> str:
-    """What is wrong with what became of a command that was struck."""
+    """Return what is wrong with the outcome of a command with a fault."""
     error = found.result.exception
     if error is not None and not isinstance(error, SystemExit):
         return f"traceback: {told(error)}"
@@ -195,7 +195,7 @@ def _wrong(
 
 
 def _wrong_words(result: Result, whole: Result) -> str:
-    """What is wrong with what was said."""
+    """Return what is wrong with the output."""
     if result.exit_code not in (whole.exit_code, REFUSED):
         return f"status {result.exit_code}: {result.stderr[-300:]!r}"
     if result.exit_code != REFUSED:
@@ -209,12 +209,12 @@ def _wrong_words(result: Result, whole: Result) -> str:
 
 
 def _is_refusal(result: Result) -> bool:
-    """Whether nothing was computed, for the place was seen to be no good."""
+    """Return whether the output was refused before any work."""
     return result.exit_code == REFUSED and "must" in result.stderr
 
 
 def _lost(name: str, folder: Path, fault: str, found: Told) -> str:
-    """What should be there and is not."""
+    """Return which result is missing."""
     place, strike = folder / TOP / PLACE, found.strike
     if found.result.exit_code != REFUSED:
         for file in files_of(name, place):
@@ -231,7 +231,7 @@ def _lost(name: str, folder: Path, fault: str, found: Told) -> str:
 
 
 def _is_answer(text: str, whole: str) -> bool:
-    """Whether something was told as it is told when nothing goes wrong."""
+    """Return whether a result was printed as it is without a fault."""
     if whole.lstrip()[:1] not in ("{", "["):
         return bool(text.strip()) or not whole.strip()
     try:
@@ -242,7 +242,7 @@ def _is_answer(text: str, whole: str) -> bool:
 
 
 def _folders(folder: Path, said: list[str]) -> Iterator[Path]:
-    """Where a run may lie: where it should, or where it is said to."""
+    """Yield the folders where a run may be: requested or in the message."""
     yield from (folder / TOP / PLACE).glob("*")
     for path in (folder / SPARE).glob("*"):
         if any(str(path) in line for line in said):

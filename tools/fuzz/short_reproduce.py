@@ -1,4 +1,4 @@
-"""``stepaside reproduce`` of a few claims, with small figures."""
+"""``stepaside reproduce`` with a few short claims."""
 
 import sys
 from collections.abc import Iterator

@@ -29,7 +29,7 @@ NAMES = ("Host", "Origin", "Upgrade", "Content-Length", "X", "Cookie")
 
 @cache
 def page() -> Page:
-    """A live page, which every case meets."""
+    """Return a live page, shared by all cases."""
     made = Page(DuelSettings(), host="127.0.0.1", port=8611)
     made.start()
     atexit.register(made.close)
@@ -37,7 +37,7 @@ def page() -> Page:
 
 
 def socket_cases(random: Random, _: Path) -> Iterator[Case]:
-    """Requests and messages without end; the same seed says the same."""
+    """Yield requests and messages without end, reproducible by seed."""
     while True:
         yield _case("request", random.getrandbits(32))
         yield _case("message", random.getrandbits(32))
@@ -53,7 +53,7 @@ def _case(name: str, seed: int) -> Case:
 
 
 def _ask(draw: Random) -> None:
-    """Send what may be a request."""
+    """Send a malformed request."""
     lines = [
         f"{draw.choice(['GET', 'POST', 'PUT', '', 'G' * 9000])} "
         f"{draw.choice(['/', '//', '/../x', '*', '/' + 'a' * 9000, '%00'])} "
@@ -76,7 +76,7 @@ def _ask(draw: Random) -> None:
 
 
 def _tell(draw: Random) -> None:
-    """Say things on a socket that is let in."""
+    """Send malformed messages on an accepted socket."""
     try:
         with connect(
             f"ws://127.0.0.1:{port()}",
@@ -118,7 +118,7 @@ def _plain(draw: Random) -> Any:
 
 
 def _still_right() -> str:
-    """Whether the page answers, with its duel and no error."""
+    """Return what is wrong with the page; empty if it still works."""
     session = page().session
     if session.error is not None:
         return f"stopped: {session.error}"
@@ -134,11 +134,11 @@ def _still_right() -> str:
 
 
 def port() -> int:
-    """Where the page is served."""
+    """Return the port of the page."""
     return page().server.get_port()
 
 
 def memory() -> float:
-    """What this process holds, in [MB]."""
+    """Return the resident memory of this process, in [MB]."""
     pages = int(Path("/proc/self/statm").read_text().split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / 1e6

@@ -1,7 +1,7 @@
-"""Stop every long command by Ctrl-C: how soon it ends, and what it says.
+"""Interrupt every long command by Ctrl-C; measure how soon it ends.
 
-Each is started as a terminal does, and stopped when it has worked for some
-while: while it loads, begins, and is at work::
+Each command is started as by a terminal, and interrupted after some processor
+time: while it imports, starts, and works::
 
     python -m tools.fuzz.stopping
 """
@@ -52,15 +52,15 @@ GIVEN_UP = 60.0  # that is waited for an end, in [s]
 
 
 class Stopped(NamedTuple):
-    """How a command ended that was stopped.
+    """End of an interrupted command.
 
     Attributes:
-        after_s: Processor time that it had used.
-        ended_s: Time until it and its workers had ended.
-        worked_s: Processor time that all of them had until then, which is
-            that time on a machine at rest.
-        status: Exit status, as a shell tells it.
-        said: Its last line.
+        after_s: Processor time before the interruption.
+        ended_s: Time until the command and its workers had ended.
+        worked_s: Processor time of all of them after the interruption, which
+            equals that time on an idle machine.
+        status: Exit status, as a shell reports it.
+        said: Last line of its output.
     """
 
     after_s: float
@@ -71,7 +71,7 @@ class Stopped(NamedTuple):
 
 
 def stop(words: list[str], folder: Path, moment: float) -> Stopped:
-    """Start a command in a copy of a folder, stop it, and wait for its end."""
+    """Run a command in a copy of a folder, interrupt it, wait for its end."""
     with tempfile.TemporaryDirectory() as place:
         shutil.copytree(folder, place, dirs_exist_ok=True)
         return _stop(words, place, moment)
@@ -114,23 +114,23 @@ def _stop(words: list[str], folder: str, moment: float) -> Stopped:
 
 
 def status_of(returned: int) -> int:
-    """Status as a shell tells it.
+    """Return the exit status as a shell reports it.
 
-    Python ends itself by the signal if the interrupt came while a compiled
-    library ran code in Python, whoever caught it.
+    Python ends itself by the signal if the interrupt arrived while a compiled
+    library called Python code.
     """
     return returned if returned >= 0 else 128 - returned
 
 
 def prepare(folder: Path) -> None:
-    """Lay out a run and a robot."""
+    """Create a run folder and a robot description."""
     write_run(folder / "run", run_duel(DuelSettings(duration=20.0)))
     source = load_robot("nao").folder
     shutil.copytree(source, folder / "robot")
 
 
 def main() -> None:
-    """Stop all, and write."""
+    """Interrupt all commands, and write the result."""
     parser = argparse.ArgumentParser(
         prog="python -m tools.fuzz.stopping", description=__doc__
     )
@@ -153,7 +153,7 @@ def main() -> None:
             asked.keep,
             header(
                 {"moments_s": list(MOMENTS)},
-                rooms=("cli", "commands", "interrupting", "workers"),
+                rooms=("cli", "core/interrupts", "core/worker_pool"),
                 command="python -m tools.fuzz.stopping --keep "
                 f"docs/results/{asked.keep.name}",
             ),

@@ -1,4 +1,4 @@
-"""Strike at a command's place when it comes to touch a file there."""
+"""Faults injected at a file operation of a command."""
 
 import os
 import sys
@@ -13,29 +13,29 @@ _hooked: list[bool] = []
 
 
 class Strike:
-    """Counts what is done to files below a folder, and acts at one of them.
+    """Counter of file operations below a folder, which acts at one of them.
 
     Attributes:
-        touched: What was done so far, by the names that the system has.
-        done: What was moved into place before it acted.
+        touched: Audit events so far.
+        done: Files moved into place before the action.
     """
 
     def __init__(
         self, place: Path, number: int | None, act: Callable[[], None]
     ) -> None:
-        """Wait.
+        """Arm the action.
 
         Args:
-            place: Folder that is watched.
-            number: Of the touch before which to act, from 0; None never acts.
-            act: What to do.
+            place: Folder to watch.
+            number: Index of the operation before which to act; None for none.
+            act: Action.
         """
         self._place, self._number, self._act = str(place), number, act
         self.touched: list[str] = []
         self.done: set[str] = set()
 
     def hear(self, event: str, arguments: tuple[Any, ...]) -> None:
-        """Take note of something that the process is about to do."""
+        """Count a file operation that is about to happen."""
         if not any(self._is_below(value) for value in arguments):
             return
         self.touched.append(event)
@@ -46,7 +46,7 @@ class Strike:
             self._act()
 
     def has_done(self, path: Path) -> bool:
-        """Whether a file, or one in a folder, was in place before it acted."""
+        """Return whether a file or folder was in place before the action."""
         return any(Path(file).is_relative_to(path) for file in self.done)
 
     def _is_below(self, value: Any) -> bool:
@@ -59,7 +59,7 @@ class Strike:
 
 @contextmanager
 def struck(strike: Strike) -> Iterator[Strike]:
-    """Let a strike hear what this process does."""
+    """Pass the audit events of this process to a strike."""
     if not _hooked:
         sys.addaudithook(_hear)
         _hooked.append(True)

@@ -1,4 +1,4 @@
-"""Values that nobody should give, and ends of ranges."""
+"""Invalid values, and bounds of ranges."""
 
 from math import inf, nan, nextafter
 from random import Random
@@ -27,7 +27,7 @@ ANGLES = ("1deg", "200deg", "1e18deg", "nandeg", "-1e300rad", "deg", "1grad")
 
 
 def around(allowed: Range) -> list[str]:
-    """Ends of a range, and what is next to them, as text."""
+    """Return the bounds of a range and their neighbours, as text."""
     if allowed.whole:
         low, high = int(allowed.low), int(allowed.high)
         return [str(v) for v in (low - 1, low, low + 1, high, high + 1)]
@@ -37,7 +37,7 @@ def around(allowed: Range) -> list[str]:
 
 
 def any_value(random: Random) -> Any:
-    """A value of Python that a caller may give by mistake."""
+    """Return a Python value that a caller may pass by mistake."""
     return random.choice(
         [
             *(nan, inf, -inf, 1e18, -1e18, 1e300, 5e-324, -1, 0, 10**400),

@@ -1,6 +1,6 @@
-"""Faults put into the package by hand of a machine, to see the tests fail.
+"""Mutation testing: automatic faults in the package, to check the tests.
 
-``python -m tools.mutation`` draws faults by a seed, runs the tests that
-reach each one in a scratch copy of the tree, and writes the score and the
-faults that no test noticed. ``docs/mutation.md`` says more.
+``python -m tools.mutation`` draws faults by a seed, runs the tests that reach
+each one in a scratch copy of the tree, and writes the score and the survivors.
+See ``docs/mutation.md``.
 """

@@ -1,4 +1,4 @@
-"""Run faults before the tests: ``python -m tools.mutation --help``."""
+"""Run mutation tests: ``python -m tools.mutation --help``."""
 
 import argparse
 import os
@@ -31,11 +31,11 @@ from .tree import Tree, digest, files_of
 
 PACKAGES = [f"src/stepaside/{room}" for room in ROOMS]
 WORK = Path("runs/mutation")
-OWN = "test_mutation*.py"  # tests of these files are about no fault
+OWN = "test_mutation*.py"  # tests in these files do not concern faults
 
 
 def main() -> None:
-    """Read the command line and do what it says."""
+    """Run the command line."""
     options = _options()
     root: Path = options.root
     files = files_of(root)
@@ -60,7 +60,7 @@ def main() -> None:
         own = sha256(" ".join(chosen).encode()).hexdigest()[:12]
         name += f"-{own}"
     records = RecordStore(root / WORK / f"{name}.jsonl")
-    # Of the code that is tried, not of what it may be when that has ended.
+    # Computed first: the code may change before the run ends.
     where_from = head(
         sample=options.sample, seed=options.seed, cap=options.cap
     )
@@ -140,7 +140,7 @@ def _try(
     tests: list[str],
     options: argparse.Namespace,
 ) -> None:
-    """Try the faults that have no record yet."""
+    """Try all faults without a record."""
     warm_up(root)
     work = records.path.parent
     work.mkdir(parents=True, exist_ok=True)

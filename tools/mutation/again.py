@@ -1,4 +1,4 @@
-"""Survivors of a written run, before tests that were written since."""
+"""Survivors of a stored run, tried again with newer tests."""
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -11,12 +11,12 @@ from .score import NOTICED
 
 
 def survivors_of(path: Path, faults: Iterable[Fault]) -> list[Fault]:
-    """Faults that a run has written down as survivors.
+    """Return the faults that a stored run lists as survivors.
 
     Args:
         path: File of results.
-        faults: Those of the code as it is now, in which a survivor lacks
-            if its line has changed.
+        faults: Faults of the current code; a survivor whose line has changed
+            is not among them.
     """
     keys = {row["key"] for row in read_result(path)["survivors"]}
     return [fault for fault in faults if fault.key in keys]
@@ -27,17 +27,17 @@ def write_noticed(
     rows: Mapping[str, Mapping[str, Any]],
     reasons: Mapping[str, str],
 ) -> int:
-    """Write beside the survivors of a run which tests notice them now.
+    """Store which newer tests detect the survivors of a run.
 
-    The score stays that of the run.
+    The score remains that of the run.
 
     Args:
         path: File of results.
         rows: Records of later trials by key of the fault.
-        reasons: Why the others are no gap, by key.
+        reasons: Reasons why other survivors are no gap, by key.
 
     Returns:
-        How many are noticed.
+        Number of survivors detected now.
     """
     result = read_result(path)
     noticed = 0

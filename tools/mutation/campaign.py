@@ -1,4 +1,4 @@
-"""Find the tests of each fault, and try it before them."""
+"""Selection of the tests for each fault, and their execution."""
 
 import json
 import os
@@ -14,20 +14,25 @@ from .runner import Job, numba_cache, run_jobs
 from .source import Source
 from .tree import Tree, digest, files_of
 
-# Below src/stepaside/: what is compiled, or read by what is.
-COMPILED = ("theory/", "strategies/search/")
+# Paths below src/stepaside/ with compiled functions, or with their inputs.
+COMPILED = (
+    "theory/unicycle/",
+    "theory/bound/",
+    "theory/laws.py",
+    "strategies/search/",
+)
 
 
 def record_reach(
     root: Path, trees: list[Tree], tests: list[str], out: Path
 ) -> dict[str, reach.Reach]:
-    """Record what tests reach, once for each version of them and the code.
+    """Record what tests reach, once per version of tests and code.
 
     Args:
         root: Tree with the package and its tests.
-        trees: Scratch copies of it.
-        tests: Files of tests, relative to the tree.
-        out: Folder that keeps what was recorded.
+        trees: Scratch copies of the tree.
+        tests: Test files, relative to the tree.
+        out: Folder of the records.
 
     Returns:
         What the tests of each file reach.
@@ -70,17 +75,17 @@ def try_faults(
     trees: list[Tree],
     cap: float,
 ) -> Iterator[dict[str, Any]]:
-    """Try faults, each before the tests that reach it.
+    """Run the tests that reach each fault.
 
     Args:
         faults: Faults to try.
         texts: Text of each file.
-        index: Which test reaches what.
+        index: Index from lines to tests.
         trees: Scratch copies of the tree.
-        cap: Most processor time of the tests of one fault, in [s].
+        cap: Maximum processor time of the tests of one fault, in [s].
 
     Yields:
-        A record of each fault as its trial ends.
+        Record of each fault as its trial ends.
     """
     chosen = {
         fault.key: trial.choose(
@@ -106,17 +111,17 @@ def try_faults(
 
 
 def job_of(fault: Fault, text: str, index: Index, chosen: list[str]) -> Job:
-    """Work that tries one fault.
+    """Return the job that tries one fault.
 
     Args:
-        fault: What to change.
+        fault: Fault to apply.
         text: Text of its file.
-        index: Which test reaches what.
+        index: Index from lines to tests.
         chosen: Tests to run.
     """
 
     def prepare(tree: Tree) -> None:
-        # A process that ends at once must not leave the verdict before it.
+        # A process that dies early must not leave the previous verdict.
         note = tree.path.with_suffix(".note")
         note.write_text("before the first test", encoding="utf-8")
         tree.change(fault.file, Source(text).apply(fault.edit))
@@ -133,15 +138,15 @@ def job_of(fault: Fault, text: str, index: Index, chosen: list[str]) -> Job:
 
 
 def is_compiled(file: str) -> bool:
-    """Whether machine code may hang on a file of the package."""
+    """Return whether machine code may depend on a file of the package."""
     return file.removeprefix("src/stepaside/").startswith(COMPILED)
 
 
 def verdict(note: str, status: int) -> tuple[str, str]:
-    """Outcome of a trial, and the test that noticed the fault.
+    """Return the outcome of a trial, and the test that detected the fault.
 
     Args:
-        note: What :func:`.trial.run` has written.
+        note: Output of :func:`.trial.run`.
         status: Wait status of its process.
     """
     if note.startswith("{"):

@@ -1,4 +1,4 @@
-"""What a forked process does: run tests in a scratch copy of the tree."""
+"""Forked processes that run tests in a scratch copy of the tree."""
 
 import os
 import re
@@ -20,7 +20,7 @@ import pytest
 from hypothesis import HealthCheck, Phase, settings
 
 PROFILE = "mutation"
-# Imported once, before forking, where a tree imports them at all.
+# Imported before forking, if the tree imports them at all.
 WARM = (
     "click.testing",
     "cv2",
@@ -43,7 +43,7 @@ WARM = (
 
 
 def warm_up(root: Path) -> None:
-    """Import the libraries that a tree uses; nothing of the tree itself."""
+    """Import the libraries that a tree uses, but nothing of the tree."""
     for name in ("OPENBLAS", "OMP", "NUMBA"):
         os.environ.setdefault(f"{name}_NUM_THREADS", "1")
     os.environ.setdefault("MPLBACKEND", "Agg")
@@ -68,25 +68,25 @@ def warm_up(root: Path) -> None:
 
 
 def cpu_time() -> float:
-    """Processor time of this process and of those it waited for, in [s]."""
+    """Return the processor time of this process and its children, in [s]."""
     both = getrusage(RUSAGE_SELF), getrusage(RUSAGE_CHILDREN)
     return sum(used.ru_utime + used.ru_stime for used in both)
 
 
 def allow(seconds: float) -> None:
-    """End this process if it uses more processor time from here."""
+    """Limit the further processor time of this process."""
     used = getrusage(RUSAGE_SELF)
     limit = int(used.ru_utime + used.ru_stime + seconds) + 1
     setrlimit(RLIMIT_CPU, (limit, getrlimit(RLIMIT_CPU)[1]))
 
 
 def fork(tree: Path, log: Path, work: Callable[[], None]) -> int:
-    """Do some work in a forked process whose package is that of a tree.
+    """Call a function in a forked process that imports from a tree.
 
     Args:
         tree: Scratch copy to work in.
-        log: File that takes what the process prints.
-        work: What to do.
+        log: File for the output of the process.
+        work: Function to call.
 
     Returns:
         Process identifier, also that of its process group.
@@ -110,7 +110,7 @@ def fork(tree: Path, log: Path, work: Callable[[], None]) -> int:
 def run_tests(
     tree: Path, files: Iterable[str], plugin: object, *options: str
 ) -> int:
-    """Run tests of some files in this process, to pytest's exit status."""
+    """Run tests of some files in this process; return pytest's exit status."""
     status = pytest.main(
         [
             *(str(tree / file) for file in files),
@@ -130,8 +130,8 @@ def run_tests(
 
 
 def _enter(tree: Path, log: Path) -> None:
-    """Make a tree the place that code is imported from and run in."""
-    for name in list(sys.modules):  # what the process before it uses itself
+    """Make a tree the working directory and the source of imports."""
+    for name in list(sys.modules):  # used by the parent process
         if name.partition(".")[0] == "stepaside":
             del sys.modules[name]
     os.chdir(tree)

@@ -1,4 +1,4 @@
-"""Every fault that a module can be given, and a draw among them."""
+"""All faults of a module, and random samples of them."""
 
 import ast
 from collections.abc import Iterable, Iterator, Mapping
@@ -14,19 +14,19 @@ from .source import Edit, Source
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """One change of one file.
+    """Change of one file.
 
     Attributes:
-        key: Name that stays when other code moves.
+        key: Identifier that does not depend on other code.
         file: Path from the root of the tree.
         line: Line of the change, from one.
-        lines: First and last line of the statement around it.
-        scope: Dotted name of what it stands in.
-        names: Names that carry its effect if it acts on import.
+        lines: First and last line of the statement.
+        scope: Dotted name of the enclosing class or function.
+        names: Names that carry the effect of a fault at import.
         operator: Kind of fault.
-        before: Lines touched, before.
-        after: The same, after.
-        edit: What to change.
+        before: Changed lines, before.
+        after: Changed lines, after.
+        edit: Edit of the source.
     """
 
     key: str
@@ -44,12 +44,12 @@ class Fault:
 def faults_of(
     file: str, text: str, optional: dict[str, set[str]], seed: int
 ) -> Iterator[Fault]:
-    """One fault at each node that can go wrong.
+    """Return one fault for each node that can have one.
 
     Args:
         file: Path from the root of the tree.
         text: Text of the module.
-        optional: What :func:`.places.optional_keywords` found.
+        optional: Output of :func:`.places.optional_keywords`.
         seed: Seed of the choice among the faults of a node.
     """
     source = Source(text)
@@ -91,16 +91,16 @@ def draw(
     count: int | None,
     seed: int,
 ) -> list[Fault]:
-    """Draw faults without replacement; a smaller draw begins a larger one.
+    """Draw faults without replacement; a small sample is part of a larger one.
 
-    The lot of a fault hangs on its own text alone, so that it stays drawn
-    when code elsewhere changes.
+    The random number of a fault depends on its own text only, so that a fault
+    remains in the sample when other code changes.
 
     Args:
-        faults: What to draw from.
+        faults: Faults to draw from.
         texts: Text of each file.
-        count: How many to draw; None for all.
-        seed: Seed of the lots.
+        count: Size of the sample; None for all.
+        seed: Random seed.
     """
     lots = sorted(faults, key=lambda fault: _lot(seed, f"draw {fault.key}"))
     changes = (fault for fault in lots if _is_change(texts[fault.file], fault))
@@ -108,7 +108,7 @@ def draw(
 
 
 def modules_of(root: Path, parts: Iterable[str]) -> list[str]:
-    """Python files below some folders, or files, of a tree."""
+    """Return the Python files among files and below folders of a tree."""
     found: list[str] = []
     for part in parts:
         path = root / part

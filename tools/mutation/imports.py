@@ -1,4 +1,4 @@
-"""Which files import a module, by its name or from its package."""
+"""Index of files by the modules that they import."""
 
 import ast
 from collections.abc import Iterable, Iterator
@@ -6,11 +6,11 @@ from pathlib import Path
 
 
 class Imports:
-    """What some files import.
+    """Imports of some files.
 
     Args:
         root: Tree with the package and the files.
-        files: Files that import, relative to it.
+        files: Files relative to the tree.
     """
 
     def __init__(self, root: Path, files: Iterable[str]) -> None:
@@ -20,7 +20,7 @@ class Imports:
         }
 
     def of(self, module: str) -> set[str]:
-        """Files that import a module, or from its package what it defines.
+        """Return files that import a module, or its names from the package.
 
         Args:
             module: File below ``src/``, relative to the tree.
@@ -50,7 +50,7 @@ def _imported(tree: ast.Module) -> Iterator[str]:
 
 
 def _defined(tree: ast.Module) -> Iterator[str]:
-    """Names of functions, classes and constants of a module."""
+    """Return the functions, classes and constants of a module."""
     for node in tree.body:
         match node:
             case ast.FunctionDef(name=name) | ast.ClassDef(name=name):

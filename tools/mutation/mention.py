@@ -1,4 +1,4 @@
-"""Tests that a fault can act on, also where no tracer sees it act."""
+"""Tests that a fault can affect, including code that is not traced."""
 
 import ast
 from collections.abc import Iterable, Mapping
@@ -9,7 +9,7 @@ from .imports import Imports
 from .places import Place, walk
 from .reach import Reach
 
-# Decorators of functions whose lines are not traced whenever they act.
+# Decorators of functions whose lines are not traced on every call.
 HIDDEN = (
     *("compiled", "compiled_parallel", "inlined", "shared"),
     *("cache", "cached_property", "lru_cache"),
@@ -17,11 +17,11 @@ HIDDEN = (
 
 
 class Index:
-    """Which test reaches which line, name by name where lines tell nothing.
+    """Index from lines to tests, by name where lines are not traced.
 
-    What runs on import (a constant, a default) acts wherever its name is
-    read; so does a compiled function, whose lines are never traced, and a
-    cached one, whose lines are traced once only.
+    Constants and defaults act wherever their name is read. So do compiled
+    functions, whose lines are never traced, and cached ones, whose lines are
+    traced only once.
 
     Args:
         root: Tree with the package and its tests.
@@ -52,11 +52,11 @@ class Index:
         self._of_file = {f: set(reach.times) for f, reach in reaches.items()}
 
     def tests(self, fault: Fault) -> set[str]:
-        """Tests that a fault can act on."""
+        """Return the tests that a fault can affect."""
         return self._tests(fault.file, fault.scope, fault.lines, fault.names)
 
     def near(self, fault: Fault) -> set[str]:
-        """Tests of the files that import the module of a fault."""
+        """Return the tests of files that import the module of a fault."""
         files = self._near.of(fault.file)
         return set().union(*(self._of_file[file] for file in files))
 
@@ -86,9 +86,9 @@ class Index:
         )
 
     def _of_name(self, name: str) -> set[str]:
-        """Tests that reach a line with a name, or read it themselves."""
+        """Return the tests that read a name, or reach a line that does."""
         if name not in self._found:
-            self._found[name] = set()  # ends circles
+            self._found[name] = set()  # breaks cycles
             found = set(self._by_file.get(name, set()))
             for file, place in self._places.get(name, []):
                 found |= self._traced(file, place.lines)

@@ -1,4 +1,4 @@
-"""What can go wrong at one node of a syntax tree."""
+"""Mutation operators: edits of one node of a syntax tree."""
 
 import ast
 from collections.abc import Iterator
@@ -10,13 +10,12 @@ from .source import Edit, Source
 def edits_of_expression(
     source: Source, node: ast.expr, optional: dict[str, set[str]]
 ) -> Iterator[Edit | None]:
-    """Edits of an expression.
+    """Return the edits of an expression.
 
     Args:
-        source: Module that it stands in.
-        node: The expression.
-        optional: Keywords that a call can do without, by name of what is
-            called.
+        source: Source of its module.
+        node: Expression.
+        optional: Optional keywords of calls, by name of the function.
     """
     match node:
         case ast.BinOp(left=left, op=op, right=right):
@@ -54,12 +53,12 @@ def edits_of_expression(
 def edits_of_statement(
     source: Source, node: ast.stmt, returns: str
 ) -> Iterator[Edit | None]:
-    """Edits of a statement.
+    """Return the edits of a statement.
 
     Args:
-        source: Module that it stands in.
-        node: The statement.
-        returns: Annotation of what the function around it returns.
+        source: Source of its module.
+        node: Statement.
+        returns: Return annotation of the enclosing function.
     """
     match node:
         case ast.If(test=test):
@@ -120,7 +119,7 @@ def _edits_of_call(
 
 
 def _without(source: Source, keyword: ast.keyword) -> Edit | None:
-    """Drop a keyword with the comma behind it, or else before it."""
+    """Remove a keyword and the comma after it, or else before it."""
     start, end = source.span(keyword)
     rest = source.data[end:].lstrip()
     if rest[:1] == b",":

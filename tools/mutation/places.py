@@ -1,23 +1,23 @@
-"""Where in a syntax tree something is done that can go wrong."""
+"""Nodes of a syntax tree that can be mutated."""
 
 import ast
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-# Words for people, not behaviour.
+# These are text for users, not behaviour.
 UNTOUCHED = ("__repr__", "__str__", "__all__")
 
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a walk through a syntax tree has come to.
+    """Context of a node.
 
     Attributes:
-        scope: Names of the classes and functions around.
-        lines: First and last line of the statement around.
-        names: Names that a statement run on import binds.
-        returns: Annotation of what the function around returns.
-        inside: Whether a function stands around.
+        scope: Names of the enclosing classes and functions.
+        lines: First and last line of the statement.
+        names: Names that a statement at import level binds.
+        returns: Return annotation of the enclosing function.
+        inside: Whether the node is inside a function.
     """
 
     scope: tuple[str, ...] = ()
@@ -28,7 +28,7 @@ class Place:
 
 
 def optional_keywords(trees: Iterable[ast.AST]) -> dict[str, set[str]]:
-    """Keywords that have a default, by name of function or class."""
+    """Return the keywords with a default, by name of function or class."""
     found: dict[str, set[str]] = {}
     for tree in trees:
         for node in ast.walk(tree):
@@ -60,7 +60,7 @@ def optional_keywords(trees: Iterable[ast.AST]) -> dict[str, set[str]]:
 def walk(
     node: ast.AST, place: Place
 ) -> Iterator[tuple[Place, ast.expr | ast.stmt]]:
-    """Nodes that do something, each with where it stands."""
+    """Yield the nodes that can be mutated, with their context."""
     match node:
         case ast.FunctionDef(name=name) | ast.ClassDef(name=name):
             if name in UNTOUCHED:
@@ -115,7 +115,7 @@ def _walk_definition(
 
 
 def _at(node: ast.stmt, place: Place) -> Place:
-    """Where a statement stands: its own lines, without those of its body."""
+    """Return the context of a statement: its own lines, without its body."""
     last = node.end_lineno or node.lineno
     body = getattr(node, "body", None)
     if isinstance(body, list) and body:

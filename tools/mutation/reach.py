@@ -1,4 +1,4 @@
-"""Which test reaches which line, recorded one file of tests at a time."""
+"""Coverage by test, recorded for one test file at a time."""
 
 import json
 from collections.abc import Iterator
@@ -11,16 +11,16 @@ import pytest
 
 from .child import cpu_time, run_tests
 
-SHARED = "*"  # reached by a fixture that all tests of a file share
+SHARED = "*"  # context of fixtures shared by all tests of a file
 
 
 @dataclass(frozen=True, slots=True)
 class Reach:
-    """What the tests of one file reach.
+    """Lines reached by the tests of one file.
 
     Attributes:
-        times: Processor time of each test that passed, in [s].
-        red: Tests that failed although nothing was wrong.
+        times: Processor time of each passed test, in [s].
+        red: Tests that failed without a fault.
         lines: Tests by file and line.
     """
 
@@ -30,19 +30,19 @@ class Reach:
 
 
 class Recorder:
-    """Pytest plugin that tells coverage which test is running."""
+    """Pytest plugin that sets the coverage context of each test."""
 
     def __init__(self, measured: coverage.Coverage) -> None:
         self._measured = measured
         self.times: dict[str, float] = {}
         self.red: set[str] = set()
-        self._test = ""  # that is running
+        self._test = ""  # of the running test
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_protocol(
         self, item: pytest.Item
     ) -> Iterator[None]:  # pragma: no cover
-        """Note what one test reaches, and its time."""
+        """Record what one test reaches, and its time."""
         began, self._test = cpu_time(), item.nodeid
         self._measured.switch_context(self._test)
         try:
@@ -56,30 +56,30 @@ class Recorder:
         self,
         fixturedef: pytest.FixtureDef[Any],
     ) -> Iterator[None]:
-        """Note what a fixture of several tests reaches for all of them."""
+        """Record what a shared fixture reaches, for all tests."""
         if fixturedef.scope == "function":
             return (yield)
         self._measured.switch_context(SHARED)
         try:
             return (yield)
         finally:
-            # Not the node of the request: that of a shared fixture is no
-            # test, and what the first one reaches would be lost.
+            # Not the node of the request: for a shared fixture it is not a
+            # test, and the lines of the first one would be lost.
             self._measured.switch_context(self._test)
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """Note a test that does not pass."""
+        """Record a failed test."""
         if report.outcome != "passed":
             self.red.add(report.nodeid)
 
     def pytest_collectreport(self, report: pytest.CollectReport) -> None:
-        """Note a file that cannot be read."""
+        """Record a file that cannot be imported."""
         if report.failed:
             self.red.add(report.nodeid)
 
 
 def record(tree: Path, file: str, out: Path) -> None:
-    """Run the tests of a file, and write down what each of them reaches."""
+    """Run the tests of a file, and record what each of them reaches."""
     source = tree / "src"
     measured = coverage.Coverage(
         data_file=None, config_file=False, include=[f"{source}/*"]
@@ -104,7 +104,7 @@ def record(tree: Path, file: str, out: Path) -> None:
 
 
 def load(path: Path) -> Reach:
-    """Read what :func:`record` wrote."""
+    """Load the output of :func:`record`."""
     found = json.loads(path.read_text(encoding="utf-8"))
     red = set(found["red"])
     times = {t: s for t, s in found["times"].items() if t not in red}

@@ -1,4 +1,4 @@
-"""Many trials at once, each in a process of its own."""
+"""Parallel trials, each in a process of its own."""
 
 import os
 import shutil
@@ -12,8 +12,8 @@ from time import monotonic, sleep
 from .child import fork
 from .tree import Tree
 
-IDLE = 120.0  # [s] without any processor time: it hangs
-LONGEST = 3600.0  # [s]
+IDLE = 120.0  # a process without processor time for this long hangs, in [s]
+LONGEST = 3600.0  # polling period, in [s]
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,9 +21,9 @@ class Job:
     """Work for a scratch copy.
 
     Attributes:
-        name: What it is, for people.
-        prepare: Done to the copy first.
-        work: Done in a forked process.
+        name: Name for messages.
+        prepare: Prepares the copy.
+        work: Runs in a forked process.
     """
 
     name: str
@@ -44,15 +44,15 @@ class _Running:
 def run_jobs(
     jobs: Iterable[Job], trees: list[Tree]
 ) -> Iterator[tuple[Job, Tree, int]]:
-    """Work through jobs on as many processes as there are copies.
+    """Run jobs in as many processes as there are copies.
 
     Args:
-        jobs: Work to do.
+        jobs: Jobs to run.
         trees: Free scratch copies.
 
     Yields:
-        Each job when it has ended, its copy, restored, and the wait status
-        of its process; SIGXCPU stands for one that hung.
+        Each finished job, its restored copy, and the wait status of its
+        process; SIGXCPU if it hung.
     """
     free, running = list(trees), dict[int, _Running]()
     waiting = iter(jobs)
@@ -100,7 +100,7 @@ def _end_what_hangs(running: dict[int, _Running]) -> None:
 
 
 def _end(group: int) -> None:
-    """End a process and all that it started."""
+    """Kill a process and its children."""
     try:
         os.killpg(group, signal.SIGKILL)
     except (ProcessLookupError, PermissionError):
@@ -108,7 +108,7 @@ def _end(group: int) -> None:
 
 
 def _ticks(child: int) -> int:
-    """Processor time of a process and its ended children, in tenths [s]."""
+    """Return processor time with ended children, in tenths of a second."""
     try:
         stat = Path(f"/proc/{child}/stat").read_text(encoding="utf-8")
     except OSError:
@@ -118,7 +118,7 @@ def _ticks(child: int) -> int:
 
 
 def numba_cache(tree: Tree, *, fresh: bool) -> None:
-    """Keep compiled functions of a changed file apart from the others."""
+    """Give compiled functions of a changed file a separate cache."""
     folder = tree.path.parent / f"numba-{tree.path.name}"
     if fresh:
         folder = folder.with_name(f"{folder.name}-fresh")

@@ -9,7 +9,7 @@ from typing import Any
 from stepaside.studies.code_version import LIBRARIES
 from stepaside.studies.result_files import header, write_result
 
-# Rooms of the package that faults are put into.
+# Packages that faults are drawn from.
 ROOMS = (
     "planning",
     "control",
@@ -26,13 +26,13 @@ ROOMS = (
 )
 REASONS = Path("tools/mutation/reasons.toml")
 RESULTS = Path("docs/results/mutation.json")
-SAMPLE = 400  # faults
-CAP = 40.0  # processor time of the tests of one fault, in [s]
+SAMPLE = 400  # number of faults
+CAP = 40.0  # maximum processor time of the tests of one fault, in [s]
 NOTICED = ("killed", "timeout")
 
 
 def read_reasons(path: Path) -> dict[str, str]:
-    """Why a survivor is no gap, or what it lacks, by key of the fault."""
+    """Return why survivors are no gap, or which test is missing, by key."""
     if not path.exists():
         return {}
     found: dict[str, str] = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -42,7 +42,7 @@ def read_reasons(path: Path) -> dict[str, str]:
 def summary(
     rows: list[dict[str, Any]], reasons: Mapping[str, str]
 ) -> dict[str, Any]:
-    """What a run says, without times, so that it can be compared.
+    """Return the results of a run without times, so that runs are comparable.
 
     Args:
         rows: Records of the trials, in the order of the draw.
@@ -78,7 +78,7 @@ def summary(
 
 
 def score_line(found: Mapping[str, Any]) -> str:
-    """One line with the score."""
+    """Return one line with the score."""
     if not found["faults"]:
         return "no faults"
     return (
@@ -88,12 +88,12 @@ def score_line(found: Mapping[str, Any]) -> str:
 
 
 def head(*, sample: int, seed: int, cap: float) -> dict[str, Any]:
-    """Where the result of a run comes from, of the code as it is now.
+    """Return the header of the results, for the current code.
 
     Args:
-        sample: How many faults are drawn.
+        sample: Number of faults drawn.
         seed: Seed of the draw.
-        cap: Processor time of tests that a fault can take, in [s].
+        cap: Maximum processor time of the tests of one fault, in [s].
     """
     make = "make mutate"
     options = f" SAMPLE={sample}" if sample != SAMPLE else ""
@@ -112,13 +112,13 @@ def write(
     """Write the file of results.
 
     Args:
-        path: Where to.
-        where_from: Of :func:`head`.
-        found: Of :func:`summary`.
+        path: File of results.
+        where_from: Output of :func:`head`.
+        found: Output of :func:`summary`.
 
     Raises:
-        ValueError: If not all that were drawn have been tried. Those that
-            no test reaches come first, so a part says too little.
+        ValueError: If faults of the sample have not been tried. Faults that
+            no test reaches come first, so a partial score would be biased.
     """
     drawn = where_from["settings"]["sample"]
     if found["faults"] != drawn:

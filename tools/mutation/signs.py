@@ -1,4 +1,4 @@
-"""Signs and names that stand in for each other in a fault."""
+"""Operators and names that replace each other in a fault."""
 
 import ast
 
@@ -25,7 +25,7 @@ NEGATED: dict[type[ast.cmpop], tuple[str, str]] = {
     ast.In: ("in", "not in"),
     ast.NotIn: ("not in", "in"),
 }
-# An edge is moved only where a number or a length is named: two measured
+# A comparison is made strict only against a number or a length: two measured
 # values are never equal.
 EDGE: dict[type[ast.cmpop], tuple[str, str]] = {
     ast.Lt: ("<", "<="),

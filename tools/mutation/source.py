@@ -1,4 +1,4 @@
-"""Text of a module beside its syntax tree, and edits to it."""
+"""Source text of a module with its syntax tree, and edits of it."""
 
 import ast
 from dataclasses import dataclass
@@ -13,9 +13,9 @@ class Edit:
 
     Attributes:
         operator: Kind of fault.
-        start: Offset of the first byte replaced.
-        end: Offset behind the last byte replaced.
-        text: What stands there instead.
+        start: Offset of the first replaced byte.
+        end: Offset after the last replaced byte.
+        text: New text.
     """
 
     operator: str
@@ -25,7 +25,7 @@ class Edit:
 
 
 class Source:
-    """Source text whose parts are found by their nodes.
+    """Source text with access by node.
 
     Args:
         text: Text of a module.
@@ -38,7 +38,7 @@ class Source:
         self._offsets = [0, *accumulate(lengths)]
 
     def span(self, node: Node) -> tuple[int, int]:
-        """Offsets of the first byte of a node and of that behind its last."""
+        """Return the byte offsets of a node: first, and one past the last."""
         assert node.end_lineno is not None
         assert node.end_col_offset is not None
         return (
@@ -47,16 +47,16 @@ class Source:
         )
 
     def text(self, node: Node) -> str:
-        """Text of a node."""
+        """Return the text of a node."""
         start, end = self.span(node)
         return self.data[start:end].decode()
 
     def line(self, offset: int) -> int:
-        """Number of the line that holds an offset, from one."""
+        """Return the line number of an offset, from one."""
         return self.data.count(b"\n", 0, offset) + 1
 
     def replace(self, operator: str, node: Node, text: str) -> Edit:
-        """Edit that puts another text in the place of a node."""
+        """Return an edit that replaces a node."""
         return Edit(operator, *self.span(node), text)
 
     def between(
@@ -67,7 +67,7 @@ class Source:
         old: str,
         new: str,
     ) -> Edit | None:
-        """Edit of the sign that stands between two expressions."""
+        """Return an edit of the operator between two expressions."""
         start, end = self.span(left)[1], self.span(right)[0]
         at = self.data.find(old.encode(), start, end)
         if at < 0 or b"#" in self.data[start:end]:
@@ -75,12 +75,12 @@ class Source:
         return Edit(operator, at, at + len(old), new)
 
     def apply(self, edit: Edit) -> str:
-        """Text of the module after an edit."""
+        """Return the text of the module after an edit."""
         data = self.data[: edit.start] + edit.text.encode()
         return (data + self.data[edit.end :]).decode()
 
     def lines_around(self, edit: Edit) -> tuple[str, str]:
-        """Lines that an edit touches, before and after, blanks folded."""
+        """Return the lines before and after an edit, whitespace folded."""
         first = self.data.rfind(b"\n", 0, edit.start) + 1
         last = self.data.find(b"\n", edit.end)
         before = self.data[first:last].decode()

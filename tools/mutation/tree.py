@@ -1,18 +1,18 @@
-"""Scratch copies of a working tree, so that no checkout is ever touched."""
+"""Scratch copies of a working tree, which itself is never changed."""
 
 import os
 import shutil
 from hashlib import sha256
 from pathlib import Path
 
-# Changes the code and nothing that it does: a test that turns red by this
-# guards the text of a file and says nothing about behaviour.
+# An edit without effect: a test that it turns red checks the text of a
+# file, not its behaviour.
 NEUTRAL = "\n...\n"
 SKIPPED = {"__pycache__", "runs", "build", "dist", "artefacts", "node_modules"}
 
 
 def files_of(root: Path) -> list[Path]:
-    """Files of a tree that its copies need, relative to it."""
+    """Return the files that copies of a tree need, relative to it."""
     found = []
     for folder, folders, files in os.walk(root):
         folders[:] = sorted(
@@ -25,7 +25,7 @@ def files_of(root: Path) -> list[Path]:
 
 
 def digest(root: Path, files: list[Path]) -> str:
-    """Fingerprint of some files of a tree."""
+    """Return a hash of some files of a tree."""
     total = sha256()
     for file in files:
         total.update(f"{file.as_posix()}\n".encode())
@@ -38,8 +38,8 @@ class Tree:
 
     Args:
         root: Tree to copy.
-        path: Folder of the copy, brought up to date with the tree.
-        changeable: Python files that will be changed, relative to the tree.
+        path: Folder of the copy, synchronised with the tree.
+        changeable: Python files that may be changed, relative to the tree.
     """
 
     def __init__(self, root: Path, path: Path, changeable: set[str]) -> None:
@@ -60,13 +60,13 @@ class Tree:
                 shutil.copymode(root / file, copy)
 
     def change(self, file: str, text: str) -> None:
-        """Put another text in a file."""
+        """Replace the text of a file."""
         path = self.path / file
         self._changed = path, path.read_bytes(), path.stat()
         path.write_text(text + NEUTRAL, encoding="utf-8")
 
     def restore(self) -> None:
-        """Put back what was changed, times and all, so that caches hold."""
+        """Restore changed files and their times, so caches stay valid."""
         if self._changed is not None:
             path, data, stat = self._changed
             path.write_bytes(data)

@@ -1,4 +1,4 @@
-"""One fault before the tests that reach it."""
+"""Execution of the tests that reach one fault."""
 
 import json
 import os
@@ -11,21 +11,21 @@ import pytest
 
 from .child import allow, cpu_time, run_tests
 
-QUICK = 0.5  # [s]; slower tests run only when these have noticed nothing
-RAN = (0, 1)  # exit status of pytest when tests ran, all green or not
-START = 60.0  # [s] of processor time to import and collect
-SPARE = 10.0  # [s] of processor time that any test may take
-COMPILING = 60.0  # [s], the same where functions are compiled anew
-PATIENCE = 2.0  # by which all tests may take longer than usual, and a test
+QUICK = 0.5  # slower tests, in [s], run only after all faster ones passed
+RAN = (0, 1)  # exit statuses of pytest after tests ran
+START = 60.0  # processor time to import and collect, in [s]
+SPARE = 10.0  # extra processor time of any test, in [s]
+COMPILING = 60.0  # the same where functions are recompiled, in [s]
+PATIENCE = 2.0  # allowed ratio to the usual time of tests
 
 
 class Judge:
-    """Pytest plugin that runs chosen tests and stops at the first red one.
+    """Pytest plugin that runs chosen tests and stops at the first failure.
 
     Args:
         times: Usual processor time of each chosen test, in [s].
-        note: File that always tells the test that is running.
-        spare: Processor time that any test may take, in [s].
+        note: File that names the running test.
+        spare: Extra processor time of any test, in [s].
     """
 
     def __init__(
@@ -34,14 +34,14 @@ class Judge:
         self._times = dict(times)
         self._note = note
         self._spare = spare
-        self._until = inf  # processor time at which no other test begins
+        self._until = inf  # processor time after which no further test begins
         self.red = ""
 
     def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
-        """Keep the chosen tests, the quick ones first.
+        """Keep the chosen tests, fast ones first.
 
-        A fault may change the parameters in the name of a test: of a
-        function whose test is gone, the tests with other names stand in.
+        A fault may change the parameters in the name of a test. If the
+        chosen test of a function no longer exists, run its other tests.
         """
         gone = {
             _function(test): time
@@ -58,35 +58,35 @@ class Judge:
         self._until = cpu_time() + PATIENCE * usual + self._spare
 
     def pytest_runtest_protocol(self) -> bool | None:
-        """Run no more tests when they have taken far longer than usual.
+        """Skip the remaining tests when they take much longer than usual.
 
-        A test may be the only one left of those that share what is dear.
+        The last test that shares an expensive fixture may take its whole time.
         """
         return True if cpu_time() > self._until else None
 
     def pytest_runtest_logstart(self, nodeid: str) -> None:
-        """Note what runs, and limit its time."""
+        """Record the running test, and limit its time."""
         self._note.write_text(nodeid, encoding="utf-8")
         allow(self._spare + 5.0 * self._times[nodeid])
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """Note the first test that does not pass."""
+        """Record the first failed test."""
         if report.failed and not self.red:
             self.red = report.nodeid
 
     def pytest_collectreport(self, report: pytest.CollectReport) -> None:
-        """Note a file that can no longer be read."""
+        """Record a file that can no longer be imported."""
         if report.failed and not self.red:
             self.red = report.nodeid
 
 
 def _function(test: str) -> str:
-    """Name of a test without its parameters."""
+    """Return the name of a test without its parameters."""
     return test.partition("[")[0]
 
 
 def rank(test: str, times: Mapping[str, float]) -> tuple[int, str, float]:
-    """Order of a test: by size, then together with those of its file."""
+    """Return the sort key of a test: duration class, then file."""
     size = sum(times[test] > limit for limit in (0.05, QUICK, 3.0))
     return size, test.partition("::")[0], times[test]
 
@@ -97,15 +97,15 @@ def choose(
     cap: float,
     near: Collection[str],
 ) -> list[str]:
-    """Tests to run, in order, as far as they fit into a time.
+    """Return the tests to run, in order, within a time limit.
 
-    A common name is read by many tests that have nothing to do with the
-    fault, so those that are near it are the first to get a place.
+    Many unrelated tests may read a common name, so tests near the fault are
+    chosen first.
 
     Args:
         tests: Tests that reach a fault.
         times: Usual processor time of each test, in [s].
-        cap: Most time for all of them, in [s]; one test always fits.
+        cap: Maximum time of all of them, in [s]; one test always fits.
         near: Tests of files that import the module of the fault.
     """
     chosen: list[str] = []
@@ -125,18 +125,17 @@ def run(
     spare: float = SPARE,
     near: Collection[str] = (),
 ) -> None:
-    """Run tests in this process until one is red, and write the verdict.
+    """Run tests in this process until one fails, and write the verdict.
 
     Args:
-        tree: Scratch copy with the fault in it.
+        tree: Scratch copy with the fault.
         chosen: Usual time of each test, in [s].
-        note: File for the verdict; until there is one it names the test
-            that is running.
-        spare: Processor time that any test may take, in [s].
-        near: Tests that run before the others, as they are the likeliest to
-            notice: no other file need be read then.
+        note: File for the verdict; until then it names the running test.
+        spare: Extra processor time of any test, in [s].
+        near: Tests that run first, because they are the most likely to
+            detect the fault and need the fewest imports.
     """
-    sys.dont_write_bytecode = True  # of the fault
+    sys.dont_write_bytecode = True  # with the fault
     os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
     allow(START)
     parts: list[dict[str, float]] = [{}, {}, {}]

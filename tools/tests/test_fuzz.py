@@ -37,7 +37,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize("kind", NUMBER)
-def test_bad_input_is_refused_in_one_line(kind: str, run: Path) -> None:
+def test_invalid_input_is_refused_in_one_line(kind: str, run: Path) -> None:
     if kind == "sockets":
         pytest.importorskip("viser")
     cases = KINDS[kind](Random(7), run)
@@ -136,7 +136,7 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
 
 @pytest.mark.parametrize("words", WRONG)
-def test_what_is_wrong_is_noticed(
+def test_failures_are_detected(
     words: str, monkeypatch: pytest.MonkeyPatch, quick: None
 ) -> None:
     monkeypatch.setattr(invoking, "main", fake)
@@ -146,7 +146,7 @@ def test_what_is_wrong_is_noticed(
     assert re.match(WRONG[words], got), got
 
 
-def test_a_case_that_ends_at_ctrl_c_only_is_a_hang(quick: None) -> None:
+def test_case_that_ends_only_at_ctrl_c_hangs(quick: None) -> None:
     def slow(_: Path) -> str:
         sleep(9.0)
         return ""
@@ -154,7 +154,7 @@ def test_a_case_that_ends_at_ctrl_c_only_is_a_hang(quick: None) -> None:
     assert "interrupted" in complaint_of(Case("x", "x", slow, 0.1))
 
 
-def test_a_clock_within_a_clock_gives_back_its_time() -> None:
+def test_nested_clock_restores_the_outer_one() -> None:
     rung: list[int] = []
     before = signal.signal(signal.SIGALRM, lambda *_: rung.append(1))
     outer = signal.setitimer(signal.ITIMER_REAL, 100.0)

@@ -16,7 +16,7 @@ def counted(*cases: tuple[str, str]) -> Counts:
     return counts
 
 
-def test_each_complaint_counts_as_what_it_is() -> None:
+def test_each_failure_is_counted_in_its_column() -> None:
     counts = counted(
         *(("a", "traceback: KeyError at x"), ("a", "hang"), ("b", "")),
         *(("b", "hang: no word in 3 s"), ("b", "accepted nonsense: 1")),
@@ -29,7 +29,7 @@ def test_each_complaint_counts_as_what_it_is() -> None:
     assert counts.lines()[1].split() == ["b", "3", "tried", "2", "wrong"]
 
 
-def test_a_seed_stands_in_the_place_of_its_former_run(
+def test_counts_of_a_seed_replace_former_ones(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(fuzz_counts, "all_rooms", lambda: ("core/errors",))

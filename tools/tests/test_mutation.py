@@ -86,18 +86,18 @@ def changed(text: str, fault: Fault) -> str:
         ("LIMIT = 0\n", "LIMIT = 1"),
     ],
 )
-def test_each_operator_does_what_it_says(before: str, after: str) -> None:
+def test_each_operator_makes_its_edit(before: str, after: str) -> None:
     assert any(after in changed(before, fault) for fault in faults(before))
 
 
-def test_texts_and_annotations_are_left_alone() -> None:
+def test_texts_and_annotations_are_not_changed() -> None:
     lines = {fault.before for fault in faults()}
     assert not any("Doc" in line or "Text" in line for line in lines)
     text = '__all__ = [1]\nx: "Literal[1]"\n\ndef f() -> Literal[2]:\n'
     assert not faults(text + '    """Doc."""\n')
 
 
-def test_every_fault_drawn_changes_the_code_and_has_a_key_of_its_own() -> None:
+def test_every_fault_changes_the_code_and_has_a_unique_key() -> None:
     drawn = draw(faults(), {FILE: TEXT}, None, 1)
     assert len(drawn) > 12
     assert len({fault.key for fault in drawn}) == len(drawn)
@@ -107,7 +107,7 @@ def test_every_fault_drawn_changes_the_code_and_has_a_key_of_its_own() -> None:
         )
 
 
-def test_a_draw_hangs_on_the_seed_and_on_the_faults_own_text_only() -> None:
+def test_sample_depends_only_on_the_seed_and_each_faults_text() -> None:
     texts = {FILE: TEXT}
     one = [f.key for f in draw(faults(), texts, None, 1)]
     assert [f.key for f in draw(faults(), texts, 5, 1)] == one[:5]
@@ -117,13 +117,13 @@ def test_a_draw_hangs_on_the_seed_and_on_the_faults_own_text_only() -> None:
     assert [key for key in more if "MORE" not in key] == one
 
 
-def test_quick_tests_come_first_and_the_cap_holds() -> None:
+def test_fast_tests_run_first_within_the_cap() -> None:
     times = {"b::slow": 9.0, "b::quick": 0.01, "a::slow": 8.0}
     assert choose(times, times, 10.0, set()) == ["b::quick", "a::slow"]
     assert choose(["b::slow"], times, 1.0, set()) == ["b::slow"]
 
 
-def test_the_score_counts_what_was_noticed(tmp_path: Path) -> None:
+def test_score_counts_detected_faults(tmp_path: Path) -> None:
     rows = [
         {"key": str(i), "outcome": outcome, "test": "", "file": FILE}
         | {"line": i, "operator": "sign", "before": "a | b", "after": "b"}
@@ -149,7 +149,7 @@ def test_the_score_counts_what_was_noticed(tmp_path: Path) -> None:
     assert "| `b` | no test reaches |" in table
 
 
-def test_tests_written_since_tell_survivors_and_leave_the_score(
+def test_newer_tests_are_listed_with_survivors_without_changing_the_score(
     tmp_path: Path,
 ) -> None:
     path = tmp_path / "mutation.json"
@@ -176,7 +176,7 @@ def test_tests_written_since_tell_survivors_and_leave_the_score(
     assert "same" not in survivors(result)
 
 
-def test_every_survivor_that_is_written_is_accounted_for() -> None:
+def test_every_listed_survivor_has_a_reason_or_a_test() -> None:
     """By a test that notices it now, or by a reason."""
     reasons = read_reasons(REPOSITORY / REASONS)
     for row in Store().result("mutation")["survivors"]:
@@ -230,7 +230,7 @@ def told(
     return say
 
 
-def test_a_run_cut_short_ends_with_the_same_table(
+def test_interrupted_run_ends_with_the_same_table(
     root: Path, told: Callable[..., str]
 ) -> None:
     whole = run(root)
@@ -253,7 +253,7 @@ def test_a_run_cut_short_ends_with_the_same_table(
     assert len(keys) == len(set(keys)) == len(lines)
 
 
-def test_only_the_run_of_make_mutate_is_written(
+def test_only_make_mutate_writes_the_result(
     told: Callable[..., str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     with pytest.raises(SystemExit):

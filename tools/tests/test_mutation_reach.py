@@ -41,7 +41,7 @@ os.waitpid(fork(root, root / "log", work), 0)
 """
 
 
-def test_the_first_test_that_uses_a_shared_fixture_counts(
+def test_lines_of_shared_fixtures_belong_to_all_their_tests(
     tmp_path: Path,
 ) -> None:
     """Fixtures of a module or session must not take its lines away."""
@@ -103,14 +103,14 @@ def decorating(tree: ast.Module) -> set[str]:
     }
 
 
-def test_every_decorator_that_hides_lines_is_known() -> None:
+def test_every_decorator_that_prevents_tracing_is_known() -> None:
     found = set()
     for tree in trees().values():
         found |= blind(tree) & decorating(tree)
     assert found - {"wraps"} == set(HIDDEN)
 
 
-def test_what_is_compiled_is_compiled_anew_with_each_fault() -> None:
+def test_compiled_functions_are_recompiled_with_each_fault() -> None:
     """Cached machine code would be that of the package without the fault."""
     files = [
         file for file, tree in trees().items() if "inlined" in blind(tree)

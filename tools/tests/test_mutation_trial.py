@@ -71,13 +71,13 @@ def tried(root: Path, *tests: str) -> str:
     return note.read_text(encoding="utf-8")
 
 
-def test_the_tests_of_a_copy_import_its_code_and_no_other(root: Path) -> None:
+def test_tests_of_a_copy_import_only_its_code(root: Path) -> None:
     """The process that forks them uses the package itself."""
     note = tried(root, "tests/test_toy.py::test_place")
     assert verdict(note, 0) == ("survived", "")
 
 
-def test_a_fault_that_leaves_no_test_to_run_does_not_survive(
+def test_fault_that_prevents_all_tests_is_detected(
     root: Path,
 ) -> None:
     note = tried(root, "tests/test_toy.py::test_gone[2]")
@@ -93,13 +93,13 @@ def test_a_fault_that_leaves_no_test_to_run_does_not_survive(
         (2, "", ("killed", "pytest ended with 2")),
     ],
 )
-def test_a_verdict_hangs_on_the_red_test_and_on_how_pytest_ended(
+def test_verdict_depends_on_failed_test_and_exit_status(
     status: int, red: str, outcome: tuple[str, str]
 ) -> None:
     assert verdict(json.dumps({"red": red, "status": status}), 0) == outcome
 
 
-def test_a_test_that_a_fault_renames_is_run_all_the_same(
+def test_renamed_test_is_run(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A changed constant changes the names of parametrized tests."""
@@ -114,7 +114,7 @@ def test_a_test_that_a_fault_renames_is_run_all_the_same(
     assert limits == [pytest.approx(10.5)]
 
 
-def test_tests_that_take_far_longer_than_usual_end_a_trial(
+def test_slow_tests_end_a_trial(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Processor time of 7 s before the tests, which take 0.3 s all told."""
@@ -127,7 +127,7 @@ def test_tests_that_take_far_longer_than_usual_end_a_trial(
         assert judge.pytest_runtest_protocol() is over
 
 
-def test_a_process_that_ends_early_inherits_no_verdict(root: Path) -> None:
+def test_process_that_ends_early_has_no_old_verdict(root: Path) -> None:
     copy = Tree(root, root.with_name("copy"), {FILE})
     note = copy.path.with_suffix(".note")
     note.write_text(json.dumps({"red": "", "status": 0}), encoding="utf-8")
@@ -140,14 +140,14 @@ def test_a_process_that_ends_early_inherits_no_verdict(root: Path) -> None:
     )
 
 
-def test_under_the_cap_the_tests_nearest_to_a_fault_come_first() -> None:
+def test_nearest_tests_run_first_within_the_cap() -> None:
     times = {"a::far": 0.1, "b::near": 9.0, "c::far": 0.8, "b::long": 99.0}
     near = {"b::near", "b::long"}
     assert choose(times, times, 9.5, near) == ["a::far", "b::near"]
     assert choose(times, times, 9.5, set()) == ["a::far", "c::far"]
 
 
-def test_near_are_the_tests_of_files_that_import_the_module(
+def test_nearest_tests_import_the_module(
     root: Path,
 ) -> None:
     """By its own name or from its package; a common name does not count."""

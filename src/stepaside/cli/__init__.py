@@ -1,1 +1,1 @@
-"""Commands of the command line, one module each."""
+"""Command-line interface, one module per command."""

@@ -1,4 +1,4 @@
-"""``stepaside bound``: the best that any evader can do."""
+"""``stepaside bound``: upper bound of the closest approach."""
 
 from math import pi, prod
 from typing import TYPE_CHECKING, NamedTuple
@@ -11,7 +11,7 @@ from .bound_tables import (
     played_games,
     print_bound,
 )
-from .effort_estimate import CELLS, tell_effort
+from .effort_estimate import CELLS, announce_effort
 from .options.common_options import FIGURE, figure_width, json_option
 from .options.declaration import OptionDeclaration
 from .options.value_kinds import NameType, OutputFile
@@ -42,7 +42,7 @@ def _schemes() -> tuple[str, ...]:
     type=NameType(lambda: AGAINST),
     default=AGAINST[0],
     show_default=True,
-    help="The pursuer of eqs. (1)-(2), or any that turns within its limit.",
+    help="The pursuer of eqs. (1)-(2), or any with a bounded turning rate.",
 )
 @click.option(
     "--pursuer-speed",
@@ -63,31 +63,36 @@ def _schemes() -> tuple[str, ...]:
     type=NumberType("1/s"),
     default=0.5,
     show_default=True,
-    help="Gain k of eq. (2) [1/s], for --against pursuit.",
+    help="Steering gain k of eq. (2) [1/s], for --against pursuit.",
 )
 @click.option(
     "--pursuer-turn",
     type=RATE,
-    help="Largest turning rate [rad/s], for --against any. [default: pi k]",
+    help="Maximum turning rate of the pursuer [rad/s], for --against any.  "
+    "[default: pi k]",
 )
 @click.option(
     "--evader-turn",
     type=RATE,
-    help="Largest turning rate of the evader [rad/s]. "
+    help="Maximum turning rate of the evader [rad/s].  "
     "[default: the pursuer's]",
 )
 @click.option(
     "--capture",
     type=METERS,
-    help="Distance whose barrier is shown [m]. [default: 0.7 v/k]",
+    help="Capture distance of the barrier in the output [m].  "
+    "[default: 0.7 v/k]",
 )
 @click.option(
     "--nearest",
     type=METERS,
-    help="Distance at which a game ends [m]. [default: half of --capture]",
+    help="Distance at which a game ends, the inner edge of the grid [m].  "
+    "[default: half of --capture]",
 )
 @click.option(
-    "--farthest", type=METERS, help="Edge of the grid [m]. [default: by game]"
+    "--farthest",
+    type=METERS,
+    help="Outer edge of the grid [m].  [default: depends on the game]",
 )
 @click.option(
     "--grid",
@@ -95,33 +100,35 @@ def _schemes() -> tuple[str, ...]:
     type=click.IntRange(16, 400),
     default=64,
     show_default=True,
-    help="Cells along each axis.",
+    help="Grid cells along each axis.",
 )
 @click.option(
     "--refine",
     type=click.IntRange(0, 3),
     default=1,
     show_default=True,
-    help="Coarser grids, of half as many cells each, for the error.",
+    help="Number of coarser grids, each with half the cells, for the error "
+    "estimate.",
 )
 @click.option(
     "--horizon",
     type=SECONDS,
-    help="Duration [s]. [default: a turn at slowest]",
+    help="Time horizon [s].  [default: one full turn at the lowest rate]",
 )
 @click.option(
     "--scheme",
     type=NameType(lambda: _schemes()),
     default="weno",
     show_default=True,
-    help="Fifth or first order, by Godunov's or Lax's flux.",
+    help="Scheme of the solver: fifth order (weno, lax) or first order "
+    "(first, first-lax), with Godunov or Lax-Friedrichs flux.",
 )
 @click.option(
     "--games",
     type=click.IntRange(0, 1_000_000),
     default=1000,
     show_default=True,
-    help="Random games played to check the table; 0 for none.",
+    help="Number of random games simulated to check the table.",
 )
 @TABLE.option()
 @FIGURE.option()
@@ -147,11 +154,14 @@ def bound(
     figure: str | None,
     as_json: bool,
 ) -> None:
-    """Compute how close the pursuer comes to the best evader."""
+    """Compute the closest approach of a pursuer to an optimal evader.
+
+    Solves the Hamilton-Jacobi equation of the game on a grid.
+    """
     from ..theory.bound import DiscretisationScheme
 
     turn = pi * pursuer_gain if pursuer_turn is None else pursuer_turn
-    asked = _Asked(
+    problem = _BoundProblem(
         _game_of(
             against,
             (pursuer_speed, evader_speed),
@@ -161,9 +171,9 @@ def bound(
         DiscretisationScheme(scheme),
         horizon,
     )
-    grid = asked.grid(nearest, farthest, cells)
-    table, rows = asked.solve(grid, refine, quiet=as_json)
-    result = describe(table, asked.capture) | describe_refinement(rows)
+    grid = problem.grid(nearest, farthest, cells)
+    table, rows = problem.solve(grid, refine, quiet=as_json)
+    result = describe(table, problem.capture) | describe_refinement(rows)
     if games:
         result["played"] = played_games(table, games)
     if output is not None and attempt(lambda: table.save(output)):
@@ -171,7 +181,7 @@ def bound(
     if figure is not None:
         from ..report.bound_figure import draw_bound
 
-        if attempt(lambda: draw_bound(table, asked.capture, figure)):
+        if attempt(lambda: draw_bound(table, problem.capture, figure)):
             result["figure"] = figure
     if as_json:
         print_json(result)
@@ -184,7 +194,7 @@ def _game_of(
     speeds: tuple[float, float],
     turning: tuple[float, float, float | None],
 ) -> "BoundGame":
-    """The game against a pursuer; gain, its limit and the evader's."""
+    """Return the game for gain, pursuer's and evader's turning limits."""
     from ..theory.bound import against_any, against_pursuit
 
     gain, limit, evader_turn = turning
@@ -193,14 +203,14 @@ def _game_of(
     return against_any(*speeds, limit, evader_turn)
 
 
-class _Asked(NamedTuple):
-    """What shall be solved.
+class _BoundProblem(NamedTuple):
+    """Game and solver settings.
 
     Attributes:
-        game: The game.
-        capture: Distance whose barrier is shown, in [m].
-        scheme: Of the solver.
-        horizon: Duration in [s]; that of a turn if None.
+        game: Game to solve.
+        capture: Capture distance of the barrier, in [m].
+        scheme: Scheme of the solver.
+        horizon: Time horizon, in [s]; one full turn if None.
     """
 
     game: "BoundGame"
@@ -211,7 +221,7 @@ class _Asked(NamedTuple):
     def grid(
         self, nearest: float | None, farthest: float | None, cells: int
     ) -> "Grid":
-        """The grid, wide enough unless its edges [m] are given."""
+        """Return the grid; edges in [m] by default beyond the barrier."""
         from ..theory.bound import Grid
 
         low = 0.5 * self.capture if nearest is None else nearest
@@ -226,18 +236,18 @@ class _Asked(NamedTuple):
     def solve(
         self, grid: "Grid", refine: int, *, quiet: bool
     ) -> "tuple[Bound, tuple[Refinement, ...]]":
-        """The table, and what coarser ones differ by."""
+        """Return the table, and its differences from coarser ones."""
         from ..theory.bound import count_steps
         from ..theory.bound.grid_refinement import refine_bound
 
         steps = count_steps(self.game, grid, self.horizon, self.scheme)
         total = prod(grid.shape)
-        tell_effort(
+        announce_effort(
             f"a table of {total} cells over {steps} steps",
             total * steps / CELLS,
         )
         look = "{l_bar}{bar}| {elapsed}<{remaining}"
-        with show_progress("bound", 1.0, form=look, quiet=quiet) as bar:
+        with show_progress("bound", 1.0, bar_format=look, quiet=quiet) as bar:
             return refine_bound(
                 self.game,
                 grid,
@@ -249,5 +259,5 @@ class _Asked(NamedTuple):
 
 
 def _edge(game: "BoundGame", capture: float) -> float:
-    """Edge of the grid, beyond the barrier of equal players, in [m]."""
+    """Return a grid edge beyond the barrier of equal players, in [m]."""
     return capture + (4.0 if game.pursuer_gain > 0.0 else 6.0) * game.unit

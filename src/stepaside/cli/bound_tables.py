@@ -1,10 +1,9 @@
-"""What ``stepaside bound`` says of a table."""
+"""Output of ``stepaside bound``: JSON values and a printed table."""
 
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from .value_labels import rows_of
-from .value_types import print_table
+from .tables import print_table, table_rows
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -13,13 +12,11 @@ if TYPE_CHECKING:
     from ..theory.bound.grid_refinement import Refinement
 
 SHOWN = 12  # barrier points in the result
-
-
 IN_METERS = ("closest", "mean_error", "most", "below", "above")
 
 
 def describe(table: "Bound", capture: float) -> dict[str, Any]:
-    """What a table says, as an object for other programs."""
+    """Return the values of a bound table, for JSON."""
     barrier = table.barrier(capture)
     result: dict[str, Any] = {
         "game": asdict(table.game),
@@ -39,7 +36,7 @@ def describe(table: "Bound", capture: float) -> dict[str, Any]:
 
 
 def _analytic(table: "Bound", capture: float) -> dict[str, Any]:
-    """The table beside the closed-form barrier."""
+    """Compare the table with the closed-form barrier."""
     import numpy as np
 
     from ..theory.bound.bound_checks import PIECES, check_barrier
@@ -75,11 +72,11 @@ def _analytic(table: "Bound", capture: float) -> dict[str, Any]:
 
 
 def describe_refinement(rows: "Sequence[Refinement]") -> dict[str, Any]:
-    """Describe what coarser grids differ by.
+    """Return the differences from coarser grids, for JSON.
 
-    The grid error is the mean difference of the last comparison, over all
-    nodes: an estimate, which bounds no single value. Beside it stand what
-    95 % of the nodes keep below, the worst, and the share above the mean.
+    The grid error is the mean difference of the last comparison over all
+    nodes. It is an estimate and does not bound any single value; the 95th
+    percentile, the maximum and the fraction above the mean follow it.
     """
     last = rows[-1] if rows else None
     return {
@@ -103,7 +100,7 @@ def describe_refinement(rows: "Sequence[Refinement]") -> dict[str, Any]:
 
 
 def played_games(table: "Bound", games: int) -> list[dict[str, Any]]:
-    """How random games come out beside the table."""
+    """Simulate random games and compare them with the table."""
     from ..theory.bound.bound_checks import check_by_playing
 
     return [
@@ -117,16 +114,16 @@ def print_bound(result: dict[str, Any]) -> None:
     names = (n for n, v in result.items() if not isinstance(v, dict | list))
     renamed = {"seconds": "seconds_s"}
     shown = {renamed.get(name, name): result[name] for name in names}
-    rows = rows_of(shown, shown, 4)
+    rows = table_rows(shown, shown, 4)
     analytic = result.get("analytic", {})
     numbers = (n for n, v in analytic.items() if isinstance(v, int | float))
-    found = rows_of(analytic, numbers, 4)
+    found = table_rows(analytic, numbers, 4)
     rows += [(f"closed form: {name}", text) for name, text in found]
     for row in result["refinement"]:
         off = f"{row['mean_difference_m']:.4g} m"
-        rows.append((f"{row['cells']} cells, off by", off))
+        rows.append((f"difference to {row['cells']} cells", off))
     for played in result.get("played", []):
         text = f"{played['over_bound']:.3f} of the bound"
-        text += f", above it by {played['above_m']:.3g} m at most"
-        rows.append((f"played {played['name']}", text))
+        text += f", at most {played['above_m']:.3g} m above it"
+        rows.append((f"simulated {played['name']}", text))
     print_table(rows)

@@ -1,10 +1,10 @@
-"""Opening the cameras that ``stepaside play`` is told of."""
+"""Camera connections of ``stepaside play``."""
 
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from .naoqi_options import mover_of
+from .naoqi_options import mover_factory
 
 if TYPE_CHECKING:
     from ..drivers.cameras.image_source import ImageSource
@@ -20,33 +20,33 @@ def open_cameras(
     robot: "LolaAddress | None",
     options: dict[str, Any],
 ) -> "ImageSource":
-    """Open the cameras that a robot is played with.
+    """Open the camera that supplies images of the opponent.
 
     Args:
-        settings: Which optics they have, and how late their images are.
-        robot: Where the robot listens, if it speaks LoLA.
-        options: Of the command.
+        settings: Settings with optics and latency of the camera.
+        robot: LoLA address of the robot; None for other interfaces.
+        options: Options of the command.
 
     Raises:
-        StepAsideError: If there is no camera.
+        StepAsideError: If the camera does not exist.
     """
     camera = options["images"]
-    seen = settings.cameras.colour
-    model = seen.model()
-    latency = seen.latency + settings.cameras.added_latency
+    colour = settings.cameras.colour
+    model = colour.model()
+    latency = colour.latency + settings.cameras.added_latency
     if camera is None:
-        return _beside(robot)
+        return _simulated_camera(robot)
     if camera.startswith(V4L2):
         from ..drivers.cameras.v4l2 import open_v4l2
 
-        place = camera.removeprefix(V4L2)
-        return open_v4l2(place, model, latency=latency)
+        device = camera.removeprefix(V4L2)
+        return open_v4l2(device, model, latency=latency)
     if camera.startswith(NAOQI):
         from ..drivers.naoqi.naoqi_url import parse_url
         from ..drivers.naoqi.video_client import open_video
 
         url = parse_url(camera)
-        return open_video(url, model, rate=seen.rate, latency=latency)
+        return open_video(url, model, rate=colour.rate, latency=latency)
     if camera.startswith(ROS2):
         from ..drivers.ros2.image_messages import TopicCamera
         from ..drivers.ros2.namespaces import parse_namespace
@@ -60,18 +60,18 @@ def open_cameras(
     )
 
 
-def open_looking(
+def open_camera_body(
     settings: "DuelSettings", url: str, options: dict[str, Any]
 ) -> "VelocityBody":
-    """Connect to a robot on NAOqi that sees by its own camera.
+    """Connect to a NAOqi robot and its camera.
 
     Args:
-        settings: Which optics it has, and how late its images are.
-        url: Where it is.
-        options: Of the command.
+        settings: Settings with optics and latency of the camera.
+        url: Address of the robot.
+        options: Options of the command.
 
     Raises:
-        StepAsideError: If there is no such robot, or it has no camera.
+        StepAsideError: If the robot cannot be reached or has no camera.
     """
     from ..drivers.naoqi.naoqi_body import NaoqiBody
     from ..drivers.scheme_factory import level_perception
@@ -88,24 +88,23 @@ def open_looking(
         dry_run=dry_run,
         joint_names=perception.forward.tree.motors,
         head=(head.yaw, head.pitch),
-        make_mover=mover_of(settings, options),
+        make_mover=mover_factory(settings, options),
     )
-    own = options | {"images": options["images"] or f"{NAOQI}{url}"}
+    options = options | {"images": options["images"] or f"{NAOQI}{url}"}
     try:
-        eyes = open_cameras(settings, None, own)
+        camera = open_cameras(settings, None, options)
     except BaseException:
         body.close()
         raise
-    return CameraBody(body, eyes, perception, turns_head=not dry_run)
+    return CameraBody(body, camera, perception, turns_head=not dry_run)
 
 
-def _beside(robot: "LolaAddress | None") -> "ImageSource":
-    """What a simulated robot shows beside its socket."""
+def _simulated_camera(robot: "LolaAddress | None") -> "ImageSource":
+    """Return the camera channel next to the socket of a simulated robot."""
     from ..drivers.lola.camera_channel import CameraChannel
 
     if robot is None or robot.cameras is None:
         raise click.UsageError(
-            "--images is needed: a robot behind a host and a port shows no "
-            "images beside it"
+            "--images is required: a robot at HOST:PORT has no camera channel"
         )
     return CameraChannel(robot.cameras)

@@ -1,4 +1,4 @@
-"""What campaigns say beside their results, and how they end."""
+"""Execution of campaigns, with messages about records and effort."""
 
 import tempfile
 from collections.abc import Callable, Mapping
@@ -7,47 +7,45 @@ from typing import Any, NamedTuple
 
 from ..core.atomic_output import free_file
 from ..core.errors import OutputError
-from .effort_estimate import SIMULATED, tell_effort
+from .effort_estimate import SIMULATED, announce_effort
 from .terminal import echo
 
-WALK = 20.0  # of a trial, in [s]
-PUSHES = 8  # walks in which a limit is found
+WALK = 20.0  # duration of a trial, in [s]
+PUSHES = 8  # typical number of walks in the search for one push limit
 
 
 class CampaignOutcome(NamedTuple):
-    """How the work of a campaign ended.
+    """How a campaign ended.
 
     Attributes:
-        stopped: Whether by Ctrl-C.
-        failed: Why a result could not be recorded, if one could not.
+        stopped: Whether Ctrl-C interrupted it.
+        failed: Error on recording a result; None if there was none.
     """
 
     stopped: bool = False
     failed: OutputError | None = None
 
     @property
-    def whole(self) -> bool:
-        """Whether all of it is done."""
+    def completed(self) -> bool:
+        """Whether all work is done and recorded."""
         return not self.stopped and self.failed is None
 
 
-def gather(
+def run_campaign_work(
     work: Callable[[], object],
     file: Path | None,
     records: Callable[[], Mapping[str, dict[str, Any]]],
 ) -> CampaignOutcome:
-    """Work until all is done, or until it cannot go on.
+    """Run a campaign until it is complete, interrupted or cannot be recorded.
 
-    Where a result cannot be recorded, as on a full disk, no other could:
-    what is done is recorded elsewhere then, and said where.
+    If a result cannot be recorded, as on a full disk, later results could
+    not be either. The finished results are then written to the folder for
+    temporary files, and a message names it.
 
     Args:
-        work: Does it, and adds each result to a file of records.
-        file: Of the records; None if nothing is kept.
-        records: What is done so far, as it is recorded, by key.
-
-    Returns:
-        How it ended.
+        work: Runs the campaign; appends each result to the record file.
+        file: Record file; None if nothing is recorded.
+        records: Returns the finished records, by key.
     """
     try:
         work()
@@ -55,48 +53,52 @@ def gather(
         return CampaignOutcome(stopped=True)
     except OutputError as error:
         if file is not None:
-            _keep_elsewhere(file, records())
+            _save_elsewhere(file, records())
         return CampaignOutcome(failed=error)
     return CampaignOutcome()
 
 
-def _keep_elsewhere(file: Path, done: Mapping[str, dict[str, Any]]) -> None:
+def _save_elsewhere(file: Path, done: Mapping[str, dict[str, Any]]) -> None:
     from ..studies.record_store import RecordStore
 
-    place = file.parent
-    spare = free_file(Path(tempfile.gettempdir()) / f"stepaside-{place.name}")
+    folder = file.parent
+    spare = free_file(Path(tempfile.gettempdir()) / f"stepaside-{folder.name}")
     try:
         RecordStore(spare / file.name).write(dict(done))
     except OutputError:
         return
-    echo(f"stepaside: not in {place}; what is done is in {spare}", err=True)
-
-
-def tell_aside(file: Path) -> None:
-    """Name a file that was torn or foreign, and is done again."""
     echo(
-        f"stepaside: what was torn or foreign is set aside in {file} and done "
-        "again",
+        f"stepaside: cannot write to {folder}; finished results are saved in "
+        f"{spare}",
+        err=True,
+    )
+
+
+def report_set_aside(file: Path) -> None:
+    """Report that invalid records were moved to a file."""
+    echo(
+        f"stepaside: incomplete or foreign records are moved to {file} and "
+        "computed again",
         err=True,
     )
 
 
 def check_records(file: Path | None) -> None:
-    """Set aside what is no whole record of a file, and say so."""
+    """Move incomplete and foreign records out of a file, with a message."""
     from ..studies.record_store import RecordStore
 
     if file is not None:
         records = RecordStore(file)
         records.read()
         if records.aside:
-            tell_aside(file.with_name(file.name + ".aside"))
+            report_set_aside(file.with_name(file.name + ".aside"))
 
 
-def tell_campaign(trials: int, limits: int, workers: int | None) -> None:
-    """Say how many walks are planned, and how long they take."""
+def announce_campaign(trials: int, limits: int, workers: int | None) -> None:
+    """Print how many walks are planned and how long they take."""
     walks = trials + PUSHES * limits
-    tell_effort(
-        f"about {walks} walks of {WALK:g} s, less those that are recorded",
+    announce_effort(
+        f"about {walks} walks of {WALK:g} s, fewer if some are recorded",
         walks * WALK / SIMULATED,
         workers,
     )

@@ -1,4 +1,4 @@
-"""``stepaside circle``: the circles of a game, from its equations."""
+"""``stepaside circle``: circles of a game, from its equations."""
 
 from typing import Any
 
@@ -7,7 +7,7 @@ import click
 from ..core.atomic_output import FIGURES
 from ..theory.unicycle.unicycle_game import Game
 from .circle_tables import describe_circles, describe_remedies, print_circles
-from .effort_estimate import STEPS, tell_effort
+from .effort_estimate import STEPS, announce_effort
 from .options.common_options import (
     CAPTURE,
     DELAY,
@@ -30,23 +30,29 @@ from .value_types import print_json
 @click.option(
     "--sweep",
     type=OutputFile(*FIGURES),
-    help="Write a figure over angle and ratios of gains and speeds.",
+    help="Write a figure of the circle over evasion angle, gain ratio and "
+    "speed ratio.",
 )
 @figure_width
-@FIGURE.option(help="Write a map of the reversed circle over both ratios.")
+@FIGURE.option(
+    help="Write a map of the reversed circle over gain and speed ratio."
+)
 @click.option(
     "--starts",
     type=click.IntRange(0, 1_000_000),
     default=400,
     show_default=True,
-    help="Random starts that are played to see which circle they end on.",
+    help="Number of random initial poses simulated to measure the basins of "
+    "attraction.",
 )
-@FIRST_SEED.option(default=0, show_default=True, help="Of the random starts.")
+@FIRST_SEED.option(
+    default=0, show_default=True, help="Random seed of the initial poses."
+)
 @CAPTURE.option(default=1e-6, show_default=True)
 @click.option(
     "--remedies/--no-remedies",
     default=False,
-    help="Try what else the evader could do.",
+    help="Simulate alternative strategies that avoid the reversed circle.",
 )
 @json_option
 @writes_files
@@ -62,10 +68,10 @@ def circle(
     remedies: bool,
     as_json: bool,
 ) -> None:
-    """Find the circles that a game ends on, and how firmly they hold."""
+    """Find the circles of a game, their stability and basins of attraction."""
     if remedies and starts == 0:
         raise click.UsageError("--remedies needs --starts > 0")
-    games = _tell(game, starts, remedies=remedies)
+    games = _announce(game, starts, remedies=remedies)
     result = describe_circle(game, sample_time, delay)
     drawn = (starts, seed, body)
     with show_progress("circle", games, "games", quiet=as_json) as bar:
@@ -89,11 +95,8 @@ def circle(
     print_circles(result)
 
 
-def _tell(game: Game, starts: int, *, remedies: bool) -> int:
-    """Say how long playing takes; how many games it is.
-
-    The game as it is is one remedy more.
-    """
+def _announce(game: Game, starts: int, *, remedies: bool) -> int:
+    """Announce long simulations; return the number of games."""
     from ..theory.unicycle.basins import lengths_of
     from ..theory.unicycle.remedies import alternatives
 
@@ -103,14 +106,14 @@ def _tell(game: Game, starts: int, *, remedies: bool) -> int:
         duration, step = lengths_of(each)
         steps += starts * duration / step
     games = starts * len(played)
-    tell_effort(f"{games} games", steps / STEPS)
+    announce_effort(f"{games} games", steps / STEPS)
     return games
 
 
 def describe_circle(
     game: Game, sample_time: float = 0.0, delay: float = 0.0
 ) -> dict[str, Any]:
-    """Give the circle of a game as plain values, None where undefined."""
+    """Return the main circle of a game for JSON, None where undefined."""
     from ..theory.unicycle.circle_equations import circle_of
 
     found = circle_of(game)
@@ -141,15 +144,16 @@ def describe_circle(
 def _describe_sampling(
     game: Game, sliding: bool, sample_time: float, delay: float
 ) -> dict[str, Any]:
-    """Stability under sampling and delay; empty where it is not defined.
+    """Return the stability under sampling and delay; empty if undefined.
 
-    The eigenvalues named per second then stay those without sampling.
+    The entry ``eigenvalues_per_s`` remains that without sampling.
     """
     from ..theory.unicycle import sampled_stability as sampled
 
-    if sliding:  # it chatters about the circle: no linearisation
-        asked = sample_time > 0.0 or delay > 0.0
-        return {"stable": None, "time_constant_s": None} if asked else {}
+    if sliding:  # chattering: no linearisation exists
+        sampled_or_delayed = sample_time > 0.0 or delay > 0.0
+        undefined = {"stable": None, "time_constant_s": None}
+        return undefined if sampled_or_delayed else {}
     result: dict[str, Any] = {
         "largest_stable_sample_time_s": finite(
             sampled.largest_stable_sample_time(game, delay)
@@ -175,7 +179,7 @@ def _describe_sampling(
 
 
 def _largest_delay(game: Game, sample_time: float) -> float | None:
-    """Delay that is still stable; None if sampling is too fine to find it."""
+    """Return the largest stable delay; None if sampling is too fine."""
     from ..core.errors import PlanError
     from ..theory.unicycle.sampled_stability import largest_stable_delay
 

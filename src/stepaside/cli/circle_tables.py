@@ -1,14 +1,13 @@
-"""All circles of a game as plain values and as tables."""
+"""Output of ``stepaside circle``: JSON values and printed tables."""
 
 from collections.abc import Callable
 from typing import Any
 
 from ..theory.unicycle.circle_equations import Circle
 from ..theory.unicycle.unicycle_game import Game
+from .tables import format_value, print_table, table_rows
 from .terminal import echo
 from .unicycle_options import finite
-from .value_labels import rows_of, text_of
-from .value_types import print_table
 
 Progress = Callable[[int], None]
 
@@ -20,17 +19,17 @@ def describe_circles(
     body: float,
     progress: Progress | None = None,
 ) -> dict[str, Any]:
-    """List every circle of a game and the share of starts that end on it.
+    """Return every circle of a game and the fraction of starts ending on it.
 
     Args:
         game: Parameters of the game.
-        starts: Number of random starts that are played; 0 for none.
-        seed: Of the random starts.
-        body: Distance that counts as capture, in [m].
-        progress: Called with numbers of games done.
+        starts: Number of random initial poses to simulate; 0 for none.
+        seed: Random seed of the initial poses.
+        body: Capture distance, in [m].
+        progress: Called with the number of further finished games.
 
     Returns:
-        Values for JSON; shares are None where nothing is played.
+        Values for JSON; fractions are None without simulation.
     """
     from ..theory.unicycle.all_circles import circles_of
     from ..theory.unicycle.basins import find_basins, random_starts
@@ -58,7 +57,7 @@ def describe_circles(
 
 
 def describe_one(circle: Circle, share: float | None) -> dict[str, Any]:
-    """Give one of the circles as plain values."""
+    """Return one circle for JSON."""
     return {
         "exists": circle.exists,
         "direction": circle.direction,
@@ -87,7 +86,7 @@ def describe_remedies(
     body: float,
     progress: Progress | None = None,
 ) -> list[dict[str, Any]]:
-    """Say what else an evader could do, and what comes of it."""
+    """Simulate alternative strategies of the evader; return their results."""
     from ..theory.unicycle.basins import random_starts
     from ..theory.unicycle.remedies import try_remedies
 
@@ -108,60 +107,55 @@ def describe_remedies(
 
 
 _COLUMNS = {
-    "direction": "way round",
+    "direction": "direction",
     "side_rule": "side rule",
     "distance_m": "distance",
     "radius_evader_m": "evader's radius",
     "stable": "stable",
     "time_constant_s": "time constant",
-    "starts_share": "starts that end on it",
+    "starts_share": "basin",
 }
 _REMEDIES = {
     "name": "remedy",
     "reversed_share": "reversed",
     "captured_share": "captured",
     "mean_closest_distance_m": "mean closest approach",
-    "end_distance_m": "least distance at the end",
+    "end_distance_m": "minimum final distance",
 }
-_WAYS = {1: "main", -1: "reversed"}
+_DIRECTIONS = {1: "main", -1: "reversed"}
 
 
 def print_circles(result: dict[str, Any]) -> None:
-    """Print what ``stepaside circle`` found as tables."""
+    """Print the result as tables."""
     lists = ("circles", "remedies", "game", "starts")
     if result["exists"]:
-        print_table(rows_of(result, (k for k in result if k not in lists)))
+        print_table(table_rows(result, (k for k in result if k not in lists)))
     else:
-        others = bool(result["circles"])
-        end = "" if others else "."
-        echo(f"There is no circle for these speeds, gains and angle{end}")
-        if others:
-            echo("that turns the main way round.")
-    found = [
+        which = "main circle" if result["circles"] else "circle"
+        echo(f"There is no {which} for these speeds, gains and angle.")
+    circles = [
         circle
         | {
-            "direction": _WAYS.get(circle["direction"]),
+            "direction": _DIRECTIONS.get(circle["direction"]),
             "starts_share": circle["share"],
         }
         for circle in result["circles"]
     ]
-    _print_rows(found, _COLUMNS)
+    _print_rows(circles, _COLUMNS)
     if result["starts"] is not None:
-        _print_ends(result["starts"])
+        echo("\n  games that did not end on a circle")
+        names = ("captured_share", "unsettled_share")
+        print_table(table_rows(result["starts"], names))
     _print_rows(result.get("remedies", []), _REMEDIES)
 
 
-def _print_ends(starts: dict[str, Any]) -> None:
-    """Print the shares of starts that ended on none of the circles."""
-    echo("\n  starts that ended on no circle")
-    print_table(rows_of(starts, ("captured_share", "unsettled_share")))
-
-
 def _print_rows(rows: list[dict[str, Any]], columns: dict[str, str]) -> None:
-    """Print rows under their headings."""
+    """Print aligned rows below a header."""
     if not rows:
         return
-    cells = [[text_of(name, row[name]) for name in columns] for row in rows]
+    cells = [
+        [format_value(name, row[name]) for name in columns] for row in rows
+    ]
     table = [list(columns.values()), *cells]
     widths = [max(len(line[i]) for line in table) for i in range(len(columns))]
     echo()

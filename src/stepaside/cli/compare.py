@@ -1,4 +1,4 @@
-"""``stepaside compare``: several runs on one figure."""
+"""``stepaside compare``: several runs in one figure."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,13 +16,13 @@ if TYPE_CHECKING:
     from ..games.run import Run
 
 DEFAULT = Path("comparison.png")
-# Of each game what is printed: head, figure, and how it is written.
+# Columns by game: header, entry of the summary, and format.
 COLUMNS = {
     "duel": (
         ("distance", "distance_m", "{:.3f} m"),
         ("angle", "relative_orientation_deg", "{:.1f}\u00b0"),
         ("closest", "min_distance_m", "{:.3f} m"),
-        ("since", "converged_at_s", "{:.1f} s"),
+        ("settled", "converged_at_s", "{:.1f} s"),
     ),
     "play": (
         ("distance", "distance_m", "{:.3f} m"),
@@ -48,17 +48,18 @@ COLUMNS = {
 )
 @FILE.option(
     type=OutputFile(*FIGURES),
-    help="Figure to write; comparison.png by default, or comparison-2.png "
-    "and so on if there is one.",
+    help="Figure to write; comparison.png by default, or the first of "
+    "comparison-2.png, ... that does not exist.",
 )
 @figure_width
 @json_option
 @writes_files
 def compare(runs: tuple[Path, ...], output: str | None, as_json: bool) -> None:
-    """Draw the paths of several RUNs, and what they did over time.
+    """Plot the paths of several run folders, and their values over time.
 
-    Of duels distance and angle, of walks tilt and speed, of what players
-    kept at a robot the distance at which they saw the other.
+    For duels, plot distance and angle between headings; for walks, tilt and
+    speed; for records of `stepaside play`, the measured distance to the
+    opponent.
     """
     from ..games.run_archive import load_run
 
@@ -66,7 +67,7 @@ def compare(runs: tuple[Path, ...], output: str | None, as_json: bool) -> None:
     games = sorted({run.game for run in loaded})
     if len(games) > 1:
         raise click.UsageError(
-            f"runs to compare must be of one game, got {' and '.join(games)}"
+            f"all runs must be of the same game, got {' and '.join(games)}"
         )
     file = free_file(DEFAULT) if output is None else Path(output)
     drawn = attempt(lambda: _draw(loaded, file))
@@ -104,7 +105,7 @@ def _draw(runs: "list[Run]", file: Path) -> None:
 
 
 def _print(runs: "list[Run]") -> None:
-    """One line for each run, with what can be compared."""
+    """Print one line per run."""
     columns = COLUMNS[runs[0].game]
     line = "{:<28} {:<11} {:>11} {:>8} {:>9} {:>8}"
     echo(line.format("run", "outcome", *(head for head, _, _ in columns)))

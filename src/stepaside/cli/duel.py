@@ -1,4 +1,4 @@
-"""``stepaside duel``: two humanoids chase each other in physics."""
+"""``stepaside duel``: a duel of two humanoids in physics."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -7,14 +7,15 @@ import click
 
 from ..core.constants import CAPTURE_DISTANCE
 from .duel_options import duel_options
-from .effort_estimate import SIMULATED, tell_effort
+from .effort_estimate import SIMULATED, announce_effort
 from .options.common_options import FIGURE, FOLDER, figure_width, json_option
 from .options.settings_command import SettingsCommand
 from .output_files import attempt, writes_files
 from .progress import show_progress
-from .run_output import keep
+from .run_output import save_run
+from .tables import print_table
 from .terminal import echo
-from .value_types import print_json, print_table
+from .value_types import print_json
 
 if TYPE_CHECKING:
     from ..games.duel_run import DuelRun
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 @FOLDER.option(
     help="Run folder; a new one in runs/ by default, none with --json."
 )
-@FIGURE.option(help="Write the figure here, too (.png, .svg or .pdf).")
+@FIGURE.option(help="Write a copy of the figure (.png, .svg or .pdf).")
 @figure_width
 @json_option
 @writes_files
@@ -36,11 +37,11 @@ def duel(
     figure: str | None,
     as_json: bool,
 ) -> None:
-    """Let two humanoids chase each other until they walk the circle.
+    """Simulate a duel of two humanoids in physics.
 
-    Prints the figures of the last third of the duel beside theory's, and
-    writes a run folder with the configuration that repeats it, the
-    trajectories and a figure.
+    Prints values measured over the last third of the duel beside those of
+    theory, and writes a run folder with the configuration, the trajectories
+    and a figure.
     """
     from ..games.outcome import Outcome
     from ..report.run_folder import check_output, figure_of, free_folder
@@ -51,9 +52,9 @@ def duel(
     if output is not None:
         check_output(output)
     seconds = settings.duration
-    tell_effort(f"a duel of {seconds:g} s", seconds / SIMULATED)
-    _say_what_is_expected(settings)
-    run, kept = keep(output, _play(settings))
+    announce_effort(f"a duel of {seconds:g} s", seconds / SIMULATED)
+    _warn_of_expected_end(settings)
+    run, saved = save_run(output, _play(settings))
     if figure is not None and run.outcome is not Outcome.INTERRUPTED:
         from ..report.duel_figure import draw_duel
 
@@ -63,29 +64,29 @@ def duel(
         print_json(summary)
     else:
         _print(summary, settling_words(run))
-        kept.tell(figure_of(run))
-    kept.check()
-    kept.leave_if(run.outcome)
+        saved.print_paths(figure_of(run))
+    saved.raise_failure()
+    saved.exit_if_interrupted(run.outcome)
 
 
-def _say_what_is_expected(settings: "DuelSettings") -> None:
-    """Say before a duel of two robots if it is not to end on a circle."""
+def _warn_of_expected_end(settings: "DuelSettings") -> None:
+    """Print a warning if two robots are not expected to reach a circle."""
     from ..games.forecast import ExpectedEnd, forecast
     from ..games.initial_poses import with_start
 
-    told = forecast(with_start(settings))
-    if told and told.expected in (ExpectedEnd.CONTACT, ExpectedEnd.NO_CIRCLE):
-        echo(f"stepaside: expected is {told.words}", err=True)
+    end = forecast(with_start(settings))
+    if end and end.expected in (ExpectedEnd.CONTACT, ExpectedEnd.NO_CIRCLE):
+        echo(f"stepaside: expected outcome: {end.words}", err=True)
 
 
 def _play(settings: "DuelSettings") -> "DuelRun":
-    """Play with a progress bar on standard error."""
+    """Run the duel with a progress bar on standard error."""
     from ..games.duel import run_duel
     from ..games.match import Progress
 
     look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated{postfix}"
     total = settings.duration
-    with show_progress("duel", total, "s simulated", form=look) as bar:
+    with show_progress("duel", total, "s simulated", bar_format=look) as bar:
 
         def report(progress: Progress) -> None:
             bar.n = progress.time
@@ -103,14 +104,18 @@ def _play(settings: "DuelSettings") -> "DuelRun":
 def _print(summary: dict[str, Any], unsettled: str = "not reached") -> None:
     theory, converged = summary["theory"], summary["converged_at_s"]
 
-    def beside(value: float | None, wanted: float | None, unit: str) -> str:
+    def compared(
+        value: float | None, expected: float | None, unit: str
+    ) -> str:
         text = "-" if value is None else f"{value:.3f} {unit}"
-        return text if wanted is None else f"{text:<12} theory {wanted:.3f}"
+        if expected is None:
+            return text
+        return f"{text:<12} theory {expected:.3f}"
 
-    def settled(value: float | None, wanted: float | None, unit: str) -> str:
-        """A value of the circle, which the robots may not have reached."""
-        text = beside(value, wanted, unit)
-        reached = wanted is None or converged is not None
+    def settled(value: float | None, expected: float | None, unit: str) -> str:
+        """Format a value of the circle; mark it if not yet converged."""
+        text = compared(value, expected, unit)
+        reached = expected is None or converged is not None
         return text if reached else f"{text}, not converged"
 
     plans = summary["plan_time_us"]
@@ -136,7 +141,7 @@ def _print(summary: dict[str, Any], unsettled: str = "not reached") -> None:
             settled(summary["distance_m"], theory["distance_m"], "m"),
         ),
         (
-            "between headings",
+            "angle between headings",
             settled(
                 summary["relative_orientation_deg"],
                 theory["relative_orientation_deg"],
@@ -145,11 +150,11 @@ def _print(summary: dict[str, Any], unsettled: str = "not reached") -> None:
         ),
         (
             "closest approach",
-            beside(
+            compared(
                 summary["min_distance_m"], theory["closest_approach_m"], "m"
             ),
         ),
-        ("captured", _captured(summary["captured_at_s"])),
+        ("captured", _capture_text(summary["captured_at_s"])),
         (
             "on the circle",
             unsettled if converged is None else f"since {converged:.1f} s",
@@ -161,7 +166,7 @@ def _print(summary: dict[str, Any], unsettled: str = "not reached") -> None:
             if plans["median"] is None
             else f"{plans['median']:.0f} us median, {plans['p99']:.0f} us p99",
         ),
-        ("speed", f"{summary['real_time_factor']:.1f} x real time"),
+        ("simulation speed", f"{summary['real_time_factor']:.1f} x real time"),
     ]
     rows += [("note", note) for note in summary.get("notes", ())]
     if "camera" in summary:
@@ -169,33 +174,34 @@ def _print(summary: dict[str, Any], unsettled: str = "not reached") -> None:
     print_table(rows)
 
 
-def _captured(at: float | None) -> str:
-    """When the distance first was at most the capture distance."""
-    when = "no" if at is None else f"at {at:.1f} s"
-    return f"{when:<12} nearer than {CAPTURE_DISTANCE:.2f} m"
+def _capture_text(time: float | None) -> str:
+    """Return when the distance first fell to the capture distance."""
+    text = "no" if time is None else f"at {time:.1f} s"
+    return f"{text:<12} distance <= {CAPTURE_DISTANCE:.2f} m"
 
 
 def _sight_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
-    """How well the robots saw."""
+    """Return the quality of camera sensing, as rows of the table."""
     rows = [("camera", summary["camera"])]
     for name in ("pursuer", "evader"):
         error = summary[name].get("bearing_error_deg")
-        # A person tells nobody what it sees.
+        # A person has no measured bearing.
         if error is not None and error["median"] is not None:
             text = f"{error['median']:.2f} deg median, {error['p95']:.2f} p95"
             rows.append((f"{name}'s bearing error", text))
-    away = summary["evader"]["distance_error_m"]["median"]
-    if away is not None:
-        rows.append(("evader's distance error", f"{away:.3f} m median"))
+    distance_error = summary["evader"]["distance_error_m"]["median"]
+    if distance_error is not None:
+        text = f"{distance_error:.3f} m median"
+        rows.append(("evader's distance error", text))
     triggered = summary["triggered_at_distance_m"]
     rate = summary["detection_rate"]
     rows += [
         (
-            "triggered at",
+            "evasion triggered at",
             "never" if triggered is None else f"{triggered:.3f} m",
         ),
         ("detection rate", "-" if rate is None else f"{100.0 * rate:.1f} %"),
         ("false detections", str(summary["false_detections"])),
-        ("lost", f"{summary['lost_s']:.1f} s"),
+        ("opponent lost for", f"{summary['lost_s']:.1f} s"),
     ]
     return rows

@@ -1,4 +1,4 @@
-"""Options that decide a duel."""
+"""Options of all commands that simulate duels."""
 
 from collections.abc import Callable
 from typing import Any
@@ -17,14 +17,14 @@ from .options.game_options import (
 )
 from .options.passer_type import PASSERS
 from .options.push_type import PUSHES
-from .options.room_options import PLAYED_IN
+from .options.room_options import ROOM_GROUP
 from .options.settings_command import takes_settings
 
 GROUPS = (
     RUN,
     ROBOTS,
     START,
-    PLAYED_IN,
+    ROOM_GROUP,
     STRATEGY,
     GAIT,
     BODY,
@@ -33,7 +33,7 @@ GROUPS = (
     SIGHT,
     CAMERAS,
     PERSON,
-    OptionGroup("Who passes", (PASSERS,)),
+    OptionGroup("Passing pedestrians", (PASSERS,)),
     OptionGroup("Pushes", (PUSHES,)),
 )
 
@@ -41,17 +41,17 @@ GROUPS = (
 def duel_options(
     *without: OptionDeclaration,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Give a command the ``settings`` of a duel, and the options for them.
+    """Add the options of a duel to a command; pass it ``settings``.
 
     Args:
-        without: Options that this command lacks.
+        without: Options that the command does not have.
     """
     groups = (group.without(*without) for group in GROUPS)
-    return takes_settings(duel_kind, *groups)
+    return takes_settings(duel_settings_class, *groups)
 
 
-def duel_kind() -> type[Any]:
-    """Class of the settings of a duel, when it is needed."""
+def duel_settings_class() -> type[Any]:
+    """Import and return the class of the settings of a duel."""
     from ..games.duel_settings import DuelSettings
 
     return DuelSettings

@@ -1,4 +1,4 @@
-"""``stepaside duels``: many duels from many starts, on all cores."""
+"""``stepaside duels``: a study of duels from many initial poses."""
 
 import re
 from pathlib import Path
@@ -8,10 +8,14 @@ import click
 
 from ..core.atomic_output import check_folder
 from ..core.errors import OutputError
-from .campaign_reports import CampaignOutcome, gather, tell_aside
+from .campaign_reports import (
+    CampaignOutcome,
+    report_set_aside,
+    run_campaign_work,
+)
 from .duel_options import duel_options
-from .effort_estimate import SIMULATED, tell_effort
-from .interruption import kept_in, leave_stopped
+from .effort_estimate import SIMULATED, announce_effort
+from .interruption import exit_interrupted, resume_message
 from .options.common_options import (
     FIGURE,
     FOLDER,
@@ -24,19 +28,21 @@ from .options.game_options import SEED
 from .options.settings_command import SettingsCommand
 from .output_files import attempt, writes_files
 from .progress import show_progress
+from .tables import label_of
 from .terminal import echo
-from .value_labels import label_of
 from .value_types import print_json
 
 if TYPE_CHECKING:
     from ..games.duel_settings import DuelSettings
 
-LARGEST = 100_000  # duels of one call
-RECORDS, SUMMARY, DRAWN = "duels.jsonl", "summary.json", "duels.png"
+LARGEST = 100_000  # number of duels of one study
+RECORDS = "duels.jsonl"
+SUMMARY = "summary.json"
+FIGURE_NAME = "duels.png"
 
 
 class SeedsType(click.ParamType[range]):
-    """Seeds: ``0:1000`` are the thousand from 0 to 999, ``7`` is one."""
+    """Range of seeds: ``0:1000`` for 0 to 999, ``7`` for one seed."""
 
     name = "FIRST:END"
 
@@ -69,7 +75,9 @@ class SeedsType(click.ParamType[range]):
 
 
 SEEDS = OptionDeclaration(
-    "--seeds", "One duel each; the end is not among them.", kind=SeedsType()
+    "--seeds",
+    "Range of seeds, one duel each; END is excluded.",
+    kind=SeedsType(),
 )
 
 
@@ -81,15 +89,14 @@ SEEDS = OptionDeclaration(
     "--verify",
     type=click.IntRange(1, 100_000),
     metavar="N",
-    help="Play N recorded duels again; if all come out the same, take over "
-    "the records that an older version of the code made, else end with exit "
-    "status 1.",
+    help="Repeat N recorded duels. If all results agree, reuse the records "
+    "of an older version of the code; otherwise exit with status 1.",
 )
 @FOLDER.option(
-    help="Folder of results, which goes on with what it holds; runs/duels "
-    "by default, none with --json."
+    help="Folder of results; an interrupted study in it is continued. "
+    "runs/duels by default, none with --json."
 )
-@FIGURE.option(help="Write the figure here, too (.png, .svg or .pdf).")
+@FIGURE.option(help="Write a copy of the figure (.png, .svg or .pdf).")
 @figure_width
 @json_option
 @writes_files
@@ -102,12 +109,12 @@ def duels(
     figure: str | None,
     as_json: bool,
 ) -> None:
-    """Play many duels and say what came out, how surely, what was worst.
+    """Simulate many duels and summarise them with confidence intervals.
 
-    Outcomes, radii, distance, orientation, convergence and closest approach
-    with 95 % intervals, and the seeds that come worst, each of which
-    `stepaside duel --seed` replays. A study that was stopped goes on where it
-    was when it is started again with the same folder.
+    Prints outcomes, radii, distance, angle between headings, convergence and
+    closest approach with 95 % intervals, and the seeds of the worst duels,
+    which `stepaside duel --seed` repeats. To continue an interrupted study,
+    run it again with the same folder.
     """
     if output is None and not as_json:
         output = Path("runs") / "duels"
@@ -115,48 +122,48 @@ def duels(
         check_folder(output, new=False)
     if verify is not None:
         _verify(settings, output, verify, workers)
-    each = settings.duration
-    tell_effort(
-        f"{len(seeds)} duels of {each:g} s, less those that are recorded",
-        len(seeds) * each / SIMULATED,
+    duration = settings.duration
+    announce_effort(
+        f"{len(seeds)} duels of {duration:g} s, fewer if some are recorded",
+        len(seeds) * duration / SIMULATED,
         workers,
     )
-    records, ended = _play(settings, seeds, output, workers)
-    answer = _answer(settings, seeds, records)
+    records, ended = _run(settings, seeds, output, workers)
+    result = _result(settings, seeds, records)
     failed = ended.failed
     if output is not None and records and failed is None:
         from ..studies.result_files import write_result
 
         try:
-            answer = write_result(output / SUMMARY, answer)
-            if ended.whole:
-                _draw(records, answer, output / DRAWN)
+            result = write_result(output / SUMMARY, result)
+            if ended.completed:
+                _draw(records, result, output / FIGURE_NAME)
         except OutputError as error:
             failed = error
-    if figure is not None and records and ended.whole:
-        drawn = Path(figure)
-        attempt(lambda: _draw(records, answer, drawn))
+    if figure is not None and records and ended.completed:
+        copy = Path(figure)
+        attempt(lambda: _draw(records, result, copy))
     if as_json:
-        print_json(answer)
+        print_json(result)
     else:
-        _print(answer["summary"])
+        _print(result["summary"])
         echo(f"\nresults: {output}")
     if failed is not None:
         raise failed
     if ended.stopped:
         done = f"{len(records)} of {len(seeds)} duels"
-        leave_stopped(kept_in(done, output and output / RECORDS))
+        exit_interrupted(resume_message(done, output and output / RECORDS))
 
 
 def _draw(
-    records: list[dict[str, Any]], answer: dict[str, Any], file: Path
+    records: list[dict[str, Any]], result: dict[str, Any], file: Path
 ) -> None:
-    from ..report.duels_figure import draw_duels  # loads for a second
+    from ..report.duels_figure import draw_duels  # Matplotlib takes a second
 
-    draw_duels({"": records}, answer["summary"], file)
+    draw_duels({"": records}, result["summary"], file)
 
 
-def _file(output: Path | None) -> Any:
+def _record_store(output: Path | None) -> Any:
     from ..studies.record_store import RecordStore
 
     return None if output is None else RecordStore(output / RECORDS)
@@ -168,40 +175,40 @@ def _verify(
     number: int,
     workers: int | None,
 ) -> None:
-    """Take over older records, or end and say which came out otherwise."""
+    """Validate older records; exit with the seeds that differ, if any."""
     from ..core.worker_pool import worker_pool
     from ..studies.duel_campaign import verify_duels
 
     if output is None or not (output / RECORDS).exists():
         raise click.UsageError(
-            f"--verify needs an --output that holds records, got {output}"
+            f"--verify requires an --output with records, got {output}"
         )
     with worker_pool(workers) as executor:
-        played, differ = verify_duels(
-            settings, _file(output), number, executor
+        repeated, differ = verify_duels(
+            settings, _record_store(output), number, executor
         )
-    same = len(played) - len(differ)
-    echo(f"{same} of {len(played)} duels came out the same", err=True)
+    same = len(repeated) - len(differ)
+    echo(f"{same} of {len(repeated)} repeated duels agree", err=True)
     if differ:
         echo(
-            f"stepaside: seeds {', '.join(map(str, differ))} came out "
-            "otherwise; nothing was taken over or played",
+            f"stepaside: the results of seeds {', '.join(map(str, differ))} "
+            "differ; no record was reused, no further duel run",
             err=True,
         )
         raise SystemExit(1)
 
 
-def _play(
+def _run(
     settings: "DuelSettings",
     seeds: range,
     output: Path | None,
     workers: int | None,
 ) -> tuple[list[dict[str, Any]], CampaignOutcome]:
-    """Play with a progress bar, and say how it ended."""
+    """Run the duels with a progress bar; return records and outcome."""
     from ..core.worker_pool import worker_pool
     from ..studies.duel_campaign import run_duels
 
-    file = _file(output)
+    file = _record_store(output)
     done: dict[str, dict[str, Any]] = {}
     with (
         show_progress("duels", len(seeds), "duels") as bar,
@@ -212,17 +219,17 @@ def _play(
             bar.n = number
             bar.refresh()
 
-        ended = gather(
+        ended = run_campaign_work(
             lambda: run_duels(settings, seeds, file, executor, report, done),
             None if file is None else file.path,
             lambda: done,
         )
     if file is not None and file.aside:
-        tell_aside(file.path.with_name(file.path.name + ".aside"))
+        report_set_aside(file.path.with_name(file.path.name + ".aside"))
     return sorted(done.values(), key=lambda r: int(r["seed"])), ended
 
 
-def _answer(
+def _result(
     settings: "DuelSettings", seeds: range, records: list[dict[str, Any]]
 ) -> dict[str, Any]:
     from ..games.configuration_file import spelled_settings
@@ -231,7 +238,7 @@ def _answer(
     from ..studies.result_files import header
 
     entries = spelled_settings(settings)
-    del entries["seed"]  # the seeds stand above
+    del entries["seed"]  # the result has an entry for all seeds
     return {
         **header(entries),
         "played_by": stamps_of(records),
@@ -241,15 +248,15 @@ def _answer(
 
 
 def _print(summary: dict[str, Any]) -> None:
-    for name, share in summary["outcomes"].items():
-        if share["number"]:
-            echo(_share(name, share))
-    echo(_share("on the circle", summary["on_the_circle"]))
+    for name, count in summary["outcomes"].items():
+        if count["number"]:
+            echo(_proportion(name, count))
+    echo(_proportion("on the circle", summary["on_the_circle"]))
     by = f"before {summary['on_the_circle_by_s']:.0f} s"
-    echo(_share(by, summary["on_the_circle_in_time"]))
+    echo(_proportion(by, summary["on_the_circle_in_time"]))
     echo(
         f"\n{'':<34}{'theory':>9}{'mean':>9}{'+-95 %':>9}"
-        f"{'least':>9}{'greatest':>9}  worst seed"
+        f"{'min':>9}{'max':>9}  worst seed"
     )
     for name, row in summary["figures"].items():
         theory = "" if row["theory"] is None else f"{row['theory']:.3f}"
@@ -264,8 +271,9 @@ def _print(summary: dict[str, Any]) -> None:
         echo(f"seed {entry['seed']}: {entry['message']}")
 
 
-def _share(name: str, share: dict[str, float]) -> str:
+def _proportion(name: str, count: dict[str, float]) -> str:
+    """Return one line with a proportion and its 95 % interval."""
     return (
-        f"{name:<20}{share['number']:>5} of {share['of']}"
-        f"   95 %: {100 * share['low']:.1f}-{100 * share['high']:.1f} %"
+        f"{name:<20}{count['number']:>5} of {count['of']}"
+        f"   95 %: {100 * count['low']:.1f}-{100 * count['high']:.1f} %"
     )

@@ -1,4 +1,4 @@
-"""How long work takes, said before it begins."""
+"""Estimate of computing time, announced before long work begins."""
 
 import os
 
@@ -6,44 +6,47 @@ import click
 
 from .terminal import echo
 
-LONG = 60.0  # of which it is said, in [s]
-ENDLESS = 30 * 86400.0  # which is refused, in [s]
-# Rough figures of one core of a laptop; docs/benchmark.md has measured ones.
-SIMULATED = 6.0  # seconds of a game in one second
-STEPS = 2e7  # of unicycles in one second
-PICTURES = 10.0  # of 640x480 in one second
-CELLS = 2e7  # steps of a cell of a table in one second
-HELD = 2500.0  # samples of a game with held rates in one second
-DECISIONS = 500.0  # of two strategies in one second
-SETTLED = 1000.0  # times 1/k of one exact game in one second
+ANNOUNCED = 60.0  # work longer than this is announced, in [s]
+LONGEST = 30 * 86400.0  # work longer than this is refused, in [s]
+# Rough rates of one laptop core; docs/benchmark.md has measured ones.
+SIMULATED = 6.0  # seconds simulated per second
+STEPS = 2e7  # unicycle steps per second
+IMAGES = 10.0  # images of 640x480 per second
+CELLS = 2e7  # steps of one grid cell per second
+SAMPLES = 2500.0  # samples of a game with sampled turning rates per second
+DECISIONS = 500.0  # decisions of two strategies per second
+TIME_CONSTANTS = 1000.0  # 1/k of an exactly integrated game per second
 
 
-def tell_effort(what: str, seconds: float, workers: int | None = 1) -> None:
-    """Say what will be computed and how long it takes, if that is long.
+def announce_effort(
+    work: str, seconds: float, workers: int | None = 1
+) -> None:
+    """Print what will be computed and for how long, if that is long.
 
     Args:
-        what: Will be computed, like ``1000 duels of 120 s``.
-        seconds: It takes on one core, roughly.
-        workers: Processes that share it; all cores if None.
+        work: What will be computed, like ``1000 duels of 120 s``.
+        seconds: Estimated time on one core, in [s].
+        workers: Number of processes; all cores if None.
 
     Raises:
-        UsageError: If it would take longer than anybody waits.
+        UsageError: If the work would take more than 30 days.
     """
     seconds /= workers or os.cpu_count() or 1
-    if seconds > ENDLESS:
+    if seconds > LONGEST:
         raise click.UsageError(
-            f"{what} would take about {in_words(seconds)}; ask for what ends "
-            f"within {in_words(ENDLESS)}"
+            f"{work} would take about {duration_text(seconds)}; the limit is "
+            f"{duration_text(LONGEST)}"
         )
-    if seconds > LONG:
+    if seconds > ANNOUNCED:
         echo(
-            f"stepaside: {what}, about {in_words(seconds)}; Ctrl-C stops",
+            f"stepaside: {work}, about {duration_text(seconds)}; press "
+            "Ctrl-C to stop",
             err=True,
         )
 
 
-def in_words(seconds: float) -> str:
-    """A time as people say it, to one or two digits."""
+def duration_text(seconds: float) -> str:
+    """Return a duration in days, hours or minutes, to two digits."""
     for unit, length in (("days", 86400.0), ("hours", 3600.0)):
         if seconds >= 2.0 * length:
             return f"{seconds / length:.2g} {unit}"

@@ -1,4 +1,4 @@
-"""Feedback where a robot needs it, unless somebody said what is to be."""
+"""Feedback by default, for commands that control robots over a link."""
 
 from typing import TYPE_CHECKING
 
@@ -10,15 +10,17 @@ if TYPE_CHECKING:
 
 
 def with_feedback(settings: "DuelSettings") -> "DuelSettings":
-    """Settings with feedback, unless they say what control is to be."""
+    """Enable feedback unless options or settings choose the control."""
     from dataclasses import replace
 
     from ..locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 
     source = click.get_current_context().get_parameter_source
-    asked = (source("control__feedback"), source("control__method"))
-    said = any(one is not ParameterSource.DEFAULT for one in asked)
+    chosen = any(
+        source(name) is not ParameterSource.DEFAULT
+        for name in ("control__feedback", "control__method")
+    )
     learns = settings.control.learn_turns
-    if said or replace(settings.control, learn_turns=False) != OPEN_LOOP:
+    if chosen or replace(settings.control, learn_turns=False) != OPEN_LOOP:
         return settings
     return replace(settings, control=replace(STABILISED, learn_turns=learns))

@@ -1,4 +1,4 @@
-"""What a command that was stopped says of what it had done."""
+"""Exit of an interrupted command, with a message about saved results."""
 
 from pathlib import Path
 from typing import NoReturn
@@ -6,26 +6,26 @@ from typing import NoReturn
 from .options.common_options import INTERRUPTED
 from .terminal import echo
 
-NOTHING = "nothing is kept"
+NOTHING_SAVED = "nothing is saved"
 
 
-def leave_stopped(kept: str = NOTHING) -> NoReturn:
-    """Say what is kept, and leave as a command does that was stopped.
+def exit_interrupted(message: str = NOTHING_SAVED) -> NoReturn:
+    """Report what is saved, and exit with the status of an interruption.
 
     Args:
-        kept: What is, in words.
+        message: Sentence about what is saved.
     """
-    echo(f"stepaside: interrupted; {kept}", err=True)
+    echo(f"stepaside: interrupted; {message}", err=True)
     raise SystemExit(INTERRUPTED)
 
 
-def kept_in(done: str, place: Path | None) -> str:
-    """What is kept of a campaign, which goes on there.
+def resume_message(done: str, path: Path | None) -> str:
+    """Return a sentence about the saved part of a campaign.
 
     Args:
-        done: What is done of it, like ``3 of 10 duels``.
-        place: Where it is recorded; None if nowhere.
+        done: Finished part, like ``3 of 10 duels``.
+        path: File or folder of the records; None if nothing is recorded.
     """
-    if place is None:
-        return f"{done} were done, and {NOTHING} without --output"
-    return f"{done} are kept in {place}, and the same command goes on"
+    if path is None:
+        return f"{done} finished; {NOTHING_SAVED} without --output"
+    return f"{done} are saved in {path}; run the same command to continue"

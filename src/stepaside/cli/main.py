@@ -1,4 +1,4 @@
-"""The command line: words in, tables and files out."""
+"""Command-line interface: the group of all commands and its errors."""
 
 import sys
 from concurrent.futures import BrokenExecutor
@@ -14,38 +14,38 @@ from ..core.interrupts import interruptible
 
 INTERRUPTED = 130  # exit status
 COMMANDS = {
-    "duel": "Let two humanoids chase each other in physics.",
-    "duels": "Play many duels, on all cores, and say what came out.",
-    "view": "Watch a duel in a browser, push the robots, drive one.",
-    "replay": "See a run again: page, offline page, film.",
-    "compare": "Draw several runs on one figure.",
-    "walk": "Let one humanoid walk, push it, and measure.",
-    "robustness": "Walk under disturbances, on all cores, and tabulate.",
+    "duel": "Simulate a duel of two humanoids in physics.",
+    "duels": "Run a study of many duels on all cores.",
+    "view": "Watch a duel in the browser; push or drive the robots.",
+    "replay": "Replay a run: live page, offline page or video.",
+    "compare": "Plot several runs in one figure.",
+    "walk": "Simulate the walk of one humanoid and measure it.",
+    "robustness": "Measure how a walk survives disturbances, on all cores.",
     "plan": "Plan one maneuver: footsteps, ZMP and CoM.",
-    "unicycles": "Play one game of two unicycles (Sec. II).",
-    "circle": "Find all circles of a game, and which starts end on which.",
-    "map": "Map games over their starts: closest approach, worst start.",
-    "bound": "Compute the best that any evader can do.",
-    "tournament": "Let evaders play pursuers, in rooms by seed.",
-    "room": "Make a room by seed: walls, doors, discs, boxes, polygons.",
-    "play": "Drive a robot over LoLA, NAOqi or ROS 2.",
-    "serve": "Offer simulated robots over LoLA, NAOqi or ROS 2.",
-    "reproduce": "Measure every claim of the paper and write a page.",
-    "robot": "Show a robot, or write its model.",
+    "unicycles": "Simulate one game of two unicycles (Sec. II).",
+    "circle": "Find all circles of a game and their basins of attraction.",
+    "map": "Map the closest approach over initial poses; find the worst.",
+    "bound": "Compute the best closest approach any evader can achieve.",
+    "tournament": "Run evaders against pursuers in random rooms.",
+    "room": "Generate a random room, or inspect a room file.",
+    "play": "Control a robot over LoLA, NAOqi or ROS 2.",
+    "serve": "Serve simulated robots over LoLA, NAOqi or ROS 2.",
+    "reproduce": "Measure every claim of the paper and write a report.",
+    "robot": "Show, describe, check or tune a robot.",
 }
 
 
 class LazyGroup(click.Group):
-    """A group that imports a command when it is called."""
+    """Command group that imports each command on first use."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """List the commands."""
+        """Return the names of all commands."""
         return list(COMMANDS)
 
     def get_command(
         self, ctx: click.Context, cmd_name: str
     ) -> click.Command | None:
-        """Import a command."""
+        """Import and return one command, or None if it does not exist."""
         if cmd_name not in COMMANDS:
             return None
         module = import_module(f"stepaside.cli.{cmd_name}")
@@ -60,7 +60,7 @@ class LazyGroup(click.Group):
             formatter.write_dl(list(COMMANDS.items()))
 
     def main(self, *args: Any, **extra: Any) -> NoReturn:
-        """Turn every refusal into one line and exit status 2."""
+        """Run a command; report each expected error in one line, status 2."""
         extra["standalone_mode"] = False
         try:
             with interruptible():
@@ -73,51 +73,49 @@ class LazyGroup(click.Group):
             _refuse(remedy(error))
         except BrokenExecutor:
             _refuse(
-                "a worker was killed, perhaps for memory; what is done is kept"
+                "a worker process was killed, possibly out of memory; "
+                "finished results are saved"
             )
         except OSError as error:
-            place = f"{error.filename}: " if error.filename else ""
-            _refuse(f"{place}{(error.strerror or str(error)).lower()}")
+            file = f"{error.filename}: " if error.filename else ""
+            _refuse(f"{file}{(error.strerror or str(error)).lower()}")
         except (click.Abort, KeyboardInterrupt):
             _leave()
         sys.exit(status if isinstance(status, int) else 0)
 
 
 def all_commands() -> dict[str, click.Command]:
-    """Every command by the words that call it, like ``duel``.
+    """Return every command by its full name, like ``robot check``.
 
-    Of a group whose commands have names of their own, each is there, and the
-    group itself if it does something alone.
+    A group appears itself only if it can be invoked without a subcommand.
     """
-    found: dict[str, click.Command] = {}
-    waiting: list[tuple[str, click.Group]] = [("", main)]
-    while waiting:
-        before, group = waiting.pop(0)
+    commands: dict[str, click.Command] = {}
+    queue: list[tuple[str, click.Group]] = [("", main)]
+    while queue:
+        prefix, group = queue.pop(0)
         context = click.Context(group)
         for name in group.list_commands(context):
             command = group.get_command(context, name)
             assert command is not None
-            words = f"{before} {name}".strip()
-            alone = True
+            full_name = f"{prefix} {name}".strip()
             if isinstance(command, click.Group):
-                waiting.append((words, command))
-                alone = command.invoke_without_command
-            if alone:
-                found[words] = command
-    return found
+                queue.append((full_name, command))
+                if not command.invoke_without_command:
+                    continue
+            commands[full_name] = command
+    return commands
 
 
 def _leave() -> NoReturn:
-    said = "stepaside: interrupted; what is not whole is not kept"
-    click.echo(said, err=True)
+    click.echo("stepaside: interrupted; partial output discarded", err=True)
     sys.exit(INTERRUPTED)
 
 
 def _refuse(message: str) -> NoReturn:
     from .terminal import echo
 
-    said = shortened(" ".join(message.split()))
-    echo(f"stepaside: {said}", err=True)
+    line = shortened(" ".join(message.split()))
+    echo(f"stepaside: {line}", err=True)
     sys.exit(2)
 
 

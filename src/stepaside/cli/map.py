@@ -1,4 +1,4 @@
-"""``stepaside map``: closest approach, settling and capture over starts."""
+"""``stepaside map``: outcomes of games over their initial poses."""
 
 from math import pi, prod
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from ..theory.unicycle.unicycle_game import Game
-from .effort_estimate import STEPS, tell_effort
+from .effort_estimate import STEPS, announce_effort
 from .options.common_options import (
     CAPTURE,
     FIGURE,
@@ -16,9 +16,9 @@ from .options.common_options import (
 )
 from .output_files import attempt, writes_files
 from .progress import show_progress
+from .tables import print_table, table_rows
 from .unicycle_options import describe_game, finite, game_options
-from .value_labels import rows_of
-from .value_types import ANGLE, METERS, NumberType, print_json, print_table
+from .value_types import ANGLE, METERS, NumberType, print_json
 
 if TYPE_CHECKING:
     from ..theory.unicycle.start_maps import StartBox, StartMap, WorstStart
@@ -29,45 +29,47 @@ TIME = NumberType("s")
 @click.command("map")
 @game_options
 @click.option(
-    "--nearest", type=METERS, help="Least distance [m]. [default: 1.6 v/k]"
+    "--nearest",
+    type=METERS,
+    help="Minimum initial distance [m].  [default: 1.6 v/k]",
 )
 @click.option(
-    "--farthest", type=METERS, help="Largest distance [m]. [default: 4 v/k]"
+    "--farthest",
+    type=METERS,
+    help="Maximum initial distance [m].  [default: 4 v/k]",
 )
 @click.option(
     "--aim",
     type=ANGLE,
     default=pi,
-    help="Largest bearing [rad] of the evader seen by the pursuer. "
-    "[default: pi]",
+    help="Maximum initial bearing of the evader in the pursuer's frame "
+    "[rad].  [default: pi]",
 )
 @click.option(
     "--facing",
     type=ANGLE,
     default=pi,
-    help="Largest bearing [rad] of the pursuer seen by the evader. "
-    "[default: pi]",
+    help="Maximum initial bearing of the pursuer in the evader's frame "
+    "[rad].  [default: pi]",
 )
-@CAPTURE.option(
-    help="Distance {unit} that counts as capture. [default: 0.1 v/k]"
-)
+@CAPTURE.option(help="Capture distance {unit}.  [default: 0.1 v/k]")
 @click.option(
     "--grid",
     type=click.IntRange(2, 400),
     default=25,
     show_default=True,
-    help="Points along each bearing.",
+    help="Grid points along each bearing.",
 )
 @click.option(
     "--distances",
     type=click.IntRange(1, 400),
     default=6,
     show_default=True,
-    help="Points along the distance.",
+    help="Grid points along the distance.",
 )
-@GAME_TIME.option(help="Length {unit} of each game. [default: 30/k]")
+@GAME_TIME.option(help="Duration of each game {unit}.  [default: 30/k]")
 @click.option(
-    "--step", type=TIME, help="Of the integration, in [s]. [default: .01/k]"
+    "--step", type=TIME, help="Integration step [s].  [default: 0.01/k]"
 )
 @FIGURE.option()
 @figure_width
@@ -87,7 +89,7 @@ def map(  # noqa: A001 (the command's name)
     figure: str | None,
     as_json: bool,
 ) -> None:
-    """Play games from everywhere and find the worst start."""
+    """Simulate games over a grid of initial poses and find the worst one."""
     from ..theory.unicycle.start_maps import StartBox, find_worst_start
 
     for name, value in (("--aim", aim), ("--facing", facing)):
@@ -103,13 +105,13 @@ def map(  # noqa: A001 (the command's name)
         aim,
         facing,
     )
-    rules = _Rules(
+    rules = _MapSettings(
         (distances, grid, grid),
         30.0 / gain if duration is None else duration,
         0.01 / gain if step is None else step,
         0.1 * unit if body is None else body,
     )
-    found = _play(game, box, rules, quiet=as_json)
+    found = _simulate(game, box, rules, quiet=as_json)
     worst = find_worst_start(
         game,
         found,
@@ -134,8 +136,8 @@ def map(  # noqa: A001 (the command's name)
         _print(result)
 
 
-class _Rules(NamedTuple):
-    """Of a map: starts along each side, durations in [s], body in [m]."""
+class _MapSettings(NamedTuple):
+    """Grid points per axis, duration and step in [s], capture in [m]."""
 
     shape: tuple[int, int, int]
     duration: float
@@ -143,15 +145,17 @@ class _Rules(NamedTuple):
     body: float
 
 
-def _play(
-    game: Game, box: "StartBox", rules: _Rules, *, quiet: bool
+def _simulate(
+    game: Game, box: "StartBox", rules: _MapSettings, *, quiet: bool
 ) -> "StartMap":
-    """Play from everywhere, and say how long that takes."""
+    """Simulate all games with a progress bar."""
     from ..theory.unicycle.start_maps import map_starts
 
     total = prod(rules.shape)
     steps = rules.duration / rules.step
-    tell_effort(f"{total} games of {steps:.0f} steps", total * steps / STEPS)
+    announce_effort(
+        f"{total} games of {steps:.0f} steps", total * steps / STEPS
+    )
     with show_progress("map", total, "games", quiet=quiet) as bar:
         return map_starts(
             game,
@@ -167,11 +171,11 @@ def _play(
 def _result(
     game: Game,
     box: "StartBox",
-    rules: _Rules,
+    rules: _MapSettings,
     found: "StartMap",
     worst: "WorstStart",
 ) -> dict[str, Any]:
-    """Everything that is printed, by name."""
+    """Return all results for JSON."""
     import numpy as np
 
     out, total = found.outcomes, prod(rules.shape)
@@ -207,21 +211,21 @@ def _result(
 
 
 def _print(result: dict[str, Any]) -> None:
-    """One row for each number, circle and part of the worst start."""
+    """Print the values, the circles and the worst start."""
     names = (n for n, v in result.items() if not isinstance(v, dict | list))
-    rows = rows_of(result, names)
+    rows = table_rows(result, names)
     for circle in result["circles"]:
-        way = "main" if circle["direction"] > 0 else "reversed"
-        apart, share = circle["distance_m"], 100.0 * circle["share"]
-        text = f"{share:.6g} % at {apart:.6g} m"
-        rows.append((f"on the {way} circle", text))
+        direction = "main" if circle["direction"] > 0 else "reversed"
+        percent = 100.0 * circle["share"]
+        text = f"{percent:.6g} % at {circle['distance_m']:.6g} m"
+        rows.append((f"on the {direction} circle", text))
     start = result["worst_start"]
-    worst = rows_of(start, start)
+    worst = table_rows(start, start)
     print_table([*rows, *((f"worst start: {k}", v) for k, v in worst)])
 
 
 def _circles(game: Game, outcomes: Any) -> list[dict[str, Any]]:
-    """Every circle of the game, with the share of games that are on it."""
+    """Return every circle with the fraction of games that end on it."""
     from ..theory.unicycle.all_circles import circles_of
     from ..theory.unicycle.basins import shares_of
 

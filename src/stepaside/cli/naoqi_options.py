@@ -1,4 +1,4 @@
-"""How ``stepaside play`` moves a robot on NAOqi."""
+"""Choice of the motion interface of a robot over NAOqi."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -13,33 +13,33 @@ if TYPE_CHECKING:
 LOLA, NAOQI = "lola:", "naoqi:"
 
 
-def check_way(options: dict[str, Any]) -> None:
-    """Refuse a choice that a robot does not have.
+def check_mover(options: dict[str, Any]) -> None:
+    """Refuse ``--by`` for a robot that is not on NAOqi.
 
     Args:
-        options: Of the command.
+        options: Options of the command.
     """
     if options["by"] is not None and not options["robot"].startswith(NAOQI):
         raise click.UsageError(
-            f"--by is for robots on {NAOQI}: one on LoLA is moved by its "
-            "joints, one on ROS 2 topics by velocity"
+            f"--by requires a robot at {NAOQI}, got {options['robot']!r}; "
+            "LoLA accepts joint targets only, ROS 2 velocities only"
         )
 
 
-def by_joints(options: dict[str, Any]) -> bool:
-    """Whether a robot is moved by its joints.
+def moves_joints(options: dict[str, Any]) -> bool:
+    """Return whether the robot receives joint targets.
 
     Args:
-        options: Of the command.
+        options: Options of the command.
     """
     joints: bool = options["by"] == "joints"
     return joints or options["robot"].startswith(LOLA)
 
 
-def mover_of(
+def mover_factory(
     settings: "DuelSettings", options: dict[str, Any]
 ) -> "Callable[[Any, Callable[[], float]], Mover]":
-    """What takes velocities to the ALMotion of a robot, as it was chosen."""
+    """Return the factory of the mover that sends commands to ALMotion."""
     from ..drivers.naoqi.velocity_mover import VelocityMover
 
     if options["by"] != "footsteps":

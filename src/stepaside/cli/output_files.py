@@ -1,4 +1,4 @@
-"""Files that commands write: checked first, and told of at the end."""
+"""Output files of commands: checked before work, errors reported after it."""
 
 import os
 from collections.abc import Callable
@@ -11,20 +11,20 @@ import click
 
 from ..core.atomic_output import check_file
 from ..core.errors import ConfigurationError, OutputError
-from .interruption import NOTHING, leave_stopped
+from .interruption import NOTHING_SAVED, exit_interrupted
 from .options.declaration import OptionDeclaration
 from .options.value_kinds import OutputFile
 
 OVERWRITE = OptionDeclaration(
-    "--overwrite/--no-overwrite", "Replace files that are there already."
+    "--overwrite/--no-overwrite", "Replace existing files."
 )
 FAILED = "stepaside.core.atomic_output.failed"
 
 
 def writes_files(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Let a command with files to write check them, and ask before loss.
+    """Check a command's output files first; overwrite only with a flag.
 
-    What fails later is told when the command is through; see
+    Errors on writing are raised when the command has finished; see
     :func:`attempt`.
     """
 
@@ -37,45 +37,49 @@ def writes_files(function: Callable[..., Any]) -> Callable[..., Any]:
         except ConfigurationError as error:
             raise click.UsageError(str(error)) from error
         before = _files(context)
-        left: SystemExit | None = None
-        answer = None
+        exit_status: SystemExit | None = None
+        result = None
         try:
-            answer = function(**values)
+            result = function(**values)
         except KeyboardInterrupt:
-            leave_stopped(_kept(before, _files(context)))
+            exit_interrupted(_saved_text(before, _files(context)))
         except SystemExit as status:
-            left = status
+            exit_status = status
+        except Exception as error:
+            if isinstance(error, EXPECTED) or not was_interrupted():
+                raise
+            exit_interrupted(_saved_text(before, _files(context)))
         for failed in context.meta.get(FAILED, ())[:1]:
             raise failed
-        if left is not None:
-            raise left
-        return answer
+        if exit_status is not None:
+            raise exit_status
+        return result
 
     return command
 
 
 def _files(context: click.Context) -> dict[str, tuple[int, ...]]:
-    """Files to write that are there, and what tells one from another."""
-    there: dict[str, tuple[int, ...]] = {}
+    """Return the existing output files with inode, time and size of each."""
+    existing: dict[str, tuple[int, ...]] = {}
     for param in context.command.params:
         value = context.params.get(param.name or "")
         if isinstance(param.type, OutputFile) and value is not None:
             with suppress(OSError):
                 stat = os.stat(value)
-                there[value] = (stat.st_ino, stat.st_mtime_ns, stat.st_size)
-    return there
+                existing[value] = (stat.st_ino, stat.st_mtime_ns, stat.st_size)
+    return existing
 
 
-def _kept(
+def _saved_text(
     before: dict[str, tuple[int, ...]], now: dict[str, tuple[int, ...]]
 ) -> str:
-    """What of the files was written, in words."""
+    """Return a sentence that names the files written since ``before``."""
     new = [file for file, stat in now.items() if before.get(file) != stat]
-    return f"kept: {', '.join(new)}" if new else NOTHING
+    return f"saved: {', '.join(new)}" if new else NOTHING_SAVED
 
 
 def _check(context: click.Context, overwrite: bool) -> None:
-    """Refuse files of a command that it could not write, or only one of."""
+    """Refuse output files that cannot be written, or that coincide."""
     taken: dict[Path, str] = {}
     for param in context.command.params:
         value = context.params.get(param.name or "")
@@ -91,19 +95,18 @@ def _check(context: click.Context, overwrite: bool) -> None:
         other = taken.setdefault(file.resolve(), name)
         if other != name:
             raise ConfigurationError(
-                f"{name} must be another file than that of {other}, got "
-                f"{value!r}"
+                f"{name} must differ from the file of {other}, got {value!r}"
             )
 
 
 def attempt(write: Callable[[], Any]) -> bool:
-    """Write what can be written; what cannot is told when all else is.
+    """Write a file; on an output error, raise it after the command.
 
     Args:
-        write: Writes it.
+        write: Writes the file.
 
     Returns:
-        Whether it is written.
+        Whether the file is written.
     """
     try:
         write()

@@ -1,4 +1,4 @@
-"""``stepaside plan``: one maneuver, as a table, a figure and JSON."""
+"""``stepaside plan``: one maneuver as a table, a figure or JSON."""
 
 from collections.abc import Collection
 from pathlib import Path
@@ -52,7 +52,9 @@ MANEUVER = OptionGroup(
             registry=_roles,
         ),
         BEARING,
-        OptionDeclaration("--steps", "Footsteps.", "steps", kind=click.INT),
+        OptionDeclaration(
+            "--steps", "Number of footsteps.", "steps", kind=click.INT
+        ),
         OptionDeclaration(
             "--first-foot",
             "Foot that lands first.",
@@ -61,7 +63,7 @@ MANEUVER = OptionGroup(
         ),
         OptionDeclaration(
             "--saturated/--no-saturated",
-            "Turn by (6) instead of (8).",
+            "Turn by eq. (6) instead of eq. (8).",
             "saturated",
         ),
     ),
@@ -69,7 +71,9 @@ MANEUVER = OptionGroup(
 
 
 @click.command("plan", cls=SettingsCommand)
-@takes_settings(_plan_settings, MANEUVER, GAIT.without(HORIZON), aside=_others)
+@takes_settings(
+    _plan_settings, MANEUVER, GAIT.without(HORIZON), ignored=_others
+)
 @FIGURE.option()
 @figure_width
 @json_option
@@ -77,8 +81,8 @@ MANEUVER = OptionGroup(
 def plan(settings: "PlanSettings", figure: str | None, as_json: bool) -> None:
     """Plan one maneuver from standing: path, footsteps, ZMP and CoM.
 
-    It needs a role and a bearing. A configuration may be that of a duel or
-    of a walk, too, whose gait is taken.
+    --role and --bearing are required. The gait may come from the
+    configuration of a duel or a walk.
     """
     import numpy as np
 

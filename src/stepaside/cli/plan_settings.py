@@ -15,16 +15,16 @@ FEET = {foot.name.lower(): foot for foot in Foot}
 
 @dataclass(frozen=True, slots=True)
 class PlanSettings:
-    """Everything that decides a maneuver.
+    """Settings of one maneuver.
 
     Attributes:
         role: "pursuer" walks forward, "evader" backward.
         bearing: Desired heading in the frame of the support foot, in [rad];
             -3.14159 to 3.14159 or none.
-        steps: Footsteps; 1 to 200.
-        first_foot: "left" or "right" lands first.
-        saturated: Whether the robot turns by (6) instead of (8).
-        gait: How it walks.
+        steps: Number of footsteps; 1 to 200.
+        first_foot: Foot that lands first: "left" or "right".
+        saturated: Whether the robot turns by eq. (6) instead of eq. (8).
+        gait: Gait of the robot.
     """
 
     role: str | None = None
@@ -40,7 +40,7 @@ class PlanSettings:
     }
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be planned."""
+        """Check all values."""
         check_settings(self, PlanError)
         for name, value, known in (
             ("role", self.role, ROLES),
@@ -53,7 +53,7 @@ class PlanSettings:
 
     @property
     def preset(self) -> str | None:
-        """Preset of the gait, but for the profile; None if it is none."""
+        """Gait preset up to the ZMP profile; None for any other gait."""
         for name, gait in PRESETS.items():
             profile = self.gait.zmp_profile
             if replace(gait, zmp_profile=profile) == self.gait:
@@ -62,7 +62,7 @@ class PlanSettings:
 
 
 def entries_of_others() -> Collection[str]:
-    """Entries of a file that belong to walks and duels."""
+    """Return the configuration entries of walks and duels."""
     from ..games.duel_settings import DuelSettings
     from ..games.walk_settings import WalkSettings
 

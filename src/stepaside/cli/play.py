@@ -1,4 +1,4 @@
-"""``stepaside play``: one player, at a robot that may be real."""
+"""``stepaside play``: control of one real or simulated robot in a game."""
 
 import logging
 import sys
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .duel_options import duel_kind
+from .duel_options import duel_settings_class
 from .options.body_options import CONTROL
 from .options.connection_options import (
     BY,
@@ -31,43 +31,44 @@ if TYPE_CHECKING:
     from ..games.duel_settings import DuelSettings
 
 ROLES = ("pursuer", "evader")
-TRYING = 6.0  # longest time that connecting takes, in [s]
-PAUSE = 0.3  # between two tries, in [s]
-LONG_ENOUGH, INTERRUPTED = "played long enough", "interrupted"
+CONNECTING = 6.0  # longest time that connecting takes, in [s]
+PAUSE = 0.3  # between two attempts, in [s]
+TIME_IS_UP = "played long enough"
+INTERRUPTED = "interrupted"
 
 
 @click.command("play", cls=SettingsCommand)
-@takes_settings(duel_kind, STRATEGY, GAIT, CONTROL, SENSES)
+@takes_settings(duel_settings_class, STRATEGY, GAIT, CONTROL, SENSES)
 @click.option(
     "--role",
     type=NameType(lambda: ROLES),
     required=True,
-    help="Who this process is.",
+    help="Role of the robot.",
 )
 @click.option(
     "--robot",
     required=True,
-    help="lola:PATH or lola:HOST:PORT, lola: alone for the robot itself; "
-    "naoqi:tcp://HOST:PORT or ros2:/NAMESPACE, where it walks by itself.",
+    help="Address of the robot: lola:PATH, lola:HOST:PORT or lola: (on the "
+    "robot itself); naoqi:tcp://HOST:PORT; ros2:/NAMESPACE.",
 )
 @click.option(
     "--description",
     default="nao",
     show_default=True,
-    help="Robot, or the folder of its description.",
+    help="Name of a robot, or folder of its description.",
 )
 @click.option(
     "--delay-ticks",
     type=click.IntRange(0, 20),
     default=3,
     show_default=True,
-    help="Ticks of 12 ms from a request to the motion.",
+    help="Delay from command to motion, in ticks of 12 ms.",
 )
 @click.option(
     "--images",
-    help="With --sensing cameras, where images come from: v4l2:DEVICE, "
-    "naoqi:tcp://HOST:PORT or ros2:/TOPIC; what a simulated robot offers "
-    "beside its socket by default.",
+    help="Source of images for --sensing cameras: v4l2:DEVICE, "
+    "naoqi:tcp://HOST:PORT or ros2:/TOPIC; the camera channel of a simulated "
+    "robot by default.",
 )
 @BY.option()
 @MAX_SPEED.option()
@@ -76,30 +77,31 @@ LONG_ENOUGH, INTERRUPTED = "played long enough", "interrupted"
 @NETWORK.option(default=False)
 @SIM_TIME.option(default=False)
 @click.option(
-    "--duration", type=SECONDS, help="Stop and rest after this walk [s]."
+    "--duration", type=SECONDS, help="Walk for this time, then rest [s]."
 )
 @click.option(
     "--wait",
     type=NumberType("s", allow_zero=True),
     default=10.0,
     show_default=True,
-    help="For the robot to be there, at the beginning [s].",
+    help="Maximum time to wait for the first connection [s].",
 )
 @click.option(
     "--reconnect",
     type=SECONDS,
-    help="By joints: try for so long to get a session that was lost [s].",
+    help="Try to reconnect for this time after a lost session [s]; joint "
+    "control only.",
 )
 @click.option(
     "--record",
     type=click.Path(file_okay=False, path_type=Path),
-    help="Run folder of its own, which replays: every measurement, target "
-    "and change of state, and what became of it.",
+    help="Record all measurements, targets and state changes to a run folder "
+    "for stepaside replay.",
 )
 @click.option(
     "--dry-run/--no-dry-run",
     default=False,
-    help="Connect, read and plan, but command nothing but lights.",
+    help="Connect, measure and plan, but do not move: only set LEDs.",
 )
 def play(
     settings: "DuelSettings",
@@ -107,81 +109,82 @@ def play(
     reconnect: float | None,
     **options: Any,
 ) -> None:
-    r"""Drive a robot over LoLA, NAOqi or ROS 2: the player is this process.
+    """Control a robot in a game over LoLA, NAOqi or ROS 2.
 
     \b
-    --robot lola:ADDRESS          joints, every 12 ms, of a NAO V6
-    --robot naoqi:tcp://...       walks by itself, or joints --by joints
-    --robot ros2:/NAMESPACE       walks by itself, at velocities on topics
+    --robot lola:ADDRESS       joint targets for a NAO V6, every 12 ms
+    --robot naoqi:tcp://...    velocities for the robot's own walking
+                               controller, or footsteps or joints (--by)
+    --robot ros2:/NAMESPACE    velocities for the robot's own walking
+                               controller, on ROS 2 topics
 
-    A robot whose joints are moved takes its stance slowly, shows green, and
-    walks from when its chest button is pressed until it is pressed again.
-    One that walks by itself goes at once when it knows where the other is.
-    Interrupt once to let it stop and rest, twice to let it go limp, or
-    stand.
-    """
+    With joint control, the robot slowly moves to its stance and turns its
+    LEDs green; its chest button starts and stops the walk. With its own
+    walking controller, it starts as soon as the opponent is located. Ctrl-C
+    stops the robot and lets it rest; a second Ctrl-C makes it go limp (joint
+    control) or stand at once.
+    """  # noqa: D301 (\b is a character for click)
     logging.basicConfig(
         format="stepaside: %(message)s", level=logging.INFO, stream=sys.stderr
     )
     from ..drivers.guardian_process import SessionLost
     from ..drivers.status_line import StatusLine
     from .feedback_default import with_feedback
-    from .naoqi_options import by_joints, check_way
+    from .naoqi_options import check_mover, moves_joints
     from .robot_connections import open_joints, open_velocity
 
-    check_way(options)
+    check_mover(options)
     folder = options.pop("record")
-    joints = by_joints(options)
+    joints = moves_joints(options)
     with ExitStack() as stack:
         line = StatusLine(sys.stderr)
         stack.callback(line.close)
-        onlookers: list[Any] = [line]
-        told = None
+        observers: list[Any] = [line]
+        record = None
         if folder is not None:
             from .play_record import PlayRecord
 
-            own = with_feedback(settings) if joints else settings
-            told = PlayRecord(folder, own, options)
-            stack.push(told.leave)
-            onlookers.append(told)
+            used = with_feedback(settings) if joints else settings
+            record = PlayRecord(folder, used, options)
+            stack.push(record.leave)
+            observers.append(record)
 
         def session() -> str:
-            asked = options | {}
-            options["wait"] = 0.0  # a session that is lost is --reconnect's
-            with ExitStack() as within:
+            session_options = options | {}
+            options["wait"] = 0.0  # later sessions wait by --reconnect
+            with ExitStack() as connection:
                 if joints:
-                    playing = open_joints(settings, asked)
-                    within.callback(playing.body.close)
-                    return _play(playing, onlookers, duration)
-                driving = open_velocity(settings, asked)
-                within.callback(driving.body.close)
-                return _drive(driving, onlookers, duration)
+                    joint_loop = open_joints(settings, session_options)
+                    connection.callback(joint_loop.body.close)
+                    return _run_joints(joint_loop, observers, duration)
+                velocity_loop = open_velocity(settings, session_options)
+                connection.callback(velocity_loop.body.close)
+                return _run_velocity(velocity_loop, observers, duration)
 
         try:
-            ended = _again_and_again(session, reconnect if joints else None)
-            if told is not None:
-                told.ended = ended
+            ended = _run_sessions(session, reconnect if joints else None)
+            if record is not None:
+                record.ended = ended
         except SessionLost as error:
             raise click.ClickException(str(error)) from error
 
 
-def _again_and_again(
-    session: Callable[[], str], reconnect: float | None
-) -> str:
-    """Play until a session ends well, or none can be had for some time.
+def _run_sessions(session: Callable[[], str], reconnect: float | None) -> str:
+    """Run sessions until one ends normally or reconnecting fails.
 
-    A robot whose joints are moved begins each session limp, stands up
-    slowly if it is upright, and waits for its chest button.
+    With joint control, each session begins limp; the robot stands up slowly
+    if it is upright, and waits for its chest button.
 
     Args:
-        session: Connects and plays.
-        reconnect: How long to try for a new session, in [s].
+        session: Connects and plays; returns why the session ended.
+        reconnect: How long to try for a new session, in [s]; None for a
+            single session.
 
     Returns:
-        Why the last one ended.
+        Why the last session ended.
 
     Raises:
-        SessionLost: If the last one was lost.
+        SessionLost: If the last session was lost.
     """
     from time import monotonic, sleep
 
@@ -194,72 +197,72 @@ def _again_and_again(
             return session()
         except SessionLost as error:
             lost = monotonic()
-            if until is None or lost - began > TRYING:
-                until = lost + (reconnect or 0.0)  # it was a session
+            if until is None or lost - began > CONNECTING:
+                until = lost + (reconnect or 0.0)  # it had been connected
             if reconnect is None or lost >= until:
                 raise
-            logging.warning("%s; tries again", error)
+            logging.warning("%s; reconnecting", error)
             sleep(PAUSE)
 
 
-def _play(
-    playing: "JointLoop", onlookers: list[Any], duration: float | None
+def _run_joints(
+    loop: "JointLoop", observers: list[Any], duration: float | None
 ) -> str:
-    """Play until the session ends, or the robot rests when asked to; why."""
+    """Run a joint control loop until it rests; return why it ended."""
     import gc
 
     from ..drivers.guardian_process import SessionLost
     from ..drivers.joint.safety import RobotState
 
     gc.collect()
-    gc.freeze()  # what is loaded stays: collections stay short
-    body = playing.body
-    leaving = ""
+    gc.freeze()  # exclude loaded modules, so that collections stay short
+    body = loop.body
+    reason = ""
     while True:
         try:
-            tick = playing.tick()
-            for onlooker in onlookers:
-                onlooker.note(tick)
-            if leaving and tick.state is RobotState.LIMP:
-                return leaving
+            tick = loop.tick()
+            for observer in observers:
+                observer.note(tick)
+            if reason and tick.state is RobotState.LIMP:
+                return reason
             walked = tick.measurement.time
             if duration is not None and tick.state is RobotState.WALKING:
                 if walked >= duration - 1e-9:
-                    leaving = LONG_ENOUGH
-                    body.rest(leaving)
+                    reason = TIME_IS_UP
+                    body.rest(reason)
         except KeyboardInterrupt:
-            if leaving or tick.state is RobotState.LIMP:
+            if reason or tick.state is RobotState.LIMP:
                 raise
-            leaving = INTERRUPTED
-            body.rest(leaving)
+            reason = INTERRUPTED
+            body.rest(reason)
         except SessionLost:
-            if not leaving:
+            if not reason:
                 raise
-            return leaving  # it was to rest, and is limp
+            return reason  # it was about to rest, and is limp now
 
 
-def _drive(
-    driving: "VelocityLoop", onlookers: list[Any], duration: float | None
+def _run_velocity(
+    loop: "VelocityLoop", observers: list[Any], duration: float | None
 ) -> str:
-    """Drive until the session ends, or the robot rests when asked to; why."""
+    """Run a velocity control loop until it rests; return why it ended."""
     from ..drivers.velocity.velocity_loop import DrivingState
 
     began: float | None = None
-    leaving = False
+    stopping = False
     while True:
         try:
-            tick = driving.tick()
-            for onlooker in onlookers:
-                onlooker.note(tick)
+            tick = loop.tick()
+            for observer in observers:
+                observer.note(tick)
             if tick.state is DrivingState.RESTING:
                 return tick.reason
             if began is None and tick.state is DrivingState.WALKING:
                 began = tick.time
             if duration is not None and began is not None:
                 if tick.time - began >= duration - 1e-9:
-                    driving.leave(LONG_ENOUGH)
+                    loop.leave(TIME_IS_UP)
         except KeyboardInterrupt:
-            if leaving:
+            if stopping:
                 raise
-            leaving = True
-            driving.leave(INTERRUPTED)
+            stopping = True
+            loop.leave(INTERRUPTED)

@@ -1,4 +1,4 @@
-"""What ``stepaside play --record`` keeps, from the first tick to the end."""
+"""Recording of ``stepaside play``."""
 
 import logging
 import tempfile
@@ -25,28 +25,28 @@ if TYPE_CHECKING:
 
 
 class PlayRecord:
-    """Keeps ticks as they come, and makes a run folder of them at the end.
+    """Recorder of ticks, which become a run folder at the end.
 
-    A robot plays on if its record cannot be written any more: what there is
-    of it is kept elsewhere at the end.
+    If the record cannot be written any more, the robot continues; the rows
+    so far are then copied to the folder for temporary files.
 
     Attributes:
-        log: What is kept.
-        ended: Why the last session ended; empty while none did.
+        log: Recorded rows.
+        ended: Why the last session ended; empty before that.
     """
 
     def __init__(
         self, folder: Path, settings: "DuelSettings", options: dict[str, Any]
     ) -> None:
-        """Try the folder.
+        """Create the folder.
 
         Args:
-            folder: Must not exist yet, or be empty.
-            settings: How the player plays.
-            options: Of the command.
+            folder: Run folder; must not exist or must be empty.
+            settings: Settings of the player.
+            options: Options of the command.
 
         Raises:
-            ConfigurationError: If it cannot be written.
+            ConfigurationError: If the folder cannot be written.
         """
         self._settings = settings_of_play(settings, options)
         spelled = spelled_settings(self._settings)
@@ -57,7 +57,7 @@ class PlayRecord:
         self._failed: OutputError | None = None
 
     def note(self, tick: "JointTick | VelocityTick") -> None:
-        """Keep a tick, if it can be kept."""
+        """Record a tick, unless writing has failed before."""
         if self._failed is None:
             try:
                 self.log.note(tick)
@@ -66,10 +66,10 @@ class PlayRecord:
 
     def _fail(self, error: OSError) -> None:
         if not isinstance(error, OutputError):
-            said = f"could not be written: {reason_of(error)}"
-            error = OutputError(f"{self.log.folder} {said}")
+            reason = f"could not be written: {reason_of(error)}"
+            error = OutputError(f"{self.log.folder} {reason}")
         self._failed = error
-        logging.warning("nothing more is recorded: %s", error)
+        logging.warning("recording stopped: %s", error)
 
     def leave(
         self,
@@ -77,18 +77,18 @@ class PlayRecord:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Close the rows and make a run of them, however it ended.
+        """Close the log and convert it to a run, however the game ended.
 
         Raises:
-            OutputError: If it does not lie where it should, and nothing else
-                went wrong.
+            OutputError: If the requested folder could not be written, and
+                there was no other error.
         """
-        how = _outcome_of(error, self.ended)
+        ending = _outcome_of(error, self.ended)
         folder = self.log.folder
         try:
             if self._failed is None:
                 self.log.close()
-                self._seal(folder, *how)
+                self._seal(folder, *ending)
         except OSError as failure:
             self._fail(failure)
         if self._failed is not None:
@@ -96,7 +96,7 @@ class PlayRecord:
             folder = free_file(spare)
             try:
                 self.log.copy_to(folder)
-                self._seal(folder, *how)
+                self._seal(folder, *ending)
             except OSError as failure:
                 logging.warning("%s: %s", folder, reason_of(failure))
             if error is None:
@@ -110,7 +110,7 @@ class PlayRecord:
         except OSError:
             raise
         except (StepAsideError, ValueError) as failure:
-            logging.warning("%s was not made a run: %s", folder, failure)
+            logging.warning("%s is not a complete run: %s", folder, failure)
         else:
             logging.info("record: %s", folder)
 
@@ -118,7 +118,7 @@ class PlayRecord:
 def settings_of_play(
     settings: "DuelSettings", options: dict[str, Any]
 ) -> PlaySettings:
-    """What a player was told, of the words of its command."""
+    """Return the settings of the player from settings and options."""
     role = options["role"]
     return PlaySettings(
         role=role,

@@ -1,4 +1,4 @@
-"""How far a command is: a bar on a terminal, else a line now and then."""
+"""Progress of a command: a bar on a terminal, otherwise periodic lines."""
 
 import sys
 from time import monotonic
@@ -7,54 +7,54 @@ from typing import Any
 
 from .terminal import echo
 
-PERIOD = 10.0  # between two lines where standard error is no terminal, in [s]
+PERIOD = 10.0  # between two lines if standard error is not a terminal, in [s]
 
 
 def show_progress(
-    what: str,
+    name: str,
     total: float | None = None,
     unit: str = "",
     *,
-    form: str | None = None,
+    bar_format: str | None = None,
     quiet: bool = False,
 ) -> Any:
-    """Begin to show how far some work is, on standard error.
+    """Return a progress display on standard error.
 
     Args:
-        what: Is being done, in a word.
-        total: Size of the work, in its unit; None if it is not known yet.
-        unit: Of the work; empty for a share of 1.
-        form: Of the bar, as tqdm writes it.
-        quiet: Whether there is no bar on a terminal either, but lines.
+        name: Name of the work, one word.
+        total: Size of the work, in its unit; None if not known yet.
+        unit: Unit of the work; empty for a fraction of 1.
+        bar_format: Format of the bar, for tqdm.
+        quiet: Whether to print lines instead of a bar on a terminal, too.
 
     Returns:
         Context manager with ``n`` and ``total``, which may be set, and
         ``update``, ``refresh`` and ``set_postfix_str`` of a tqdm bar.
     """
     if quiet or not sys.stderr.isatty():
-        return PlainProgress(what, total, unit)
+        return PlainProgress(name, total, unit)
     from tqdm import tqdm
 
-    return tqdm(desc=what, total=total, unit=unit, bar_format=form)
+    return tqdm(desc=name, total=total, unit=unit, bar_format=bar_format)
 
 
 class PlainProgress:
-    """Writes a line every some seconds, for logs and pipes.
+    """Progress as one line every few seconds, for logs and pipes.
 
     Attributes:
-        n: Work that is done, in its unit.
-        total: All of it; None if it is not known yet.
+        n: Finished work, in its unit.
+        total: Total work; None if not known yet.
     """
 
-    def __init__(self, what: str, total: float | None, unit: str) -> None:
-        """Begin at nothing done."""
+    def __init__(self, name: str, total: float | None, unit: str) -> None:
+        """Start at zero."""
         self.n: float = 0
         self.total = total
-        self._what, self._unit, self._aside = what, unit, ""
-        self._began = self._said = monotonic()
+        self._name, self._unit, self._postfix = name, unit, ""
+        self._began = self._printed = monotonic()
 
     def __enter__(self) -> "PlainProgress":
-        """Nothing is written yet."""
+        """Return the display; print nothing yet."""
         return self
 
     def __exit__(
@@ -63,38 +63,39 @@ class PlainProgress:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """What came out says that it is done."""
+        """Print nothing: the result follows."""
 
     def update(self, more: float = 1) -> None:
-        """Count work that was done."""
+        """Add finished work."""
         self.n += more
         self.refresh()
 
     def set_postfix_str(self, text: str) -> None:
-        """Say something else beside how far it is."""
-        self._aside = f", {text}"
+        """Append a text to each line."""
+        self._postfix = f", {text}"
         self.refresh()
 
     def refresh(self) -> None:
-        """Write a line, if the last one was some seconds ago."""
+        """Print a line if the last one is older than the period."""
         now = monotonic()
-        if now - self._said < PERIOD:
+        if now - self._printed < PERIOD:
             return
-        self._said = now
-        spent = now - self._began
-        far = f"{self.n:.0f}"
-        left = ""
+        self._printed = now
+        elapsed = now - self._began
+        done = f"{self.n:.0f}"
+        remaining = ""
         if self.total:
-            share = self.n / self.total
-            far = f"{100.0 * share:.0f} %"
+            fraction = self.n / self.total
+            done = f"{100.0 * fraction:.0f} %"
             if self._unit:
-                far += f", {self.n:.0f} of {self.total:.0f} {self._unit}"
-            if share > 0.0:
-                left = f", about {spent * (1.0 / share - 1.0):.0f} s left"
+                done += f", {self.n:.0f} of {self.total:.0f} {self._unit}"
+            if fraction > 0.0:
+                seconds = elapsed * (1.0 / fraction - 1.0)
+                remaining = f", about {seconds:.0f} s left"
         elif self._unit:
-            far += f" {self._unit}"
+            done += f" {self._unit}"
         echo(
-            f"stepaside: {self._what}: {far}{self._aside}; "
-            f"{spent:.0f} s so far{left}",
+            f"stepaside: {self._name}: {done}{self._postfix}; "
+            f"{elapsed:.0f} s so far{remaining}",
             err=True,
         )

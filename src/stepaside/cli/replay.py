@@ -1,4 +1,4 @@
-"""``stepaside replay``: a run again, as a page, a file or a film."""
+"""``stepaside replay``: a run as a live page, an offline page or a video."""
 
 import webbrowser
 from collections.abc import Callable
@@ -10,7 +10,7 @@ import click
 
 from ..core.atomic_output import FIGURES, reason_of
 from ..core.errors import OutputError
-from .effort_estimate import PICTURES, tell_effort
+from .effort_estimate import IMAGES, announce_effort
 from .options.common_options import (
     BROWSER,
     PORT,
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ..games.run import Run
     from ..report.film import FilmSettings
 
-FORMER = {"following": "follow"}  # names of today by former ones
+OLD_VIEWS = {"following": "follow"}  # current names by former ones
 
 
 def _views() -> tuple[str, ...]:
@@ -44,54 +44,69 @@ def _views() -> tuple[str, ...]:
 @click.option(
     "--html",
     type=OutputFile(".html", ".htm"),
-    help="Write one page that opens offline.",
+    help="Write a single page that opens offline.",
 )
-@click.option("--video", type=OutputFile(".mp4"), help="Write a film (H.264).")
-@click.option("--gif", type=OutputFile(".gif"), help="Write a short film.")
+@click.option(
+    "--video", type=OutputFile(".mp4"), help="Write a video (H.264)."
+)
+@click.option(
+    "--gif", type=OutputFile(".gif"), help="Write a short animation."
+)
 @click.option(
     "--strip",
     type=OutputFile(*FIGURES),
-    help="Write four pictures of a film, each over its view from above.",
+    help="Write four frames of the run, each above its top view.",
 )
 @click.option(
     "--begin",
     type=NumberType("s", allow_zero=True),
     default=0.0,
-    help="Of a film, in the run [s].",
+    help="Start of the video in the run [s].",
 )
-@click.option("--duration", type=SECONDS, help="Of the run in a film [s].")
 @click.option(
-    "--rate", type=NumberType("1/s"), help="Pictures a second [1/s]."
+    "--duration", type=SECONDS, help="Duration of the run in the video [s]."
+)
+@click.option(
+    "--rate", type=NumberType("1/s"), help="Frame rate of the video [1/s]."
 )
 @click.option(
     "--speed",
     type=POSITIVE,
     default=1.0,
-    help="Of a film [1]; 2 is twice as fast.",
+    help="Speed of the video [1]; 2 is twice real time.",
 )
-@click.option("--width", type=click.IntRange(64, 3840), help="Of a picture.")
-@click.option("--height", type=click.IntRange(64, 2160), help="Likewise.")
+@click.option(
+    "--width", type=click.IntRange(64, 3840), help="Image width in pixels."
+)
+@click.option(
+    "--height", type=click.IntRange(64, 2160), help="Image height in pixels."
+)
 @click.option(
     "--camera",
-    type=NameType(_views, FORMER),
+    type=NameType(_views, OLD_VIEWS),
     default="fixed",
     show_default=True,
-    help="It stands and sees all, goes along, looks from above, through the "
-    "evader's eyes, or goes along beside what the robots see.",
+    help="View of the video: fixed view of the whole run, following the "
+    "robots, top view, evader's camera, or following beside both robots' "
+    "camera images.",
 )
 @click.option(
     "--slow-motion/--no-slow-motion",
     "slow",
     default=False,
-    help="A film lasts longer about the closest approach.",
+    help="Slow the video down around the closest approach.",
 )
 @click.option(
     "--words/--no-words",
     default=True,
-    help="A film says who is who, the time and the distance.",
+    help="Show players, time and distance in the video.",
 )
-@click.option("--title", default="", help="In a film's upper left corner.")
-@click.option("--layers/--no-layers", default=True, help="Lines in a film.")
+@click.option("--title", default="", help="Title in the upper left corner.")
+@click.option(
+    "--layers/--no-layers",
+    default=True,
+    help="Draw trajectories and plans in the video.",
+)
 @figure_width
 @PORT.option(default=8080, show_default=True)
 @BROWSER.option(default=True)
@@ -99,9 +114,10 @@ def _views() -> tuple[str, ...]:
 @json_option
 @writes_files
 def replay(run: Path, as_json: bool, **options: Any) -> None:
-    """Show the duel of a RUN folder again.
+    """Replay the run in the folder RUN.
 
-    With no file asked for, it is served as a page with a time slider.
+    By default, serves a page with a time slider. With --html, --video, --gif
+    or --strip, writes files instead.
     """
     from ..games.run_archive import load_run
 
@@ -122,20 +138,20 @@ def replay(run: Path, as_json: bool, **options: Any) -> None:
     if video is not None:
         from ..report.film import write_video
 
-        shot = _shot(options, 60.0, 30.0, 1280, 720)
-        _tell(shot, loaded)
-        _film("video", write_video, run, video, shot, written)
+        film = _film_settings(options, 60.0, 30.0, 1280, 720)
+        _announce(film, loaded)
+        _render("video", write_video, run, video, film, written)
     if gif is not None:
         from ..report.film import write_gif
 
-        shot = _shot(options, 12.0, 10.0, 480, 270)
-        _tell(shot, loaded)
-        _film("gif", write_gif, run, gif, shot, written)
+        film = _film_settings(options, 12.0, 10.0, 480, 270)
+        _announce(film, loaded)
+        _render("gif", write_gif, run, gif, film, written)
     if strip is not None:
         from ..report.film_strip import write_strip
 
-        shot = _shot(options, 3600.0, 1.0, 640, 480)
-        _film("strip", write_strip, run, strip, shot, written)
+        film = _film_settings(options, 3600.0, 1.0, 640, 480)
+        _render("strip", write_strip, run, strip, film, written)
     if html is video is gif is strip is None:
         _serve(loaded, options)
     elif as_json:
@@ -147,20 +163,20 @@ def replay(run: Path, as_json: bool, **options: Any) -> None:
 
 
 def _written(file: Path) -> dict[str, Any]:
-    """Name and size of a file that was written.
+    """Return name and size of a written file.
 
     Raises:
-        OutputError: If somebody removed it since.
+        OutputError: If the file has been removed since.
     """
     try:
         return {"file": str(file), "bytes": file.stat().st_size}
     except OSError as error:
         raise OutputError(
-            f"{file} is not there any more: {reason_of(error)}"
+            f"{file} was removed after it was written: {reason_of(error)}"
         ) from error
 
 
-def _shot(
+def _film_settings(
     options: dict[str, Any],
     duration: float,
     rate: float,
@@ -171,7 +187,7 @@ def _shot(
 
     wide, high = options["width"] or width, options["height"] or height
     return FilmSettings(
-        # H.264 stores colour for two by two pixels.
+        # H.264 subsamples colour by two in both directions.
         width=wide - wide % 2,
         height=high - high % 2,
         rate=options["rate"] or rate,
@@ -186,41 +202,41 @@ def _shot(
     )
 
 
-def _tell(shot: "FilmSettings", run: "Run") -> None:
-    """Say how long a film takes."""
+def _announce(film: "FilmSettings", run: "Run") -> None:
+    """Announce long rendering."""
     from ..report.film_shot import AROUND, SLOWEST
 
-    shown = min(float(run.times[-1]) - shot.begin, shot.duration)
-    slower = 2.0 * AROUND / SLOWEST if shot.slow else 0.0
-    number = max(shown + slower, 0.0) * shot.rate / shot.speed
-    size = shot.width * shot.height / (640 * 480)
-    tell_effort(
-        f"a film of about {number:.0f} pictures",
-        number * size / PICTURES,
+    shown = min(float(run.times[-1]) - film.begin, film.duration)
+    slower = 2.0 * AROUND / SLOWEST if film.slow else 0.0
+    number = max(shown + slower, 0.0) * film.rate / film.speed
+    size = film.width * film.height / (640 * 480)
+    announce_effort(
+        f"a video of about {number:.0f} frames",
+        number * size / IMAGES,
         workers=None,
     )
 
 
-def _film(
+def _render(
     name: str,
     write: Callable[..., int],
     run: Path,
     file: Path,
-    shot: Any,
+    film: Any,
     written: dict[str, Any],
 ) -> None:
-    """Write a film with a bar, and note it."""
-    with show_progress(name, unit="pictures") as bar:
+    """Render a film with a progress bar, and add it to ``written``."""
+    with show_progress(name, unit="frames") as bar:
 
         def report(done: int, number: int) -> None:
             bar.total, bar.n = number, done
             bar.refresh()
 
-        def film() -> None:
-            write(run, file, shot, report)
+        def render() -> None:
+            write(run, file, film, report)
             written[name] = _written(file) | {"pictures": bar.n}
 
-        attempt(film)
+        attempt(render)
 
 
 def _serve(run: Any, options: dict[str, Any]) -> None:
@@ -229,7 +245,7 @@ def _serve(run: Any, options: dict[str, Any]) -> None:
     page = ReplayPage(run, port=options["port"])
     page.start()
     address = f"http://127.0.0.1:{page.server.get_port()}"
-    echo(f"serving at {address}; Ctrl-C stops")
+    echo(f"serving at {address}; press Ctrl-C to stop")
     if options["opens"]:
         webbrowser.open(address)
     try:
@@ -237,6 +253,6 @@ def _serve(run: Any, options: dict[str, Any]) -> None:
             sleep(1.0)
         sleep(options["serve_for"])
     except KeyboardInterrupt:
-        echo("stepaside: stopped; the run is as it was", err=True)
+        echo("stepaside: stopped; the run is unchanged", err=True)
     finally:
         page.close()

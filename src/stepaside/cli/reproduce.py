@@ -1,4 +1,4 @@
-"""``stepaside reproduce``: every claim of the paper, measured."""
+"""``stepaside reproduce``: measurement of every claim of the paper."""
 
 import json
 from pathlib import Path
@@ -8,9 +8,9 @@ import click
 
 from ..core.atomic_output import check_folder, writing
 from ..core.errors import OutputError
-from .campaign_reports import tell_aside
-from .effort_estimate import tell_effort
-from .interruption import kept_in, leave_stopped
+from .campaign_reports import report_set_aside
+from .effort_estimate import announce_effort
+from .interruption import exit_interrupted, resume_message
 from .options.common_options import FIRST_SEED, FOLDER, WORKERS, json_option
 from .progress import show_progress
 from .terminal import echo
@@ -21,33 +21,34 @@ from .value_types import print_json
 @FIRST_SEED.option(
     default=1,
     show_default=True,
-    help="Of the first duel; the others follow it.",
+    help="Random seed of the first run; later runs increment it.",
 )
 @click.option(
     "--runs",
     type=click.IntRange(1, 1_000),
     default=10,
     show_default=True,
-    help="Runs of each claim that is measured in physics.",
+    help="Number of runs of each claim that is measured in physics.",
 )
 @WORKERS.option()
 @FOLDER.option(
     default=Path("runs/reproduce"),
     show_default=True,
-    help="Folder of the page; what it holds already and what still has the "
-    "same code, settings and libraries is not measured again.",
+    help="Folder of the report. Measurements in it are reused if code, "
+    "settings and libraries are the same.",
 )
 @json_option
 def reproduce(
     seed: int, runs: int, workers: int | None, output: Path, as_json: bool
 ) -> None:
-    """Measure every claim of the paper and write a page about it.
+    """Measure every claim of the paper and write a report.
 
-    Takes some minutes. When stopped, it keeps what is done and goes on there
-    next time. The exit status is 1 if a claim fails, else 0.
+    Takes a few minutes. Finished measurements are saved, so that an
+    interrupted reproduction can be continued with the same command. The exit
+    status is 1 if a claim fails.
     """
     check_folder(output, new=False)
-    tell_effort(
+    announce_effort(
         f"every claim of the paper, {runs} runs of those in physics",
         60.0 + 120.0 * runs,
         workers,
@@ -60,7 +61,8 @@ def reproduce(
         if not lost:
             page = _write_all(output, seed, runs, rows)
     except KeyboardInterrupt:
-        leave_stopped(kept_in("all runs, and figures that are whole,", output))
+        done = "all runs and completed figures"
+        exit_interrupted(resume_message(done, output))
     except OutputError as error:
         lost.append(error)
     _tell(rows, page, as_json)
@@ -73,7 +75,7 @@ def reproduce(
 def _write_all(
     output: Path, seed: int, runs: int, rows: list[dict[str, Any]]
 ) -> Path:
-    """Write figures, results and the page about them."""
+    """Write figures, results and the report."""
     from ..report.claims_page import write_page
     from ..studies.claim_campaign import provenance
     from ..studies.paper_figures import paper_figures
@@ -91,7 +93,7 @@ def _write_all(
 def _tell(
     rows: list[dict[str, Any]], page: Path | None, as_json: bool
 ) -> None:
-    """Print what was measured, and where the page is if there is one."""
+    """Print all verdicts and the path of the report."""
     if as_json:
         print_json(rows)
         return
@@ -111,8 +113,8 @@ def _measure(
 ) -> list[dict[str, Any]]:
     """Measure on all cores, with a progress bar.
 
-    One worker is a process, too: a duel that Ctrl-C cuts short in this one
-    would be kept as though it were whole.
+    Even a single worker is a separate process: a duel that Ctrl-C interrupts
+    in this process would be stored as if it were complete.
     """
     from ..core.worker_pool import worker_pool
     from ..studies.claim_campaign import reproduce as measure
@@ -128,7 +130,9 @@ def _measure(
 
         try:
             return measure(
-                folder, seeds, executor, report, tell_aside, lost.append
+                folder, seeds, executor, report, report_set_aside, lost.append
             )
         except KeyboardInterrupt:
-            leave_stopped(kept_in(f"{bar.n} of {bar.total} runs", folder))
+            exit_interrupted(
+                resume_message(f"{bar.n} of {bar.total} runs", folder)
+            )

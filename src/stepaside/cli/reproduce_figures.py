@@ -1,4 +1,4 @@
-"""Figures of ``stepaside reproduce``, drawn again when their code changes."""
+"""Figures of ``stepaside reproduce``, redrawn when their code changes."""
 
 from collections.abc import Callable
 from hashlib import sha256
@@ -9,22 +9,22 @@ from typing import Any
 def draw_figures(
     folder: Path, seed: int, *, duration: float = 120.0, marks: int = 7
 ) -> list[tuple[str, str]]:
-    """Draw the manner of Fig. 2, the family of strategies and Fig. 5.
+    """Draw counterparts of Fig. 2 and Fig. 5, and a sweep over strategies.
 
     Args:
-        folder: Where they are drawn; those whose code, settings and
-            libraries are still the same are left as they are.
+        folder: Folder of the figures; figures whose code, settings and
+            libraries have not changed are not redrawn.
         seed: Seed of the duel.
         duration: Simulated time of the duel, in [s].
-        marks: Simulated games along each line of the family.
+        marks: Number of simulated games along each line of the sweep.
 
     Returns:
-        Caption and file name of each.
+        Caption and file name of each figure.
     """
     from ..studies.code_version import code_version, library_versions
     from ..studies.reading_store import ReadingStore
     from ..studies.unicycle_claims import FIG_2, START
-    from .campaign_reports import tell_aside
+    from .campaign_reports import report_set_aside
 
     games = f"{FIG_2!r}; {START!r}"
     figures: list[tuple[str, str, Callable[[Path], None], Any, Any]] = [
@@ -51,7 +51,7 @@ def draw_figures(
             ("games/duel", "report/duel_figure"),
         ),
     ]
-    kept = ReadingStore(folder / "rows", tell_aside)
+    kept = ReadingStore(folder / "rows", report_set_aside)
     for name, _, draw, settings, rooms in figures:
         key = {
             "figure": name,
@@ -69,7 +69,7 @@ def draw_figures(
 
 
 def _fingerprint(file: Path) -> str | None:
-    """Of what a file holds; None if there is none."""
+    """Return a hash of a file; None if it does not exist."""
     try:
         return sha256(file.read_bytes()).hexdigest()[:12]
     except OSError:
@@ -77,7 +77,7 @@ def _fingerprint(file: Path) -> str | None:
 
 
 def turns_shown() -> tuple[float, float]:
-    """Turns that the pursuer has made at the end of our Fig. 2, and when.
+    """Return how far the pursuer has turned in the counterpart of Fig. 2.
 
     Returns:
         Number of turns, and the time of the last snapshot, in [s].
@@ -115,5 +115,5 @@ def _draw_duel(file: Path, seed: int, duration: float) -> None:
 
     result = run_duel(DuelSettings(seed=seed, duration=duration))
     if result.outcome is Outcome.INTERRUPTED:
-        raise KeyboardInterrupt  # half a duel is no figure
+        raise KeyboardInterrupt  # do not draw a partial duel
     draw_duel(result, file)

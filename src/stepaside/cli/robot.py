@@ -1,4 +1,4 @@
-"""``stepaside robot``: show a robot, and fit a stranger's."""
+"""``stepaside robot``: show, describe, check or tune a robot."""
 
 from typing import Any
 
@@ -10,23 +10,23 @@ from .robot_show import show
 from .robot_tune import tune
 
 
-class _ShowsByDefault(click.Group):
-    """A group whose first word may be left out: then it shows a robot."""
+class _ShowByDefault(click.Group):
+    """Command group whose default command is ``show``."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Take a first word that is no command for the name of a robot."""
+        """Insert ``show`` unless the first argument is a command."""
         names = (*self.commands, *self.get_help_option_names(ctx))
         if not args or args[0] not in names:
             args = ["show", *args]
         return super().parse_args(ctx, args)
 
 
-@click.group("robot", cls=_ShowsByDefault)
+@click.group("robot", cls=_ShowByDefault)
 def robot(**_: Any) -> None:
-    """Show a robot, or fit one from its published model.
+    """Show a robot, or describe a new one from its published model.
 
-    ``stepaside robot NAME`` shows the robot NAME: one that comes with the
-    package (nao), or a folder with a robot.toml and a model.
+    `stepaside robot NAME` is short for `stepaside robot show NAME`. NAME is
+    a built-in robot (nao) or a folder with a robot.toml and a model.
     """
 
 

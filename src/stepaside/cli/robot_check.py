@@ -1,4 +1,4 @@
-"""``stepaside robot check``: whether a robot plays."""
+"""``stepaside robot check``: verification of a robot description."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -8,8 +8,9 @@ import click
 from .options.common_options import FIGURE, WORKERS, json_option
 from .output_files import attempt, writes_files
 from .progress import show_progress
+from .tables import print_table
 from .terminal import echo
-from .value_types import print_json, print_table
+from .value_types import print_json
 
 if TYPE_CHECKING:
     from ..fitting.robot_verification import VerificationReport
@@ -19,31 +20,31 @@ if TYPE_CHECKING:
 @click.command("check")
 @click.argument("folder")
 @WORKERS.option()
-@FIGURE.option(help="Picture of the robot as it stands, with its soles.")
+@FIGURE.option(help="Write an image of the standing robot with its soles.")
 @json_option
 @writes_files
 def check(
     folder: str, workers: int | None, figure: str | None, as_json: bool
 ) -> None:
-    """Say whether the robot in FOLDER plays, and if not, why.
+    """Check whether the robot in FOLDER can play.
 
-    Looks at what it has, then lets it walk forward, backward and turning,
-    in open loop and with feedback. Ends with exit status 1 if it does not
-    play as it is described.
+    Checks the description, then simulates walks forward, backward and
+    turning, in open loop and with feedback. The exit status is 1 if a check
+    fails.
     """
     from ..robots.description import load_robot
 
     description = load_robot(folder)
-    checked = _check(description, workers)
+    report = _check(description, workers)
     if figure is not None:
         from ..report.robot_figure import draw_robot
 
         attempt(lambda: draw_robot(description, Path(figure)))
     if as_json:
-        print_json({"robot": description.name} | checked.to_json())
+        print_json({"robot": description.name} | report.to_json())
     else:
-        _print(checked)
-    if not checked.passes:
+        _print(report)
+    if not report.passes:
         raise SystemExit(1)
 
 
@@ -66,13 +67,14 @@ def _check(
         return check_robot(description, executor, report)
 
 
-def _print(checked: "VerificationReport") -> None:
+def _print(report: "VerificationReport") -> None:
     print_table(
-        [(f.name, f"{f.verdict:<4}  {f.value}") for f in checked.findings]
+        [(f.name, f"{f.verdict:<4}  {f.value}") for f in report.findings]
     )
-    hints = [f for f in checked.findings if f.hint]
+    hints = [f for f in report.findings if f.hint]
     if hints:
         echo("")
     for finding in hints:
         echo(f"{finding.name}: {finding.hint}")
-    echo("\nit plays" if checked.passes else "\nit does not play yet")
+    passed = "all checks passed: the robot can play"
+    echo(f"\n{passed if report.passes else 'the robot cannot play yet'}")

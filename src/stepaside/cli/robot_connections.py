@@ -1,10 +1,10 @@
-"""Opening a robot that ``stepaside play`` is told of."""
+"""Robot connections of ``stepaside play``."""
 
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from .naoqi_options import mover_of
+from .naoqi_options import mover_factory
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -22,7 +22,7 @@ LOLA, NAOQI, ROS2 = "lola:", "naoqi:", "ros2:"
 
 
 def strategy_of(settings: "DuelSettings", role: str) -> "Strategy":
-    """What a role plays."""
+    """Load the strategy of a role."""
     from ..strategies import load_strategy
 
     names = {
@@ -35,7 +35,7 @@ def strategy_of(settings: "DuelSettings", role: str) -> "Strategy":
 def open_joints(
     settings: "DuelSettings", options: dict[str, Any]
 ) -> "JointLoop":
-    """Connect to a robot whose joints are moved."""
+    """Connect to a robot for joint control."""
     from ..drivers.joint.joint_body import JointBody
     from ..drivers.joint.joint_loop import JointLoop
     from ..drivers.scheme_factory import mind_maker
@@ -66,14 +66,14 @@ def open_joints(
 def _joints_of(
     settings: "DuelSettings", options: dict[str, Any], *, sees: bool
 ) -> "Callable[[Sequence[str], Array], JointBody]":
-    """What opens the joints of a robot, given their names and its stance."""
+    """Return a function that connects, given joint names and stance."""
     from functools import partial
 
     from ..drivers.joint.session_options import SessionOptions
     from .camera_connections import open_cameras
 
     robot = options["robot"]
-    asked: dict[str, Any] = {
+    session: dict[str, Any] = {
         "dry_run": options["dry_run"],
         "guarded": True,
         "patience": options["wait"],
@@ -83,23 +83,27 @@ def _joints_of(
         from ..drivers.naoqi.naoqi_url import parse_url
 
         url = parse_url(robot)
-        own = options | {"images": options["images"] or f"{NAOQI}{url}"}
-        eyes = partial(open_cameras, settings, None, own) if sees else None
-        how = SessionOptions(**asked, open_eyes=eyes)
+        options = options | {"images": options["images"] or f"{NAOQI}{url}"}
+        camera = (
+            partial(open_cameras, settings, None, options) if sees else None
+        )
+        how = SessionOptions(**session, open_eyes=camera)
         return partial(open_naoqi, url, how=how)
     from ..drivers.lola.lola_address import parse_address
     from ..drivers.lola.lola_connection import open_lola
 
     address = parse_address(robot)
-    eyes = partial(open_cameras, settings, address, options) if sees else None
-    how = SessionOptions(**asked, open_eyes=eyes)
+    camera = (
+        partial(open_cameras, settings, address, options) if sees else None
+    )
+    how = SessionOptions(**session, open_eyes=camera)
     return partial(open_lola, address, how=how)
 
 
 def open_velocity(
     settings: "DuelSettings", options: dict[str, Any]
 ) -> "VelocityLoop":
-    """Connect to a robot that walks by itself."""
+    """Connect to a robot with its own walking controller."""
     from math import inf
 
     from ..drivers.velocity.template_controller import TemplateController
@@ -123,18 +127,18 @@ def open_velocity(
 def _guarded(
     settings: "DuelSettings", options: dict[str, Any]
 ) -> "VelocityBody":
-    """A robot, with a guardian where one can be needed."""
+    """Connect to a robot, with a guardian process if it can move."""
     from ..drivers.guardian_process import open_within
     from ..drivers.velocity.velocity_guardian import GuardedBody, guardian_of
 
-    open_once, join = _line_to(settings, options)
+    open_once, join = _velocity_connection(settings, options)
 
     def open_body() -> "VelocityBody":
         return open_within(open_once, options["wait"])
 
     if options["dry_run"] or options["sim_time"]:
         return open_body()
-    # Forked here: what speaks to the robot starts threads.
+    # Fork before connecting, which starts threads.
     guardian = guardian_of(join)
     try:
         return GuardedBody(open_body(), guardian)
@@ -143,17 +147,18 @@ def _guarded(
         raise
 
 
-def _line_to(
+def _velocity_connection(
     settings: "DuelSettings",
     options: dict[str, Any],
 ) -> "tuple[Callable[[], VelocityBody], Callable[[], Callable[[], None]]]":
-    """What opens a robot, and what joins it to make it rest."""
+    """Return functions that connect to a robot, and that make it rest."""
     robot, dry_run = options["robot"], options["dry_run"]
     sees = settings.sensing == "cameras"
     if sees and not robot.startswith(NAOQI):
         raise click.UsageError(
-            "--sensing cameras is for robots on LoLA or NAOqi, whose head "
-            "follows the other; who is driven over topics is told of it"
+            "--sensing cameras requires a robot on LoLA or NAOqi, whose head "
+            f"follows the opponent, got {robot!r}; over ROS 2 the opponent's "
+            "position is received on a topic"
         )
     if robot.startswith(ROS2):
         from ..drivers.ros2.namespaces import parse_namespace
@@ -182,13 +187,15 @@ def _line_to(
 
         def open_naoqi() -> "VelocityBody":
             if sees:
-                from .camera_connections import open_looking
+                from .camera_connections import open_camera_body
 
-                return open_looking(settings, url, options)
+                return open_camera_body(settings, url, options)
             from ..drivers.naoqi.naoqi_body import NaoqiBody
 
             return NaoqiBody(
-                url, dry_run=dry_run, make_mover=mover_of(settings, options)
+                url,
+                dry_run=dry_run,
+                make_mover=mover_factory(settings, options),
             )
 
         def join_naoqi() -> "Callable[[], None]":

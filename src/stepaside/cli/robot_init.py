@@ -1,4 +1,4 @@
-"""``stepaside robot init``: a description from a published model."""
+"""``stepaside robot init``: description of a new robot from its model."""
 
 from pathlib import Path
 from typing import Any
@@ -9,8 +9,9 @@ from ..core.atomic_output import check_file, check_folder, writing
 from ..core.errors import StepAsideError
 from .options.common_options import FOLDER, json_option
 from .output_files import OVERWRITE
+from .tables import print_table
 from .terminal import echo
-from .value_types import print_json, print_table
+from .value_types import print_json
 
 
 @click.command("init")
@@ -18,15 +19,15 @@ from .value_types import print_json, print_table
     "model", type=click.Path(exists=True, dir_okay=False, path_type=Path)
 )
 @FOLDER.option(
-    help="Folder for the description; a new one beside the work by default, "
-    "named after the model."
+    help="Folder for the description; a new folder with the name of the "
+    "model by default."
 )
 @click.option(
     "--meshes",
     multiple=True,
     type=click.Path(exists=True, file_okay=False, path_type=Path),
-    help="Folder in which mesh files are looked for, any number of times; "
-    "beside the model by default.",
+    help="Folder with mesh files; repeatable. The folder of the model by "
+    "default.",
 )
 @OVERWRITE.option(default=False)
 @json_option
@@ -37,12 +38,12 @@ def init(
     overwrite: bool,
     as_json: bool,
 ) -> None:
-    """Describe the humanoid whose published MODEL (MJCF or URDF) is given.
+    """Derive a robot description from a published MODEL (MJCF or URDF).
 
-    Derives legs, soles, servos, posture, gait and distances, and writes
-    them with where each comes from. The model is only read, never changed
-    or copied. What the model does not tell is asked for in the file: search
-    it for ASK.
+    Derives legs, soles, servos, posture, gait and distances, and writes each
+    value with its source. The model is neither changed nor copied. Values
+    that the model does not contain are marked ASK in the description: search
+    for it and fill them in.
     """
     from ..fitting.derivation import derive
     from ..fitting.description_writer import write_description
@@ -71,17 +72,19 @@ def init(
     if failed is not None:
         raise failed
     if not as_json:
-        echo(f"\nwrote {file}; now: stepaside robot check {folder}")
+        echo(f"\nwrote {file}; next: stepaside robot check {folder}")
 
 
 def _print(facts: dict[str, Any]) -> None:
-    asked = facts["asked_for"]
     low, high = facts["com_heights_m"]
     rows = [
         ("robot", f"{facts['name']}, {facts['mass_kg']:.1f} kg"),
         ("legs", f"{facts['leg_length_m']:.3f} m from hip to sole"),
-        ("joints of a leg", ", ".join(facts["legs"][0])),
-        ("CoM height", f"{facts['com_height_m']:.3f} m of {low} to {high} m"),
+        ("leg joints", ", ".join(facts["legs"][0])),
+        (
+            "CoM height",
+            f"{facts['com_height_m']:.3f} m (range {low} to {high} m)",
+        ),
         ("foot spacing", f"{facts['foot_spacing_m']:.3f} m"),
         (
             "sole",
@@ -89,28 +92,28 @@ def _print(facts: dict[str, Any]) -> None:
         ),
         ("stride", f"{facts['gait']['stride']:g} m"),
         (
-            "supports",
-            f"{facts['gait']['single_support']:g} s on one foot, "
-            f"{facts['gait']['double_support']:g} s on both",
+            "support durations",
+            f"{facts['gait']['single_support']:g} s single, "
+            f"{facts['gait']['double_support']:g} s double",
         ),
         ("safety radius", f"{facts['game']['safety_radius']:g} m"),
-        ("head", _head(facts["head"])),
-        ("meshes left out", str(facts["left_out_meshes"])),
-        ("asked for", _asked(asked)),
+        ("head", _head_text(facts["head"])),
+        ("omitted meshes", str(facts["left_out_meshes"])),
+        ("missing values", _missing_text(facts["asked_for"])),
     ]
     print_table(rows)
 
 
-def _head(head: dict[str, Any]) -> str:
+def _head_text(head: dict[str, Any]) -> str:
     joints = [name for name in (head["yaw"], head["pitch"]) if name]
     cameras = ", ".join(head["cameras"]) or "none"
-    return f"turned by {', '.join(joints) or 'nothing'}, cameras {cameras}"
+    return f"joints {', '.join(joints) or 'none'}, cameras {cameras}"
 
 
-def _asked(asked: dict[str, Any]) -> str:
-    words = ["the sole"] if asked["sole"] else []
-    if asked["torques"]:
-        words.append(f"torques of {len(asked['torques'])} joints")
-    if asked["speed_limits"]:
-        words.append(f"speed limits of {len(asked['speed_limits'])} joints")
-    return ", ".join(words) or "nothing"
+def _missing_text(missing: dict[str, Any]) -> str:
+    names = ["sole"] if missing["sole"] else []
+    if missing["torques"]:
+        names.append(f"torques of {len(missing['torques'])} joints")
+    if missing["speed_limits"]:
+        names.append(f"speed limits of {len(missing['speed_limits'])} joints")
+    return ", ".join(names) or "none"

@@ -1,4 +1,4 @@
-"""``stepaside robot show``: show a robot, or write its model."""
+"""``stepaside robot show``: properties of a robot, or its MuJoCo model."""
 
 from pathlib import Path
 
@@ -7,9 +7,9 @@ import click
 from ..core.atomic_output import writing
 from .options.common_options import FILE, json_option
 from .output_files import writes_files
+from .tables import print_table, table_rows
 from .terminal import echo
-from .value_labels import rows_of
-from .value_types import print_json, print_table
+from .value_types import print_json
 
 
 @click.command("show")
@@ -17,25 +17,24 @@ from .value_types import print_json, print_table
 @click.option(
     "--mjcf/--no-mjcf",
     default=False,
-    help="Write the MuJoCo model and nothing else.",
+    help="Write the MuJoCo model (MJCF) only.",
 )
 @FILE.option(help="File for the model; standard output by default.")
 @click.option(
     "--compile/--no-compile",
     "stores",
     default=False,
-    help="Write its kinematic tree beside its description: with it, the "
-    "robot is controlled where MuJoCo is not installed.",
+    help="Store the kinematic tree next to the description, so that the robot "
+    "can be controlled without MuJoCo.",
 )
 @json_option
 @writes_files
 def show(
     name: str, mjcf: bool, output: str | None, stores: bool, as_json: bool
 ) -> None:
-    """Show the robot NAME, or write its model for MuJoCo's own viewer.
+    """Show the robot NAME, or write its MuJoCo model.
 
-    NAME is a robot that comes with the package (nao), or a folder with a
-    robot.toml and a model.
+    NAME is a built-in robot (nao) or a folder with a robot.toml and a model.
     """
     from ..robots.description import load_robot
 
@@ -67,4 +66,4 @@ def show(
     if as_json:
         print_json(facts)
     else:
-        print_table(rows_of(facts, facts))
+        print_table(table_rows(facts, facts))

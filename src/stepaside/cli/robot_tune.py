@@ -1,4 +1,4 @@
-"""``stepaside robot tune``: the steadiest way to walk, found by walking."""
+"""``stepaside robot tune``: search for the steadiest gait in simulation."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -6,17 +6,18 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..core.atomic_output import writing
-from .interruption import kept_in, leave_stopped
+from .interruption import exit_interrupted, resume_message
 from .options.common_options import WORKERS, json_option
 from .progress import show_progress
+from .tables import print_table
 from .terminal import echo
-from .value_types import print_json, print_table
+from .value_types import print_json
 
 if TYPE_CHECKING:
     from ..fitting.gait_search import RatedCandidate, SearchResult
     from ..robots.description import RobotDescription
 
-KEPT = "tune.jsonl"
+RECORDS = "tune.jsonl"
 
 
 @click.command("tune")
@@ -26,18 +27,19 @@ KEPT = "tune.jsonl"
 @WORKERS.option()
 @json_option
 def tune(folder: Path, workers: int | None, as_json: bool) -> None:
-    """Find how the robot in FOLDER walks most steadily, and write it.
+    """Find the steadiest gait of the robot in FOLDER and store it.
 
-    Tries servo gains, durations of the supports, stride, spacing, lean, place
-    of the ZMP, CoM height, and feedback, in short walks on all cores. What it
-    finds goes into the description, with what was measured. Each walk is
-    kept in FOLDER/tune.jsonl: a search that was stopped goes on from there.
+    Varies servo gains, support durations, stride, foot spacing, lean, ZMP
+    position, CoM height and feedback in short simulated walks on all cores.
+    The best gait is written to the description with its measurements. Walks
+    are recorded in FOLDER/tune.jsonl, so that an interrupted search can be
+    continued with the same command.
     """
     from ..fitting.description_edit import rewritten
     from ..robots.description import FILE, load_robot
 
     description = load_robot(folder)
-    tuned = _search(description, folder / KEPT, workers)
+    tuned = _search(description, folder / RECORDS, workers)
     best = tuned.best.candidate.applied(description)
     assert best is not None
     changed = tuned.best.candidate != tuned.before.candidate
@@ -46,14 +48,14 @@ def tune(folder: Path, workers: int | None, as_json: bool) -> None:
         text = file.read_text(encoding="utf-8")
         with writing(file) as draft:
             draft.write_text(
-                rewritten(text, best, _words(tuned)), encoding="utf-8"
+                rewritten(text, best, _comment_lines(tuned)), encoding="utf-8"
             )
     facts = {
         "robot": description.name,
         "changed": changed,
         "tried": tuned.tried,
-        "before": _plain(tuned.before),
-        "best": _plain(tuned.best),
+        "before": _to_json(tuned.before),
+        "best": _to_json(tuned.best),
         "gait": dict(best.gait),
     }
     if as_json:
@@ -65,7 +67,7 @@ def tune(folder: Path, workers: int | None, as_json: bool) -> None:
 
 
 def _search(
-    description: "RobotDescription", kept: Path, workers: int | None
+    description: "RobotDescription", records: Path, workers: int | None
 ) -> "SearchResult":
     """Search with a progress bar on standard error."""
     from ..core.worker_pool import worker_pool
@@ -81,21 +83,21 @@ def _search(
             bar.set_postfix_str(f"unsteadiness {least:.2f}")
 
         try:
-            return GaitSearch(description, executor, kept, report).run()
+            return GaitSearch(description, executor, records, report).run()
         except KeyboardInterrupt:
-            leave_stopped(kept_in(f"{bar.n} gaits", kept))
+            exit_interrupted(resume_message(f"{bar.n} gaits", records))
 
 
-def _plain(judged: "RatedCandidate") -> dict[str, Any]:
+def _to_json(rated: "RatedCandidate") -> dict[str, Any]:
     return {
-        "changes": judged.candidate.to_json(),
-        "unsteadiness": judged.unsteadiness,
-        "walks": list(judged.walks),
+        "changes": rated.candidate.to_json(),
+        "unsteadiness": rated.unsteadiness,
+        "walks": list(rated.walks),
     }
 
 
-def _words(tuned: "SearchResult") -> list[str]:
-    """What was measured, line by line."""
+def _comment_lines(tuned: "SearchResult") -> list[str]:
+    """Return the measurements as lines of a comment."""
     before, best = tuned.before, tuned.best
     changes = [
         f"{name} {value:g}"
@@ -105,14 +107,14 @@ def _words(tuned: "SearchResult") -> list[str]:
     lines = [
         f"{', '.join(changes) or 'nothing changed'};",
         f"unsteadiness {before.unsteadiness:.2f} before, "
-        f"{best.unsteadiness:.2f} after (1 is the most of a steady walk),",
-        f"of {tuned.tried} gaits tried.",
+        f"{best.unsteadiness:.2f} after (steady below 1),",
+        f"best of {tuned.tried} gaits.",
     ]
     for walk in best.walks:
         if walk["completed"]:
             lines.append(
                 f"{walk['way']}: tilt {walk['tilt']:.2f} deg, speed "
-                f"{walk['speed']:.3f} of what was planned"
+                f"{walk['speed']:.3f} of the planned one"
             )
     return lines
 
@@ -120,8 +122,8 @@ def _words(tuned: "SearchResult") -> list[str]:
 def _print(tuned: "SearchResult", folder: Path, changed: bool) -> None:
     rows = [
         ("gaits tried", str(tuned.tried)),
-        ("unsteadiness before", f"{tuned.before.unsteadiness:.2f} of 1"),
-        ("unsteadiness now", f"{tuned.best.unsteadiness:.2f} of 1"),
+        ("unsteadiness before", f"{tuned.before.unsteadiness:.2f}"),
+        ("unsteadiness after", f"{tuned.best.unsteadiness:.2f}"),
     ]
     rows += [
         (name, f"{value:g}")
@@ -132,8 +134,8 @@ def _print(tuned: "SearchResult", folder: Path, changed: bool) -> None:
         echo(f"\nwrote {folder}/robot.toml")
     elif tuned.tried == 1:
         echo(
-            "\nit walks steadily already, so nothing else was tried (tune "
-            "betters steadiness, not torques): the description stays as it is"
+            "\nthe gait is steady already (tune improves steadiness, not "
+            "torques): the description is unchanged"
         )
     else:
-        echo("\nnothing tried was better: the description stays as it is")
+        echo("\nno better gait was found: the description is unchanged")

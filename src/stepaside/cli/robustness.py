@@ -1,4 +1,4 @@
-"""``stepaside robustness``: what a walk survives, on all cores."""
+"""``stepaside robustness``: survival of a walk under disturbances."""
 
 from collections.abc import Collection
 from pathlib import Path
@@ -9,7 +9,7 @@ import click
 from ..core.atomic_output import check_folder
 from ..core.errors import OutputError
 from .campaign_reports import CampaignOutcome
-from .interruption import kept_in, leave_stopped
+from .interruption import exit_interrupted, resume_message
 from .options.body_options import BODY, CONTROL, FEEDBACK, METHOD, PHYSICS
 from .options.common_options import (
     FIGURE,
@@ -27,9 +27,9 @@ from .output_files import attempt, writes_files
 from .robustness_people import meet_people, print_people, write_people
 from .robustness_walks import (
     CampaignRequest,
-    answer_walks,
     plan_walks,
     run_walks,
+    summarise_walks,
     write_walks,
 )
 from .terminal import echo
@@ -39,17 +39,17 @@ if TYPE_CHECKING:
     from ..games.walk_settings import WalkSettings
 
 
-def words_of_done(answer: dict[str, Any]) -> str:
-    """How far a campaign came."""
+def progress_text(answer: dict[str, Any]) -> str:
+    """Return how much of a campaign is finished."""
     done, planned = answer["done"], answer["planned"]
     return (
         f"{done['trials']} of {planned['trials']} trials and "
-        f"{done['push_limits']} of {planned['push_limits']} limits of pushes"
+        f"{done['push_limits']} of {planned['push_limits']} push limits"
     )
 
 
 def print_campaign(answer: dict[str, Any]) -> None:
-    """Print survival, then the largest pushes."""
+    """Print survival rates, then push limits."""
     from ..studies.robustness_campaign import UNITS
 
     head = ("method", "disturbance", "strength", "survived", "95 %")
@@ -69,7 +69,7 @@ def print_campaign(answer: dict[str, Any]) -> None:
 def _print_limits(
     limits: list[dict[str, Any]], by_method: dict[str, Any]
 ) -> None:
-    echo("\nlargest push survived / pendulum's bound [N s], by phase")
+    echo("\npush limit / bound of the pendulum [N s], by phase")
     for method in dict.fromkeys(r["method"] for r in limits):
         for direction in dict.fromkeys(r["direction"] for r in limits):
             cells = " ".join(
@@ -78,7 +78,10 @@ def _print_limits(
                 if (r["method"], r["direction"]) == (method, direction)
             )
             echo(f"{method:<12} {direction:<9} {cells}")
-    echo("\nmeasured over the pendulum's bound: median, least, most; above it")
+    echo(
+        "\npush limit as a fraction of the pendulum's bound: median, minimum, "
+        "maximum; cases above the bound"
+    )
     for method, found in by_method.items():
         echo(
             f"{method:<12} {found['median_of_bound']:.2f} "
@@ -88,7 +91,7 @@ def _print_limits(
 
 
 PERSON = "person"
-OLD_KINDS = {"play": "backlash"}  # names of today by former ones
+OLD_KINDS = {"play": "backlash"}  # current names by former ones
 
 
 def _kinds() -> Collection[str]:
@@ -127,10 +130,10 @@ def _others() -> Collection[str]:
     "kinds",
     type=NameType(_kinds, OLD_KINDS),
     multiple=True,
-    help="Disturbance, any number of times; all but persons by default. Of "
-    "pushes the largest one survived is searched, to 0.1 N s for NAO, and "
-    "push_unit times that for others. Persons come from all around at one "
-    "who stands.",
+    help="Disturbance; repeatable. All except person by default. For pushes, "
+    "search the largest impulse survived, to 0.1 N s for NAO (scaled by "
+    "push_unit for other robots). For person, let people approach the "
+    "standing robot from all directions.",
 )
 @click.option(
     "--sensing",
@@ -138,7 +141,8 @@ def _others() -> Collection[str]:
     type=NameType(_senses),
     multiple=True,
     default=("ideal",),
-    help="How persons are seen, any number of times; ideal by default.",
+    help="Sensing of people, with --kind person; repeatable.  "
+    "[default: ideal]",
 )
 @click.option(
     "--method",
@@ -146,29 +150,30 @@ def _others() -> Collection[str]:
     type=NameType(_methods),
     multiple=True,
     default=("open-loop", "measured"),
-    help="How the walk is controlled, any number of times; open-loop and "
-    "measured by default.",
+    help="Control method; repeatable.  [default: open-loop, measured]",
 )
 @click.option(
     "--phases",
     type=click.IntRange(1, 64),
     default=8,
     show_default=True,
-    help="Phases of the gait cycle at which each push is tried.",
+    help="Number of phases of the gait cycle at which pushes are applied.",
 )
 @click.option(
     "--seeds",
     type=click.IntRange(1, 1_000),
     default=8,
     show_default=True,
-    help="Walks of each other disturbance.",
+    help="Number of walks for each disturbance other than pushes.",
 )
 @WORKERS.option()
 @FOLDER.option(
-    help="Folder of results, which goes on with what it holds; "
+    help="Folder of results; an interrupted campaign in it is continued. "
     "runs/robustness-BODY by default, none with --json."
 )
-@FIGURE.option(help="Write survival here, too (.png, .svg or .pdf).")
+@FIGURE.option(
+    help="Write a copy of the survival figure (.png, .svg or .pdf)."
+)
 @figure_width
 @json_option
 @writes_files
@@ -180,10 +185,10 @@ def _others() -> Collection[str]:
     BODY,
     CONTROL.without(METHOD, FEEDBACK),
     PHYSICS,
-    aside=_others,
-    meanings={
-        SEED: "Of the first walk; the others follow it. Pushes have only "
-        "this one."
+    ignored=_others,
+    help_texts={
+        SEED: "Random seed of the first walk; later walks increment it. "
+        "Pushes use this seed only."
     },
 )
 def robustness(
@@ -198,29 +203,34 @@ def robustness(
     figure: str | None,
     as_json: bool,
 ) -> None:
-    """Walk many times under one disturbance after the other.
+    """Measure how many simulated walks survive each disturbance.
 
-    A campaign that was stopped writes no results; it goes on where it was
-    when it is started again with the same folder. Of a configuration, which
-    may be that of a duel, too, it takes all but duration, method and pushes.
+    To continue an interrupted campaign, run it again with the same folder.
+    A configuration of a walk or a duel may be given; its duration, method
+    and pushes are ignored.
     """
     from ..studies.settings_diff import changes_of
 
-    kinds = _once(kinds) or tuple(k for k in _kinds() if k != PERSON)
+    kinds = _unique(kinds) or tuple(k for k in _kinds() if k != PERSON)
     body, changes = changes_of(settings)
     if output is None and not as_json:
         output = Path("runs") / f"robustness-{body}"
     if output is not None:
         check_folder(output, new=False)
-    asked = CampaignRequest(
-        tuple(kind for kind in kinds if kind != PERSON),
-        *(_once(methods), body, phases, seeds, settings.seed, changes),
+    request = CampaignRequest(
+        kinds=tuple(kind for kind in kinds if kind != PERSON),
+        methods=_unique(methods),
+        body=body,
+        phases=phases,
+        seeds=seeds,
+        seed=settings.seed,
+        changes=changes,
     )
-    answer, ended = _walk_on(settings, asked, output, workers)
-    if PERSON in kinds and ended.whole:
+    answer, ended = _run_disturbed_walks(settings, request, output, workers)
+    if PERSON in kinds and ended.completed:
         people = {
             "kind": PERSON,
-            "sensings": _once(sensings),
+            "sensings": _unique(sensings),
             "body": body,
             "seeds": seeds,
             "seed": settings.seed,
@@ -228,10 +238,10 @@ def robustness(
         }
         file = None if output is None else output / "encounters.jsonl"
         found, ended = meet_people(
-            settings, _once(sensings), seeds, file, workers
+            settings, _unique(sensings), seeds, file, workers
         )
         answer["person"] = found
-        if output is not None and ended.whole:
+        if output is not None and ended.completed:
             try:
                 write_people(output, people, found)
             except OutputError as error:
@@ -241,47 +251,42 @@ def robustness(
         from ..studies.robustness_campaign import UNITS
 
         attempt(lambda: draw_survival(answer["survival"], UNITS, Path(figure)))
-    _tell(answer, output, stopped=ended.stopped, as_json=as_json)
+    _print_all(answer, output, stopped=ended.stopped, as_json=as_json)
     if ended.failed is not None:
         raise ended.failed
     if not as_json:
         echo(f"\nresults: {output}")
 
 
-def _walk_on(
+def _run_disturbed_walks(
     settings: "WalkSettings",
-    asked: CampaignRequest,
+    request: CampaignRequest,
     output: Path | None,
     workers: int | None,
 ) -> tuple[dict[str, Any], CampaignOutcome]:
-    """Walk under disturbances, if any are asked for.
-
-    Returns:
-        What was found, and how it ended, or what went wrong when it was
-        written.
-    """
-    if not asked.kinds:
+    """Run the walks of a campaign; return results and outcome."""
+    if not request.kinds:
         return {}, CampaignOutcome()
-    grid, cases = plan_walks(asked)
+    grid, cases = plan_walks(request)
     file = None if output is None else output / "trials.jsonl"
     results, ended = run_walks(grid, cases, file, workers)
-    answer = answer_walks(settings, asked.body, grid, cases, results)
-    if output is not None and ended.whole:
+    answer = summarise_walks(settings, request.body, grid, cases, results)
+    if output is not None and ended.completed:
         try:
-            write_walks(output, settings, asked, answer)
+            write_walks(output, settings, request, answer)
         except OutputError as error:
             return answer, CampaignOutcome(failed=error)
     return answer, ended
 
 
-def _tell(
+def _print_all(
     answer: dict[str, Any],
     output: Path | None,
     *,
     stopped: bool,
     as_json: bool,
 ) -> None:
-    """Print what was found; leave with 130 after a Ctrl-C."""
+    """Print all results; exit with status 130 after Ctrl-C."""
     people = answer.get(PERSON)
     if as_json:
         print_json(answer)
@@ -293,12 +298,12 @@ def _tell(
     if not stopped:
         return
     done = (
-        words_of_done(answer)
+        progress_text(answer)
         if people is None
-        else f"{people['done']} of {people['planned']} persons"
+        else f"{people['done']} of {people['planned']} encounters"
     )
-    leave_stopped(kept_in(done, output))
+    exit_interrupted(resume_message(done, output))
 
 
-def _once(names: tuple[str, ...]) -> tuple[str, ...]:
+def _unique(names: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(names))

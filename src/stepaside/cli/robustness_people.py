@@ -1,9 +1,9 @@
-"""``stepaside robustness --kind person``: people who come."""
+"""``stepaside robustness --kind person``: encounters with people."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .campaign_reports import CampaignOutcome, gather
+from .campaign_reports import CampaignOutcome, run_campaign_work
 from .progress import show_progress
 from .terminal import echo
 
@@ -18,17 +18,17 @@ def meet_people(
     file: Path | None,
     workers: int | None,
 ) -> tuple[dict[str, Any], CampaignOutcome]:
-    """Let people come, with a progress bar.
+    """Simulate encounters with people, with a progress bar.
 
     Args:
-        settings: How the robot walks; its seed is the first one.
-        sensings: How it sees.
-        seeds: Number of each who comes.
-        file: Results that are done, which grows; None keeps nothing.
-        workers: Processes.
+        settings: Settings of the robot; its seed is the first one.
+        sensings: Kinds of sensing.
+        seeds: Number of encounters of each kind.
+        file: Record file; None records nothing.
+        workers: Number of processes; all cores if None.
 
     Returns:
-        What was found so far, and how it ended.
+        The results so far, and how the campaign ended.
     """
     from ..core.worker_pool import worker_pool
     from ..studies.people_campaign import encounters, run_encounters
@@ -50,7 +50,7 @@ def meet_people(
             bar.n = number
             bar.refresh()
 
-        ended = gather(
+        ended = run_campaign_work(
             lambda: run_encounters(grid, file, executor, report, done),
             file,
             lambda: {key: record | stamp() for key, record in done.items()},
@@ -66,14 +66,14 @@ def meet_people(
 
 
 def write_people(
-    output: Path, asked: dict[str, Any], answer: dict[str, Any]
+    output: Path, request: dict[str, Any], answer: dict[str, Any]
 ) -> None:
-    """Write the results of a whole campaign and their map.
+    """Write the results of a complete campaign and their figure.
 
     Args:
-        output: Folder, which exists.
-        asked: What was asked for.
-        answer: Of :func:`meet_people`.
+        output: Existing folder.
+        request: Settings of the campaign, for the header of the results.
+        answer: Results of :func:`meet_people`.
 
     Raises:
         OutputError: If a file cannot be written.
@@ -81,27 +81,27 @@ def write_people(
     from ..report.people_figure import draw_people
     from ..studies.result_files import header, write_result
 
-    write_result(output / "people.json", header(asked), **answer)
+    write_result(output / "people.json", header(request), **answer)
     clearance = answer["clearance_m"]
     draw_people(answer["origins"], clearance, output / "people.png")
 
 
 def print_people(answer: dict[str, Any]) -> None:
-    """Print who came, and who only passed."""
-    head = ("seen by", "speed", "contacts", "closest", "template", "room")
+    """Print encounters with approaching and with passing people."""
+    head = ("sensing", "speed", "contacts", "closest", "template", "theory")
     echo("{:<8} {:>9} {:>9} {:>8} {:>9} {:>8}".format(*head))
     for row in answer["people"]:
         template = row["template_closest_m"]
-        told = "-" if template is None else f"{template:.2f} m"
+        simulated = "-" if template is None else f"{template:.2f} m"
         echo(
             f"{row['sensing']:<8} {row['speed_m_s']:>5g} m/s "
             f"{row['contacts']:>4}/{row['number']:<4} "
-            f"{row['closest_m']:>6.2f} m {told:>9} "
+            f"{row['closest_m']:>6.2f} m {simulated:>9} "
             f"{row['theory_room_m']:>6.2f} m"
         )
     for row in answer["passers_by"]:
         echo(
             f"{row['sensing']}: {row['false_triggers']} false triggers with "
-            f"{row['number']} passers-by, "
-            f"{row['false_triggers_per_hour']:.1f} an hour"
+            f"{row['number']} passing pedestrians, "
+            f"{row['false_triggers_per_hour']:.1f} per hour"
         )

@@ -1,13 +1,13 @@
-"""``stepaside robustness``: walks under one disturbance after the other."""
+"""``stepaside robustness``: simulated walks under disturbances."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .campaign_reports import (
     CampaignOutcome,
+    announce_campaign,
     check_records,
-    gather,
-    tell_campaign,
+    run_campaign_work,
 )
 from .progress import show_progress
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class CampaignRequest(NamedTuple):
-    """What a campaign is asked for; see the options for each."""
+    """Settings of a campaign, named as the options of the command."""
 
     kinds: tuple[str, ...]
     methods: tuple[str, ...]
@@ -27,40 +27,45 @@ class CampaignRequest(NamedTuple):
     changes: str = ""
 
     def settings(self) -> dict[str, Any]:
-        """What a result says of it; changes only where there are any."""
+        """Return the settings for a result, without empty changes."""
         return {k: v for k, v in self._asdict().items() if v != ""}
 
 
-def plan_walks(asked: CampaignRequest) -> tuple[list[Any], list[Any]]:
-    """Trials of a grid, and pushes whose limit is to be searched."""
+def plan_walks(request: CampaignRequest) -> tuple[list[Any], list[Any]]:
+    """Return all trials, and the push cases whose limit is searched."""
     from ..studies.push_limits import push_cases
     from ..studies.robustness_campaign import trials
 
-    kinds, methods, body, phases, seeds, seed, changes = asked
     grid = trials(
-        *(kinds, methods, body),
-        seeds=seeds,
-        first_seed=seed,
-        changes=changes,
+        request.kinds,
+        request.methods,
+        request.body,
+        seeds=request.seeds,
+        first_seed=request.seed,
+        changes=request.changes,
     )
-    if "push" not in kinds:
+    if "push" not in request.kinds:
         return list(grid), []
     cases = push_cases(
-        methods, body, phases=phases, seed=seed, changes=changes
+        request.methods,
+        request.body,
+        phases=request.phases,
+        seed=request.seed,
+        changes=request.changes,
     )
     return list(grid), list(cases)
 
 
-def answer_walks(
+def summarise_walks(
     settings: "WalkSettings",
     body: str,
     grid: list[Any],
     cases: list[Any],
     results: dict[str, bool],
 ) -> dict[str, Any]:
-    """What was found so far, and how much that is of what is planned.
+    """Return the results so far, with planned and finished numbers.
 
-    How many walks the limits of the pushes take is not known before.
+    The number of walks in the search for push limits is not known ahead.
     """
     from ..studies.push_limits import outcomes_of
     from ..studies.robustness_campaign import mass_of, push_scale
@@ -94,25 +99,27 @@ def answer_walks(
 def write_walks(
     output: Path,
     settings: "WalkSettings",
-    asked: CampaignRequest,
+    request: CampaignRequest,
     answer: dict[str, Any],
 ) -> None:
-    """Write the results of a whole campaign, each file at one stroke."""
+    """Write the results of a complete campaign, each file atomically."""
     from ..report.robustness_figure import draw_limits, draw_survival
     from ..studies.push_results import pushes_result
     from ..studies.result_files import header, write_result
     from ..studies.robustness_campaign import ROOMS, UNITS
 
-    head = header(asked.settings(), rooms=ROOMS)
+    head = header(request.settings(), rooms=ROOMS)
     write_result(output / "survival.json", head, **answer)
     draw_survival(answer["survival"], UNITS, output / "survival.png")
     limits = answer["limits"]
     if limits:
         draw_limits(limits, output / "limits.png")
         made = pushes_result(
-            *(limits, asked.methods, asked.body),
-            phases=asked.phases,
-            seed=asked.seed,
+            limits,
+            request.methods,
+            request.body,
+            phases=request.phases,
+            seed=request.seed,
             walk=settings,
         )
         write_result(output / "pushes.json", made)
@@ -121,13 +128,13 @@ def write_walks(
 def run_walks(
     grid: list[Any], cases: list[Any], file: Path | None, workers: int | None
 ) -> tuple[dict[str, bool], CampaignOutcome]:
-    """Run with a progress bar, and say how it ended."""
+    """Run the walks with a progress bar; return survival and outcome."""
     from ..core.worker_pool import worker_pool
     from ..studies.push_limits import search_limits
     from ..studies.robustness_campaign import record_of, run_campaign
 
     check_records(file)
-    tell_campaign(len(grid), len(cases), workers)
+    announce_campaign(len(grid), len(cases), workers)
     done: dict[str, bool] = {}
     with (
         show_progress("robustness", len(grid) + len(cases), "jobs") as bar,
@@ -148,7 +155,7 @@ def run_walks(
                 done,
             )
 
-        return done, gather(
+        return done, run_campaign_work(
             work,
             file,
             lambda: {key: record_of(done[key]) for key in done},

@@ -1,4 +1,4 @@
-"""``stepaside room``: make a room by seed, or look at one."""
+"""``stepaside room``: generation of random rooms, and metrics of a room."""
 
 from pathlib import Path
 from typing import Any
@@ -10,8 +10,8 @@ from .options.common_options import FIGURE, FILE, FIRST_SEED, json_option
 from .options.room_options import DOOR_WIDTH, DOORS, LARGEST, SMALLEST
 from .options.value_kinds import OutputFile
 from .output_files import attempt, writes_files
-from .value_labels import rows_of
-from .value_types import print_json, print_table
+from .tables import print_table, table_rows
+from .value_types import print_json
 
 
 @click.command("room")
@@ -44,7 +44,10 @@ def room(
     as_json: bool,
     **recipe: Any,
 ) -> None:
-    """Make the room of a seed with starts in it, or look at that of FILE."""
+    """Generate a random room with initial poses, or inspect a room FILE.
+
+    Prints free floor, obstacles and clearances of the room.
+    """
     from ..arena import RoomRecipe, check_starts, load_room, make_room
     from ..arena.room_metrics import measure_room
 
@@ -68,24 +71,24 @@ def room(
         print_json(result)
         return
     names = (n for n, v in result.items() if not isinstance(v, dict | list))
-    print_table(rows_of(result, names, 4))
+    print_table(table_rows(result, names, 4))
 
 
 def _refuse_both() -> None:
-    """Refuse a file beside options that would make a room."""
+    """Refuse options that generate a room if a file is given."""
     context = click.get_current_context()
     for param in context.command.params:
         own = param.name in ("file", "output", "figure", "as_json")
         source = context.get_parameter_source(param.name or "")
         if not own and source is click.core.ParameterSource.COMMANDLINE:
             raise click.UsageError(
-                f"{param.opts[0]} makes a room, so it must not stand beside "
-                "a file"
+                f"{param.opts[0]} generates a room and cannot be combined "
+                "with a room file"
             )
 
 
 def _write(made: Any, file: Path) -> None:
-    """Write a room in the format that the name of the file tells."""
+    """Write a room in the format of the file suffix."""
     import json
 
     from ..arena import room_entries, room_text

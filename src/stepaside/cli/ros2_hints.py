@@ -1,4 +1,4 @@
-"""Joining a ROS 2 domain, by the options of a command."""
+"""ROS 2 domain of a command, with a hint for local discovery."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
@@ -10,10 +10,10 @@ if TYPE_CHECKING:
 
 
 def join_domain(options: Mapping[str, Any]) -> "DdsParticipant":
-    """Join, and say on stderr what ROS 2 needs to be met there.
+    """Join a ROS 2 domain; print what other programs need to discover it.
 
     Args:
-        options: Of the command: ``domain`` and ``network``.
+        options: Options of the command: ``domain`` and ``network``.
     """
     from ..drivers.ros2.dds_domain import LOCAL, DdsParticipant
 

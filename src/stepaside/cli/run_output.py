@@ -1,11 +1,11 @@
-"""What commands that play a game do with it when it is over."""
+"""Saving of a finished run, and the messages about where it is."""
 
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from ..core.errors import OutputError
-from .interruption import NOTHING, leave_stopped
+from .interruption import NOTHING_SAVED, exit_interrupted
 from .terminal import echo
 
 if TYPE_CHECKING:
@@ -16,49 +16,50 @@ R = TypeVar("R", bound="Run")
 
 
 class SavedRun(NamedTuple):
-    """Where a run lies.
+    """Location of a saved run.
 
     Attributes:
-        folder: Its folder; None if it lies nowhere.
-        failed: Why it does not lie where it should, if it does not.
+        folder: Run folder; None if the run is not saved.
+        failed: Error on writing to the requested folder; None if there was
+            none.
     """
 
     folder: Path | None = None
     failed: OutputError | None = None
 
-    def tell(self, figure: str) -> None:
-        """Say where figure and folder are, if they are anywhere."""
+    def print_paths(self, figure: str) -> None:
+        """Print the paths of figure and run folder, if the run is saved."""
         if self.folder is not None:
             drawn = self.folder / figure
             echo(f"\nfigure:     {drawn}" if drawn.exists() else "")
             echo(f"run folder: {self.folder}")
 
-    def leave_if(self, outcome: "Outcome") -> None:
-        """Leave if Ctrl-C ended the game, and say where it lies."""
+    def exit_if_interrupted(self, outcome: "Outcome") -> None:
+        """Exit if Ctrl-C ended the game, and print where the run is saved."""
         from ..games.outcome import Outcome
 
         if outcome is Outcome.INTERRUPTED:
-            leave_stopped(
-                f"{NOTHING} without --output"
+            exit_interrupted(
+                f"{NOTHING_SAVED} without --output"
                 if self.folder is None
-                else f"what was played is kept in {self.folder}"
+                else f"the run so far is saved in {self.folder}"
             )
 
-    def check(self) -> None:
-        """Raise what failed, when all else is told.
+    def raise_failure(self) -> None:
+        """Raise the error on writing, after everything else is printed.
 
         Raises:
-            OutputError: If something did.
+            OutputError: If the run could not be written where requested.
         """
         if self.failed is not None:
             raise self.failed
 
 
-def check_kept(output: Path | None) -> None:
-    """Refuse a folder that a run could not be written to.
+def check_run_folder(output: Path | None) -> None:
+    """Check that a run can be written to a folder.
 
     Raises:
-        ConfigurationError: If it holds something already, or cannot be.
+        ConfigurationError: If the folder is not empty or not writable.
     """
     if output is not None:
         from ..report.run_folder import check_output
@@ -66,15 +67,15 @@ def check_kept(output: Path | None) -> None:
         check_output(output)
 
 
-def keep(output: Path | None, run: R) -> tuple[R, SavedRun]:
-    """Write a run where it was asked for, or beside.
+def save_run(output: Path | None, run: R) -> tuple[R, SavedRun]:
+    """Write a run to a folder, or to a temporary one if that fails.
 
     Args:
-        output: Folder that was asked for; None keeps nothing.
-        run: The run.
+        output: Requested folder; None saves nothing.
+        run: Run to save.
 
     Returns:
-        The run, whose figures say where it lies, and where that is.
+        The run with its folder in the summary, and where it is saved.
     """
     if output is None:
         return run, SavedRun()
@@ -82,8 +83,12 @@ def keep(output: Path | None, run: R) -> tuple[R, SavedRun]:
 
     folder, failed = keep_run(output, run)
     if folder is not None and folder != output:
-        echo(f"stepaside: not in {output}; the run is in {folder}", err=True)
+        echo(
+            f"stepaside: cannot write to {output}; the run is saved in "
+            f"{folder}",
+            err=True,
+        )
     summary: Any = run.summary
-    where = None if folder is None else str(folder)
-    told = replace(run, summary=replace(summary, run_folder=where))
-    return told, SavedRun(folder, failed)
+    path = None if folder is None else str(folder)
+    located = replace(run, summary=replace(summary, run_folder=path))
+    return located, SavedRun(folder, failed)

@@ -1,4 +1,4 @@
-"""``stepaside serve``: the simulated world, for control elsewhere."""
+"""``stepaside serve``: simulated robots for external controllers."""
 
 from contextlib import ExitStack
 from dataclasses import replace
@@ -12,9 +12,9 @@ from .options.common_options import FOLDER, json_option
 from .options.connection_options import DOMAIN, NETWORK
 from .options.settings_command import SettingsCommand
 from .options.value_kinds import NameType
-from .run_output import check_kept, keep
-from .value_labels import rows_of, text_of
-from .value_types import SECONDS, print_json, print_table
+from .run_output import check_run_folder, save_run
+from .tables import format_value, print_table, table_rows
+from .value_types import SECONDS, print_json
 
 if TYPE_CHECKING:
     from ..games.duel_settings import DuelSettings
@@ -29,29 +29,32 @@ SIGHTS = ("ideal", "none")
     "lola",
     multiple=True,
     metavar="PLAYER=ADDRESS",
-    help="Joints of a player's robot over LoLA: a path, or HOST:PORT.",
+    help="Serve the joints of a player's robot over LoLA, at a path or at "
+    "HOST:PORT.",
 )
 @click.option(
     "--naoqi",
     "naoqi",
     multiple=True,
     metavar="PLAYER=URL",
-    help="A player's robot that walks by itself, over NAOqi's services: "
-    "tcp://127.0.0.1:PORT.",
+    help="Serve a player's robot with its own walking controller over NAOqi, "
+    "at tcp://127.0.0.1:PORT.",
 )
 @click.option(
     "--naoqi-joints",
     "naoqi_joints",
     multiple=True,
     metavar="PLAYER=URL",
-    help="Joints of a player's robot over NAOqi: tcp://127.0.0.1:PORT.",
+    help="Serve the joints of a player's robot over NAOqi, at "
+    "tcp://127.0.0.1:PORT.",
 )
 @click.option(
     "--ros2",
     "ros2",
     multiple=True,
     metavar="PLAYER=/NAMESPACE",
-    help="A player's robot that walks by itself, over ROS 2 topics.",
+    help="Serve a player's robot with its own walking controller over ROS 2 "
+    "topics.",
 )
 @DOMAIN.option()
 @NETWORK.option(default=False)
@@ -60,21 +63,21 @@ SIGHTS = ("ideal", "none")
     type=NameType(lambda: SIGHTS),
     default=SIGHTS[0],
     show_default=True,
-    help="Offer the true line of sight beside each robot.",
+    help="Serve the true line of sight along with each robot, or nothing.",
 )
 @click.option(
     "--lockstep/--no-lockstep",
     default=False,
-    help="Wait for every answer instead of for the clock.",
+    help="Wait for every command instead of running in real time.",
 )
 @click.option(
     "--wait",
     type=SECONDS,
     default=60.0,
     show_default=True,
-    help="For clients to come and be ready [s].",
+    help="Maximum time to wait until all clients are ready [s].",
 )
-@FOLDER.option(help="Run folder; nothing is kept by default.")
+@FOLDER.option(help="Run folder; the run is not saved by default.")
 @json_option
 def serve(
     settings: "DuelSettings",
@@ -85,25 +88,27 @@ def serve(
     as_json: bool,
     **languages: Any,
 ) -> None:
-    r"""Offer simulated robots over LoLA, NAOqi or ROS 2, and play a duel.
+    """Serve simulated robots over LoLA, NAOqi or ROS 2, and play a duel.
 
     \b
-    --lola          joints, every 12 ms, as a NAO V6 has them
-    --naoqi-joints  joints, over NAOqi's services
-    --naoqi         a robot that walks by itself: velocities or footsteps
-    --ros2          a robot that walks by itself: velocities, on topics
+    --lola          joint targets every 12 ms, like a NAO V6
+    --naoqi-joints  joint targets over NAOqi
+    --naoqi         velocities or footsteps for the robot's own walking
+                    controller
+    --ros2          velocities for the robot's own walking controller
 
-    A robot that is not offered is played here. Time begins to pass when
-    every offered robot has a client that holds it stiff, or a commander.
-    LoLA has a cycle of 12 ms: an ideal body is served as the delayed one.
-    """
+    A player that is not served is controlled by this process. The simulation
+    starts when every served robot has a client that commands it with
+    stiffness on. LoLA has a cycle of 12 ms; an ideal body is therefore
+    replaced by the delayed one.
+    """  # noqa: D301 (\b is a character for click)
     import gc
 
     from ..games.served_duel import serve_duel
     from .feedback_default import with_feedback
     from .server_options import offers_of
 
-    check_kept(output)
+    check_run_folder(output)
     with ExitStack() as stack:
         offers = offers_of(languages, stack, ideal_sight=sight == "ideal")
         gc.collect()
@@ -114,7 +119,7 @@ def serve(
             lock_step=lockstep,
             patience=wait,
         )
-    run, kept = keep(output, served.run)
+    run, saved = save_run(output, served.run)
     plain = served._replace(run=run).to_json()
     if as_json:
         print_json(plain)
@@ -125,23 +130,23 @@ def serve(
                 ("outcome", f"{plain['outcome']}: {plain['message']}"),
                 ("pursuer radius", _radius(plain["pursuer"])),
                 ("evader radius", _radius(plain["evader"])),
-                *rows_of(plain, ("distance_m",), 3),
+                *table_rows(plain, ("distance_m",), 3),
                 ("late ticks", str(served.late_ticks)),
                 ("lateness", late),
             ]
         )
-        kept.tell(f"{run.game}.png")
-    kept.check()
-    kept.leave_if(run.outcome)
+        saved.print_paths(f"{run.game}.png")
+    saved.raise_failure()
+    saved.exit_if_interrupted(run.outcome)
 
 
 def _radius(player: dict[str, Any]) -> str:
-    """Radius of the way of a player, with its unit."""
-    return text_of("radius_m", player["radius_m"], 3)
+    """Return the radius of a player's path, with unit."""
+    return format_value("radius_m", player["radius_m"], 3)
 
 
 def _with_cycle(settings: "DuelSettings") -> "DuelSettings":
-    """Settings of a duel whose bodies have LoLA's cycle."""
+    """Return settings whose bodies have the control period of LoLA."""
     from ..sim.body_settings import BODIES
 
     if settings.body == BODIES["ideal"]:

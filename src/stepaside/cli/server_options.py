@@ -1,4 +1,4 @@
-"""Where robots of our world are offered, by the options of a command."""
+"""Addresses at which ``stepaside serve`` offers simulated robots."""
 
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
@@ -9,7 +9,7 @@ import click
 if TYPE_CHECKING:
     from ..games.robot_offers import Offer
 
-PLACES = {
+ADDRESS_FORMATS = {
     "lola": "ADDRESS",
     "naoqi": "tcp://HOST:PORT",
     "naoqi-joints": "tcp://HOST:PORT",
@@ -20,13 +20,13 @@ PLACES = {
 def offers_of(
     options: Mapping[str, Any], stack: ExitStack, *, ideal_sight: bool
 ) -> "dict[str, Offer]":
-    """What is offered to whom.
+    """Return the offer of each served player.
 
     Args:
-        options: Of the command: for each language the players and their
-            places, ``domain`` and ``network``.
-        stack: Closes what has to be closed at the end.
-        ideal_sight: Whether the true line of sight is offered.
+        options: Options of the command: players and addresses by interface,
+            ``domain`` and ``network``.
+        stack: Closes the ROS 2 participant at the end.
+        ideal_sight: Whether the true line of sight is served.
     """
     from ..drivers.lola.lola_address import parse_address
     from ..games.robot_offers import LolaOffer
@@ -62,27 +62,30 @@ def offers_of(
             )
     if not offers:
         raise click.UsageError(
-            "somebody must be offered: "
-            + " or ".join(f"--{k} PLAYER={v}" for k, v in PLACES.items())
+            "at least one player must be served: "
+            + " or ".join(
+                f"--{interface} PLAYER={address}"
+                for interface, address in ADDRESS_FORMATS.items()
+            )
         )
     return offers
 
 
 def _entries(
-    language: str, entries: Sequence[str], taken: "Mapping[str, Offer]"
+    interface: str, entries: Sequence[str], taken: "Mapping[str, Offer]"
 ) -> list[tuple[str, str]]:
-    """Players and places, each player once in all languages."""
+    """Parse players and addresses; each player may be served once."""
     from ..games.duel_settings import PLAYERS
 
     found: dict[str, str] = {}
     for entry in entries:
-        name, _, place = entry.partition("=")
+        name, _, address = entry.partition("=")
         known = name in PLAYERS and name not in taken and name not in found
-        if not known or not place:
+        if not known or not address:
             raise click.BadParameter(
-                f"must be {' or '.join(PLAYERS)}={PLACES[language]}, each "
-                f"once, got {entry!r}",
-                param_hint=f"--{language}",
+                f"must be {' or '.join(PLAYERS)}={ADDRESS_FORMATS[interface]}"
+                f", each player once, got {entry!r}",
+                param_hint=f"--{interface}",
             )
-        found[name] = place
+        found[name] = address
     return list(found.items())

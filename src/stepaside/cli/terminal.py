@@ -1,4 +1,4 @@
-"""What commands write on a terminal."""
+"""Output of commands to a terminal, safe against escape sequences."""
 
 import click
 
@@ -6,14 +6,14 @@ from ..report.text_escaping import visible
 
 
 def echo(text: str = "", *, err: bool = False, nl: bool = True) -> None:
-    r"""Write text in which only lines and tabs do anything.
+    r"""Print text with all control characters but ``\n`` and ``\t`` escaped.
 
-    Names of files and what a run folder says may hold escape sequences, with
-    which a terminal would do what they say; they are written out.
+    File names and entries of run folders may contain escape sequences that
+    a terminal would execute.
 
     Args:
-        text: It may have several lines.
-        err: Whether it goes to standard error.
-        nl: Whether a line ends with it.
+        text: One or more lines.
+        err: Whether to print to standard error.
+        nl: Whether to end with a newline.
     """
     click.echo(visible(text, but="\n\t"), err=err, nl=nl)

@@ -1,4 +1,4 @@
-"""``stepaside tournament``: evaders against pursuers, in rooms by seed."""
+"""``stepaside tournament``: evaders against pursuers in random rooms."""
 
 from math import pi
 from pathlib import Path
@@ -8,10 +8,10 @@ import click
 
 from ..core.atomic_output import check_folder
 from ..core.errors import ConfigurationError, OutputError
-from .campaign_reports import CampaignOutcome, gather
+from .campaign_reports import CampaignOutcome, run_campaign_work
 from .duels import SEEDS
-from .effort_estimate import DECISIONS, SIMULATED, tell_effort
-from .interruption import kept_in, leave_stopped
+from .effort_estimate import DECISIONS, SIMULATED, announce_effort
+from .interruption import exit_interrupted, resume_message
 from .options.arena_options import BOXES, DISCS, POLYGONS, ArenaType
 from .options.common_options import (
     FIGURE,
@@ -30,12 +30,12 @@ from .value_types import ANGLE, print_json
 
 
 def print_rows(rows: list[dict[str, Any]]) -> None:
-    """Print a line for each pairing, under what capture and circle mean."""
+    """Print one line per pairing, below an explanation of the columns."""
     if rows:
         echo(
             f"captured: distance <= {rows[0]['capture_distance_m']:.3f} m; "
-            "circle: distance [m] on the circle of the paper, moving aside, "
-            "at the pursuer's gain; touched: an obstacle"
+            "circle: distance [m] on the paper's circle for moving aside, at "
+            "the pursuer's gain; touched: contact with an obstacle"
         )
     echo(
         f"{'evader':<12}{'pursuer':<11}{'circle':>7}{'games':>6}"
@@ -63,18 +63,19 @@ def _circle(distance: float | None) -> str:
     return "-" if distance is None else f"{distance:.3f}"
 
 
-def _percent(share: float | None) -> str:
-    return "-" if share is None else f"{100 * share:.1f} %"
+def _percent(fraction: float | None) -> str:
+    return "-" if fraction is None else f"{100 * fraction:.1f} %"
 
 
 SOLVES = (
-    "stepaside: solves the table of the bound first, once on this machine; "
-    "about half a minute"
+    "stepaside: computing the bound table first, once per machine; about "
+    "half a minute"
 )
-RECORDS, SUMMARY = "games.jsonl", "summary.json"
+RECORDS = "games.jsonl"
+SUMMARY = "summary.json"
 PATHS = OptionDeclaration(
     "--paths",
-    "Draw the worst game of each pairing (.png, .svg or .pdf).",
+    "Write a figure with the worst game of each pairing (.png, .svg or .pdf).",
     kind=OutputFile(".png", ".svg", ".pdf"),
 )
 
@@ -91,33 +92,34 @@ def _levels() -> tuple[str, ...]:
     type=NameType(_levels),
     default="steps",
     show_default=True,
-    help="Steps of the gait, unicycles, which decide eight times a step, or "
-    "humanoids in physics.",
+    help="Level of simulation: footsteps, unicycles (eight decisions per "
+    "step), or humanoids in physics.",
 )
 @click.option(
     "--evader",
     "evaders",
     multiple=True,
     metavar="NAME",
-    help="look-ahead, aside, saturated, alpha, deflected, optimal or "
-    "FILE.py:NAME; may be given more than once.  [default: all]",
+    help="Strategy of an evader: look-ahead, aside, saturated, alpha, "
+    "deflected, optimal or FILE.py:NAME; repeatable.  [default: all]",
 )
 @click.option(
     "--pursuer",
     "pursuers",
     multiple=True,
     metavar="NAME",
-    help="pure (the paper's), pure-xRATIO (RATIO times the evader's gain), "
-    "sharp (turns by the bearing, up to the largest turn), herding (aims half "
-    "way between the evader and the room's centre), lead, optimal or "
-    "FILE.py:NAME; likewise.  [default: pure]",
+    help="Strategy of a pursuer: pure (the paper's), pure-xRATIO (with RATIO "
+    "times the evader's gain), sharp (turns by the whole bearing, up to the "
+    "maximum), herding (aims halfway between the evader and the centre of "
+    "the room), lead, optimal or FILE.py:NAME; repeatable.  [default: pure]",
 )
 @click.option(
     "--room",
     type=ArenaType(),
     default="3x3",
     show_default=True,
-    help="Size of the room [m], open for a floor without walls, or a file.",
+    help="Width and depth of the room [m], open for a floor without walls, "
+    "or a room file.",
 )
 @DISCS.option(default=0, show_default=True)
 @BOXES.option(default=0, show_default=True)
@@ -125,32 +127,34 @@ def _levels() -> tuple[str, ...]:
 @GAME_TIME.option(
     default=180.0,
     show_default=True,
-    help="Length of a game {unit}: in path time, of which a step takes 0.4, "
-    "or in physics as it passes.",
+    help="Duration of a game {unit}: path time (0.4 s per step) for footsteps "
+    "and unicycles, simulated time for physics.",
 )
 @SEEDS.option(
     default="0:100",
     show_default=True,
-    help="One room each; the end is not among them.",
+    help="Range of seeds, one room each; END is excluded.",
 )
 @click.option(
     "--alpha",
     type=ANGLE,
     default=pi / 4,
-    help="Strategy angle [rad] of the evader alpha.  [default: 45deg]",
+    help="Evasion angle of the evader alpha [rad].  [default: 45deg]",
 )
 @MAP.option(
     default="given",
     show_default=True,
-    help="What humanoids know of the room: all, what their depth cameras "
-    "have seen, or nothing.",
+    help="Map that humanoids have of the room: the true map, a map built "
+    "from their depth cameras, or none.",
 )
 @WORKERS.option()
 @FOLDER.option(
-    help="Folder of results, which goes on with what it holds; none by "
-    "default."
+    help="Folder of results; an interrupted tournament in it is continued. "
+    "None by default."
 )
-@FIGURE.option(help="Draw closest approach against the floor that was used.")
+@FIGURE.option(
+    help="Write a figure of closest approach against floor area used."
+)
 @PATHS.option()
 @json_option
 @writes_files
@@ -172,15 +176,15 @@ def tournament(
     paths: str | None,
     as_json: bool,
 ) -> None:
-    """Let evaders play pursuers in rooms by seed, and tabulate.
+    """Run every evader against every pursuer in random rooms.
 
-    The rules: a step of 4 cm turns by at most 0.25 rad; the pursuer walks
-    through obstacles; the evader is captured at a distance of 0.35 m, and
-    touches an obstacle that its centre comes nearer to than 0.20 m. In
-    physics humanoids with ideal bodies play: capture is the same distance,
-    contact is bodies that touch, and both are reported. A share of games
-    survived holds against the pursuer of its row only. A tournament that was
-    stopped goes on where it was with the same folder.
+    Rules: a step of 0.04 m turns by at most 0.25 rad. The pursuer walks
+    through obstacles. The evader is captured at a distance of 0.35 m, and
+    touches an obstacle closer than 0.20 m to its centre. In physics,
+    humanoids have ideal bodies; capture (the same distance) and contact of
+    bodies are both reported. A survival rate holds only against the pursuer
+    of its row. To continue an interrupted tournament, run it again with the
+    same folder.
     """
     from ..arena import RoomRecipe, load_room
     from ..strategies.step_game import StepGame
@@ -196,8 +200,8 @@ def tournament(
     if isinstance(room, Path):
         if discs or boxes or polygons:
             raise ConfigurationError(
-                "discs, boxes and polygons must not be asked for in a room "
-                f"from a file, got {discs}, {boxes} and {polygons}"
+                "discs, boxes and polygons cannot be combined with a room "
+                f"file, got {discs}, {boxes} and {polygons}"
             )
         arena = load_room(room)
     else:
@@ -205,19 +209,19 @@ def tournament(
         arena = RoomRecipe(width, depth, discs, boxes, polygons)
     game = StepGame(duration=duration)
     settings = TournamentSettings(level, arena, game, alpha, map__source)
-    settings.arena(seeds[0])  # whether there is such a room
+    settings.arena(seeds[0])  # raises if the room cannot be generated
     if output is not None:
         check_folder(output, new=False)
     pairings = [(e, p) for p in pursuers for e in evaders]
     number = len(pairings) * len(seeds)
     steps = duration * game.speed / game.stride / DECISIONS
-    tell_effort(
-        f"{number} games of {duration:g} s, less those that are recorded",
+    announce_effort(
+        f"{number} games of {duration:g} s, fewer if some are recorded",
         number * (duration / SIMULATED if level == "physics" else steps),
         workers,
     )
-    records, ended = _play(settings, pairings, seeds, output, workers)
-    result = _answer(settings, seeds, records)
+    records, ended = _run(settings, pairings, seeds, output, workers)
+    result = _result(settings, seeds, records)
     failed = ended.failed
     if output is not None and records and failed is None:
         from ..studies.result_files import write_result
@@ -226,12 +230,12 @@ def tournament(
             result = write_result(output / SUMMARY, result)
         except OutputError as error:
             failed = error
-    if figure is not None and records and ended.whole:
+    if figure is not None and records and ended.completed:
         from ..report.tournament_figure import draw_front
 
         if attempt(lambda: draw_front(result["rows"], figure)):
             result["figure"] = figure
-    if paths is not None and records and ended.whole:
+    if paths is not None and records and ended.completed:
         from ..report.tournament_figure import draw_worst
 
         games = _worst(settings, result["rows"])
@@ -245,17 +249,17 @@ def tournament(
         raise failed
     if ended.stopped:
         done = f"{len(records)} of {number} games"
-        leave_stopped(kept_in(done, output and output / RECORDS))
+        exit_interrupted(resume_message(done, output and output / RECORDS))
 
 
-def _play(
+def _run(
     settings: Any,
     pairings: list[tuple[str, str]],
     seeds: range,
     output: Path | None,
     workers: int | None,
 ) -> tuple[list[dict[str, Any]], CampaignOutcome]:
-    """Play with a progress bar, and say how it ended."""
+    """Run all games with a progress bar; return records and outcome."""
     from contextlib import nullcontext
 
     from ..core.worker_pool import worker_pool
@@ -267,7 +271,7 @@ def _play(
         echo(SOLVES, err=True)
     file = None if output is None else RecordStore(output / RECORDS)
     total = len(seeds) * len(pairings)
-    # A pool takes longer to begin than a few games.
+    # Starting a pool takes longer than a few games.
     alone = workers == 1 or total <= 2 * settings.block
     done: dict[str, dict[str, Any]] = {}
     with (
@@ -279,7 +283,7 @@ def _play(
             bar.n = number
             bar.refresh()
 
-        ended = gather(
+        ended = run_campaign_work(
             lambda: play_tournament(
                 settings, pairings, seeds, file, executor, report, done
             ),
@@ -293,7 +297,7 @@ def _play(
     ), ended
 
 
-def _answer(
+def _result(
     settings: Any, seeds: range, records: list[dict[str, Any]]
 ) -> dict[str, Any]:
     from ..studies.result_files import header
@@ -308,7 +312,7 @@ def _answer(
 
 
 def _worst(settings: Any, rows: list[dict[str, Any]]) -> list[Any]:
-    """The worst game of each row: its title, room and track."""
+    """Return title, room and trajectory of the worst game of each row."""
     from ..studies.tournament_campaign import play_ways
 
     games = []
@@ -317,6 +321,6 @@ def _worst(settings: Any, rows: list[dict[str, Any]]) -> list[Any]:
         room, track = play_ways(
             settings, (row["evader"], row["pursuer"]), seed
         )
-        title = f"{row['evader']} by {row['pursuer']}, seed {seed}"
+        title = f"{row['evader']} against {row['pursuer']}, seed {seed}"
         games.append((f"{title}: {track.outcome}", room, track))
     return games

@@ -1,4 +1,4 @@
-"""Options that say which game of unicycles is played."""
+"""Options for the parameters of a game of unicycles."""
 
 from collections.abc import Callable
 from functools import wraps
@@ -25,24 +25,32 @@ def _number(name: str, help_text: str, unit: str) -> OptionDeclaration:
 
 
 _OPTIONS = [
-    _number("--speed", "Speed of both", "m/s").option(
+    _number("--speed", "Speed v of both players", "m/s").option(
         default=1.0, show_default=True
     ),
-    _number("--gain", "Steering gain of both", "1/s").option(
+    _number("--gain", "Steering gain k of both players", "1/s").option(
         default=0.5, show_default=True
     ),
-    _number("--pursuer-speed", "Instead of --speed", "m/s").option(),
-    _number("--evader-speed", "Instead of --speed", "m/s").option(),
-    _number("--pursuer-gain", "Instead of --gain", "1/s").option(),
-    _number("--evader-gain", "Instead of --gain", "1/s").option(),
+    _number(
+        "--pursuer-speed", "Speed of the pursuer, if different", "m/s"
+    ).option(),
+    _number(
+        "--evader-speed", "Speed of the evader, if different", "m/s"
+    ).option(),
+    _number(
+        "--pursuer-gain", "Steering gain of the pursuer, if different", "1/s"
+    ).option(),
+    _number(
+        "--evader-gain", "Steering gain of the evader, if different", "1/s"
+    ).option(),
     OptionDeclaration(
         "--angle",
-        "Evasion angle {unit}, like 1.2, 1.2rad or 70deg. [default: 90deg]",
+        "Evasion angle {unit}, like 1.2, 1.2rad or 70deg.  [default: 90deg]",
         unit="rad",
     ).option(),
     OptionDeclaration(
         "--strategy",
-        "Evasion angle by name: 90deg or 0.",
+        "Evasion angle by name: move-aside (90deg) or move-back (0).",
         kind=NameType(lambda: tuple(STRATEGIES)),
     ).option(),
     OptionDeclaration(
@@ -52,20 +60,22 @@ _OPTIONS = [
     ).option(default=TurningLaw.PROPORTIONAL.value, show_default=True),
     OptionDeclaration(
         "--side-rule",
-        "Side behind the evader at every instant, or kept.",
+        "Side of the line of sight to which the evader moves: the side "
+        "behind it at every instant (behind), or its initial side (latched).",
         kind=NameType(lambda: [rule.value for rule in SideRule]),
     ).option(default=SideRule.BEHIND.value, show_default=True),
     OptionDeclaration(
         "--hysteresis",
-        "Angle {unit} beyond its axis at which the evader changes side.",
+        "Angle beyond the evader's axis at which it changes side, with "
+        "--side-rule behind",
         unit="rad",
-        more_names=("--side-hysteresis", "hysteresis"),
+        aliases=("--side-hysteresis", "hysteresis"),
     ).option(default=0.0, show_default=True),
 ]
 
 
 def game_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options to a command; it gets the game as ``game``."""
+    """Add the options to a command; pass it ``game``."""
 
     @wraps(function)
     def command(**values: Any) -> Any:
@@ -79,11 +89,11 @@ def game_options(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _take_game(values: dict[str, Any]) -> Game:
-    """Take the game's options out of a command's values."""
+    """Remove the game's options from a command's values; return the game."""
     speed, gain = values.pop("speed"), values.pop("gain")
     angle, strategy = values.pop("angle"), values.pop("strategy")
     if angle is not None and strategy is not None:
-        raise click.UsageError("give --angle or --strategy, not both")
+        raise click.UsageError("--angle and --strategy cannot be combined")
     if angle is None:
         angle = STRATEGIES[strategy or "move-aside"]
     if not 0.0 <= angle <= pi:
@@ -114,7 +124,7 @@ def _first(value: float | None, otherwise: float) -> float:
 
 
 def describe_game(game: Game) -> dict[str, float | str]:
-    """Parameters of a game, for JSON."""
+    """Return the parameters of a game, for JSON."""
     return {
         "pursuer_speed_m_s": game.pursuer.speed,
         "evader_speed_m_s": game.evader.speed,
@@ -128,5 +138,5 @@ def describe_game(game: Game) -> dict[str, float | str]:
 
 
 def finite(value: float) -> float | None:
-    """A number for JSON: None where there is none."""
+    """Return a value for JSON: None for NaN and infinity."""
     return value if abs(value) < float("inf") else None

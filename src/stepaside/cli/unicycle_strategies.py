@@ -1,25 +1,24 @@
-"""One game of unicycles that play any two strategies."""
+"""Game of unicycles with any two strategies."""
 
 from typing import TYPE_CHECKING, Any
 
 import click
 from click.core import ParameterSource
 
+from .tables import print_table, table_rows
 from .terminal import echo
-from .value_labels import rows_of
-from .value_types import print_table
 
 if TYPE_CHECKING:
     from ..theory.unicycle.relative_coordinates import RelativeStart
     from ..theory.unicycle.unicycle_game import Game
 
-# Options of an evader of the paper, by their parameter.
+# Parameters of options that only the paper's evader uses.
 OF_EVADER = ("angle", "strategy", "law", "side_rule", "hysteresis")
-EVERYWHERE = 1e9  # safety radius of a game that has no safety area, in [m]
+UNBOUNDED = 1e9  # safety radius of a game without safety area, in [m]
 
 
 def check_used(names: tuple[str, str]) -> None:
-    """Refuse options of the paper's evader where no player plays it.
+    """Refuse options of the paper's evader if no player uses it.
 
     Args:
         names: Strategies of pursuer and evader.
@@ -39,27 +38,26 @@ def check_used(names: tuple[str, str]) -> None:
     ]
     if given:
         raise click.UsageError(
-            f"{', '.join(given)} must be left out beside a strategy other "
-            f"than {' and '.join(OF_EVASION)}, which alone use it, got "
-            f"--evader-strategy {names[1]}"
+            f"{', '.join(given)} requires the strategy "
+            f"{' or '.join(OF_EVASION)}, got --evader-strategy {names[1]}"
         )
 
 
-def play_named(
+def play_named_game(
     game: "Game",
     start: "RelativeStart",
     names: tuple[str, str],
     times: tuple[float, float],
     capture: float,
 ) -> dict[str, Any]:
-    """Play a game and measure it.
+    """Simulate a game and return its results for JSON.
 
     Args:
-        game: Speeds and gains, and how an evader of the paper evades.
-        start: Where they stand to each other.
+        game: Speeds, gains, and parameters of the paper's evader.
+        start: Initial relative pose.
         names: Strategies of pursuer and evader.
-        times: Duration and time between two decisions, in [s].
-        capture: Distance at which the game ends, in [m].
+        times: Duration and decision period, in [s].
+        capture: Capture distance, in [m]; ends the game.
     """
     import numpy as np
 
@@ -68,7 +66,7 @@ def play_named(
     evasion = Evasion(
         game.angle,
         game.saturated,
-        safety_radius=EVERYWHERE,
+        safety_radius=UNBOUNDED,
         side_hysteresis=game.hysteresis,
     )
     pursuer, evader = (load_strategy(name, evasion) for name in names)
@@ -97,9 +95,9 @@ def play_named(
     }
 
 
-def print_named(result: dict[str, Any]) -> None:
-    """Print what was measured."""
+def print_named_game(result: dict[str, Any]) -> None:
+    """Print the results."""
     names = ("closest_distance_m", "distance_m", "floor_used_evader_m")
-    rows = rows_of(result, (*names, "captured", "end_time_s"))
+    rows = table_rows(result, (*names, "captured", "end_time_s"))
     echo(f"{result['evader_strategy']} against {result['pursuer_strategy']}")
     print_table(rows)

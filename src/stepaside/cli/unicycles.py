@@ -1,4 +1,4 @@
-"""``stepaside unicycles``: one game, as a table, a figure and JSON."""
+"""``stepaside unicycles``: one game as a table, a figure or JSON."""
 
 from dataclasses import asdict
 from typing import Any
@@ -7,7 +7,12 @@ import click
 
 from ..theory.unicycle.unicycle_game import Game
 from .circle import describe_circle
-from .effort_estimate import DECISIONS, HELD, SETTLED, tell_effort
+from .effort_estimate import (
+    DECISIONS,
+    SAMPLES,
+    TIME_CONSTANTS,
+    announce_effort,
+)
 from .options.common_options import (
     DELAY,
     FIGURE,
@@ -18,35 +23,37 @@ from .options.common_options import (
 )
 from .options.strategy_type import PURSUER_STRATEGY, UNICYCLE_STRATEGY
 from .output_files import attempt, writes_files
+from .tables import format_value, label_of, print_table, table_rows
 from .unicycle_options import describe_game, finite, game_options
-from .unicycle_strategies import check_used, play_named, print_named
-from .value_labels import label_of, rows_of, text_of
-from .value_types import ANGLE, METERS, print_json, print_table
+from .unicycle_strategies import check_used, play_named_game, print_named_game
+from .value_types import ANGLE, METERS, print_json
 
-SHORT = 0.01  # time between decisions that are not held, in [s]
+SHORT = 0.01  # decision period without sampling, in [s]
 
 
 @click.command("unicycles")
 @game_options
 @click.option(
-    "--distance", type=METERS, help="At the start, in [m]. [default: 2.5 v/k]"
+    "--distance",
+    type=METERS,
+    help="Initial distance [m].  [default: 2.5 v/k]",
 )
 @click.option(
     "--aim",
     type=ANGLE,
     default=0.2,
     show_default=True,
-    help="Bearing [rad] of the evader seen by the pursuer at the start.",
+    help="Initial bearing of the evader in the pursuer's frame [rad].",
 )
 @click.option(
     "--bearing",
     type=ANGLE,
     default=-0.1,
     show_default=True,
-    help="Bearing [rad] of the pursuer seen by the evader at the start.",
+    help="Initial bearing of the pursuer in the evader's frame [rad].",
 )
 @GAME_TIME.option(
-    help="Length {unit} of the game. [default: until it has settled]"
+    help="Duration of the game {unit}.  [default: until it has settled]"
 )
 @SAMPLE_TIME.option(default=0.0, show_default=True)
 @DELAY.option(default=0.0, show_default=True)
@@ -55,7 +62,7 @@ SHORT = 0.01  # time between decisions that are not held, in [s]
     type=METERS,
     default=1e-6,
     show_default=True,
-    help="Distance at which the game ends, in [m].",
+    help="Capture distance [m]; ends the game.",
 )
 @UNICYCLE_STRATEGY.option(default=None)
 @PURSUER_STRATEGY.option(default=None)
@@ -77,7 +84,7 @@ def unicycles(
     figure: str | None,
     as_json: bool,
 ) -> None:
-    """Play one game of two unicycles until it has settled."""
+    """Simulate one game of two unicycles and compare it with theory."""
     from ..theory.unicycle.circle_fit import settling_time
     from ..theory.unicycle.relative_coordinates import RelativeStart
 
@@ -86,9 +93,9 @@ def unicycles(
     if duration is None:
         duration = settling_time(game)
     if delay > 0.0 and sample_time == 0.0:
-        raise click.UsageError("--delay needs --sample-time > 0 [s] here")
+        raise click.UsageError("--delay requires --sample-time > 0 [s]")
     named = bool(evader_strategy or pursuer_strategy)
-    _tell(game, duration, sample_time, named=named)
+    _announce(game, duration, sample_time, named=named)
     start = RelativeStart(distance, aim, bearing)
     result: dict[str, Any] = {
         "start": asdict(start),
@@ -100,26 +107,29 @@ def unicycles(
     if named:
         if figure is not None or delay > 0.0:
             raise click.UsageError(
-                "--figure and --delay are for games of the paper"
+                "--figure and --delay cannot be combined with "
+                "--evader-strategy or --pursuer-strategy"
             )
         names = (pursuer_strategy or "pursuit", evader_strategy or "evasion")
         check_used(names)
-        result |= play_named(
+        result |= play_named_game(
             game,
             start,
             names,
             (duration, sample_time or SHORT),
             capture_distance,
         )
-        print_json(result) if as_json else print_named(result)
+        print_json(result) if as_json else print_named_game(result)
         return
     if sample_time > 0.0:
         if figure is not None:
-            raise click.UsageError("--figure draws games without sampling")
+            raise click.UsageError(
+                "--figure cannot be combined with --sample-time"
+            )
         times = (duration, sample_time, delay)
-        result |= _play_sampled(game, start, times, capture_distance)
+        result |= _simulate_sampled(game, start, times, capture_distance)
     else:
-        result |= _play(game, start, duration, capture_distance, figure)
+        result |= _simulate(game, start, duration, capture_distance, figure)
     theory = describe_circle(game)
     result["theory"] = {
         name: theory[name] for name in ("exists", *_NAMES, "time_constant_s")
@@ -142,23 +152,23 @@ _NAMES = (
 )
 
 
-def _tell(
+def _announce(
     game: Game, duration: float, sample_time: float, *, named: bool
 ) -> None:
-    """Say how long the game takes."""
+    """Announce a long simulation."""
     gain = max(game.pursuer.gain, game.evader.gain)
-    seconds = duration * gain / SETTLED
+    seconds = duration * gain / TIME_CONSTANTS
     if named:
         seconds = duration / (sample_time or SHORT) / DECISIONS
     elif sample_time > 0.0:
-        seconds = duration / sample_time / HELD
-    tell_effort(f"a game of {duration:g} s", seconds)
+        seconds = duration / sample_time / SAMPLES
+    announce_effort(f"a game of {duration:g} s", seconds)
 
 
-def _play(
+def _simulate(
     game: Game, start: Any, duration: float, capture: float, figure: str | None
 ) -> dict[str, Any]:
-    """Play by the adaptive integrator and measure the paths."""
+    """Simulate with the adaptive integrator and measure the paths."""
     from ..theory.unicycle.adaptive_simulation import simulate
     from ..theory.unicycle.circle_fit import measure
 
@@ -185,7 +195,7 @@ def _play(
 
 
 def _certify(game: Game, start: Any) -> dict[str, Any] | None:
-    """What is proved of the closest approach; None outside its reach."""
+    """Return the certified closest approach; None where it is undefined."""
     from ..core.errors import PlanError
     from ..theory.unicycle.certificate import certify
 
@@ -197,7 +207,7 @@ def _certify(game: Game, start: Any) -> dict[str, Any] | None:
 
 
 def _ended_on(game: Game, state: Any, side: int) -> dict[str, Any] | None:
-    """Give the circle that a state is on; None for none."""
+    """Return the circle of the final state; None if it is on none."""
     from ..theory.unicycle.all_circles import circles_of
     from ..theory.unicycle.circle_fit import circle_at
 
@@ -211,10 +221,10 @@ def _ended_on(game: Game, state: Any, side: int) -> dict[str, Any] | None:
     }
 
 
-def _play_sampled(
+def _simulate_sampled(
     game: Game, start: Any, times: tuple[float, float, float], capture: float
 ) -> dict[str, Any]:
-    """Play with held turning rates; the circle from the last rates."""
+    """Simulate with sampled turning rates; measure the final circle."""
     from math import pi
 
     from ..core.poses import wrap_angle
@@ -255,18 +265,18 @@ def _print(result: dict[str, Any]) -> None:
     rows = [("", "simulated        closed form")]
     for name in _NAMES[1:]:
         cells = [result.get(name), theory[name]]
-        texts = [text_of(name, cell) for cell in cells]
+        texts = [format_value(name, cell) for cell in cells]
         rows.append((label_of(name), f"{texts[0]:<16} {texts[1]}"))
     circle = result.get("circle")
     if circle is not None:
-        way = "main" if circle["direction"] > 0 else "reversed"
-        rows.append(("ended on", f"the {way} circle"))
+        direction = "main" if circle["direction"] > 0 else "reversed"
+        rows.append(("ended on", f"the {direction} circle"))
     certified = result["certified"]
     if certified is not None and certified["holds"]:
-        text = f"{certified['distance_m']:.6g} m at least"
+        text = f">= {certified['distance_m']:.6g} m"
         rows.append(("certified distance", text))
     ends = ("captured", "end_time_s", "closest_distance_m")
-    rows += rows_of(result, ends)
+    rows += table_rows(result, ends)
     if "figure" in result:
         rows.append(("figure", result["figure"]))
     print_table(rows)

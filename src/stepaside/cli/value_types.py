@@ -1,4 +1,4 @@
-"""Types and habits that all commands share."""
+"""Click types for numbers and angles, and JSON on standard output."""
 
 import json
 import os
@@ -19,13 +19,13 @@ from ..core.errors import shown
 from ..core.ranges import Range
 from .terminal import echo
 
-STDOUT, STDERR = 1, 2  # descriptors
+STDOUT, STDERR = 1, 2  # file descriptors
 UNITS = {"rad": 1.0, "deg": radians(1.0)}
-USUAL = "of what is smaller or greater, squares and ratios are no numbers"
+REASON = "outside this range squares and ratios overflow a double"
 
 
 class AngleType(click.ParamType[float]):
-    """An angle: ``1.2``, ``1.2rad`` or ``70deg``; a float in [rad]."""
+    """Angle in [rad], written as ``1.2``, ``1.2rad`` or ``70deg``."""
 
     name = "angle"
 
@@ -47,8 +47,8 @@ class AngleType(click.ParamType[float]):
             angle = float("nan")
         if not -tau <= angle <= tau:
             self.fail(
-                "must be a finite angle like 1.2, 1.2rad or 70deg, at most "
-                f"one turn, got {shown(value)}",
+                "must be an angle like 1.2, 1.2rad or 70deg, within one full "
+                f"turn, got {shown(value)}",
                 param,
                 ctx,
             )
@@ -56,25 +56,24 @@ class AngleType(click.ParamType[float]):
 
 
 class NumberType(click.ParamType[float]):
-    """A number in a range."""
+    """Number within a range."""
 
     name = "number"
 
     def __init__(
         self, unit: str, *, allow_zero: bool = False, bounded: bool = True
     ) -> None:
-        """Name the unit, for messages.
+        """Set unit and range.
 
         Args:
-            unit: Of the number.
-            allow_zero: Whether it may be zero, too.
-            bounded: Whether it lies in the range of all numbers of commands;
-                those of settings have ranges of their own, which the
-                settings refuse to leave.
+            unit: Unit of the number, for messages.
+            allow_zero: Whether zero is allowed, too.
+            bounded: Whether to check the common range 1e-9 to 1e9; entries
+                of settings have their own ranges, which the settings check.
         """
         also = (0.0,) if allow_zero else ()
         self.unit = unit
-        self.range = Range(1e-9, 1e9, unit, USUAL, also=also)
+        self.range = Range(1e-9, 1e9, unit, REASON, also=also)
         self.is_bounded = bounded
 
     def convert(
@@ -110,23 +109,23 @@ SECONDS = NumberType("s")
 POSITIVE = NumberType("1")
 
 
-_only: list[TextIO] = []  # where JSON goes while nothing else goes there
+_reserved: list[TextIO] = []  # standard output while reserved for JSON
 
 
 @contextmanager
-def json_alone() -> Iterator[None]:
-    """Keep standard output for :func:`print_json`.
+def reserve_stdout() -> Iterator[None]:
+    """Reserve standard output for :func:`print_json`.
 
-    What others write there, like strategies of the user and the processes
-    that they start, goes to standard error.
+    All other output, as of user strategies and of processes that they start,
+    is redirected to standard error.
     """
     shared = sys.stdout
     with ExitStack() as stack:
         stream = shared
         if _descriptor(shared) == STDOUT:
             shared.flush()
-            kept = os.dup(STDOUT)
-            stack.callback(os.close, kept)
+            saved = os.dup(STDOUT)
+            stack.callback(os.close, saved)
             stream = stack.enter_context(
                 open(
                     os.dup(STDOUT),
@@ -135,45 +134,38 @@ def json_alone() -> Iterator[None]:
                     errors=shared.errors,
                 )
             )
-            stack.callback(os.dup2, kept, STDOUT)
+            stack.callback(os.dup2, saved, STDOUT)
             stack.callback(shared.flush)
-            os.dup2(_elsewhere(stack), STDOUT)
+            os.dup2(_duplicate_stderr(stack), STDOUT)
         stack.enter_context(redirect_stdout(sys.stderr))
-        _only.append(stream)
-        stack.callback(_only.pop)
+        _reserved.append(stream)
+        stack.callback(_reserved.pop)
         yield
 
 
 def _descriptor(stream: TextIO) -> int | None:
     try:
         return stream.fileno()
-    except (OSError, ValueError):  # it is not of the system
+    except (OSError, ValueError):  # a stream without descriptor
         return None
 
 
-def _elsewhere(stack: ExitStack) -> int:
-    """Descriptor of standard error; of nowhere if that is closed."""
+def _duplicate_stderr(stack: ExitStack) -> int:
+    """Duplicate standard error; open the null device if it is closed."""
     try:
-        other = os.dup(STDERR)
+        descriptor = os.dup(STDERR)
     except OSError:
-        other = os.open(os.devnull, os.O_WRONLY)
-    stack.callback(os.close, other)
-    return other
+        descriptor = os.open(os.devnull, os.O_WRONLY)
+    stack.callback(os.close, descriptor)
+    return descriptor
 
 
 def print_json(value: Any) -> None:
     """Print a value as one JSON object."""
-    answer(json.dumps(value, allow_nan=False) + "\n")
+    write_result(json.dumps(value, allow_nan=False) + "\n")
 
 
-def answer(text: str) -> None:
-    """Write what was asked for to standard output, see :func:`json_alone`."""
-    with redirect_stdout(_only[-1]) if _only else nullcontext():
+def write_result(text: str) -> None:
+    """Write a result to standard output, even while that is reserved."""
+    with redirect_stdout(_reserved[-1]) if _reserved else nullcontext():
         echo(text, nl=False)
-
-
-def print_table(rows: list[tuple[str, str]]) -> None:
-    """Print names and values in two columns."""
-    width = max(len(name) for name, _ in rows)
-    for name, value in rows:
-        echo(f"  {name:<{width}}  {value}")

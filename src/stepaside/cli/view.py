@@ -1,4 +1,4 @@
-"""``stepaside view``: a duel to watch, push and drive in a browser."""
+"""``stepaside view``: an interactive duel in the browser."""
 
 import webbrowser
 from time import sleep
@@ -18,10 +18,12 @@ if TYPE_CHECKING:
 
 HOST = OptionDeclaration(
     "--host",
-    "Address to serve at; where other machines reach it, the link holds a "
-    "secret.",
+    "Address of the server. If other machines can reach it, the link "
+    "contains a secret.",
 )
-RUNNING = OptionDeclaration("--run/--no-run", "Let time pass at once.")
+RUNNING = OptionDeclaration(
+    "--run/--no-run", "Start the simulation immediately, or paused."
+)
 
 
 @click.command("view", cls=SettingsCommand)
@@ -29,7 +31,7 @@ RUNNING = OptionDeclaration("--run/--no-run", "Let time pass at once.")
 @PORT.option(default=8080, show_default=True)
 @BROWSER.option(default=True)
 @RUNNING.option(default=True, show_default=True)
-@SERVE_FOR.option(more_names=("--duration",))
+@SERVE_FOR.option(aliases=("--duration",))
 @duel_options(DURATION)
 def view(
     settings: "DuelSettings",
@@ -39,20 +41,20 @@ def view(
     run: bool,
     serve_for: float | None,
 ) -> None:
-    """Serve a page with two robots that chase each other."""
+    """Serve a page on which to watch a duel, push and drive the robots."""
     from ..report.viewer.live_page import Page
 
     page = Page(settings, host=host, port=port)
     if page.gate.secret:
         echo(
-            f"stepaside: {host} can be reached from other machines, and "
-            "whoever has the link can drive the robots",
+            f"stepaside: other machines can reach {host}; anyone with the "
+            "link can drive the robots",
             err=True,
         )
     page.session.running = run
     page.start()
     address = page.gate.link
-    echo(f"serving at {address}; Ctrl-C stops")
+    echo(f"serving at {address}; press Ctrl-C to stop")
     if opens:
         webbrowser.open(address)
     try:
@@ -61,6 +63,6 @@ def view(
                 sleep(1.0)
         sleep(serve_for)
     except KeyboardInterrupt:
-        echo("stepaside: stopped; what was saved is kept", err=True)
+        echo("stepaside: stopped; saved runs remain", err=True)
     finally:
         page.close()

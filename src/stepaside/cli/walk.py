@@ -1,11 +1,11 @@
-"""``stepaside walk``: one humanoid walks, and somebody pushes it."""
+"""``stepaside walk``: the walk of one humanoid, with pushes."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from .effort_estimate import SIMULATED, tell_effort
+from .effort_estimate import SIMULATED, announce_effort
 from .options.body_options import BODY, CONTROL, PHYSICS
 from .options.common_options import FIGURE, FOLDER, json_option
 from .options.gait_options import GAIT, WALK
@@ -13,8 +13,9 @@ from .options.game_options import RUN
 from .options.settings_command import SettingsCommand, takes_settings
 from .output_files import attempt, writes_files
 from .progress import show_progress
-from .run_output import check_kept, keep
-from .value_types import print_json, print_table
+from .run_output import check_run_folder, save_run
+from .tables import print_table
+from .value_types import print_json
 
 if TYPE_CHECKING:
     from ..games.walk_run import WalkRun
@@ -29,7 +30,7 @@ def _walk_settings() -> "type[WalkSettings]":
 
 @click.command("walk", cls=SettingsCommand)
 @takes_settings(_walk_settings, RUN, WALK, GAIT, BODY, CONTROL, PHYSICS)
-@FOLDER.option(help="Run folder; nothing is kept by default.")
+@FOLDER.option(help="Run folder; the run is not saved by default.")
 @FIGURE.option()
 @json_option
 @writes_files
@@ -39,18 +40,18 @@ def walk(
     figure: str | None,
     as_json: bool,
 ) -> None:
-    """Let one humanoid walk, and say how well it does.
+    """Simulate the walk of one humanoid and measure it.
 
-    Speed, turning, slip, tracking and estimation are those after the first
-    three seconds, in the frame of the support foot. A run folder can be
-    replayed, as that of a duel.
+    Speed, turning, slip, tracking error and estimation error are measured
+    after the first three seconds, in the frame of the support foot.
+    `stepaside replay` replays the run folder.
     """
     from ..games.outcome import Outcome
 
-    check_kept(output)
+    check_run_folder(output)
     seconds = settings.duration
-    tell_effort(f"a walk of {seconds:g} s", seconds / SIMULATED)
-    run, kept = keep(output, _walk(settings))
+    announce_effort(f"a walk of {seconds:g} s", seconds / SIMULATED)
+    run, saved = save_run(output, _walk(settings))
     if figure is not None and run.outcome is not Outcome.INTERRUPTED:
         from ..report.walk_figure import draw_walk
 
@@ -60,9 +61,9 @@ def walk(
         print_json(summary)
     else:
         _print(summary)
-        kept.tell(f"{run.game}.png")
-    kept.check()
-    kept.leave_if(run.outcome)
+        saved.print_paths(f"{run.game}.png")
+    saved.raise_failure()
+    saved.exit_if_interrupted(run.outcome)
 
 
 def _walk(settings: "WalkSettings") -> "WalkRun":
@@ -71,7 +72,7 @@ def _walk(settings: "WalkSettings") -> "WalkRun":
 
     look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated"
     total = settings.duration
-    with show_progress("walk", total, "s simulated", form=look) as bar:
+    with show_progress("walk", total, "s simulated", bar_format=look) as bar:
 
         def report(time: float) -> None:
             bar.n = time
@@ -98,7 +99,7 @@ def _print(summary: dict[str, Any]) -> None:
             ),
             (
                 "steps",
-                f"{summary['steps']}, {summary['adapted_steps']} moved by "
+                f"{summary['steps']}, {summary['adapted_steps']} adapted by "
                 "feedback",
             ),
             ("speed", number(summary["speed_m_s"], "{:.4f} m/s")),
@@ -118,11 +119,14 @@ def _print(summary: dict[str, Any]) -> None:
                 rms("estimation", "com_x_m", "{:.2f}", 1e3)
                 + rms("estimation", "com_y_m", " / {:.2f} mm rms", 1e3),
             ),
-            ("greatest tilt", number(summary["tilt_max_deg"], "{:.2f} deg")),
+            ("maximum tilt", number(summary["tilt_max_deg"], "{:.2f} deg")),
             (
                 "ZMP margin",
                 number(summary["min_zmp_margin_m"], "{:.1f} mm", 1e3),
             ),
-            ("time", f"{summary['real_time_factor']:.1f} x real time"),
+            (
+                "simulation speed",
+                f"{summary['real_time_factor']:.1f} x real time",
+            ),
         ]
     )

@@ -1,6 +1,6 @@
-"""Kinds of tables, by the name that a document asks for.
+"""Generated tables, by the name used in documents.
 
-Each is a function of one or more results that gives Markdown.
+Each is a function of one or more results that returns Markdown.
 """
 
 from collections.abc import Callable

@@ -57,7 +57,7 @@ ROWS = {
 
 
 def all_rows(result: Mapping[str, Any]) -> str:
-    """Every figure beside its limit; what is absent is left out."""
+    """Return every time with its limit; missing ones are omitted."""
     figures = result["figures"]
     return table(
         ("what", "measured", "unit", "limit"),
@@ -70,7 +70,7 @@ def all_rows(result: Mapping[str, Any]) -> str:
 
 
 def headlines(result: Mapping[str, Any]) -> str:
-    """The figures that the README shows."""
+    """Return the values that the README shows."""
     figures = result["figures"]
     tick, pushed = (
         number(1e-3 * figures[key], 2)

@@ -1,4 +1,4 @@
-"""How well anybody can evade, and how well that was computed."""
+"""Bound of the closest approach, its accuracy, and evaders beside it."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -10,7 +10,7 @@ GAMES = {"pursuit": "against eqs. (1)-(2)", "cars": "two identical cars"}
 
 
 def speed(result: Result) -> str:
-    """Both solvers on one core."""
+    """Compare both solvers on one core."""
     head = (
         "scheme",
         "precision",
@@ -38,7 +38,7 @@ def speed(result: Result) -> str:
 
 
 def refinement(result: Result) -> str:
-    """Differences between grids, and the order of convergence."""
+    """List differences between grids, and the order of convergence."""
     head = ("game", "cells", "mean", "above it", "95 %", "worst", "order")
     rows = [
         (
@@ -57,7 +57,7 @@ def refinement(result: Result) -> str:
 
 
 def barrier(result: Result) -> str:
-    """The table at points of the closed-form barrier."""
+    """Compare the table with points of the closed-form barrier."""
     head = (
         "capture [v/ω]",
         "points",
@@ -83,7 +83,7 @@ def barrier(result: Result) -> str:
 
 
 def evaders(result: Result) -> str:
-    """Least distances of several evaders beside the best possible."""
+    """Compare closest approaches of several evaders with the bound."""
     head = (
         "starts",
         "evader",

@@ -1,11 +1,11 @@
-"""Words for figures of duels; duels on floors; what a command printed."""
+"""Labels of duel values; duels on two floors; printed output."""
 
 from collections.abc import Mapping
 from typing import Any
 
 from .markdown import interval, table
 
-# Words and decimals for the figures of a duel; others stand by their keys.
+# Labels and decimals of duel values; others appear by their keys.
 WORDS = {
     "pursuer_radius_m": ("pursuer radius [m]", 3),
     "evader_radius_m": ("evader radius [m]", 3),
@@ -24,12 +24,12 @@ WORDS = {
 
 
 def words_of(key: str) -> tuple[str, int]:
-    """Words and decimals of a figure."""
+    """Return label and decimals of a value."""
     return WORDS.get(key, (key.replace("_", " "), 3))
 
 
 def floors(result: Mapping[str, Any]) -> str:
-    """Duels on each floor: how many stood, and what the circle was."""
+    """List duels on each floor: outcomes, and the circle."""
     head = (
         "floor",
         "duels of 120 s",
@@ -60,5 +60,5 @@ def floors(result: Mapping[str, Any]) -> str:
 
 
 def printed(result: Mapping[str, Any]) -> str:
-    """What a command printed, as a fence."""
+    """Return the printed output of a command, as a code fence."""
     return f"```\n{result['printed'].rstrip()}\n```"

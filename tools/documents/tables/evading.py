@@ -1,4 +1,4 @@
-"""Survival in rooms by opponent, closest approach, floor used."""
+"""Survival in rooms by opponent, closest approach, floor area used."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -9,7 +9,7 @@ Result = Mapping[str, Any]
 
 
 def worlds(result: Result) -> str:
-    """Every evader in every world, against the pursuer that is named."""
+    """List every evader in every room against one pursuer."""
     head = (
         "world",
         "evader",
@@ -50,7 +50,7 @@ def worlds(result: Result) -> str:
 
 
 def opponents(result: Result) -> str:
-    """Share survived against each pursuer, beside the paper's circle."""
+    """List survival against each pursuer, with the paper's circle."""
     met = result["opponents"]
     head = (
         "pursuer",
@@ -75,13 +75,13 @@ def opponents(result: Result) -> str:
 
 
 def _survived(row: Mapping[str, Any]) -> str:
-    """Share of games survived, with its 95 % interval."""
+    """Return the survival rate with its 95 % interval."""
     ends = 100 * row["survived_low"], 100 * row["survived_high"]
     return f"{100 * row['survived']:.0f} % ({interval(*ends, 0)})"
 
 
 def sizes(result: Result) -> str:
-    """Share that survives in square rooms without obstacles, by size."""
+    """List survival in square rooms without obstacles, by size."""
     names = [
         f"{row['evader']} against {row['pursuer']} (n = {row['games']})"
         for row in result["sizes"][0]["rows"]

@@ -1,4 +1,4 @@
-"""Bad input that was tried, by class, and what was wrong with it."""
+"""Counts of fuzz cases and failures, by class."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -9,7 +9,7 @@ HEAD = ("tried", "tracebacks", "hangs", "nonsense", "leftovers", "other")
 
 
 def classes(result: Mapping[str, Any]) -> str:
-    """How many cases of each class, and how many were wrong in which way."""
+    """List the number of cases and failures of each class."""
     rows = [*result["classes"].items(), ("**all**", result["total"])]
     return table(
         ("class", *HEAD),

@@ -21,12 +21,12 @@ ORIGINS = ("humanoid", "model", "what sets it apart", "asked for by name")
 
 
 def reached(result: Mapping[str, Any]) -> str:
-    """What each reached, lengths by those of theory."""
+    """List the result of each, with lengths relative to theory."""
     return table(HEAD, (_reached(row) for row in result["rows"]))
 
 
 def origins(result: Mapping[str, Any]) -> str:
-    """Where each model is published, and what it does not tell."""
+    """List where each model is published, and which values it lacks."""
     return table(
         ORIGINS,
         (

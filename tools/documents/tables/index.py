@@ -1,4 +1,4 @@
-"""What results there are."""
+"""Index of all results."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -7,7 +7,7 @@ from .markdown import table
 
 
 def index(results: Mapping[str, Mapping[str, Any]]) -> str:
-    """Each result with its command, code and libraries."""
+    """List each result with its command, code and libraries."""
     rows = []
     for name, result in results.items():
         libraries = ", ".join(

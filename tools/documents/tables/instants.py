@@ -1,4 +1,4 @@
-"""Which heading and which point the line of sight refers to."""
+"""Definitions of heading and point of the line of sight."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -18,7 +18,7 @@ HEADINGS = {"path": "path, where the body is"}
 
 
 def instants(result: Mapping[str, Any]) -> str:
-    """Means over the seeds for each pair of choices."""
+    """List means over the seeds for each combination."""
     groups: dict[tuple[str, str], list[Mapping[str, Any]]] = {}
     for row in result["rows"]:
         groups.setdefault((row["heading"], row["point"]), []).append(row)

@@ -1,4 +1,4 @@
-"""Many duels: what came out, figures with intervals, the worst seeds."""
+"""Studies of many duels: outcomes, values with intervals, worst seeds."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -20,7 +20,7 @@ OPTIONS = {
 
 
 def outcomes(results: Mapping[str, Result]) -> str:
-    """Shares of each kind of duel, with their 95 % intervals."""
+    """List rates of outcomes of each kind of duel, with 95 % intervals."""
     head = (
         *("body", "seeds", "duels", "played to the end"),
         *("on the circle for the last 5 s", "before the last third"),
@@ -45,7 +45,7 @@ def outcomes(results: Mapping[str, Result]) -> str:
 
 
 def spreads(result: Result) -> str:
-    """Figures of the duels of one kind: mean, interval, range, worst."""
+    """List values of one kind of duel: mean, interval, range, worst."""
     head = ("what", "theory", "mean", "95 % of it", "least", "greatest")
     rows = []
     for key, row in result["summary"]["figures"].items():
@@ -64,7 +64,7 @@ def spreads(result: Result) -> str:
 
 
 def worst_seeds(results: Mapping[str, Result]) -> str:
-    """Seeds that come worst, and how to see them again."""
+    """List the seeds of the worst duels, and the command that repeats them."""
     head = ("body", "what", "value", "again")
     rows = []
     for name, words in KINDS.items():
@@ -88,7 +88,7 @@ def worst_seeds(results: Mapping[str, Result]) -> str:
 
 
 def certified(results: Mapping[str, Result]) -> str:
-    """Closest approaches beside the template's certificate."""
+    """Compare closest approaches with the template's certificate."""
     head = (
         "body",
         "starts certified",

@@ -4,15 +4,15 @@ from collections.abc import Iterable, Sequence
 
 from stepaside.studies.survival import wilson
 
-NONE = "-"  # stands where there is nothing to show
+NONE = "-"  # shown for missing values
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table.
+    """Return a table.
 
     Args:
-        head: Titles of the columns.
-        rows: Cells, as many in each row as there are titles.
+        head: Column headers.
+        rows: Cells, one per column in each row.
 
     Raises:
         ValueError: If a row has another number of cells.
@@ -26,18 +26,18 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def number(value: float | None, digits: int = 3) -> str:
-    """A number with a fixed number of decimals; a dash for none."""
+    """Return a number with fixed decimals; a dash for None."""
     return NONE if value is None else f"{value:.{digits}f}"
 
 
 def interval(low: float | None, high: float | None, digits: int = 3) -> str:
-    """From one number to another, or one where both are written alike."""
+    """Return a range; one number if both ends look the same."""
     ends = number(low, digits), number(high, digits)
     return ends[0] if ends[0] == ends[1] else f"{ends[0]}-{ends[1]}"
 
 
 def counted(hits: int, of: int) -> str:
-    """How many of a number, with the 95 % interval of the share (Wilson)."""
+    """Return a proportion with its 95 % Wilson interval."""
     low, high = wilson(hits, of)
     return f"{hits} ({interval(100.0 * low, 100.0 * high, 0)} %)"
 

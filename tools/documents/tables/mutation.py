@@ -1,4 +1,4 @@
-"""Faults put into the package, and those that no test noticed."""
+"""Mutation score, and survivors."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -11,12 +11,12 @@ PACKAGE = "src/stepaside/"
 
 
 def score(result: Mapping[str, Any]) -> str:
-    """How many faults were noticed, in all and by package."""
+    """List the number of detected faults, in total and by package."""
     outcomes = result["outcomes"]
     since = sum("noticed_by" in row for row in result["survivors"])
     later = (
-        " Tests written since, and those that the limit on time left out, "
-        f"notice {since} of the survivors."
+        " Newer tests, and tests that the time limit had excluded, detect "
+        f"{since} of the survivors."
         if since
         else ""
     )
@@ -34,19 +34,19 @@ def score(result: Mapping[str, Any]) -> str:
         for name, found in result["packages"].items()
     ]
     return (
-        f"**{result['noticed']} of {result['faults']} faults noticed "
+        f"**{result['noticed']} of {result['faults']} faults detected "
         f"({number(100.0 * result['score'], 1)} %)**; `{result['command']}`, "
         f"drawn by seed {result['settings']['seed']}, on code version "
-        f"`{result['version']}`. {outcomes.get('timeout', 0)} were noticed "
+        f"`{result['version']}`. {outcomes.get('timeout', 0)} were detected "
         f"by a time limit; {outcomes.get('unreached', 0)} are reached by no "
-        f"test. Of all places, {low} to {high} % are as well guarded, at 95 % "
-        f"confidence.{later}\n\n"
-        + table(("package", "faults", "noticed", "share"), rows)
+        f"test. The 95 % interval of the detection rate is {low} to "
+        f"{high} %.{later}\n\n"
+        + table(("package", "faults", "detected", "rate"), rows)
     )
 
 
 def survivors(result: Mapping[str, Any]) -> str:
-    """Each fault that no test noticed, with the reason."""
+    """List each undetected fault with its reason."""
     if not result["survivors"]:
         return "None."
     rows = [
@@ -58,14 +58,16 @@ def survivors(result: Mapping[str, Any]) -> str:
         )
         for row in result["survivors"]
     ]
-    return table(("where", "before", "after", "reason"), rows)
+    return table(("location", "before", "after", "reason"), rows)
 
 
 def _reason(row: Mapping[str, Any]) -> str:
     if "noticed_by" in row:
         test = row["noticed_by"].partition("[")[0]
-        return f"noticed since by `{test.rpartition('/')[2]}`"
-    return str(row["reason"]) or ("" if row["reached"] else "no test reaches")
+        return f"detected since by `{test.rpartition('/')[2]}`"
+    return str(row["reason"]) or (
+        "" if row["reached"] else "reached by no test"
+    )
 
 
 def _code(text: str) -> str:

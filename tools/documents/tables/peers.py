@@ -1,4 +1,4 @@
-"""What real ROS 2 nodes and we hear of each other."""
+"""Messages exchanged with real ROS 2 nodes."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -7,7 +7,7 @@ from .markdown import table
 
 
 def peers(result: Mapping[str, Any]) -> str:
-    """One row for each thing that was tried, one column a distribution."""
+    """List one row per message or action, one column per distribution."""
     found = result["distributions"]
     head = (
         *("from", "to", "what", "type"),

@@ -1,4 +1,4 @@
-"""People who come from all around at a robot that stands."""
+"""People approaching a standing robot from all directions."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -7,7 +7,7 @@ from .markdown import counted, number, table
 
 
 def people(*results: Mapping[str, Any]) -> str:
-    """Contacts and distances by body, sensing and speed of the people."""
+    """List contacts and distances by body, sensing and walking speed."""
     rows = [
         (
             result["settings"]["body"],
@@ -42,7 +42,7 @@ def people(*results: Mapping[str, Any]) -> str:
 
 
 def passers_by(*results: Mapping[str, Any]) -> str:
-    """False triggers with people who only pass, by body and sensing."""
+    """List false triggers with passing pedestrians, by body and sensing."""
     return table(
         (
             "body of who is passed",
@@ -66,7 +66,7 @@ def passers_by(*results: Mapping[str, Any]) -> str:
 
 
 def seen(*results: Mapping[str, Any]) -> str:
-    """Those who come at a robot that sees them, and those who pass."""
+    """List people who approach or pass a robot with cameras."""
     rows = []
     for result in results:
         settings = result["settings"]
@@ -92,7 +92,7 @@ def seen(*results: Mapping[str, Any]) -> str:
 
 
 def passed_by(*results: Mapping[str, Any]) -> str:
-    """False triggers of a robot that sees people pass."""
+    """List false triggers of a robot with cameras."""
     return table(
         ("body", "speed [m/s]", "passers-by", "false triggers", "touched"),
         [
@@ -110,7 +110,7 @@ def passed_by(*results: Mapping[str, Any]) -> str:
 
 
 def comers(*results: Mapping[str, Any]) -> str:
-    """Those who come from ahead, one a seed, and those who pass."""
+    """List people from ahead who approach or pass, one per seed."""
     rows = [
         (
             *(row["body"], row["sensing"], f"{row['speed_m_s']:g}"),

@@ -1,4 +1,4 @@
-"""Persons who walk at the evader."""
+"""People walking towards the evader."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -19,7 +19,7 @@ FIGURES = {
 
 
 def ranges(result: Mapping[str, Any]) -> str:
-    """Each walk with the range over its seeds."""
+    """List each path with the range over its seeds."""
     rows = []
     for walk, found in result["walks"].items():
         spreads = [found[key] for key in FIGURES]
@@ -36,7 +36,7 @@ def ranges(result: Mapping[str, Any]) -> str:
 
 
 def each(result: Mapping[str, Any]) -> str:
-    """Each walk of each seed."""
+    """List each path with each seed."""
     return table(
         ("walk", "seed", "outcome", *FIGURES.values()),
         [

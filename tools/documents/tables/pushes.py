@@ -1,4 +1,4 @@
-"""The largest pushes that a walk survives, beside the pendulum's bounds."""
+"""Push limits of a walk, with the bounds of the pendulum."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -12,7 +12,7 @@ WORDS = {
 
 
 def methods(result: Mapping[str, Any]) -> str:
-    """Limits over bounds for each method, over directions and phases."""
+    """List limits over bounds for each method, over directions and phases."""
     head = (
         "method",
         "of the pendulum's bound, median",

@@ -9,7 +9,7 @@ MAPS = {"given": "given", "seen": "seen by cameras", "none": "none"}
 
 
 def outcomes(result: Mapping[str, Any]) -> str:
-    """What the duels of each strategy came to."""
+    """List the results of the duels of each strategy."""
     return table(
         (
             "evader",
@@ -48,7 +48,7 @@ def outcomes(result: Mapping[str, Any]) -> str:
 
 
 def polygons(result: Mapping[str, Any]) -> str:
-    """What a decision costs, by how much a map holds."""
+    """List the time of a decision by size of the map."""
     parts = ("look-ahead", "pursuit", "guard")
     return table(
         ("polygons", *(f"{part} [ms]" for part in parts), "longest [ms]"),

@@ -1,4 +1,4 @@
-"""Duels of robots that see."""
+"""Duels of robots with cameras."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -27,7 +27,7 @@ ROWS = {
 
 
 def figures(result: Mapping[str, Any]) -> str:
-    """Each figure with its range over the duels."""
+    """List each value with its range over the duels."""
     summary = result["summary"]
     return table(
         ("what", "least", "mean", "greatest"),

@@ -1,4 +1,4 @@
-"""Duels whose control came over sockets."""
+"""Duels with control over sockets."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -18,7 +18,7 @@ WAYS = {"ros2": "ROS 2", "naoqi": "NAOqi"}
 
 
 def duels(result: Mapping[str, Any]) -> str:
-    """One row for each duel of joints."""
+    """List duels with joint control."""
     return table(
         (*HEAD, "unanswered frames"),
         (
@@ -29,7 +29,7 @@ def duels(result: Mapping[str, Any]) -> str:
 
 
 def driven(result: Mapping[str, Any]) -> str:
-    """One row for each duel of robots that are driven by velocity."""
+    """List duels of robots with velocity control."""
     return table(
         ("over", *HEAD),
         ((WAYS[row["way"]], *_duel(row)) for row in result["rows"]),
@@ -37,7 +37,7 @@ def driven(result: Mapping[str, Any]) -> str:
 
 
 def stepped(result: Mapping[str, Any]) -> str:
-    """One row for each duel over NAOqi, by how robots were moved."""
+    """List duels over NAOqi by motion interface."""
     return table(
         ("by", *HEAD), ((row["by"], *_duel(row)) for row in result["rows"])
     )
@@ -56,7 +56,7 @@ def _duel(row: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def lateness(result: Mapping[str, Any]) -> str:
-    """How many ticks began how late, in real time."""
+    """List how many ticks were late by how much, in real time."""
     rows = [row for row in result["rows"] if not row["lock_step"]]
     bins = list(rows[0]["lateness_ms"])
     return table(

@@ -1,4 +1,4 @@
-"""Every setting with its range, as the checks have it."""
+"""All settings with their ranges, from the checks themselves."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
@@ -29,13 +29,13 @@ LISTS: Mapping[str, type[Any]] = {
 
 
 class Setting(NamedTuple):
-    """One entry of a configuration.
+    """Entry of a configuration.
 
     Attributes:
-        path: Like ``gait.speed``.
-        kind: Class of the section that it stands in.
-        name: Of the attribute.
-        default: What holds if nothing is said; None if that is nothing.
+        path: Path like ``gait.speed``.
+        kind: Class of its section.
+        name: Name of the attribute.
+        default: Default value; None if there is none.
     """
 
     path: str
@@ -45,7 +45,7 @@ class Setting(NamedTuple):
 
 
 def all_settings() -> dict[str, Setting]:
-    """Every entry of every configuration, by its path."""
+    """Return every entry of every configuration, by its path."""
     found: dict[str, Setting] = {}
     for kind in KINDS:
         for setting in _in(kind(), ""):
@@ -68,7 +68,7 @@ def _in(settings: Any, before: str) -> Iterator[Setting]:
 
 
 def settings(_: Any) -> str:
-    """All settings: range, unit, default and the reason for the bounds."""
+    """List all settings: range, unit, default and reason for the bounds."""
     names = _names()
     rows = []
     for path, setting in all_settings().items():
@@ -85,7 +85,9 @@ def settings(_: Any) -> str:
         rows.append(
             (f"`{path}`", may_be, unit, _default(setting.default), why)
         )
-    return table(("setting", "range", "unit", "by default", "why"), rows)
+    return table(
+        ("setting", "range", "unit", "default", "reason for the range"), rows
+    )
 
 
 def _default(value: Any) -> str:
@@ -99,7 +101,7 @@ def _default(value: Any) -> str:
 
 
 def options(_: Any) -> str:
-    """Numbers that commands take beside their settings."""
+    """List numeric options that are not part of a configuration."""
     found: dict[tuple[str, str, str], list[str]] = {}
     for command, made in all_commands().items():
         for option in _options(made):
@@ -115,11 +117,11 @@ def options(_: Any) -> str:
         (f"`{name}`", words, unit, ", ".join(commands))
         for (name, words, unit), commands in sorted(found.items())
     ]
-    return table(("option", "range", "unit", "of"), rows)
+    return table(("option", "range", "unit", "commands"), rows)
 
 
 def _options(command: click.Command) -> list[click.Option]:
-    """Options of a command that set nothing in a configuration."""
+    """Return the options of a command that are not part of a configuration."""
     return [
         param
         for param in command.params
@@ -129,7 +131,7 @@ def _options(command: click.Command) -> list[click.Option]:
 
 
 def _names() -> dict[str, tuple[str, ...]]:
-    """Names that may be chosen, by the path of the setting."""
+    """Return the allowed names, by the path of the setting."""
     found = {}
     for made in all_commands().values():
         for param in made.params:

@@ -1,4 +1,4 @@
-"""Commands that Ctrl-C stopped."""
+"""Commands interrupted by Ctrl-C."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -7,14 +7,14 @@ from .markdown import number, table
 
 
 def stops(result: Mapping[str, Any]) -> str:
-    """How much each command still worked, at worst, and how it ended."""
+    """List how much each command still worked, at worst, and how it ended."""
     return table(
         (
             "command",
-            "worked on, at most [s]",
-            "gone, at most [s]",
+            "processor time to end, at most [s]",
+            "time to end, at most [s]",
             "statuses",
-            "its last words",
+            "last line",
         ),
         (_row(row["command"], row["stops"]) for row in result["rows"]),
     )

@@ -1,4 +1,4 @@
-"""What the unicycles' game gives from many starts."""
+"""Games of unicycles from many initial poses."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -9,7 +9,7 @@ Result = Mapping[str, Any]
 
 
 def certified_starts(result: Result) -> str:
-    """Shares of random starts in the diamond and with a certified bound."""
+    """List fractions of starts in the diamond and with a certificate."""
     head = ("starts", "diamond", "certified, kept", "certified, behind")
     keys = ("in the diamond", "certain, latched", "certain, behind")
     rows = [
@@ -20,7 +20,7 @@ def certified_starts(result: Result) -> str:
 
 
 def remedies(result: Result) -> str:
-    """What an evader can do about a close reversed circle."""
+    """List remedies against a close reversed circle."""
     head = (
         "remedy",
         "end reversed",
@@ -42,7 +42,7 @@ def remedies(result: Result) -> str:
 
 
 def side_changes(result: Result) -> str:
-    """What games between unequal players end in, and how near they come."""
+    """List outcomes and closest approaches of games of unequal players."""
     head = (
         "law",
         "pursuer",
@@ -74,7 +74,7 @@ def side_changes(result: Result) -> str:
 
 
 def steps_beyond(result: Result) -> str:
-    """What the push bound leaves out, as ratios to it."""
+    """List what the push bound omits, as ratios to it."""
     head = (
         "gait",
         "walk",

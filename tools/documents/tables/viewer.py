@@ -1,4 +1,4 @@
-"""What the live page, the offline page and films cost."""
+"""Cost of the live page, the offline page and videos."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -7,7 +7,7 @@ from .markdown import table
 
 
 def figures(viewer: Mapping[str, Any], replay: Mapping[str, Any]) -> str:
-    """Speed of the live duel, time of a film, sizes of files."""
+    """List speed of the live duel, time of a video, sizes of files."""
     live, files = viewer["live"], replay["files"]
 
     def speed(name: str) -> str:
@@ -18,7 +18,7 @@ def figures(viewer: Mapping[str, Any], replay: Mapping[str, Any]) -> str:
         return f"{text}, {found['updates_per_s']:.0f} updates a second"
 
     def size(name: str, usual: str) -> str:
-        """Width and height that were asked for."""
+        """Return the requested width and height."""
         words = files[name].get("options", "").split()
         asked = dict(zip(words[::2], words[1::2], strict=True))
         if "--width" not in asked:

@@ -22,7 +22,7 @@ VARIANTS = {
 
 
 def rms(result: Mapping[str, Any]) -> str:
-    """Mean over the seeds of the rms error of each estimate, by body."""
+    """List the mean over seeds of the rms error of each estimate, by body."""
     bodies = result["bodies"]
     return table(
         ("", *bodies),
@@ -43,7 +43,7 @@ def rms(result: Mapping[str, Any]) -> str:
 
 
 def pace(result: Mapping[str, Any]) -> str:
-    """Speed, turning and slip of each variant, and which brings most."""
+    """List speed, turning and slip of each variant, and the largest effect."""
     found = result["variants"]
     speed = {name: v["speed_ratio"]["mean"] for name, v in found.items()}
     taken = sorted(set(speed) - {"hardware", "corrected"})
@@ -66,7 +66,7 @@ def pace(result: Mapping[str, Any]) -> str:
 
 
 def long_walks(result: Mapping[str, Any]) -> str:
-    """How long walks ended, and how fast they went."""
+    """List outcomes and speeds of long walks."""
     return table(
         ("walk", "outcome", "steps", "speed / planned", "turning / planned"),
         [
@@ -83,7 +83,7 @@ def long_walks(result: Mapping[str, Any]) -> str:
 
 
 def fast_walks(result: Mapping[str, Any]) -> str:
-    """Falls, speed and turning of the fast gait, by body and direction."""
+    """List falls, speed and turning with the fast gait, by body."""
     groups: dict[str, list[Mapping[str, Any]]] = {}
     straight: dict[str, list[float]] = {}
     for name, found in result["walks"].items():

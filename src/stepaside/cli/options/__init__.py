@@ -1,1 +1,1 @@
-"""Options, each declared once, and settings built from them."""
+"""Options of the commands, declared once, and settings built from them."""

@@ -1,4 +1,4 @@
-"""Options of rooms: how large, and what stands in them."""
+"""Options for the size of a room and its obstacles."""
 
 from pathlib import Path
 from typing import Any
@@ -10,22 +10,26 @@ from .value_kinds import SizeType
 
 COUNT = click.IntRange(0, 500)
 SIZE = OptionDeclaration(
-    "--size", "Of the floor [m], or open for no walls.", kind=SizeType()
+    "--size",
+    "Width and depth of the room [m]; open for a floor without walls.",
+    kind=SizeType(),
 )
-DISCS = OptionDeclaration("--discs", "Discs in a room.", kind=COUNT)
-BOXES = OptionDeclaration("--boxes", "Boxes in a room.", kind=COUNT)
+DISCS = OptionDeclaration("--discs", "Number of discs.", kind=COUNT)
+BOXES = OptionDeclaration("--boxes", "Number of boxes.", kind=COUNT)
 POLYGONS = OptionDeclaration(
-    "--polygons", "Polygons of three to six corners in a room.", kind=COUNT
+    "--polygons",
+    "Number of polygons with three to six corners.",
+    kind=COUNT,
 )
 
 
 class ArenaType(click.ParamType[Any]):
-    """A size like 3x3, ``open``, or a file of a room."""
+    """Size like 3x3, ``open``, or a room file."""
 
     name = "room"
 
     def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
-        """How it is written."""
+        """Return the placeholder for the help."""
         return "[WIDTHxDEPTH|open|FILE]"
 
     def convert(
@@ -34,10 +38,10 @@ class ArenaType(click.ParamType[Any]):
         param: click.Parameter | None,
         ctx: click.Context | None,
     ) -> Any:
-        """Take a file for its path, and anything else for a size."""
+        """Return the path of a room file, else the size."""
         file = Path(str(value))
         if file.suffix.lower() in (".toml", ".json"):
             if not file.is_file():
-                self.fail(f"must be a file that exists, got {value!r:.80}")
+                self.fail(f"must be an existing file, got {value!r:.80}")
             return file
         return SizeType().convert(value, param, ctx)

@@ -1,4 +1,4 @@
-"""Options of one robot's body and control, and of what it walks on."""
+"""Options for the body, the control and the floor of a simulated robot."""
 
 from collections.abc import Collection
 from typing import TYPE_CHECKING
@@ -31,59 +31,59 @@ def _tails() -> Collection[str]:
 
 BODY_PRESET = OptionDeclaration(
     "--body",
-    "How far the body is from an ideal one.",
+    "Imperfections of the body: none, delays only, or those of real hardware.",
     "body",
     registry=_bodies,
 )
 BODY = OptionGroup(
-    "Body (each changes the one that --body names)",
+    "Body (each option modifies the preset of --body)",
     (
         BODY_PRESET,
         OptionDeclaration(
             "--cycle",
-            "Control period {unit} of the body; 0 leaves it to --tick.",
+            "Control period of the body {unit}; 0 for the period of --tick.",
             "body.cycle",
             "s",
         ),
         OptionDeclaration(
             "--delay-cycles",
-            "Control cycles from a request to the motion",
+            "Delay from command to motion, in control cycles",
             "body.delay_cycles",
             "cycles",
             kind=click.INT,
         ),
         OptionDeclaration(
             "--imu-delay-cycles",
-            "Control cycles by which gyro and accelerometer lag",
+            "Delay of gyro and accelerometer, in control cycles",
             "body.imu_delay_cycles",
             "cycles",
             kind=click.INT,
         ),
         OptionDeclaration(
             "--torque-speed/--no-torque-speed",
-            "Whether a motor's torque falls with its speed.",
+            "Reduce motor torque with speed.",
             "body.torque_speed",
         ),
         OptionDeclaration(
             "--efficiency",
-            "Share of the ideal stall torque at the joint",
+            "Joint stall torque, as a fraction of the ideal one",
             "body.efficiency",
             "1",
         ),
         OptionDeclaration(
             "--stiffness",
-            "Share of that torque that the robot allows",
+            "Stiffness setting: fraction of the stall torque allowed",
             "body.stiffness",
             "1",
         ),
         OptionDeclaration(
             "--servo-gain",
-            "Factor on the servos' position gain",
+            "Scale factor of the servo position gain",
             "body.servo_gain",
             "1",
         ),
         OptionDeclaration(
-            "--backlash", "Dead zone of each leg joint", "body.backlash", "rad"
+            "--backlash", "Backlash of each leg joint", "body.backlash", "rad"
         ),
         OptionDeclaration(
             "--encoder-step",
@@ -93,49 +93,49 @@ BODY = OptionGroup(
         ),
         OptionDeclaration(
             "--gyro-noise",
-            "Standard deviation of the gyro",
+            "Standard deviation of the gyro noise",
             "body.gyro_noise",
             "rad/s",
         ),
         OptionDeclaration(
             "--gyro-bias",
-            "Greatest constant error of the gyro",
+            "Maximum gyro bias",
             "body.gyro_bias",
             "rad/s",
         ),
         OptionDeclaration(
             "--accelerometer-noise",
-            "Standard deviation of the accelerometer",
+            "Standard deviation of the accelerometer noise",
             "body.accelerometer_noise",
             "m/s^2",
         ),
         OptionDeclaration(
             "--accelerometer-bias",
-            "Greatest constant error of the accelerometer",
+            "Maximum accelerometer bias",
             "body.accelerometer_bias",
             "m/s^2",
         ),
         OptionDeclaration(
             "--force-noise",
-            "Standard deviation of a foot force",
+            "Standard deviation of the foot force noise",
             "body.force_noise",
             "N",
         ),
         OptionDeclaration(
             "--force-gain-error",
-            "Greatest relative error of a foot force",
+            "Maximum relative gain error of a foot force sensor",
             "body.force_gain_error",
             "1",
         ),
         OptionDeclaration(
             "--mass-error",
-            "Greatest relative error of a link's mass",
+            "Maximum relative error of a link mass",
             "body.mass_error",
             "1",
         ),
         OptionDeclaration(
             "--com-error",
-            "Greatest shift of the torso's CoM on each axis",
+            "Maximum offset of the torso CoM along each axis",
             "body.com_error",
             "m",
         ),
@@ -143,18 +143,18 @@ BODY = OptionGroup(
 )
 METHOD = OptionDeclaration(
     "--method",
-    "Where the CoM comes from: the planned state, the measured one, or "
-    "intrinsically stable MPC.",
+    "Source of the CoM reference: closed form from the planned state, closed "
+    "form from the measured state, or intrinsically stable MPC.",
     "control.method",
     registry=_methods,
 )
 FEEDBACK = OptionDeclaration(
     "--feedback/--no-feedback",
-    "Estimate the state and stabilise the walk, or replay the plans in open "
-    "loop; feedback for all bodies but the ideal one by default.",
+    "Estimate the state and stabilise the gait, or execute plans in open "
+    "loop.  [default: feedback unless --body is ideal]",
     "control.feedback",
-    tells_default=False,
-    more_names=(" /--open-loop",),
+    shows_default=False,
+    aliases=(" /--open-loop",),
 )
 CONTROL = OptionGroup(
     "Control",
@@ -163,27 +163,27 @@ CONTROL = OptionGroup(
         FEEDBACK,
         OptionDeclaration(
             "--learn-turns/--no-learn-turns",
-            "Learn by the gyro how much of a turn the feet make, and ask for "
-            "as much more.",
+            "Learn from the gyro which fraction of a commanded turn is "
+            "achieved, and scale later turns to compensate.",
             "control.learn_turns",
         ),
         OptionDeclaration(
             "--mpc-steps",
-            "Steps in the horizon of the MPC",
+            "MPC horizon, in footsteps",
             "control.mpc.steps",
             "steps",
             kind=click.INT,
         ),
         OptionDeclaration(
             "--mpc-samples",
-            "Samples of the MPC in a step",
+            "MPC samples per footstep",
             "control.mpc.samples",
             "1",
             kind=click.INT,
         ),
         OptionDeclaration(
             "--mpc-tail",
-            "What the MPC assumes beyond its horizon.",
+            "Assumed ZMP motion beyond the MPC horizon.",
             "control.mpc.tail",
             registry=_tails,
         ),
@@ -194,13 +194,13 @@ PHYSICS = OptionGroup(
     (
         OptionDeclaration(
             "--friction",
-            "Friction of the soles {unit}; {default} by default.",
+            "Coefficient of friction between soles and floor",
             "physics.friction",
             "1",
         ),
         OptionDeclaration(
             "--unevenness",
-            "Height {unit} of the floor's bumps.",
+            "Maximum height of floor bumps",
             "physics.unevenness",
             "m",
         ),
@@ -209,16 +209,19 @@ PHYSICS = OptionGroup(
         ),
         OptionDeclaration(
             "--slope-direction",
-            "Where the floor descends to",
+            "Direction of steepest descent",
             "physics.slope_direction",
             "rad",
         ),
         OptionDeclaration(
-            "--time-step", "Step of the physics", "physics.time_step", "s"
+            "--time-step",
+            "Integration step of the physics",
+            "physics.time_step",
+            "s",
         ),
         OptionDeclaration(
             "--tick",
-            "Control period {unit}, a whole multiple of the time step.",
+            "Control period {unit}; an integer multiple of --time-step.",
             "physics.tick",
             "s",
         ),

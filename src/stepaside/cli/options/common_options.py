@@ -1,4 +1,4 @@
-"""Options of commands themselves, which no configuration holds."""
+"""Options of commands that are not part of any configuration."""
 
 from collections.abc import Callable
 from contextlib import nullcontext
@@ -10,23 +10,23 @@ import click
 
 from ...core.atomic_output import FIGURES
 from ...report.figure_sizes import SHEETS, figures_on
-from ..value_types import NumberType, json_alone
+from ..value_types import NumberType, reserve_stdout
 from .declaration import OptionDeclaration
 from .value_kinds import NameType, OutputFile
 
-INTERRUPTED = 130  # exit status of a command that was stopped
+INTERRUPTED = 130  # exit status of an interrupted command
 JSON = OptionDeclaration(
-    "--json/--no-json", "Print one JSON object.", more_names=("as_json",)
+    "--json/--no-json", "Print one JSON object.", aliases=("as_json",)
 )
 
 
 def json_option(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Give a command ``--json``, with which it prints nothing else."""
+    """Add ``--json``, which reserves standard output for one JSON object."""
 
     @wraps(function)
-    def command(*words: Any, **values: Any) -> Any:
-        with json_alone() if values["as_json"] else nullcontext():
-            return function(*words, **values)
+    def command(*args: Any, **values: Any) -> Any:
+        with reserve_stdout() if values["as_json"] else nullcontext():
+            return function(*args, **values)
 
     return JSON.option(default=False)(command)
 
@@ -48,48 +48,48 @@ FIGURE = OptionDeclaration(
 )
 WIDTH = OptionDeclaration(
     "--figure-width",
-    "Of figures: as on a screen, or in the sizes and fonts of papers with "
-    "two columns, across a page or in one column.",
+    "Figure size and fonts: for a screen, or for the page or one column of a "
+    "two-column paper.",
     kind=NameType(lambda: SHEETS),
 )
 WORKERS = OptionDeclaration(
     "--workers",
-    "Processes; all cores by default.",
-    kind=click.IntRange(1, 1024),  # more only wait for each other
+    "Number of worker processes; one per core by default.",
+    kind=click.IntRange(1, 1024),  # more than any machine has cores
 )
 FIRST_SEED = OptionDeclaration(
-    "--seed", "Of every random draw.", kind=click.IntRange(0, 2**128 - 1)
+    "--seed", "Random seed.", kind=click.IntRange(0, 2**128 - 1)
 )
 PORT = OptionDeclaration(
-    "--port", "To serve the page at.", kind=click.IntRange(1, 65535)
+    "--port", "TCP port of the page.", kind=click.IntRange(1, 65535)
 )
 BROWSER = OptionDeclaration(
-    "--open/--no-open", "Open the page in a browser.", more_names=("opens",)
+    "--open/--no-open", "Open the page in a browser.", aliases=("opens",)
 )
 SERVE_FOR = OptionDeclaration(
     "--serve-for",
-    "Stop serving after this time",
+    "Stop the server after this time",
     unit="s",
     kind=NumberType("s"),
 )
 CAPTURE = OptionDeclaration(
     "--body",
-    "Distance {unit} that counts as capture.",
+    "Capture distance",
     unit="m",
     kind=NumberType("m"),
 )
 GAME_TIME = OptionDeclaration(
-    "--duration", "Length of a game", unit="s", kind=NumberType("s")
+    "--duration", "Duration of a game", unit="s", kind=NumberType("s")
 )
 SAMPLE_TIME = OptionDeclaration(
     "--sample-time",
-    "Time for which turning rates are held",
+    "Sampling period; turning rates are held constant in between",
     unit="s",
     kind=NumberType("s", allow_zero=True),
 )
 DELAY = OptionDeclaration(
     "--delay",
-    "Age of a perception when it takes effect",
+    "Delay from sensing to turning",
     unit="s",
     kind=NumberType("s", allow_zero=True),
 )
@@ -98,7 +98,7 @@ DELAY = OptionDeclaration(
 def _choose_sheet(
     context: click.Context, _: click.Parameter, name: str
 ) -> None:
-    """Draw on a sheet until the command is through."""
+    """Set the figure size until the command ends."""
     context.with_resource(figures_on(name))
 
 

@@ -1,4 +1,4 @@
-"""Options of the ways to robots that walk by themselves."""
+"""Options for connections to robots with their own walking controller."""
 
 import click
 
@@ -7,34 +7,34 @@ from .declaration import OptionDeclaration
 
 DOMAIN = OptionDeclaration(
     "--domain",
-    "ROS 2 domain; that of ROS_DOMAIN_ID, or 0, by default.",
+    "ROS 2 domain; ROS_DOMAIN_ID by default, or 0 if that is not set.",
     kind=click.IntRange(0, 232),
 )
 NETWORK = OptionDeclaration(
     "--network/--no-network",
-    "Let other machines take part in ROS 2 topics, not this one alone; "
-    "without it ROS 2 programs of this machine need "
+    "Make the ROS 2 topics visible to other machines. Without it, ROS 2 "
+    "programs on this machine require "
     "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST.",
 )
 MAX_SPEED = OptionDeclaration(
     "--max-speed",
-    "Greatest speed that a robot driven by velocity accepts",
+    "Maximum speed of a robot with velocity commands",
     unit="m/s",
     kind=NumberType("m/s"),
 )
 MAX_TURN = OptionDeclaration(
     "--max-turn",
-    "Greatest turning rate that it accepts",
+    "Maximum turning rate of a robot with velocity commands",
     unit="rad/s",
     kind=NumberType("rad/s"),
 )
 SIM_TIME = OptionDeclaration(
     "--sim-time/--no-sim-time",
-    "Its time is simulated, and may stand still or run.",
+    "The robot is simulated: its clock may pause or run at any rate.",
 )
-WAYS = ("velocity", "footsteps", "joints")
+MOTION_INTERFACES = ("velocity", "footsteps", "joints")
 BY = OptionDeclaration(
     "--by",
-    "How a robot on NAOqi is moved; by velocity by default.",
-    registry=lambda: WAYS,
+    "Commands sent to a robot over NAOqi.  [default: velocity]",
+    registry=lambda: MOTION_INTERFACES,
 )

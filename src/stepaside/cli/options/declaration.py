@@ -1,4 +1,4 @@
-"""The declaration of an option, which any number of commands share."""
+"""Declarations of options that several commands share."""
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
@@ -12,33 +12,34 @@ from ..value_types import ANGLE, NumberType
 from .value_kinds import NameType, WordOrValueType
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
-Kind = Callable[[], type[Any]]  # gives a class of settings when it is needed
+# Imports and returns a class of settings, so that declaring options is cheap.
+SettingsClass = Callable[[], type[Any]]
 
 
 @dataclass(frozen=True, eq=False)
 class OptionDeclaration:
-    """What an option is called, what it means, and what it sets.
+    """Name, meaning and configuration entry of an option.
 
-    Defaults are not declared: they are those of the settings. Nor are
-    ranges, which the settings refuse to leave.
+    Defaults and ranges are not declared here: the settings define both.
 
     Attributes:
-        name: As click takes it: ``--friction``, or ``--clutter/--no-clutter``
+        name: Name for click: ``--friction``, or ``--clutter/--no-clutter``
             for a flag.
-        help: What it means; ``{unit}`` and ``{default}`` stand for both,
-            which follow at the end if they are not named.
-        path: Entry of the configuration that it sets, like
-            ``physics.friction``; empty for an option of a command alone.
-        unit: Of a number; ``rad`` for an angle, which may be given in
-            degrees, too.
-        registry: Gives the names that may be chosen, or whole values by
-            name, which ``path`` is then set to.
-        words: Values that have no number, by word.
-        kind: Kind of value, where none of the former says it.
-        tells_default: Whether the default follows the help.
-        more_names: Further spellings.
-        gather: Turns what was given into what is set, where it is not that.
-        extra: What else click is told.
+        help: Help text. ``{unit}`` and ``{default}`` are placeholders; a unit
+            and a default without placeholder are appended.
+        path: Configuration entry that the option sets, like
+            ``physics.friction``; empty if it is not in a configuration.
+        unit: Unit of a number; ``rad`` for an angle, which the user may also
+            give in degrees.
+        registry: Returns the allowed names, or a mapping from names to the
+            values that the entry is set to.
+        words: Words for special values, like ``never`` for infinity.
+        kind: Click type, if the other attributes do not determine it.
+        shows_default: Whether the help ends with the default.
+        aliases: Further names.
+        collect: Converts the values of a repeated option to the value of the
+            entry.
+        extra: Further arguments for click.
     """
 
     name: str
@@ -48,19 +49,19 @@ class OptionDeclaration:
     registry: Callable[[], Collection[Any]] | None = None
     words: Mapping[str, Any] = field(default_factory=dict)
     kind: click.ParamType[Any] | None = None
-    tells_default: bool = True
-    more_names: tuple[str, ...] = ()
-    gather: Callable[[Any], Any] | None = None
+    shows_default: bool = True
+    aliases: tuple[str, ...] = ()
+    collect: Callable[[Any], Any] | None = None
     extra: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def is_flag(self) -> bool:
-        """Whether it is switched on and off."""
+        """Whether the option is a flag."""
         return "/" in self.name
 
     @cached_property
     def type(self) -> click.ParamType[Any] | None:
-        """How click reads it; None for a flag or for text."""
+        """Click type; None for a flag or for text."""
         kind = self.kind
         if kind is None and self.unit == "rad":
             kind = ANGLE
@@ -72,16 +73,18 @@ class OptionDeclaration:
             WordOrValueType(kind, self.words) if kind and self.words else kind
         )
 
-    def option(self, settings: Kind | None = None, **extra: Any) -> Decorator:
-        """Option of one command.
+    def option(
+        self, settings: SettingsClass | None = None, **extra: Any
+    ) -> Decorator:
+        """Return a decorator that adds the option to a command.
 
         Args:
-            settings: Class that it sets an entry of, for its default.
+            settings: Class of the settings that provide the default.
             extra: What click is told in this command alone; ``help``
                 replaces what it means, ``type`` how it is read, and
-                ``more_names`` adds spellings.
+                ``aliases`` adds spellings.
         """
-        names = (self.name, *self.more_names, *extra.pop("more_names", ()))
+        names = (self.name, *self.aliases, *extra.pop("aliases", ()))
         if self.path:
             names = (*names, self.path.replace(".", "__"))
         extra = {"help": self.help, **self.extra, **extra}
@@ -95,17 +98,17 @@ class OptionDeclaration:
         )
 
     def value_of(self, given: Any) -> Any:
-        """Value for what was given: of a registry, for its name."""
-        if self.gather is not None:
-            return self.gather(given)
+        """Convert an argument to the value of the configuration entry."""
+        if self.collect is not None:
+            return self.collect(given)
         values = self.registry() if self.registry is not None else None
         return values[given] if isinstance(values, Mapping) else given
 
     def default_in(self, settings: Any) -> str:
-        """Word for what holds by default; empty if there is none.
+        """Return the default as the user would write it; empty for None.
 
         Args:
-            settings: That hold by default.
+            settings: Default settings.
         """
         value = settings
         for name in self.path.split("."):
@@ -127,7 +130,7 @@ class OptionDeclaration:
         return f"{value:g}" if isinstance(value, float) else str(value)
 
     def text(self, meaning: str, default: str) -> str:
-        """Meaning with unit and default in their places."""
+        """Return a help text with unit and default filled in."""
         if self.unit and "{unit}" not in meaning:
             meaning = f"{meaning.rstrip('.')} {{unit}}."
         if default and "{default}" not in meaning:
@@ -136,28 +139,28 @@ class OptionDeclaration:
 
 
 class DeclaredOption(click.Option):
-    """Option of a command, made from a declaration."""
+    """Click option made from a declaration."""
 
     def __init__(
         self,
         *args: Any,
         declaration: OptionDeclaration,
-        settings: Kind | None,
+        settings: SettingsClass | None,
         **extra: Any,
     ) -> None:
-        """Make it; see :meth:`OptionDeclaration.option`."""
+        """Store declaration and settings class for the help."""
         self.declaration, self._settings = declaration, settings
         super().__init__(*args, **extra)
 
     @property
     def sets_settings(self) -> bool:
-        """Whether the command's settings are built from it."""
+        """Whether the option sets an entry of the command's settings."""
         return self._settings is not None
 
     def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
-        """Name and help, with the default of the settings."""
+        """Return name and help, with the default of the settings."""
         default = ""
-        if self._settings is not None and self.declaration.tells_default:
+        if self._settings is not None and self.declaration.shows_default:
             default = self.declaration.default_in(self._settings()())
         meaning, self.help = (
             self.help,
@@ -170,17 +173,17 @@ class DeclaredOption(click.Option):
 
 
 class OptionGroup(NamedTuple):
-    """Options that stand together in the help.
+    """Section of options in the help.
 
     Attributes:
-        title: Of the section.
-        options: Their declarations.
+        title: Title of the section.
+        options: Declarations of its options.
     """
 
     title: str
     options: tuple[OptionDeclaration, ...]
 
     def without(self, *options: OptionDeclaration) -> "OptionGroup":
-        """Group that lacks some options."""
-        rest = tuple(o for o in self.options if o not in options)
-        return OptionGroup(self.title, rest)
+        """Return the group without some options."""
+        remaining = tuple(o for o in self.options if o not in options)
+        return OptionGroup(self.title, remaining)

@@ -1,4 +1,4 @@
-"""Options of how a robot walks, and of where it walks to."""
+"""Options for the gait of a robot and the heading of a walk."""
 
 from typing import TYPE_CHECKING, get_args, get_type_hints
 
@@ -31,16 +31,16 @@ def _swings() -> tuple[str, ...]:
 
 PRESET = OptionDeclaration(
     "--gait",
-    "Gait: the paper's, its durations as printed, or a fast one, which is "
-    "stabilised unless it is said not to be; other options of the gait "
-    "change it.",
+    "Gait preset: the paper's, the paper's with durations as printed, or a "
+    "fast one (with feedback unless --open-loop). Other gait options modify "
+    "it.",
     "gait",
     registry=_gaits,
-    more_names=("--preset",),
+    aliases=("--preset",),
 )
 HORIZON = OptionDeclaration(
     "--horizon",
-    "Footsteps of a maneuver that is planned anew at each step",
+    "Planning horizon, in footsteps; the maneuver is replanned at each step",
     "gait.horizon",
     "steps",
     kind=click.INT,
@@ -58,70 +58,70 @@ GAIT = OptionGroup(
         ),
         OptionDeclaration(
             "--outer-stride",
-            "Longest way {unit} of the outer foot in a step of a turn; "
-            "sharper turns shorten the stride.",
+            "Maximum displacement of the outer foot in a turn {unit}; sharper "
+            "turns shorten the stride.",
             "gait.outer_stride",
             "m",
             words={"none": None},
         ),
         OptionDeclaration(
             "--foot-spacing",
-            "Distance {unit} between the feet, side by side.",
+            "Lateral distance between the feet",
             "gait.foot_spacing",
             "m",
         ),
         OptionDeclaration(
             "--step-height",
-            "Greatest height {unit} of a swinging foot.",
+            "Maximum height of the swing foot",
             "gait.step_height",
             "m",
         ),
         OptionDeclaration(
             "--single-support",
-            "Time on one foot",
+            "Duration of single support",
             "gait.single_support",
             "s",
         ),
         OptionDeclaration(
             "--double-support",
-            "Time on both feet, between two steps",
+            "Duration of double support between two steps",
             "gait.double_support",
             "s",
         ),
         OptionDeclaration(
             "--start-support",
-            "Time on both feet before the first step",
+            "Duration of double support before the first step",
             "gait.start_support",
             "s",
         ),
         OptionDeclaration(
             "--com-height",
-            "Height {unit} of the CoM over the floor.",
+            "Height of the CoM above the floor",
             "gait.com_height",
             "m",
         ),
         OptionDeclaration(
             "--zmp-forward",
-            "How far {unit} the ZMP lies ahead of the ankle.",
+            "Forward offset of the ZMP from the ankle",
             "gait.zmp_forward",
             "m",
         ),
         OptionDeclaration(
             "--profile",
-            "ZMP between the feet in double support.",
+            "ZMP transfer between the feet in double support.",
             "gait.zmp_profile",
             registry=_profiles,
-            more_names=("--zmp-profile",),
+            aliases=("--zmp-profile",),
         ),
         OptionDeclaration(
             "--swing-profile",
-            "Way of the swing foot over time.",
+            "Time profile of the swing foot.",
             "gait.swing_profile",
             registry=_swings,
         ),
         OptionDeclaration(
             "--swing-reaction",
-            "Shift {unit} of the ZMP by an acceleration of the swing foot.",
+            "ZMP shift per acceleration of the swing foot",
             "gait.swing_reaction",
             "s^2",
         ),
@@ -130,8 +130,8 @@ GAIT = OptionGroup(
 )
 BEARING = OptionDeclaration(
     "--bearing",
-    "Desired heading {unit} in the frame of the support foot; 0 goes "
-    "straight.",
+    "Desired heading in the frame of the support foot {unit}; 0 is straight "
+    "ahead.",
     "bearing",
     "rad",
 )
@@ -140,7 +140,7 @@ WALK = OptionGroup(
     (
         BEARING,
         OptionDeclaration(
-            "--backward/--forward", "Where the robot walks.", "backward"
+            "--backward/--forward", "Walking direction.", "backward"
         ),
         PUSHES,
     ),

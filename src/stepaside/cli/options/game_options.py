@@ -1,4 +1,4 @@
-"""Options of a game: how it starts, who plays, what the evader does."""
+"""Options of a game: initial poses, players, strategies and sensing."""
 
 from collections.abc import Collection
 from math import inf
@@ -49,56 +49,56 @@ def _renderers() -> Collection[str]:
     return RENDERERS
 
 
-def _things() -> "dict[bool, list[RoomObject]]":
+def _clutter() -> "dict[bool, list[RoomObject]]":
     from ...sim.camera_settings import CLUTTER
 
     return {True: list(CLUTTER), False: []}
 
 
-SEED = OptionDeclaration(
-    "--seed", "Of every random draw.", "seed", kind=click.INT
-)
+SEED = OptionDeclaration("--seed", "Random seed.", "seed", kind=click.INT)
 DURATION = OptionDeclaration("--duration", "Simulated time", "duration", "s")
 ROBOT = OptionDeclaration(
-    "--robot", "Robot, or the folder of its description.", "robot"
+    "--robot", "Name of a robot, or folder of its description.", "robot"
 )
 RUN = OptionGroup("Run", (SEED, DURATION, ROBOT))
 ROBOTS = OptionGroup(
-    "Robots (each with the gait and the control of its description)",
+    "Robots (each with the gait and control of its description)",
     (
         OptionDeclaration(
             "--pursuer-robot",
-            "Robot of the pursuer, if it is another one than --robot.",
+            "Robot of the pursuer; that of --robot by default.",
             "pursuer_robot",
         ),
         OptionDeclaration(
             "--evader-robot",
-            "Robot of the evader, likewise.",
+            "Robot of the evader; that of --robot by default.",
             "evader_robot",
         ),
     ),
 )
 DRAWN: dict[str, Any] = {"drawn": None}
 START = OptionGroup(
-    "Start (what is not given, the seed draws)",
+    "Initial poses (drawn from the seed unless given)",
     (
         OptionDeclaration(
             "--distance",
-            "Distance {unit} between the robots.",
+            "Initial distance between the robots",
             "start.distance",
             "m",
             words=DRAWN,
         ),
         OptionDeclaration(
             "--pursuer-offset",
-            "Heading of the pursuer from the evader",
+            "Heading of the pursuer, relative to its line of sight to the "
+            "evader",
             "start.pursuer_offset",
             "rad",
             words=DRAWN,
         ),
         OptionDeclaration(
             "--evader-offset",
-            "Heading of the evader from the pursuer",
+            "Heading of the evader, relative to its line of sight to the "
+            "pursuer",
             "start.evader_offset",
             "rad",
             words=DRAWN,
@@ -112,96 +112,95 @@ STRATEGY = OptionGroup(
         PURSUER_STRATEGY,
         OptionDeclaration(
             "--angle",
-            "Angle {unit} of evasion: 90deg moves aside, 0 moves back.",
+            "Evasion angle {unit}: 90deg moves aside, 0 moves back.",
             "strategy.angle",
             "rad",
         ),
         OptionDeclaration(
             "--saturated/--no-saturated",
-            "Whether the evader turns by (6), or by (4).",
+            "Turn the evader by eq. (6) instead of eq. (4).",
             "strategy.saturated",
         ),
         OptionDeclaration(
             "--trigger",
-            "What begins evasion: a distance, or the time until somebody who "
-            "walks on would be near; time by default where a person comes "
-            "and the gait is fast.",
+            "Condition that triggers evasion: distance, or predicted time to "
+            "contact.  [default: time for a person and a fast gait, else "
+            "distance]",
             "strategy.trigger",
             registry=_triggers,
-            tells_default=False,
+            shows_default=False,
         ),
         OptionDeclaration(
             "--contact-time",
-            "Time {unit} to contact at which evasion begins; {default} by "
-            "default.",
+            "Time to contact at which evasion begins, with --trigger time",
             "strategy.contact_time",
             "s",
         ),
         OptionDeclaration(
             "--clearance",
-            "Distance {unit} that counts as contact then; {default} by "
-            "default.",
+            "Distance {unit} that counts as contact, with --trigger time.",
             "strategy.clearance",
             "m",
         ),
         OptionDeclaration(
             "--calmest",
-            "Least share of the gait's step rate at which it walks while that "
-            "leaves the other room; {default} by default.",
+            "Minimum step rate, as a fraction of the gait's, when a slow "
+            "evasion keeps enough clearance",
             "strategy.calmest",
             "1",
         ),
         OptionDeclaration(
             "--safety-radius",
-            "Distance {unit} at which evasion begins; {default} by default.",
+            "Distance at which evasion begins, with --trigger distance",
             "strategy.safety_radius",
             "m",
         ),
         OptionDeclaration(
             "--release-distance",
-            "Distance {unit} at which evasion ends; {default} by default.",
+            "Distance at which evasion ends",
             "strategy.release_distance",
             "m",
             words={"never": inf},
         ),
         OptionDeclaration(
             "--side-hysteresis",
-            "How far {unit} the pursuer's bearing must be past a change of "
-            "sign for the evader's side to change.",
+            "Angle by which the pursuer's bearing must exceed a change of "
+            "sign before the evader changes side",
             "strategy.side_hysteresis",
             "rad",
-            more_names=("--hysteresis",),
+            aliases=("--hysteresis",),
         ),
     ),
 )
 SENSING = OptionDeclaration(
     "--sensing",
-    "Whether they are told where the other is, or see it.",
+    "Sensing of opponents: true poses (ideal), or detection in simulated "
+    "camera images.",
     "sensing",
     registry=_senses,
 )
 SIGHT = OptionGroup(
-    "Sight (where they are told)",
+    "Sightings (--sensing ideal)",
     (
         SENSING,
         OptionDeclaration(
             "--bearing-noise",
-            "Standard deviation of the bearing",
+            "Standard deviation of the bearing noise",
             "sight.bearing_noise",
             "rad",
         ),
         OptionDeclaration(
             "--distance-noise",
-            "Standard deviation of the distance",
+            "Standard deviation of the distance noise",
             "sight.distance_noise",
             "m",
         ),
         OptionDeclaration(
-            "--delay", "From seeing to knowing", "sight.delay", "s"
+            "--delay", "Latency of a sighting", "sight.delay", "s"
         ),
         OptionDeclaration(
             "--rate",
-            "Sightings a second",
+            "Rate of sightings",
             "sight.rate",
             "1/s",
             words={"every-tick": inf},
@@ -210,23 +209,23 @@ SIGHT = OptionGroup(
 )
 LATENCY = OptionDeclaration(
     "--camera-latency",
-    "Added to that of the cameras",
+    "Latency in addition to that of the camera",
     "cameras.added_latency",
     "s",
 )
 OPTICS = OptionDeclaration(
     "--optics",
-    "Which NAO's top camera.",
+    "NAO version whose top camera is simulated.",
     "cameras.colour.optics",
     registry=_optics,
 )
-SENSES = OptionGroup("Senses", (SENSING, LATENCY, OPTICS))
+SENSES = OptionGroup("Sensing", (SENSING, LATENCY, OPTICS))
 CAMERAS = OptionGroup(
-    "Cameras and room (where they see)",
+    "Cameras (--sensing cameras)",
     (
         OptionDeclaration(
             "--drop-frames",
-            "Share of images that never arrive",
+            "Fraction of images that are lost",
             "cameras.drop_frames",
             "1",
         ),
@@ -234,74 +233,85 @@ CAMERAS = OptionGroup(
         OPTICS,
         OptionDeclaration(
             "--renderer",
-            "What draws the images.",
+            "Renderer of the camera images.",
             "cameras.colour.renderer",
             registry=_renderers,
         ),
         OptionDeclaration(
             "--clutter/--no-clutter",
-            "Boxes and a white figure stand about.",
+            "Add boxes and a white mannequin as visual distractors.",
             "room.things",
-            registry=_things,
+            registry=_clutter,
         ),
         OptionDeclaration(
             "--walls",
-            "Distance {unit} of the walls from the middle; 0 for none.",
+            "Distance of the visible walls from the centre {unit}; 0 for "
+            "none.",
             "room.walls",
             "m",
         ),
     ),
 )
 PERSON = OptionGroup(
-    "Who comes",
+    "Pursuing person",
     (
         OptionDeclaration(
             "--pursuer",
-            "Another robot, or a person.",
+            "Kind of pursuer.",
             "pursuer",
             registry=_pursuers,
         ),
         OptionDeclaration(
             "--person-path",
-            "steer, straight, visits, or a CSV file of time,x,y.",
+            "Path of the person: steer (pursue the evader), straight, visits "
+            "(random visits), or a CSV file with columns time,x,y.",
             "person.path",
         ),
         OptionDeclaration(
-            "--person-speed", "Of the walk", "person.speed", "m/s"
+            "--person-speed",
+            "Walking speed of the person",
+            "person.speed",
+            "m/s",
         ),
         OptionDeclaration(
-            "--person-gain", "Of the steering", "person.gain", "1/s"
+            "--person-gain",
+            "Steering gain of the person",
+            "person.gain",
+            "1/s",
         ),
         OptionDeclaration(
             "--person-miss",
-            "How far {unit} beside the evader a straight walk aims.",
+            "Lateral offset of a straight path from the evader",
             "person.miss",
             "m",
         ),
         OptionDeclaration(
             "--person-halt-after",
-            "Way {unit} after which the person stands; {default} by default.",
+            "Path length after which the person halts",
             "person.halt_after",
             "m",
             words={"never": inf},
         ),
         OptionDeclaration(
             "--person-turn-after",
-            "Way {unit} after which the person turns; {default} by default.",
+            "Path length after which the person turns",
             "person.turn_after",
             "m",
             words={"never": inf},
         ),
         OptionDeclaration(
-            "--person-turn", "By how much", "person.turn", "rad"
+            "--person-turn", "Angle of that turn", "person.turn", "rad"
         ),
         OptionDeclaration(
             "--person-backward/--no-person-backward",
-            "Whether the person walks backward.",
+            "Let the person walk backward.",
             "person.backward",
         ),
         OptionDeclaration(
-            "--person-figure", "Who comes.", "person.figure", registry=_figures
+            "--person-figure",
+            "Body model of the person.",
+            "person.figure",
+            registry=_figures,
         ),
     ),
 )

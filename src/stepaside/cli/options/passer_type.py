@@ -1,4 +1,4 @@
-"""Somebody who passes, as people write it."""
+"""Syntax of a passing pedestrian on the command line."""
 
 import re
 from collections.abc import Sequence
@@ -10,7 +10,7 @@ import click
 
 from ..value_types import ANGLE
 from .declaration import OptionDeclaration
-from .push_type import NOBODY
+from .push_type import NO_VALUE
 
 if TYPE_CHECKING:
     from ...sim.passer_settings import Passer
@@ -22,10 +22,10 @@ PASSER = re.compile(
 
 
 class PasserType(click.ParamType["Passer | None"]):
-    """Who passes: ``0.8@3:90deg:1.5``, or ``none`` for nobody.
+    """Passing pedestrian: ``0.8@3:90deg:1.5``, or ``none``.
 
-    That is somebody at 0.8 m/s, 3 m away to the left at first, who aims
-    1.5 m beside the evader.
+    The example walks at 0.8 m/s, starts 3 m to the left of the evader, and
+    passes it at a lateral offset of 1.5 m.
     """
 
     name = "SPEED@DISTANCE:BEARING[:MISS]"
@@ -36,11 +36,11 @@ class PasserType(click.ParamType["Passer | None"]):
         param: click.Parameter | None,
         ctx: click.Context | None,
     ) -> "Passer | None":
-        """Parse one who passes."""
+        """Parse a pedestrian."""
         from ...core.errors import StepAsideError
         from ...sim.passer_settings import Passer
 
-        if value == NOBODY:
+        if value == NO_VALUE:
             return None
         parts = PASSER.match(str(value))
         if parts is None:
@@ -76,17 +76,17 @@ class PasserType(click.ParamType["Passer | None"]):
 
 
 def all_passers(given: "Sequence[Passer | None]") -> "tuple[Passer, ...]":
-    """Passers of all options together, of which some may say ``none``."""
+    """Return the pedestrians of all options, without ``none``."""
     return tuple(passer for passer in given if passer is not None)
 
 
 PASSERS = OptionDeclaration(
     "--passer",
-    "Let somebody else pass, any number of times: 0.8@3:90deg:1.5 walks "
-    "0.8 m/s, is 3 m away to the left at first, and aims 1.5 m beside the "
-    "evader; none takes those of the configuration away.",
+    "Add a passing pedestrian; repeatable. 0.8@3:90deg:1.5 walks at 0.8 m/s, "
+    "starts 3 m to the left of the evader and passes it at a lateral offset "
+    "of 1.5 m. none removes those of the configuration.",
     "passers",
     kind=PasserType(),
-    gather=all_passers,
+    collect=all_passers,
     extra={"multiple": True},
 )

@@ -1,4 +1,4 @@
-"""Settings as a configuration that explains itself."""
+"""Configuration text in which a comment explains each entry."""
 
 import re
 from dataclasses import fields, is_dataclass
@@ -12,21 +12,21 @@ WIDTH = 76  # characters of a comment
 
 
 def commented(settings: Any) -> str:
-    """Text of a configuration, in TOML, with the meaning of each entry.
+    """Return a configuration in TOML with a comment above each entry.
 
     Args:
-        settings: Any settings; what their docstrings say of each attribute
-            becomes the comment.
+        settings: Settings; the comments are the attribute descriptions in
+            the docstrings of their classes.
     """
     return "\n".join([_summary(settings), *_lines(settings, ())]) + "\n"
 
 
 def meanings(kind: type[Any]) -> dict[str, str]:
-    """What the docstring of a class says of each attribute."""
-    _, _, listed = (kind.__doc__ or "").partition("Attributes:")
+    """Return the descriptions of attributes in the docstring of a class."""
+    _, _, section = (kind.__doc__ or "").partition("Attributes:")
     found: dict[str, str] = {}
     indent, name = "", ""
-    for line in listed.splitlines():
+    for line in section.splitlines():
         entry = re.match(r"( +)(\w+): (.*)", line)
         if entry and (not indent or entry[1] == indent):
             indent, name = entry[1], entry[2]
@@ -39,7 +39,7 @@ def meanings(kind: type[Any]) -> dict[str, str]:
 
 
 def _plain(text: str) -> str:
-    """Text without symbols and the marks of reStructuredText."""
+    """Remove mathematics and the markup of reStructuredText."""
     text = re.sub(r" :math:`[^`]*`", "", text)
     return re.sub(r":\w+:`~?([^`]*)`|``([^`]*)``", r"\1\2", text)
 
@@ -49,38 +49,33 @@ def _summary(settings: Any) -> str:
 
 
 def _lines(settings: Any, section: tuple[str, ...]) -> list[str]:
-    """Entries of a section, then the sections in it."""
-    told = meanings(type(settings))
-    lines, deeper = [], []
+    """Return the entries of a section, then its subsections."""
+    described = meanings(type(settings))
+    lines, subsections = [], []
     for field in fields(settings):
         value = getattr(settings, field.name)
+        comment = _comment(described.get(field.name, ""))
+        path = (*section, field.name)
         if isinstance(value, Room):
-            here = (*section, field.name)
-            deeper += ["", _comment(told.get(field.name, ""))]
-            deeper.append(_room(value, here))
-            continue
-        if is_dataclass(value):
-            here = (*section, field.name)
-            deeper += ["", _comment(told.get(field.name, ""))]
-            deeper += [f"[{'.'.join(here)}]", *_lines(value, here)]
-            continue
-        lines.append(_comment(told.get(field.name, "")))
-        lines.append(
-            f"# {field.name} ="
-            if value is None
-            else f"{field.name} = {_inline(value)}"
-        )
-    return lines + deeper
+            subsections += ["", comment, _room(value, path)]
+        elif is_dataclass(value):
+            subsections += ["", comment, f"[{'.'.join(path)}]"]
+            subsections += _lines(value, path)
+        elif value is None:
+            lines += [comment, f"# {field.name} ="]
+        else:
+            lines += [comment, f"{field.name} = {_inline(value)}"]
+    return lines + subsections
 
 
 def _room(room: Room, section: tuple[str, ...]) -> str:
-    """A room in the way of its files, in a section."""
+    """Return a room in the format of room files, inside a section."""
     import tomli_w
 
     entries: dict[str, Any] = room_entries(room)
     for name in reversed(section):
         entries = {name: entries}
-    # The section above has been opened already.
+    # The outermost section is open already.
     text = tomli_w.dumps(entries)
     return text.replace(f"[{section[0]}]\n", "", 1).strip()
 
@@ -90,7 +85,7 @@ def _comment(text: str) -> str:
 
 
 def _inline(value: Any) -> str:
-    """A value on one line of TOML."""
+    """Return a value as one line of TOML."""
     import tomli_w
 
     if is_dataclass(value):

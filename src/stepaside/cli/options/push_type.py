@@ -1,4 +1,4 @@
-"""A push as people write it."""
+"""Syntax of a push on the command line."""
 
 import re
 from collections.abc import Sequence
@@ -17,14 +17,13 @@ PUSH = re.compile(
     r"^(?:(?P<player>[a-z]+)=)?(?P<impulse>[^@=]+)@(?P<time>[^:]+):"
     r"(?P<direction>.+)$"
 )
-NOBODY = "none"  # what is given to have no pushes at all
+NO_VALUE = "none"  # removes the values of the configuration
 
 
 class PushType(click.ParamType["Push | None"]):
-    """A push: ``1.2@5:90deg`` is 1.2 N s at 5 s to the left.
+    """Push: ``1.2@5:90deg`` is 1.2 N s at 5 s to the left, or ``none``.
 
-    Who is pushed may stand before it, as in ``pursuer=1.2@5:90deg``; instead
-    of a push, ``none`` is none.
+    The player may precede it, as in ``pursuer=1.2@5:90deg``.
     """
 
     name = "[PLAYER=]IMPULSE@TIME:DIRECTION"
@@ -39,7 +38,7 @@ class PushType(click.ParamType["Push | None"]):
         from ...core.errors import StepAsideError
         from ...sim.push import Push
 
-        if value == NOBODY:
+        if value == NO_VALUE:
             return None
         parts = PUSH.match(str(value))
         if parts is None:
@@ -65,24 +64,24 @@ class PushType(click.ParamType["Push | None"]):
                 )
             numbers.append(number)
         try:
-            who = parts["player"] or ""
-            return Push(numbers[0], numbers[1], direction, player=who)
+            player = parts["player"] or ""
+            return Push(numbers[0], numbers[1], direction, player=player)
         except StepAsideError as error:
             self.fail(str(error), param, ctx)
 
 
 def all_pushes(given: "Sequence[Push | None]") -> "tuple[Push, ...]":
-    """Pushes of all options together, of which some may say ``none``."""
+    """Return the pushes of all options, without ``none``."""
     return tuple(push for push in given if push is not None)
 
 
 PUSHES = OptionDeclaration(
     "--push",
-    "Push a torso, any number of times: 1.2@5:90deg is 1.2 N s at 5 s to the "
-    "left, and pursuer=1.2@5:90deg the pursuer instead of the evader; none "
-    "takes those of the configuration away.",
+    "Push the torso of the evader; repeatable. 1.2@5:90deg is 1.2 N s at 5 s "
+    "to the left; pursuer=1.2@5:90deg pushes the pursuer. none removes those "
+    "of the configuration.",
     "pushes",
     kind=PushType(),
-    gather=all_pushes,
+    collect=all_pushes,
     extra={"multiple": True},
 )

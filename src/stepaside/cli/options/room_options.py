@@ -1,4 +1,4 @@
-"""Options of rooms: what a seed makes, and what robots know of it."""
+"""Options for the room of a game and the map that robots have of it."""
 
 from collections.abc import Collection, Mapping
 from dataclasses import replace
@@ -11,12 +11,12 @@ from ..value_types import METERS
 from .arena_options import BOXES, COUNT, DISCS, POLYGONS, SIZE
 from .declaration import OptionDeclaration, OptionGroup
 
-RECIPE = "recipe."  # where the options that make a room put their values
+RECIPE = "recipe."  # prefix of paths of options that generate a room
 PLAN = "room.plan"
 
 
 class RoomType(click.ParamType[int | Path]):
-    """The seed of a room, or a file with one."""
+    """Seed of a random room, or room file."""
 
     name = "FILE|SEED"
 
@@ -26,26 +26,29 @@ class RoomType(click.ParamType[int | Path]):
         param: click.Parameter | None,
         ctx: click.Context | None,
     ) -> int | Path:
-        """Take digits for a seed, and anything else for a file."""
+        """Return the seed if there are only digits, else the path."""
         if isinstance(value, int | Path):
             return value
         if str(value).isdecimal():
             return int(value)
         if not Path(value).is_file():
             self.fail(
-                f"must be a whole number >= 0 or a file, got {value!r:.60}",
+                "must be an integer >= 0 or an existing file, got "
+                f"{value!r:.60}",
                 param,
                 ctx,
             )
         return Path(value)
 
 
-DOORS = OptionDeclaration("--doors", "Doors in its walls.", kind=COUNT)
+DOORS = OptionDeclaration(
+    "--doors", "Number of doors in the walls.", kind=COUNT
+)
 SMALLEST = OptionDeclaration(
-    "--smallest", "Least radius of an obstacle [m].", kind=METERS
+    "--smallest", "Minimum radius of an obstacle [m].", kind=METERS
 )
 LARGEST = OptionDeclaration(
-    "--largest", "Largest radius of an obstacle [m].", kind=METERS
+    "--largest", "Maximum radius of an obstacle [m].", kind=METERS
 )
 DOOR_WIDTH = OptionDeclaration(
     "--door-width", "Width of a door [m].", kind=METERS
@@ -53,18 +56,18 @@ DOOR_WIDTH = OptionDeclaration(
 
 
 def _of_recipe(declaration: OptionDeclaration, name: str) -> OptionDeclaration:
-    """An option that makes a room, in a command whose settings hold it."""
+    """Return an option that generates a room within other settings."""
     entry = name.removeprefix("--").replace("-", "_")
     path = RECIPE + entry.removeprefix("room_")
-    return replace(declaration, name=name, path=path, tells_default=False)
+    return replace(declaration, name=name, path=path, shows_default=False)
 
 
 ROOM = OptionDeclaration(
     "--room",
-    "The room of a seed, or of a file; an open floor by default.",
+    "Seed of a random room, or room file; an open floor by default.",
     PLAN,
     kind=RoomType(),
-    tells_default=False,
+    shows_default=False,
 )
 
 
@@ -74,7 +77,7 @@ def _maps() -> Collection[str]:
     return MAPS
 
 
-def _unseen() -> Collection[str]:
+def _unknown_states() -> Collection[str]:
     from ...control.clearance.map_settings import UNSEEN
 
     return UNSEEN
@@ -82,48 +85,57 @@ def _unseen() -> Collection[str]:
 
 MAP = OptionDeclaration(
     "--map",
-    "What they know of it: all of it and their own true pose in it, with "
-    "cameras as well (given); what their depth cameras have seen, by odometry "
-    "(seen; with --sensing cameras, unless that is given); or nothing.",
+    "Map of the room that each robot has: the true map with its true pose "
+    "(given), a map built from its depth camera and odometry (seen; implies "
+    "--sensing cameras), or none.",
     "map.source",
     registry=_maps,
 )
 MARGIN = OptionDeclaration(
-    "--map-margin", "Distance that bodies keep from it", "map.margin", "m"
+    "--map-margin",
+    "Clearance that robots keep from obstacles",
+    "map.margin",
+    "m",
 )
-UNSEEN_FLOOR = OptionDeclaration(
+UNKNOWN_CELLS = OptionDeclaration(
     "--unseen",
-    "Whether floor that nobody has seen counts as free.",
+    "State of map cells that have not been observed.",
     "map.unseen",
-    registry=_unseen,
+    registry=_unknown_states,
 )
-PLAYED_IN = OptionGroup(
-    "Room that they play in",
+ROOM_GROUP = OptionGroup(
+    "Room",
     (
         ROOM,
         _of_recipe(SIZE, "--room-size"),
         *(
             _of_recipe(option, option.name)
             for option in (
-                *(DISCS, BOXES, POLYGONS, DOORS),
-                *(SMALLEST, LARGEST, DOOR_WIDTH),
+                DISCS,
+                BOXES,
+                POLYGONS,
+                DOORS,
+                SMALLEST,
+                LARGEST,
+                DOOR_WIDTH,
             )
         ),
         MAP,
         MARGIN,
-        UNSEEN_FLOOR,
+        UNKNOWN_CELLS,
     ),
 )
 
 
 def with_room(given: Mapping[str, Any]) -> dict[str, Any]:
-    """Values with the room that others describe.
+    """Replace the options that describe a room by the room itself.
 
     Args:
         given: Values by path.
 
     Raises:
-        ConfigurationError: If there is no such room.
+        UsageError: If options generate a room but no seed is given.
+        ConfigurationError: If the room cannot be generated or loaded.
     """
     recipe = {
         path.removeprefix(RECIPE): value
@@ -135,10 +147,9 @@ def with_room(given: Mapping[str, Any]) -> dict[str, Any]:
     if recipe and not isinstance(source, int):
         name = next(iter(recipe)).replace("_", "-")
         option = "--room-size" if name == "size" else f"--{name}"
-        beside = "none" if source is None else f"the file {source}"
+        room = "no --room" if source is None else f"the file {source}"
         raise click.UsageError(
-            f"{option} makes a room of a seed, so it must stand beside "
-            f"--room SEED, got {beside}"
+            f"{option} requires a random room (--room SEED), got {room}"
         )
     if isinstance(source, int):
         from ...arena import RoomRecipe, make_room

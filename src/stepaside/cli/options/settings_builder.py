@@ -1,4 +1,4 @@
-"""Settings from defaults, a file, and the options that were given."""
+"""Settings with the values of options, and the values that options imply."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -16,24 +16,24 @@ S = TypeVar("S")
 
 
 def changed(settings: S, values: Mapping[str, Any]) -> S:
-    """Settings with other values at some paths.
+    """Return settings with new values at some paths.
 
-    Whole sections come first, then what lies in them; the values of one
-    section go in together, so that each may need the others.
+    Outer sections are replaced before inner ones, and all values of one
+    section at once, because their validity may depend on each other.
 
     Args:
-        settings: That hold for everything else.
-        values: By path, like ``physics.friction``.
+        settings: Settings to start from.
+        values: New values by path, like ``physics.friction``.
 
     Raises:
-        StepAsideError: If a section refuses its values.
+        StepAsideError: If a value is invalid.
     """
     sections: dict[tuple[str, ...], dict[str, Any]] = {}
     for path, value in values.items():
         *section, name = path.split(".")
         sections.setdefault(tuple(section), {})[name] = value
-    for where in sorted(sections, key=len):
-        settings = _put(settings, where, sections[where])
+    for section_path in sorted(sections, key=len):
+        settings = _put(settings, section_path, sections[section_path])
     return settings
 
 
@@ -50,28 +50,27 @@ def with_control(
     control: "ControlSettings",
     *,
     needed: bool = False,
-    told_method: bool = False,
+    method_in_file: bool = False,
 ) -> dict[str, Any]:
-    """Values with the method and the feedback that others imply.
+    """Add the method and the feedback that other values imply.
 
-    A body other than the ideal one is stabilised unless it is said not to
-    be, as is a walk planned from the measured state, or with a gait that
-    needs it. Such a gait is planned from the planned state: steps so quick
-    have no time for what is measured to come true. Who asks for feedback
-    beside a file that names a method gets that, with feedback.
+    Feedback is the default for every body but the ideal one, for plans from
+    the measured state, and for gaits that need it. Plans of such a fast gait
+    start from the planned state, because its steps are too short for the
+    measured state to settle. ``--feedback`` keeps the method of a file.
 
     Args:
-        given: Values by path, names of presets not looked up yet.
-        control: What holds so far.
+        given: Values by path; presets are still names.
+        control: Control settings so far.
         needed: Whether the robot cannot walk without feedback.
-        told_method: Whether a file said its method.
+        method_in_file: Whether the configuration file sets the method.
     """
     from ...planning import STABILISED
 
     body, method, feedback = (
         given.get(option.path) for option in (BODY_PRESET, METHOD, FEEDBACK)
     )
-    if feedback and method is None and told_method:
+    if feedback and method is None and method_in_file:
         method = control.method
     if given.get(PRESET.path) in STABILISED and feedback is not False:
         method = method or "closed-form"
@@ -89,14 +88,14 @@ def with_control(
 
 
 def with_trigger(given: Mapping[str, Any], pursuer: str) -> dict[str, Any]:
-    """Values with the trigger that others imply.
+    """Add the trigger that other values imply.
 
-    Where a person comes and the gait is a fast one, evasion begins by time:
-    people come at any speed, and a distance suits only one.
+    Against a person, a robot with a fast gait evades by time to contact:
+    people walk at any speed, and a trigger distance suits only one speed.
 
     Args:
-        given: Values by path, names of presets not looked up yet.
-        pursuer: Who pursues so far.
+        given: Values by path; presets are still names.
+        pursuer: Kind of pursuer so far.
     """
     from ...planning import STABILISED
 
@@ -107,20 +106,18 @@ def with_trigger(given: Mapping[str, Any], pursuer: str) -> dict[str, Any]:
     return values
 
 
-def with_senses(
-    given: Mapping[str, Any], *, in_room: bool, told: bool
+def with_sensing(
+    given: Mapping[str, Any], *, room_in_file: bool, sensing_in_file: bool
 ) -> dict[str, Any]:
-    """Values with the senses that others imply.
-
-    Who is to know of a room what was seen of it has to see.
+    """Add camera sensing if a map is to be built from camera images.
 
     Args:
         given: Values by path.
-        in_room: Whether a file said in which room they play.
-        told: Whether a file said how they sense.
+        room_in_file: Whether the configuration file sets a room.
+        sensing_in_file: Whether the configuration file sets the sensing.
     """
     values = dict(given)
-    if values.get(MAP.path) == "seen" and not told:
-        if in_room or values.get(PLAN) is not None:
+    if values.get(MAP.path) == "seen" and not sensing_in_file:
+        if room_in_file or values.get(PLAN) is not None:
             values.setdefault(SENSING.path, "cameras")
     return values

@@ -1,7 +1,7 @@
-"""Commands that take settings: groups of options, a file, or both.
+"""Commands with settings from options, a configuration file, or both.
 
-What a command gets is its defaults, changed by the file of ``--config``,
-changed by presets such as ``--body``, changed by single options.
+In order of increasing priority: defaults, the file of ``--config``, presets
+such as ``--body``, single options.
 """
 
 from collections.abc import Callable, Collection, Mapping
@@ -12,33 +12,42 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
-from ..value_types import answer
+from ..value_types import write_result
 from .body_options import METHOD
-from .declaration import DeclaredOption, Kind, OptionDeclaration, OptionGroup
+from .declaration import (
+    DeclaredOption,
+    OptionDeclaration,
+    OptionGroup,
+    SettingsClass,
+)
 from .game_options import SENSING
 from .room_options import with_room
-from .settings_builder import changed, with_control, with_senses, with_trigger
+from .settings_builder import (
+    changed,
+    with_control,
+    with_sensing,
+    with_trigger,
+)
 
 CONFIG = OptionDeclaration(
     "--config",
-    "Configuration file (TOML); options given beside it win.",
+    "Configuration file (TOML); options override it.",
     kind=click.Path(exists=True, dir_okay=False, path_type=Path),
 )
 PRINT_CONFIG = OptionDeclaration(
     "--print-config/--no-print-config",
-    "Print the configuration that would be used, with what each entry means, "
-    "and do nothing else.",
+    "Print the resulting configuration with comments, and exit.",
 )
 CONFIGURATION = OptionGroup("Configuration", (CONFIG, PRINT_CONFIG))
 
 
 class SettingsCommand(click.Command):
-    """A command whose help shows its options by group."""
+    """Command whose help shows options in sections."""
 
     def format_options(
         self, ctx: click.Context, formatter: click.HelpFormatter
     ) -> None:
-        """Write those of the command first, then each group."""
+        """Write the command's own options first, then each group."""
         titles: dict[OptionDeclaration, str] = {
             option: group.title
             for group in getattr(self.callback, "groups", ())
@@ -59,18 +68,19 @@ class SettingsCommand(click.Command):
 
 
 def takes_settings(
-    kind: Kind,
+    settings_class: SettingsClass,
     *groups: OptionGroup,
-    aside: Callable[[], Collection[str]] = tuple,
-    meanings: Mapping[OptionDeclaration, str] | None = None,
+    ignored: Callable[[], Collection[str]] = tuple,
+    help_texts: Mapping[OptionDeclaration, str] | None = None,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Give a command groups of options, ``--config`` and its ``settings``.
+    """Add options and ``--config`` to a command; pass it ``settings``.
 
     Args:
-        kind: Gives the class of the settings.
-        groups: Of options that change them.
-        aside: Gives entries of a file that belong to other commands.
-        meanings: Help of options that mean something else here.
+        settings_class: Returns the class of the settings.
+        groups: Options that set entries of the settings.
+        ignored: Returns top-level entries of a file that belong to other
+            commands.
+        help_texts: Help of options whose meaning differs in this command.
 
     Returns:
         Decorator of a command with an argument ``settings``.
@@ -80,43 +90,46 @@ def takes_settings(
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
         @wraps(function)
         def command(**values: Any) -> Any:
-            settings = _settings(kind, values, aside)
+            settings = _settings(settings_class, values, ignored)
             if values.pop("print_config"):
                 from .print_config import commented
 
-                answer(commented(settings))
+                write_result(commented(settings))
                 return None
             return function(settings=settings, **values)
 
-        taken: Callable[..., Any] = command
+        wrapped: Callable[..., Any] = command
         for group in reversed(groups):
             for declaration in reversed(group.options):
-                told = (meanings or {}).get(declaration, declaration.help)
-                taken = declaration.option(kind, help=told)(taken)
-        taken.groups = groups  # type: ignore[attr-defined]
-        return taken
+                text = (help_texts or {}).get(declaration, declaration.help)
+                wrapped = declaration.option(settings_class, help=text)(
+                    wrapped
+                )
+        wrapped.groups = groups  # type: ignore[attr-defined]
+        return wrapped
 
     return decorate
 
 
-def _begin(
-    kind: Kind,
+def _base_settings(
+    settings_class: SettingsClass,
     given: dict[str, Any],
     config: Path | None,
-    aside: Callable[[], Collection[str]],
+    ignored: Callable[[], Collection[str]],
 ) -> tuple[Any, bool]:
-    """Settings of the robot that is meant, changed by the file.
+    """Return the settings of the chosen robots, changed by the file.
 
     Args:
-        kind: Gives the class of the settings.
-        given: Options by path; those that name a player's robot are taken.
-        config: File, if there is one.
-        aside: Gives entries of it that belong to other commands.
+        settings_class: Returns the class of the settings.
+        given: Options by path; those that choose a player's robot are
+            removed.
+        config: Configuration file; None if there is none.
+        ignored: Returns entries of the file that belong to other commands.
 
     Returns:
         The settings, and whether the robot needs feedback.
     """
-    base, entries = kind()(), {}
+    base, entries = settings_class()(), {}
     if config is not None:
         from ...games.configuration_file import load_entries, parse_settings
 
@@ -140,13 +153,13 @@ def _begin(
     if config is not None:
         source = str(config)
         base = parse_settings(
-            kind(), entries, source, aside=aside(), base=base
+            settings_class(), entries, source, aside=ignored(), base=base
         )
     return base, needed
 
 
-def _says(config: Path | None, path: str) -> bool:
-    """Whether a file of settings, if there is one, says an entry."""
+def _in_file(config: Path | None, path: str) -> bool:
+    """Return whether the configuration file sets an entry."""
     if config is None:
         return False
     from ...games.configuration_file import says
@@ -155,9 +168,11 @@ def _says(config: Path | None, path: str) -> bool:
 
 
 def _settings(
-    kind: Kind, values: dict[str, Any], aside: Callable[[], Collection[str]]
+    settings_class: SettingsClass,
+    values: dict[str, Any],
+    ignored: Callable[[], Collection[str]],
 ) -> Any:
-    """Take the options of settings out of a command's values, and build."""
+    """Remove the options of settings from a command's values; build them."""
     context = click.get_current_context()
     given: dict[str, Any] = {}
     declarations: dict[str, OptionDeclaration] = {}
@@ -173,18 +188,21 @@ def _settings(
             given[declaration.path] = value
             declarations[declaration.path] = declaration
     config = values.pop("config")
-    settings, needed = _begin(kind, given, config, aside)
+    settings, needed = _base_settings(settings_class, given, config, ignored)
     if hasattr(settings, "control"):
-        told = _says(config, METHOD.path)
-        control = settings.control
-        given = with_control(given, control, needed=needed, told_method=told)
+        given = with_control(
+            given,
+            settings.control,
+            needed=needed,
+            method_in_file=_in_file(config, METHOD.path),
+        )
     if hasattr(settings, "pursuer"):
         given = with_trigger(given, settings.pursuer)
     if hasattr(settings, "sensing"):
-        given = with_senses(
+        given = with_sensing(
             given,
-            in_room=settings.room.plan is not None,
-            told=_says(config, SENSING.path),
+            room_in_file=settings.room.plan is not None,
+            sensing_in_file=_in_file(config, SENSING.path),
         )
     for path in given.keys() & declarations.keys():
         given[path] = declarations[path].value_of(given[path])
@@ -195,9 +213,9 @@ def _settings(
 
 
 def _refuse_unused(
-    declarations: Mapping[str, OptionDeclaration], played: str
+    declarations: Mapping[str, OptionDeclaration], strategy: str
 ) -> None:
-    """Refuse options of the paper's evader where no player plays it."""
+    """Refuse options of the paper's evader if no player uses it."""
     from ...strategies.registry import OF_EVASION
 
     unused = [
@@ -207,7 +225,6 @@ def _refuse_unused(
     ]
     if unused:
         raise click.UsageError(
-            f"{', '.join(unused)} must be left out beside a strategy other "
-            f"than {' and '.join(OF_EVASION)}, which alone use it, got "
-            f"--strategy {played}"
+            f"{', '.join(unused)} requires the strategy "
+            f"{' or '.join(OF_EVASION)}, got --strategy {strategy}"
         )

@@ -1,4 +1,4 @@
-"""Strategies on the command line, which games of all levels share."""
+"""Options that choose strategies, for games of all levels."""
 
 from typing import Any
 
@@ -8,7 +8,7 @@ from .declaration import OptionDeclaration
 
 
 class StrategyType(click.ParamType[str]):
-    """A strategy: a name of the registry, or FILE.py:NAME."""
+    """Strategy: a name of the registry, or FILE.py:NAME."""
 
     name = "NAME|FILE.py:NAME"
 
@@ -18,7 +18,7 @@ class StrategyType(click.ParamType[str]):
         param: click.Parameter | None,
         ctx: click.Context | None,
     ) -> str:
-        """Check the form; a file is opened when it is to play."""
+        """Check the syntax; a file is loaded when its strategy is used."""
         from ...core.errors import ConfigurationError
         from ...strategies.registry import absolute_name, check_strategy_name
 
@@ -29,34 +29,32 @@ class StrategyType(click.ParamType[str]):
         return absolute_name(str(value))
 
 
-NAMED = (
-    "its name (evasion, deflected, look-ahead, optimal, pursuit, "
-    "pursuit-xRATIO, sharp, herding, lead, optimal-pursuit, stand, walk), or "
-    "FILE.py:NAME"
+NAMES = (
+    "evasion, deflected, look-ahead, optimal, pursuit, pursuit-xRATIO, sharp, "
+    "herding, lead, optimal-pursuit, stand, walk, or FILE.py:NAME for your "
+    "own"
 )
-
-
-OF_EVADER = f"Of the evader: {NAMED} for one of your own; evasion by default."
+OF_EVADER = f"Strategy of the evader: {NAMES}.  [default: evasion]"
 EVADER_STRATEGY = OptionDeclaration(
     "--strategy",
     OF_EVADER,
     "evader_strategy",
     kind=StrategyType(),
-    tells_default=False,
-    more_names=("--evader-strategy",),
+    shows_default=False,
+    aliases=("--evader-strategy",),
 )
-# Games of unicycles know --strategy for the angle by name.
+# In unicycle games, --strategy chooses the evasion angle.
 UNICYCLE_STRATEGY = OptionDeclaration(
     "--evader-strategy",
     OF_EVADER,
     kind=StrategyType(),
-    tells_default=False,
-    more_names=("evader_strategy",),
+    shows_default=False,
+    aliases=("evader_strategy",),
 )
 PURSUER_STRATEGY = OptionDeclaration(
     "--pursuer-strategy",
-    f"Of a pursuer that is a robot: {NAMED}; pursuit by default.",
+    f"Strategy of a robot pursuer: {NAMES}.  [default: pursuit]",
     "pursuer_strategy",
     kind=StrategyType(),
-    tells_default=False,
+    shows_default=False,
 )

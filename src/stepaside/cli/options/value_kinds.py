@@ -1,4 +1,4 @@
-"""Kinds of values that options take."""
+"""Click types of options: registered names, special words, files, sizes."""
 
 from collections.abc import Callable, Collection, Mapping
 from math import isfinite
@@ -9,7 +9,7 @@ import click
 
 
 class NameType(click.ParamType[str]):
-    """One of the names of a registry, which is asked when it is needed."""
+    """Choice from a registry that is imported on first use."""
 
     name = "choice"
 
@@ -18,21 +18,21 @@ class NameType(click.ParamType[str]):
         registry: Callable[[], Collection[str]],
         old_names: Mapping[str, str] | None = None,
     ) -> None:
-        """Remember where the names are.
+        """Store the registry.
 
         Args:
-            registry: Gives the names.
-            old_names: Names of today by what they were called before.
+            registry: Returns the allowed names.
+            old_names: Current names by former names, which stay valid.
         """
         self.registry, self._old_names = registry, dict(old_names or {})
 
     @property
     def choices(self) -> tuple[str, ...]:
-        """Names that may be chosen."""
+        """Allowed names."""
         return tuple(self.registry())
 
     def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
-        """Names, as the help shows them."""
+        """Return the allowed names for the help."""
         return f"[{'|'.join(self.choices)}]"
 
     def convert(
@@ -41,22 +41,22 @@ class NameType(click.ParamType[str]):
         param: click.Parameter | None,
         ctx: click.Context | None,
     ) -> str:
-        """Look a name up."""
+        """Check a name, and replace a former name by the current one."""
         name = self._old_names.get(value, value)
         return click.Choice(self.choices).convert(name, param, ctx)
 
 
 class WordOrValueType(click.ParamType[Any]):
-    """A value of another kind, or a word for one that has no number."""
+    """Value of another type, or a word for a special value."""
 
     def __init__(
         self, kind: click.ParamType[Any], words: Mapping[str, Any]
     ) -> None:
-        """Wrap a kind.
+        """Wrap a type.
 
         Args:
-            kind: Of all other values.
-            words: Values by word; None stands for no value at all.
+            kind: Type of all other values.
+            words: Special values by word.
         """
         self.kind, self.words, self.name = kind, words, kind.name
 
@@ -66,19 +66,19 @@ class WordOrValueType(click.ParamType[Any]):
         param: click.Parameter | None,
         ctx: click.Context | None,
     ) -> Any:
-        """Take a word for its value, and anything else as its kind does."""
+        """Return the value of a word; convert anything else."""
         if value in self.words:
             return self.words[value]
         return self.kind.convert(value, param, ctx)
 
 
 class OutputFile(click.ParamType[str]):
-    """A file to write; one without a suffix gets the usual one."""
+    """Output file; a name without suffix gets the default suffix."""
 
     name = "file"
 
     def __init__(self, *suffixes: str) -> None:
-        """Note what it may end in, the usual first; anything if none."""
+        """Store the allowed suffixes, the default first; any if empty."""
         self.suffixes = suffixes
 
     def convert(
@@ -87,7 +87,7 @@ class OutputFile(click.ParamType[str]):
         param: click.Parameter | None,
         ctx: click.Context | None,
     ) -> str:
-        """Take a path as it is written then."""
+        """Return the path, with a suffix."""
         file = Path(value)
         if self.suffixes and file.name and not file.suffix:
             return f"{value}{self.suffixes[0]}"
@@ -95,12 +95,12 @@ class OutputFile(click.ParamType[str]):
 
 
 class SizeType(click.ParamType[tuple[float, float] | None]):
-    """Sides of a room like 3x3 or 2.5x4, in [m], or ``open`` for no walls."""
+    """Width and depth of a room in [m], like 2.5x4; ``open`` for no walls."""
 
     name = "size"
 
     def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
-        """How it is written."""
+        """Return the placeholder for the help."""
         return "[WIDTHxDEPTH|open]"
 
     def convert(
@@ -109,7 +109,7 @@ class SizeType(click.ParamType[tuple[float, float] | None]):
         param: click.Parameter | None,
         ctx: click.Context | None,
     ) -> tuple[float, float] | None:
-        """Parse two sides."""
+        """Parse width and depth."""
         if value is None or value == "open":
             return None
         if isinstance(value, tuple):

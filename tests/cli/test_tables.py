@@ -1,4 +1,4 @@
-"""What commands print for people: words with units, never raw keys."""
+"""Printed tables: labels with units, never raw keys; progress lines."""
 
 import re
 from pathlib import Path
@@ -9,7 +9,7 @@ from click.testing import CliRunner
 
 from stepaside.cli import progress
 from stepaside.cli.main import COMMANDS, main
-from stepaside.cli.value_labels import label_of, text_of, unit_of
+from stepaside.cli.tables import format_value, label_of, unit_of
 
 TABLES = [
     "duel --duration 1",
@@ -30,7 +30,7 @@ TABLES = [
 
 
 @pytest.mark.parametrize("words", TABLES)
-def test_no_table_shows_a_raw_key(
+def test_tables_show_no_raw_keys(
     words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -48,18 +48,18 @@ def test_no_table_shows_a_raw_key(
         ("turning_rate_rad_s", 0.25, "turning rate", "0.25 rad/s"),
         ("headings_apart_rad", 1.0, "angle between headings", "57.2958 deg"),
         ("other_share", 0.25, "other", "25 %"),
-        ("floor_m2", 9.0, "floor", "9 m^2"),
+        ("floor_m2", 9.0, "floor area", "9 m^2"),
         ("time_constant_s", None, "time constant", "-"),
         ("stable", False, "stable", "no"),
         ("games", 12, "games", "12"),
         ("eigenvalues_per_s", [[-1.0, 2.0]], "eigenvalues", "-1+2i 1/s"),
     ],
 )
-def test_a_name_becomes_words_and_its_end_a_unit(
+def test_name_becomes_a_label_and_its_suffix_a_unit(
     name: str, value: Any, label: str, text: str
 ) -> None:
     assert label_of(name) == label
-    assert text_of(name, value) == text
+    assert format_value(name, value) == text
     unit = unit_of(name)
     with_unit = f"{label} [{unit}]" if unit else label
     assert label_of(name, unit=True) == with_unit
@@ -80,7 +80,7 @@ LONG = {
 
 @pytest.mark.parametrize("more", [[], ["--json"]])
 @pytest.mark.parametrize("words", LONG)
-def test_long_work_says_on_a_pipe_how_far_it_is(
+def test_long_work_prints_progress_lines_to_a_pipe(
     words: str,
     more: list[str],
     tmp_path: Path,
@@ -100,7 +100,7 @@ def test_long_work_says_on_a_pipe_how_far_it_is(
     assert "so far" not in shown.stdout
 
 
-def test_lines_come_now_and_then(
+def test_progress_lines_are_periodic(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """A thousand updates over a hundred seconds are ten lines at most."""
@@ -115,7 +115,7 @@ def test_lines_come_now_and_then(
     assert "about" in lines[0] and "left" in lines[0]
 
 
-def test_the_bare_command_prints_its_help() -> None:
+def test_bare_command_prints_help() -> None:
     bare = CliRunner().invoke(main, [])
     asked = CliRunner().invoke(main, ["--help"])
     assert bare.exit_code == asked.exit_code == 0
@@ -124,7 +124,7 @@ def test_the_bare_command_prints_its_help() -> None:
 
 
 @pytest.mark.parametrize("command", ["play", "serve"])
-def test_help_names_every_language_alike(command: str) -> None:
+def test_help_names_every_interface_alike(command: str) -> None:
     help_ = CliRunner().invoke(main, [command, "--help"]).stdout
     first = help_.partition("Options:")[0]
     for text in (COMMANDS[command], first):
