@@ -1,4 +1,4 @@
-"""Test entries of configurations that are put over each other."""
+"""Test merging, removing and renaming nested configuration entries."""
 
 import pytest
 
@@ -7,7 +7,7 @@ from stepaside.games.configuration_file import over, renamed, without
 BELOW = {"a": 1, "b": {"c": 2, "d": {"e": 3, "f": 4}}, "g": 5, "h": {"i": 6}}
 
 
-def test_entries_above_win_and_the_others_stay() -> None:
+def test_upper_entries_take_precedence_and_others_stay() -> None:
     above = {"a": 10, "b": {"d": {"e": 30}, "j": 7}, "k": {"l": 8}}
     assert over(BELOW, above) == {
         "a": 10,
@@ -20,8 +20,8 @@ def test_entries_above_win_and_the_others_stay() -> None:
 
 
 @pytest.mark.parametrize("value", [None, 0, "text", [1, 2]])
-def test_a_section_and_a_value_do_not_mix(value: object) -> None:
-    """What is above replaces the whole of what is below."""
+def test_a_section_and_a_value_replace_each_other(value: object) -> None:
+    """The upper entry replaces the lower one completely."""
     section = {"c": 2}
     assert over({"b": section}, {"b": value}) == {"b": value}
     assert over({"b": value}, {"b": section}) == {"b": section}

@@ -1,4 +1,4 @@
-"""Test run folders as files: what is written comes back, old ones too."""
+"""Test that run folders are read as written."""
 
 import json
 from collections.abc import Callable
@@ -30,7 +30,7 @@ TIMES: Array = 0.02 * np.arange(float(ROWS))
 
 
 def robot(number: float, *, sees: bool = False) -> Trajectory:
-    """A robot whose every quantity tells what it is."""
+    """Return a robot whose values identify each quantity."""
     rows = np.arange(float(ROWS))[:, None]
 
     def table(base: float, columns: int) -> Array:
@@ -88,7 +88,7 @@ def folder_of(tmp_path: Path, run: DuelRun) -> Path:
 
 
 def damage(folder: Path, change: Callable[[dict[str, Any]], Any]) -> None:
-    """Change what a summary holds."""
+    """Change the summary of a folder."""
     plain = json.loads((folder / SUMMARY).read_text())
     change(plain)
     (folder / SUMMARY).write_text(json.dumps(plain))
@@ -154,9 +154,7 @@ def check_same(found: Run, run: Run) -> None:
 
 
 @by_run
-def test_a_run_comes_back_as_it_was_written(
-    tmp_path: Path, run: DuelRun
-) -> None:
+def test_a_run_is_read_as_written(tmp_path: Path, run: DuelRun) -> None:
     check_same(load_run(folder_of(tmp_path, run)), run)
 
 
@@ -179,7 +177,9 @@ def test_a_run_of_the_second_format_is_the_same(
     check_same(load_run(folder, DuelRun), run)
 
 
-def test_the_format_has_a_number_which_is_no_figure(tmp_path: Path) -> None:
+def test_the_format_is_in_the_header_but_not_in_the_summary(
+    tmp_path: Path,
+) -> None:
     folder = folder_of(tmp_path, RUNS["seeing robots"])
     told = json.loads((folder / SUMMARY).read_text())
     assert told["format"] == FORMAT == 3
@@ -188,10 +188,10 @@ def test_the_format_has_a_number_which_is_no_figure(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("number", [4, 0, -1, 1.5, "2", True, None, [1]])
-def test_a_format_that_is_not_known_is_refused_by_its_number(
+def test_an_unknown_format_is_refused_by_its_number(
     tmp_path: Path, number: Any
 ) -> None:
-    """Before anything else of it is read."""
+    """Before anything else is read."""
     folder = folder_of(tmp_path, RUNS["robots"])
 
     def renumber(plain: dict[str, Any]) -> None:
@@ -216,7 +216,7 @@ def test_nan_is_no_filler_in_a_format_that_has_none(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["times_s", "pursuer_com", "evader_torso"])
 @pytest.mark.parametrize("first", [False, True])
-def test_an_array_that_every_run_has_may_not_be_missing(
+def test_a_required_array_may_not_be_missing(
     tmp_path: Path, name: str, first: bool
 ) -> None:
     run = RUNS["a person"]
@@ -230,7 +230,7 @@ def test_an_array_that_every_run_has_may_not_be_missing(
         load_run(folder)
 
 
-def test_an_outcome_that_nobody_knows_is_refused(tmp_path: Path) -> None:
+def test_an_unknown_outcome_is_refused(tmp_path: Path) -> None:
     folder = folder_of(tmp_path, RUNS["robots"])
     damage(folder, lambda plain: plain.update(outcome="victory"))
     with pytest.raises(ConfigurationError, match="unreachable.*'victory'"):
@@ -245,10 +245,10 @@ def test_a_damaged_summary_is_refused_by_its_file(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("share", [0.0, 0.3, 0.9, 0.999])
-def test_trajectories_that_were_cut_off_are_refused(
+def test_truncated_trajectories_are_refused(
     tmp_path: Path, share: float
 ) -> None:
-    """As by a copy that broke off."""
+    """As after an incomplete copy."""
     folder = folder_of(tmp_path, RUNS["robots"])
     whole = (folder / TRAJECTORIES).read_bytes()
     cut = whole[: int(share * len(whole))]
@@ -257,10 +257,10 @@ def test_trajectories_that_were_cut_off_are_refused(
         load_run(folder)
 
 
-def test_a_spoilt_byte_anywhere_is_refused_or_harmless(
+def test_a_changed_byte_is_refused_or_harmless(
     tmp_path: Path,
 ) -> None:
-    """Never read as other numbers, and never an error of another kind."""
+    """It never changes values that are read, nor raises other errors."""
     run = RUNS["robots"]
     folder = folder_of(tmp_path, run)
     whole = (folder / TRAJECTORIES).read_bytes()

@@ -1,4 +1,4 @@
-"""What the template says of a duel, against an integrator of its own."""
+"""Test the forecast of a duel against an independent integrator."""
 
 import json
 from dataclasses import replace
@@ -25,7 +25,7 @@ BASE = DuelSettings(duration=80.0, start=START)
 
 
 def told(settings: DuelSettings) -> Forecast:
-    """Forecast of a duel of which the template says something."""
+    """Return the forecast of a duel that has one."""
     found = forecast(with_start(settings))
     assert found is not None
     return found
@@ -40,7 +40,7 @@ def turning(gain: float) -> DuelSettings:
 
 
 def closest(settings: DuelSettings, step: float = 0.005) -> float:
-    """Closest approach of the unicycles, by the laws (1)-(4) themselves."""
+    """Return the closest approach of the unicycles by the laws (1)-(4)."""
     gait, start = settings.gait, settings.start
     assert start.distance is not None
     assert start.pursuer_offset is not None
@@ -66,7 +66,7 @@ def closest(settings: DuelSettings, step: float = 0.005) -> float:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_plain_duel_is_expected_on_the_circle(seed: int) -> None:
+def test_a_default_duel_is_expected_on_the_circle(seed: int) -> None:
     found = told(DuelSettings(seed=seed, duration=90.0))
     assert found.expected is ExpectedEnd.CIRCLE
     assert found.circle_since_s is not None
@@ -91,13 +91,13 @@ def test_a_plain_duel_is_expected_on_the_circle(seed: int) -> None:
 def test_the_closest_approach_is_that_of_the_unicycles(
     settings: DuelSettings,
 ) -> None:
-    """But for the first double support, and turning held over a step."""
+    """Except for the first double support and decisions once per step."""
     assert told(settings).closest_m == pytest.approx(
         closest(settings), abs=0.08
     )
 
 
-def test_a_mirrored_duel_is_told_alike() -> None:
+def test_a_mirrored_duel_has_the_same_forecast() -> None:
     for offsets in ((0.9, 0.5), (-0.3, 2.8)):
         one, other = (
             told(replace(BASE, start=StartSettings(0.9, s * a, s * b)))
@@ -108,7 +108,7 @@ def test_a_mirrored_duel_is_told_alike() -> None:
 
 
 @pytest.mark.parametrize("gain", [0.6, 0.8, 1.2])
-def test_a_circle_on_which_two_bodies_do_not_fit_is_contact(
+def test_a_circle_too_small_for_two_bodies_is_contact(
     gain: float,
 ) -> None:
     settings = turning(gain)
@@ -117,13 +117,14 @@ def test_a_circle_on_which_two_bodies_do_not_fit_is_contact(
     found = told(settings)
     assert found.expected is ExpectedEnd.CONTACT
     assert found.words == (
-        f"contact likely: the template comes to {found.closest_m:.2f} m, "
-        "bodies are clear of each other from 0.40 m on"
+        f"contact likely: closest approach of the templates "
+        f"{found.closest_m:.2f} m, bodies are clear of each other from 0.40 m "
+        "on"
     )
 
 
 @pytest.mark.parametrize("offset", [pi, -3.0, 2.8])
-def test_an_evader_that_looks_away_is_expected_to_be_touched(
+def test_contact_is_expected_with_an_evader_that_faces_away(
     offset: float,
 ) -> None:
     settings = replace(BASE, start=replace(START, evader_offset=offset))
@@ -131,7 +132,7 @@ def test_an_evader_that_looks_away_is_expected_to_be_touched(
 
 
 @pytest.mark.parametrize("release", [0.81, 0.85, 0.899])
-def test_an_evader_that_ends_inside_the_circle_has_none(
+def test_a_release_distance_within_the_circle_gives_no_circle(
     release: float,
 ) -> None:
     settings = playing(release_distance=release)
@@ -160,7 +161,7 @@ def test_an_evader_by_time_has_no_circle() -> None:
         (PersonSettings(halt_after=inf), True),
     ],
 )
-def test_only_a_person_who_keeps_steering_has_a_circle(
+def test_only_a_person_that_keeps_steering_has_a_circle(
     person: PersonSettings, exists: bool
 ) -> None:
     settings = replace(BASE, pursuer="person", person=person)
@@ -170,7 +171,7 @@ def test_only_a_person_who_keeps_steering_has_a_circle(
         assert "the person" in no_circle_because(settings)
 
 
-def test_nothing_is_told_of_other_games() -> None:
+def test_other_games_have_no_forecast() -> None:
     room = SceneSettings(plan=Room(3.0, 3.0))
     for settings in (
         replace(BASE, start=StartSettings(), room=room),
@@ -197,7 +198,7 @@ def duel(folder: Path, *options: str) -> Result:
         ([], "later"),
     ],
 )
-def test_a_summary_says_what_was_expected(
+def test_a_summary_has_the_forecast(
     tmp_path: Path, options: list[str], expected: str
 ) -> None:
     result = duel(tmp_path, *options)
@@ -216,7 +217,7 @@ def test_a_summary_says_what_was_expected(
     assert ("expected is" in result.stderr) is none
 
 
-def test_contact_is_said_beforehand(tmp_path: Path) -> None:
+def test_expected_contact_is_printed_beforehand(tmp_path: Path) -> None:
     options = ("--gain", "1.2", "--distance", "0.5", "--json")
     words = ["duel", "--seed", "7", "--duration", "9", *options]
     result = CliRunner().invoke(main, words)

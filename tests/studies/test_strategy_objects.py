@@ -153,7 +153,7 @@ def test_an_object_in_a_configuration_is_text() -> None:
         ({"strategy": "evasion"}, "must be an Evasion, got 'evasion'"),
         (
             {"strategy": Other(), "evader_strategy": "deflected"},
-            "must be an Evasion beside evader_strategy 'deflected'",
+            "must be an Evasion with evader_strategy 'deflected'",
         ),
         (
             {

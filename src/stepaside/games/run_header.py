@@ -1,4 +1,4 @@
-"""What a run folder says of itself: its format, its game, its players."""
+"""Header of the summary of a run folder: format, game and players."""
 
 import re
 from typing import Any, NamedTuple
@@ -10,17 +10,17 @@ from .duel_settings import PLAYERS
 # the second all were duels.
 FORMAT = 3
 OLDEST_GAME = "duel"
-MOST_PLAYERS = 6
+MAX_PLAYERS = 6
 NAME = re.compile(r"[a-z][a-z0-9-]{0,31}")
 
 
 class RunHeader(NamedTuple):
-    """What stands above the figures of a run.
+    """Format, game and players of a run folder.
 
     Attributes:
-        version: Of the folder.
-        game: What was played.
-        players: Who played, in the order in which they act.
+        version: Format of the folder.
+        game: Name of the game.
+        players: Names of the players, in the order in which they act.
     """
 
     version: int
@@ -28,7 +28,7 @@ class RunHeader(NamedTuple):
     players: tuple[str, ...]
 
     def to_json(self) -> dict[str, Any]:
-        """Plain values by name."""
+        """Return plain values by name."""
         return {
             "format": self.version,
             "game": self.game,
@@ -36,21 +36,20 @@ class RunHeader(NamedTuple):
         }
 
     def without(self, plain: dict[str, Any]) -> dict[str, Any]:
-        """Figures without what stands above them."""
+        """Return the entries of a summary without those of the header."""
         return {k: v for k, v in plain.items() if k not in self.to_json()}
 
 
 def read_head(plain: Any, run: str, games: tuple[str, ...]) -> RunHeader:
-    """Read what a summary says of its folder.
+    """Parse the header of a summary.
 
     Args:
-        plain: The summary, as JSON.
+        plain: Summary, as JSON.
         run: Name of the run, for messages.
-        games: That are known.
+        games: Known games.
 
     Raises:
-        ConfigurationError: If it is of a later format, or of no game that
-            is known.
+        ConfigurationError: If format, game or players are invalid.
     """
     told = plain if isinstance(plain, dict) else {}
     version = told.get("format", 1)
@@ -69,13 +68,13 @@ def read_head(plain: Any, run: str, games: tuple[str, ...]) -> RunHeader:
         )
     if not isinstance(players, list) or not _are_names(players):
         raise ConfigurationError(
-            f"players of run {run} must be 1 to {MOST_PLAYERS} names of "
-            f"small letters, each once, got {players!r:.80}"
+            f"players of run {run} must be 1 to {MAX_PLAYERS} unique names in "
+            f"lower case, got {players!r:.80}"
         )
     return RunHeader(version, game, tuple(players))
 
 
 def _are_names(players: list[Any]) -> bool:
-    named = all(isinstance(n, str) and NAME.fullmatch(n) for n in players)
-    once = named and len(set(players)) == len(players)
-    return once and 1 <= len(players) <= MOST_PLAYERS
+    valid = all(isinstance(n, str) and NAME.fullmatch(n) for n in players)
+    unique = valid and len(set(players)) == len(players)
+    return unique and 1 <= len(players) <= MAX_PLAYERS
