@@ -212,3 +212,25 @@ def test_a_progress_report_may_interrupt(
     assert match.message == "interrupted at 0.10 s"
     assert len(watcher.ended_with) == 1
     assert [player.closed for player in players] == [1, 1]
+
+
+def test_a_game_begins_when_all_players_are_ready() -> None:
+    """Each is told once; earlier motion of the evader is no trigger."""
+    match, world, players = game(0.0, 5.0)
+    players[0].is_ready = False
+    players[1].is_moving = True
+
+    def finish() -> None:
+        players[0].is_ready = True
+
+    players[0].does[2] = finish
+    for _ in range(3):
+        match.tick()
+        assert match.started_at is None and match.triggered_at is None
+        assert [player.starts for player in players] == [0, 0]
+    begun = world.time
+    for _ in range(2):
+        match.tick()
+        assert match.started_at == begun
+        assert [player.starts for player in players] == [1, 1]
+    assert match.triggered_at == pytest.approx(begun + world.physics.tick)

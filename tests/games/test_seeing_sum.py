@@ -280,7 +280,7 @@ def test_no_wall_is_between_a_robot_and_a_fast_person() -> None:
     assert spec.geom("wall 1 0").pos[0] - evader.x == pytest.approx(3.5)
 
 
-def test_who_maps_a_room_begins_when_the_evader_has_looked_behind() -> None:
+def test_robots_that_map_a_room_wait_for_the_start_of_the_game() -> None:
     room = SceneSettings(plan=make_room(RoomRecipe(discs=1), 3))
     mapping = prepared(
         seed=3,
@@ -289,9 +289,7 @@ def test_who_maps_a_room_begins_when_the_evader_has_looked_behind() -> None:
         room=room,
         map=MapSettings(source="seen"),
     ).perceptions
-    arounds = {name: each.around for name, each in mapping.items()}
-    assert arounds["pursuer"].company == [mapping["evader"]]
-    assert arounds["evader"].company == []
-    assert mapping["pursuer"].looking and mapping["evader"].looking
+    for each in mapping.values():
+        assert not each.is_ready and not each.started and each.looking
     for each in prepared().perceptions.values():
-        assert not each.looking and not each.around.company
+        assert each.is_ready and not each.looking

@@ -91,12 +91,10 @@ class CameraSenses:
                 floor=FloorMap() if self._maps else None,
                 glances=GLANCES[name] if self._maps else None,
                 people=self._people,
+                awaits_start=True,
             )
             for name in names
         }
-        for name, perception in self.perceptions.items():
-            if self._maps and name == "pursuer":
-                perception.around.company.append(self.perceptions["evader"])
 
     def eyes(self, world: World, name: str) -> SensorSuite:
         """Return the cameras and sonars of a robot of a world."""

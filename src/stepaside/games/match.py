@@ -58,8 +58,10 @@ class Match:
             in [m].
         captured_at: Time at which that distance first was at most the
             capture distance, in [s]; None if it never was. The game goes on.
-        triggered_at: Time at which the last player began to move, in [s];
-            None before.
+        started_at: Time at which the game began, in [s]: all players were
+            ready, for example had scanned the room; None before.
+        triggered_at: Time at which the last player first moved in the game,
+            in [s]; None before. Motion before ``started_at`` does not count.
         triggered_distance: Distance between the reference points then, in
             [m].
     """
@@ -88,6 +90,7 @@ class Match:
         self._has_things = has_things
         self.min_distance = self.torsos_apart
         self.captured_at: float | None = None
+        self.started_at: float | None = None
         self.triggered_at: float | None = None
         self.triggered_distance: float | None = None
 
@@ -122,6 +125,7 @@ class Match:
         """Advance by one control tick; return the outcome at the end."""
         for observer in self.observers:
             observer.before(self)
+        self._start()
         for player in self.players:
             try:
                 player.tick()
@@ -142,12 +146,22 @@ class Match:
         self.world.step()
         return self._judge()
 
+    def _start(self) -> None:
+        """Begin the game once all players are ready."""
+        if self.started_at is not None:
+            return
+        if all(player.is_ready for player in self.players):
+            self.started_at = self.world.time
+            for player in self.players:
+                player.start()
+
     def _judge(self) -> Outcome | None:
         """Apply the rules: a fall or a contact ends the game."""
         now, apart = self.world.time, self.torsos_apart
-        if self.triggered_at is None and self.players[-1].is_moving:
-            self.triggered_at = now
-            self.triggered_distance = self.distance
+        if self.started_at is not None and self.triggered_at is None:
+            if self.players[-1].is_moving:
+                self.triggered_at = now
+                self.triggered_distance = self.distance
         if apart is not None:
             assert self.min_distance is not None
             self.min_distance = min(self.min_distance, apart)

@@ -24,12 +24,14 @@ class PersonPlayer:
         truth: Its true state.
         begun: None: a person plans no footsteps.
         reports: Empty: a person has no cameras.
+        is_ready: True.
         is_moving: True.
         has_fallen: False: a person does not fall.
     """
 
     begun: StepStarted | None = None
     reports: "Sequence[FrameReport]" = ()
+    is_ready = True
     is_moving = True
     has_fallen = False
 
@@ -38,6 +40,9 @@ class PersonPlayer:
         self.name, self.person = person.name, person
         self.truth: GroundTruth = person.truth
         self._other = other
+
+    def start(self) -> None:
+        """Do nothing: a person begins with the simulation."""
 
     def tick(self) -> None:
         """Advance the motion by one tick."""

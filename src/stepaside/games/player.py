@@ -106,12 +106,19 @@ class Player(Protocol):
         """Detections of the images that arrived at the last tick."""
 
     @property
+    def is_ready(self) -> bool:
+        """Whether it is ready for the game to begin."""
+
+    @property
     def is_moving(self) -> bool:
         """Whether it has left its standing state."""
 
     @property
     def has_fallen(self) -> bool:
         """Whether it has fallen, or has detected a fall."""
+
+    def start(self) -> None:
+        """Receive the signal that the game begins."""
 
     def tick(self) -> None:
         """Perceive, decide and act; physics advances afterwards.

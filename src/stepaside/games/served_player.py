@@ -104,10 +104,12 @@ class ServedPlayer:
         server: Server of its joints.
         body: Body that the server commands.
         truth: True state.
+        is_ready: True: its server waits for the client before the match.
         begun: None: its plans are unknown to this process.
         reports: Empty: its detections are unknown to this process.
     """
 
+    is_ready = True
     begun: StepStarted | None = None
     reports: "Sequence[FrameReport]" = ()
 
@@ -128,6 +130,9 @@ class ServedPlayer:
     def has_fallen(self) -> bool:
         """Whether it has fallen."""
         return self.truth.has_fallen
+
+    def start(self) -> None:
+        """Do nothing: its client begins with the released chest button."""
 
     def tick(self) -> None:
         """Apply the last command of the client."""

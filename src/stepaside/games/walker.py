@@ -14,6 +14,7 @@ from .player import Snapshot, snapshot_of
 
 if TYPE_CHECKING:
     from ..perception.frame_report import FrameReport
+    from ..perception.perception import Perception
 
 
 class Walker:
@@ -41,12 +42,26 @@ class Walker:
         return self.scheme.begun
 
     @property
+    def _perception(self) -> "Perception | None":
+        senses = self.scheme.senses
+        return senses.perception if isinstance(senses, CameraSight) else None
+
+    @property
     def reports(self) -> "Sequence[FrameReport]":
         """Detections of the images that arrived at the last tick."""
-        senses = self.scheme.senses
-        if isinstance(senses, CameraSight):
-            return senses.perception.reports
-        return ()
+        perception = self._perception
+        return () if perception is None else perception.reports
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether it has scanned the room, if it maps it."""
+        perception = self._perception
+        return perception is None or perception.is_ready
+
+    def start(self) -> None:
+        """Receive the signal that the game begins."""
+        if self._perception is not None:
+            self._perception.started = True
 
     @property
     def is_moving(self) -> bool:

@@ -49,6 +49,8 @@ class Perception:
         forward: Kinematics of the measured body, for balance to share.
         floor: Map of the floor, if it keeps one.
         around: Its look around, before a game begins.
+        started: Whether the game has begun; a robot that maps the floor
+            keeps scanning before.
     """
 
     def __init__(
@@ -61,6 +63,7 @@ class Perception:
         floor: FloorMap | None = None,
         glances: float | None = None,
         people: bool = False,
+        awaits_start: bool = False,
     ) -> None:
         """Know the own body and what the other looks like.
 
@@ -73,6 +76,8 @@ class Perception:
             glances: Time between two looks over its shoulders, to see the
                 floor that it walks backward onto, in [s]; None for none.
             people: Whether people come, who wear no trim.
+            awaits_start: Whether a signal starts the game; otherwise it
+                begins with the end of the scan.
         """
         self._attention: TargetSelection = (
             PeopleSelection() if people else RobotSelection()
@@ -80,6 +85,7 @@ class Perception:
         self._people = people
         self.floor = floor
         self.around = RoomScan()
+        self.started = not awaits_start
         self._lower = BottomCamera(head.bottom, people=people, floor=floor)
         self._glances = None if glances is None else Glances(tick, glances)
         self._head = head
@@ -128,9 +134,15 @@ class Perception:
         return self._gaze.yaw, self._gaze.pitch
 
     @property
+    def is_ready(self) -> bool:
+        """Whether the scan of the room, if any, is complete."""
+        return self.floor is None or not self.around.lasts(self._gaze)
+
+    @property
     def looking(self) -> bool:
         """Whether it looks around, before it says anything of the other."""
-        return self.floor is not None and self.around.lasts(self._gaze)
+        waits = self.floor is not None and not self.started
+        return waits or not self.is_ready
 
     def looks_low(self) -> bool:
         """Whether the lower camera of the head is asked for an image."""

@@ -1,7 +1,6 @@
 """Looking all around before a game begins, to map what stands there."""
 
 from math import copysign
-from typing import Protocol
 
 from ..core.poses import wrap_angle
 from .gaze import Gaze
@@ -12,15 +11,7 @@ AWAY = -1.0  # to the right, from where the head looks first
 # 115 degrees to either side, and its camera 29 more.
 BEHIND = 1.3  # [rad]
 FACING = 0.15  # from where it faced first, it faces there again, in [rad]
-LONGEST = 10.0  # that turns, or somebody else, are waited for, in [s]
-
-
-class ScanGroup(Protocol):
-    """Who may look around."""
-
-    @property
-    def looking(self) -> bool:
-        """Whether it still does."""
+LONGEST = 10.0  # for turns of the body, in [s]
 
 
 class RoomScan:
@@ -29,11 +20,9 @@ class RoomScan:
     Who walks backward turns on the spot meanwhile, away from where it looks
     first, and keeps looking over the other shoulder until it has seen what
     was behind it, or half of the time is over; then it turns back to where
-    it faced, so that the game begins from there. Who has seen all may wait
-    for others: a game begins when everybody has.
+    it faced, so that the game begins from there.
 
     Attributes:
-        company: Who is waited for, if not for ever.
         behind: Whether the body turns, and what is behind is looked at.
         turning: How the body is to turn on the spot meanwhile: 1 to the
             left, -1 to the right, 0 not at all.
@@ -41,17 +30,13 @@ class RoomScan:
 
     def __init__(self) -> None:
         """Have seen nothing yet."""
-        self.company: list[ScanGroup] = []
         self.behind = False
         self.turning = 0.0
         self._began: tuple[float, float] | None = None
-        self._late = False
 
     def lasts(self, gaze: Gaze) -> bool:
-        """Whether there is something left to look at, or somebody."""
-        if gaze.turned < BOTH or self.turning:
-            return True
-        return not self._late and any(each.looking for each in self.company)
+        """Return whether the scan is incomplete."""
+        return gaze.turned < BOTH or self.turning != 0.0
 
     def look(self, gaze: Gaze, now: float, heading: float) -> None:
         """Turn the head on.
@@ -65,11 +50,11 @@ class RoomScan:
             self._began = now, heading
         time, before = self._began
         aside = wrap_angle(heading - before)
-        self._late = now - time >= LONGEST
+        late = now - time >= LONGEST
         half = now - time >= 0.5 * LONGEST
         done = not self.behind or abs(aside) >= BEHIND or half
         gaze.search(stay=not done and gaze.turned == BOTH - 1)
-        if not self.behind or self._late:
+        if not self.behind or late:
             self.turning = 0.0
         elif gaze.turned < BOTH:
             self.turning = AWAY
