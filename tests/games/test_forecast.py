@@ -16,6 +16,7 @@ from stepaside.games.duel_circle import no_circle_because, pace_of, theory_of
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.forecast import ExpectedEnd, Forecast, forecast
 from stepaside.games.initial_poses import with_start
+from stepaside.games.template_approach import play_template
 from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
@@ -228,3 +229,22 @@ def test_expected_contact_is_printed_beforehand(tmp_path: Path) -> None:
     assert theory["closest_approach_m"] < 0.4
     assert summary["min_distance_m"] < 0.6
     assert result.stderr.strip() == f"stepaside: expected is {theory['words']}"
+
+
+def test_the_templates_of_a_duel_are_played_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Equal settings have one forecast; a changed one is its own."""
+    plays: list[float] = []
+
+    def count(*args: Any, duration: float, **options: Any) -> Any:
+        plays.append(duration)
+        return play_template(*args, duration=duration, **options)
+
+    monkeypatch.setattr("stepaside.games.forecast.play_template", count)
+    settings = with_start(DuelSettings(seed=77, duration=3.0))
+    first = forecast(settings)
+    assert forecast(with_start(DuelSettings(seed=77, duration=3.0))) == first
+    assert plays == [3.0]
+    forecast(replace(settings, duration=4.0))
+    assert plays == [3.0, 4.0]

@@ -22,24 +22,6 @@ from ..core.errors import (
 from .duel_settings import DuelSettings
 
 
-def renamed(entries: dict[str, Any], old: str, new: str) -> dict[str, Any]:
-    """Entries with an old name, if it is there, replaced by the new one.
-
-    Raises:
-        KeyError: If both are there.
-    """
-    section, deeper, old_rest = old.partition(".")
-    new_rest = new.partition(".")[2]
-    if deeper:
-        inner = entries.get(section)
-        if not isinstance(inner, dict):
-            return entries
-        return entries | {section: renamed(inner, old_rest, new_rest)}
-    if old in entries and new in entries:
-        raise KeyError(old)
-    return {new if key == old else key: v for key, v in entries.items()}
-
-
 def over(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
     """Merge two nested tables; entries of ``above`` take precedence."""
     merged = below | above
@@ -47,15 +29,6 @@ def over(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
         if isinstance(below[key], dict) and isinstance(above[key], dict):
             merged[key] = over(below[key], above[key])
     return merged
-
-
-def without(entries: dict[str, Any], old: str) -> dict[str, Any]:
-    """Entries without one."""
-    section, deeper, rest = old.partition(".")
-    inner = entries.get(section)
-    if deeper and isinstance(inner, dict):
-        return entries | {section: without(inner, rest)}
-    return {key: v for key, v in entries.items() if key != old}
 
 
 def with_tuples(kind: Any, entries: dict[str, Any]) -> dict[str, Any]:
@@ -74,18 +47,6 @@ def with_tuples(kind: Any, entries: dict[str, Any]) -> dict[str, Any]:
 S = TypeVar("S")  # a frozen dataclass of settings
 
 MAX_CHARACTERS = 2**20  # of a configuration file
-
-# Entries of older files, and what they are called today.
-RENAMED = {
-    "body.play": "body.backlash",
-}
-
-
-# Entries of older files that mean nothing any more.
-RETIRED = (
-    "control.stabiliser.lead_blend",
-    "control.stabiliser.prediction_blend",
-)
 
 
 def load_settings(
@@ -197,7 +158,7 @@ def parse_settings(
 
     Args:
         kind: Class of the settings.
-        entries: Sections and values; old names are taken for new ones.
+        entries: Sections and values.
         source: Where they come from, for messages.
         aside: As :func:`load_settings`.
         base: Likewise.
@@ -208,16 +169,7 @@ def parse_settings(
     own = {field.name for field in fields(kind)}  # type: ignore[arg-type]
     left = set(aside) - own
     entries = {key: v for key, v in entries.items() if key not in left}
-    for old, new in RENAMED.items():
-        try:
-            entries = renamed(entries, old, new)
-        except KeyError:
-            raise ConfigurationError(
-                f"{source}: {old} is the old name of {new}, "
-                "give one of them, not both"
-            ) from None
-    for old in RETIRED:
-        entries = without(entries, old)
+
     if base is not None:
         entries = over(plain_settings(base), entries)
     entries = with_tuples(kind, entries)

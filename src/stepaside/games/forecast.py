@@ -1,5 +1,6 @@
 """Forecast of a duel by its templates."""
 
+from collections import deque
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -63,6 +64,20 @@ def forecast(settings: DuelSettings) -> Forecast | None:
         return None
     if None in drawn:
         return None
+    # A duel needs its forecast twice: before it and in its summary.
+    if _latest and _latest[-1][0] == settings:
+        return _latest[-1][1]
+    found = _play(settings)
+    _latest.append((settings, found))
+    return found
+
+
+_latest: deque[tuple[DuelSettings, Forecast]] = deque(maxlen=1)
+
+
+def _play(settings: DuelSettings) -> Forecast:
+    """Play the templates of a duel of two robots."""
+    start = settings.start
     chasing = settings.robot_of(PURSUER).gait
     pace = pace_of(chasing)
     steering = PersonSettings(

@@ -15,7 +15,6 @@ from .array_checks import check_times, check_tracks
 from .checksums import check_seal
 from .configuration_file import dump_configuration, read_settings
 from .duel_run import DuelRun
-from .older import without_fillers
 from .outcome import Outcome
 from .play_conversion import is_play, run_of_play
 from .play_run import PlayRun
@@ -195,8 +194,6 @@ def _tracks(
     arrays: dict[str, Array], name: str, head: RunHeader
 ) -> dict[str, Trajectory]:
     """Return the trajectories of all players."""
-    if head.version == 1:
-        arrays = without_fillers(arrays, head.players)
     try:
         return tracks_in(arrays, head.players)
     except KeyError as error:

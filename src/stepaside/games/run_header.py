@@ -4,12 +4,8 @@ import re
 from typing import Any, NamedTuple
 
 from ..core.errors import ConfigurationError
-from .duel_settings import PLAYERS
 
-# Of a run folder. The first had no number and filled gaps with NaN; up to
-# the second all were duels.
-FORMAT = 3
-OLDEST_GAME = "duel"
+FORMAT = 3  # of a run folder
 MAX_PLAYERS = 6
 NAME = re.compile(r"[a-z][a-z0-9-]{0,31}")
 
@@ -51,16 +47,13 @@ def read_head(plain: Any, run: str, games: tuple[str, ...]) -> RunHeader:
     Raises:
         ConfigurationError: If format, game or players are invalid.
     """
-    told = plain if isinstance(plain, dict) else {}
-    version = told.get("format", 1)
-    if type(version) is not int or version not in range(1, FORMAT + 1):
+    entries = plain if isinstance(plain, dict) else {}
+    version = entries.get("format")
+    if type(version) is not int or version != FORMAT:
         raise ConfigurationError(
-            f"run {run} has format {version!r}; this version reads 1 to "
-            f"{FORMAT}: a later stepaside wrote it"
+            f"format of run {run} must be {FORMAT}, got {version!r:.40}"
         )
-    if version < 3:
-        return RunHeader(version, OLDEST_GAME, PLAYERS)
-    game, players = told.get("game"), told.get("players")
+    game, players = entries.get("game"), entries.get("players")
     if game not in games:
         raise ConfigurationError(
             f"game of run {run} must be one of {', '.join(games)}, got "
