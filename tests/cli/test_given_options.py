@@ -364,7 +364,9 @@ def test_who_is_to_see_the_map_sees(command: str, tmp_path: Path) -> None:
     assert printed(f"{command} --map seen")["sensing"] == "ideal"
     refused = run(f"{room} --sensing ideal --print-config")
     assert refused.exit_code == 2
-    assert "sensing must be 'cameras' with map.source = 'seen'" in refused.stderr
+    assert (
+        "sensing must be 'cameras' with map.source = 'seen'" in refused.stderr
+    )
     file = tmp_path / "told.toml"
     file.write_text('sensing = "ideal"\n', encoding="utf-8")
     assert run(f"{room} --config {file} --print-config").exit_code == 2
