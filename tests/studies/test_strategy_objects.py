@@ -160,7 +160,7 @@ def test_an_object_in_a_configuration_is_text() -> None:
                 "strategy": Evasion(angle=1.0),
                 "evader_strategy": Evasion(angle=2.0),
             },
-            "strategy must be left out",
+            "strategy must be omitted",
         ),
         ({"evader_strategy": "Own"}, "got 'Own'"),
     ],
